@@ -1,0 +1,2 @@
+//! Partsight's command line.
+fn main() {}

@@ -1,0 +1,56 @@
+//! Lengths and angles at public boundaries.
+//!
+//! Inside a function body a length is a plain `f64` in metres and an angle a plain `f64` in radians.
+//! Millimetres and degrees appear only where a person reads or writes them, through the methods here.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+/// A length in metres.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Metres(pub f64);
+
+impl Metres {
+    /// A length given in millimetres.
+    pub fn from_mm(millimetres: f64) -> Self {
+        Self(millimetres / 1000.0)
+    }
+
+    /// The length in millimetres.
+    pub fn mm(self) -> f64 {
+        self.0 * 1000.0
+    }
+}
+
+impl fmt::Display for Metres {
+    /// Written for a person, in millimetres.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:.1} mm", self.mm())
+    }
+}
+
+/// An angle in radians.
+#[derive(Clone, Copy, Debug, PartialEq, PartialOrd, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct Radians(pub f64);
+
+impl Radians {
+    /// An angle given in degrees.
+    pub fn from_degrees(degrees: f64) -> Self {
+        Self(degrees.to_radians())
+    }
+
+    /// The angle in degrees.
+    pub fn degrees(self) -> f64 {
+        self.0.to_degrees()
+    }
+}
+
+impl fmt::Display for Radians {
+    /// Written for a person, in degrees.
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        write!(f, "{:.2}°", self.degrees())
+    }
+}
