@@ -2,4 +2,9 @@
 
 pub mod cloud;
 pub mod mesh;
+pub mod nearest;
+pub mod plane;
+pub mod polygon;
+pub mod principal;
+pub mod raster;
 pub mod rigid;

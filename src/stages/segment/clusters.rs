@@ -1,0 +1,238 @@
+//! Connected surfaces: neighbours that lie close together belong to the same one.
+//!
+//! On an organised cloud neighbours are pixels, runs of them are joined row by row with a union-find, and a few
+//! pixels without a reading are bridged. An unorganised cloud is cut into voxels, and voxels that touch are joined.
+
+use std::collections::HashMap;
+
+use nalgebra::Point3;
+
+use super::{PointLabel, SegmentParams};
+use crate::{geometry::cloud::Grid, stages::scene::SceneCloud, units::Metres};
+
+/// One connected surface.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Cluster {
+    /// Points in it.
+    pub num_points: usize,
+    /// Its surface as seen from the camera, square metres.
+    pub area: f64,
+    /// True if it reaches the edge of the picture.
+    pub touches_edge: bool,
+}
+
+pub(super) struct Members {
+    pub(super) cluster: Cluster,
+    /// Indices of its points in the scene, ascending.
+    pub(super) indices: Vec<u32>,
+}
+
+/// Pixels without a reading that a surface is followed across: dropouts are rarely wider.
+const BRIDGED_PIXELS: usize = 4;
+/// Clusters below this many points are specks and are not listed.
+const MIN_CLUSTER_POINTS: usize = 50;
+
+/// The connected surfaces among the points labelled `Rest`, largest area first.
+pub(super) fn connect(
+    scene: &SceneCloud,
+    labels: &[PointLabel],
+    noise_at_1m: Metres,
+    params: &SegmentParams,
+) -> Vec<Members> {
+    let link = Link {
+        base: params.link_distance.0 as f32,
+        // The difference of two noisy depths has √2 of their deviation; four deviations hold all but strays.
+        noise: (4.0 * std::f64::consts::SQRT_2 * noise_at_1m.0) as f32,
+    };
+    let groups = match scene.cloud.grid {
+        Some(grid) => connect_pixels(&scene.cloud.points, labels, grid, link),
+        None => connect_voxels(&scene.cloud.points, labels, link),
+    };
+    let mut members: Vec<Members> = groups
+        .into_iter()
+        .filter(|indices| indices.len() >= MIN_CLUSTER_POINTS)
+        .map(|indices| Members {
+            cluster: describe(scene, &indices, link),
+            indices,
+        })
+        .collect();
+    members.sort_by(|a, b| b.cluster.area.total_cmp(&a.cluster.area));
+    members
+}
+
+#[derive(Clone, Copy)]
+struct Link {
+    base: f32,
+    noise: f32,
+}
+
+impl Link {
+    fn joins(self, a: &Point3<f32>, b: &Point3<f32>) -> bool {
+        let reach = self.base + self.noise * a.z * a.z;
+        (a - b).norm_squared() < reach * reach
+    }
+}
+
+/// Union-find over runs of pixels.
+struct Forest {
+    parents: Vec<u32>,
+}
+
+impl Forest {
+    fn add(&mut self) -> u32 {
+        let id = self.parents.len() as u32;
+        self.parents.push(id);
+        id
+    }
+
+    fn root(&mut self, mut id: u32) -> u32 {
+        while self.parents[id as usize] != id {
+            let grandparent = self.parents[self.parents[id as usize] as usize];
+            self.parents[id as usize] = grandparent;
+            id = grandparent;
+        }
+        id
+    }
+
+    fn join(&mut self, a: u32, b: u32) {
+        let (a, b) = (self.root(a), self.root(b));
+        // The lower id stays the root, so the result does not depend on the order of joins.
+        self.parents[a.max(b) as usize] = a.min(b);
+    }
+}
+
+const NO_RUN: u32 = u32::MAX;
+
+fn connect_pixels(
+    points: &[Point3<f32>],
+    labels: &[PointLabel],
+    grid: Grid,
+    link: Link,
+) -> Vec<Vec<u32>> {
+    let Grid { width, height } = grid;
+    let mut run_of = vec![NO_RUN; points.len()];
+    let mut forest = Forest {
+        parents: Vec::new(),
+    };
+    for row in 0..height {
+        let start = row * width;
+        let mut previous: Option<usize> = None;
+        for i in start..start + width {
+            if labels[i] != PointLabel::Rest {
+                continue;
+            }
+            let run = previous
+                .filter(|&p| i - p <= BRIDGED_PIXELS + 1 && link.joins(&points[p], &points[i]))
+                .map(|p| run_of[p]);
+            let run = run.unwrap_or_else(|| forest.add());
+            run_of[i] = run;
+            previous = Some(i);
+            // The nearest reading above, bridging lost rows.
+            let above = (1..=(BRIDGED_PIXELS + 1).min(row))
+                .map(|rows| i - rows * width)
+                .find(|&a| run_of[a] != NO_RUN);
+            if let Some(above) = above
+                && run_of[above] != run
+                && link.joins(&points[above], &points[i])
+            {
+                forest.join(run_of[above], run);
+            }
+        }
+    }
+    let mut group_of_root = vec![NO_RUN; forest.parents.len()];
+    let mut groups: Vec<Vec<u32>> = Vec::new();
+    for (i, &run) in run_of.iter().enumerate().filter(|(_, run)| **run != NO_RUN) {
+        let root = forest.root(run) as usize;
+        if group_of_root[root] == NO_RUN {
+            group_of_root[root] = groups.len() as u32;
+            groups.push(Vec::new());
+        }
+        groups[group_of_root[root] as usize].push(i as u32);
+    }
+    groups
+}
+
+/// Side of a voxel: two links wide, since an unorganised cloud may be sparser than a picture.
+fn voxel_size(link: Link) -> f32 {
+    2.0 * link.base
+}
+
+fn connect_voxels(points: &[Point3<f32>], labels: &[PointLabel], link: Link) -> Vec<Vec<u32>> {
+    let size = voxel_size(link);
+    let voxel_of = |p: &Point3<f32>| [p.x, p.y, p.z].map(|x| (x / size).floor() as i32);
+    let mut forest = Forest {
+        parents: Vec::new(),
+    };
+    let mut id_of: HashMap<[i32; 3], u32> = HashMap::new();
+    let mut members: Vec<Vec<u32>> = Vec::new();
+    for (i, p) in points
+        .iter()
+        .enumerate()
+        .filter(|(i, _)| labels[*i] == PointLabel::Rest)
+    {
+        let id = *id_of.entry(voxel_of(p)).or_insert_with(|| {
+            members.push(Vec::new());
+            forest.add()
+        });
+        members[id as usize].push(i as u32);
+    }
+    // Through `members`, whose order is that of the points: the map's order must not matter.
+    for (id, group) in members.iter().enumerate() {
+        let [x, y, z] = voxel_of(&points[group[0] as usize]);
+        for step in 0..27 {
+            let neighbour = [x + step % 3 - 1, y + step / 3 % 3 - 1, z + step / 9 - 1];
+            if let Some(&other) = id_of.get(&neighbour) {
+                forest.join(id as u32, other);
+            }
+        }
+    }
+    let mut groups: Vec<Vec<u32>> = vec![Vec::new(); members.len()];
+    for (id, group) in members.into_iter().enumerate() {
+        groups[forest.root(id as u32) as usize].extend(group);
+    }
+    groups.retain(|g| !g.is_empty());
+    for group in &mut groups {
+        group.sort_unstable();
+    }
+    groups
+}
+
+fn describe(scene: &SceneCloud, indices: &[u32], link: Link) -> Cluster {
+    let points = &scene.cloud.points;
+    let area = match (scene.intrinsics, scene.cloud.grid) {
+        // A pixel at depth z covers z²/(fx fy).
+        (Some(camera), _) => {
+            indices
+                .iter()
+                .map(|&i| f64::from(points[i as usize].z).powi(2))
+                .sum::<f64>()
+                / (camera.fx * camera.fy)
+        }
+        // Without a camera: as many squares as the cluster fills voxels.
+        _ => {
+            let size = voxel_size(link);
+            let mut voxels: Vec<[i32; 3]> = indices
+                .iter()
+                .map(|&i| points[i as usize])
+                .map(|p| [p.x, p.y, p.z].map(|x| (x / size).floor() as i32))
+                .collect();
+            voxels.sort_unstable();
+            voxels.dedup();
+            voxels.len() as f64 * f64::from(size).powi(2)
+        }
+    };
+    let touches_edge = scene.cloud.grid.is_some_and(|Grid { width, height }| {
+        // Sensors lose a few pixels along the edge; a handful of stray pixels there does not count.
+        const MARGIN: usize = 3;
+        let at_edge = |i: &&u32| {
+            let (u, v) = (**i as usize % width, **i as usize / width);
+            u < MARGIN || v < MARGIN || u + MARGIN >= width || v + MARGIN >= height
+        };
+        indices.iter().filter(at_edge).count() >= 10
+    });
+    Cluster {
+        num_points: indices.len(),
+        area,
+        touches_edge,
+    }
+}

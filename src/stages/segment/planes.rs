@@ -1,0 +1,416 @@
+//! The background: wall, floor and at most one more plane, found by RANSAC on a subset of the scene.
+
+use nalgebra::{Point3, Vector3};
+use rand::{RngExt as _, SeedableRng as _};
+use rand_pcg::Pcg64;
+
+use super::{PointLabel, SegmentParams};
+use crate::{
+    geometry::{
+        cloud::{Grid, is_finite},
+        plane::Plane,
+    },
+    stages::scene::SceneCloud,
+    units::Metres,
+};
+
+/// A plane that was taken away.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BackgroundPlane {
+    /// The plane in camera space, its normal towards the camera.
+    pub plane: Plane,
+    /// Share of the scene's points that lie on it, 0..1.
+    pub inlier_share: f64,
+}
+
+pub(super) struct Background {
+    pub(super) planes: Vec<BackgroundPlane>,
+    pub(super) noise_at_1m: Metres,
+}
+
+/// Points that planes are searched on; 5 000 fix a wall to a fraction of a millimetre and fit in the cache.
+const SUBSET_SIZE: usize = 5_000;
+/// A plane that holds less of the scene than this is not searched for: it is smaller than a part.
+const MIN_INLIER_SHARE: f64 = 0.04;
+/// Chance that both neighbours of a point lie on the same surface as the point itself, used for local samples.
+/// Measured on simulated frames as 0.6 to 0.9; the low end costs time only.
+const SAME_SURFACE: f64 = 0.5;
+/// At most this share of everything else may lie behind a background plane (reflections, an open door).
+const MAX_BEHIND_SHARE: f64 = 0.04;
+/// Share of the picture's edge that a background plane covers at least: a floor seen only along the lower edge
+/// covers a quarter, a part that hangs inside the picture nothing.
+const MIN_EDGE_SHARE: f64 = 0.08;
+/// Planes looked at before giving up, so that a faceted part costs bounded time.
+const MAX_CANDIDATES: usize = 6;
+
+/// A thinned-out scene in columns, so that counting inliers runs over plain arrays.
+struct Subset {
+    x: Vec<f32>,
+    y: Vec<f32>,
+    z: Vec<f32>,
+    /// Largest distance at which the point still belongs to a plane seen square on.
+    reach: Vec<f32>,
+    /// Position among `columns` × `rows` cells if the scene is organised.
+    cells: Option<Cells>,
+}
+
+struct Cells {
+    columns: usize,
+    rows: usize,
+    /// For each cell the index of its point in the subset.
+    point_in: Vec<Option<u32>>,
+    /// For each point of the subset its cell.
+    cell_of: Vec<u32>,
+}
+
+pub(super) fn find_background(scene: &SceneCloud, params: &SegmentParams) -> Background {
+    let subset = Subset::new(scene, params);
+    let mut rng = Pcg64::seed_from_u64(params.seed);
+    let mut noise_at_1m = params.noise_at_1m;
+    let mut planes: Vec<BackgroundPlane> = Vec::new();
+    // Points that no plane has claimed yet, background or not.
+    let mut unclaimed: Vec<u32> = (0..subset.len() as u32).collect();
+    // Points on no background plane: what a further background plane must lie behind.
+    let mut foreground = vec![true; subset.len()];
+    for _ in 0..MAX_CANDIDATES {
+        let too_few = (unclaimed.len() as f64) < MIN_INLIER_SHARE * subset.len() as f64;
+        if planes.len() == params.max_planes || too_few {
+            break;
+        }
+        let Some(plane) = best_plane(&subset, &unclaimed, params, &mut rng) else {
+            break;
+        };
+        let Some((plane, inliers)) = refine(&subset, &unclaimed, plane) else {
+            break;
+        };
+        if is_background(&subset, &plane, &inliers, &foreground) {
+            if planes.is_empty() {
+                noise_at_1m = measured_noise(&subset, &plane, &inliers).unwrap_or(noise_at_1m);
+            }
+            for &i in &inliers {
+                foreground[i as usize] = false;
+            }
+            planes.push(BackgroundPlane {
+                plane,
+                inlier_share: inliers.len() as f64 / subset.len() as f64,
+            });
+        }
+        unclaimed.retain(|i| inliers.binary_search(i).is_err());
+    }
+    Background {
+        planes,
+        noise_at_1m,
+    }
+}
+
+/// Marks what lies on or behind a background plane.
+pub(super) fn label_background(
+    points: &[Point3<f32>],
+    planes: &[BackgroundPlane],
+    noise_at_1m: Metres,
+    params: &SegmentParams,
+) -> Vec<PointLabel> {
+    let base = params.plane_distance.0 as f32;
+    let noise = (params.noise_factor * noise_at_1m.0) as f32;
+    let planes: Vec<([f32; 3], f32)> = planes
+        .iter()
+        .map(|b| {
+            let n = b.plane.normal.cast::<f32>();
+            ([n.x, n.y, n.z], b.plane.offset as f32)
+        })
+        .collect();
+    let label = |p: &Point3<f32>| {
+        if p.z.is_nan() {
+            return PointLabel::NoReading;
+        }
+        for (k, (n, offset)) in planes.iter().enumerate() {
+            let along_normal = n[0] * p.x + n[1] * p.y + n[2] * p.z;
+            // Depth noise of n·z² moves the point along its ray by that much per metre of depth, and so along the
+            // normal by noise · z² · (normal · ray): little for a floor seen at a grazing angle.
+            if along_normal + offset < base + noise * p.z.abs() * along_normal.abs() {
+                return PointLabel::Background(k as u8);
+            }
+        }
+        PointLabel::Rest
+    };
+    points.iter().map(label).collect()
+}
+
+impl Subset {
+    fn new(scene: &SceneCloud, params: &SegmentParams) -> Self {
+        let points = &scene.cloud.points;
+        let mut subset = Self {
+            x: Vec::new(),
+            y: Vec::new(),
+            z: Vec::new(),
+            reach: Vec::new(),
+            cells: None,
+        };
+        let base = params.plane_distance.0 as f32;
+        let noise = (params.noise_factor * params.noise_at_1m.0) as f32;
+        let mut push = |p: &Point3<f32>| {
+            subset.x.push(p.x);
+            subset.y.push(p.y);
+            subset.z.push(p.z);
+            subset.reach.push(base + noise * p.z * p.z);
+        };
+        match scene.cloud.grid {
+            None => {
+                let step = (scene.cloud.num_finite() / SUBSET_SIZE).max(1);
+                scene
+                    .cloud
+                    .finite()
+                    .step_by(step)
+                    .for_each(|(_, p)| push(p));
+            }
+            Some(Grid { width, height }) => {
+                let step = ((width * height) as f64 / SUBSET_SIZE as f64)
+                    .sqrt()
+                    .round()
+                    .max(1.0) as usize;
+                let (columns, rows) = (width.div_ceil(step), height.div_ceil(step));
+                let mut point_in = vec![None; columns * rows];
+                let mut cell_of = Vec::new();
+                for (cell, slot) in point_in.iter_mut().enumerate() {
+                    let (u, v) = (cell % columns * step, cell / columns * step);
+                    let p = &points[v * width + u];
+                    if is_finite(p) {
+                        *slot = Some(cell_of.len() as u32);
+                        cell_of.push(cell as u32);
+                        push(p);
+                    }
+                }
+                subset.cells = Some(Cells {
+                    columns,
+                    rows,
+                    point_in,
+                    cell_of,
+                });
+            }
+        }
+        subset
+    }
+
+    fn len(&self) -> usize {
+        self.x.len()
+    }
+
+    fn point(&self, i: u32) -> Point3<f64> {
+        let i = i as usize;
+        Point3::new(self.x[i], self.y[i], self.z[i]).cast()
+    }
+
+    /// Two more points for a sample that begins with `first`: on a grid from its neighbourhood, where they most
+    /// likely lie on the same surface, otherwise from anywhere.
+    fn companions(&self, first: u32, unclaimed: &[u32], rng: &mut Pcg64) -> Option<[u32; 2]> {
+        let Some(cells) = &self.cells else {
+            return Some([0; 2].map(|_: u32| unclaimed[rng.random_range(0..unclaimed.len())]));
+        };
+        // A tenth of the picture: wide enough to fix the direction, narrow enough to stay on one surface.
+        let reach = (cells.columns / 10).max(2) as i64;
+        let cell = i64::from(cells.cell_of[first as usize]);
+        let (column, row) = (cell % cells.columns as i64, cell / cells.columns as i64);
+        let mut one = || {
+            let u = column + rng.random_range(-reach..=reach);
+            let v = row + rng.random_range(-reach..=reach);
+            let inside = u >= 0 && v >= 0 && u < cells.columns as i64 && v < cells.rows as i64;
+            if inside {
+                cells.point_in[v as usize * cells.columns + u as usize]
+            } else {
+                None
+            }
+        };
+        Some([one()?, one()?])
+    }
+}
+
+/// The number of samples after which a good one was drawn with probability `p` (eq. 1), for a share of good samples
+/// of `good_share` (the paper's (1 - ε)^s).
+fn num_samples(p: f64, good_share: f64) -> usize {
+    ((1.0 - p).ln() / (1.0 - good_share.clamp(1e-6, 1.0 - 1e-9)).ln()).ceil() as usize
+}
+
+/// RANSAC: the plane through three points that most unclaimed points lie on.
+fn best_plane(
+    subset: &Subset,
+    unclaimed: &[u32],
+    params: &SegmentParams,
+    rng: &mut Pcg64,
+) -> Option<Plane> {
+    let gather =
+        |from: &[f32]| -> Vec<f32> { unclaimed.iter().map(|&i| from[i as usize]).collect() };
+    let (x, y, z, reach) = (
+        gather(&subset.x),
+        gather(&subset.y),
+        gather(&subset.z),
+        gather(&subset.reach),
+    );
+    let good_share = |inlier_share: f64| match subset.cells {
+        Some(_) => inlier_share * SAME_SURFACE,
+        None => inlier_share.powi(3),
+    };
+    let least = MIN_INLIER_SHARE * subset.len() as f64;
+    let mut needed = num_samples(
+        params.good_sample_probability,
+        good_share(least / unclaimed.len() as f64),
+    );
+    let mut best: Option<(Plane, f64)> = None;
+    let mut drawn = 0;
+    while drawn < needed {
+        drawn += 1;
+        let first = unclaimed[rng.random_range(0..unclaimed.len())];
+        let Some([second, third]) = subset.companions(first, unclaimed, rng) else {
+            continue;
+        };
+        let Some(plane) = Plane::through(
+            &subset.point(first),
+            &subset.point(second),
+            &subset.point(third),
+        ) else {
+            continue;
+        };
+        let num_inliers = count_inliers(&x, &y, &z, &reach, &plane) as f64;
+        if num_inliers > best.map_or(least, |b| b.1) {
+            best = Some((plane, num_inliers));
+            let share = num_inliers / unclaimed.len() as f64;
+            needed = num_samples(params.good_sample_probability, good_share(share));
+        }
+    }
+    best.map(|b| b.0)
+}
+
+fn count_inliers(x: &[f32], y: &[f32], z: &[f32], reach: &[f32], plane: &Plane) -> u32 {
+    let n = plane.normal.cast::<f32>();
+    let offset = plane.offset as f32;
+    let mut count = 0;
+    for (((x, y), z), reach) in x.iter().zip(y).zip(z).zip(reach) {
+        let distance = n.x * x + n.y * y + n.z * z + offset;
+        count += u32::from(distance.abs() < *reach);
+    }
+    count
+}
+
+/// Least squares over the inliers, twice, each weighted by the inverse variance of its depth.
+fn refine(subset: &Subset, unclaimed: &[u32], plane: Plane) -> Option<(Plane, Vec<u32>)> {
+    let mut plane = plane;
+    for _ in 0..2 {
+        let inliers = unclaimed
+            .iter()
+            .map(|&i| subset.point(i))
+            .zip(unclaimed)
+            .filter(|(p, i)| plane.signed_distance(p).abs() < f64::from(subset.reach[**i as usize]))
+            .map(|(p, _)| (p, p.z.powi(-4)));
+        plane = Plane::fit(inliers)?;
+    }
+    // The camera is at the origin of its own space.
+    let plane = plane.facing(&Point3::origin());
+    let inliers = unclaimed
+        .iter()
+        .copied()
+        .filter(|&i| {
+            plane.signed_distance(&subset.point(i)).abs() < f64::from(subset.reach[i as usize])
+        })
+        .collect();
+    Some((plane, inliers))
+}
+
+/// True when (nearly) all of the foreground lies in front of the plane and the plane runs out of the picture.
+fn is_background(subset: &Subset, plane: &Plane, inliers: &[u32], foreground: &[bool]) -> bool {
+    let (mut behind, mut total) = (0.0, 0.0_f64);
+    for i in (0..subset.len() as u32).filter(|&i| foreground[i as usize]) {
+        let distance = plane.signed_distance(&subset.point(i));
+        let reach = f64::from(subset.reach[i as usize]);
+        if distance.abs() >= reach {
+            total += 1.0;
+            behind += f64::from(u8::from(distance < 0.0));
+        }
+    }
+    behind <= MAX_BEHIND_SHARE * total && runs_out_of_the_picture(subset, plane, inliers)
+}
+
+fn runs_out_of_the_picture(subset: &Subset, plane: &Plane, inliers: &[u32]) -> bool {
+    match &subset.cells {
+        Some(cells) => {
+            let edge = cells.edge_points();
+            let on_plane = edge
+                .iter()
+                .filter(|i| inliers.binary_search(i).is_ok())
+                .count();
+            on_plane as f64 >= MIN_EDGE_SHARE * (2 * (cells.columns + cells.rows)) as f64
+        }
+        None => spreads_wider_than_the_rest(subset, plane, inliers),
+    }
+}
+
+/// Without a picture: the plane's points reach further than all others, along at least one direction of the plane.
+fn spreads_wider_than_the_rest(subset: &Subset, plane: &Plane, inliers: &[u32]) -> bool {
+    let across = plane.normal.cross(&Vector3::x());
+    let across = if across.norm() > 0.1 {
+        across.normalize()
+    } else {
+        plane.normal.cross(&Vector3::y()).normalize()
+    };
+    let along = plane.normal.cross(&across);
+    let extent = |indices: &mut dyn Iterator<Item = u32>, direction: &Vector3<f64>| {
+        let (low, high) = indices
+            .map(|i| direction.dot(&subset.point(i).coords))
+            .fold((f64::INFINITY, f64::NEG_INFINITY), |(low, high), x| {
+                (low.min(x), high.max(x))
+            });
+        high - low
+    };
+    [across, along].iter().any(|direction| {
+        let own = extent(&mut inliers.iter().copied(), direction);
+        let others = extent(
+            &mut (0..subset.len() as u32).filter(|i| inliers.binary_search(i).is_err()),
+            direction,
+        );
+        // Without anything else the cloud is the plane itself: an isolated flat part.
+        others.is_finite() && own > 1.2 * others
+    })
+}
+
+impl Cells {
+    /// The outermost reading of each row and column, where it lies close to the edge of the picture: sensors lose
+    /// a few columns there.
+    fn edge_points(&self) -> Vec<u32> {
+        let margin = |n: usize| (n / 16).max(1);
+        let mut found = Vec::new();
+        let mut first = |cells: &mut dyn Iterator<Item = usize>| {
+            found.extend(cells.filter_map(|c| self.point_in[c]).next());
+        };
+        for row in 0..self.rows {
+            let at = |column: usize| row * self.columns + column;
+            first(&mut (0..margin(self.columns)).map(at));
+            first(&mut (0..margin(self.columns)).map(|c| at(self.columns - 1 - c)));
+        }
+        for column in 0..self.columns {
+            let at = |row: usize| row * self.columns + column;
+            first(&mut (0..margin(self.rows)).map(at));
+            first(&mut (0..margin(self.rows)).map(|r| at(self.rows - 1 - r)));
+        }
+        found
+    }
+}
+
+/// Standard deviation of depth at 1 m from the points' distances to a plane, by their median; `None` when the plane
+/// is seen at too flat an angle to tell.
+fn measured_noise(subset: &Subset, plane: &Plane, inliers: &[u32]) -> Option<Metres> {
+    let mut deviations: Vec<f64> = inliers
+        .iter()
+        .map(|&i| subset.point(i))
+        .filter_map(|p| {
+            let along_normal = plane.normal.dot(&p.coords).abs();
+            let square_on = along_normal / p.coords.norm();
+            (square_on > 0.5).then(|| plane.signed_distance(&p).abs() / (p.z * along_normal))
+        })
+        .collect();
+    if deviations.len() < 100 {
+        return None;
+    }
+    let middle = deviations.len() / 2;
+    let (_, median, _) = deviations.select_nth_unstable_by(middle, f64::total_cmp);
+    // 1.4826 turns the median absolute deviation of a normal distribution into its standard deviation. The range
+    // keeps a perfect (rendered) or warped wall from switching the tolerance off or opening it wide.
+    Some(Metres((1.4826 * *median).clamp(0.0003, 0.008)))
+}
