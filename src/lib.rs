@@ -2,5 +2,7 @@
 pub mod capture;
 pub mod error;
 pub mod geometry;
+pub mod library;
+pub mod pipeline;
 pub mod stages;
 pub mod units;

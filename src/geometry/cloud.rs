@@ -47,7 +47,7 @@ impl PointCloud {
     }
 
     /// The finite points with their index.
-    pub fn finite(&self) -> impl Iterator<Item = (usize, &Point3<f32>)> {
+    pub fn finite(&self) -> impl Iterator<Item = (usize, &Point3<f32>)> + Clone {
         self.points.iter().enumerate().filter(|(_, p)| is_finite(p))
     }
 

@@ -4,9 +4,15 @@
 //! DepthFrame ─► SceneCloud ─► SegmentedPart ─► PlaneImage ─► Contour ─► FanSignature ─► MatchRanking ─► PoseEstimate
 //!           scene        segment         project        contour    signature       rank            pose
 //! ```
+//!
+//! `reference` prepares an enrolled part for the last two, `correlation` is the signal processing below `rank`.
 
 pub mod contour;
+pub mod correlation;
+pub mod pose;
 pub mod project;
+pub mod rank;
+pub mod reference;
 pub mod scene;
 pub mod segment;
 pub mod signature;

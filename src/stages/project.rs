@@ -135,36 +135,50 @@ const MARGIN: usize = 2;
 /// An image side of 4096 pixels is 20 m at the default pixel: beyond any part, and a bound on memory.
 const MAX_SIDE: usize = 4096;
 
-/// The binary image of a part.
+/// The binary image of a part as the camera at the origin of its space sees it.
 pub fn project(part: &SegmentedPart, params: &ProjectParams) -> Result<PlaneImage, ProjectError> {
     let points = &part.cloud.points;
+    // A pixel at depth z stands for a surface of z²; a cloud around the origin was not seen from there.
+    let seen_from_origin = points.iter().all(|p| p.z > 0.1);
+    let weight = |_: usize, p: &Point3<f32>| {
+        if seen_from_origin {
+            f64::from(p.z * p.z)
+        } else {
+            1.0
+        }
+    };
+    project_weighted(points, weight, &Point3::origin(), params)
+}
+
+/// The binary image of points that count by `weight(index, point)` and are seen from `viewpoint`.
+pub fn project_weighted(
+    points: &[Point3<f32>],
+    weight: impl Fn(usize, &Point3<f32>) -> f64,
+    viewpoint: &Point3<f64>,
+    params: &ProjectParams,
+) -> Result<PlaneImage, ProjectError> {
     let no_plane = |width| ProjectError::NoPlane {
         num_points: points.len(),
         width,
     };
-    // Eq. 4 and 5. A cloud around the origin has no viewpoint to weigh by.
-    let seen_from_origin = points.iter().all(|p| p.z > 0.1);
-    let weighted = points.iter().map(|p| {
-        let weight = if seen_from_origin {
-            f64::from(p.z * p.z)
-        } else {
-            1.0
-        };
-        (p.cast::<f64>(), weight)
-    });
+    // Eq. 4 and 5.
+    let weighted = points
+        .iter()
+        .enumerate()
+        .map(|(i, p)| (p.cast::<f64>(), weight(i, p)));
     let principal = principal_axes(weighted).ok_or_else(|| no_plane(0.0))?;
     let deviations = principal.variances.map(f64::sqrt);
     // A strip one pixel wide has no shape.
     if deviations[1] < params.pixel.0 {
         return Err(no_plane(deviations[1]));
     }
-    let plane_from_camera = plane_frame(&principal);
+    let plane_from_camera = plane_frame(&principal, viewpoint);
     rasterise(points, plane_from_camera, deviations, params)
 }
 
-/// The frame of eq. 6 with its signs fixed: third axis towards the camera at the origin, right-handed.
-fn plane_frame(principal: &PrincipalAxes) -> RigidTransform {
-    let towards_camera: Vector3<f64> = -principal.mean.coords;
+/// The frame of eq. 6 with its signs fixed: third axis towards the viewpoint, right-handed.
+fn plane_frame(principal: &PrincipalAxes, viewpoint: &Point3<f64>) -> RigidTransform {
+    let towards_camera: Vector3<f64> = viewpoint - principal.mean;
     let mut third: Vector3<f64> = principal.axes.column(2).into_owned();
     if third.dot(&towards_camera) < 0.0 {
         third = -third;

@@ -1,0 +1,263 @@
+//! Reference: what an enrolled part is compared by, prepared once (the paper's offline stage, Algorithm 1).
+//!
+//! The paper keeps one signature per part, taken square on. The projection of a curved part changes with the side it
+//! is seen from, so we keep several *views*: the reference cloud as a camera would see it from in front and from
+//! some 20 to 25 degrees around. A view goes through the same projection, contour and signature as a scene.
+
+use nalgebra::{Isometry2, Point2, Point3, Unit, UnitQuaternion, Vector3};
+use rustfft::num_complex::Complex;
+
+use crate::{
+    geometry::{
+        cloud::PointCloud, nearest::KdTree, principal::principal_axes, rigid::RigidTransform,
+    },
+    stages::{
+        contour::{Contour, ContourParams, find_contour},
+        correlation::{self, LiteralReference},
+        project::{PlaneImage, ProjectParams, project_weighted},
+        signature::{FanSignature, SignatureParams, describe},
+    },
+    units::Radians,
+};
+
+/// From where the reference cloud was seen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Coverage {
+    /// One capture by a camera at the origin of part space: the far side is unknown.
+    OneSide,
+    /// All around, as from a mesh: it can be recognised from both of its faces.
+    AllAround,
+}
+
+/// Parameters of [`Reference::prepare`]; those of the stages must be the ones used on scenes.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ReferenceParams {
+    /// Projection.
+    pub project: ProjectParams,
+    /// Contour.
+    pub contour: ContourParams,
+    /// Signature.
+    pub signature: SignatureParams,
+}
+
+/// An enrolled part, prepared for ranking and pose.
+#[derive(Clone, Debug)]
+pub struct Reference {
+    /// The part's name.
+    pub name: String,
+    /// The reference cloud in part space, with unit normals.
+    pub cloud: PointCloud,
+    /// Search tree over `cloud`.
+    pub tree: KdTree,
+    /// The reference from several sides; the first is its standard view.
+    pub views: Vec<ReferenceView>,
+    /// The paper's auto-correlation of the standard view.
+    pub literal: LiteralReference,
+}
+
+/// The reference as seen from one side.
+#[derive(Clone, Debug)]
+pub struct ReferenceView {
+    /// Takes part space into this view's plane space.
+    pub plane_from_part: RigidTransform,
+    /// The binary image.
+    pub plane: PlaneImage,
+    /// Its outline and openings.
+    pub contour: Contour,
+    /// The outline's signature.
+    pub signature: FanSignature,
+    /// Outline and openings on the surface, part space.
+    pub boundary: Vec<Point3<f64>>,
+    /// Discrete Fourier transform of the signature's complex rays, for the circular correlation.
+    pub spectrum: Vec<Complex<f64>>,
+}
+
+/// Turns of the viewpoint about the part's long and short axis, degrees. The first is the standard view; the rest
+/// cover ±30° by ±20° so that no scene is further than about 15° from a view.
+const TURNS: [[f64; 2]; 9] = [
+    [0.0, 0.0],
+    [25.0, 0.0],
+    [-25.0, 0.0],
+    [0.0, 20.0],
+    [0.0, -20.0],
+    [20.0, 16.0],
+    [20.0, -16.0],
+    [-20.0, 16.0],
+    [-20.0, -16.0],
+];
+
+/// Distance of a virtual camera from the part's centre; nearly parallel rays, as for a part that fills the picture.
+const VIEW_DISTANCE: f64 = 1.3;
+
+impl Reference {
+    /// Prepares a reference cloud (part space, with normals); `None` when no view of it has a contour.
+    pub fn prepare(
+        name: &str,
+        cloud: PointCloud,
+        coverage: Coverage,
+        params: &ReferenceParams,
+    ) -> Option<Self> {
+        let tree = KdTree::new(&cloud.points);
+        let views: Vec<ReferenceView> = viewpoints(&cloud, coverage)?
+            .iter()
+            .filter_map(|viewpoint| ReferenceView::from_viewpoint(&cloud, viewpoint, params))
+            .collect();
+        let literal = LiteralReference::new(&views.first()?.signature.literal);
+        Some(Self {
+            name: name.to_owned(),
+            cloud,
+            tree,
+            views,
+            literal,
+        })
+    }
+
+    /// A reference that is only a flat shape, such as a silhouette: it can be ranked, but has no cloud for a pose.
+    pub fn from_plane(
+        name: &str,
+        plane: PlaneImage,
+        contour: Contour,
+        signature: FanSignature,
+    ) -> Self {
+        let literal = LiteralReference::new(&signature.literal);
+        let cloud = PointCloud::default();
+        Self {
+            name: name.to_owned(),
+            tree: KdTree::new(&cloud.points),
+            cloud,
+            views: vec![ReferenceView::new(
+                RigidTransform::identity(),
+                plane,
+                contour,
+                signature,
+            )],
+            literal,
+        }
+    }
+}
+
+impl ReferenceView {
+    fn new(
+        plane_from_part: RigidTransform,
+        plane: PlaneImage,
+        contour: Contour,
+        signature: FanSignature,
+    ) -> Self {
+        let part_from_plane = plane_from_part.inverse();
+        Self {
+            boundary: contour
+                .lifted(&plane)
+                .iter()
+                .map(|p| part_from_plane * p)
+                .collect(),
+            spectrum: correlation::spectrum(&signature.rays),
+            plane_from_part,
+            plane,
+            contour,
+            signature,
+        }
+    }
+
+    fn from_viewpoint(
+        cloud: &PointCloud,
+        viewpoint: &Point3<f64>,
+        params: &ReferenceParams,
+    ) -> Option<Self> {
+        let visible = visible_from(cloud, viewpoint);
+        let points: Vec<Point3<f32>> = visible.iter().map(|v| cloud.points[v.0]).collect();
+        // The cloud is even on the surface; a camera sees a tilted surface with fewer pixels.
+        let weight = |i: usize, _: &Point3<f32>| visible[i].1;
+        let plane = project_weighted(&points, weight, viewpoint, &params.project).ok()?;
+        let contour = find_contour(&plane, &params.contour).ok()?;
+        let signature = describe(&contour, &params.signature).ok()?;
+        Some(Self::new(
+            plane.plane_from_camera,
+            plane,
+            contour,
+            signature,
+        ))
+    }
+
+    /// The transform of view-plane space into a scene's plane space, in the plane, that turns by `turn` and carries
+    /// the view's centroid to the scene's.
+    pub fn scene_plane_from_view_plane(
+        &self,
+        turn: Radians,
+        scene_centroid: &Point2<f64>,
+    ) -> Isometry2<f64> {
+        let rotation = nalgebra::UnitComplex::new(turn.0);
+        let shift = scene_centroid - rotation * self.signature.centroid;
+        Isometry2::from_parts(shift.into(), rotation)
+    }
+}
+
+/// Places from which the part is looked at.
+fn viewpoints(cloud: &PointCloud, coverage: Coverage) -> Option<Vec<Point3<f64>>> {
+    let principal = principal_axes(cloud.finite().map(|(_, p)| (p.cast(), 1.0)))?;
+    let (long, short, across) = (
+        Unit::new_normalize(principal.axes.column(0).into_owned()),
+        Unit::new_normalize(principal.axes.column(1).into_owned()),
+        principal.axes.column(2).into_owned(),
+    );
+    let fronts: Vec<Vector3<f64>> = match coverage {
+        Coverage::OneSide => vec![-principal.mean.coords.normalize()],
+        Coverage::AllAround => vec![across, -across],
+    };
+    let around = |front: &Vector3<f64>| {
+        let front = *front;
+        TURNS.map(|[about_short, about_long]| {
+            let turn = UnitQuaternion::from_axis_angle(&short, f64::to_radians(about_short))
+                * UnitQuaternion::from_axis_angle(&long, f64::to_radians(about_long));
+            principal.mean + turn * front * VIEW_DISTANCE
+        })
+    };
+    Some(fronts.iter().flat_map(around).collect())
+}
+
+/// Side of a cell of the view's depth buffer, metres: wider than the spacing of a reference cloud.
+const CELL: f64 = 0.015;
+/// How far behind the nearest surface of a cell a point may lie and still be seen, metres.
+const CELL_DEPTH: f64 = 0.04;
+
+/// Indices of the points that a camera at `viewpoint` sees, each with the cosine of the angle it is seen at.
+fn visible_from(cloud: &PointCloud, viewpoint: &Point3<f64>) -> Vec<(usize, f64)> {
+    let bounds = cloud.bounds();
+    let centre = bounds.map_or(Point3::origin(), |(low, high)| {
+        nalgebra::center(&low, &high).cast()
+    });
+    let forward = (centre - viewpoint).normalize();
+    let helper = if forward.x.abs() < 0.9 {
+        Vector3::x()
+    } else {
+        Vector3::y()
+    };
+    let right = forward.cross(&helper).normalize();
+    let down = forward.cross(&right);
+    let radius = bounds.map_or(0.0, |(low, high)| f64::from((high - low).norm()) / 2.0) + CELL;
+    let side = (2.0 * radius / CELL).ceil() as usize + 1;
+    let mut nearest = vec![f64::INFINITY; side * side];
+    let candidates: Vec<(usize, f64, usize, f64)> = cloud
+        .finite()
+        .filter_map(|(i, p)| {
+            let p: Point3<f64> = p.cast();
+            let facing = match &cloud.normals {
+                Some(normals) => normals[i].cast::<f64>().dot(&(viewpoint - p).normalize()),
+                None => 1.0,
+            };
+            let d = p - centre;
+            let column = ((d.dot(&right) + radius) / CELL) as usize;
+            let row = ((d.dot(&down) + radius) / CELL) as usize;
+            // Closer than 80° to grazing a depth camera reads next to nothing.
+            (facing > 0.17).then(|| (i, facing, row * side + column, d.dot(&forward)))
+        })
+        .collect();
+    for &(_, _, cell, depth) in &candidates {
+        nearest[cell] = nearest[cell].min(depth);
+    }
+    candidates
+        .into_iter()
+        .filter(|&(_, _, cell, depth)| depth <= nearest[cell] + CELL_DEPTH)
+        .map(|(i, facing, ..)| (i, facing))
+        .collect()
+}
