@@ -2,4 +2,5 @@
 pub mod capture;
 pub mod error;
 pub mod geometry;
+pub mod simulate;
 pub mod units;
