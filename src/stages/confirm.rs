@@ -14,7 +14,7 @@ use crate::{
     stages::{
         pose::{
             PoseError, PoseEstimate, PoseMethod, RunnerUp,
-            global::{Level, Refined, Source, Target, cost, refine},
+            global::{Level, Refined, Search, Source, Target, cost, refine},
             quality::{Fit, Tolerance, look_for, measure_fit},
         },
         rank::{MatchEntry, MatchRanking, Placement, Query},
@@ -58,20 +58,22 @@ pub struct Scene<'a> {
     pub query: Query<'a>,
 }
 
-/// From coarse to fine: the first level is run for every placement, the second for the best of each reference,
-/// the third for the winner. Scales begin at what a placement is off by.
+/// From coarse to fine: the first levels are run for every placement, the next for the best of each reference,
+/// the last for the winner. Scales begin at what a placement is off by.
 const FIRST: [Level; 2] = [
     Level {
         num_surface: 150,
         num_edges: 48,
         scale: 0.04,
         max_steps: 5,
+        search: Search::Field,
     },
     Level {
         num_surface: 150,
         num_edges: 48,
         scale: 0.02,
         max_steps: 4,
+        search: Search::Field,
     },
 ];
 const SECOND: [Level; 1] = [Level {
@@ -79,12 +81,14 @@ const SECOND: [Level; 1] = [Level {
     num_edges: 96,
     scale: 0.012,
     max_steps: 8,
+    search: Search::Field,
 }];
 const THIRD: [Level; 1] = [Level {
-    num_surface: 2000,
+    num_surface: 1500,
     num_edges: 256,
     scale: 0.008,
-    max_steps: 12,
+    max_steps: 8,
+    search: Search::Tree,
 }];
 /// Distance at which a point counts as plainly off, metres.
 const COST_LIMIT: f64 = 0.04;
@@ -126,13 +130,10 @@ pub fn confirm(
     }
     confirmed.sort_by(|a, b| b.0.score.total_cmp(&a.0.score));
     let pose = match confirmed.first() {
-        Some((entry, Some(best))) => Ok(finish(
-            scene,
-            &source,
-            &references[entry.reference],
-            best,
-            tolerance,
-        )),
+        Some((entry, Some(best))) => references[entry.reference]
+            .target(best.view)
+            .map(|target| finish(scene, &source, &target, best, tolerance))
+            .ok_or(PoseError::NoReferenceCloud),
         _ => Err(PoseError::NoReferenceCloud),
     };
     let entries = confirmed.into_iter().map(|c| c.0).collect();
@@ -144,7 +145,8 @@ const UNCONFIRMED: f64 = 0.3;
 
 struct Candidate {
     refined: Refined,
-    edges: Vec<Point3<f32>>,
+    /// The view whose edges it was refined to.
+    view: usize,
     score: f64,
     runner_up: Option<RunnerUp>,
 }
@@ -178,24 +180,23 @@ fn best_candidate(
     placements: &[Placement],
     tolerance: Tolerance,
 ) -> Option<Candidate> {
-    if reference.cloud.points.is_empty() {
-        return None;
+    // Neighbouring views lead to nearly the same start: one of them is enough.
+    let centre = centre_of(&source.surface);
+    let mut starts: Vec<(usize, RigidTransform)> = Vec::new();
+    for placement in placements {
+        let start = start_of(scene, reference, placement);
+        if starts
+            .iter()
+            .all(|s| is_apart(&s.1, &start, &centre, START_APART))
+        {
+            starts.push((placement.view, start));
+        }
     }
-    let mut tried: Vec<(f64, Refined, Vec<Point3<f32>>)> = placements
-        .iter()
-        .map(|placement| {
-            let edges = edges_of(reference, placement.view);
-            let target = Target {
-                cloud: &reference.cloud,
-                tree: &reference.tree,
-                edges: &edges,
-            };
-            let refined = refine(
-                source,
-                &target,
-                &start_of(scene, reference, placement),
-                &FIRST,
-            );
+    let mut tried: Vec<(f64, usize, Refined)> = starts
+        .into_iter()
+        .filter_map(|(view, start)| {
+            let target = reference.target(view)?;
+            let refined = refine(source, &target, &start, &FIRST);
             let cost = cost(
                 source,
                 &target,
@@ -203,24 +204,26 @@ fn best_candidate(
                 &FIRST[1],
                 COST_LIMIT,
             );
-            (cost, refined, edges)
+            Some((cost, view, refined))
         })
         .collect();
     tried.sort_by(|a, b| a.0.total_cmp(&b.0));
     let mut tried = tried.into_iter();
-    let (best_cost, coarse, edges) = tried.next()?;
-    let centre = centre_of(&source.surface);
+    let (best_cost, view, coarse) = tried.next()?;
     let runner_up = tried
-        .find(|t| is_different(&coarse.target_from_source, &t.1.target_from_source, &centre))
+        .find(|t| {
+            is_apart(
+                &coarse.target_from_source,
+                &t.2.target_from_source,
+                &centre,
+                POSE_APART,
+            )
+        })
         .map(|t| RunnerUp {
-            target_from_source: t.1.target_from_source,
+            target_from_source: t.2.target_from_source,
             ratio: t.0 / best_cost.max(f64::MIN_POSITIVE),
         });
-    let target = Target {
-        cloud: &reference.cloud,
-        tree: &reference.tree,
-        edges: &edges,
-    };
+    let target = reference.target(view)?;
     let mut refined = refine(source, &target, &coarse.target_from_source, &SECOND);
     refined.iterations.splice(0..0, coarse.iterations);
     let fit = fit_of(
@@ -229,11 +232,12 @@ fn best_candidate(
         &target,
         &refined.target_from_source,
         tolerance,
+        Search::Field,
     );
     Some(Candidate {
         score: score_of(&fit),
         refined,
-        edges,
+        view,
         runner_up,
     })
 }
@@ -242,16 +246,11 @@ fn best_candidate(
 fn finish(
     scene: &Scene<'_>,
     source: &Source,
-    reference: &Reference,
+    target: &Target<'_>,
     best: &Candidate,
     tolerance: Tolerance,
 ) -> PoseEstimate {
-    let target = Target {
-        cloud: &reference.cloud,
-        tree: &reference.tree,
-        edges: &best.edges,
-    };
-    let last = refine(source, &target, &best.refined.target_from_source, &THIRD);
+    let last = refine(source, target, &best.refined.target_from_source, &THIRD);
     let mut iterations = best.refined.iterations.clone();
     iterations.extend(last.iterations);
     PoseEstimate {
@@ -259,7 +258,14 @@ fn finish(
         method: PoseMethod::Global,
         stopped: last.stopped,
         iterations,
-        fit: fit_of(scene, source, &target, &last.target_from_source, tolerance),
+        fit: fit_of(
+            scene,
+            source,
+            target,
+            &last.target_from_source,
+            tolerance,
+            Search::Tree,
+        ),
         runner_up: best.runner_up,
     }
 }
@@ -277,15 +283,6 @@ fn start_of(scene: &Scene<'_>, reference: &Reference, placement: &Placement) -> 
         * scene.query.plane.plane_from_camera
 }
 
-fn edges_of(reference: &Reference, view: usize) -> Vec<Point3<f32>> {
-    let edges = &reference.views[view].boundary;
-    edges
-        .iter()
-        .step_by((edges.len() / 400).max(1))
-        .map(|p| p.cast())
-        .collect()
-}
-
 fn centre_of(points: &[Point3<f32>]) -> Point3<f64> {
     let sum = points
         .iter()
@@ -295,10 +292,15 @@ fn centre_of(points: &[Point3<f32>]) -> Point3<f64> {
     Point3::from(sum / points.len().max(1) as f64)
 }
 
-/// Poses further apart than a refinement would still close.
-fn is_different(a: &RigidTransform, b: &RigidTransform, at: &Point3<f64>) -> bool {
+/// Turn (degrees) and shift (millimetres) below which two starts lead to the same pose.
+const START_APART: (f64, f64) = (8.0, 20.0);
+/// Turn and shift beyond which a refinement would not close, so that two poses are different ones.
+const POSE_APART: (f64, f64) = (10.0, 50.0);
+
+fn is_apart(a: &RigidTransform, b: &RigidTransform, at: &Point3<f64>, limits: (f64, f64)) -> bool {
+    // At the same point of the scene: the poses map from there.
     let apart = pose_error(a, b, at);
-    apart.rotation.degrees() > 10.0 || apart.shift.mm() > 50.0
+    apart.rotation.degrees() > limits.0 || apart.shift.mm() > limits.1
 }
 
 fn fit_of(
@@ -307,6 +309,7 @@ fn fit_of(
     target: &Target<'_>,
     target_from_source: &RigidTransform,
     tolerance: Tolerance,
+    search: Search,
 ) -> Fit {
     let measured = &source.surface[..NUM_MEASURED.min(source.surface.len())];
     Fit {
@@ -316,7 +319,7 @@ fn fit_of(
             scene.scene,
             tolerance,
         ),
-        ..measure_fit(measured, target, target_from_source, tolerance)
+        ..measure_fit(measured, target, target_from_source, tolerance, search)
     }
 }
 

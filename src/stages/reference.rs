@@ -9,11 +9,13 @@ use rustfft::num_complex::Complex;
 
 use crate::{
     geometry::{
-        cloud::PointCloud, nearest::KdTree, principal::principal_axes, rigid::RigidTransform,
+        cloud::PointCloud, nearest::KdTree, nearest_field::NearestField, principal::principal_axes,
+        rigid::RigidTransform,
     },
     stages::{
         contour::{Contour, ContourParams, find_contour},
         correlation::{self, LiteralReference},
+        pose::global::{EdgePoints, Target},
         project::{PlaneImage, ProjectParams, project_weighted},
         signature::{FanSignature, SignatureParams, describe},
     },
@@ -50,6 +52,8 @@ pub struct Reference {
     pub cloud: PointCloud,
     /// Search tree over `cloud`.
     pub tree: KdTree,
+    /// Field of nearest points around `cloud`.
+    pub field: NearestField,
     /// The reference from several sides; the first is its standard view.
     pub views: Vec<ReferenceView>,
     /// The paper's auto-correlation of the standard view.
@@ -68,7 +72,7 @@ pub struct ReferenceView {
     /// The outline's signature.
     pub signature: FanSignature,
     /// Outline and openings on the surface, part space.
-    pub boundary: Vec<Point3<f64>>,
+    pub edges: EdgePoints,
     /// Discrete Fourier transform of the signature's complex rays, for the circular correlation.
     pub spectrum: Vec<Complex<f64>>,
 }
@@ -87,6 +91,13 @@ const TURNS: [[f64; 2]; 9] = [
     [-20.0, -16.0],
 ];
 
+/// Points kept of a view's outline and openings: about one per centimetre and a half around a door.
+const NUM_EDGES: usize = 256;
+/// Cells of the field of nearest points, metres: two spacings of a reference cloud.
+const FIELD_CELL: f32 = 0.016;
+/// How far off the part the field answers, metres: further than the outline's placement is off.
+const FIELD_BAND: f32 = 0.08;
+
 /// Distance of a virtual camera from the part's centre; nearly parallel rays, as for a part that fills the picture.
 const VIEW_DISTANCE: f64 = 1.3;
 
@@ -104,12 +115,28 @@ impl Reference {
             .filter_map(|viewpoint| ReferenceView::from_viewpoint(&cloud, viewpoint, params))
             .collect();
         let literal = LiteralReference::new(&views.first()?.signature.literal);
+        let field = NearestField::new(&cloud.points, FIELD_CELL, FIELD_BAND);
         Some(Self {
             name: name.to_owned(),
             cloud,
             tree,
+            field,
             views,
             literal,
+        })
+    }
+
+    /// The reference as the target of a pose, with the edges of one of its views; `None` for a flat shape.
+    pub fn target(&self, view: usize) -> Option<Target<'_>> {
+        let edges = &self.views.get(view)?.edges;
+        let Self {
+            cloud, tree, field, ..
+        } = self;
+        (!cloud.points.is_empty()).then_some(Target {
+            cloud,
+            tree,
+            field,
+            edges,
         })
     }
 
@@ -125,6 +152,7 @@ impl Reference {
         Self {
             name: name.to_owned(),
             tree: KdTree::new(&cloud.points),
+            field: NearestField::new(&cloud.points, FIELD_CELL, FIELD_BAND),
             cloud,
             views: vec![ReferenceView::new(
                 RigidTransform::identity(),
@@ -145,12 +173,13 @@ impl ReferenceView {
         signature: FanSignature,
     ) -> Self {
         let part_from_plane = plane_from_part.inverse();
+        let edges: Vec<Point3<f32>> = contour
+            .lifted(&plane)
+            .iter()
+            .map(|p| (part_from_plane * p).cast())
+            .collect();
         Self {
-            boundary: contour
-                .lifted(&plane)
-                .iter()
-                .map(|p| part_from_plane * p)
-                .collect(),
+            edges: EdgePoints::new(&edges, NUM_EDGES),
             spectrum: correlation::spectrum(&signature.rays),
             plane_from_part,
             plane,

@@ -7,10 +7,17 @@
 //! (P. W. Holland and R. E. Welsch, "Robust regression using iteratively reweighted least-squares", Communications in
 //! Statistics 6(9), 1977) shrink from centimetres to the noise, so what has no counterpart loses its vote.
 
-use nalgebra::{Isometry3, Matrix6, Point3, Translation3, UnitQuaternion, Vector3, Vector6};
+use nalgebra::{
+    Isometry3, Matrix3, Matrix6, Point3, Translation3, UnitQuaternion, Vector3, Vector6,
+};
 
 use super::{Iteration, Stopped};
-use crate::geometry::{cloud::PointCloud, nearest::KdTree, rigid::RigidTransform};
+use crate::geometry::{
+    cloud::PointCloud,
+    nearest::{KdTree, Neighbour},
+    nearest_field::NearestField,
+    rigid::RigidTransform,
+};
 
 /// What is aligned: a thinned surface and its edges, in source space.
 #[derive(Clone, Debug, Default)]
@@ -28,8 +35,100 @@ pub struct Target<'a> {
     pub cloud: &'a PointCloud,
     /// Search tree over them.
     pub tree: &'a KdTree,
+    /// Field of nearest points around them.
+    pub field: &'a NearestField,
     /// Points of outline and openings; may be empty.
-    pub edges: &'a [Point3<f32>],
+    pub edges: &'a EdgePoints,
+}
+
+impl Target<'_> {
+    /// The closest target point within reach.
+    pub fn nearest(&self, search: Search, query: &Point3<f32>, reach_sq: f32) -> Option<Neighbour> {
+        match search {
+            Search::Field => self
+                .field
+                .nearest(query)
+                .filter(|n| n.distance_sq < reach_sq),
+            Search::Tree => self.tree.nearest(query, reach_sq),
+        }
+    }
+}
+
+/// How closest points are found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Search {
+    /// One look-up in the field: quick, off by up to a cell.
+    Field,
+    /// By the tree: exact.
+    Tree,
+}
+
+/// A few hundred points in columns: looking at all of them is quicker than a tree, and columns let the processor look
+/// at several at once.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct EdgePoints {
+    x: Vec<f32>,
+    y: Vec<f32>,
+    z: Vec<f32>,
+}
+
+impl EdgePoints {
+    /// Keeps at most `limit` of the points, evenly spread over their order.
+    pub fn new(points: &[Point3<f32>], limit: usize) -> Self {
+        let step = points.len().div_ceil(limit.max(1)).max(1);
+        let column = |axis: usize| points.iter().step_by(step).map(|p| p[axis]).collect();
+        Self {
+            x: column(0),
+            y: column(1),
+            z: column(2),
+        }
+    }
+
+    /// The number of points.
+    pub fn len(&self) -> usize {
+        self.x.len()
+    }
+
+    /// True without points.
+    pub fn is_empty(&self) -> bool {
+        self.x.is_empty()
+    }
+
+    /// The points in order.
+    pub fn iter(&self) -> impl ExactSizeIterator<Item = Point3<f32>> + '_ {
+        (0..self.x.len()).map(|i| Point3::new(self.x[i], self.y[i], self.z[i]))
+    }
+
+    /// The closest point within reach, with its squared distance.
+    fn closest(&self, at: &Point3<f32>, reach_sq: f32) -> Option<(Point3<f32>, f32)> {
+        const LANES: usize = 8;
+        let mut best = [reach_sq; LANES];
+        let mut best_chunk = [u32::MAX; LANES];
+        let columns = self
+            .x
+            .chunks(LANES)
+            .zip(self.y.chunks(LANES))
+            .zip(self.z.chunks(LANES));
+        for (chunk, ((x, y), z)) in columns.enumerate() {
+            for (lane, ((x, y), z)) in x.iter().zip(y).zip(z).enumerate() {
+                let (dx, dy, dz) = (x - at.x, y - at.y, z - at.z);
+                let distance_sq = dx * dx + dy * dy + dz * dz;
+                let closer = distance_sq < best[lane];
+                best[lane] = if closer { distance_sq } else { best[lane] };
+                best_chunk[lane] = if closer {
+                    chunk as u32
+                } else {
+                    best_chunk[lane]
+                };
+            }
+        }
+        let lane = (0..LANES).min_by(|&a, &b| best[a].total_cmp(&best[b]))?;
+        if best_chunk[lane] == u32::MAX {
+            return None;
+        }
+        let i = best_chunk[lane] as usize * LANES + lane;
+        Some((Point3::new(self.x[i], self.y[i], self.z[i]), best[lane]))
+    }
 }
 
 /// One level of a refinement, from coarse to fine.
@@ -43,6 +142,8 @@ pub struct Level {
     pub scale: f64,
     /// Most steps.
     pub max_steps: usize,
+    /// How closest points are found.
+    pub search: Search,
 }
 
 /// A pose that a refinement ended at.
@@ -81,7 +182,7 @@ pub fn refine(
         for _ in 0..level.max_steps {
             let equations = Equations::at(source, target, &pose, level);
             iterations.push(Iteration {
-                e_m2: equations.e_m2,
+                e_m2: equations.e_m2(),
                 target_from_source: pose,
                 num_pairs: equations.num_pairs,
             });
@@ -111,63 +212,76 @@ fn applied(step: &Vector6<f64>, pose: &RigidTransform) -> RigidTransform {
 }
 
 /// The normal equations of one Gauss-Newton step.
+#[derive(Default)]
 struct Equations {
-    matrix: Matrix6<f64>,
-    right: Vector6<f64>,
-    e_m2: f64,
+    /// Surface to tangent plane: upper triangle of Σ w J Jᵀ by rows, and Σ w J r.
+    planes: [f64; 21],
+    planes_right: [f64; 6],
+    points: PointSums,
+    sum_sq: f64,
     num_pairs: usize,
+}
+
+/// Sums over pairs pulled together along all three axes: with J = [-[x]ₓ, I] the normal equations follow from them.
+#[derive(Default)]
+struct PointSums {
+    weight: f64,
+    at: Vector3<f64>,
+    /// Σ w x xᵀ as xx, xy, xz, yy, yz, zz.
+    at_at: [f64; 6],
+    away: Vector3<f64>,
+    lever: Vector3<f64>,
 }
 
 impl Equations {
     fn at(source: &Source, target: &Target<'_>, pose: &RigidTransform, level: &Level) -> Self {
-        let mut sums = Self {
-            matrix: Matrix6::zeros(),
-            right: Vector6::zeros(),
-            e_m2: 0.0,
-            num_pairs: 0,
-        };
+        let mut sums = Self::default();
         let moved = pose.cast::<f32>();
         // exp(-9) is nothing: pairs beyond three scales need not be found.
         let reach_sq = (3.0 * level.scale).powi(2) as f32;
         let per_scale_sq = 1.0 / (level.scale * level.scale);
         let surface = &source.surface[..level.num_surface.min(source.surface.len())];
         let normals = target.cloud.normals.as_deref().unwrap_or_default();
-        let mut sum_sq = 0.0;
         for p in surface {
             let at = moved * p;
-            let Some(n) = target.tree.nearest(&at, reach_sq) else {
+            let Some(n) = target.nearest(level.search, &at, reach_sq) else {
                 continue;
             };
             let away: Vector3<f64> = (target.cloud.points[n.index] - at).cast();
             let weight = (-f64::from(n.distance_sq) * per_scale_sq).exp();
             let at: Point3<f64> = at.cast();
             if let Some(normal) = normals.get(n.index) {
-                sums.add_direction(&at, &away, &normal.cast(), weight);
-                sums.add_point(&at, &away, POINT_WEIGHT * weight);
+                sums.add_plane(&at, &away, &normal.cast(), weight);
+                sums.points.add(&at, &away, POINT_WEIGHT * weight);
             } else {
-                sums.add_point(&at, &away, weight);
+                sums.points.add(&at, &away, weight);
             }
-            sum_sq += f64::from(n.distance_sq);
+            sums.sum_sq += f64::from(n.distance_sq);
             sums.num_pairs += 1;
         }
-        sums.e_m2 = sum_sq / sums.num_pairs.max(1) as f64;
         let edges = &source.edges[..level.num_edges.min(source.edges.len())];
         if !edges.is_empty() && !target.edges.is_empty() {
             let share = EDGE_WEIGHT * surface.len() as f64 / edges.len() as f64;
             for p in edges {
                 let at = moved * p;
-                let Some((closest, distance_sq)) = closest_of(target.edges, &at, reach_sq) else {
+                let Some((closest, distance_sq)) = target.edges.closest(&at, reach_sq) else {
                     continue;
                 };
                 let weight = (-f64::from(distance_sq) * per_scale_sq).exp();
-                sums.add_point(&at.cast(), &(closest - at).cast(), share * weight);
+                sums.points
+                    .add(&at.cast(), &(closest - at).cast(), share * weight);
             }
         }
         sums
     }
 
-    /// A residual along one direction: d(n · (x + ω × x + t))/d(ω, t) = [x × n, n].
-    fn add_direction(
+    /// E of eq. 12 over this step's pairs.
+    fn e_m2(&self) -> f64 {
+        self.sum_sq / self.num_pairs.max(1) as f64
+    }
+
+    /// A residual along a normal: d(n · (x + ω × x + t))/d(ω, t) = [x × n, n].
+    fn add_plane(
         &mut self,
         at: &Point3<f64>,
         away: &Vector3<f64>,
@@ -175,43 +289,78 @@ impl Equations {
         weight: f64,
     ) {
         let lever = at.coords.cross(normal);
-        let row = Vector6::new(lever.x, lever.y, lever.z, normal.x, normal.y, normal.z);
-        self.matrix.ger(weight, &row, &row, 1.0);
-        self.right.axpy(weight * normal.dot(away), &row, 1.0);
-    }
-
-    /// A residual along all three axes.
-    fn add_point(&mut self, at: &Point3<f64>, away: &Vector3<f64>, weight: f64) {
-        for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
-            self.add_direction(at, away, &axis, weight);
+        let row = [lever.x, lever.y, lever.z, normal.x, normal.y, normal.z];
+        let residual = weight * normal.dot(away);
+        let mut entry = 0;
+        for i in 0..6 {
+            let weighted = weight * row[i];
+            for other in &row[i..] {
+                self.planes[entry] += weighted * other;
+                entry += 1;
+            }
+            self.planes_right[i] += residual * row[i];
         }
     }
 
-    /// `None` when the pairs leave the step free.
+    /// The step (turn, shift); `None` when the pairs leave it free.
     fn solve(&self) -> Option<Vector6<f64>> {
+        if self.num_pairs < 6 {
+            return None;
+        }
+        let mut entries = self.planes.iter();
+        let mut matrix = Matrix6::zeros();
+        for i in 0..6 {
+            for (j, entry) in (i..6).zip(&mut entries) {
+                matrix[(i, j)] = *entry;
+                matrix[(j, i)] = *entry;
+            }
+        }
+        let mut right = Vector6::from(self.planes_right);
+        self.points.add_to(&mut matrix, &mut right);
         // A trace of damping: far below any real curvature, enough to keep the factorisation defined.
-        let damped =
-            self.matrix + Matrix6::identity() * (1e-9 * self.matrix.trace().max(f64::MIN_POSITIVE));
-        (self.num_pairs >= 6)
-            .then(|| damped.cholesky().map(|c| c.solve(&self.right)))
-            .flatten()
+        let damped = matrix + Matrix6::identity() * (1e-9 * matrix.trace().max(f64::MIN_POSITIVE));
+        damped.cholesky().map(|c| c.solve(&right))
     }
 }
 
-/// The closest of a few hundred points, all looked at: quicker than a tree at this size.
-fn closest_of(
-    points: &[Point3<f32>],
-    at: &Point3<f32>,
-    reach_sq: f32,
-) -> Option<(Point3<f32>, f32)> {
-    let mut best = (0, reach_sq);
-    for (i, p) in points.iter().enumerate() {
-        let distance_sq = (p - at).norm_squared();
-        if distance_sq < best.1 {
-            best = (i, distance_sq);
+impl PointSums {
+    fn add(&mut self, at: &Point3<f64>, away: &Vector3<f64>, weight: f64) {
+        let x = at.coords;
+        let wx = x * weight;
+        self.weight += weight;
+        self.at += wx;
+        for (sum, product) in self.at_at.iter_mut().zip([
+            wx.x * x.x,
+            wx.x * x.y,
+            wx.x * x.z,
+            wx.y * x.y,
+            wx.y * x.z,
+            wx.z * x.z,
+        ]) {
+            *sum += product;
         }
+        self.away += away * weight;
+        self.lever += wx.cross(away);
     }
-    (best.1 < reach_sq).then(|| (points[best.0], best.1))
+
+    fn add_to(&self, matrix: &mut Matrix6<f64>, right: &mut Vector6<f64>) {
+        let [xx, xy, xz, yy, yz, zz] = self.at_at;
+        // -[x]ₓ² = |x|² I - x xᵀ
+        let turn = Matrix3::new(yy + zz, -xy, -xz, -xy, xx + zz, -yz, -xz, -yz, xx + yy);
+        let cross = self.at.cross_matrix();
+        let mut block = |row: usize, column: usize, values: &Matrix3<f64>| {
+            let mut view = matrix.fixed_view_mut::<3, 3>(row, column);
+            view += values;
+        };
+        block(0, 0, &turn);
+        block(0, 3, &cross);
+        block(3, 0, &cross.transpose());
+        block(3, 3, &(Matrix3::identity() * self.weight));
+        let mut turn_right = right.fixed_rows_mut::<3>(0);
+        turn_right += self.lever;
+        let mut shift_right = right.fixed_rows_mut::<3>(3);
+        shift_right += self.away;
+    }
 }
 
 /// How badly a pose fits, square metres: mean squared distance to the target's surface and edges, and of the
@@ -226,11 +375,10 @@ pub fn cost(
     let limit_sq = limit * limit;
     let moved = pose.cast::<f32>();
     let surface = &source.surface[..level.num_surface.min(source.surface.len())];
-    let normals = target.cloud.normals.as_deref().unwrap_or_default();
     let surface_cost = mean(surface.iter().map(|p| {
         let at = moved * p;
-        match target.tree.nearest(&at, limit_sq as f32) {
-            Some(n) => surface_distance_sq(target, normals, n.index, &at).min(limit_sq),
+        match target.nearest(level.search, &at, limit_sq as f32) {
+            Some(n) => surface_distance_sq(target, n.index, &at).min(limit_sq),
             None => limit_sq,
         }
     }));
@@ -238,8 +386,10 @@ pub fn cost(
     if edges.is_empty() || target.edges.is_empty() {
         return surface_cost;
     }
-    let edge_distance_sq = |among: &[Point3<f32>], at: &Point3<f32>| {
-        closest_of(among, at, limit_sq as f32).map_or(limit_sq, |c| f64::from(c.1))
+    let edge_distance_sq = |among: &EdgePoints, at: &Point3<f32>| {
+        among
+            .closest(at, limit_sq as f32)
+            .map_or(limit_sq, |c| f64::from(c.1))
     };
     let moved_edges: Vec<Point3<f32>> = edges.iter().map(|p| moved * p).collect();
     let there = mean(
@@ -247,27 +397,28 @@ pub fn cost(
             .iter()
             .map(|at| edge_distance_sq(target.edges, at)),
     );
+    let moved_edges = EdgePoints::new(&moved_edges, edges.len());
     let step = (target.edges.len() / edges.len()).max(1);
     let back = mean(
         target
             .edges
             .iter()
             .step_by(step)
-            .map(|at| edge_distance_sq(&moved_edges, at)),
+            .map(|at| edge_distance_sq(&moved_edges, &at)),
     );
     surface_cost + (there + back) / 2.0
 }
 
 /// Squared distance of a point to the target's surface near its closest point: along the normal, and beside it what
 /// goes beyond the target's spacing.
-fn surface_distance_sq(
-    target: &Target<'_>,
-    normals: &[Vector3<f32>],
-    index: usize,
-    at: &Point3<f32>,
-) -> f64 {
+fn surface_distance_sq(target: &Target<'_>, index: usize, at: &Point3<f32>) -> f64 {
     let away: Vector3<f64> = (target.cloud.points[index] - at).cast();
-    match normals.get(index) {
+    match target
+        .cloud
+        .normals
+        .as_deref()
+        .and_then(|normals| normals.get(index))
+    {
         Some(normal) => {
             let along = normal.cast::<f64>().dot(&away);
             let beside_sq = (away.norm_squared() - along * along).max(0.0);
@@ -280,4 +431,59 @@ fn surface_distance_sq(
 fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
     let n = values.len().max(1) as f64;
     values.sum::<f64>() / n
+}
+
+#[cfg(test)]
+mod tests {
+    use proptest::prelude::*;
+
+    use super::*;
+
+    fn point() -> impl Strategy<Value = Point3<f64>> {
+        prop::array::uniform3(-1.0_f64..1.0).prop_map(Point3::from)
+    }
+
+    proptest! {
+        /// The summed-up normal equations are those of the stacked residuals, row by row.
+        #[test]
+        fn equations_agree_with_stacked_rows(
+            pairs in prop::collection::vec((point(), point(), point(), 0.1_f64..1.0), 6..20),
+        ) {
+            let mut fast = Equations { num_pairs: pairs.len(), ..Equations::default() };
+            let (mut matrix, mut right) = (Matrix6::zeros(), Vector6::zeros());
+            let mut add_row = |at: &Point3<f64>, away: &Vector3<f64>, direction: &Vector3<f64>, weight: f64| {
+                let lever = at.coords.cross(direction);
+                let row = Vector6::new(lever.x, lever.y, lever.z, direction.x, direction.y, direction.z);
+                matrix += row * row.transpose() * weight;
+                right += row * (weight * direction.dot(away));
+            };
+            for (at, to, normal, weight) in &pairs {
+                let (away, normal) = (to - at, normal.coords.normalize());
+                fast.add_plane(at, &away, &normal, *weight);
+                fast.points.add(at, &away, *weight);
+                add_row(at, &away, &normal, *weight);
+                for axis in [Vector3::x(), Vector3::y(), Vector3::z()] {
+                    add_row(at, &away, &axis, *weight);
+                }
+            }
+            let slow = matrix.cholesky().expect("well posed").solve(&right);
+            let fast = fast.solve().expect("well posed");
+            prop_assert!((slow - fast).norm() < 1e-6 * (1.0 + slow.norm()), "{slow} {fast}");
+        }
+
+        #[test]
+        fn the_closest_edge_point_is_that_of_a_plain_search(
+            points in prop::collection::vec(point(), 0..50),
+            at in point(),
+        ) {
+            let points: Vec<Point3<f32>> = points.iter().map(|p| p.cast()).collect();
+            let at: Point3<f32> = at.cast();
+            let slow = points.iter().map(|p| (p - at).norm_squared()).filter(|d| *d < 1.0).min_by(f32::total_cmp);
+            let found = EdgePoints::new(&points, 1000).closest(&at, 1.0).map(|c| c.1);
+            match (slow, found) {
+                (Some(slow), Some(found)) => prop_assert!((slow - found).abs() < 1e-6),
+                (slow, found) => prop_assert_eq!(slow.is_some(), found.is_some()),
+            }
+        }
+    }
 }

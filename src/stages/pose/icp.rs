@@ -8,7 +8,7 @@ use nalgebra::Point3;
 
 use super::{
     Iteration, PoseError, PoseEstimate, PoseMethod, Stopped,
-    global::Target,
+    global::Search,
     quality::{Fit, Tolerance, look_for, measure_fit},
 };
 use crate::{
@@ -126,14 +126,7 @@ pub fn locate_by_icp(
         .step_by(points.len().div_ceil(params.max_source_points).max(1))
         .copied()
         .collect();
-    let target = Target {
-        cloud: &reference.cloud,
-        tree: &reference.tree,
-        edges: &[],
-    };
-    if reference.cloud.points.is_empty() {
-        return Err(PoseError::NoReferenceCloud);
-    }
+    let target = reference.target(0).ok_or(PoseError::NoReferenceCloud)?;
     let run = icp(
         &source,
         &reference.cloud.points,
@@ -147,7 +140,13 @@ pub fn locate_by_icp(
     };
     let fit = Fit {
         sight: look_for(&target, &run.target_from_source.inverse(), scene, tolerance),
-        ..measure_fit(&source, &target, &run.target_from_source, tolerance)
+        ..measure_fit(
+            &source,
+            &target,
+            &run.target_from_source,
+            tolerance,
+            Search::Tree,
+        )
     };
     Ok(PoseEstimate {
         target_from_source: run.target_from_source,

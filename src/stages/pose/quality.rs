@@ -6,7 +6,7 @@
 
 use nalgebra::Point3;
 
-use super::global::Target;
+use super::global::{Search, Target};
 use crate::{
     geometry::{cloud::is_finite, rigid::RigidTransform},
     stages::scene::SceneCloud,
@@ -57,19 +57,22 @@ impl Tolerance {
     }
 }
 
-/// Distances of source points to the target at a pose.
+/// Distances of source points to the target at a pose. With the field as search, points beyond its band count as
+/// being at its edge, so E is a lower bound.
 pub fn measure_fit(
     source: &[Point3<f32>],
     target: &Target<'_>,
     target_from_source: &RigidTransform,
     tolerance: Tolerance,
+    search: Search,
 ) -> Fit {
     let moved = target_from_source.cast::<f32>();
     let normals = target.cloud.normals.as_deref().unwrap_or_default();
     let (mut sum_sq, mut inlier_sum_sq, mut num_inliers) = (0.0, 0.0, 0.0_f64);
     for p in source {
         let at = moved * p;
-        let Some(n) = target.tree.nearest(&at, f32::INFINITY) else {
+        let Some(n) = target.nearest(search, &at, f32::INFINITY) else {
+            sum_sq += FAR_OFF_SQ;
             continue;
         };
         sum_sq += f64::from(n.distance_sq);
@@ -91,6 +94,9 @@ pub fn measure_fit(
         sight: None,
     }
 }
+
+/// Squared distance that a point beyond the field's band counts with, square metres.
+const FAR_OFF_SQ: f64 = 0.0064;
 
 /// Points of the target that are looked for.
 const NUM_LOOKED_FOR: usize = 2000;

@@ -5,7 +5,7 @@
 //! large flat part would otherwise be taken for a third wall, and because a depth camera's noise grows with depth²:
 //! - a plane is background only if (nearly) everything else lies in front of it and it runs out of the picture;
 //! - a point belongs to a plane within a distance that follows the noise, which is measured on the largest plane;
-//! - of what is left, the largest connected surface is the part, not all of it.
+//! - of what is left, one connected surface is the part, not all of it: the largest, those inside the picture first.
 //!
 //! Known limits: whatever touches the part, such as a stand, joins it.
 
@@ -77,7 +77,8 @@ pub struct Segmentation {
     pub labels: Vec<PointLabel>,
     /// The planes taken away, in the order found.
     pub planes: Vec<BackgroundPlane>,
-    /// The connected surfaces left, largest first; the first is the part if there is one.
+    /// The connected surfaces left, largest first. The part is the largest that lies inside the picture, or one more
+    /// than twice as large that does not.
     pub clusters: Vec<Cluster>,
     /// Standard deviation of the depth at 1 m, measured on the largest plane, else as given in the parameters.
     pub noise_at_1m: Metres,
@@ -211,6 +212,12 @@ fn label_readings(points: &[Point3<f32>]) -> Vec<PointLabel> {
     points.iter().map(label).collect()
 }
 
+/// How likely a surface is the part: the larger the more, but what runs out of the picture is more often a strip of
+/// floor or a neighbour than the part.
+fn likelihood(cluster: &Cluster) -> f64 {
+    cluster.area * if cluster.touches_edge { 0.4 } else { 1.0 }
+}
+
 fn take_part(
     scene: &SceneCloud,
     clusters: &[clusters::Members],
@@ -219,7 +226,9 @@ fn take_part(
     noise_at_1m: Metres,
     params: &SegmentParams,
 ) -> Result<SegmentedPart, NoPart> {
-    let largest = clusters.first();
+    let largest = clusters
+        .iter()
+        .max_by(|a, b| likelihood(&a.cluster).total_cmp(&likelihood(&b.cluster)));
     match largest {
         Some(largest)
             if largest.cluster.area >= params.min_part_area
@@ -242,4 +251,3 @@ fn take_part(
         }),
     }
 }
-

@@ -30,8 +30,9 @@ pub(super) struct Background {
 
 /// Points that planes are searched on; 5 000 fix a wall to a fraction of a millimetre and fit in the cache.
 const SUBSET_SIZE: usize = 5_000;
-/// A plane that holds less of the scene than this is not searched for: it is smaller than a part.
-const MIN_INLIER_SHARE: f64 = 0.04;
+/// A plane that holds less of the scene than this is not searched for: a floor seen as a strip along the lower edge
+/// of the picture holds a few per cent.
+const MIN_INLIER_SHARE: f64 = 0.012;
 /// Chance that both neighbours of a point lie on the same surface as the point itself, used for local samples.
 /// Measured on simulated frames as 0.6 to 0.9; the low end costs time only.
 const SAME_SURFACE: f64 = 0.5;

@@ -1,0 +1,195 @@
+//! A field of nearest points: for every cell of space around a cloud, the point nearest to the cell's centre.
+//!
+//! Trying a pose asks for the nearest reference point hundreds of times, and thousands of poses are tried. The field
+//! answers from one look-up, after the idea of the precomputed distance map in M. A. Greenspan and G. Godin, "A
+//! nearest neighbor method for efficient ICP", 3DIM 2001. It is made once per reference by growing outwards from the
+//! occupied cells, layer by layer.
+//!
+//! Known limits: the answer is the point nearest to the *cell*, so it may lie up to a cell's diagonal further away
+//! than the true nearest; beyond the band around the cloud there is no answer. A last refinement asks the tree.
+
+use nalgebra::{Point3, Vector3};
+
+use super::nearest::Neighbour;
+
+/// No point is near this cell.
+const NOTHING: u32 = u32::MAX;
+/// A grid larger than this would cost more memory than it saves time: cells grow until it fits.
+const MAX_CELLS: f64 = 4e6;
+
+/// Nearest points within a band around a cloud.
+#[derive(Clone, Debug)]
+pub struct NearestField {
+    low: Point3<f32>,
+    per_cell: f32,
+    size: [usize; 3],
+    /// Index of the nearest point per cell, x fastest.
+    nearest: Vec<u32>,
+    points: Vec<Point3<f32>>,
+}
+
+impl NearestField {
+    /// A field over finite points with cells of `cell` metres, that answers up to about `band` metres off the cloud.
+    pub fn new(points: &[Point3<f32>], cell: f32, band: f32) -> Self {
+        let cloud = super::cloud::PointCloud::from_points(points.iter().copied());
+        assert_eq!(
+            cloud.points.len(),
+            points.len(),
+            "a field is made of finite points"
+        );
+        let Some((low, high)) = cloud.bounds() else {
+            return Self {
+                low: Point3::origin(),
+                per_cell: 1.0,
+                size: [0; 3],
+                nearest: Vec::new(),
+                points: Vec::new(),
+            };
+        };
+        let extent: Vector3<f32> = (high - low).add_scalar(2.0 * band);
+        let volume = extent
+            .iter()
+            .map(|x| f64::from(*x / cell) + 2.0)
+            .product::<f64>();
+        let cell = cell * (volume / MAX_CELLS).cbrt().max(1.0) as f32;
+        let layers = (band / cell).ceil() as usize;
+        let low = low - Vector3::repeat((layers as f32 + 0.5) * cell);
+        let size = [0, 1, 2].map(|axis| ((high[axis] - low[axis]) / cell) as usize + layers + 2);
+        let mut field = Self {
+            low,
+            per_cell: 1.0 / cell,
+            size,
+            nearest: vec![NOTHING; size.iter().product()],
+            points: cloud.points,
+        };
+        field.grow(cell, layers);
+        field
+    }
+
+    /// The point near `query`; `None` outside the band.
+    pub fn nearest(&self, query: &Point3<f32>) -> Option<Neighbour> {
+        let d = (query - self.low) * self.per_cell;
+        let inside = d.x >= 0.0 && d.y >= 0.0 && d.z >= 0.0;
+        let [x, y, z] = [d.x as usize, d.y as usize, d.z as usize];
+        if !inside || x >= self.size[0] || y >= self.size[1] || z >= self.size[2] {
+            return None;
+        }
+        let index = self.nearest[(z * self.size[1] + y) * self.size[0] + x];
+        (index != NOTHING).then(|| Neighbour {
+            index: index as usize,
+            distance_sq: (self.points[index as usize] - query).norm_squared(),
+        })
+    }
+
+    fn centre(&self, cell: usize, side: f32) -> Point3<f32> {
+        let [sx, sy, _] = self.size;
+        let at = [cell % sx, cell / sx % sy, cell / (sx * sy)].map(|i| (i as f32 + 0.5) * side);
+        self.low + Vector3::from(at)
+    }
+
+    /// Seeds the occupied cells and hands each cell's point on to its neighbours, one layer at a time.
+    fn grow(&mut self, side: f32, layers: usize) {
+        let [sx, sy, _] = self.size;
+        let mut front: Vec<usize> = Vec::new();
+        for (i, p) in self.points.iter().enumerate() {
+            let d = (p - self.low) * self.per_cell;
+            let cell = (d.z as usize * sy + d.y as usize) * sx + d.x as usize;
+            let centre = self.centre(cell, side);
+            let holder = self.nearest[cell];
+            if holder == NOTHING {
+                front.push(cell);
+            }
+            if holder == NOTHING
+                || (p - centre).norm_squared()
+                    < (self.points[holder as usize] - centre).norm_squared()
+            {
+                self.nearest[cell] = i as u32;
+            }
+        }
+        // One extra cell of margin on every side keeps all neighbours inside the grid while layers are left.
+        let steps: Vec<isize> = (-1..=1_isize)
+            .flat_map(|z| (-1..=1_isize).flat_map(move |y| (-1..=1_isize).map(move |x| [x, y, z])))
+            .filter(|s| *s != [0, 0, 0])
+            .map(|[x, y, z]| (z * sy as isize + y) * sx as isize + x)
+            .collect();
+        for _ in 0..layers {
+            let mut next = Vec::new();
+            for &cell in &front {
+                let candidate = self.nearest[cell];
+                for &step in &steps {
+                    let neighbour = cell.wrapping_add_signed(step);
+                    let holder = self.nearest[neighbour];
+                    if holder == candidate {
+                        continue;
+                    }
+                    let centre = self.centre(neighbour, side);
+                    let distance_sq = (self.points[candidate as usize] - centre).norm_squared();
+                    if holder == NOTHING {
+                        next.push(neighbour);
+                    }
+                    if holder == NOTHING
+                        || distance_sq < (self.points[holder as usize] - centre).norm_squared()
+                    {
+                        self.nearest[neighbour] = candidate;
+                    }
+                }
+            }
+            front = next;
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::nearest::KdTree;
+
+    #[test]
+    fn answers_are_as_near_as_the_true_nearest_up_to_a_cells_diagonal() {
+        let points: Vec<Point3<f32>> = (0..3000)
+            .map(|i| ((i % 60) as f32 / 60.0, (i / 60) as f32 / 60.0))
+            .map(|(u, v)| Point3::new(u, v, 0.2 * (4.0 * u).sin() * v))
+            .collect();
+        let (cell, band) = (0.015, 0.06);
+        let field = NearestField::new(&points, cell, band);
+        let tree = KdTree::new(&points);
+        let mut answered = 0;
+        for i in 0..20_000_u32 {
+            let spread = |k: u32, range: f32| {
+                ((i.wrapping_mul(2_654_435_761 + k) >> 8) % 1000) as f32 / 1000.0 * range
+            };
+            let query = Point3::new(
+                spread(0, 1.2) - 0.1,
+                spread(97, 1.2) - 0.1,
+                spread(31, 0.5) - 0.25,
+            );
+            let truth = tree
+                .nearest(&query, f32::INFINITY)
+                .expect("points")
+                .distance_sq
+                .sqrt();
+            match field.nearest(&query) {
+                Some(found) => {
+                    answered += 1;
+                    assert!(found.distance_sq.sqrt() <= truth + cell * 3.0_f32.sqrt() + 1e-6);
+                }
+                None => assert!(
+                    truth > band - cell * 3.0_f32.sqrt(),
+                    "{truth} m off the cloud, within the band"
+                ),
+            }
+        }
+        assert!(answered > 1000);
+    }
+
+    #[test]
+    fn an_empty_cloud_and_a_far_point_answer_nothing() {
+        let empty = NearestField::new(&[], 0.01, 0.05);
+        assert_eq!(empty.nearest(&Point3::origin()), None);
+        let one = NearestField::new(&[Point3::origin()], 0.01, 0.05);
+        assert!(one.nearest(&Point3::new(0.01, 0.0, 0.0)).is_some());
+        for far in [1.0, -1.0, f32::NAN] {
+            assert_eq!(one.nearest(&Point3::new(far, 0.0, 0.0)), None);
+        }
+    }
+}
