@@ -1,4 +1,4 @@
-//! The cell: wall, floor, what holds the part, what else stands about.
+//! The cell: the part at its pose, wall and floor fitted around it, with or without stand and clutter.
 
 use nalgebra::{Point3, Rotation3, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
@@ -6,12 +6,13 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
 use super::assembly::Assembly;
-use super::beam::{Section, block, sweep};
+use super::clutter::{Clutter, on_floor, plank};
 use super::object::ObjectKind;
 use super::part::{PartKind, PartModel, Side};
 use super::placement::{Placed, Placement};
 use super::rasteriser::{Plane, Rendering, SurfaceLabel};
 use super::sensor::SensorNoise;
+use super::stand::{Stand, post};
 use crate::capture::frame::Intrinsics;
 use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::rigid::RigidTransform;
@@ -55,30 +56,6 @@ pub enum PartPose {
     Fixed(RigidTransform),
     /// Drawn from a range by the cell's seed.
     Drawn(Placement),
-}
-
-/// What holds the part.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Stand {
-    /// Nothing in sight.
-    #[default]
-    None,
-    /// A post behind the part with a cross bar and two hooks over the part's upper edge.
-    Post,
-}
-
-/// What else is in the cell.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Clutter {
-    /// Nothing.
-    #[default]
-    None,
-    /// Two or three things on the floor, beside and behind the part.
-    OnFloor,
-    /// As on the floor, and a plank between camera and part that hides 10 to 25 % of it.
-    InFront,
 }
 
 /// All that a simulated frame depends on.
@@ -180,7 +157,16 @@ impl<'a> Cell<'a> {
             Clutter::OnFloor => on_floor(&hung, &floor, &wall, &mut random),
             Clutter::InFront => {
                 let mut clutter = on_floor(&hung, &floor, &wall, &mut random);
-                plank(&mut clutter, &hung, &mut random);
+                let draw_part = |picture: &mut Rendering| {
+                    picture.draw_mesh(part, &camera_from_part, SurfaceLabel::Part);
+                };
+                plank(
+                    &mut clutter,
+                    &hung,
+                    &setup.intrinsics,
+                    draw_part,
+                    &mut random,
+                );
                 clutter
             }
         };
@@ -243,132 +229,4 @@ fn behind(wall: Metres, hung: &[Point3<f64>], random: &mut Pcg64) -> Plane {
 
 fn below(floor: Metres, hung: &[Point3<f64>], random: &mut Pcg64) -> Plane {
     beyond(Vector3::y(), floor.0, hung, random)
-}
-
-/// Height of the floor at (x, z).
-fn floor_at(floor: &Plane, x: f64, z: f64) -> f64 {
-    (floor.offset - floor.normal.x * x - floor.normal.z * z) / floor.normal.y
-}
-
-/// A post behind the part, a cross bar at its upper edge, two hooks over that edge.
-fn post(hung: &[Point3<f64>], floor: &Plane) -> Assembly {
-    let mut stand = Assembly::default();
-    let Some(&first) = hung.first() else {
-        return stand;
-    };
-    let (low, high) = hung
-        .iter()
-        .fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
-    let x = 0.5 * (low.x + high.x);
-    let z = high.z + 0.05;
-    let reach = 0.2 * (high.x - low.x);
-    // The upper edge where a hook takes hold: the highest point within 2 cm to either side.
-    let edge_above = |x: f64| {
-        hung.iter()
-            .filter(|p| (p.x - x).abs() < 0.02)
-            .min_by(|a, b| a.y.total_cmp(&b.y))
-            .copied()
-    };
-    let hooks: Vec<Point3<f64>> = [x - reach, x + reach]
-        .into_iter()
-        .filter_map(edge_above)
-        .collect();
-    let bar_y = hooks.iter().map(|p| p.y).fold(low.y + 0.1, f64::min);
-    let facing = -Vector3::z();
-    let rod = Section::Round { radius: 0.012 };
-    let bar = [
-        Point3::new(x - reach - 0.05, bar_y, z),
-        Point3::new(x + reach + 0.05, bar_y, z),
-    ];
-    sweep(&mut stand, &bar, rod, facing);
-    let upright = [
-        Point3::new(x, floor_at(floor, x, z), z),
-        Point3::new(x, bar_y, z),
-    ];
-    let square = Section::Bar {
-        width: 0.04,
-        depth: 0.04,
-    };
-    sweep(&mut stand, &upright, square, facing);
-    let wire = Section::Round { radius: 0.006 };
-    for edge in hooks {
-        let over = Point3::new(edge.x, edge.y - 0.008, edge.z - 0.01);
-        let path = [
-            Point3::new(edge.x, bar_y, z),
-            over,
-            over + Vector3::new(0.0, 0.025, -0.012),
-        ];
-        sweep(&mut stand, &path, wire, Vector3::x());
-    }
-    stand
-}
-
-/// Two or three things on the floor that leave the part alone.
-fn on_floor(hung: &[Point3<f64>], floor: &Plane, wall: &Plane, random: &mut Pcg64) -> Assembly {
-    const KINDS: [ObjectKind; 4] = [
-        ObjectKind::Box,
-        ObjectKind::Stool,
-        ObjectKind::Chair,
-        ObjectKind::Bucket,
-    ];
-    let mut clutter = Assembly::default();
-    let num_things = random.random_range(2..=3);
-    let mut num_placed = 0;
-    for _ in 0..20 {
-        let mesh = KINDS[random.random_range(0..KINDS.len())].mesh();
-        let turn = Rotation3::from_axis_angle(&Vector3::y_axis(), random.random_range(-1.5..1.5));
-        let (x, z) = (
-            random.random_range(-1.1..1.1),
-            random.random_range(1.5..2.2),
-        );
-        let turned: Vec<Point3<f64>> = mesh
-            .vertices
-            .iter()
-            .map(|p| turn * p.cast::<f64>())
-            .collect();
-        let foot = turned.iter().map(|p| p.y).fold(0.0, f64::max);
-        let shift = Vector3::new(x, floor_at(floor, x, z) - foot, z);
-        let is_before_wall = turned
-            .iter()
-            .all(|p| wall.normal.dot(&(p + shift).coords) < wall.offset);
-        let radius = turned.iter().map(|p| p.coords.norm()).fold(0.0, f64::max);
-        let is_clear = hung
-            .iter()
-            .all(|p| (p.coords - shift).norm() > radius + 0.08);
-        if is_before_wall && is_clear {
-            clutter.add(&mesh, |p| turn * p + shift);
-            num_placed += 1;
-        }
-        if num_placed == num_things {
-            break;
-        }
-    }
-    clutter
-}
-
-/// An upright or level plank that hides a share of the part from one side.
-fn plank(clutter: &mut Assembly, hung: &[Point3<f64>], random: &mut Pcg64) {
-    let nearest = hung.iter().map(|p| p.z).fold(f64::INFINITY, f64::min);
-    let z = (nearest - 0.20).max(0.55);
-    let axis = random.random_range(0..2);
-    let side = if random.random_range(0..2) == 0 {
-        1.0
-    } else {
-        -1.0
-    };
-    // The part's vertices lie about evenly on it, so a share of them is about that share of its area.
-    let mut sights: Vec<f64> = hung.iter().map(|p| side * p[axis] / p.z).collect();
-    sights.sort_by(f64::total_cmp);
-    let hidden = random.random_range(0.12..0.22);
-    let Some(&edge) = sights.get((hidden * sights.len() as f64) as usize) else {
-        return;
-    };
-    let width = 1.5;
-    let middle = side * (edge * z - width / 2.0);
-    let (centre, size) = if axis == 0 {
-        (Point3::new(middle, 0.0, z), Vector3::new(width, 3.0, 0.02))
-    } else {
-        (Point3::new(0.0, middle, z), Vector3::new(3.0, width, 0.02))
-    };
-    block(clutter, centre, size);
 }

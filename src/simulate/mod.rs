@@ -11,6 +11,7 @@
 mod assembly;
 mod beam;
 mod cell;
+mod clutter;
 mod object;
 mod part;
 mod parts;
@@ -21,12 +22,15 @@ mod region;
 mod sensor;
 mod sheet;
 mod shot;
+mod stand;
 mod variation;
 
-pub use cell::{CellSetup, Clutter, PartPose, Stand, Subject};
+pub use cell::{CellSetup, PartPose, Subject};
+pub use clutter::Clutter;
 pub use object::ObjectKind;
 pub use part::{PartKind, PartModel, Side};
 pub use placement::{Placed, Placement};
 pub use rasteriser::SurfaceLabel;
 pub use sensor::SensorNoise;
 pub use shot::{SimulatedFrame, Truth, frame, frame_of_mesh};
+pub use stand::Stand;

@@ -42,6 +42,13 @@ pub(super) struct Plane {
     pub(super) offset: f64,
 }
 
+impl Plane {
+    /// The y at which a plane that is about level has the given x and z.
+    pub(super) fn height_at(&self, x: f64, z: f64) -> f64 {
+        (self.offset - self.normal.x * x - self.normal.z * z) / self.normal.y
+    }
+}
+
 /// The images while they are drawn. Row by row from the top left.
 pub(super) struct Rendering {
     pub(super) intrinsics: Intrinsics,

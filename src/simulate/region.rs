@@ -15,8 +15,8 @@ pub(super) struct Region(Box<dyn Fn(Point2<f64>) -> f64>);
 impl Region {
     /// The inside of a closed outline; the last corner joins the first. Either direction.
     pub(super) fn outline(corners: &[Corner]) -> Self {
-        let polygon = rounded(corners);
-        Self(Box::new(move |p| distance_to_polygon(&polygon, p)))
+        let edges = edges(&rounded(corners));
+        Self(Box::new(move |p| distance_to_polygon(&edges, p)))
     }
 
     /// As [`Region::outline`], from the right half of a shape that is the same on both sides of u = 0.
@@ -124,20 +124,44 @@ fn rounded(corners: &[Corner]) -> Vec<Point2<f64>> {
     polygon
 }
 
+/// One edge of a polygon, prepared for many distances.
+struct Edge {
+    start: Point2<f64>,
+    along: Vector2<f64>,
+    /// 1 / length².
+    inverse_length_sq: f64,
+}
+
+fn edges(polygon: &[Point2<f64>]) -> Vec<Edge> {
+    (0..polygon.len())
+        .map(|i| {
+            let along = polygon[(i + 1) % polygon.len()] - polygon[i];
+            Edge {
+                start: polygon[i],
+                along,
+                inverse_length_sq: 1.0 / along.norm_squared().max(1e-18),
+            }
+        })
+        .collect()
+}
+
 /// Signed distance to a closed polygon, negative inside (even-odd rule).
-fn distance_to_polygon(polygon: &[Point2<f64>], p: Point2<f64>) -> f64 {
+fn distance_to_polygon(edges: &[Edge], p: Point2<f64>) -> f64 {
     let mut nearest_sq = f64::INFINITY;
     let mut sign = 1.0;
-    let mut b = polygon[polygon.len() - 1];
-    for &a in polygon {
-        let edge = b - a;
-        let to_p = p - a;
-        let along = (to_p.dot(&edge) / edge.norm_squared().max(1e-18)).clamp(0.0, 1.0);
-        nearest_sq = nearest_sq.min((to_p - edge * along).norm_squared());
-        if (a.y > p.y) != (b.y > p.y) && p.x < a.x + edge.x * (p.y - a.y) / edge.y {
-            sign = -sign;
+    for edge in edges {
+        let to_p = p - edge.start;
+        let share = (to_p.dot(&edge.along) * edge.inverse_length_sq).clamp(0.0, 1.0);
+        nearest_sq = nearest_sq.min((to_p - edge.along * share).norm_squared());
+        let starts_below = to_p.y >= 0.0;
+        let ends_below = to_p.y >= edge.along.y;
+        if starts_below != ends_below {
+            // The level line through p crosses the edge: on p's right?
+            let right = to_p.x * edge.along.y < edge.along.x * to_p.y;
+            if right == (edge.along.y > 0.0) {
+                sign = -sign;
+            }
         }
-        b = a;
     }
     sign * nearest_sq.sqrt()
 }

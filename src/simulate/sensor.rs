@@ -94,8 +94,9 @@ pub(super) fn sense(rendering: &Rendering, noise: &SensorNoise) -> DepthFrame {
 }
 
 fn in_units(metres: f64) -> u16 {
-    let units = (metres / METRES_PER_UNIT).round();
-    if units <= f64::from(u16::MAX) {
+    // A cast cuts off, which after adding a half is rounding. Too far is no reading.
+    let units = metres / METRES_PER_UNIT + 0.5;
+    if units < f64::from(u16::MAX) {
         units as u16
     } else {
         0
@@ -118,7 +119,8 @@ fn disturbed(rendering: &Rendering, noise: &SensorNoise) -> Vec<u16> {
         std::array::from_fn(|_| smooth_noise(camera, &mut random));
 
     let lateral = (LATERAL * noise.multiplier) as f32;
-    let loss_scale = noise.multiplier.sqrt() as f32;
+    // Losses grow more slowly than noise: at 3 the dropouts are five times as many.
+    let loss_scale = noise.multiplier.sqrt().sqrt() as f32;
     let mut depth = vec![0; disparity.len()];
     for v in 0..camera.height {
         for u in 0..camera.width {
@@ -136,11 +138,12 @@ fn disturbed(rendering: &Rendering, noise: &SensorNoise) -> Vec<u16> {
             if true_disparity <= 0.0 {
                 continue;
             }
-            let z = focal_baseline / true_disparity;
-            let sigma_z = axial_sigma(z, f64::from(rendering.facing[pixel])) * noise.multiplier;
-            let error = f64::from(axial[pixel]) * sigma_z * true_disparity / z;
-            let measured = ((true_disparity + error) * STEPS_PER_PIXEL).round() / STEPS_PER_PIXEL;
-            let z = focal_baseline / measured;
+            let facing = f64::from(rendering.facing[pixel]);
+            let sigma = disparity_sigma(true_disparity, facing, focal_baseline) * noise.multiplier;
+            let error = f64::from(axial[pixel]) * sigma;
+            // A cast cuts off, which after adding a half is rounding; a negative disparity is out of range anyway.
+            let steps = ((true_disparity + error) * STEPS_PER_PIXEL + 0.5) as u32;
+            let z = focal_baseline * STEPS_PER_PIXEL / f64::from(steps);
             if (RANGE.0..=RANGE.1).contains(&z) {
                 depth[pixel] = in_units(z);
             }
@@ -149,17 +152,19 @@ fn disturbed(rendering: &Rendering, noise: &SensorNoise) -> Vec<u16> {
     depth
 }
 
-/// Standard deviation of z before quantisation, metres, at depth `z` on a surface at |cosine| `facing`.
-fn axial_sigma(z: f64, facing: f64) -> f64 {
-    let upright = AXIAL_AT_1M * z * z;
+/// Standard deviation of the disparity before quantisation, pixels, on a surface at |cosine| `facing`.
+fn disparity_sigma(disparity: f64, facing: f64, focal_baseline: f64) -> f64 {
+    // dd = f·b/z² dz: an error of z that grows with z² is one of the disparity that is the same everywhere.
+    let upright = AXIAL_AT_1M * focal_baseline;
     if facing > 0.7 {
         return upright;
     }
     // Nguyen, Izadi and Lovell, Eq. (3): the share of the angle; held below 1 cm where their data end.
+    let z = focal_baseline / disparity;
     let angle = facing.clamp(0.0, 1.0).acos();
     let steep = (std::f64::consts::FRAC_PI_2 - angle).max(0.02);
     let slanted = (1e-4 / z.sqrt() * (angle / steep).powi(2)).min(0.01);
-    upright.hypot(slanted)
+    upright.hypot(slanted * disparity / z)
 }
 
 /// The loss field (unit variance) above which a pixel is lost. Tuned by eye to pictures of real frames.
@@ -275,30 +280,27 @@ fn smooth_noise(camera: &Intrinsics, random: &mut Pcg64) -> Vec<f32> {
     // Even noise on ± 1 has variance 1/3; the filter's squared weights add up to 70 per direction.
     let scale = 3.0_f32.sqrt() / 70.0;
     let (width, height) = (camera.width, camera.height);
-    let padded = width + 4;
-    let mut row = vec![0.0_f32; padded.next_multiple_of(4)];
+    let mut draws = vec![0.0_f32; (width + 4).next_multiple_of(4)];
     let mut along = vec![0.0_f32; width * (height + 4)];
-    for filtered in along.chunks_exact_mut(width) {
-        for group in row.chunks_exact_mut(4) {
+    for row in along.chunks_exact_mut(width) {
+        for group in draws.chunks_exact_mut(4) {
             let bits = random.next_u64();
             for (k, value) in group.iter_mut().enumerate() {
                 let draw = (bits >> (16 * k)) as u16;
                 *value = (f32::from(draw) + 0.5) / 32768.0 - 1.0;
             }
         }
-        for (u, value) in filtered.iter_mut().enumerate() {
-            *value = WEIGHTS
-                .iter()
-                .zip(&row[u..])
-                .map(|(weight, draw)| weight * draw)
-                .sum();
+        for (k, weight) in WEIGHTS.iter().enumerate() {
+            for (value, draw) in row.iter_mut().zip(&draws[k..]) {
+                *value += weight * draw;
+            }
         }
     }
     let mut field = vec![0.0_f32; width * height];
-    for (v, filtered) in field.chunks_exact_mut(width).enumerate() {
+    for (v, row) in field.chunks_exact_mut(width).enumerate() {
         for (k, weight) in WEIGHTS.iter().enumerate() {
             let source = &along[(v + k) * width..][..width];
-            for (value, draw) in filtered.iter_mut().zip(source) {
+            for (value, draw) in row.iter_mut().zip(source) {
                 *value += scale * weight * draw;
             }
         }

@@ -69,14 +69,18 @@ impl Sheet<'_> {
             )
         };
         let stride = columns + 1;
-        let mut distances = Vec::with_capacity(stride * (rows + 1));
         let mut nodes = Vec::with_capacity(stride * (rows + 1));
         for row in 0..=rows {
+            // The distance cannot change faster than one metre per metre, so it names whole runs of nodes at once.
+            let (mut is_inside, mut known_up_to) = (false, f64::NEG_INFINITY);
             for column in 0..=columns {
                 let (u, v) = flat(column, row);
-                let distance = self.region.distance(u, v);
-                distances.push(distance);
-                nodes.push((distance < 0.0).then(|| assembly.vertex((self.lift)(u, v))));
+                if u >= known_up_to {
+                    let distance = self.region.distance(u, v);
+                    is_inside = distance < 0.0;
+                    known_up_to = u + distance.abs();
+                }
+                nodes.push(is_inside.then(|| assembly.vertex((self.lift)(u, v))));
             }
         }
         // Vertices where the outline crosses a grid edge: to the right of a node, and below it.
@@ -102,7 +106,7 @@ impl Sheet<'_> {
                     if nodes[i].is_some() != nodes[j].is_some() {
                         let slot = &mut crossings[k % 2][i.min(j)];
                         let crossing = *slot.get_or_insert_with(|| {
-                            let (inside, outside) = if distances[i] < 0.0 {
+                            let (inside, outside) = if nodes[i].is_some() {
                                 (here, next)
                             } else {
                                 (next, here)

@@ -16,7 +16,7 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
         front_radius: vary.of(2.6),
         corner_radius: vary.of(0.16),
         end_heading: 1.47 + vary.shift(0.04),
-        wrap: vary.of(0.40),
+        wrap: vary.of(0.36),
     });
     let end = curve.half_length();
     let lid_half = vary.of(0.47);

@@ -16,7 +16,7 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
         front_radius: vary.of(1.5),
         corner_radius: vary.of(0.27),
         end_heading: 1.40 + vary.shift(0.06),
-        wrap: vary.of(0.36),
+        wrap: vary.of(0.32),
     });
     let end = curve.half_length();
     let grille_half = vary.of(0.40);
@@ -27,12 +27,12 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
         (grille_half, grille_edge, 0.03),
         (grille_half + 0.055, shoulder, 0.03),
         (grille_half + 0.13, shoulder - 0.005, 0.05),
-        (0.64 * end, -0.125, 0.10),
-        (0.86 * end, -0.155, 0.08),
-        (end - 0.004, -0.225, 0.03),
-        (end - 0.004, 0.02, 0.02),
-        (end - 0.09, 0.06, 0.10),
-        (end - 0.19, bottom - 0.02, 0.05),
+        (0.66 * end, -0.135, 0.08),
+        (0.82 * end, -0.145, 0.10),
+        (end - 0.004, -0.190, 0.02),
+        (end - 0.004, -0.02, 0.02),
+        (end - 0.075, 0.045, 0.10),
+        (end - 0.14, bottom - 0.02, 0.05),
         (0.66 * end, bottom, 0.20),
     ]);
     let intake = Region::symmetric_outline(&[

@@ -71,7 +71,7 @@ impl Door<'_> {
         let lift = |x: f64, y: f64| {
             let mut z = self.panel.depth(x, y) + 0.022 * self.handle.pressing(x, y, 0.014);
             if let Some(patch) = self.patch {
-                z += 0.010 * patch.pressing(x, y, 0.008);
+                z += 0.008 * patch.pressing(x, y, 0.018);
             }
             Point3::new(x, y, z)
         };
