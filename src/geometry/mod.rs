@@ -3,8 +3,10 @@
 pub mod cloud;
 pub mod mesh;
 pub mod nearest;
+pub mod normals;
 pub mod plane;
 pub mod polygon;
 pub mod principal;
 pub mod raster;
 pub mod rigid;
+pub mod voxel;
