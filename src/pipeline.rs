@@ -8,13 +8,17 @@ use crate::{
     error::Advice,
     library::Library,
     stages::{
-        contour::{Contour, ContourError, ContourParams},
-        pose::{PoseError, PoseEstimate, PoseMethod},
-        project::{PlaneImage, ProjectError, ProjectParams},
-        rank::{MatchRanking, Matcher, RankParams},
+        confirm::{ConfirmParams, Scene, confirm},
+        contour::{Contour, ContourError, ContourParams, find_contour},
+        pose::{
+            PoseError, PoseEstimate, PoseMethod,
+            icp::{IcpParams, locate_by_icp},
+        },
+        project::{PlaneImage, ProjectError, ProjectParams, project},
+        rank::{MatchRanking, Query, RankParams, rank},
         scene::SceneCloud,
-        segment::{NoPart, SegmentParams, Segmentation},
-        signature::{FanSignature, SignatureError, SignatureParams},
+        segment::{NoPart, SegmentParams, Segmentation, SegmentedPart, segment},
+        signature::{FanSignature, SignatureError, SignatureParams, describe},
     },
 };
 
@@ -32,10 +36,30 @@ pub struct Recipe {
     pub signature: SignatureParams,
     /// Ranking.
     pub rank: RankParams,
+    /// Confirmation of the best few.
+    pub confirm: ConfirmParams,
+    /// ICP.
+    pub icp: IcpParams,
     /// Acceptance.
     pub accept: AcceptParams,
-    /// How the pose is estimated; `None` to stop after the ranking.
-    pub pose: Option<PoseMethod>,
+    /// How the pose is estimated.
+    pub pose: PoseChoice,
+}
+
+/// Whether and how an inspection estimates the pose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "kebab-case")]
+pub enum PoseChoice {
+    /// Stop after the ranking: the verdict rests on the outline alone.
+    Skip,
+    /// By this method.
+    By(PoseMethod),
+}
+
+impl Default for PoseChoice {
+    fn default() -> Self {
+        Self::By(PoseMethod::Global)
+    }
 }
 
 /// When a verdict counts.
@@ -229,3 +253,163 @@ impl Watch for Unwatched {}
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 #[error("the inspection was cancelled")]
 pub struct Cancelled;
+
+/// Inspects a scene: which enrolled part is it, and where?
+///
+/// With nothing enrolled or nothing found the inspection still holds what the stages before made.
+pub fn run(
+    scene: &SceneCloud,
+    library: &Library,
+    recipe: &Recipe,
+    watch: &dyn Watch,
+) -> Result<Inspection, Cancelled> {
+    let clock = StageClock::start(watch);
+    let segmentation = clock.time(Stage::Segment, || segment(scene, &recipe.segment))?;
+    let mut inspection = Inspection {
+        plane: None,
+        contour: None,
+        signature: None,
+        ranking: MatchRanking::default(),
+        pose: None,
+        verdict: Verdict::NoPart(Unrecognisable::EmptyLibrary),
+        timings: Timings::default(),
+        segmentation,
+    };
+    let recognised = match inspection.segmentation.part.clone() {
+        Ok(part) => recognise(&mut inspection, &part, scene, library, recipe, &clock)?,
+        Err(no_part) => Err(no_part.into()),
+    };
+    inspection.verdict = match recognised {
+        Ok(()) => verdict(&inspection, &recipe.accept),
+        Err(reason) => Verdict::NoPart(reason),
+    };
+    inspection.timings = clock.finish();
+    Ok(inspection)
+}
+
+/// The stages after segmentation; each leaves its result in the inspection.
+fn recognise(
+    inspection: &mut Inspection,
+    part: &SegmentedPart,
+    scene: &SceneCloud,
+    library: &Library,
+    recipe: &Recipe,
+    clock: &StageClock<'_>,
+) -> Result<Result<(), Unrecognisable>, Cancelled> {
+    let plane = match clock.time(Stage::Project, || project(part, &recipe.project))? {
+        Ok(plane) => inspection.plane.insert(plane),
+        Err(error) => return Ok(Err(error.into())),
+    };
+    let contour = match clock.time(Stage::Contour, || find_contour(plane, &recipe.contour))? {
+        Ok(contour) => inspection.contour.insert(contour),
+        Err(error) => return Ok(Err(error.into())),
+    };
+    let signature = match clock.time(Stage::Signature, || describe(contour, &recipe.signature))? {
+        Ok(signature) => inspection.signature.insert(signature),
+        Err(error) => return Ok(Err(error.into())),
+    };
+    let query = Query {
+        plane,
+        contour,
+        signature,
+    };
+    let references = &library.references;
+    inspection.ranking = clock.time(Stage::Rank, || rank(&query, references, &recipe.rank))?;
+    let Some(first) = inspection.ranking.entries.first() else {
+        return Ok(Err(Unrecognisable::EmptyLibrary));
+    };
+    match recipe.pose {
+        PoseChoice::Skip => {}
+        PoseChoice::By(PoseMethod::Icp) => {
+            let reference = &references[first.reference];
+            let located = clock.time(Stage::Pose, || {
+                locate_by_icp(part, reference, scene, &recipe.icp)
+            })?;
+            inspection.pose = Some(located);
+        }
+        PoseChoice::By(PoseMethod::Global) => {
+            let scene = Scene { scene, part, query };
+            let ranking = std::mem::take(&mut inspection.ranking);
+            let (ranking, pose) = clock.time(Stage::Pose, || {
+                confirm(&scene, references, ranking, &recipe.confirm)
+            })?;
+            inspection.ranking = ranking;
+            inspection.pose = Some(pose);
+        }
+    }
+    Ok(Ok(()))
+}
+
+fn verdict(inspection: &Inspection, accept: &AcceptParams) -> Verdict {
+    let Some(best) = inspection.ranking.entries.first() else {
+        return Verdict::NoPart(Unrecognisable::EmptyLibrary);
+    };
+    let next = inspection.ranking.entries.get(1);
+    let margin = best.score - next.map_or(0.0, |n| n.score);
+    let part = best.part.clone();
+    let rejected = match (&inspection.pose, next) {
+        (Some(Err(error)), _) => Some(Rejection::NoPose(*error)),
+        _ if best.score < accept.min_score => Some(Rejection::LowScore {
+            part: part.clone(),
+            score: best.score,
+            threshold: accept.min_score,
+        }),
+        (_, Some(next)) if margin < accept.min_margin => Some(Rejection::SmallMargin {
+            part: part.clone(),
+            other: next.part.clone(),
+            margin,
+            threshold: accept.min_margin,
+        }),
+        _ => None,
+    };
+    Verdict::Part {
+        part,
+        score: best.score,
+        margin,
+        rejected,
+    }
+}
+
+/// Times stages, tells the watch about them and stops between them when cancelled.
+struct StageClock<'a> {
+    watch: &'a dyn Watch,
+    started: Instant,
+    timings: std::cell::Cell<Timings>,
+}
+
+impl<'a> StageClock<'a> {
+    fn start(watch: &'a dyn Watch) -> Self {
+        Self {
+            watch,
+            started: Instant::now(),
+            timings: std::cell::Cell::default(),
+        }
+    }
+
+    fn time<T>(&self, stage: Stage, work: impl FnOnce() -> T) -> Result<T, Cancelled> {
+        if self.watch.is_cancelled() {
+            return Err(Cancelled);
+        }
+        self.watch.begins(stage);
+        let begun = Instant::now();
+        let output = work();
+        let mut timings = self.timings.get();
+        *match stage {
+            Stage::Segment => &mut timings.segment,
+            Stage::Project => &mut timings.project,
+            Stage::Contour => &mut timings.contour,
+            Stage::Signature => &mut timings.signature,
+            Stage::Rank => &mut timings.rank,
+            Stage::Pose => &mut timings.pose,
+        } = begun.elapsed();
+        self.timings.set(timings);
+        Ok(output)
+    }
+
+    fn finish(&self) -> Timings {
+        Timings {
+            total: self.started.elapsed(),
+            ..self.timings.get()
+        }
+    }
+}

@@ -7,6 +7,7 @@
 //!
 //! `reference` prepares an enrolled part for the last two, `correlation` is the signal processing below `rank`.
 
+pub mod confirm;
 pub mod contour;
 pub mod correlation;
 pub mod pose;

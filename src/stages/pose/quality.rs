@@ -1,11 +1,24 @@
-//! How well a pose fits.
+//! How well a pose fits: distances of the source to the target, and what the camera says about the target.
+//!
+//! Distances alone are blind one way: a small patch lies well on any large part. So the target is also looked for in
+//! the depth image. Where it should be seen, its surface is there, something hides it, or the camera looks past it to
+//! the wall, which is the strongest evidence against a part.
+
+use nalgebra::Point3;
+
+use super::global::Target;
+use crate::{
+    geometry::{cloud::is_finite, rigid::RigidTransform},
+    stages::scene::SceneCloud,
+    units::Metres,
+};
 
 /// Figures of a fit.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Fit {
-    /// Mean squared distance of all source points to their closest target points (eq. 12), square metres.
+    /// Mean squared distance of the source points to their closest target points (eq. 12), square metres.
     pub e_m2: f64,
-    /// Root mean square distance of the inliers, metres.
+    /// Root mean square distance of the inliers to the target's surface, metres.
     pub rms_m: f64,
     /// Share of the source points that lie on the target within tolerance, 0..1.
     pub overlap: f64,
@@ -24,4 +37,136 @@ pub struct Sight {
     pub hidden: f64,
     /// No reading there.
     pub unknown: f64,
+    /// Outside the picture; the other four are shares of what is inside.
+    pub outside: f64,
+}
+
+/// How far a source point may lie off the target and still be on it: base plus the noise at its depth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Tolerance {
+    /// Distance at no noise: spacing of the target and accuracy of the pose.
+    pub base: Metres,
+    /// Standard deviation of a source point's depth at 1 m; it grows with depth². Zero for clouds without a camera.
+    pub noise_at_1m: Metres,
+}
+
+impl Tolerance {
+    /// Three standard deviations hold 997 of 1000.
+    fn at_depth(self, z: f64) -> f64 {
+        self.base.0 + 3.0 * self.noise_at_1m.0 * z * z
+    }
+}
+
+/// Distances of source points to the target at a pose.
+pub fn measure_fit(
+    source: &[Point3<f32>],
+    target: &Target<'_>,
+    target_from_source: &RigidTransform,
+    tolerance: Tolerance,
+) -> Fit {
+    let moved = target_from_source.cast::<f32>();
+    let normals = target.cloud.normals.as_deref().unwrap_or_default();
+    let (mut sum_sq, mut inlier_sum_sq, mut num_inliers) = (0.0, 0.0, 0.0_f64);
+    for p in source {
+        let at = moved * p;
+        let Some(n) = target.tree.nearest(&at, f32::INFINITY) else {
+            continue;
+        };
+        sum_sq += f64::from(n.distance_sq);
+        if f64::from(n.distance_sq) < tolerance.at_depth(f64::from(p.z)).powi(2) {
+            let away = target.cloud.points[n.index] - at;
+            // Along the normal: beside it the closest point of a sampled target is a matter of spacing.
+            let off = normals
+                .get(n.index)
+                .map_or(away.norm(), |normal| normal.dot(&away));
+            inlier_sum_sq += f64::from(off * off);
+            num_inliers += 1.0;
+        }
+    }
+    let num = source.len().max(1) as f64;
+    Fit {
+        e_m2: sum_sq / num,
+        rms_m: (inlier_sum_sq / num_inliers.max(1.0)).sqrt(),
+        overlap: num_inliers / num,
+        sight: None,
+    }
+}
+
+/// Points of the target that are looked for.
+const NUM_LOOKED_FOR: usize = 2000;
+/// A surface seen at a flatter angle than this (cosine) is often lost by the camera, so its absence says nothing.
+const LEAST_FACING: f64 = 0.3;
+/// Pixels around the expected one that may show the surface: the pose is not perfect and edges are ragged.
+const PIXEL_REACH: i64 = 2;
+
+/// Looks for the target in the scene's depth image; `None` when the scene has none.
+pub fn look_for(
+    target: &Target<'_>,
+    camera_from_target: &RigidTransform,
+    scene: &SceneCloud,
+    tolerance: Tolerance,
+) -> Option<Sight> {
+    let camera = scene.intrinsics?;
+    let normals = target.cloud.normals.as_deref()?;
+    let points = &scene.cloud.points;
+    let step = (target.cloud.points.len() / NUM_LOOKED_FOR).max(1);
+    let [
+        mut confirmed,
+        mut missing,
+        mut hidden,
+        mut unknown,
+        mut outside,
+    ] = [0.0_f64; 5];
+    for (p, normal) in target.cloud.points.iter().zip(normals).step_by(step) {
+        let at = camera_from_target * p.cast::<f64>();
+        let facing = -(camera_from_target * normal.cast::<f64>()).dot(&at.coords.normalize());
+        if facing < LEAST_FACING {
+            continue;
+        }
+        let Some((u, v)) = camera.pixel_of(&at) else {
+            continue;
+        };
+        let (u, v) = (u.round() as i64, v.round() as i64);
+        let inside = |u: i64, v: i64| {
+            u >= 0 && v >= 0 && u < camera.width as i64 && v < camera.height as i64
+        };
+        if !inside(u, v) {
+            outside += 1.0;
+            continue;
+        }
+        let reach = tolerance.at_depth(at.z) / facing;
+        // Of the readings around, the one nearest in depth to what is expected.
+        let mut nearest: Option<f64> = None;
+        for dv in [0, -PIXEL_REACH, PIXEL_REACH] {
+            for du in [0, -PIXEL_REACH, PIXEL_REACH] {
+                if !inside(u + du, v + dv) {
+                    continue;
+                }
+                let seen = &points[(v + dv) as usize * camera.width + (u + du) as usize];
+                if is_finite(seen) {
+                    let off = f64::from(seen.z) - at.z;
+                    if nearest.is_none_or(|n| off.abs() < n.abs()) {
+                        nearest = Some(off);
+                    }
+                }
+            }
+        }
+        match nearest {
+            None => unknown += 1.0,
+            Some(off) if off.abs() <= reach => confirmed += 1.0,
+            Some(off) if off > 0.0 => missing += 1.0,
+            Some(_) => hidden += 1.0,
+        }
+    }
+    let total = confirmed + missing + hidden + unknown;
+    if total < 1.0 {
+        return None;
+    }
+    Some(Sight {
+        confirmed: confirmed / total,
+        missing: missing / total,
+        hidden: hidden / total,
+        unknown: unknown / total,
+        outside: outside / (total + outside),
+    })
 }

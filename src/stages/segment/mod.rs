@@ -243,5 +243,3 @@ fn take_part(
     }
 }
 
-#[cfg(test)]
-mod tests;

@@ -1,0 +1,106 @@
+//! A mesh while it is being put together, in f64, with the few whole-mesh operations that parts need.
+
+use nalgebra::{Point3, Vector3};
+
+use crate::geometry::mesh::TriangleMesh;
+
+/// Vertices and triangles so far. Winding is counter-clockwise seen from outside.
+#[derive(Default)]
+pub(super) struct Assembly {
+    vertices: Vec<Point3<f64>>,
+    triangles: Vec<[u32; 3]>,
+}
+
+impl Assembly {
+    /// Adds a vertex and says its index.
+    pub(super) fn vertex(&mut self, point: Point3<f64>) -> u32 {
+        self.vertices.push(point);
+        self.vertices.len() as u32 - 1
+    }
+
+    /// Adds a triangle, unless it has no area.
+    pub(super) fn triangle(&mut self, corners: [u32; 3]) {
+        let [a, b, c] = corners.map(|i| self.vertices[i as usize]);
+        if (b - a).cross(&(c - a)).norm_squared() > 1e-20 {
+            self.triangles.push(corners);
+        }
+    }
+
+    /// Adds a four-cornered face, corners in order around it.
+    pub(super) fn quad(&mut self, [a, b, c, d]: [u32; 4]) {
+        self.triangle([a, b, c]);
+        self.triangle([a, c, d]);
+    }
+
+    /// Adds a finished mesh, every vertex put through `place`.
+    pub(super) fn add(&mut self, mesh: &TriangleMesh, place: impl Fn(Point3<f64>) -> Point3<f64>) {
+        let first = self.vertices.len() as u32;
+        self.vertices
+            .extend(mesh.vertices.iter().map(|p| place(p.cast::<f64>())));
+        self.triangles.extend(
+            mesh.triangles
+                .iter()
+                .map(|corners| corners.map(|i| first + i)),
+        );
+    }
+
+    /// The middle of the bounding box; the origin for an empty assembly.
+    pub(super) fn middle(&self) -> Point3<f64> {
+        let Some(&first) = self.vertices.first() else {
+            return Point3::origin();
+        };
+        let (low, high) = self
+            .vertices
+            .iter()
+            .fold((first, first), |(low, high), p| (low.inf(p), high.sup(p)));
+        nalgebra::center(&low, &high)
+    }
+
+    /// The same moved by `shift`.
+    pub(super) fn moved(mut self, shift: Vector3<f64>) -> Self {
+        for vertex in &mut self.vertices {
+            *vertex += shift;
+        }
+        self
+    }
+
+    /// The mesh with its middle at the origin.
+    pub(super) fn centred(self) -> TriangleMesh {
+        let middle = self.middle();
+        self.moved(-middle.coords).into_mesh()
+    }
+
+    /// The mesh as it stands, without the vertices that no triangle uses.
+    pub(super) fn into_mesh(self) -> TriangleMesh {
+        let mut new_index = vec![None; self.vertices.len()];
+        let mut vertices = Vec::with_capacity(self.vertices.len());
+        let triangles = self
+            .triangles
+            .iter()
+            .map(|corners| {
+                corners.map(|old| {
+                    *new_index[old as usize].get_or_insert_with(|| {
+                        vertices.push(self.vertices[old as usize].cast::<f32>());
+                        vertices.len() as u32 - 1
+                    })
+                })
+            })
+            .collect();
+        TriangleMesh {
+            vertices,
+            triangles,
+        }
+    }
+}
+
+/// The mirror image about x = 0, wound so that outside stays outside.
+pub(super) fn mirrored(mesh: &TriangleMesh) -> TriangleMesh {
+    TriangleMesh {
+        vertices: mesh
+            .vertices
+            .iter()
+            .map(|p| Point3::new(-p.x, p.y, p.z))
+            .collect(),
+        triangles: mesh.triangles.iter().map(|&[a, b, c]| [a, c, b]).collect(),
+    }
+}

@@ -1,0 +1,32 @@
+//! A simulated cell: parametric car parts before wall and floor, seen by a depth camera with a Kinect's noise.
+//!
+//! Everything follows from seeds: the same [`CellSetup`] gives the same bits on every machine of one architecture.
+//!
+//! ```text
+//! PartModel / ObjectKind ─► TriangleMesh ─┐
+//! Placement ─► camera_from_part ──────────┼─► Cell ─► Rendering ─► DepthFrame + Truth
+//! Stand, Clutter, wall, floor ────────────┘  cell    rasteriser    sensor
+//! ```
+
+mod assembly;
+mod beam;
+mod cell;
+mod object;
+mod part;
+mod parts;
+mod placement;
+mod plan_curve;
+mod rasteriser;
+mod region;
+mod sensor;
+mod sheet;
+mod shot;
+mod variation;
+
+pub use cell::{CellSetup, Clutter, PartPose, Stand, Subject};
+pub use object::ObjectKind;
+pub use part::{PartKind, PartModel, Side};
+pub use placement::{Placed, Placement};
+pub use rasteriser::SurfaceLabel;
+pub use sensor::SensorNoise;
+pub use shot::{SimulatedFrame, Truth, frame, frame_of_mesh};

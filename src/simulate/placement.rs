@@ -1,0 +1,232 @@
+//! Where the part hangs: draws a pose within a range such that the part stays in the picture.
+//!
+//! A point (x, y, z) of the turned part, shifted sideways by s, is seen right of column m exactly if
+//! `s ≥ (m - cx) / fx · (z + d) - x`. Over all points that bounds s from both sides, and the room between the
+//! two bounds grows linearly with the distance d. So the nearest distance at which the part fits has a closed form.
+
+use nalgebra::{Point3, Translation3, UnitQuaternion, Vector3};
+use rand::{RngExt as _, SeedableRng as _};
+use rand_pcg::Pcg64;
+use serde::{Deserialize, Serialize};
+
+use crate::capture::frame::Intrinsics;
+use crate::geometry::mesh::TriangleMesh;
+use crate::geometry::rigid::RigidTransform;
+use crate::units::{Metres, Radians};
+
+/// Pixels that a fully visible part keeps from the frame's edges.
+const MARGIN: f64 = 8.0;
+/// How far a part hangs off the optical axis at most, where there is room, metres.
+const OFF_AXIS: f64 = 0.15;
+
+/// A range of poses. Turned by yaw about its own upright axis first, then pitch, then roll about the optical axis.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Placement {
+    /// Yaw is drawn from ± this angle.
+    pub yaw: Radians,
+    /// Pitch is drawn from ± this angle.
+    pub pitch: Radians,
+    /// Roll is drawn from ± this angle; half a turn is any roll.
+    pub roll: Radians,
+    /// Smallest depth of the part's origin, along the optical axis.
+    pub nearest: Metres,
+    /// Largest depth of the part's origin.
+    pub farthest: Metres,
+}
+
+/// A drawn pose.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Placed {
+    /// Maps the part's coordinates to the camera's.
+    pub camera_from_part: RigidTransform,
+    /// False if the part does not fit the frame anywhere in the range at this attitude; it then hangs at the far
+    /// end, cut off evenly.
+    pub fully_visible: bool,
+}
+
+impl Placement {
+    /// Hung with care: ± 10° about every axis, 1.0 to 1.4 m away.
+    pub fn facing() -> Self {
+        Self {
+            yaw: Radians::from_degrees(10.0),
+            pitch: Radians::from_degrees(10.0),
+            roll: Radians::from_degrees(10.0),
+            nearest: Metres(1.0),
+            farthest: Metres(1.4),
+        }
+    }
+
+    /// Hung anyhow: ± 30° yaw, ± 20° pitch, any roll, 0.9 to 1.8 m away.
+    pub fn placed() -> Self {
+        Self {
+            yaw: Radians::from_degrees(30.0),
+            pitch: Radians::from_degrees(20.0),
+            roll: Radians::from_degrees(180.0),
+            nearest: Metres(0.9),
+            farthest: Metres(1.8),
+        }
+    }
+
+    /// Turned far away: ± 45° yaw and pitch, any roll, 0.9 to 1.8 m away.
+    pub fn hard() -> Self {
+        Self {
+            yaw: Radians::from_degrees(45.0),
+            pitch: Radians::from_degrees(45.0),
+            ..Self::placed()
+        }
+    }
+
+    /// Draws a pose for `mesh`, metres in part space, before the camera.
+    ///
+    /// The distance is drawn evenly; a part that would leave the frame moves away to the nearest distance within the
+    /// range at which it fits, and sideways as far as needed.
+    pub fn draw(&self, mesh: &TriangleMesh, intrinsics: &Intrinsics, seed: u64) -> Placed {
+        let mut random = Pcg64::seed_from_u64(seed);
+        let mut within = |limit: Radians| limit.0 * (2.0 * random.random::<f64>() - 1.0);
+        let yaw = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), within(self.yaw));
+        let pitch = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), within(self.pitch));
+        let roll = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), within(self.roll));
+        let rotation = roll * pitch * yaw;
+        let drawn = self.nearest.0 + (self.farthest.0 - self.nearest.0) * random.random::<f64>();
+        let wished = [
+            OFF_AXIS * (2.0 * random.random::<f64>() - 1.0),
+            OFF_AXIS * (2.0 * random.random::<f64>() - 1.0),
+        ];
+
+        let turned: Vec<Point3<f64>> = mesh
+            .vertices
+            .iter()
+            .map(|p| rotation * p.cast::<f64>())
+            .collect();
+        let axes = [
+            Room::new(&turned, 0, intrinsics.cx, intrinsics.fx, intrinsics.width),
+            Room::new(&turned, 1, intrinsics.cy, intrinsics.fy, intrinsics.height),
+        ];
+        let fitting = axes.iter().map(Room::nearest_fit).fold(drawn, f64::max);
+        let distance = fitting.min(self.farthest.0);
+        let [x, y] = [0, 1].map(|axis| axes[axis].shift(distance, wished[axis]));
+        Placed {
+            camera_from_part: RigidTransform::from_parts(
+                Translation3::new(x, y, distance),
+                rotation,
+            ),
+            fully_visible: fitting <= self.farthest.0,
+        }
+    }
+}
+
+/// The sideways room of the part along one image axis: shifts from `low_slope·d + low` to `high_slope·d + high`.
+struct Room {
+    low_slope: f64,
+    low: f64,
+    high_slope: f64,
+    high: f64,
+}
+
+impl Room {
+    fn new(
+        turned: &[Point3<f64>],
+        axis: usize,
+        principal: f64,
+        focal: f64,
+        num_pixels: usize,
+    ) -> Self {
+        let low_slope = (MARGIN - principal) / focal;
+        let high_slope = (num_pixels as f64 - 1.0 - MARGIN - principal) / focal;
+        let (mut low, mut high) = (f64::NEG_INFINITY, f64::INFINITY);
+        for p in turned {
+            low = low.max(low_slope * p.z - p[axis]);
+            high = high.min(high_slope * p.z - p[axis]);
+        }
+        Self {
+            low_slope,
+            low,
+            high_slope,
+            high,
+        }
+    }
+
+    /// The distance from which on the two bounds leave room.
+    fn nearest_fit(&self) -> f64 {
+        (self.low - self.high) / (self.high_slope - self.low_slope)
+    }
+
+    /// The allowed shift at `distance` nearest to `wished`; the middle where none is allowed.
+    fn shift(&self, distance: f64, wished: f64) -> f64 {
+        let low = self.low_slope * distance + self.low;
+        let high = self.high_slope * distance + self.high;
+        if low <= high {
+            wished.clamp(low, high)
+        } else {
+            0.5 * (low + high)
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulate::part::{PartKind, PartModel, Side};
+
+    fn inside(mesh: &TriangleMesh, pose: &RigidTransform, margin: f64) -> bool {
+        let camera = Intrinsics::KINECT;
+        mesh.vertices.iter().all(|p| {
+            camera
+                .pixel_of(&(pose * p.cast::<f64>()))
+                .is_some_and(|(u, v)| {
+                    u >= margin && v >= margin && u <= 639.0 - margin && v <= 479.0 - margin
+                })
+        })
+    }
+
+    #[test]
+    fn every_part_fits_the_camera_at_the_far_end_whatever_its_roll() {
+        for kind in PartKind::ALL {
+            for model_seed in 0..4 {
+                let part = PartModel::new(kind, Side::Left, model_seed);
+                for seed in 0..12 {
+                    let placed = Placement::placed().draw(part.mesh(), &Intrinsics::KINECT, seed);
+                    assert!(
+                        placed.fully_visible,
+                        "{kind} model {model_seed} seed {seed}"
+                    );
+                    assert!(inside(part.mesh(), &placed.camera_from_part, MARGIN - 1e-6));
+                    let z = placed.camera_from_part.translation.z;
+                    assert!((0.9..=1.8).contains(&z));
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn a_part_that_cannot_fit_says_so() {
+        let part = PartModel::new(PartKind::FrontBumper, Side::Left, 0);
+        let range = Placement {
+            farthest: Metres(0.9),
+            ..Placement::placed()
+        };
+        let placed = range.draw(part.mesh(), &Intrinsics::KINECT, 3);
+        assert!(!placed.fully_visible);
+        assert!(!inside(part.mesh(), &placed.camera_from_part, 0.0));
+    }
+
+    #[test]
+    fn a_small_part_keeps_its_drawn_distance_and_a_large_one_is_moved_no_farther_than_needed() {
+        let part = PartModel::new(PartKind::FrontDoor, Side::Left, 0);
+        let range = Placement {
+            farthest: Metres(3.0),
+            nearest: Metres(0.5),
+            ..Placement::facing()
+        };
+        for seed in 0..20 {
+            let placed = range
+                .draw(part.mesh(), &Intrinsics::KINECT, seed)
+                .camera_from_part;
+            let mut nearer = placed;
+            nearer.translation.z -= 0.01;
+            let z = placed.translation.z;
+            let moved = !inside(part.mesh(), &nearer, MARGIN);
+            assert!(!moved || z < 1.9, "moved back to {z}");
+        }
+    }
+}

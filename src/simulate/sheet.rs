@@ -1,0 +1,213 @@
+//! Pressed sheet: a flat region lifted into space, its edges folded back.
+//!
+//! The region is trimmed out of a square grid by marching squares (Lorensen and Cline, "Marching Cubes: A High
+//! Resolution 3D Surface Construction Algorithm", SIGGRAPH 1987, in two dimensions), with every edge vertex
+//! bisected onto the true outline, so outlines are smooth at any grid spacing. A web narrower than the spacing may
+//! be lost, and a corner sharper than the spacing is cut off: choose the spacing by the narrowest web.
+
+use nalgebra::{Point3, Vector3};
+
+use super::assembly::Assembly;
+use super::region::Region;
+
+/// How far the edge vertices keep from the grid's own nodes, as a share of the spacing: no needle-thin triangles.
+const SNAP: f64 = 0.04;
+/// Outer radius of a fold, metres: about three times the thickness of body sheet.
+const FOLD_RADIUS: f64 = 0.003;
+
+/// A sheet to be pressed. `u` runs to the right and `v` down as the viewer of the paint side sees it.
+pub(super) struct Sheet<'a> {
+    /// The flat shape.
+    pub(super) region: &'a Region,
+    /// Smallest and largest u and v that the region may reach.
+    pub(super) u_range: (f64, f64),
+    /// See `u_range`.
+    pub(super) v_range: (f64, f64),
+    /// Grid spacing, metres.
+    pub(super) spacing: f64,
+    /// Where a flat point goes.
+    pub(super) lift: &'a dyn Fn(f64, f64) -> Point3<f64>,
+    /// How deep the edge at a flat point is folded back, metres; 0 leaves it raw.
+    pub(super) fold: &'a dyn Fn(f64, f64) -> f64,
+}
+
+/// A vertex on the outline and its flat coordinates.
+#[derive(Clone, Copy)]
+struct EdgeVertex {
+    index: u32,
+    u: f64,
+    v: f64,
+}
+
+/// One vertex of a trimmed cell.
+#[derive(Clone, Copy)]
+enum CellVertex {
+    Inner(u32),
+    Edge(EdgeVertex),
+}
+
+impl CellVertex {
+    fn index(self) -> u32 {
+        match self {
+            Self::Inner(index) => index,
+            Self::Edge(edge) => edge.index,
+        }
+    }
+}
+
+impl Sheet<'_> {
+    /// Adds the sheet to the part.
+    pub(super) fn press_into(&self, assembly: &mut Assembly) {
+        let columns = (((self.u_range.1 - self.u_range.0) / self.spacing).ceil() as usize).max(1);
+        let rows = (((self.v_range.1 - self.v_range.0) / self.spacing).ceil() as usize).max(1);
+        let step_u = (self.u_range.1 - self.u_range.0) / columns as f64;
+        let step_v = (self.v_range.1 - self.v_range.0) / rows as f64;
+        let flat = |column: usize, row: usize| {
+            (
+                self.u_range.0 + column as f64 * step_u,
+                self.v_range.0 + row as f64 * step_v,
+            )
+        };
+        let stride = columns + 1;
+        let mut distances = Vec::with_capacity(stride * (rows + 1));
+        let mut nodes = Vec::with_capacity(stride * (rows + 1));
+        for row in 0..=rows {
+            for column in 0..=columns {
+                let (u, v) = flat(column, row);
+                let distance = self.region.distance(u, v);
+                distances.push(distance);
+                nodes.push((distance < 0.0).then(|| assembly.vertex((self.lift)(u, v))));
+            }
+        }
+        // Vertices where the outline crosses a grid edge: to the right of a node, and below it.
+        let mut crossings: [Vec<Option<EdgeVertex>>; 2] =
+            [vec![None; nodes.len()], vec![None; nodes.len()]];
+        let mut edges = Vec::new();
+        let mut cell = Vec::with_capacity(8);
+        for row in 0..rows {
+            for column in 0..columns {
+                let corners = [
+                    (column, row),
+                    (column + 1, row),
+                    (column + 1, row + 1),
+                    (column, row + 1),
+                ];
+                cell.clear();
+                for k in 0..4 {
+                    let (here, next) = (corners[k], corners[(k + 1) % 4]);
+                    let (i, j) = (here.1 * stride + here.0, next.1 * stride + next.0);
+                    if let Some(index) = nodes[i] {
+                        cell.push(CellVertex::Inner(index));
+                    }
+                    if nodes[i].is_some() != nodes[j].is_some() {
+                        let slot = &mut crossings[k % 2][i.min(j)];
+                        let crossing = *slot.get_or_insert_with(|| {
+                            let (inside, outside) = if distances[i] < 0.0 {
+                                (here, next)
+                            } else {
+                                (next, here)
+                            };
+                            self.outline_vertex(
+                                assembly,
+                                flat(inside.0, inside.1),
+                                flat(outside.0, outside.1),
+                            )
+                        });
+                        cell.push(CellVertex::Edge(crossing));
+                    }
+                }
+                for k in 1..cell.len().saturating_sub(1) {
+                    // Against the walk: u × v points away from the viewer, the paint side towards him.
+                    assembly.triangle([cell[0].index(), cell[k + 1].index(), cell[k].index()]);
+                }
+                for k in 0..cell.len() {
+                    if let (CellVertex::Edge(a), CellVertex::Edge(b)) =
+                        (cell[k], cell[(k + 1) % cell.len()])
+                    {
+                        // The walk leaves the region at `a` and is back in it at `b`.
+                        edges.push((a, b));
+                    }
+                }
+            }
+        }
+        self.fold_edges(assembly, &edges);
+    }
+
+    /// The point of the outline between two neighbouring nodes, as a new vertex.
+    fn outline_vertex(
+        &self,
+        assembly: &mut Assembly,
+        inside: (f64, f64),
+        outside: (f64, f64),
+    ) -> EdgeVertex {
+        let at = |t: f64| {
+            (
+                inside.0 + (outside.0 - inside.0) * t,
+                inside.1 + (outside.1 - inside.1) * t,
+            )
+        };
+        let (mut low, mut high) = (0.0, 1.0);
+        for _ in 0..9 {
+            let middle = 0.5 * (low + high);
+            let (u, v) = at(middle);
+            if self.region.distance(u, v) < 0.0 {
+                low = middle;
+            } else {
+                high = middle;
+            }
+        }
+        let (u, v) = at((0.5 * (low + high)).clamp(SNAP, 1.0 - SNAP));
+        EdgeVertex {
+            index: assembly.vertex((self.lift)(u, v)),
+            u,
+            v,
+        }
+    }
+
+    /// Folds the outline back: a small radius, then a flange against the paint side's normal.
+    fn fold_edges(&self, assembly: &mut Assembly, edges: &[(EdgeVertex, EdgeVertex)]) {
+        let mut rings: std::collections::HashMap<u32, Option<[u32; 3]>> =
+            std::collections::HashMap::new();
+        for (a, b) in edges {
+            let mut ring_of = |vertex: &EdgeVertex| {
+                *rings
+                    .entry(vertex.index)
+                    .or_insert_with(|| self.fold_ring(assembly, vertex))
+            };
+            let (Some(ring_a), Some(ring_b)) = (ring_of(a), ring_of(b)) else {
+                continue;
+            };
+            let strip_a = [a.index, ring_a[0], ring_a[1], ring_a[2]];
+            let strip_b = [b.index, ring_b[0], ring_b[1], ring_b[2]];
+            for k in 0..3 {
+                assembly.quad([strip_a[k], strip_b[k], strip_b[k + 1], strip_a[k + 1]]);
+            }
+        }
+    }
+
+    /// The vertices of the fold behind one vertex of the outline; `None` where the edge stays raw.
+    fn fold_ring(&self, assembly: &mut Assembly, vertex: &EdgeVertex) -> Option<[u32; 3]> {
+        let EdgeVertex { u, v, .. } = *vertex;
+        let depth = (self.fold)(u, v);
+        if depth <= FOLD_RADIUS {
+            return None;
+        }
+        // Half a millimetre is small against every radius and large against rounding.
+        let h = 5e-4;
+        let along_u = ((self.lift)(u + h, v) - (self.lift)(u - h, v)) / (2.0 * h);
+        let along_v = ((self.lift)(u, v + h) - (self.lift)(u, v - h)) / (2.0 * h);
+        let towards_viewer = along_v.cross(&along_u).normalize();
+        let slope_u = self.region.distance(u + h, v) - self.region.distance(u - h, v);
+        let slope_v = self.region.distance(u, v + h) - self.region.distance(u, v - h);
+        let outwards = along_u * slope_u + along_v * slope_v;
+        let outwards = outwards.try_normalize(1e-12).unwrap_or_else(Vector3::zeros);
+        let edge = (self.lift)(u, v);
+        let mut ring =
+            |out: f64, back: f64| assembly.vertex(edge + outwards * out - towards_viewer * back);
+        Some([
+            ring(0.7 * FOLD_RADIUS, 0.3 * FOLD_RADIUS),
+            ring(FOLD_RADIUS, FOLD_RADIUS),
+            ring(FOLD_RADIUS, depth),
+        ])
+    }
+}

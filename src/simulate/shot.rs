@@ -1,0 +1,127 @@
+//! A simulated frame and the truth about it.
+
+use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion};
+use serde::{Deserialize, Deserializer, Serialize, Serializer};
+
+use super::cell::{Cell, CellSetup, Subject};
+use super::part::PartKind;
+use super::rasteriser::{Rendering, SurfaceLabel};
+use super::sensor::sense;
+use crate::capture::frame::{DepthFrame, Intrinsics};
+use crate::geometry::mesh::TriangleMesh;
+use crate::geometry::rigid::{RigidTransform, row_major};
+
+/// What is known about a simulated frame.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Truth {
+    /// What hangs before the camera.
+    pub subject: Subject,
+    /// Maps the part's coordinates to the camera's; written as 16 numbers, row after row.
+    #[serde(with = "sixteen_numbers")]
+    pub camera_from_part: RigidTransform,
+    /// Whether all of the part lies within the frame. Something may still stand before it.
+    pub fully_visible: bool,
+    /// Pixels that show the part, as a share of those that would with nothing before it and a frame without edges.
+    pub visible_share: f64,
+    /// What each pixel shows, row by row from the top left, before any noise: a pixel without a reading still has
+    /// its label.
+    #[serde(skip)]
+    pub labels: Vec<SurfaceLabel>,
+}
+
+impl Truth {
+    /// The part, if it is one of the eight.
+    pub fn part(&self) -> Option<PartKind> {
+        match self.subject {
+            Subject::Part { kind, .. } => Some(kind),
+            Subject::Object(_) => None,
+        }
+    }
+}
+
+/// A frame as the sensor delivers it, with the truth about it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SimulatedFrame {
+    /// The frame.
+    pub frame: DepthFrame,
+    /// The truth.
+    pub truth: Truth,
+}
+
+/// Builds the subject, arranges the cell, and takes one frame of it.
+pub fn frame(setup: &CellSetup) -> SimulatedFrame {
+    frame_of_mesh(setup, &setup.subject.mesh())
+}
+
+/// As [`frame`], with the subject's mesh already built: for many frames of one subject.
+pub fn frame_of_mesh(setup: &CellSetup, mesh: &TriangleMesh) -> SimulatedFrame {
+    let cell = Cell::arrange(setup, mesh);
+    let mut rendering = Rendering::new(setup.intrinsics);
+    cell.draw_part(&mut rendering);
+    let num_alone = if cell.fits_frame {
+        rendering.num_pixels(SurfaceLabel::Part)
+    } else {
+        num_pixels_without_edges(&cell, &setup.intrinsics)
+    };
+    cell.draw_rest(&mut rendering);
+    let num_visible = rendering.num_pixels(SurfaceLabel::Part);
+    SimulatedFrame {
+        frame: sense(&rendering, &setup.noise),
+        truth: Truth {
+            subject: setup.subject,
+            camera_from_part: cell.camera_from_part,
+            fully_visible: cell.fits_frame,
+            visible_share: num_visible as f64 / num_alone.max(1) as f64,
+            labels: rendering.labels,
+        },
+    }
+}
+
+/// The part's pixels in a picture three times as wide and high: all of them, unless it nearly touches the camera.
+fn num_pixels_without_edges(cell: &Cell<'_>, camera: &Intrinsics) -> usize {
+    let mut rendering = Rendering::new(Intrinsics {
+        width: 3 * camera.width,
+        height: 3 * camera.height,
+        cx: camera.cx + camera.width as f64,
+        cy: camera.cy + camera.height as f64,
+        ..*camera
+    });
+    cell.draw_part(&mut rendering);
+    rendering.num_pixels(SurfaceLabel::Part)
+}
+
+/// A rigid transform as its 4×4 matrix.
+mod sixteen_numbers {
+    use super::{
+        Deserialize, Deserializer, Isometry3, Matrix3, RigidTransform, Rotation3, Serialize,
+        Serializer, Translation3, UnitQuaternion, row_major,
+    };
+
+    pub(super) fn serialize<S: Serializer>(
+        transform: &RigidTransform,
+        serializer: S,
+    ) -> Result<S::Ok, S::Error> {
+        row_major(transform).serialize(serializer)
+    }
+
+    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
+        deserializer: D,
+    ) -> Result<RigidTransform, D::Error> {
+        let m = <[f64; 16]>::deserialize(deserializer)?;
+        let rotation = Matrix3::new(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]);
+        let is_rotation = (rotation.transpose() * rotation - Matrix3::identity()).norm() < 1e-6
+            && rotation.determinant() > 0.0
+            && [m[3], m[7], m[11]].iter().all(|x| x.is_finite());
+        if !is_rotation {
+            return Err(serde::de::Error::custom(
+                "the 16 numbers are not a rigid transform",
+            ));
+        }
+        let rotation =
+            UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation));
+        Ok(Isometry3::from_parts(
+            Translation3::new(m[3], m[7], m[11]),
+            rotation,
+        ))
+    }
+}

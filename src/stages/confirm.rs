@@ -1,0 +1,329 @@
+//! Confirmation: the best few of the ranking are put where they would have to be, and looked for there.
+//!
+//! Outlines are alike where parts are not, and fail where a part is half hidden. So every placement of the best-ranked
+//! references becomes a start of a pose, refined coarsely; each reference's best is refined further, and its score
+//! then follows from distances and from what the camera sees: is the scene's part on the reference, and is the
+//! reference in the scene?
+
+use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
+use rand::{SeedableRng as _, seq::SliceRandom as _};
+use rand_pcg::Pcg64;
+
+use crate::{
+    geometry::rigid::{RigidTransform, pose_error},
+    stages::{
+        pose::{
+            PoseError, PoseEstimate, PoseMethod, RunnerUp,
+            global::{Level, Refined, Source, Target, cost, refine},
+            quality::{Fit, Tolerance, look_for, measure_fit},
+        },
+        rank::{MatchEntry, MatchRanking, Placement, Query},
+        reference::Reference,
+        scene::SceneCloud,
+        segment::SegmentedPart,
+    },
+    units::Metres,
+};
+
+/// Parameters of [`confirm`].
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
+pub struct ConfirmParams {
+    /// References looked at, 1..20. Raising it costs about 1.5 ms each and helps parts half hidden.
+    pub num_references: usize,
+    /// Distance from a reference at which a scene point without noise still lies on it, 2..50 mm.
+    pub tolerance: Metres,
+    /// Seed for thinning the points.
+    pub seed: u64,
+}
+
+impl Default for ConfirmParams {
+    fn default() -> Self {
+        Self {
+            num_references: 5,
+            tolerance: Metres::from_mm(10.0),
+            seed: 1,
+        }
+    }
+}
+
+/// A scene's part as the confirmation sees it.
+#[derive(Clone, Copy, Debug)]
+pub struct Scene<'a> {
+    /// All points, to look for a reference among them.
+    pub scene: &'a SceneCloud,
+    /// The part's points.
+    pub part: &'a SegmentedPart,
+    /// Their image, contour and signature.
+    pub query: Query<'a>,
+}
+
+/// From coarse to fine: the first level is run for every placement, the second for the best of each reference,
+/// the third for the winner. Scales begin at what a placement is off by.
+const FIRST: [Level; 2] = [
+    Level {
+        num_surface: 150,
+        num_edges: 48,
+        scale: 0.04,
+        max_steps: 5,
+    },
+    Level {
+        num_surface: 150,
+        num_edges: 48,
+        scale: 0.02,
+        max_steps: 4,
+    },
+];
+const SECOND: [Level; 1] = [Level {
+    num_surface: 500,
+    num_edges: 96,
+    scale: 0.012,
+    max_steps: 8,
+}];
+const THIRD: [Level; 1] = [Level {
+    num_surface: 2000,
+    num_edges: 256,
+    scale: 0.008,
+    max_steps: 12,
+}];
+/// Distance at which a point counts as plainly off, metres.
+const COST_LIMIT: f64 = 0.04;
+/// Scene points on which the figures of a fit are taken.
+const NUM_MEASURED: usize = 1000;
+
+/// Re-orders the ranking by the confirmed scores, and gives the pose of the first.
+pub fn confirm(
+    scene: &Scene<'_>,
+    references: &[Reference],
+    ranking: MatchRanking,
+    params: &ConfirmParams,
+) -> (MatchRanking, Result<PoseEstimate, PoseError>) {
+    let source = thinned_source(scene, params);
+    if source.surface.len() < 20 {
+        let error = PoseError::TooFewPoints {
+            which: "source",
+            found: source.surface.len(),
+            needed: 20,
+        };
+        return (ranking, Err(error));
+    }
+    let tolerance = Tolerance {
+        base: params.tolerance,
+        noise_at_1m: scene.part.noise_at_1m,
+    };
+    let mut confirmed: Vec<(MatchEntry, Option<Candidate>)> =
+        Vec::with_capacity(ranking.entries.len());
+    for (position, mut entry) in ranking.entries.into_iter().enumerate() {
+        let reference = &references[entry.reference];
+        let candidate = (position < params.num_references)
+            .then(|| best_candidate(scene, &source, reference, &entry.placements, tolerance))
+            .flatten();
+        // A reference that was not looked at keeps its place behind those that were.
+        entry.score = candidate
+            .as_ref()
+            .map_or(entry.score * UNCONFIRMED, |c| c.score);
+        confirmed.push((entry, candidate));
+    }
+    confirmed.sort_by(|a, b| b.0.score.total_cmp(&a.0.score));
+    let pose = match confirmed.first() {
+        Some((entry, Some(best))) => Ok(finish(
+            scene,
+            &source,
+            &references[entry.reference],
+            best,
+            tolerance,
+        )),
+        _ => Err(PoseError::NoReferenceCloud),
+    };
+    let entries = confirmed.into_iter().map(|c| c.0).collect();
+    (MatchRanking { entries }, pose)
+}
+
+/// What a ranking's score is worth when the part was not looked for.
+const UNCONFIRMED: f64 = 0.3;
+
+struct Candidate {
+    refined: Refined,
+    edges: Vec<Point3<f32>>,
+    score: f64,
+    runner_up: Option<RunnerUp>,
+}
+
+/// Thins part and edges at random, so that any first n of them are spread over the part.
+fn thinned_source(scene: &Scene<'_>, params: &ConfirmParams) -> Source {
+    let mut rng = Pcg64::seed_from_u64(params.seed);
+    let points = &scene.part.cloud.points;
+    let wanted = THIRD[0].num_surface.max(NUM_MEASURED);
+    let mut surface: Vec<Point3<f32>> = points
+        .iter()
+        .step_by((points.len() / wanted).max(1))
+        .copied()
+        .collect();
+    surface.shuffle(&mut rng);
+    let camera_from_plane = scene.query.plane.plane_from_camera.inverse();
+    let lifted = scene.query.contour.lifted(scene.query.plane);
+    let mut edges: Vec<Point3<f32>> = lifted
+        .iter()
+        .step_by((lifted.len() / 300).max(1))
+        .map(|p| (camera_from_plane * p).cast())
+        .collect();
+    edges.shuffle(&mut rng);
+    Source { surface, edges }
+}
+
+fn best_candidate(
+    scene: &Scene<'_>,
+    source: &Source,
+    reference: &Reference,
+    placements: &[Placement],
+    tolerance: Tolerance,
+) -> Option<Candidate> {
+    if reference.cloud.points.is_empty() {
+        return None;
+    }
+    let mut tried: Vec<(f64, Refined, Vec<Point3<f32>>)> = placements
+        .iter()
+        .map(|placement| {
+            let edges = edges_of(reference, placement.view);
+            let target = Target {
+                cloud: &reference.cloud,
+                tree: &reference.tree,
+                edges: &edges,
+            };
+            let refined = refine(
+                source,
+                &target,
+                &start_of(scene, reference, placement),
+                &FIRST,
+            );
+            let cost = cost(
+                source,
+                &target,
+                &refined.target_from_source,
+                &FIRST[1],
+                COST_LIMIT,
+            );
+            (cost, refined, edges)
+        })
+        .collect();
+    tried.sort_by(|a, b| a.0.total_cmp(&b.0));
+    let mut tried = tried.into_iter();
+    let (best_cost, coarse, edges) = tried.next()?;
+    let centre = centre_of(&source.surface);
+    let runner_up = tried
+        .find(|t| is_different(&coarse.target_from_source, &t.1.target_from_source, &centre))
+        .map(|t| RunnerUp {
+            target_from_source: t.1.target_from_source,
+            ratio: t.0 / best_cost.max(f64::MIN_POSITIVE),
+        });
+    let target = Target {
+        cloud: &reference.cloud,
+        tree: &reference.tree,
+        edges: &edges,
+    };
+    let mut refined = refine(source, &target, &coarse.target_from_source, &SECOND);
+    refined.iterations.splice(0..0, coarse.iterations);
+    let fit = fit_of(
+        scene,
+        source,
+        &target,
+        &refined.target_from_source,
+        tolerance,
+    );
+    Some(Candidate {
+        score: score_of(&fit),
+        refined,
+        edges,
+        runner_up,
+    })
+}
+
+/// The winner, refined to the end.
+fn finish(
+    scene: &Scene<'_>,
+    source: &Source,
+    reference: &Reference,
+    best: &Candidate,
+    tolerance: Tolerance,
+) -> PoseEstimate {
+    let target = Target {
+        cloud: &reference.cloud,
+        tree: &reference.tree,
+        edges: &best.edges,
+    };
+    let last = refine(source, &target, &best.refined.target_from_source, &THIRD);
+    let mut iterations = best.refined.iterations.clone();
+    iterations.extend(last.iterations);
+    PoseEstimate {
+        target_from_source: last.target_from_source,
+        method: PoseMethod::Global,
+        stopped: last.stopped,
+        iterations,
+        fit: fit_of(scene, source, &target, &last.target_from_source, tolerance),
+        runner_up: best.runner_up,
+    }
+}
+
+/// The pose that a placement in the plane stands for.
+fn start_of(scene: &Scene<'_>, reference: &Reference, placement: &Placement) -> RigidTransform {
+    let view = &reference.views[placement.view];
+    let flat = view.scene_plane_from_view_plane(placement.turn, &scene.query.signature.centroid);
+    let scene_plane_from_view_plane = Isometry3::from_parts(
+        Translation3::new(flat.translation.x, flat.translation.y, 0.0),
+        UnitQuaternion::from_axis_angle(&Vector3::z_axis(), flat.rotation.angle()),
+    );
+    view.plane_from_part.inverse()
+        * scene_plane_from_view_plane.inverse()
+        * scene.query.plane.plane_from_camera
+}
+
+fn edges_of(reference: &Reference, view: usize) -> Vec<Point3<f32>> {
+    let edges = &reference.views[view].boundary;
+    edges
+        .iter()
+        .step_by((edges.len() / 400).max(1))
+        .map(|p| p.cast())
+        .collect()
+}
+
+fn centre_of(points: &[Point3<f32>]) -> Point3<f64> {
+    let sum = points
+        .iter()
+        .fold(Vector3::zeros(), |sum: Vector3<f64>, p| {
+            sum + p.coords.cast::<f64>()
+        });
+    Point3::from(sum / points.len().max(1) as f64)
+}
+
+/// Poses further apart than a refinement would still close.
+fn is_different(a: &RigidTransform, b: &RigidTransform, at: &Point3<f64>) -> bool {
+    let apart = pose_error(a, b, at);
+    apart.rotation.degrees() > 10.0 || apart.shift.mm() > 50.0
+}
+
+fn fit_of(
+    scene: &Scene<'_>,
+    source: &Source,
+    target: &Target<'_>,
+    target_from_source: &RigidTransform,
+    tolerance: Tolerance,
+) -> Fit {
+    let measured = &source.surface[..NUM_MEASURED.min(source.surface.len())];
+    Fit {
+        sight: look_for(
+            target,
+            &target_from_source.inverse(),
+            scene.scene,
+            tolerance,
+        ),
+        ..measure_fit(measured, target, target_from_source, tolerance)
+    }
+}
+
+/// 0..1: both the scene's part on the reference and the reference in the scene.
+fn score_of(fit: &Fit) -> f64 {
+    let present = fit.sight.map_or(1.0, |s| {
+        s.confirmed / (s.confirmed + s.missing + s.hidden * 0.5).max(1e-9)
+    });
+    (fit.overlap * present).sqrt()
+}
