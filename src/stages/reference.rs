@@ -112,7 +112,7 @@ impl Reference {
         let tree = KdTree::new(&cloud.points);
         let views: Vec<ReferenceView> = viewpoints(&cloud, coverage)?
             .iter()
-            .filter_map(|viewpoint| ReferenceView::from_viewpoint(&cloud, viewpoint, params))
+            .filter_map(|viewpoint| ReferenceView::from_viewpoint(&cloud, &tree, viewpoint, params))
             .collect();
         let literal = LiteralReference::new(&views.first()?.signature.literal);
         let field = NearestField::new(&cloud.points, FIELD_CELL, FIELD_BAND);
@@ -154,12 +154,7 @@ impl Reference {
             tree: KdTree::new(&cloud.points),
             field: NearestField::new(&cloud.points, FIELD_CELL, FIELD_BAND),
             cloud,
-            views: vec![ReferenceView::new(
-                RigidTransform::identity(),
-                plane,
-                contour,
-                signature,
-            )],
+            views: vec![ReferenceView::new(RigidTransform::identity(), plane, contour, signature, &[])],
             literal,
         }
     }
@@ -171,15 +166,10 @@ impl ReferenceView {
         plane: PlaneImage,
         contour: Contour,
         signature: FanSignature,
+        edges: &[Point3<f32>],
     ) -> Self {
-        let part_from_plane = plane_from_part.inverse();
-        let edges: Vec<Point3<f32>> = contour
-            .lifted(&plane)
-            .iter()
-            .map(|p| (part_from_plane * p).cast())
-            .collect();
         Self {
-            edges: EdgePoints::new(&edges, NUM_EDGES),
+            edges: EdgePoints::new(edges, NUM_EDGES),
             spectrum: correlation::spectrum(&signature.rays),
             plane_from_part,
             plane,
@@ -190,6 +180,7 @@ impl ReferenceView {
 
     fn from_viewpoint(
         cloud: &PointCloud,
+        tree: &KdTree,
         viewpoint: &Point3<f64>,
         params: &ReferenceParams,
     ) -> Option<Self> {
@@ -200,11 +191,13 @@ impl ReferenceView {
         let plane = project_weighted(&points, weight, viewpoint, &params.project).ok()?;
         let contour = find_contour(&plane, &params.contour).ok()?;
         let signature = describe(&contour, &params.signature).ok()?;
+        let edges = sheet_edges(&plane, &contour, cloud, tree, viewpoint);
         Some(Self::new(
             plane.plane_from_camera,
             plane,
             contour,
             signature,
+            &edges,
         ))
     }
 
@@ -219,6 +212,34 @@ impl ReferenceView {
         let shift = scene_centroid - rotation * self.signature.centroid;
         Isometry2::from_parts(shift.into(), rotation)
     }
+}
+
+/// The surface at an edge of the sheet is seen at a cosine of at least this; less is where a rounded surface turns
+/// away, and that outline wanders over the surface as the viewpoint moves.
+const LEAST_FACING_AT_EDGE: f64 = 0.5;
+
+/// The points of outline and openings, in the cloud's space, where the sheet itself ends.
+fn sheet_edges(
+    plane: &PlaneImage,
+    contour: &Contour,
+    cloud: &PointCloud,
+    tree: &KdTree,
+    viewpoint: &Point3<f64>,
+) -> Vec<Point3<f32>> {
+    let cloud_from_plane = plane.plane_from_camera.inverse();
+    let is_sheet_edge = |p: &Point3<f32>| {
+        let Some((nearest, normals)) = tree.nearest(p, f32::INFINITY).zip(cloud.normals.as_ref()) else {
+            return true;
+        };
+        let towards = (viewpoint - p.cast::<f64>()).normalize();
+        normals[nearest.index].cast::<f64>().dot(&towards) >= LEAST_FACING_AT_EDGE
+    };
+    contour
+        .lifted(plane)
+        .iter()
+        .map(|p| (cloud_from_plane * p).cast())
+        .filter(is_sheet_edge)
+        .collect()
 }
 
 /// Places from which the part is looked at.
