@@ -154,7 +154,13 @@ impl Reference {
             tree: KdTree::new(&cloud.points),
             field: NearestField::new(&cloud.points, FIELD_CELL, FIELD_BAND),
             cloud,
-            views: vec![ReferenceView::new(RigidTransform::identity(), plane, contour, signature, &[])],
+            views: vec![ReferenceView::new(
+                RigidTransform::identity(),
+                plane,
+                contour,
+                signature,
+                &[],
+            )],
             literal,
         }
     }
@@ -228,7 +234,8 @@ fn sheet_edges(
 ) -> Vec<Point3<f32>> {
     let cloud_from_plane = plane.plane_from_camera.inverse();
     let is_sheet_edge = |p: &Point3<f32>| {
-        let Some((nearest, normals)) = tree.nearest(p, f32::INFINITY).zip(cloud.normals.as_ref()) else {
+        let Some((nearest, normals)) = tree.nearest(p, f32::INFINITY).zip(cloud.normals.as_ref())
+        else {
             return true;
         };
         let towards = (viewpoint - p.cast::<f64>()).normalize();
