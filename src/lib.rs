@@ -2,6 +2,7 @@
 
 pub mod capture;
 pub mod error;
+pub mod files;
 pub mod geometry;
 pub mod library;
 pub mod pipeline;

@@ -1,0 +1,302 @@
+//! Why a file could not be read or written, and what to do about it.
+
+use std::io;
+use std::path::{Path, PathBuf};
+
+use thiserror::Error;
+
+use crate::error::Advice;
+
+/// Why a file could not be read or written. Every variant names the file.
+#[derive(Debug, Error)]
+pub enum FileError {
+    /// Nothing is at that path.
+    #[error("{}: no such file", path.display())]
+    NotFound {
+        /// The path as it was given.
+        path: PathBuf,
+    },
+    /// The system refuses access.
+    #[error("{}: permission denied", path.display())]
+    PermissionDenied {
+        /// The file, or the folder that a file was to be written to.
+        path: PathBuf,
+    },
+    /// A folder, a pipe or a device where a file is needed.
+    #[error("{}: found a {found}, expected a file", path.display())]
+    NotAFile {
+        /// The path as it was given.
+        path: PathBuf,
+        /// "folder" or "device".
+        found: &'static str,
+    },
+    /// The file has no bytes.
+    #[error("{}: the file is empty", path.display())]
+    Empty {
+        /// The file.
+        path: PathBuf,
+    },
+    /// The content is none of the known formats.
+    #[error("{}: found {found}, expected PCD, PLY, XYZ or CSV text, STL, OBJ, glTF, GLB or a depth PNG", path.display())]
+    UnknownFormat {
+        /// The file.
+        path: PathBuf,
+        /// What its beginning looks like.
+        found: String,
+    },
+    /// A known format in a variant that is not read.
+    #[error("{}: found {found}, expected {expected}", path.display())]
+    Unsupported {
+        /// The file.
+        path: PathBuf,
+        /// The variant.
+        found: String,
+        /// The variants that are read.
+        expected: &'static str,
+    },
+    /// The file ends too early.
+    #[error("{}: the file ends early: found {found} bytes of {what}, expected {expected}", path.display())]
+    Truncated {
+        /// The file.
+        path: PathBuf,
+        /// Which part of the file is cut.
+        what: &'static str,
+        /// Bytes there.
+        found: u64,
+        /// Bytes needed; a lower bound for text.
+        expected: u64,
+    },
+    /// The header contradicts itself or cannot be understood.
+    #[error("{}: bad header: found {found}, expected {expected}", path.display())]
+    BadHeader {
+        /// The file.
+        path: PathBuf,
+        /// The words of the header.
+        found: String,
+        /// What should stand there.
+        expected: &'static str,
+    },
+    /// A line of a text format cannot be understood.
+    #[error("{}, line {line}: found {found:?}, expected {expected}", path.display())]
+    Malformed {
+        /// The file.
+        path: PathBuf,
+        /// The line, from 1.
+        line: usize,
+        /// Its beginning.
+        found: String,
+        /// What should stand there.
+        expected: &'static str,
+    },
+    /// The content behind a good header contradicts itself.
+    #[error("{}: damaged: {what}", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// The contradiction.
+        what: String,
+    },
+    /// More than is taken from one file.
+    #[error("{}: {found} {what}, at most {limit} are read", path.display())]
+    TooLarge {
+        /// The file.
+        path: PathBuf,
+        /// What there is too much of, as a plural: "points", "bytes".
+        what: &'static str,
+        /// How many the file has or claims.
+        found: u64,
+        /// How many are read.
+        limit: u64,
+    },
+    /// No point, or none with three finite coordinates.
+    #[error("{}: none of its {found} points is a reading", path.display())]
+    NoPoints {
+        /// The file.
+        path: PathBuf,
+        /// Points or pixels in the file, all of them without a reading.
+        found: usize,
+    },
+    /// A file of a mesh format without a surface in it.
+    #[error("{}: no triangles, expected a surface", path.display())]
+    NoTriangles {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A mesh was asked for by a name that the file does not have.
+    #[error("{}: no mesh named {wanted:?}; it has {}", path.display(), name_list(available))]
+    NoSuchMesh {
+        /// The file, without the name.
+        path: PathBuf,
+        /// The name after `#`.
+        wanted: String,
+        /// The names there are, in the file's order; empty for a format without named meshes.
+        available: Vec<String>,
+    },
+    /// The file has several meshes and none was named.
+    #[error("{}: {} meshes, expected one name after '#'; it has {}", path.display(), available.len(), name_list(available))]
+    NeedsMeshName {
+        /// The file.
+        path: PathBuf,
+        /// The names there are, in the file's order.
+        available: Vec<String>,
+    },
+    /// A depth PNG without the description of its camera.
+    #[error("{}: a depth image, expected its intrinsics in {}", path.display(), json.display())]
+    MissingIntrinsics {
+        /// The image.
+        path: PathBuf,
+        /// Where the intrinsics were looked for.
+        json: PathBuf,
+    },
+    /// The description of the camera cannot be used.
+    #[error("{}: bad intrinsics: {found}", path.display())]
+    BadIntrinsics {
+        /// The JSON.
+        path: PathBuf,
+        /// What is wrong with it.
+        found: String,
+    },
+    /// A PNG of another kind than 16-bit greyscale.
+    #[error("{}: found a PNG of {found}, expected 16-bit greyscale depth", path.display())]
+    WrongPngKind {
+        /// The image.
+        path: PathBuf,
+        /// Its kind of pixel.
+        found: String,
+    },
+    /// A cloud was to be saved under a name whose ending names no format that is written.
+    #[error("{}: no format to write for this name, expected .pcd, .ply or .xyz", path.display())]
+    UnknownEnding {
+        /// The path as it was given.
+        path: PathBuf,
+    },
+    /// The system could not read.
+    #[error("{}: cannot read: {source}", path.display())]
+    Read {
+        /// The file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The system could not write; nothing was changed at that path.
+    #[error("{}: cannot write: {source}", path.display())]
+    Write {
+        /// The path that was to be written.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+}
+
+impl FileError {
+    /// The variant for what the system said on reading.
+    pub(super) fn reading(path: &Path, source: io::Error) -> Self {
+        let path = path.to_owned();
+        match source.kind() {
+            io::ErrorKind::NotFound => Self::NotFound { path },
+            io::ErrorKind::PermissionDenied => Self::PermissionDenied { path },
+            io::ErrorKind::IsADirectory => Self::NotAFile {
+                path,
+                found: "folder",
+            },
+            _ => Self::Read { path, source },
+        }
+    }
+
+    /// The variant for what the system said on writing.
+    pub(super) fn writing(path: &Path, source: io::Error) -> Self {
+        let path = path.to_owned();
+        match source.kind() {
+            io::ErrorKind::PermissionDenied => Self::PermissionDenied { path },
+            _ => Self::Write { path, source },
+        }
+    }
+}
+
+impl Advice for FileError {
+    fn advice(&self) -> String {
+        match self {
+            Self::NotFound { .. } => {
+                "Check the name and that the drive or stick is connected".into()
+            }
+            Self::PermissionDenied { .. } => {
+                "Ask for access to this folder, or copy the file to a folder of your own".into()
+            }
+            Self::NotAFile { .. } => "Choose a file, not a folder or a device".into(),
+            Self::Empty { .. } => {
+                "Record or export the file again; its last copy was not completed".into()
+            }
+            Self::UnknownFormat { .. } => {
+                "Export the cloud as PCD or PLY, or the part as STL, OBJ or glTF, and open that"
+                    .into()
+            }
+            Self::Unsupported { expected, .. } => format!("Export the file again as {expected}"),
+            Self::Truncated { .. } => {
+                "Copy or export the file again; the last copy stopped half-way".into()
+            }
+            Self::BadHeader { .. } | Self::Damaged { .. } => {
+                "Export the file again from the program that made it".into()
+            }
+            Self::Malformed { line, .. } => {
+                format!(
+                    "Open the file in a text editor and correct line {line}, or export it again"
+                )
+            }
+            Self::TooLarge { .. } => {
+                "Thin the cloud out, or cut away what is not the part, and export it again".into()
+            }
+            Self::NoPoints { .. } => {
+                "Check that the camera saw the part, between 0.5 m and 4 m away, and capture again"
+                    .into()
+            }
+            Self::NoTriangles { .. } => {
+                "Export the part as a surface of triangles, not as curves or points".into()
+            }
+            Self::NoSuchMesh {
+                path, available, ..
+            } => match available.first() {
+                Some(first) => format!(
+                    "Add one of the names it has, for example {}#{first}",
+                    path.display()
+                ),
+                None => format!("Open {} without a name after '#'", path.display()),
+            },
+            Self::NeedsMeshName { path, available } => format!(
+                "Add the name of one mesh after '#', for example {}#{}",
+                path.display(),
+                available.first().map_or("NAME", String::as_str)
+            ),
+            Self::MissingIntrinsics { json, .. } => {
+                format!(
+                    "Put the camera's numbers into {}, for example {EXAMPLE_JSON}",
+                    json.display()
+                )
+            }
+            Self::BadIntrinsics { path, .. } => {
+                format!("Correct {}, for example to {EXAMPLE_JSON}", path.display())
+            }
+            Self::WrongPngKind { .. } => {
+                "Save the depth image itself as 16-bit greyscale PNG, not the picture drawn from it"
+                    .into()
+            }
+            Self::UnknownEnding { .. } => "End the name in .pcd, .ply or .xyz".into(),
+            Self::Read { .. } => {
+                "Copy the file to this computer's own disk and open the copy".into()
+            }
+            Self::Write { .. } => {
+                "Check that the disk is not full and that the folder exists, then save again".into()
+            }
+        }
+    }
+}
+
+/// A Kinect with depth in millimetres, as it stands in the JSON beside a depth image.
+const EXAMPLE_JSON: &str = r#"{"width":640,"height":480,"fx":525.0,"fy":525.0,"cx":319.5,"cy":239.5,"metres_per_unit":0.001}"#;
+
+fn name_list(names: &[String]) -> String {
+    if names.is_empty() {
+        "no named meshes".into()
+    } else {
+        names.join(", ")
+    }
+}

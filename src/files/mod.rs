@@ -1,0 +1,53 @@
+//! Reading clouds, meshes and depth frames from files, known by their content, and writing them.
+//!
+//! | format | read as | source of the facts |
+//! | --- | --- | --- |
+//! | PCD 0.5-0.7: ascii, binary, `binary_compressed` | cloud | the Point Cloud Library's `PCD_V7` page and `pcd_io.cpp` |
+//! | PLY: ascii, binary of either byte order | cloud, or mesh if it has faces | G. Turk, *The PLY Polygon File Format*, 1994 |
+//! | XYZ and CSV text | cloud | no standard; see [`xyz`] |
+//! | STL: ascii, binary | mesh | 3D Systems, *Stereolithography Interface Specification*, 1989 |
+//! | OBJ | mesh, or cloud without faces | Wavefront *Advanced Visualizer*, appendix B1 |
+//! | glTF 2.0, GLB | one mesh, chosen by `#name` | Khronos, *glTF 2.0 Specification* |
+//! | 16-bit depth PNG with a JSON of intrinsics beside it | depth frame | see [`depth_png`] |
+//!
+//! Lengths are taken as metres, whatever the file meant: none of the cloud formats says its unit.
+//! [`Opened::warnings`] tells when the numbers look like millimetres.
+//!
+//! Every size that a header claims is held against the bytes really there before memory is taken for it.
+//!
+//! # Whose readers
+//! PNG, JSON, base64 and the glTF document are read by libraries. The rest is read here, because the libraries tried
+//! could not do the job: `pcd-rs` makes two allocations a point and panics when a compressed block is shorter than its
+//! header says; `ply-rs-bw` refuses `nan` in ascii rows and the property names that `CloudCompare` writes; `stl_io`
+//! takes a binary file that begins with "solid " for text and drops every solid after the first; `tobj` gives nothing
+//! for an OBJ without faces; none of the last two can say which line is wrong.
+
+pub mod depth_png;
+mod error;
+mod gltf;
+mod obj;
+mod open;
+pub mod pcd;
+pub mod ply;
+mod readings;
+mod scalar;
+mod source;
+mod stl;
+mod surface;
+mod write;
+pub mod xyz;
+
+pub use self::depth_png::write_depth_png;
+pub use self::error::FileError;
+pub use self::open::{FileWarning, Opened, open};
+pub use self::pcd::write_pcd;
+pub use self::ply::write_ply;
+pub use self::write::{save_cloud, write_atomically};
+pub use self::xyz::write_xyz;
+
+/// The most points, vertices, triangles or pixels taken from one file: 160 full Kinect frames. Above it a header is
+/// wrong far more often than a cell has such a camera, and one `PointCloud` would pass a gigabyte.
+pub const MAX_POINTS: usize = 50_000_000;
+
+/// The largest file read, in bytes. 50 million points with normals and colours are 1.6 GB in binary.
+pub const MAX_FILE_BYTES: u64 = 2 << 30;

@@ -1,0 +1,87 @@
+//! PCD, the Point Cloud Library's own format: a header of text lines, then rows (ascii, binary) or LZF-packed columns
+//! (`binary_compressed`).
+//!
+//! Facts from the Point Cloud Library: its page `PCD_V7` and `io/src/pcd_io.cpp`. x, y, z may have any number type;
+//! `normal_x/y/z`, `rgb` or `rgba` (0xAARRGGBB in four bytes, of whichever type) and `label` are kept, other fields
+//! skipped. `HEIGHT` above 1 makes the cloud organised.
+//!
+//! `VIEWPOINT` is read over on purpose. It says where the sensor was in some world, while the points stay in the
+//! camera's space, and that is the space in which everything here works.
+//!
+//! Deviation: a packed block without its end is refused as a whole, where the library fills up with zeros.
+
+mod body;
+mod header;
+mod lzf;
+mod write;
+
+pub use self::write::write_pcd;
+
+use nalgebra::Vector3;
+
+use super::error::FileError;
+use super::readings::{points_from, tidy};
+use super::source::Source;
+use crate::geometry::cloud::PointCloud;
+
+use self::body::Body;
+use self::header::Header;
+
+/// True if the first line that is not a comment begins a PCD header.
+pub(super) fn is_pcd(source: Source<'_>) -> bool {
+    // What follows may be binary, and one line of it as long as the file.
+    let beginning = source.bytes.get(..4096).unwrap_or(source.bytes);
+    let lines = Source {
+        bytes: beginning,
+        ..source
+    }
+    .lines();
+    let mut lines = lines.map(|(_, line)| line);
+    lines
+        .find(|line| !line.is_empty() && !line.starts_with('#'))
+        .is_some_and(|line| {
+            let keyword = line.split_whitespace().next();
+            // Before version 0.7 the version line was optional and fields were called columns.
+            matches!(keyword, Some("VERSION" | "FIELDS" | "COLUMNS"))
+        })
+}
+
+pub(super) fn read(source: Source<'_>) -> Result<PointCloud, FileError> {
+    let header = Header::parse(source)?;
+    let body = Body::read(source, &header)?;
+    let column = |name| header.field(name).map(|field| body.column(field));
+    let expected = "the fields x, y and z";
+    let coordinate =
+        |name| column(name).ok_or_else(|| source.bad_header(header.field_names(), expected));
+    let (x, y, z) = (coordinate("x")?, coordinate("y")?, coordinate("z")?);
+    let normals = (column("normal_x"), column("normal_y"), column("normal_z"));
+    let cloud = PointCloud {
+        points: points_from(&x.f32s(), &y.f32s(), &z.f32s()),
+        normals: match normals {
+            (Some(x), Some(y), Some(z)) => {
+                let rows = points_from(&x.f32s(), &y.f32s(), &z.f32s());
+                Some(
+                    rows.into_iter()
+                        .map(|row| Vector3::from(row.coords))
+                        .collect(),
+                )
+            }
+            _ => None,
+        },
+        colours: column("rgb")
+            .or_else(|| column("rgba"))
+            .filter(|packed| packed.scalar.size() == 4)
+            .map(|packed| packed.raw_u32s().into_iter().map(unpacked_colour).collect()),
+        labels: column("label").map(super::scalar::Column::u32s),
+        grid: header.grid,
+    };
+    tidy(cloud, source)
+}
+
+fn unpacked_colour(packed: u32) -> [u8; 3] {
+    let [_alpha, red, green, blue] = packed.to_be_bytes();
+    [red, green, blue]
+}
+
+#[cfg(test)]
+pub(super) mod tests;

@@ -1,0 +1,44 @@
+//! Writing a PLY file.
+
+use std::io::{self, Write};
+
+use crate::geometry::cloud::PointCloud;
+
+/// Writes a cloud as binary little-endian PLY: x y z, and where it has them `nx ny nz`, `red green blue` and `label`.
+///
+/// PLY has no grid: cells without a reading are left out, and the cloud comes back unorganised.
+pub fn write_ply(writer: &mut dyn Write, cloud: &PointCloud) -> io::Result<()> {
+    write!(
+        writer,
+        "ply\nformat binary_little_endian 1.0\ncomment metres\nelement vertex {}\n\
+         property float x\nproperty float y\nproperty float z\n",
+        cloud.num_finite()
+    )?;
+    if cloud.normals.is_some() {
+        writer.write_all(b"property float nx\nproperty float ny\nproperty float nz\n")?;
+    }
+    if cloud.colours.is_some() {
+        writer.write_all(b"property uchar red\nproperty uchar green\nproperty uchar blue\n")?;
+    }
+    if cloud.labels.is_some() {
+        writer.write_all(b"property uint label\n")?;
+    }
+    writer.write_all(b"end_header\n")?;
+    for (i, point) in cloud.finite() {
+        for coordinate in point.iter() {
+            writer.write_all(&coordinate.to_le_bytes())?;
+        }
+        if let Some(normals) = &cloud.normals {
+            for coordinate in normals[i].iter() {
+                writer.write_all(&coordinate.to_le_bytes())?;
+            }
+        }
+        if let Some(colours) = &cloud.colours {
+            writer.write_all(&colours[i])?;
+        }
+        if let Some(labels) = &cloud.labels {
+            writer.write_all(&labels[i].to_le_bytes())?;
+        }
+    }
+    Ok(())
+}

@@ -1,0 +1,34 @@
+//! From the polygons of a file to a mesh that keeps the promises of [`TriangleMesh`].
+
+use nalgebra::Point3;
+
+use super::error::FileError;
+use super::readings::MAX_COORDINATE;
+use super::source::Source;
+use crate::geometry::mesh::TriangleMesh;
+
+/// A mesh whose vertices and indices are sound, and which is not empty.
+pub(super) fn checked_mesh(
+    source: Source<'_>,
+    vertices: Vec<Point3<f32>>,
+    triangles: Vec<[u32; 3]>,
+) -> Result<TriangleMesh, FileError> {
+    if triangles.is_empty() {
+        return Err(FileError::NoTriangles {
+            path: source.path.to_owned(),
+        });
+    }
+    let is_far = |vertex: &&Point3<f32>| vertex.iter().any(|c| c.abs() > MAX_COORDINATE);
+    if let Some(far) = vertices.iter().find(is_far) {
+        return Err(source.damaged(format!("a vertex at {:e}, {:e}, {:e}", far.x, far.y, far.z)));
+    }
+    TriangleMesh::new(vertices, triangles).map_err(|error| source.damaged(error.to_string()))
+}
+
+/// Cuts a polygon into a fan of triangles about its first corner. One of less than three corners is no surface.
+pub(super) fn push_fan(polygon: &[u32], triangles: &mut Vec<[u32; 3]>) {
+    if let Some((&first, others)) = polygon.split_first() {
+        let pairs = others.windows(2).filter_map(<[u32]>::first_chunk::<2>);
+        triangles.extend(pairs.map(|&[second, third]| [first, second, third]));
+    }
+}

@@ -1,0 +1,122 @@
+//! Writing a file so that it is complete or not there.
+
+use std::fs::File;
+use std::io::{self, BufWriter, Write};
+use std::path::Path;
+
+use super::error::FileError;
+use super::{write_pcd, write_ply, write_xyz};
+use crate::geometry::cloud::PointCloud;
+
+/// Writes a file through `fill` so that `path` holds either what it held before or all of the new content, even when
+/// the power fails: a temporary file in the same folder is filled, synced and renamed.
+///
+/// The folder must exist. A link at `path` is replaced by the file.
+pub fn write_atomically(
+    path: &Path,
+    fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
+) -> Result<(), FileError> {
+    let folder = match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    };
+    let written = || -> io::Result<()> {
+        let mut builder = tempfile::Builder::new();
+        builder.prefix(".partsight-").suffix(".part");
+        #[cfg(unix)]
+        {
+            use std::os::unix::fs::PermissionsExt as _;
+            // What an ordinary new file has, less the user's mask: others on the machine may read results.
+            builder.permissions(std::fs::Permissions::from_mode(0o666));
+        }
+        let mut writer = BufWriter::new(builder.tempfile_in(folder)?);
+        fill(&mut writer)?;
+        let file = writer
+            .into_inner()
+            .map_err(io::IntoInnerError::into_error)?;
+        file.as_file().sync_all()?;
+        file.persist(path).map_err(|error| error.error)?;
+        sync_folder(folder)
+    };
+    written().map_err(|error| FileError::writing(path, error))
+}
+
+/// Makes the rename itself last. Only Unix lets a folder be opened for that; elsewhere the file system sees to it.
+fn sync_folder(folder: &Path) -> io::Result<()> {
+    if cfg!(unix) {
+        File::open(folder)?.sync_all()?;
+    }
+    Ok(())
+}
+
+/// Writes a cloud as its name ends: `.pcd` (all of it), `.ply` (all but the grid) or `.xyz` (positions only).
+pub fn save_cloud(path: &Path, cloud: &PointCloud) -> Result<(), FileError> {
+    let ending = path
+        .extension()
+        .map(|ending| ending.to_string_lossy().to_lowercase());
+    match ending.as_deref() {
+        Some("pcd") => write_atomically(path, |writer| write_pcd(writer, cloud)),
+        Some("ply") => write_atomically(path, |writer| write_ply(writer, cloud)),
+        Some("xyz") => write_atomically(path, |writer| write_xyz(writer, cloud)),
+        _ => Err(FileError::UnknownEnding {
+            path: path.to_owned(),
+        }),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_failed_write_leaves_the_old_content_and_no_other_file() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("kept.txt");
+        write_atomically(&path, |writer| writer.write_all(b"old")).unwrap();
+        let failed = write_atomically(&path, |writer| {
+            writer.write_all(b"half of the ne")?;
+            Err(io::Error::other("the stick was pulled out"))
+        });
+        assert!(matches!(failed, Err(FileError::Write { .. })));
+        assert_eq!(std::fs::read(&path).unwrap(), b"old");
+        assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn a_folder_that_does_not_exist_is_a_named_error() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("missing").join("file.txt");
+        let failed = write_atomically(&path, |writer| writer.write_all(b"x"));
+        assert!(matches!(failed, Err(FileError::Write { path: named, .. }) if named == path));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn others_may_read_what_was_written() {
+        use std::os::unix::fs::PermissionsExt as _;
+
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("result.txt");
+        write_atomically(&path, |writer| writer.write_all(b"x")).unwrap();
+        let plain = folder.path().join("plain.txt");
+        std::fs::write(&plain, b"x").unwrap();
+        let mode = |path: &Path| std::fs::metadata(path).unwrap().permissions().mode();
+        assert_eq!(mode(&path), mode(&plain));
+    }
+
+    #[test]
+    fn a_cloud_is_saved_only_under_a_known_ending() {
+        let folder = tempfile::tempdir().unwrap();
+        let cloud = PointCloud::from_points([nalgebra::Point3::new(1.0, 2.0, 3.0)]);
+        for ending in ["pcd", "PLY", "xyz"] {
+            let path = folder.path().join(format!("cloud.{ending}"));
+            save_cloud(&path, &cloud).unwrap();
+            assert_eq!(
+                crate::files::open(&path).unwrap(),
+                crate::files::Opened::Cloud(cloud.clone())
+            );
+        }
+        let unknown = save_cloud(&folder.path().join("cloud"), &cloud);
+        assert!(matches!(unknown, Err(FileError::UnknownEnding { .. })));
+    }
+}

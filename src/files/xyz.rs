@@ -1,0 +1,195 @@
+//! XYZ and CSV text: one point a line, three numbers or more, in metres.
+//!
+//! No standard describes it; this is what scanners, spreadsheets and `CloudCompare` write. Numbers are parted by
+//! spaces, tabs, commas or semicolons; a file with semicolons may have decimal commas, as spreadsheets write them in
+//! half of Europe. Lines that begin with `#` or `//` are comments. One line without coordinates may come first: names
+//! (`x`, `y` and `z` among them choose the columns) or the number of points. Further columns are read over.
+
+use std::io::{self, Write};
+
+use nalgebra::Point3;
+
+use super::error::FileError;
+use super::readings::tidy;
+use super::scalar::parse_real;
+use super::source::Source;
+use crate::geometry::cloud::PointCloud;
+
+/// Which columns hold x, y and z.
+type Columns = [usize; 3];
+
+/// True if one of the first two lines with content is a point.
+pub(super) fn is_xyz(source: Source<'_>) -> bool {
+    content(source)
+        .take(2)
+        .any(|(_, line)| point_of(&line, [0, 1, 2]).is_some() || columns_named_in(&line).is_some())
+}
+
+pub(super) fn read(source: Source<'_>) -> Result<PointCloud, FileError> {
+    let mut columns = [0, 1, 2];
+    let mut points = Vec::new();
+    for (i, (number, line)) in content(source).enumerate() {
+        match point_of(&line, columns) {
+            Some(point) => points.push(point),
+            None if i == 0 && is_heading(&line) => {
+                columns = columns_named_in(&line).unwrap_or(columns);
+            }
+            None => return Err(source.malformed(number, &line, "three numbers")),
+        }
+    }
+    source.limited("points", points.len())?;
+    tidy(
+        PointCloud {
+            points,
+            ..PointCloud::default()
+        },
+        source,
+    )
+}
+
+/// Writes the finite points as text, one a line, in metres with the digits that give the same number back.
+pub fn write_xyz(writer: &mut dyn Write, cloud: &PointCloud) -> io::Result<()> {
+    for (_, p) in cloud.finite() {
+        writeln!(writer, "{} {} {}", p.x, p.y, p.z)?;
+    }
+    Ok(())
+}
+
+/// The lines that are neither empty nor comments.
+fn content(source: Source<'_>) -> impl Iterator<Item = (usize, std::borrow::Cow<'_, str>)> {
+    source
+        .lines()
+        .filter(|(_, line)| !line.is_empty() && !line.starts_with('#') && !line.starts_with("//"))
+}
+
+fn point_of(line: &str, columns: Columns) -> Option<Point3<f32>> {
+    let mut point = [None; 3];
+    for (i, cell) in cells(line).enumerate() {
+        for (coordinate, &column) in point.iter_mut().zip(&columns) {
+            if column == i {
+                *coordinate = Some(number_of(line, cell)?);
+            }
+        }
+        if point.iter().all(Option::is_some) {
+            break;
+        }
+    }
+    let [x, y, z] = point;
+    Some(Point3::new(x?, y?, z?))
+}
+
+fn number_of(line: &str, cell: &str) -> Option<f32> {
+    // A spreadsheet's empty cell is a point without a reading.
+    if cell.is_empty() {
+        return Some(f32::NAN);
+    }
+    let real = if line.contains(';') {
+        parse_real(&cell.replace(',', "."))
+    } else {
+        parse_real(cell)
+    };
+    real.map(|real| real as f32)
+}
+
+/// The cells of a line. Only between semicolons or commas can one be empty.
+fn cells(line: &str) -> Box<dyn Iterator<Item = &str> + '_> {
+    let separator = [';', ',']
+        .into_iter()
+        .find(|&separator| line.contains(separator));
+    match separator {
+        // "1, 2, 3" has commas and spaces; "1,2,3 4" does not occur.
+        Some(separator) => Box::new(line.split(separator).map(str::trim)),
+        None => Box::new(line.split_whitespace()),
+    }
+}
+
+/// Names, or the number of points. A first line with some numbers in it is a damaged point.
+fn is_heading(line: &str) -> bool {
+    let is_name = |cell: &str| number_of(line, cell).is_none();
+    cells(line).all(is_name) || cells(line).count() == 1
+}
+
+fn columns_named_in(line: &str) -> Option<Columns> {
+    let names: Vec<String> = cells(line).map(column_name).collect();
+    let place = |wanted: &str| names.iter().position(|name| name == wanted);
+    Some([place("x")?, place("y")?, place("z")?])
+}
+
+/// `"X [m]"` is x.
+fn column_name(cell: &str) -> String {
+    let unquoted = cell.trim_matches(['"', '\'']).trim_start();
+    let word = unquoted.split(|c: char| !c.is_alphanumeric()).next();
+    word.unwrap_or_default().to_lowercase()
+}
+
+#[cfg(test)]
+mod tests {
+    use std::path::Path;
+
+    use super::*;
+
+    fn read_text(text: &str) -> Result<PointCloud, FileError> {
+        let source = Source {
+            path: Path::new("test.xyz"),
+            bytes: text.as_bytes(),
+        };
+        assert!(is_xyz(source), "{text:?} is not recognised");
+        read(source)
+    }
+
+    #[test]
+    fn every_separator_is_read() {
+        let expected =
+            PointCloud::from_points([Point3::new(1.5, -2.0, 3e-3), Point3::new(4.0, 5.0, 6.0)]);
+        for text in [
+            "1.5 -2 3e-3\n4 5 6\n",
+            "1.5\t-2\t3e-3\r\n4\t5\t6",
+            "1.5,-2,3e-3\n4, 5, 6\n",
+            "1.5;-2;3e-3\n4;5;6\n",
+            "1,5;-2,0;0,003\n4;5;6\n",
+            "# made by a scanner\n\n  1.5   -2 3e-3 17 0.5 \n// more\n4 5 6 1 2\n",
+            "2\n1.5 -2 3e-3\n4 5 6\n",
+            "x,y,z\n1.5,-2,3e-3\n4,5,6\n",
+            "\u{feff}time;\"Z [m]\";\"Y [m]\";\"X [m]\"\n9;0,003;-2;1,5\n9;6;5;4\n",
+        ] {
+            assert_eq!(read_text(text).unwrap(), expected, "{text:?}");
+        }
+    }
+
+    #[test]
+    fn points_without_a_reading_are_dropped() {
+        let cloud = read_text("1,2,3\n,,\n4,nan,6\n7,inf,9\n1e30,0,0\n").unwrap();
+        assert_eq!(cloud.points, [Point3::new(1.0, 2.0, 3.0)]);
+        assert!(matches!(
+            read_text("nan nan nan\n"),
+            Err(FileError::NoPoints { found: 1, .. })
+        ));
+    }
+
+    #[test]
+    fn a_bad_line_is_named_by_its_number() {
+        for (text, bad) in [
+            ("1 2 3\n\n4 5\n", 3),
+            ("x y z\n1 2 3\n# no\n1 two 3\n", 4),
+            ("1 2 3\nx y z\n", 2),
+            ("1 two 3\n1 2 3\n", 1),
+        ] {
+            let error = read_text(text).unwrap_err();
+            assert!(
+                matches!(error, FileError::Malformed { line, .. } if line == bad),
+                "{error}"
+            );
+        }
+    }
+
+    #[test]
+    fn what_is_written_reads_back_to_the_same_bits() {
+        let cloud = PointCloud::from_points([
+            Point3::new(0.1, -1.0e-7, 123_456.7),
+            Point3::new(1.0 / 3.0, 0.0, 2.0),
+        ]);
+        let mut text = Vec::new();
+        write_xyz(&mut text, &cloud).unwrap();
+        assert_eq!(read_text(&String::from_utf8(text).unwrap()).unwrap(), cloud);
+    }
+}
