@@ -77,19 +77,28 @@ const FIRST: [Level; 2] = [
     },
 ];
 const SECOND: [Level; 1] = [Level {
-    num_surface: 500,
-    num_edges: 96,
-    scale: 0.012,
+    num_surface: 400,
+    num_edges: 128,
+    scale: 0.025,
     max_steps: 8,
     search: Search::Field,
 }];
-const THIRD: [Level; 1] = [Level {
-    num_surface: 1500,
-    num_edges: 256,
-    scale: 0.008,
-    max_steps: 8,
-    search: Search::Tree,
-}];
+const THIRD: [Level; 2] = [
+    Level {
+        num_surface: 1000,
+        num_edges: 256,
+        scale: 0.015,
+        max_steps: 10,
+        search: Search::Field,
+    },
+    Level {
+        num_surface: 1500,
+        num_edges: 256,
+        scale: 0.01,
+        max_steps: 6,
+        search: Search::Tree,
+    },
+];
 /// Distance at which a point counts as plainly off, metres.
 const COST_LIMIT: f64 = 0.04;
 /// Scene points on which the figures of a fit are taken.
@@ -155,7 +164,7 @@ struct Candidate {
 fn thinned_source(scene: &Scene<'_>, params: &ConfirmParams) -> Source {
     let mut rng = Pcg64::seed_from_u64(params.seed);
     let points = &scene.part.cloud.points;
-    let wanted = THIRD[0].num_surface.max(NUM_MEASURED);
+    let wanted = THIRD[1].num_surface.max(NUM_MEASURED);
     let mut surface: Vec<Point3<f32>> = points
         .iter()
         .step_by((points.len() / wanted).max(1))

@@ -162,7 +162,7 @@ pub struct Refined {
 pub const SPACING: f64 = 0.008;
 /// Say of all edge pairs against all surface pairs. Edges fix two shifts and a turn, the surface the other three; by
 /// experiment anything from 0.2 to 1 does.
-const EDGE_WEIGHT: f64 = 0.5;
+const EDGE_WEIGHT: f64 = 0.1;
 /// A pull of closest points towards each other, besides that to the tangent plane, relative to it. It holds what
 /// neither surface nor edges hold (a plate sliding along itself) without dragging visibly.
 const POINT_WEIGHT: f64 = 0.02;
