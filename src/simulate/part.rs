@@ -229,6 +229,29 @@ mod tests {
     }
 
     #[test]
+    fn no_model_loses_a_web_or_closes_an_opening() {
+        // Vertices - edges + triangles counts pieces less openings.
+        let euler = |mesh: &TriangleMesh| {
+            let mut edges: Vec<(u32, u32)> = mesh
+                .triangles
+                .iter()
+                .flat_map(|&[a, b, c]| [(a, b), (b, c), (c, a)])
+                .map(|(a, b)| (a.min(b), a.max(b)))
+                .collect();
+            edges.sort_unstable();
+            edges.dedup();
+            (mesh.vertices.len() + mesh.triangles.len()) as i64 - edges.len() as i64
+        };
+        for kind in PartKind::ALL {
+            let standard = euler(PartModel::new(kind, Side::Left, 0).mesh());
+            for model_seed in 1..24 {
+                let other = euler(PartModel::new(kind, Side::Left, model_seed).mesh());
+                assert_eq!(other, standard, "{kind} model {model_seed}");
+            }
+        }
+    }
+
+    #[test]
     fn parts_have_the_size_of_a_small_cars() {
         let ranges = [
             (PartKind::FrontBumper, (1.40, 1.50), (0.42, 0.52)),

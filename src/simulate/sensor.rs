@@ -254,10 +254,13 @@ fn sample(disparity: &[f32], camera: &Intrinsics, u: f32, v: f32) -> f32 {
     let (width, height) = (camera.width, camera.height);
     let u = u.clamp(0.0, (width - 1) as f32);
     let v = v.clamp(0.0, (height - 1) as f32);
-    let (column, row) = ((u as usize).min(width - 2), (v as usize).min(height - 2));
+    let (column, row) = (u as usize, v as usize);
     let (s, t) = (u - column as f32, v - row as f32);
+    let right = usize::from(column + 1 < width);
+    let below = if row + 1 < height { width } else { 0 };
     let first = row * width + column;
-    let [a, b, c, d] = [first, first + 1, first + width, first + width + 1].map(|i| disparity[i]);
+    let [a, b, c, d] =
+        [first, first + right, first + below, first + below + right].map(|i| disparity[i]);
     let (low, high) = (a.min(b).min(c.min(d)), a.max(b).max(c.max(d)));
     if high - low > EDGE_STEP {
         return match (s < 0.5, t < 0.5) {
