@@ -17,7 +17,8 @@
 //! Applications", Sensors 12(2), 2012 (random error ∝ z², about 1.5 mm at 1 m and 4 cm at 5 m);
 //! C. V. Nguyen, S. Izadi and D. Lovell, "Modeling Kinect Sensor Noise for Improved 3D Reconstruction and Tracking",
 //! 3DIMPVT 2012 (lateral noise below a pixel, growth of axial noise with the angle); J.-M. Gottfried, J. Fehr and
-//! C. Garbe, "Computing Range Flow from Multi-modal Kinect Data", ISVC 2011 (loss at edges and shadows);
+//! C. Garbe, "Computing Range Flow from Multi-modal Kinect Data", ISVC 2011 (where readings are
+//! missing or unstable);
 //! A. Handa, T. Whelan, J. McDonald and A. J. Davison, "A Benchmark for RGB-D Visual Odometry, 3D Reconstruction and
 //! SLAM", ICRA 2014 (the order of shift, disparity noise and quantisation). Ours: the smoothing of all noise fields,
 //! the thresholds of the losses, and one multiplier for noise and losses together.
@@ -159,7 +160,7 @@ fn disparity_sigma(disparity: f64, facing: f64, focal_baseline: f64) -> f64 {
     if facing > 0.7 {
         return upright;
     }
-    // Nguyen, Izadi and Lovell, Eq. (3): the share of the angle; held below 1 cm where their data end.
+    // The angle's term of Nguyen, Izadi and Lovell's axial model; held below 1 cm where their data end.
     let z = focal_baseline / disparity;
     let angle = facing.clamp(0.0, 1.0).acos();
     let steep = (std::f64::consts::FRAC_PI_2 - angle).max(0.02);
