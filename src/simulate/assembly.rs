@@ -32,6 +32,20 @@ impl Assembly {
         self.triangle([a, c, d]);
     }
 
+    /// As [`Assembly::quad`], split along the diagonal that passes nearer to `middle`, where the surface is: creases
+    /// that run across a grid stay smooth that way.
+    pub(super) fn quad_through(&mut self, corners: [u32; 4], middle: &Point3<f64>) {
+        let [a, b, c, d] = corners.map(|i| self.vertices[i as usize]);
+        let first = (nalgebra::center(&a, &c) - middle).norm_squared();
+        let second = (nalgebra::center(&b, &d) - middle).norm_squared();
+        let [a, b, c, d] = corners;
+        if first <= second {
+            self.quad([a, b, c, d]);
+        } else {
+            self.quad([b, c, d, a]);
+        }
+    }
+
     /// Adds a finished mesh, every vertex put through `place`.
     pub(super) fn add(&mut self, mesh: &TriangleMesh, place: impl Fn(Point3<f64>) -> Point3<f64>) {
         let first = self.vertices.len() as u32;

@@ -111,9 +111,12 @@ impl CellSetup {
 }
 
 /// How far the wall stays behind the part, and the floor below it, metres: room for the stand's post.
-const CLEARANCE: f64 = 0.12;
+const CLEARANCE: f64 = 0.15;
 /// Wall and floor are out of true by up to this.
 const MAX_TILT: Radians = Radians(0.05);
+
+/// Keeps the draws of the cell apart from others made with the same seed.
+const STREAM: u64 = 0x00ce_11ce_11ce_11ce;
 
 /// Everything in its place, in camera space.
 pub(super) struct Cell<'a> {
@@ -130,7 +133,7 @@ pub(super) struct Cell<'a> {
 impl<'a> Cell<'a> {
     /// Hangs the part and arranges the rest around it.
     pub(super) fn arrange(setup: &CellSetup, part: &'a TriangleMesh) -> Self {
-        let mut random = Pcg64::seed_from_u64(setup.seed ^ 0x00ce_11ce_11ce_11ce);
+        let mut random = Pcg64::seed_from_u64(setup.seed ^ STREAM);
         let Placed {
             camera_from_part,
             fully_visible,

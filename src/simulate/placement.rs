@@ -19,6 +19,9 @@ const MARGIN: f64 = 8.0;
 /// How far a part hangs off the optical axis at most, where there is room, metres.
 const OFF_AXIS: f64 = 0.15;
 
+/// Keeps the draws of the pose apart from others made with the same seed.
+const STREAM: u64 = 0x705e_705e_705e_705e;
+
 /// A range of poses. Turned by yaw about its own upright axis first, then pitch, then roll about the optical axis.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
 pub struct Placement {
@@ -81,7 +84,7 @@ impl Placement {
     /// The distance is drawn evenly; a part that would leave the frame moves away to the nearest distance within the
     /// range at which it fits, and sideways as far as needed.
     pub fn draw(&self, mesh: &TriangleMesh, intrinsics: &Intrinsics, seed: u64) -> Placed {
-        let mut random = Pcg64::seed_from_u64(seed);
+        let mut random = Pcg64::seed_from_u64(seed ^ STREAM);
         let mut within = |limit: Radians| limit.0 * (2.0 * random.random::<f64>() - 1.0);
         let yaw = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), within(self.yaw));
         let pitch = UnitQuaternion::from_axis_angle(&Vector3::x_axis(), within(self.pitch));

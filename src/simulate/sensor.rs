@@ -17,7 +17,8 @@
 //! Applications", Sensors 12(2), 2012 (random error ∝ z², about 1.5 mm at 1 m and 4 cm at 5 m);
 //! C. V. Nguyen, S. Izadi and D. Lovell, "Modeling Kinect Sensor Noise for Improved 3D Reconstruction and Tracking",
 //! 3DIMPVT 2012 (lateral noise below a pixel, growth of axial noise with the angle); J.-M. Gottfried, J. Fehr and
-//! C. Garbe, "Computing Range Flow from Multi-modal Kinect Data", ISVC 2011 (loss at edges and shadows);
+//! C. Garbe, "Computing Range Flow from Multi-modal Kinect Data", ISVC 2011 (where readings are
+//! missing or unstable);
 //! A. Handa, T. Whelan, J. McDonald and A. J. Davison, "A Benchmark for RGB-D Visual Odometry, 3D Reconstruction and
 //! SLAM", ICRA 2014 (the order of shift, disparity noise and quantisation). Ours: the smoothing of all noise fields,
 //! the thresholds of the losses, and one multiplier for noise and losses together.
@@ -159,7 +160,7 @@ fn disparity_sigma(disparity: f64, facing: f64, focal_baseline: f64) -> f64 {
     if facing > 0.7 {
         return upright;
     }
-    // Nguyen, Izadi and Lovell, Eq. (3): the share of the angle; held below 1 cm where their data end.
+    // The angle's term of Nguyen, Izadi and Lovell's axial model; held below 1 cm where their data end.
     let z = focal_baseline / disparity;
     let angle = facing.clamp(0.0, 1.0).acos();
     let steep = (std::f64::consts::FRAC_PI_2 - angle).max(0.02);
@@ -254,10 +255,13 @@ fn sample(disparity: &[f32], camera: &Intrinsics, u: f32, v: f32) -> f32 {
     let (width, height) = (camera.width, camera.height);
     let u = u.clamp(0.0, (width - 1) as f32);
     let v = v.clamp(0.0, (height - 1) as f32);
-    let (column, row) = ((u as usize).min(width - 2), (v as usize).min(height - 2));
+    let (column, row) = (u as usize, v as usize);
     let (s, t) = (u - column as f32, v - row as f32);
+    let right = usize::from(column + 1 < width);
+    let below = if row + 1 < height { width } else { 0 };
     let first = row * width + column;
-    let [a, b, c, d] = [first, first + 1, first + width, first + width + 1].map(|i| disparity[i]);
+    let [a, b, c, d] =
+        [first, first + right, first + below, first + below + right].map(|i| disparity[i]);
     let (low, high) = (a.min(b).min(c.min(d)), a.max(b).max(c.max(d)));
     if high - low > EDGE_STEP {
         return match (s < 0.5, t < 0.5) {

@@ -120,9 +120,18 @@ impl Sheet<'_> {
                         cell.push(CellVertex::Edge(crossing));
                     }
                 }
-                for k in 1..cell.len().saturating_sub(1) {
-                    // Against the walk: u × v points away from the viewer, the paint side towards him.
-                    assembly.triangle([cell[0].index(), cell[k + 1].index(), cell[k].index()]);
+                // Against the walk: u × v points away from the viewer, the paint side towards him.
+                if corners
+                    .iter()
+                    .all(|&(i, j)| nodes[j * stride + i].is_some())
+                {
+                    let (u, v) = flat(column, row);
+                    let middle = (self.lift)(u + 0.5 * step_u, v + 0.5 * step_v);
+                    assembly.quad_through([0, 3, 2, 1].map(|k| cell[k].index()), &middle);
+                } else {
+                    for k in 1..cell.len().saturating_sub(1) {
+                        assembly.triangle([cell[0].index(), cell[k + 1].index(), cell[k].index()]);
+                    }
                 }
                 for k in 0..cell.len() {
                     if let (CellVertex::Edge(a), CellVertex::Edge(b)) =

@@ -24,8 +24,8 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
         (half, top + 0.050, 0.025),
         (half - 0.006, top + 0.125, 0.025),
         // The lamp bracket runs down to the upright in a hollow curve.
-        (half - 0.075, 0.035, 0.05),
-        (upright + 0.045, 0.115, 0.06),
+        (half - 0.050, 0.015, 0.05),
+        (upright + 0.050, 0.110, 0.06),
         (upright + 0.030, bottom - 0.02, 0.03),
         (0.24, bottom, 0.10),
     ]);
@@ -42,10 +42,10 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
     // The lamp sits in a round seat; what is left of the bracket is a ring.
     let lamp = Region::disc(
         (
-            0.5 * (half + upright) - 0.002 + vary.shift(0.008),
-            -0.085 + vary.shift(0.01),
+            half - 0.094 + vary.shift(0.006),
+            top + 0.155 + vary.shift(0.006),
         ),
-        vary.of(0.062),
+        vary.of(0.056),
     )
     .on_both_sides();
     let latch = Region::slot((0.0, top + 0.045), (0.075, 0.030), 0.012);
@@ -56,6 +56,9 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
     )
     .on_both_sides();
     let beads = Region::slot((0.22, top + 0.5 * upper_beam), (0.24, 0.036), 0.016).on_both_sides();
+    let lower_beads = Region::slot((0.0, bottom - 0.5 * lower_beam), (0.20, 0.036), 0.016);
+    let post_beads =
+        Region::slot((upright - 0.5 * post + 0.006, 0.01), (0.026, 0.26), 0.012).on_both_sides();
     let bow = vary.of(1.8);
     let lamp_set_back = vary.of(0.055);
 
@@ -63,7 +66,9 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
         // The upper beam stands in front of the lower one; the lamp brackets lie behind both.
         let lean = 0.10 * y;
         let bracket = lamp_set_back * ((x.abs() - upright) / 0.10).clamp(0.0, 1.0);
-        let z = x * x / (2.0 * bow) + lean + bracket + 0.012 * beads.pressing(x, y, 0.012);
+        let pressed = beads.pressing(x, y, 0.012) + lower_beads.pressing(x, y, 0.012)
+            - post_beads.pressing(x, y, 0.010);
+        let z = x * x / (2.0 * bow) + lean + bracket + 0.012 * pressed;
         Point3::new(x, y, z)
     };
     let mut support = Assembly::default();

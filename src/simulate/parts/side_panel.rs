@@ -7,11 +7,14 @@ use crate::simulate::region::{Region, bend};
 use crate::simulate::sheet::Sheet;
 use crate::simulate::variation::Variation;
 
+/// Height at which a car's side bulges out farthest, y.
+const BULGE_MIDDLE: f64 = 0.12;
+
 /// The outer surface of a car's side, as depth over (x, y).
 pub(super) struct SidePanel {
     /// Height of the waistline (lower edge of the window), y.
     pub(super) waist: f64,
-    /// Slope of the glass against the vertical: dz/dy above the waist.
+    /// Slope that the window frame adds at the waist, metres of depth per metre of height.
     pub(super) tumblehome: f64,
     /// Radius of the panel's bulge below the waist.
     pub(super) bulge_radius: f64,
@@ -30,7 +33,7 @@ impl SidePanel {
     pub(super) fn new(vary: &mut Variation, waist: f64) -> Self {
         Self {
             waist,
-            tumblehome: vary.of(0.36),
+            tumblehome: vary.of(0.25),
             bulge_radius: vary.of(1.7),
             bow_radius: vary.of(4.5),
             line: (0.075 + vary.shift(0.02), -0.05 + vary.shift(0.02)),
@@ -41,17 +44,18 @@ impl SidePanel {
 
     /// Depth of the surface; smaller is nearer to the viewer.
     pub(super) fn depth(&self, x: f64, y: f64) -> f64 {
-        let below = bend(y - self.waist, 0.04);
         let above = bend(self.waist - y, 0.04);
-        let bulge_middle = y - 0.12;
-        let bulge = bulge_middle * bulge_middle / (2.0 * self.bulge_radius);
+        // The bulge ends at the waist; the window frame goes on straight.
+        let off_middle = y.max(self.waist) - BULGE_MIDDLE;
+        let onwards = (y - self.waist).min(0.0) * (self.waist - BULGE_MIDDLE);
+        let bulge = (0.5 * off_middle * off_middle + onwards) / self.bulge_radius;
         let bow = x * x / (2.0 * self.bow_radius);
         // The character line: a ridge, sharp on top, running out over 8 cm below and 5 cm above.
         let off_line = y - (self.line.0 + self.line.1 * x);
         let reach = if off_line > 0.0 { 0.08 } else { 0.05 };
         let ridge = (1.0 - off_line.abs() / reach).max(0.0).powi(2) * self.line_height;
         let tuck = 0.35 * bend(y - self.scallop, 0.015);
-        bulge.min(0.03 + 0.02 * below) + bow - ridge + tuck + self.tumblehome * above
+        bulge + bow - ridge + tuck + self.tumblehome * above
     }
 }
 
