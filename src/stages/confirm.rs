@@ -182,6 +182,13 @@ fn thinned_source(scene: &Scene<'_>, params: &ConfirmParams) -> Source {
     Source { surface, edges }
 }
 
+/// A pose of one reference on its way from coarse to fine.
+struct Trial {
+    view: usize,
+    refined: Refined,
+    cost: f64,
+}
+
 fn best_candidate(
     scene: &Scene<'_>,
     source: &Source,
@@ -189,52 +196,58 @@ fn best_candidate(
     placements: &[Placement],
     tolerance: Tolerance,
 ) -> Option<Candidate> {
-    // Neighbouring views lead to nearly the same start: one of them is enough.
     let centre = centre_of(&source.surface);
-    let mut starts: Vec<(usize, RigidTransform)> = Vec::new();
-    for placement in placements {
-        let start = start_of(scene, reference, placement);
-        if starts
-            .iter()
-            .all(|s| is_apart(&s.1, &start, &centre, START_APART))
-        {
-            starts.push((placement.view, start));
-        }
-    }
-    let mut tried: Vec<(f64, usize, Refined)> = starts
+    let starts = distinct_starts(scene, reference, placements, &centre);
+    let mut trials: Vec<Trial> = starts
         .into_iter()
-        .filter_map(|(view, start)| {
-            let target = reference.target(view)?;
-            let refined = refine(source, &target, &start, &FIRST);
-            let cost = cost(
+        .filter_map(|(view, start)| attempt(source, reference, view, &start, &FIRST))
+        .collect();
+    trials.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    // Too few points decide between the two ways round of a near-symmetric part: both go on.
+    let first = trials.first()?.refined.target_from_source;
+    let other = trials
+        .iter()
+        .position(|t| is_apart(&first, &t.refined.target_from_source, &centre, POSE_APART));
+    let mut contenders: Vec<Trial> = [Some(0), other]
+        .into_iter()
+        .flatten()
+        .filter_map(|i| {
+            let Trial { view, refined, .. } = &trials[i];
+            let mut finer = attempt(
                 source,
-                &target,
+                reference,
+                *view,
                 &refined.target_from_source,
-                &FIRST[1],
-                COST_LIMIT,
-            );
-            Some((cost, view, refined))
+                &SECOND,
+            )?;
+            finer
+                .refined
+                .iterations
+                .splice(0..0, refined.iterations.iter().copied());
+            Some(finer)
         })
         .collect();
-    tried.sort_by(|a, b| a.0.total_cmp(&b.0));
-    let mut tried = tried.into_iter();
-    let (best_cost, view, coarse) = tried.next()?;
-    let runner_up = tried
-        .find(|t| {
-            is_apart(
-                &coarse.target_from_source,
-                &t.2.target_from_source,
-                &centre,
-                POSE_APART,
+    contenders.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    let mut contenders = contenders.into_iter();
+    let Trial {
+        view,
+        refined,
+        cost,
+    } = contenders.next()?;
+    let runner_up = contenders
+        .next()
+        .map(|t| {
+            (
+                t.refined.target_from_source,
+                t.cost / cost.max(f64::MIN_POSITIVE),
             )
         })
-        .map(|t| RunnerUp {
-            target_from_source: t.2.target_from_source,
-            ratio: t.0 / best_cost.max(f64::MIN_POSITIVE),
+        .filter(|(pose, _)| is_apart(&refined.target_from_source, pose, &centre, POSE_APART))
+        .map(|(target_from_source, ratio)| RunnerUp {
+            target_from_source,
+            ratio,
         });
     let target = reference.target(view)?;
-    let mut refined = refine(source, &target, &coarse.target_from_source, &SECOND);
-    refined.iterations.splice(0..0, coarse.iterations);
     let fit = fit_of(
         scene,
         source,
@@ -248,6 +261,49 @@ fn best_candidate(
         refined,
         view,
         runner_up,
+    })
+}
+
+/// Neighbouring views lead to nearly the same start: one of them is enough.
+fn distinct_starts(
+    scene: &Scene<'_>,
+    reference: &Reference,
+    placements: &[Placement],
+    centre: &Point3<f64>,
+) -> Vec<(usize, RigidTransform)> {
+    let mut starts: Vec<(usize, RigidTransform)> = Vec::new();
+    for placement in placements {
+        let start = start_of(scene, reference, placement);
+        if starts
+            .iter()
+            .all(|s| is_apart(&s.1, &start, centre, START_APART))
+        {
+            starts.push((placement.view, start));
+        }
+    }
+    starts
+}
+
+fn attempt(
+    source: &Source,
+    reference: &Reference,
+    view: usize,
+    start: &RigidTransform,
+    levels: &[Level],
+) -> Option<Trial> {
+    let target = reference.target(view)?;
+    let refined = refine(source, &target, start, levels);
+    let cost = cost(
+        source,
+        &target,
+        &refined.target_from_source,
+        levels.last()?,
+        COST_LIMIT,
+    );
+    Some(Trial {
+        view,
+        refined,
+        cost,
     })
 }
 
