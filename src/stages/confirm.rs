@@ -101,6 +101,8 @@ const THIRD: [Level; 2] = [
 ];
 /// Distance at which a point counts as plainly off, metres.
 const COST_LIMIT: f64 = 0.04;
+/// A coarse pose that costs this many times the best one is not refined.
+const HOPELESS: f64 = 2.5;
 /// Scene points on which the figures of a fit are taken.
 const NUM_MEASURED: usize = 1000;
 
@@ -124,22 +126,45 @@ pub fn confirm(
         base: params.tolerance,
         noise_at_1m: scene.part.noise_at_1m,
     };
-    let mut confirmed: Vec<(MatchEntry, Option<Candidate>)> =
-        Vec::with_capacity(ranking.entries.len());
-    for (position, mut entry) in ranking.entries.into_iter().enumerate() {
-        let reference = &references[entry.reference];
-        let is_looked_at = position < params.num_references;
-        let candidate = is_looked_at
-            .then(|| best_candidate(scene, &source, reference, &entry.placements, tolerance))
-            .flatten();
-        entry.score = match &candidate {
-            Some(candidate) => candidate.score,
-            None => entry.score * UNCONFIRMED,
-        };
-        confirmed.push((entry, candidate));
-    }
+    let centre = centre_of(&source.surface);
+    let num_looked_at = params.num_references.min(ranking.entries.len());
+    let trials: Vec<Vec<Trial>> = ranking.entries[..num_looked_at]
+        .iter()
+        .map(|entry| {
+            coarse_trials(
+                scene,
+                &source,
+                &references[entry.reference],
+                &entry.placements,
+                &centre,
+            )
+        })
+        .collect();
+    let least = trials
+        .iter()
+        .flatten()
+        .map(|t| t.cost)
+        .fold(f64::INFINITY, f64::min);
+    let mut trials = trials.into_iter();
+    let mut confirmed: Vec<(MatchEntry, Option<Candidate>)> = ranking
+        .entries
+        .into_iter()
+        .map(|mut entry| {
+            let reference = &references[entry.reference];
+            let candidate = trials.next().and_then(|trials| {
+                // What is far off already will not win: it is scored where it is.
+                let is_worth_more = trials.first()?.cost < HOPELESS * least;
+                let levels: &[Level] = if is_worth_more { &SECOND } else { &[] };
+                best_candidate(scene, &source, reference, &trials, levels, tolerance)
+            });
+            entry.score = match &candidate {
+                Some(candidate) => candidate.score,
+                None => entry.score * UNCONFIRMED,
+            };
+            (entry, candidate)
+        })
+        .collect();
     // Those that were not looked at stay behind those that were.
-    let num_looked_at = params.num_references.min(confirmed.len());
     confirmed[..num_looked_at].sort_by(|a, b| b.0.score.total_cmp(&a.0.score));
     let pose = match confirmed.first() {
         Some((entry, Some(best))) => references[entry.reference]
@@ -192,43 +217,61 @@ struct Trial {
     cost: f64,
 }
 
-fn best_candidate(
+/// The poses that the placements of one reference lead to, the cheapest first.
+fn coarse_trials(
     scene: &Scene<'_>,
     source: &Source,
     reference: &Reference,
     placements: &[Placement],
-    tolerance: Tolerance,
-) -> Option<Candidate> {
-    let centre = centre_of(&source.surface);
-    let starts = distinct_starts(scene, reference, placements, &centre);
-    let mut trials: Vec<Trial> = starts
+    centre: &Point3<f64>,
+) -> Vec<Trial> {
+    let mut trials: Vec<Trial> = distinct_starts(scene, reference, placements, centre)
         .into_iter()
         .filter_map(|(view, start)| attempt(source, reference, view, &start, &FIRST))
         .collect();
     trials.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+    trials
+}
+
+/// The best of the coarse poses after a finer refinement, with what else fits.
+fn best_candidate(
+    scene: &Scene<'_>,
+    source: &Source,
+    reference: &Reference,
+    trials: &[Trial],
+    levels: &[Level],
+    tolerance: Tolerance,
+) -> Option<Candidate> {
+    let centre = centre_of(&source.surface);
     // Too few points decide between the two ways round of a near-symmetric part: both go on.
-    let first = trials.first()?.refined.target_from_source;
-    let other = trials
-        .iter()
-        .position(|t| is_apart(&first, &t.refined.target_from_source, &centre, POSE_APART));
-    let mut contenders: Vec<Trial> = [Some(0), other]
+    let first = trials.first()?;
+    let is_other = |t: &&Trial| {
+        let (a, b) = (
+            &first.refined.target_from_source,
+            &t.refined.target_from_source,
+        );
+        is_apart(a, b, &centre, POSE_APART)
+    };
+    let finer = |trial: &Trial| -> Option<Trial> {
+        let Trial { view, refined, .. } = trial;
+        let mut finer = attempt(
+            source,
+            reference,
+            *view,
+            &refined.target_from_source,
+            levels,
+        )?;
+        finer
+            .refined
+            .iterations
+            .splice(0..0, refined.iterations.iter().copied());
+        Some(finer)
+    };
+    let other = trials.iter().find(is_other);
+    let mut contenders: Vec<Trial> = [Some(first), other]
         .into_iter()
         .flatten()
-        .filter_map(|i| {
-            let Trial { view, refined, .. } = &trials[i];
-            let mut finer = attempt(
-                source,
-                reference,
-                *view,
-                &refined.target_from_source,
-                &SECOND,
-            )?;
-            finer
-                .refined
-                .iterations
-                .splice(0..0, refined.iterations.iter().copied());
-            Some(finer)
-        })
+        .filter_map(finer)
         .collect();
     contenders.sort_by(|a, b| a.cost.total_cmp(&b.cost));
     let mut contenders = contenders.into_iter();
@@ -239,16 +282,17 @@ fn best_candidate(
     } = contenders.next()?;
     let runner_up = contenders
         .next()
-        .map(|t| {
-            (
-                t.refined.target_from_source,
-                t.cost / cost.max(f64::MIN_POSITIVE),
-            )
+        .map(|t| RunnerUp {
+            target_from_source: t.refined.target_from_source,
+            ratio: t.cost / cost.max(f64::MIN_POSITIVE),
         })
-        .filter(|(pose, _)| is_apart(&refined.target_from_source, pose, &centre, POSE_APART))
-        .map(|(target_from_source, ratio)| RunnerUp {
-            target_from_source,
-            ratio,
+        .filter(|r| {
+            is_apart(
+                &refined.target_from_source,
+                &r.target_from_source,
+                &centre,
+                POSE_APART,
+            )
         });
     let target = reference.target(view)?;
     let fit = fit_of(
@@ -296,11 +340,12 @@ fn attempt(
 ) -> Option<Trial> {
     let target = reference.target(view)?;
     let refined = refine(source, &target, start, levels);
+    let level = levels.last().unwrap_or(&FIRST[1]);
     let cost = cost(
         source,
         &target,
         &refined.target_from_source,
-        levels.last()?,
+        level,
         COST_LIMIT,
     );
     Some(Trial {

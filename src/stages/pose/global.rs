@@ -65,71 +65,81 @@ pub enum Search {
     Tree,
 }
 
-/// A few hundred points in columns: looking at all of them is quicker than a tree, and columns let the processor look
-/// at several at once.
+/// Points looked at side by side.
+const LANES: usize = 8;
+
+/// A few hundred points in columns of eight: looking at all of them is quicker than a tree, and the processor looks at
+/// several at once.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EdgePoints {
-    x: Vec<f32>,
-    y: Vec<f32>,
-    z: Vec<f32>,
+    /// x, y and z of eight points each; the last group is filled up with points at infinity.
+    groups: Vec<[[f32; LANES]; 3]>,
+    num: usize,
 }
 
 impl EdgePoints {
     /// Keeps at most `limit` of the points, evenly spread over their order.
     pub fn new(points: &[Point3<f32>], limit: usize) -> Self {
         let step = points.len().div_ceil(limit.max(1)).max(1);
-        let column = |axis: usize| points.iter().step_by(step).map(|p| p[axis]).collect();
+        let kept: Vec<Point3<f32>> = points.iter().step_by(step).copied().collect();
+        let group = |points: &[Point3<f32>]| {
+            let mut columns = [[f32::INFINITY; LANES]; 3];
+            for (lane, p) in points.iter().enumerate() {
+                for axis in 0..3 {
+                    columns[axis][lane] = p[axis];
+                }
+            }
+            columns
+        };
         Self {
-            x: column(0),
-            y: column(1),
-            z: column(2),
+            groups: kept.chunks(LANES).map(group).collect(),
+            num: kept.len(),
         }
     }
 
     /// The number of points.
     pub fn len(&self) -> usize {
-        self.x.len()
+        self.num
     }
 
     /// True without points.
     pub fn is_empty(&self) -> bool {
-        self.x.is_empty()
+        self.num == 0
     }
 
     /// The points in order.
-    pub fn iter(&self) -> impl ExactSizeIterator<Item = Point3<f32>> + '_ {
-        (0..self.x.len()).map(|i| Point3::new(self.x[i], self.y[i], self.z[i]))
+    pub fn iter(&self) -> impl Iterator<Item = Point3<f32>> + '_ {
+        (0..self.num).map(|i| self.point(i))
+    }
+
+    fn point(&self, i: usize) -> Point3<f32> {
+        let [x, y, z] = &self.groups[i / LANES];
+        Point3::new(x[i % LANES], y[i % LANES], z[i % LANES])
     }
 
     /// The closest point within reach, with its squared distance.
     fn closest(&self, at: &Point3<f32>, reach_sq: f32) -> Option<(Point3<f32>, f32)> {
-        const LANES: usize = 8;
         let mut best = [reach_sq; LANES];
-        let mut best_chunk = [u32::MAX; LANES];
-        let columns = self
-            .x
-            .chunks(LANES)
-            .zip(self.y.chunks(LANES))
-            .zip(self.z.chunks(LANES));
-        for (chunk, ((x, y), z)) in columns.enumerate() {
-            for (lane, ((x, y), z)) in x.iter().zip(y).zip(z).enumerate() {
-                let (dx, dy, dz) = (x - at.x, y - at.y, z - at.z);
-                let distance_sq = dx * dx + dy * dy + dz * dz;
-                let closer = distance_sq < best[lane];
-                best[lane] = if closer { distance_sq } else { best[lane] };
-                best_chunk[lane] = if closer {
-                    chunk as u32
+        let mut best_group = [u32::MAX; LANES];
+        for (number, [x, y, z]) in (0_u32..).zip(&self.groups) {
+            let mut distance_sq = [0.0; LANES];
+            for lane in 0..LANES {
+                let (dx, dy, dz) = (x[lane] - at.x, y[lane] - at.y, z[lane] - at.z);
+                distance_sq[lane] = dx * dx + dy * dy + dz * dz;
+            }
+            for lane in 0..LANES {
+                let closer = distance_sq[lane] < best[lane];
+                best[lane] = if closer {
+                    distance_sq[lane]
                 } else {
-                    best_chunk[lane]
+                    best[lane]
                 };
+                best_group[lane] = if closer { number } else { best_group[lane] };
             }
         }
         let lane = (0..LANES).min_by(|&a, &b| best[a].total_cmp(&best[b]))?;
-        if best_chunk[lane] == u32::MAX {
-            return None;
-        }
-        let i = best_chunk[lane] as usize * LANES + lane;
-        Some((Point3::new(self.x[i], self.y[i], self.z[i]), best[lane]))
+        let group = best_group[lane];
+        (group != u32::MAX).then(|| (self.point(group as usize * LANES + lane), best[lane]))
     }
 }
 
@@ -427,9 +437,9 @@ fn surface_distance_sq(target: &Target<'_>, index: usize, at: &Point3<f32>) -> f
     }
 }
 
-fn mean(values: impl ExactSizeIterator<Item = f64>) -> f64 {
-    let n = values.len().max(1) as f64;
-    values.sum::<f64>() / n
+fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (n, sum) = values.fold((0.0_f64, 0.0), |(n, sum), value| (n + 1.0, sum + value));
+    sum / n.max(1.0)
 }
 
 #[cfg(test)]
