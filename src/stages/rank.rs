@@ -314,20 +314,22 @@ fn overlap(
     seen: &ReferenceView,
     scene_plane_from_view_plane: &Isometry2<f64>,
 ) -> f64 {
+    // Straight from scene plane to pixels of the view: this loop decides what ranking costs.
     let view_plane_from_scene = scene_plane_from_view_plane.inverse();
-    let shared = scene
-        .points
-        .iter()
-        .filter(|p| {
-            let (column, row) = seen.plane.pixel_of(&(view_plane_from_scene * **p));
-            seen.plane
-                .image
-                .is_set(column.round() as i64, row.round() as i64)
-        })
-        .count() as f64
-        * scene.area_each;
+    let at = |x: f64, y: f64| {
+        seen.plane
+            .pixel_of(&(view_plane_from_scene * Point2::new(x, y)))
+    };
+    let (origin, right, up) = (at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0));
+    let image = &seen.plane.image;
+    let is_shared = |p: &&Point2<f64>| {
+        // Half a pixel more, so that cutting off the fraction rounds.
+        let column = origin.0 + (right.0 - origin.0) * p.x + (up.0 - origin.0) * p.y + 0.5;
+        let row = origin.1 + (right.1 - origin.1) * p.x + (up.1 - origin.1) * p.y + 0.5;
+        column >= 0.0 && row >= 0.0 && image.is_set(column as i64, row as i64)
+    };
+    let shared = scene.points.iter().filter(is_shared).count() as f64 * scene.area_each;
     let scene_area = scene.points.len() as f64 * scene.area_each;
-    let view_area = seen.plane.image.num_set() as f64 * seen.plane.pixel.0.powi(2);
-    let joint = scene_area + view_area - shared;
+    let joint = scene_area + seen.image_area - shared;
     if joint > 0.0 { shared / joint } else { 0.0 }
 }

@@ -67,6 +67,8 @@ pub struct ReferenceView {
     pub plane_from_part: RigidTransform,
     /// The binary image.
     pub plane: PlaneImage,
+    /// Area of its set pixels, square metres.
+    pub image_area: f64,
     /// Its outline and openings.
     pub contour: Contour,
     /// The outline's signature.
@@ -181,6 +183,7 @@ impl ReferenceView {
         Self {
             edges: EdgePoints::new(edges, NUM_EDGES),
             spectrum: correlation::spectrum(&signature.rays),
+            image_area: plane.image.num_set() as f64 * plane.pixel.0.powi(2),
             plane_from_part,
             plane,
             contour,

@@ -144,7 +144,8 @@ pub fn look_for(
         let Some((u, v)) = camera.pixel_of(&at) else {
             continue;
         };
-        let (u, v) = (u.round() as i64, v.round() as i64);
+        // Rounds what is inside; what is outside stays so.
+        let (u, v) = ((u + 0.5).floor() as i64, (v + 0.5).floor() as i64);
         let inside = |u: i64, v: i64| {
             u >= 0 && v >= 0 && u < camera.width as i64 && v < camera.height as i64
         };
