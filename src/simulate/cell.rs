@@ -33,6 +33,8 @@ pub enum Subject {
     },
     /// Something that is no known part.
     Object(ObjectKind),
+    /// Nothing: the empty cell.
+    Nothing,
 }
 
 impl Subject {
@@ -45,6 +47,7 @@ impl Subject {
                 model_seed,
             } => PartModel::new(kind, side, model_seed).into_mesh(),
             Self::Object(kind) => kind.mesh(),
+            Self::Nothing => TriangleMesh::default(),
         }
     }
 }

@@ -34,7 +34,7 @@ impl Truth {
     pub fn part(&self) -> Option<PartKind> {
         match self.subject {
             Subject::Part { kind, .. } => Some(kind),
-            Subject::Object(_) => None,
+            Subject::Object(_) | Subject::Nothing => None,
         }
     }
 }

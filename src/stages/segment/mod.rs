@@ -251,3 +251,6 @@ fn take_part(
         }),
     }
 }
+
+#[cfg(test)]
+mod tests;
