@@ -7,7 +7,7 @@
 //!
 //! Paper matcher: Algorithm 2 with eq. 7 and 11 and Note 1, as written.
 
-use nalgebra::{Isometry2, Point2};
+use nalgebra::{Isometry2, Point2, UnitQuaternion, Vector3};
 
 use crate::{
     stages::{
@@ -48,7 +48,7 @@ impl Default for RankParams {
     fn default() -> Self {
         Self {
             matcher: Matcher::Default,
-            num_overlaid: 4,
+            num_overlaid: 6,
             outline_tolerance: Metres::from_mm(60.0),
         }
     }
@@ -155,7 +155,7 @@ fn rank_by_overlap(
             }
         }
         placements.sort_by(|a, b| a.outline_distance.0.total_cmp(&b.outline_distance.0));
-        placements.truncate(params.num_overlaid);
+        let mut placements = both_ways_round(enrolled, &placements, params.num_overlaid);
         for placement in &mut placements {
             let seen = &enrolled.views[placement.view];
             let moved = seen.scene_plane_from_view_plane(placement.turn, &query.signature.centroid);
@@ -178,6 +178,27 @@ fn rank_by_overlap(
         }
     };
     references.iter().enumerate().map(&mut entry).collect()
+}
+
+/// Half of the places for the best placement and its like, half for the best that is turned far from it: sorted by
+/// distance alone, the views of a near-symmetric part would fill the list with the same mistake.
+fn both_ways_round(enrolled: &Reference, sorted: &[Placement], num: usize) -> Vec<Placement> {
+    const FAR_TURN: f64 = std::f64::consts::FRAC_PI_3;
+    let attitude = |p: &Placement| {
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), p.turn.0);
+        turn * enrolled.views[p.view].plane_from_part.rotation
+    };
+    let Some(best) = sorted.first().map(attitude) else {
+        return Vec::new();
+    };
+    let (near, far): (Vec<Placement>, Vec<Placement>) = sorted
+        .iter()
+        .partition(|p| attitude(p).angle_to(&best) < FAR_TURN);
+    let num_far = far.len().min(num / 2);
+    near.into_iter()
+        .take(num - num_far)
+        .chain(far.into_iter().take(num_far))
+        .collect()
 }
 
 /// The two best lags of one view that are not neighbours: a near-symmetric part fits almost as well half a turn off.
@@ -224,7 +245,7 @@ fn placements_of(
 }
 
 /// Spacing of the points at which two images are compared, metres.
-const OVERLAP_SPACING: f64 = 0.015;
+const OVERLAP_SPACING: f64 = 0.025;
 
 /// Set places of an image on a coarse grid, with the area that each stands for.
 struct Thinned {

@@ -1,16 +1,15 @@
 //! Files made by others, read here and by independent readers.
 //!
-//! The data is looked for in `../shared/data` beside the crate, or where `PARTSIGHT_DATA` says. Without it the tests
-//! say so and pass; with `PARTSIGHT_REQUIRE_DATA=1` they fail.
-//!
 //! The expected numbers are those of pypcd4 1.5.1 (PCD), plyfile 1.1.5 (PLY) and trimesh 5.2.0 (glTF), with numpy
 //! 2.4.6. Extents are compared to a hundredth of a millimetre.
 
-use std::path::{Path, PathBuf};
+use std::path::Path;
 
 use nalgebra::Point3;
 use partsight::files::{Opened, open, save_cloud, write_pcd};
 use partsight::geometry::cloud::{Grid, PointCloud};
+
+use crate::data_folder;
 
 const KINECT: Option<Grid> = Some(Grid {
     width: 640,
@@ -148,32 +147,6 @@ const MESHES: [ExpectedMesh; 62] = [
     ("Window_FR", 30, 28, [-0.35254, 0.90502, 0.58802], [0.51296, 1.20440, 0.69084], 0.21094),
     ("Window_R", 46, 46, [-1.02193, 0.96269, -0.58589], [-0.63283, 1.20180, 0.58589], 0.45000),
 ];
-
-/// The folder with the data; `None`, with a word about it, where there is none.
-#[expect(
-    clippy::print_stderr,
-    reason = "a test that checks nothing must say so"
-)]
-fn data_folder() -> Option<PathBuf> {
-    let folder = std::env::var_os("PARTSIGHT_DATA").map_or_else(
-        || Path::new(env!("CARGO_MANIFEST_DIR")).join("../shared/data"),
-        PathBuf::from,
-    );
-    if folder.is_dir() {
-        return Some(folder);
-    }
-    let is_required = std::env::var_os("PARTSIGHT_REQUIRE_DATA").is_some_and(|value| value == "1");
-    assert!(
-        !is_required,
-        "PARTSIGHT_REQUIRE_DATA=1, and there is no folder {}",
-        folder.display()
-    );
-    eprintln!(
-        "skipped: no folder {}; PARTSIGHT_DATA can name another",
-        folder.display()
-    );
-    None
-}
 
 fn cloud_at(path: &Path) -> PointCloud {
     match open(path) {

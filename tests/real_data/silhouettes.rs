@@ -1,0 +1,163 @@
+//! Ranking on real silhouettes: the first shape of each MPEG-7 class is enrolled, and the same shape is asked for
+//! again, turned, with both principal axes flipped, or drawn at another resolution.
+
+use std::path::Path;
+
+use nalgebra::Point2;
+use partsight::{
+    geometry::raster::BinaryImage,
+    stages::{
+        contour::{Contour, ContourParams, find_contour},
+        project::PlaneImage,
+        rank::{Matcher, Query, RankParams, rank},
+        reference::Reference,
+        signature::{FanSignature, SignatureParams, describe},
+    },
+    units::Metres,
+};
+
+use crate::data_folder;
+
+/// A white shape on black, as a set of pixels.
+struct Silhouette {
+    class: String,
+    image: BinaryImage,
+    centre: Point2<f64>,
+    longest_side: f64,
+}
+
+fn silhouettes(folder: &Path) -> Vec<Silhouette> {
+    let mut names: Vec<_> = std::fs::read_dir(folder)
+        .expect("a folder of silhouettes")
+        .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
+        .collect();
+    names.sort();
+    let number = |name: &str| -> u32 {
+        let digits = name
+            .trim_end_matches(".png")
+            .rsplit('-')
+            .next()
+            .expect("CLASS-N.png");
+        digits.parse().expect("a number")
+    };
+    names.sort_by_key(|name| {
+        (
+            name[..name.rfind('-').expect("CLASS-N.png")].to_owned(),
+            number(name),
+        )
+    });
+    names.dedup_by_key(|name| name[..name.rfind('-').expect("CLASS-N.png")].to_owned());
+    names.iter().map(|name| silhouette(folder, name)).collect()
+}
+
+fn silhouette(folder: &Path, name: &str) -> Silhouette {
+    let grey = image::open(folder.join(name)).expect("a PNG").to_luma8();
+    let (width, height) = (grey.width() as usize, grey.height() as usize);
+    let image = BinaryImage {
+        width,
+        height,
+        pixels: grey.pixels().map(|p| u8::from(p.0[0] > 127)).collect(),
+    };
+    let set = |i: &usize| image.pixels[*i] == 1;
+    let (mut low, mut high) = ([usize::MAX; 2], [0; 2]);
+    for i in (0..width * height).filter(set) {
+        for (axis, x) in [i % width, i / width].into_iter().enumerate() {
+            low[axis] = low[axis].min(x);
+            high[axis] = high[axis].max(x);
+        }
+    }
+    Silhouette {
+        class: name[..name.rfind('-').expect("CLASS-N.png")].to_owned(),
+        centre: Point2::new(
+            (low[0] + high[0]) as f64 / 2.0,
+            (low[1] + high[1]) as f64 / 2.0,
+        ),
+        longest_side: (high[0] - low[0]).max(high[1] - low[1]) as f64 + 1.0,
+        image,
+    }
+}
+
+/// Draws a shape, a metre long, turned counter-clockwise about its centre, `raster` pixels to the metre.
+fn drawn(shape: &Silhouette, turn_degrees: f64, raster: usize) -> PlaneImage {
+    // Room for the diagonal at any turn, and an empty margin.
+    let side = raster * 3 / 2 + 8;
+    let (sin, cos) = turn_degrees.to_radians().sin_cos();
+    let per_pixel = shape.longest_side / raster as f64;
+    let mut image = BinaryImage::new(side, side);
+    for row in 0..side {
+        for column in 0..side {
+            // Nine samples a pixel, by majority.
+            let set = (0..9)
+                .filter(|k| {
+                    let x = (column as f64 + f64::from(k % 3 - 1) / 3.0 - side as f64 / 2.0)
+                        * per_pixel;
+                    let y =
+                        (row as f64 + f64::from(k / 3 - 1) / 3.0 - side as f64 / 2.0) * per_pixel;
+                    let u = shape.centre.x + cos * x - sin * y;
+                    let v = shape.centre.y + sin * x + cos * y;
+                    shape.image.is_set(u.round() as i64, v.round() as i64)
+                })
+                .count();
+            image.pixels[row * side + column] = u8::from(set >= 5);
+        }
+    }
+    PlaneImage::from_image(image, Metres(1.0 / raster as f64))
+}
+
+fn described(plane: &PlaneImage) -> (Contour, FanSignature) {
+    let contour = find_contour(plane, &ContourParams::default()).expect("a shape");
+    let signature = describe(&contour, &SignatureParams::default()).expect("an outline");
+    (contour, signature)
+}
+
+fn num_right(
+    shapes: &[Silhouette],
+    references: &[Reference],
+    matcher: Matcher,
+    turn: f64,
+    raster: usize,
+) -> usize {
+    let params = RankParams {
+        matcher,
+        ..RankParams::default()
+    };
+    let is_right = |shape: &&Silhouette| {
+        let plane = drawn(shape, turn, raster);
+        let (contour, signature) = described(&plane);
+        let query = Query {
+            plane: &plane,
+            contour: &contour,
+            signature: &signature,
+        };
+        let ranking = rank(&query, references, &params);
+        ranking.entries[0].part == shape.class
+    };
+    shapes.iter().filter(is_right).count()
+}
+
+#[test]
+#[expect(clippy::print_stderr, reason = "the figures are worth reading")]
+fn a_shape_is_found_again_turned_flipped_and_at_another_resolution() {
+    let Some(data) = data_folder() else { return };
+    let shapes = silhouettes(&data.join("silhouettes"));
+    assert_eq!(shapes.len(), 35, "one shape of each class");
+    let references: Vec<Reference> = shapes
+        .iter()
+        .map(|shape| {
+            let plane = drawn(shape, 0.0, 200);
+            let (contour, signature) = described(&plane);
+            Reference::from_plane(&shape.class, plane, contour, signature)
+        })
+        .collect();
+    for (what, turn, raster) in [
+        ("as enrolled", 0.0, 200),
+        ("turned by 37°", 37.0, 200),
+        ("both axes flipped", 180.0, 200),
+        ("160 pixels instead of 200", 0.0, 160),
+    ] {
+        let by_default = num_right(&shapes, &references, Matcher::Default, turn, raster);
+        let by_paper = num_right(&shapes, &references, Matcher::Paper, turn, raster);
+        eprintln!("{what}: default {by_default}/35, paper {by_paper}/35");
+        assert!(by_default >= 34, "{what}: only {by_default} of 35");
+    }
+}
