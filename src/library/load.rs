@@ -99,7 +99,7 @@ pub enum EntryError {
     },
     /// The cloud cannot be read.
     #[error("{CLOUD} cannot be used: {0}")]
-    BadCloud(#[from] FileError),
+    BadCloud(Box<FileError>),
     /// The file of the cloud holds something else, or too much of it.
     #[error("{CLOUD} holds {found}, expected a cloud of at most {MAX_POINTS} points")]
     NotACloud {
@@ -354,7 +354,7 @@ fn read_cloud(path: &Path) -> Result<PointCloud, EntryError> {
         Ok(Opened::Mesh(_)) => return Err(not_a_cloud("a mesh")),
         Ok(Opened::Depth(_)) => return Err(not_a_cloud("a depth image")),
         Err(FileError::NotFound { .. }) => return Err(EntryError::Missing { file: CLOUD }),
-        Err(error) => return Err(error.into()),
+        Err(error) => return Err(EntryError::BadCloud(Box::new(error))),
     };
     if cloud.points.len() > MAX_POINTS {
         return Err(not_a_cloud(&format!("{} points", cloud.points.len())));

@@ -300,7 +300,7 @@ impl LibraryFolder {
         let trash = self.path.join(TRASH);
         fs::create_dir_all(&trash)?;
         let now = jiff::Timestamp::now().strftime("%Y%m%dT%H%M%SZ");
-        let place = (1..)
+        let place = (1..=9999)
             .map(|n| match n {
                 1 => trash.join(format!("{name}-{now}")),
                 n => trash.join(format!("{name}-{now}-{n}")),

@@ -142,8 +142,7 @@ impl Splats {
 
     /// The mean normal of a sample and its neighbours at the same depth: hides the borders between discs.
     fn smooth_normal(&self, i: usize) -> Vector3<f64> {
-        let sum: Vector3<f64> = self
-            .around(i, 4)
+        let sum: Vector3<f64> = Self::around(i, 4)
             .filter(|&j| (self.depths[j] - self.depths[i]).abs() < 12.0)
             .map(|j| self.normals[j])
             .sum();
@@ -155,15 +154,14 @@ impl Splats {
     /// 1 for a sample with nothing before it on any side, towards 0 in a groove or behind an edge.
     fn openness(&self, i: usize) -> f64 {
         let reach = 6;
-        let before: f64 = self
-            .around(i, reach)
+        let before: f64 = Self::around(i, reach)
             .map(|j| ((self.depths[i] - self.depths[j]) / reach as f64 - 0.8).clamp(0.0, 3.0))
             .sum();
         (-0.12 * before).exp()
     }
 
     /// The samples at so many steps in eight directions, as far as they are in the picture.
-    fn around(&self, i: usize, reach: i64) -> impl Iterator<Item = usize> {
+    fn around(i: usize, reach: i64) -> impl Iterator<Item = usize> {
         let (column, row) = ((i % WIDTH) as i64, (i / WIDTH) as i64);
         (-1..=1_i64)
             .flat_map(|dv| (-1..=1_i64).map(move |du| (du, dv)))
