@@ -8,14 +8,14 @@ use crate::{
     error::Advice,
     library::Library,
     stages::{
-        confirm::{ConfirmParams, Scene, confirm},
+        confirm::{ConfirmParams, Scene, UNCONFIRMED, confirm},
         contour::{Contour, ContourError, ContourParams, find_contour},
         pose::{
             PoseError, PoseEstimate, PoseMethod,
             icp::{IcpParams, locate_by_icp},
         },
         project::{PlaneImage, ProjectError, ProjectParams, project},
-        rank::{MatchRanking, Query, RankParams, rank},
+        rank::{MatchRanking, Matcher, Query, RankParams, place, rank},
         scene::SceneCloud,
         segment::{NoPart, SegmentParams, Segmentation, SegmentedPart, segment},
         signature::{FanSignature, SignatureError, SignatureParams, describe},
@@ -147,6 +147,14 @@ pub enum Rejection {
         /// Least lead.
         threshold: f64,
     },
+    /// The paper's matcher was asked alone.
+    #[error(
+        "{part} is the nearest outline; the paper's matcher alone cannot tell it from an unknown part"
+    )]
+    Unconfirmed {
+        /// Best match.
+        part: String,
+    },
     /// The pose could not be estimated.
     #[error("no pose was found: {0}")]
     NoPose(#[from] PoseError),
@@ -181,6 +189,7 @@ impl Advice for Rejection {
             Self::SmallMargin { .. } => {
                 "Turn the part so that its face looks at the camera and capture again".into()
             }
+            Self::Unconfirmed { .. } => "Have the pose estimated too, with --pose global".into(),
             Self::NoPose(error) => error.advice(),
         }
     }
@@ -280,7 +289,7 @@ pub fn run(
         Err(no_part) => Err(no_part.into()),
     };
     inspection.verdict = match recognised {
-        Ok(()) => verdict(&inspection, &recipe.accept),
+        Ok(()) => verdict(&inspection, recipe),
         Err(reason) => Verdict::NoPart(reason),
     };
     inspection.timings = clock.finish();
@@ -322,16 +331,27 @@ fn recognise(
         PoseChoice::Skip => {}
         PoseChoice::By(PoseMethod::Icp) => {
             let reference = &references[first.reference];
-            let located = clock.time(Stage::Pose, || {
-                locate_by_icp(part, reference, scene, &recipe.icp)
-            })?;
-            inspection.pose = Some(located);
+            let locate = || locate_by_icp(part, reference, scene, &recipe.icp);
+            let pose = clock.time(Stage::Pose, locate)?;
+            // The order is the matcher's; what the first is worth shows at its pose.
+            for entry in &mut inspection.ranking.entries {
+                entry.score *= UNCONFIRMED;
+            }
+            inspection.ranking.entries[0].score = pose.as_ref().map_or(0.0, |p| p.fit.score());
+            inspection.pose = Some(pose);
         }
         PoseChoice::By(PoseMethod::Global) => {
+            let mut ranking = std::mem::take(&mut inspection.ranking);
+            let mut params = recipe.confirm.clone();
+            if recipe.rank.matcher == Matcher::Paper {
+                // The paper's choice stands: only that one is put in its place.
+                params.num_references = 1;
+                let first = &mut ranking.entries[0];
+                first.placements = place(&query, &references[first.reference], &recipe.rank);
+            }
             let scene = Scene { scene, part, query };
-            let ranking = std::mem::take(&mut inspection.ranking);
             let (ranking, pose) = clock.time(Stage::Pose, || {
-                confirm(&scene, references, ranking, &recipe.confirm)
+                confirm(&scene, references, ranking, &params)
             })?;
             inspection.ranking = ranking;
             inspection.pose = Some(pose);
@@ -340,15 +360,19 @@ fn recognise(
     Ok(Ok(()))
 }
 
-fn verdict(inspection: &Inspection, accept: &AcceptParams) -> Verdict {
+fn verdict(inspection: &Inspection, recipe: &Recipe) -> Verdict {
     let Some(best) = inspection.ranking.entries.first() else {
         return Verdict::NoPart(Unrecognisable::EmptyLibrary);
     };
+    let accept = &recipe.accept;
     let next = inspection.ranking.entries.get(1);
     let margin = best.score - next.map_or(0.0, |n| n.score);
     let part = best.part.clone();
     let rejected = match (&inspection.pose, next) {
         (Some(Err(error)), _) => Some(Rejection::NoPose(*error)),
+        (None, _) if recipe.rank.matcher == Matcher::Paper => {
+            Some(Rejection::Unconfirmed { part: part.clone() })
+        }
         _ if best.score < accept.min_score => Some(Rejection::LowScore {
             part: part.clone(),
             score: best.score,

@@ -72,20 +72,29 @@ impl KdTree {
 
     /// The point nearest to `query` among those closer than `radius_sq` (square metres; infinity for no limit).
     pub fn nearest(&self, query: &Point3<f32>, radius_sq: f32) -> Option<Neighbour> {
+        self.nearest_but(query, radius_sq, u32::MAX)
+    }
+
+    /// The point nearest to `query` that is not the point of this index.
+    pub fn nearest_other(&self, query: &Point3<f32>, index: usize) -> Option<Neighbour> {
+        self.nearest_but(query, f32::INFINITY, index as u32)
+    }
+
+    fn nearest_but(&self, query: &Point3<f32>, radius_sq: f32, skipped: u32) -> Option<Neighbour> {
         let mut best = Best {
             position: usize::MAX,
             distance_sq: radius_sq,
+            skipped,
         };
         let query = [query.x, query.y, query.z];
-        self.search(
-            &query,
-            0,
-            0,
-            self.points.len(),
-            self.depth,
-            [0.0; 3],
-            &mut best,
-        );
+        let cell = Cell {
+            node: 0,
+            start: 0,
+            end: self.points.len(),
+            depth: self.depth,
+            offsets: [0.0; 3],
+        };
+        self.search(&query, cell, &mut best);
         (best.position != usize::MAX).then(|| Neighbour {
             index: self.indices[best.position] as usize,
             distance_sq: best.distance_sq,
@@ -93,30 +102,21 @@ impl KdTree {
     }
 
     /// Descends the nearer child first and the farther one only if its cell can hold something closer.
-    /// `offsets` is the distance from the query to this node's cell along each axis.
-    #[expect(
-        clippy::too_many_arguments,
-        reason = "one private recursion; a struct would hide what changes per level"
-    )]
-    fn search(
-        &self,
-        query: &[f32; 3],
-        node: usize,
-        start: usize,
-        end: usize,
-        depth: u32,
-        offsets: [f32; 3],
-        best: &mut Best,
-    ) {
+    fn search(&self, query: &[f32; 3], cell: Cell, best: &mut Best) {
+        let Cell {
+            node,
+            start,
+            end,
+            depth,
+            offsets,
+        } = cell;
         if depth == 0 {
             for (i, p) in self.points[start..end].iter().enumerate() {
                 let d = [p[0] - query[0], p[1] - query[1], p[2] - query[2]];
                 let distance_sq = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
-                if distance_sq < best.distance_sq {
-                    *best = Best {
-                        position: start + i,
-                        distance_sq,
-                    };
+                if distance_sq < best.distance_sq && self.indices[start + i] != best.skipped {
+                    best.position = start + i;
+                    best.distance_sq = distance_sq;
                 }
             }
             return;
@@ -125,17 +125,30 @@ impl KdTree {
         let axis = usize::from(axis);
         let middle = start + (end - start) / 2;
         let to_plane = query[axis] - at;
-        let (near, far) = if to_plane < 0.0 {
-            ((2 * node + 1, start, middle), (2 * node + 2, middle, end))
-        } else {
-            ((2 * node + 2, middle, end), (2 * node + 1, start, middle))
+        let depth = depth - 1;
+        let low = Cell {
+            node: 2 * node + 1,
+            start,
+            end: middle,
+            depth,
+            offsets,
         };
-        self.search(query, near.0, near.1, near.2, depth - 1, offsets, best);
-        let mut far_offsets = offsets;
-        far_offsets[axis] = to_plane;
-        let far_sq = far_offsets.iter().map(|o| o * o).sum::<f32>();
-        if far_sq < best.distance_sq {
-            self.search(query, far.0, far.1, far.2, depth - 1, far_offsets, best);
+        let high = Cell {
+            node: 2 * node + 2,
+            start: middle,
+            end,
+            depth,
+            offsets,
+        };
+        let (near, mut far) = if to_plane < 0.0 {
+            (low, high)
+        } else {
+            (high, low)
+        };
+        self.search(query, near, best);
+        far.offsets[axis] = to_plane;
+        if far.offsets.iter().map(|o| o * o).sum::<f32>() < best.distance_sq {
+            self.search(query, far, best);
         }
     }
 
@@ -170,10 +183,23 @@ impl KdTree {
     }
 }
 
-#[derive(Clone, Copy)]
+/// The nearest so far, as a position in leaf order.
 struct Best {
     position: usize,
     distance_sq: f32,
+    /// Index of a point that does not count.
+    skipped: u32,
+}
+
+/// The part of space below a node.
+#[derive(Clone, Copy)]
+struct Cell {
+    node: usize,
+    start: usize,
+    end: usize,
+    depth: u32,
+    /// Distance from the query to the cell along each axis.
+    offsets: [f32; 3],
 }
 
 /// Orders `entries` so that every inner node's lower half lies below its split along its longest axis.

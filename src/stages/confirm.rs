@@ -128,16 +128,19 @@ pub fn confirm(
         Vec::with_capacity(ranking.entries.len());
     for (position, mut entry) in ranking.entries.into_iter().enumerate() {
         let reference = &references[entry.reference];
-        let candidate = (position < params.num_references)
+        let is_looked_at = position < params.num_references;
+        let candidate = is_looked_at
             .then(|| best_candidate(scene, &source, reference, &entry.placements, tolerance))
             .flatten();
-        // A reference that was not looked at keeps its place behind those that were.
-        entry.score = candidate
-            .as_ref()
-            .map_or(entry.score * UNCONFIRMED, |c| c.score);
+        entry.score = match &candidate {
+            Some(candidate) => candidate.score,
+            None => entry.score * UNCONFIRMED,
+        };
         confirmed.push((entry, candidate));
     }
-    confirmed.sort_by(|a, b| b.0.score.total_cmp(&a.0.score));
+    // Those that were not looked at stay behind those that were.
+    let num_looked_at = params.num_references.min(confirmed.len());
+    confirmed[..num_looked_at].sort_by(|a, b| b.0.score.total_cmp(&a.0.score));
     let pose = match confirmed.first() {
         Some((entry, Some(best))) => references[entry.reference]
             .target(best.view)
@@ -150,7 +153,7 @@ pub fn confirm(
 }
 
 /// What a ranking's score is worth when the part was not looked for.
-const UNCONFIRMED: f64 = 0.3;
+pub const UNCONFIRMED: f64 = 0.3;
 
 struct Candidate {
     refined: Refined,
@@ -257,7 +260,7 @@ fn best_candidate(
         Search::Field,
     );
     Some(Candidate {
-        score: score_of(&fit),
+        score: fit.score(),
         refined,
         view,
         runner_up,
@@ -386,12 +389,4 @@ fn fit_of(
         ),
         ..measure_fit(measured, target, target_from_source, tolerance, search)
     }
-}
-
-/// 0..1: both the scene's part on the reference and the reference in the scene.
-fn score_of(fit: &Fit) -> f64 {
-    let present = fit.sight.map_or(1.0, |s| {
-        s.confirmed / (s.confirmed + s.missing + s.hidden * 0.5).max(1e-9)
-    });
-    (fit.overlap * present).sqrt()
 }

@@ -8,6 +8,7 @@
 //! Paper matcher: Algorithm 2 with eq. 7 and 11 and Note 1, as written.
 
 use nalgebra::{Isometry2, Point2, UnitQuaternion, Vector3};
+use rustfft::num_complex::Complex;
 
 use crate::{
     stages::{
@@ -141,43 +142,80 @@ fn rank_by_overlap(
     references: &[Reference],
     params: &RankParams,
 ) -> Vec<MatchEntry> {
-    let rays = &query.signature.rays;
-    let query_spectrum = spectrum(rays);
-    let query_power: f64 = rays.iter().map(nalgebra::Vector2::norm_squared).sum();
-    let mut correlator = CircularCorrelator::new(rays.len());
-    let sample = thinned(query.plane);
-    let mut entry = |(reference, enrolled): (usize, &Reference)| {
+    let mut placer = Placer::new(query, params);
+    references
+        .iter()
+        .enumerate()
+        .map(|(reference, enrolled)| {
+            let placements = placer.place(enrolled);
+            MatchEntry {
+                reference,
+                part: enrolled.name.clone(),
+                score: placements.first().map_or(0.0, |p| p.score(params)),
+                distance: placements
+                    .first()
+                    .map_or(f64::INFINITY, |p| p.outline_distance.0),
+                placements,
+            }
+        })
+        .collect()
+}
+
+/// The ways of laying one reference over the scene, best first; for a matcher that finds none itself.
+pub fn place(query: &Query<'_>, reference: &Reference, params: &RankParams) -> Vec<Placement> {
+    Placer::new(query, params).place(reference)
+}
+
+impl Placement {
+    /// 0..1. Outlines alone are fooled by ragged edges, areas alone by slim parts.
+    fn score(&self, params: &RankParams) -> f64 {
+        let outline = (-self.outline_distance.0 / params.outline_tolerance.0).exp();
+        (outline * self.overlap.unwrap_or(0.0)).sqrt()
+    }
+}
+
+/// The scene's side of all comparisons, prepared once.
+struct Placer<'a> {
+    query: &'a Query<'a>,
+    params: &'a RankParams,
+    spectrum: Vec<Complex<f64>>,
+    power: f64,
+    correlator: CircularCorrelator,
+    sample: Thinned,
+}
+
+impl<'a> Placer<'a> {
+    fn new(query: &'a Query<'a>, params: &'a RankParams) -> Self {
+        let rays = &query.signature.rays;
+        Self {
+            query,
+            params,
+            spectrum: spectrum(rays),
+            power: rays.iter().map(nalgebra::Vector2::norm_squared).sum(),
+            correlator: CircularCorrelator::new(rays.len()),
+            sample: thinned(query.plane),
+        }
+    }
+
+    fn place(&mut self, enrolled: &Reference) -> Vec<Placement> {
         let mut placements: Vec<Placement> = Vec::new();
         for (view, seen) in enrolled.views.iter().enumerate() {
-            if seen.spectrum.len() == rays.len() {
-                correlator.correlate(&query_spectrum, &seen.spectrum);
-                placements.extend(placements_of(view, seen, &correlator, query_power));
+            if seen.spectrum.len() == self.spectrum.len() {
+                self.correlator.correlate(&self.spectrum, &seen.spectrum);
+                placements.extend(placements_of(view, seen, &self.correlator, self.power));
             }
         }
         placements.sort_by(|a, b| a.outline_distance.0.total_cmp(&b.outline_distance.0));
-        let mut placements = both_ways_round(enrolled, &placements, params.num_overlaid);
+        let mut placements = both_ways_round(enrolled, &placements, self.params.num_overlaid);
         for placement in &mut placements {
             let seen = &enrolled.views[placement.view];
-            let moved = seen.scene_plane_from_view_plane(placement.turn, &query.signature.centroid);
-            placement.overlap = Some(overlap(&sample, seen, &moved));
+            let moved =
+                seen.scene_plane_from_view_plane(placement.turn, &self.query.signature.centroid);
+            placement.overlap = Some(overlap(&self.sample, seen, &moved));
         }
-        let score_of = |p: &Placement| {
-            let outline = (-p.outline_distance.0 / params.outline_tolerance.0).exp();
-            // Either alone is fooled: outlines by ragged edges, areas by slim parts.
-            (outline * p.overlap.unwrap_or(0.0)).sqrt()
-        };
-        placements.sort_by(|a, b| score_of(b).total_cmp(&score_of(a)));
-        MatchEntry {
-            reference,
-            part: enrolled.name.clone(),
-            score: placements.first().map_or(0.0, score_of),
-            distance: placements
-                .first()
-                .map_or(f64::INFINITY, |p| p.outline_distance.0),
-            placements,
-        }
-    };
-    references.iter().enumerate().map(&mut entry).collect()
+        placements.sort_by(|a, b| b.score(self.params).total_cmp(&a.score(self.params)));
+        placements
+    }
 }
 
 /// Half of the places for the best placement and its like, half for the best that is turned far from it: sorted by

@@ -98,6 +98,9 @@ const FIELD_CELL: f32 = 0.016;
 /// How far off the part the field answers, metres: further than the outline's placement is off.
 const FIELD_BAND: f32 = 0.08;
 
+/// Distance between neighbouring points of a reference cloud, metres: enrolment thins to this.
+pub const SPACING: f64 = 0.008;
+
 /// Distance of a virtual camera from the part's centre; nearly parallel rays, as for a part that fills the picture.
 const VIEW_DISTANCE: f64 = 1.3;
 
@@ -137,6 +140,7 @@ impl Reference {
             tree,
             field,
             edges,
+            spacing: SPACING,
         })
     }
 

@@ -4,6 +4,7 @@
 //! say so and pass; with `PARTSIGHT_REQUIRE_DATA=1` they fail.
 
 mod files;
+mod registration;
 mod silhouettes;
 
 use std::path::{Path, PathBuf};

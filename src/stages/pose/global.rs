@@ -39,6 +39,8 @@ pub struct Target<'a> {
     pub field: &'a NearestField,
     /// Points of outline and openings; may be empty.
     pub edges: &'a EdgePoints,
+    /// Distance between neighbouring points, metres: along the surface, a closest point within it is a hit.
+    pub spacing: f64,
 }
 
 impl Target<'_> {
@@ -157,9 +159,6 @@ pub struct Refined {
     pub stopped: Stopped,
 }
 
-/// Distance along the surface within which the closest point of a sampled target counts as a hit, metres: the points
-/// of a reference cloud are about this far apart.
-pub const SPACING: f64 = 0.008;
 /// Say of all edge pairs against all surface pairs. Edges fix two shifts and a turn, the surface the other three; by
 /// experiment anything from 0.2 to 1 does.
 const EDGE_WEIGHT: f64 = 0.1;
@@ -422,7 +421,7 @@ fn surface_distance_sq(target: &Target<'_>, index: usize, at: &Point3<f32>) -> f
         Some(normal) => {
             let along = normal.cast::<f64>().dot(&away);
             let beside_sq = (away.norm_squared() - along * along).max(0.0);
-            along * along + (beside_sq - SPACING * SPACING).max(0.0)
+            along * along + (beside_sq - target.spacing * target.spacing).max(0.0)
         }
         None => away.norm_squared(),
     }

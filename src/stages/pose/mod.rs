@@ -4,13 +4,17 @@
 //! [`PoseEstimate`]. The paper minimises eq. 12, E(R, t) = mean ‖qᵢ - R pᵢ - t‖² over closest points; E is reported for
 //! every method.
 
+pub mod align;
 pub mod global;
 pub mod icp;
 pub mod quality;
 
 use crate::{geometry::rigid::RigidTransform, units::Metres};
 
-pub use quality::{Fit, Sight};
+pub use self::{
+    align::align,
+    quality::{Fit, Sight},
+};
 
 /// How a pose is estimated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]

@@ -26,6 +26,18 @@ pub struct Fit {
     pub sight: Option<Sight>,
 }
 
+impl Fit {
+    /// 0..1: both the source on the target and, where a camera looks, the target in the scene.
+    ///
+    /// What is hidden counts half as missing: something may well stand before the part, but then less is known.
+    pub fn score(&self) -> f64 {
+        let present = self.sight.map_or(1.0, |s| {
+            s.confirmed / (s.confirmed + s.missing + s.hidden * 0.5).max(f64::MIN_POSITIVE)
+        });
+        (self.overlap * present).sqrt()
+    }
+}
+
 /// What a camera sees of the target where it should be, as shares of the points that face the camera in the picture.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Sight {
