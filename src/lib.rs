@@ -1,11 +1,13 @@
 //! Partsight recognises a car body part in a depth frame and says where it is.
 
 pub mod capture;
+pub mod cli;
 pub mod error;
 pub mod files;
 pub mod geometry;
 pub mod library;
 pub mod pipeline;
+pub mod report;
 pub mod simulate;
 pub mod stages;
 pub mod units;

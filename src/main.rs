@@ -1,2 +1,10 @@
 //! Partsight's command line.
-fn main() {}
+
+use std::process::ExitCode;
+
+use clap::Parser as _;
+use partsight::cli::{self, Cli};
+
+fn main() -> ExitCode {
+    cli::run(Cli::parse()).into()
+}

@@ -1,6 +1,6 @@
 //! Surface normals of a cloud, from the plane through each point's neighbours.
 //!
-//! The normal is the direction of least variance among the points within a radius (H. Hoppe, T. DeRose, T. Duchamp,
+//! The normal is the direction of least variance among the points within a radius (H. Hoppe, T. `DeRose`, T. Duchamp,
 //! J. McDonald and W. Stuetzle, "Surface reconstruction from unorganized points", SIGGRAPH 1992). Its sign is free;
 //! a depth camera saw every point from one place, so the normal is turned to that place.
 //!

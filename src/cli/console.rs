@@ -1,0 +1,175 @@
+//! Where text goes: answers to standard output, messages to standard error, a progress bar between them.
+
+use std::{
+    fmt::Display,
+    io::{self, IsTerminal as _, Write},
+    time::Duration,
+};
+
+use indicatif::{ProgressBar, ProgressStyle};
+
+use crate::error::Advice;
+
+/// Both outputs of a call.
+///
+/// A reader that goes away (`| head`) does not end the work: the rest is not shown, and the exit code stays true.
+pub(super) struct Console {
+    out: io::Stdout,
+    /// The first failure to write an answer, other than a reader that went away.
+    failed: Option<io::Error>,
+    is_read: bool,
+    progress: ProgressBar,
+}
+
+/// More inputs than this take long enough for a progress bar.
+const MANY: usize = 5;
+
+impl Console {
+    pub(super) fn new() -> Self {
+        Self {
+            out: io::stdout(),
+            failed: None,
+            is_read: true,
+            progress: ProgressBar::hidden(),
+        }
+    }
+
+    /// One line of the answer.
+    pub(super) fn line(&mut self, text: &dyn Display) {
+        if !self.is_read {
+            return;
+        }
+        let out = &mut self.out;
+        let write = || writeln!(out, "{text}").and_then(|()| out.flush());
+        match self.progress.suspend(write) {
+            Ok(()) => {}
+            Err(error) => {
+                self.is_read = false;
+                if error.kind() != io::ErrorKind::BrokenPipe {
+                    self.failed = Some(error);
+                }
+            }
+        }
+    }
+
+    /// A remark beside the answer.
+    pub(super) fn note(&self, text: &dyn Display) {
+        // Nobody reads it if this fails.
+        self.progress
+            .suspend(|| drop(writeln!(io::stderr(), "{text}")));
+    }
+
+    /// Something odd, and what to do about it.
+    pub(super) fn warn(&self, what: &dyn Display, advice: &dyn Advice) {
+        self.note(&format_args!("warning: {what}"));
+        self.note(&format_args!("  to do: {}", advice.advice()));
+    }
+
+    /// Why something could not be done, and what to do about it.
+    pub(super) fn error(&self, error: &anyhow::Error) {
+        self.note(&format_args!("error: {error:#}"));
+        if let Some(advice) = advice_of(error) {
+            self.note(&format_args!("  to do: {advice}"));
+        }
+    }
+
+    /// Shows how far a long call has come, on a terminal.
+    pub(super) fn start_progress(&mut self, num_inputs: usize) {
+        if num_inputs > MANY && io::stderr().is_terminal() {
+            let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}  {eta} left");
+            self.progress = ProgressBar::new(num_inputs as u64)
+                .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
+            self.progress.enable_steady_tick(Duration::from_millis(200));
+        }
+    }
+
+    /// One input more is done; `next` comes now.
+    pub(super) fn begin(&self, next: &dyn Display) {
+        self.progress.set_message(next.to_string());
+    }
+
+    /// The input begun last is done.
+    pub(super) fn done(&self) {
+        self.progress.inc(1);
+    }
+
+    /// Ends the progress bar; the first failure to write an answer, if there was one.
+    pub(super) fn finish(&mut self) -> io::Result<()> {
+        self.progress.finish_and_clear();
+        self.failed.take().map_or(Ok(()), Err)
+    }
+}
+
+/// An error that brings its advice along.
+#[derive(Debug)]
+struct WithAdvice {
+    source: anyhow::Error,
+    advice: String,
+}
+
+impl Display for WithAdvice {
+    fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
+        write!(f, "{:#}", self.source)
+    }
+}
+
+impl std::error::Error for WithAdvice {}
+
+fn advice_of(error: &anyhow::Error) -> Option<&str> {
+    error
+        .downcast_ref::<WithAdvice>()
+        .map(|e| e.advice.as_str())
+}
+
+/// Keeps the advice of an error on its way up.
+pub(super) trait Advised<T> {
+    fn advised(self) -> anyhow::Result<T>;
+}
+
+impl<T, E: std::error::Error + Advice + Send + Sync + 'static> Advised<T> for Result<T, E> {
+    fn advised(self) -> anyhow::Result<T> {
+        self.map_err(|error| {
+            anyhow::Error::new(WithAdvice {
+                advice: error.advice(),
+                source: anyhow::Error::new(error),
+            })
+        })
+    }
+}
+
+/// Lines of cells under a heading, each column as wide as its widest cell.
+#[derive(Default)]
+pub(super) struct Table {
+    rows: Vec<Vec<String>>,
+}
+
+impl Table {
+    pub(super) fn new(heading: &[&str]) -> Self {
+        let mut table = Self::default();
+        table.row(heading.iter().map(ToString::to_string));
+        table
+    }
+
+    pub(super) fn row(&mut self, cells: impl IntoIterator<Item = String>) {
+        self.rows.push(cells.into_iter().collect());
+    }
+
+    pub(super) fn show(&self, console: &mut Console) {
+        let num_columns = self.rows.iter().map(Vec::len).max().unwrap_or(0);
+        let widths: Vec<usize> = (0..num_columns)
+            .map(|column| {
+                let cells = self.rows.iter().filter_map(|row| row.get(column));
+                cells.map(|c| c.chars().count()).max().unwrap_or(0)
+            })
+            .collect();
+        for row in &self.rows {
+            let padded: Vec<String> = row
+                .iter()
+                .zip(&widths)
+                .map(|(cell, width)| format!("{cell:<width$}"))
+                .collect();
+            let line = padded.join("  ");
+            console.line(&line.trim_end());
+        }
+    }
+}

@@ -1,0 +1,124 @@
+//! `partsight enrol`: makes a reference part of a file.
+
+use std::path::PathBuf;
+
+use anyhow::bail;
+use clap::Args;
+
+use super::{
+    LibraryChoice, Outcome,
+    console::{Advised as _, Console},
+};
+use crate::{
+    files::{self, Opened},
+    library::{
+        About, EnrolParams, Enrolled, LibraryFolder, PartName, enrol_captured, enrol_mesh,
+        enrol_whole,
+    },
+    stages::{
+        reference::Coverage,
+        scene::{SceneCloud, scene_from_cloud, scene_from_frame},
+    },
+};
+
+/// Enrol a part: make a reference of a captured scene, a cloud or a mesh
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  partsight enrol capture.pcd --name front_door
+  partsight enrol scan.ply --name grille --whole --notes \"spare, with badge\"
+  partsight enrol car.gltf#Door_FL --name door_left --library /media/stick/parts
+
+An organised cloud or a depth image is a captured scene: the part before the wall is taken out of it. Anything
+else is taken whole. A part of the same name is replaced; the former one is kept in the library's .trash folder.")]
+pub(super) struct EnrolArgs {
+    /// A captured scene, a cloud, or a mesh (one of a glTF by #NAME); metres
+    #[arg(value_name = "FILE")]
+    file: PathBuf,
+    /// Name of the part: lowercase letters, digits, _ and -
+    #[arg(long)]
+    name: PartName,
+    #[command(flatten)]
+    library: LibraryChoice,
+    /// Take everything in the file
+    #[arg(long, conflicts_with = "segment")]
+    whole: bool,
+    /// Take the part that stands before the background
+    #[arg(long)]
+    segment: bool,
+    /// Name for people, such as "Front door, left"
+    #[arg(long, value_name = "TEXT", default_value = "")]
+    title: String,
+    /// Anything worth remembering
+    #[arg(long, value_name = "TEXT", default_value = "")]
+    notes: String,
+    /// Record that no real camera saw the part
+    #[arg(long)]
+    simulated: bool,
+}
+
+pub(super) fn run(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let enrolled = enrolled_from(args, console)?;
+    for warning in &enrolled.warnings {
+        console.warn(warning, warning);
+    }
+    let folder = match &args.library.library {
+        Some(path) => LibraryFolder::open_or_create(path).advised()?,
+        None => args.library.open()?.folder().clone(),
+    };
+    let saved = folder.save(&enrolled.part).advised()?;
+    let part = &enrolled.part;
+    let sides = match part.meta.coverage {
+        Coverage::OneSide => "seen from one side",
+        Coverage::AllAround => "seen from all around",
+    };
+    console.line(&format_args!(
+        "Enrolled {} from {}, {sides}: {} points, outline of {:.2} m with {} openings",
+        args.name,
+        part.meta.enrolled.how.describe(),
+        part.cloud.points.len(),
+        part.signature.perimeter_m,
+        part.signature.openings_m.len(),
+    ));
+    console.line(&format_args!(
+        "  it lies in         {}",
+        saved.folder.display()
+    ));
+    if let Some(former) = saved.replaced {
+        console.line(&format_args!("  the former one in  {}", former.display()));
+    }
+    Ok(Outcome::Accepted)
+}
+
+fn enrolled_from(args: &EnrolArgs, console: &Console) -> anyhow::Result<Enrolled> {
+    let opened = files::open(&args.file).advised()?;
+    for warning in opened.warnings() {
+        console.warn(&warning, &warning);
+    }
+    let file_name = args.file.file_name().unwrap_or(args.file.as_os_str());
+    let about = About {
+        name: args.name.clone(),
+        title: args.title.clone(),
+        notes: args.notes.clone(),
+        from: file_name.to_string_lossy().into_owned(),
+        // Whole seconds are enough for people.
+        at: jiff::Timestamp::from_second(jiff::Timestamp::now().as_second())?,
+        simulated: args.simulated,
+    };
+    let params = EnrolParams::default();
+    let captured = |scene: &SceneCloud| enrol_captured(scene, &about, &params).advised();
+    match opened {
+        Opened::Mesh(_) if args.segment => {
+            bail!("a mesh has no background to take the part out of; leave --segment out")
+        }
+        Opened::Mesh(mesh) => enrol_mesh(&mesh, &about, &params).advised(),
+        Opened::Depth(frame) if args.whole => {
+            enrol_whole(&scene_from_frame(&frame).cloud, &about, &params).advised()
+        }
+        Opened::Depth(frame) => captured(&scene_from_frame(&frame)),
+        Opened::Cloud(cloud) if args.segment || (cloud.grid.is_some() && !args.whole) => {
+            captured(&scene_from_cloud(cloud))
+        }
+        Opened::Cloud(cloud) => enrol_whole(&cloud, &about, &params).advised(),
+    }
+}

@@ -1,0 +1,44 @@
+//! `partsight` alone: one inspection of the simulated cell, so that a first call shows something.
+
+use super::{LibraryChoice, Outcome, console::Console, verdict::show_card};
+use crate::{
+    pipeline::{self, Recipe, Unwatched},
+    simulate::{CellSetup, PartKind, PartPose, Placement, Side, frame},
+    stages::scene::scene_from_frame,
+};
+
+/// The frame's seed.
+const SEED: u64 = 1;
+
+pub(super) fn run(console: &mut Console) -> anyhow::Result<Outcome> {
+    let load = LibraryChoice { library: None }.load_some(console)?;
+    let mut setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 0, SEED);
+    setup.pose = PartPose::Drawn(Placement::facing());
+    let scene = scene_from_frame(&frame(&setup).frame);
+    let inspection = pipeline::run(&scene, &load.library, &Recipe::default(), &Unwatched)?;
+    console.line(&"Simulated: no camera was read. A front door hangs in the simulated cell; this is what was found.");
+    console.line(&"");
+    show_card("simulated cell", &inspection, &load.library, console);
+    console.line(&"");
+    console.line(&"Next:");
+    for (command, what) in [
+        (
+            "partsight inspect FILE...",
+            "recognise the part in your own captures",
+        ),
+        (
+            "partsight enrol FILE --name NAME",
+            "teach it a part of your own",
+        ),
+        ("partsight library list", "see what is enrolled"),
+        (
+            "partsight simulate --part fender --out fender.pcd",
+            "make a capture to try",
+        ),
+        ("partsight help", "everything else"),
+    ] {
+        console.line(&format_args!("  {command:<51} {what}"));
+    }
+    // A look around, not an inspection: whatever the verdict, it ran.
+    Ok(Outcome::Accepted)
+}

@@ -1,0 +1,269 @@
+//! `partsight inspect`: which part is it, and where?
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, ValueEnum};
+
+use super::{
+    LibraryChoice, Outcome,
+    console::Console,
+    input::open_scene,
+    report_folder::ReportFolder,
+    verdict::{InspectLine, complaint, outcome_of, place_of, show_card},
+};
+use crate::{
+    error::Advice as _,
+    library::Library,
+    pipeline::{self, Inspection, PoseChoice, Recipe, Unwatched, Verdict},
+    report::stage_pictures,
+    stages::{pose::PoseMethod, rank::Matcher},
+};
+
+/// Recognise the part in captured scenes and say where it is
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  partsight inspect door.pcd
+  partsight inspect captures/*.png --library /media/stick/reference_parts
+  partsight inspect door.pcd --json | jq .part
+  partsight inspect misread.pcd --report why/
+  partsight inspect door.pcd --matcher paper --pose icp
+
+Files: PCD, PLY, XYZ or CSV text, or a 16-bit depth PNG with its intrinsics in a JSON beside it; metres.
+Exit codes: 0 every input accepted, 1 something was not accepted, 2 something could not be read.")]
+pub(super) struct InspectArgs {
+    /// Captured scenes
+    #[arg(required = true, value_name = "FILE")]
+    files: Vec<PathBuf>,
+    #[command(flatten)]
+    library: LibraryChoice,
+    /// What ranks the enrolled parts
+    #[arg(long, value_enum, default_value_t = MatcherChoice::Default)]
+    matcher: MatcherChoice,
+    /// What finds the pose
+    #[arg(long, value_enum, default_value_t = PoseArg::Global)]
+    pose: PoseArg,
+    /// Write one line of JSON per file, and nothing else, to standard output
+    #[arg(long)]
+    json: bool,
+    /// Write into this folder, per file: the line of JSON, and a picture of every stage
+    #[arg(long, value_name = "DIR")]
+    report: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum MatcherChoice {
+    /// Circular correlation of the outlines in metres, overlap, and the fit of the pose
+    Default,
+    /// The paper's Algorithm 2, literally
+    Paper,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum PoseArg {
+    /// From any start; also confirms which part it is
+    Global,
+    /// The paper's iterative closest point, from the standard position
+    Icp,
+    /// No pose: the verdict rests on the outline alone
+    None,
+}
+
+impl InspectArgs {
+    fn recipe(&self) -> Recipe {
+        let mut recipe = Recipe::default();
+        recipe.rank.matcher = match self.matcher {
+            MatcherChoice::Default => Matcher::Default,
+            MatcherChoice::Paper => Matcher::Paper,
+        };
+        recipe.pose = match self.pose {
+            PoseArg::Global => PoseChoice::By(PoseMethod::Global),
+            PoseArg::Icp => PoseChoice::By(PoseMethod::Icp),
+            PoseArg::None => PoseChoice::Skip,
+        };
+        recipe
+    }
+}
+
+pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let library = args.library.load_some(console)?.library;
+    let recipe = args.recipe();
+    let telling = match (args.json, args.files.as_slice()) {
+        (true, _) => Telling::Json,
+        (false, [_]) => Telling::Card,
+        (false, files) => Telling::Rows(Columns::for_files(files, &library)),
+    };
+    let report = args.report.as_deref().map(ReportFolder::make).transpose()?;
+    telling.head(console);
+    console.start_progress(args.files.len());
+    let mut one = Inspector {
+        library,
+        recipe,
+        telling,
+        report,
+    };
+    let mut outcome = Outcome::Accepted;
+    for path in &args.files {
+        console.begin(&path.display());
+        outcome = outcome.max(one.inspect(path, console)?);
+        console.done();
+    }
+    Ok(outcome)
+}
+
+/// What stays the same from file to file.
+struct Inspector {
+    library: Library,
+    recipe: Recipe,
+    telling: Telling,
+    report: Option<ReportFolder>,
+}
+
+impl Inspector {
+    fn inspect(&mut self, path: &Path, console: &mut Console) -> anyhow::Result<Outcome> {
+        let Self {
+            library,
+            recipe,
+            telling,
+            report,
+        } = self;
+        let name = path.display().to_string();
+        let (scene, warnings) = match open_scene(path) {
+            Ok(opened) => opened,
+            Err(error) => {
+                let line = serde_json::to_string(&InspectLine::unreadable(&name, &error))?;
+                telling.unreadable(&name, &line, console);
+                // The message names the file.
+                console.note(&format_args!("error: {error}"));
+                console.note(&format_args!("  to do: {}", error.advice()));
+                if let Some(report) = report {
+                    report.write(path, &line, &[])?;
+                }
+                return Ok(Outcome::CouldNotRun);
+            }
+        };
+        for warning in &warnings {
+            console.warn(&format_args!("{name}: {warning}"), warning);
+        }
+        let inspection = pipeline::run(&scene, library, recipe, &Unwatched)?;
+        let line = serde_json::to_string(&InspectLine::of(&name, &inspection))?;
+        telling.inspected(&name, &line, &inspection, library, console);
+        if let Some(report) = report {
+            report.write(path, &line, &stage_pictures(&scene, &inspection))?;
+        }
+        Ok(outcome_of(&inspection))
+    }
+}
+
+/// How results are shown.
+enum Telling {
+    Json,
+    Card,
+    Rows(Columns),
+}
+
+impl Telling {
+    fn head(&self, console: &mut Console) {
+        if let Self::Rows(columns) = self {
+            columns.head(console);
+        }
+    }
+
+    fn unreadable(&self, scene: &str, line: &str, console: &mut Console) {
+        match self {
+            Self::Json => console.line(&line),
+            Self::Card => {}
+            Self::Rows(columns) => columns.row(scene, "-", "unreadable", "", console),
+        }
+    }
+
+    fn inspected(
+        &self,
+        scene: &str,
+        line: &str,
+        inspection: &Inspection,
+        library: &Library,
+        console: &mut Console,
+    ) {
+        match self {
+            Self::Json => console.line(&line),
+            Self::Card => show_card(scene, inspection, library, console),
+            Self::Rows(columns) => columns.inspected(scene, inspection, library, console),
+        }
+    }
+}
+
+/// Widths of the first two columns; rows are shown as they come, so the widths must be known before.
+struct Columns {
+    scene: usize,
+    part: usize,
+}
+
+impl Columns {
+    fn for_files(files: &[PathBuf], library: &Library) -> Self {
+        let scenes = files
+            .iter()
+            .map(|f| f.display().to_string().chars().count());
+        let parts = library.references.iter().map(|r| r.name.chars().count());
+        Self {
+            scene: scenes.max().unwrap_or(0).max("SCENE".len()),
+            part: parts.max().unwrap_or(0).max("PART".len()),
+        }
+    }
+
+    fn head(&self, console: &mut Console) {
+        let figures = format!(
+            "{:>5} {:>6}  {:>23}  {:>23}  {:>5} {:>7}",
+            "SCORE", "MARGIN", "MIDDLE X Y Z mm", "TURN X Y Z degrees", "RMS", "TIME ms"
+        );
+        self.row("SCENE", "PART", "VERDICT", &figures, console);
+    }
+
+    fn row(&self, scene: &str, part: &str, verdict: &str, figures: &str, console: &mut Console) {
+        let Self {
+            scene: scene_width,
+            part: part_width,
+        } = *self;
+        let row = format!("{scene:<scene_width$}  {part:<part_width$}  {verdict:<12}  {figures}");
+        console.line(&row.trim_end());
+    }
+
+    fn inspected(
+        &self,
+        scene: &str,
+        inspection: &Inspection,
+        library: &Library,
+        console: &mut Console,
+    ) {
+        let time_ms = inspection.timings.total.as_secs_f64() * 1000.0;
+        let (part, verdict, figures) = match &inspection.verdict {
+            Verdict::Part {
+                part,
+                score,
+                margin,
+                rejected,
+            } => {
+                let triple = |[a, b, c]: [f64; 3]| format!("{a:7.1} {b:7.1} {c:7.1}");
+                let (middle, turn) = place_of(inspection, library)
+                    .map_or_else(Default::default, |(middle, turn)| {
+                        (triple(middle), triple(turn))
+                    });
+                let rms = match &inspection.pose {
+                    Some(Ok(pose)) => format!("{:.1}", pose.fit.rms_m * 1000.0),
+                    _ => String::new(),
+                };
+                let verdict = rejected.as_ref().map_or("accepted", |_| "NOT ACCEPTED");
+                let figures = format!(
+                    "{score:5.2} {margin:6.2}  {middle:>23}  {turn:>23}  {rms:>5} {time_ms:7.1}"
+                );
+                (part.as_str(), verdict, figures)
+            }
+            Verdict::NoPart(_) => ("-", "NOT ACCEPTED", String::new()),
+        };
+        self.row(scene, part, verdict, &figures, console);
+        if let Some((why, what_to_do)) = complaint(inspection) {
+            console.line(&format_args!("    why not  {why}"));
+            console.line(&format_args!("    to do    {what_to_do}"));
+        }
+    }
+}

@@ -1,0 +1,235 @@
+//! `partsight library`: what is enrolled.
+
+use clap::{Args, Subcommand};
+
+use super::{
+    LibraryChoice, Outcome,
+    console::{Advised as _, Console, Table},
+};
+use crate::{
+    library::{PartName, StoredPart},
+    stages::reference::{Coverage, Reference, ReferenceParams},
+    units::Metres,
+};
+
+/// List, show, check and remove enrolled parts
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  partsight library list
+  partsight library show front_door --library /media/stick/parts
+  partsight library verify
+  partsight library remove front_door
+
+A library is a folder with one folder per part. Copy it to take it along.")]
+pub(super) struct LibraryArgs {
+    #[command(flatten)]
+    library: LibraryChoice,
+    #[command(subcommand)]
+    command: LibraryCommand,
+}
+
+#[derive(Debug, Subcommand)]
+enum LibraryCommand {
+    /// Show all enrolled parts
+    List,
+    /// Show everything about one part
+    Show {
+        /// Name of the part
+        name: PartName,
+    },
+    /// Check every file of every part; exit code 1 if something is damaged
+    Verify,
+    /// Move a part to the library's .trash folder
+    Remove {
+        /// Name of the part
+        name: PartName,
+    },
+}
+
+pub(super) fn run(args: &LibraryArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    match &args.command {
+        LibraryCommand::List => list(&args.library, console),
+        LibraryCommand::Show { name } => show(&args.library, name, console),
+        LibraryCommand::Verify => verify(&args.library, console),
+        LibraryCommand::Remove { name } => remove(&args.library, name, console),
+    }
+}
+
+fn list(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome> {
+    let (place, load) = choice.load(console)?;
+    console.line(&format_args!(
+        "{} ({}): {} parts",
+        place.folder().path().display(),
+        place.describe(),
+        load.parts.len()
+    ));
+    if load.parts.is_empty() {
+        console.note(&"Enrol one: partsight enrol FILE --name NAME");
+        return Ok(Outcome::Accepted);
+    }
+    let mut table = Table::new(&[
+        "NAME",
+        "TITLE",
+        "SIZE mm",
+        "POINTS",
+        "SEEN FROM",
+        "ENROLLED",
+        "FROM",
+    ]);
+    for (meta, reference) in load.parts.iter().zip(&load.library.references) {
+        let simulated = if meta.simulated { ", simulated" } else { "" };
+        table.row([
+            meta.name.to_string(),
+            meta.title.clone(),
+            size_of(reference),
+            reference.cloud.points.len().to_string(),
+            seen_from(meta.coverage).to_owned(),
+            meta.enrolled.at.strftime("%Y-%m-%d").to_string(),
+            format!("{}{simulated}", meta.enrolled.from),
+        ]);
+    }
+    table.show(console);
+    Ok(Outcome::Accepted)
+}
+
+fn show(choice: &LibraryChoice, name: &PartName, console: &mut Console) -> anyhow::Result<Outcome> {
+    let place = choice.open()?;
+    let folder = place.folder();
+    let StoredPart {
+        meta,
+        reference,
+        warnings,
+    } = folder
+        .read(name.as_str(), &ReferenceParams::default())
+        .advised()?
+        .advised()?;
+    for warning in &warnings {
+        console.warn(warning, warning);
+    }
+    let mut table = Table::default();
+    let mut row = |what: &str, text: String| {
+        if !text.is_empty() {
+            table.row([what.to_owned(), text]);
+        }
+    };
+    row("name", meta.name.to_string());
+    row("title", meta.title);
+    row("notes", meta.notes);
+    row(
+        "size",
+        format!("{} mm along its principal axes", size_of(&reference)),
+    );
+    row("points", reference.cloud.points.len().to_string());
+    row("seen from", seen_from(meta.coverage).to_owned());
+    if let Some(view) = reference.views.first() {
+        let outline = view.signature.perimeter;
+        row(
+            "outline",
+            format!(
+                "{:.0} mm long, {} openings",
+                outline.mm(),
+                view.contour.openings.len()
+            ),
+        );
+        row("views", format!("{} prepared", reference.views.len()));
+    }
+    row(
+        "enrolled",
+        meta.enrolled.at.strftime("%Y-%m-%d %H:%M UTC").to_string(),
+    );
+    let simulated = if meta.simulated { ", simulated" } else { "" };
+    row(
+        "from",
+        format!(
+            "{} ({}{simulated})",
+            meta.enrolled.from,
+            meta.enrolled.how.describe()
+        ),
+    );
+    row(
+        "folder",
+        folder.path().join(name.as_str()).display().to_string(),
+    );
+    if let Some(picture) = folder.thumbnail(name.as_str()) {
+        row("picture", picture.display().to_string());
+    }
+    table.show(console);
+    Ok(Outcome::Accepted)
+}
+
+fn verify(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome> {
+    let place = choice.open()?;
+    let load = place
+        .folder()
+        .verify(&ReferenceParams::default())
+        .advised()?;
+    for meta in &load.parts {
+        let is_odd = load.warnings.iter().any(|w| w.entry == meta.name.as_str());
+        if !is_odd {
+            console.line(&format_args!("sound    {}", meta.name));
+        }
+    }
+    for warning in &load.warnings {
+        console.line(&format_args!("odd      {warning}"));
+    }
+    for problem in &load.problems {
+        console.line(&format_args!("DAMAGED  {problem}"));
+    }
+    for problem in &load.problems {
+        console.warn(problem, problem);
+    }
+    for warning in &load.warnings {
+        console.warn(warning, warning);
+    }
+    let is_sound = load.problems.is_empty() && load.warnings.is_empty();
+    Ok(if is_sound {
+        Outcome::Accepted
+    } else {
+        Outcome::NotAccepted
+    })
+}
+
+fn remove(
+    choice: &LibraryChoice,
+    name: &PartName,
+    console: &mut Console,
+) -> anyhow::Result<Outcome> {
+    let place = choice.open()?;
+    let folder = place.folder();
+    let trash = folder.remove(name).advised()?;
+    console.line(&format_args!(
+        "Removed {name}. It is kept in {}",
+        trash.display()
+    ));
+    console.line(&format_args!(
+        "To enrol it again, move that folder back to {}",
+        folder.path().join(name.as_str()).display()
+    ));
+    Ok(Outcome::Accepted)
+}
+
+fn seen_from(coverage: Coverage) -> &'static str {
+    match coverage {
+        Coverage::OneSide => "one side",
+        Coverage::AllAround => "all around",
+    }
+}
+
+/// Length × width × depth along the axes of the standard view.
+fn size_of(reference: &Reference) -> String {
+    let Some(view) = reference.views.first() else {
+        return "-".into();
+    };
+    let plane_from_part = view.plane_from_part.cast::<f32>();
+    let turned = reference.cloud.finite().map(|(_, p)| plane_from_part * p);
+    let bounds = crate::geometry::cloud::PointCloud::from_points(turned).bounds();
+    bounds.map_or_else(
+        || "-".into(),
+        |(low, high)| {
+            let [x, y, z]: [f32; 3] = (high - low).into();
+            let mm = |metres: f32| Metres(f64::from(metres)).mm();
+            format!("{:.0} x {:.0} x {:.0}", mm(x), mm(y), mm(z))
+        },
+    )
+}

@@ -1,0 +1,125 @@
+//! `partsight simulate`: a frame of the simulated cell, as a file.
+
+use std::path::{Path, PathBuf};
+
+use anyhow::bail;
+use clap::{Args, ValueEnum, builder::PossibleValuesParser};
+
+use super::{
+    Outcome,
+    console::{Advised as _, Console},
+    input::parse_pose,
+};
+use crate::{
+    files::{save_cloud, write_atomically, write_depth_png},
+    geometry::rigid::RigidTransform,
+    simulate::{CellSetup, PartKind, PartPose, Placement, Side, SimulatedFrame, frame},
+    stages::scene::scene_from_frame,
+};
+
+/// Take a frame of a simulated cell: one part before wall and floor, with a Kinect's noise
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  partsight simulate --part fender --out fender.pcd
+  partsight simulate --part front_door --side right --seed 7 --out door.png --truth door.truth.json
+  partsight simulate --part grille --pose \"0 0 15 0 0 1200\" --out grille.pcd
+
+The same arguments give the same file.")]
+pub(super) struct SimulateArgs {
+    /// Which part
+    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(PartKind::ALL.map(PartKind::name)))]
+    part: String,
+    /// Side of the car, for doors and fenders
+    #[arg(long, value_enum, default_value_t = SideChoice::Left)]
+    side: SideChoice,
+    /// Draws the pose, the cell and the noise
+    #[arg(long, default_value_t = 1)]
+    seed: u64,
+    /// Model of the car; 0 is the standard one
+    #[arg(long, default_value_t = 0)]
+    model: u64,
+    /// Exact place: angles in degrees, then the part's middle before the camera in millimetres; R = Rz·Ry·Rx
+    #[arg(
+        long,
+        value_name = "\"rx ry rz x y z\"",
+        value_parser = parse_pose,
+        allow_hyphen_values = true,
+        conflicts_with = "placement"
+    )]
+    pose: Option<RigidTransform>,
+    /// How far from square-on the pose is drawn
+    #[arg(long, value_enum, default_value_t = PlacementChoice::Placed)]
+    placement: PlacementChoice,
+    /// The file: .pcd (organised), .png (16-bit depth, intrinsics in a .json beside it), .ply or .xyz (points only)
+    #[arg(long, value_name = "FILE")]
+    out: PathBuf,
+    /// Write what is known about the frame as JSON: the part, its pose, how much of it is seen
+    #[arg(long, value_name = "FILE")]
+    truth: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum SideChoice {
+    Left,
+    Right,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum PlacementChoice {
+    /// Hung with care: up to 10 degrees off
+    Facing,
+    /// Hung anyhow: up to 30 degrees off, any roll
+    Placed,
+    /// Up to 45 degrees off, any roll
+    Hard,
+}
+
+pub(super) fn run(args: &SimulateArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let Some(kind) = PartKind::from_name(&args.part) else {
+        bail!("no part is called {}", args.part);
+    };
+    if args.truth.as_ref() == Some(&args.out) {
+        bail!("--out and --truth are the same file; name two");
+    }
+    let side = match args.side {
+        SideChoice::Left => Side::Left,
+        SideChoice::Right => Side::Right,
+    };
+    let mut setup = CellSetup::with_part(kind, side, args.model, args.seed);
+    setup.pose = match (args.pose, args.placement) {
+        (Some(camera_from_part), _) => PartPose::Fixed(camera_from_part),
+        (None, PlacementChoice::Facing) => PartPose::Drawn(Placement::facing()),
+        (None, PlacementChoice::Placed) => PartPose::Drawn(Placement::placed()),
+        (None, PlacementChoice::Hard) => PartPose::Drawn(Placement::hard()),
+    };
+    let simulated = frame(&setup);
+    write_frame(&args.out, &simulated)?;
+    let truth = &simulated.truth;
+    if let Some(path) = &args.truth {
+        write_atomically(path, |writer| {
+            serde_json::to_writer_pretty(&mut *writer, truth)?;
+            writeln!(writer)
+        })
+        .advised()?;
+    }
+    let [x, y, z] = [0, 1, 2].map(|i| truth.camera_from_part.translation.vector[i] * 1000.0);
+    console.line(&format_args!(
+        "{}: a simulated {} with its middle at x {x:.0}  y {y:.0}  z {z:.0} mm, {:.0} % of it in sight",
+        args.out.display(),
+        kind.title().to_lowercase(),
+        truth.visible_share * 100.0
+    ));
+    Ok(Outcome::Accepted)
+}
+
+fn write_frame(path: &Path, simulated: &SimulatedFrame) -> anyhow::Result<()> {
+    let is_png = path
+        .extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("png"));
+    if is_png {
+        write_depth_png(path, &simulated.frame).advised()
+    } else {
+        save_cloud(path, &scene_from_frame(&simulated.frame).cloud).advised()
+    }
+}

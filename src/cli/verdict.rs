@@ -1,0 +1,248 @@
+//! How an inspection is told: one line of JSON for a machine, a card or a row for a person.
+
+use serde::Serialize;
+
+use super::{Outcome, console::Console};
+use crate::{
+    error::Advice,
+    geometry::{principal::principal_axes, rigid::row_major},
+    library::Library,
+    pipeline::{Inspection, Timings, Verdict},
+    units::Metres,
+};
+
+/// The version of the JSON lines.
+pub(super) const SCHEMA: u32 = 1;
+
+/// One line of `inspect --json`. Fields are only ever added.
+#[derive(Debug, Serialize)]
+pub(super) struct InspectLine<'a> {
+    schema: u32,
+    scene: &'a str,
+    status: &'static str,
+    part: Option<&'a str>,
+    accepted: bool,
+    score: Option<f64>,
+    margin: Option<f64>,
+    reason: Option<String>,
+    pose: Option<PoseLine>,
+    ranking: Vec<RankLine<'a>>,
+    timings_ms: Option<TimingsLine>,
+}
+
+#[derive(Debug, Serialize)]
+struct PoseLine {
+    camera_from_part: [f64; 16],
+    method: &'static str,
+    rms_m: f64,
+    overlap: f64,
+    stopped: &'static str,
+    ambiguous: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct RankLine<'a> {
+    part: &'a str,
+    score: f64,
+    distance: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct TimingsLine {
+    segment: f64,
+    project: f64,
+    contour: f64,
+    signature: f64,
+    rank: f64,
+    pose: f64,
+    total: f64,
+}
+
+impl<'a> InspectLine<'a> {
+    pub(super) fn unreadable(scene: &'a str, reason: &dyn std::fmt::Display) -> Self {
+        Self {
+            schema: SCHEMA,
+            scene,
+            status: "unreadable",
+            part: None,
+            accepted: false,
+            score: None,
+            margin: None,
+            reason: Some(reason.to_string()),
+            pose: None,
+            ranking: Vec::new(),
+            timings_ms: None,
+        }
+    }
+
+    pub(super) fn of(scene: &'a str, inspection: &'a Inspection) -> Self {
+        let ranking = inspection.ranking.entries.iter().map(|entry| RankLine {
+            part: &entry.part,
+            score: entry.score,
+            distance: entry.distance,
+        });
+        let pose = inspection
+            .pose
+            .as_ref()
+            .and_then(|pose| pose.as_ref().ok())
+            .map(|pose| PoseLine {
+                camera_from_part: row_major(&pose.camera_from_part()),
+                method: pose.method.name(),
+                rms_m: pose.fit.rms_m,
+                overlap: pose.fit.overlap,
+                stopped: pose.stopped.name(),
+                ambiguous: pose.is_ambiguous(),
+            });
+        let line = Self {
+            pose,
+            ranking: ranking.collect(),
+            timings_ms: Some(TimingsLine::of(&inspection.timings)),
+            reason: None,
+            ..Self::unreadable(scene, &"")
+        };
+        match &inspection.verdict {
+            Verdict::Part {
+                part,
+                score,
+                margin,
+                rejected,
+            } => Self {
+                status: "ok",
+                part: Some(part),
+                accepted: rejected.is_none(),
+                score: Some(*score),
+                margin: Some(*margin),
+                reason: rejected.as_ref().map(ToString::to_string),
+                ..line
+            },
+            Verdict::NoPart(reason) => Self {
+                status: "no_part",
+                reason: Some(reason.to_string()),
+                ..line
+            },
+        }
+    }
+}
+
+impl TimingsLine {
+    fn of(timings: &Timings) -> Self {
+        // Whole microseconds: more digits are noise.
+        let ms = |d: std::time::Duration| d.as_micros() as f64 / 1000.0;
+        Self {
+            segment: ms(timings.segment),
+            project: ms(timings.project),
+            contour: ms(timings.contour),
+            signature: ms(timings.signature),
+            rank: ms(timings.rank),
+            pose: ms(timings.pose),
+            total: ms(timings.total),
+        }
+    }
+}
+
+/// The exit code that an inspection stands for.
+pub(super) fn outcome_of(inspection: &Inspection) -> Outcome {
+    match &inspection.verdict {
+        Verdict::Part { rejected: None, .. } => Outcome::Accepted,
+        Verdict::Part { .. } | Verdict::NoPart(_) => Outcome::NotAccepted,
+    }
+}
+
+/// Why an inspection was not accepted and what to do, if it was not.
+pub(super) fn complaint(inspection: &Inspection) -> Option<(String, String)> {
+    match &inspection.verdict {
+        Verdict::Part { rejected, .. } => rejected.as_ref().map(|r| (r.to_string(), r.advice())),
+        Verdict::NoPart(reason) => Some((reason.to_string(), reason.advice())),
+    }
+}
+
+/// Where the part is: the middle of its reference (x, y, z in mm) and its turn (rx, ry, rz in degrees).
+pub(super) fn place_of(inspection: &Inspection, library: &Library) -> Option<([f64; 3], [f64; 3])> {
+    let pose = inspection.pose.as_ref()?.as_ref().ok()?.camera_from_part();
+    let reference = &library.references[inspection.ranking.entries.first()?.reference];
+    let points = reference
+        .cloud
+        .finite()
+        .map(|(_, p)| (p.cast::<f64>(), 1.0));
+    let middle = pose * principal_axes(points)?.mean;
+    // nalgebra's angles are those of Rz·Ry·Rx.
+    let (rx, ry, rz) = pose.rotation.euler_angles();
+    Some((
+        [middle.x, middle.y, middle.z].map(|m| Metres(m).mm()),
+        [rx, ry, rz].map(f64::to_degrees),
+    ))
+}
+
+/// All about one inspection, a line for each thing.
+pub(super) fn show_card(
+    scene: &str,
+    inspection: &Inspection,
+    library: &Library,
+    console: &mut Console,
+) {
+    let mut line = |what: &str, text: String| {
+        console.line(&format_args!("  {what:<9} {text}"));
+    };
+    match &inspection.verdict {
+        Verdict::Part {
+            part,
+            score,
+            margin,
+            rejected,
+        } => {
+            let verdict = rejected.as_ref().map_or("accepted", |_| "NOT ACCEPTED");
+            line("scene", scene.to_owned());
+            line("part", format!("{part}: {verdict}"));
+            let ahead = inspection
+                .ranking
+                .entries
+                .get(1)
+                .map(|next| next.part.as_str());
+            let ahead = ahead.map_or(String::new(), |next| {
+                format!(", {margin:.2} ahead of {next}")
+            });
+            line("score", format!("{score:.2}{ahead}"));
+        }
+        Verdict::NoPart(_) => {
+            line("scene", scene.to_owned());
+            line("part", "none: NOT ACCEPTED".to_owned());
+        }
+    }
+    if let Some(([x, y, z], [rx, ry, rz])) = place_of(inspection, library) {
+        line(
+            "middle",
+            format!("x {x:.1}  y {y:.1}  z {z:.1} mm, in the camera's space"),
+        );
+        line(
+            "turn",
+            format!(
+                "rx {rx:.2}  ry {ry:.2}  rz {rz:.2} degrees from how it was enrolled (Rz·Ry·Rx)"
+            ),
+        );
+    }
+    if let Some(Ok(pose)) = &inspection.pose {
+        let ambiguous = if pose.is_ambiguous() {
+            "; another pose fits as well"
+        } else {
+            ""
+        };
+        line(
+            "fit",
+            format!(
+                "{:.1} mm rms, {:.0} % of the part covered, {} by {}{ambiguous}",
+                pose.fit.rms_m * 1000.0,
+                pose.fit.overlap * 100.0,
+                pose.stopped.name().replace('_', " "),
+                pose.method.name(),
+            ),
+        );
+    }
+    line(
+        "time",
+        format!("{:.1} ms", inspection.timings.total.as_secs_f64() * 1000.0),
+    );
+    if let Some((why, what_to_do)) = complaint(inspection) {
+        line("why not", why);
+        line("to do", what_to_do);
+    }
+}

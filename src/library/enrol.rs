@@ -1,0 +1,368 @@
+//! Enrolling: makes a part out of a captured scene, a whole cloud or a mesh.
+//!
+//! The cloud is thinned to one point per cube, which evens it out, averages the sensor's noise and keeps the file
+//! small; normals are estimated on the thinned cloud. Part space is the coordinates as they came.
+
+use jiff::Timestamp;
+use nalgebra::{Point3, Vector3};
+
+use super::{
+    name::PartName,
+    part::{Enrolment, How, Part, PartMeta, SCHEMA_VERSION, StoredSignature},
+    thumbnail,
+};
+use crate::{
+    error::Advice,
+    geometry::{
+        cloud::PointCloud, mesh::TriangleMesh, nearest::KdTree, normals::estimate_normals,
+        voxel::downsample,
+    },
+    stages::{
+        reference::{Coverage, Reference, ReferenceParams},
+        scene::SceneCloud,
+        segment::{NoPart, SegmentParams, segment},
+    },
+    units::Metres,
+};
+
+/// Parameters of enrolling.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EnrolParams {
+    /// Edge of the cubes that the cloud is thinned to, 2..20 mm. Raising it blurs the part, lowering it makes files
+    /// large and inspections slow.
+    pub voxel: Metres,
+    /// Most points kept; the cubes grow until it holds. Also the number sampled of a mesh.
+    pub max_points: usize,
+    /// Segmentation of a captured scene.
+    pub segment: SegmentParams,
+    /// The stages that make the signature; those used on scenes.
+    pub reference: ReferenceParams,
+}
+
+impl Default for EnrolParams {
+    fn default() -> Self {
+        Self {
+            voxel: Metres::from_mm(8.0),
+            max_points: 16_000,
+            segment: SegmentParams::default(),
+            reference: ReferenceParams::default(),
+        }
+    }
+}
+
+/// What a person says of a part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct About {
+    /// Its name.
+    pub name: PartName,
+    /// Its name for people; may be empty.
+    pub title: String,
+    /// Notes; may be empty.
+    pub notes: String,
+    /// From what it is enrolled: the name of a file or a source.
+    pub from: String,
+    /// When it is enrolled.
+    pub at: Timestamp,
+    /// True if no real camera saw it.
+    pub simulated: bool,
+}
+
+/// A part ready to be saved, and what to know about it.
+#[derive(Clone, Debug)]
+pub struct Enrolled {
+    /// The part.
+    pub part: Part,
+    /// The same, prepared for ranking and pose.
+    pub reference: Reference,
+    /// What is odd about it.
+    pub warnings: Vec<EnrolWarning>,
+}
+
+/// Something odd about an enrolled part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum EnrolWarning {
+    /// The part reaches the edge of the picture.
+    #[error("the part reaches the edge of the picture, so some of it may be missing")]
+    TouchesEdge,
+}
+
+impl Advice for EnrolWarning {
+    fn advice(&self) -> String {
+        "Move the camera back or centre the part, then enrol it again".into()
+    }
+}
+
+/// Why nothing could be enrolled.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum EnrolError {
+    /// No part in the scene.
+    #[error(transparent)]
+    NoPart(#[from] NoPart),
+    /// Too few points.
+    #[error("the cloud has {found} points, at least {needed} are needed")]
+    TooFewPoints {
+        /// Finite points.
+        found: usize,
+        /// Least number of points.
+        needed: usize,
+    },
+    /// A mesh without a surface.
+    #[error("the mesh of {num_triangles} triangles has no area")]
+    NoArea {
+        /// Triangles of the mesh.
+        num_triangles: usize,
+    },
+    /// No outline from any side.
+    #[error("the cloud of {num_points} points has no outline from any side")]
+    NoOutline {
+        /// Points after thinning.
+        num_points: usize,
+    },
+}
+
+impl Advice for EnrolError {
+    fn advice(&self) -> String {
+        match self {
+            Self::NoPart(error) => error.advice(),
+            Self::TooFewPoints { .. } => {
+                "Capture the part from nearer, or export the cloud with more points".into()
+            }
+            Self::NoArea { .. } => "Export the mesh again with its faces".into(),
+            Self::NoOutline { .. } => {
+                "Check that the cloud shows the surface of one part and is in metres".into()
+            }
+        }
+    }
+}
+
+/// Least points of a whole cloud: fewer show no shape.
+const MIN_POINTS: usize = 100;
+
+/// Enrols the part that stands in a captured scene: from one side, in camera coordinates of that moment.
+pub fn enrol_captured(
+    scene: &SceneCloud,
+    about: &About,
+    params: &EnrolParams,
+) -> Result<Enrolled, EnrolError> {
+    let found = segment(scene, &params.segment).part?;
+    let (mut cloud, voxel) = thinned(&found.cloud, params);
+    cloud.normals = Some(normals_towards(&cloud, voxel, &Point3::origin()));
+    let source = Source {
+        coverage: Coverage::OneSide,
+        how: How::Segmented,
+        num_points: found.cloud.points.len(),
+        voxel: Some(voxel),
+    };
+    let mut enrolled = assemble(cloud, &source, about, params)?;
+    if found.touches_edge {
+        enrolled.warnings.push(EnrolWarning::TouchesEdge);
+    }
+    Ok(enrolled)
+}
+
+/// Enrols all points of a cloud.
+///
+/// A cloud that lies before the camera, with normals (if any) that look at it, is taken for one capture; any other
+/// for a part seen from all around. Without normals the latter's are estimated and turned away from its middle,
+/// which is right for a part that bulges and a guess for one that does not.
+pub fn enrol_whole(
+    cloud: &PointCloud,
+    about: &About,
+    params: &EnrolParams,
+) -> Result<Enrolled, EnrolError> {
+    let finite = finite_only(cloud);
+    let num_points = finite.points.len();
+    if num_points < MIN_POINTS {
+        return Err(EnrolError::TooFewPoints {
+            found: num_points,
+            needed: MIN_POINTS,
+        });
+    }
+    let coverage = coverage_of(&finite);
+    let (mut thin, voxel) = thinned(&finite, params);
+    if thin.normals.is_none() {
+        thin.normals = Some(match coverage {
+            Coverage::OneSide => normals_towards(&thin, voxel, &Point3::origin()),
+            Coverage::AllAround => normals_towards(&thin, voxel, &middle(&thin))
+                .into_iter()
+                .map(|inward| -inward)
+                .collect(),
+        });
+    }
+    let source = Source {
+        coverage,
+        how: How::WholeCloud,
+        num_points,
+        voxel: Some(voxel),
+    };
+    assemble(thin, &source, about, params)
+}
+
+/// Enrols a mesh, sampled evenly.
+pub fn enrol_mesh(
+    mesh: &TriangleMesh,
+    about: &About,
+    params: &EnrolParams,
+) -> Result<Enrolled, EnrolError> {
+    let cloud = mesh
+        .sample_evenly(params.max_points, 1)
+        .ok_or(EnrolError::NoArea {
+            num_triangles: mesh.triangles.len(),
+        })?;
+    let source = Source {
+        coverage: Coverage::AllAround,
+        how: How::Mesh,
+        num_points: cloud.points.len(),
+        voxel: None,
+    };
+    assemble(cloud, &source, about, params)
+}
+
+/// What a cloud was made from.
+struct Source {
+    coverage: Coverage,
+    how: How,
+    num_points: usize,
+    voxel: Option<Metres>,
+}
+
+fn assemble(
+    mut cloud: PointCloud,
+    source: &Source,
+    about: &About,
+    params: &EnrolParams,
+) -> Result<Enrolled, EnrolError> {
+    // Colours are kept in no library: nothing uses them.
+    cloud.colours = None;
+    let no_outline = EnrolError::NoOutline {
+        num_points: cloud.points.len(),
+    };
+    let reference = Reference::prepare(
+        about.name.as_str(),
+        cloud.clone(),
+        source.coverage,
+        &params.reference,
+    )
+    .ok_or(no_outline)?;
+    let signature = StoredSignature::of(&reference, &params.reference).ok_or(no_outline)?;
+    let part = Part {
+        meta: PartMeta {
+            schema_version: SCHEMA_VERSION,
+            name: about.name.clone(),
+            title: about.title.clone(),
+            notes: about.notes.clone(),
+            coverage: source.coverage,
+            simulated: about.simulated,
+            enrolled: Enrolment {
+                at: about.at,
+                from: about.from.clone(),
+                how: source.how,
+                num_points: source.num_points,
+                voxel_mm: source.voxel.map(|v| (v.mm() * 100.0).round() / 100.0),
+            },
+        },
+        thumbnail: thumbnail::render(&reference, source.coverage),
+        signature,
+        cloud,
+    };
+    Ok(Enrolled {
+        part,
+        reference,
+        warnings: Vec::new(),
+    })
+}
+
+/// The cloud thinned to at most the allowed points, and the cube that did it.
+fn thinned(cloud: &PointCloud, params: &EnrolParams) -> (PointCloud, Metres) {
+    let mut voxel = params.voxel;
+    loop {
+        let thin = downsample(cloud, voxel);
+        let excess = thin.points.len() as f64 / params.max_points.max(1) as f64;
+        if excess <= 1.0 {
+            return (thin, voxel);
+        }
+        // A surface's cubes grow fewer with the square of their edge.
+        voxel = Metres(voxel.0 * excess.sqrt().max(1.02));
+    }
+}
+
+/// Three cubes, or three times the distance between points where the cloud is sparser than that.
+fn normals_towards(
+    cloud: &PointCloud,
+    voxel: Metres,
+    viewpoint: &Point3<f64>,
+) -> Vec<Vector3<f32>> {
+    let radius = Metres(3.0 * voxel.0.max(spacing(&cloud.points)));
+    let tree = KdTree::new(&cloud.points);
+    estimate_normals(&cloud.points, &tree, radius, viewpoint)
+}
+
+/// The median distance of a point to the next, metres, measured on about a hundred of them.
+fn spacing(points: &[Point3<f32>]) -> f64 {
+    let step = (points.len() / 100).max(1);
+    let mut distances: Vec<f32> = points
+        .iter()
+        .step_by(step)
+        .filter_map(|p| {
+            points
+                .iter()
+                .map(|q| (p - q).norm_squared())
+                .filter(|&d| d > 0.0)
+                .min_by(f32::total_cmp)
+        })
+        .collect();
+    distances.sort_unstable_by(f32::total_cmp);
+    distances
+        .get(distances.len() / 2)
+        .map_or(0.0, |&d| f64::from(d).sqrt())
+}
+
+/// The finite points, with normals only if every one of them has a usable one.
+fn finite_only(cloud: &PointCloud) -> PointCloud {
+    let usable = |n: &Vector3<f32>| n.norm().is_finite() && n.norm() > 0.1;
+    let normals = cloud.normals.as_ref().and_then(|normals| {
+        cloud
+            .finite()
+            .map(|(i, _)| usable(&normals[i]).then(|| normals[i].normalize()))
+            .collect()
+    });
+    PointCloud {
+        points: cloud.finite().map(|(_, p)| *p).collect(),
+        normals,
+        ..PointCloud::default()
+    }
+}
+
+/// Nearer than this nothing is captured, metres.
+const NEAREST: f32 = 0.1;
+/// Share of the normals that must look at the camera; edges of a capture may be off.
+const FACING_SHARE: f64 = 0.98;
+
+fn coverage_of(cloud: &PointCloud) -> Coverage {
+    let is_before_camera = cloud.points.iter().all(|p| p.z > NEAREST);
+    let faces_camera = cloud.normals.as_ref().is_none_or(|normals| {
+        let facing = cloud
+            .points
+            .iter()
+            .zip(normals)
+            .filter(|(p, n)| n.dot(&p.coords) <= 0.0)
+            .count();
+        facing as f64 >= FACING_SHARE * normals.len() as f64
+    });
+    if is_before_camera && faces_camera {
+        Coverage::OneSide
+    } else {
+        Coverage::AllAround
+    }
+}
+
+fn middle(cloud: &PointCloud) -> Point3<f64> {
+    let sum = cloud
+        .points
+        .iter()
+        .fold(Vector3::zeros(), |sum, p| sum + p.coords.cast::<f64>());
+    Point3::from(sum / cloud.points.len().max(1) as f64)
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,131 @@
+use super::*;
+use crate::{
+    pipeline::{self, Recipe, Unwatched, Verdict},
+    simulate::{CellSetup, PartKind, PartModel, Side},
+    stages::scene::scene_from_frame,
+};
+
+fn about(name: &str) -> About {
+    About {
+        name: PartName::new(name).expect("a name"),
+        title: String::new(),
+        notes: String::new(),
+        from: "a test".into(),
+        at: Timestamp::UNIX_EPOCH,
+        simulated: true,
+    }
+}
+
+fn captured(seed: u64) -> SceneCloud {
+    let setup = CellSetup::with_part(PartKind::Fender, Side::Left, 0, seed);
+    scene_from_frame(&crate::simulate::frame(&setup).frame)
+}
+
+fn unit_ball(num_points: usize) -> Vec<Vector3<f32>> {
+    (0..num_points)
+        .map(|i| {
+            let z = 1.0 - (2 * i + 1) as f32 / num_points as f32;
+            let turn = i as f32 * 2.399_963;
+            let r = (1.0 - z * z).sqrt();
+            Vector3::new(r * turn.cos(), r * turn.sin(), z)
+        })
+        .collect()
+}
+
+#[test]
+fn a_captured_part_is_recognised_in_the_scene_it_came_from() {
+    let scene = captured(3);
+    let enrolled =
+        enrol_captured(&scene, &about("fender"), &EnrolParams::default()).expect("a part");
+    let cloud = &enrolled.part.cloud;
+    assert!(cloud.points.len() > 500 && cloud.points.len() <= 16_000);
+    let normals = cloud.normals.as_ref().expect("normals");
+    for (p, n) in cloud.points.iter().zip(normals) {
+        assert!((n.norm() - 1.0).abs() < 1e-4 && n.dot(&p.coords) <= 0.0);
+    }
+    assert_eq!(enrolled.part.meta.coverage, Coverage::OneSide);
+    let library = crate::library::Library {
+        references: vec![enrolled.reference],
+    };
+    let inspection = pipeline::run(&scene, &library, &Recipe::default(), &Unwatched).expect("run");
+    assert!(
+        matches!(&inspection.verdict, Verdict::Part { part, score, .. } if part == "fender" && *score > 0.9),
+        "{:?}",
+        inspection.verdict
+    );
+}
+
+#[test]
+fn the_cubes_grow_until_the_cloud_is_small_enough() {
+    let scene = captured(3);
+    let params = EnrolParams {
+        max_points: 700,
+        ..EnrolParams::default()
+    };
+    let enrolled = enrol_captured(&scene, &about("fender"), &params).expect("a part");
+    assert!(enrolled.part.cloud.points.len() <= 700);
+    assert!(enrolled.part.meta.enrolled.voxel_mm > Some(8.0));
+}
+
+#[test]
+fn a_mesh_is_enrolled_from_all_around() {
+    let model = PartModel::new(PartKind::Grille, Side::Left, 0);
+    let enrolled =
+        enrol_mesh(model.mesh(), &about("grille"), &EnrolParams::default()).expect("a part");
+    assert_eq!(enrolled.part.meta.coverage, Coverage::AllAround);
+    assert_eq!(enrolled.part.cloud.points.len(), 16_000);
+    let nothing = enrol_mesh(
+        &TriangleMesh::default(),
+        &about("x"),
+        &EnrolParams::default(),
+    );
+    assert!(matches!(
+        nothing,
+        Err(EnrolError::NoArea { num_triangles: 0 })
+    ));
+}
+
+#[test]
+fn a_whole_cloud_around_the_origin_gets_normals_that_look_outwards() {
+    let ball = unit_ball(6000);
+    let cloud = PointCloud::from_points(ball.iter().map(|d| Point3::from(d * 0.3)));
+    let enrolled = enrol_whole(&cloud, &about("ball"), &EnrolParams::default()).expect("a part");
+    assert_eq!(enrolled.part.meta.coverage, Coverage::AllAround);
+    let normals = enrolled.part.cloud.normals.expect("normals");
+    for (p, n) in enrolled.part.cloud.points.iter().zip(normals) {
+        assert!(n.dot(&p.coords.normalize()) > 0.95);
+    }
+}
+
+#[test]
+fn a_whole_cloud_before_the_camera_is_one_capture_unless_its_normals_say_otherwise() {
+    let centre = Vector3::new(0.0, 0.0, 1.5);
+    let ball = unit_ball(6000);
+    let mut cloud = PointCloud::from_points(ball.iter().map(|d| Point3::from(centre + d * 0.3)));
+    let coverage = |cloud: &PointCloud| {
+        let enrolled = enrol_whole(cloud, &about("ball"), &EnrolParams::default());
+        enrolled.expect("a part").part.meta.coverage
+    };
+    assert_eq!(coverage(&cloud), Coverage::OneSide);
+    cloud.normals = Some(ball);
+    assert_eq!(coverage(&cloud), Coverage::AllAround);
+}
+
+#[test]
+fn too_few_points_and_lines_are_refused_by_name() {
+    let few = PointCloud::from_points([Point3::origin(); 5]);
+    let params = EnrolParams::default();
+    assert!(matches!(
+        enrol_whole(&few, &about("x"), &params),
+        Err(EnrolError::TooFewPoints { found: 5, .. })
+    ));
+    let line = PointCloud::from_points((0..500).map(|i| Point3::new(i as f32 * 0.01, 0.0, 1.0)));
+    assert!(matches!(
+        enrol_whole(&line, &about("x"), &params),
+        Err(EnrolError::NoOutline { .. })
+    ));
+    assert!(matches!(
+        enrol_captured(&SceneCloud::default(), &about("x"), &params),
+        Err(EnrolError::NoPart(NoPart::TooFewPoints { .. }))
+    ));
+}

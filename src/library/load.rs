@@ -1,0 +1,410 @@
+//! Loading a library: parts in parallel, each on its own, so that a damaged one is named and the others load.
+
+use std::{
+    fs::{self, File},
+    io::{self, Read as _},
+    num::NonZero,
+    path::{Path, PathBuf},
+    sync::atomic::{AtomicUsize, Ordering},
+};
+
+use serde::Deserialize;
+
+use super::{
+    Library,
+    name::PartName,
+    part::{PartMeta, SCHEMA_VERSION, StoredSignature},
+    store::{CLOUD, Entry, LibraryError, LibraryFolder, META, SIGNATURE, THUMBNAIL},
+};
+use crate::{
+    error::Advice,
+    files::{self, FileError, Opened},
+    geometry::{cloud::PointCloud, nearest::KdTree, normals::estimate_normals},
+    stages::reference::{Reference, ReferenceParams},
+    units::Metres,
+};
+
+/// What loading a library gave.
+#[derive(Debug, Default)]
+pub struct LibraryLoad {
+    /// The parts that could be loaded, in the order of their names.
+    pub library: Library,
+    /// Their `part.toml`, in the same order.
+    pub parts: Vec<PartMeta>,
+    /// The parts that could not, each with the reason. They were set aside where they are: nothing was changed.
+    pub problems: Vec<EntryProblem>,
+    /// What is odd about parts that were loaded.
+    pub warnings: Vec<EntryWarning>,
+}
+
+/// A stored part, read and prepared.
+#[derive(Debug)]
+pub struct StoredPart {
+    /// `part.toml`.
+    pub meta: PartMeta,
+    /// Cloud and views.
+    pub reference: Reference,
+    /// What is odd about it.
+    pub warnings: Vec<EntryWarning>,
+}
+
+/// A part that could not be loaded.
+#[derive(Debug, thiserror::Error)]
+#[error("{entry}: {reason}")]
+pub struct EntryProblem {
+    /// The name of its folder.
+    pub entry: String,
+    /// The folder.
+    pub path: PathBuf,
+    /// Why.
+    pub reason: EntryError,
+}
+
+/// Why a stored part cannot be loaded.
+#[derive(Debug, thiserror::Error)]
+pub enum EntryError {
+    /// Made by a newer version of this program.
+    #[error("made by a newer version of Partsight (schema {found}, this one reads up to {known})")]
+    Newer {
+        /// Its version.
+        found: u32,
+        /// The newest version read.
+        known: u32,
+    },
+    /// A file that must be there is not.
+    #[error("{file} is missing")]
+    Missing {
+        /// The file.
+        file: &'static str,
+    },
+    /// `part.toml` cannot be read by the system.
+    #[error("{META} cannot be read: {source}")]
+    Unreadable {
+        /// What the system says.
+        source: io::Error,
+    },
+    /// `part.toml` cannot be understood.
+    #[error("{META} is damaged: {found}")]
+    BadMeta {
+        /// The first thing wrong.
+        found: String,
+    },
+    /// Folder and `part.toml` do not agree on the name.
+    #[error("the folder is named {folder}, but {META} says {name}")]
+    NameMismatch {
+        /// Name of the folder.
+        folder: String,
+        /// Name in the file.
+        name: PartName,
+    },
+    /// The cloud cannot be read.
+    #[error("{CLOUD} cannot be used: {0}")]
+    BadCloud(Box<FileError>),
+    /// The file of the cloud holds something else, or too much of it.
+    #[error("{CLOUD} holds {found}, expected a cloud of at most {MAX_POINTS} points")]
+    NotACloud {
+        /// What it holds.
+        found: String,
+    },
+    /// No outline from any side.
+    #[error("{CLOUD} has no outline from any side ({num_points} points)")]
+    NoOutline {
+        /// Points of the cloud.
+        num_points: usize,
+    },
+}
+
+impl Advice for EntryProblem {
+    fn advice(&self) -> String {
+        match &self.reason {
+            EntryError::Newer { .. } => {
+                "Update Partsight, or enrol the part again with this version".into()
+            }
+            EntryError::NameMismatch { name, .. } => format!("Rename the folder to {name}"),
+            EntryError::Unreadable { .. } => format!("Ask for access to {}", self.path.display()),
+            _ => format!(
+                "Copy {} again from where it was made, or remove it with `partsight library remove {}` and enrol it again",
+                self.path.display(),
+                self.entry
+            ),
+        }
+    }
+}
+
+/// Something odd about a part that could be loaded.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("{entry}: {trouble}")]
+pub struct EntryWarning {
+    /// The part.
+    pub entry: String,
+    /// What is odd.
+    pub trouble: Trouble,
+}
+
+/// What can be odd about a stored part.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Trouble {
+    /// A file that can be made again from the cloud is not there.
+    #[error("{file} is missing; it was made again from the cloud in memory")]
+    Missing {
+        /// The file.
+        file: &'static str,
+    },
+    /// A file that can be made again from the cloud is damaged or says something else than the cloud.
+    #[error("{file} does not belong to the cloud; the cloud counts")]
+    Stale {
+        /// The file.
+        file: &'static str,
+    },
+    /// An interrupted replacement left the part under another name.
+    #[error("an interrupted replacement left it aside; the next enrolment puts it back")]
+    LeftAside,
+}
+
+impl Advice for EntryWarning {
+    fn advice(&self) -> String {
+        match self.trouble {
+            Trouble::Missing { .. } | Trouble::Stale { .. } => {
+                "Copy the part again from where it was made, or enrol it again".into()
+            }
+            Trouble::LeftAside => "Check that the part is the one you want".into(),
+        }
+    }
+}
+
+/// The largest `part.toml` and `signature.json` read, bytes.
+const MAX_TEXT: u64 = 8 << 20;
+/// The largest cloud taken as a reference: twelve times what enrolling makes.
+const MAX_POINTS: usize = 200_000;
+
+/// How closely a stored part is looked at.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Look {
+    /// What an inspection needs.
+    Quick,
+    /// All files, against each other.
+    Thorough,
+}
+
+impl LibraryFolder {
+    /// Loads all parts. Only a folder that cannot be listed is an error; damaged parts are in `problems`.
+    pub fn load(&self, params: &ReferenceParams) -> Result<LibraryLoad, LibraryError> {
+        self.load_looking(Look::Quick, params)
+    }
+
+    /// As [`Self::load`], and holds every file of every part against its cloud.
+    pub fn verify(&self, params: &ReferenceParams) -> Result<LibraryLoad, LibraryError> {
+        self.load_looking(Look::Thorough, params)
+    }
+
+    /// Loads one part.
+    pub fn read(
+        &self,
+        name: &str,
+        params: &ReferenceParams,
+    ) -> Result<Result<StoredPart, EntryProblem>, LibraryError> {
+        Ok(read_entry(&self.entry(name)?, Look::Quick, params))
+    }
+
+    /// The path of a file that people look at, such as the thumbnail, if it is there.
+    pub fn thumbnail(&self, name: &str) -> Option<PathBuf> {
+        let path = self.entry(name).ok()?.path.join(THUMBNAIL);
+        path.exists().then_some(path)
+    }
+
+    fn load_looking(
+        &self,
+        look: Look,
+        params: &ReferenceParams,
+    ) -> Result<LibraryLoad, LibraryError> {
+        let entries = self.entries()?;
+        let mut load = LibraryLoad::default();
+        for read in read_in_parallel(&entries, look, params) {
+            match read {
+                Ok(part) => {
+                    load.library.references.push(part.reference);
+                    load.parts.push(part.meta);
+                    load.warnings.extend(part.warnings);
+                }
+                Err(problem) => load.problems.push(problem),
+            }
+        }
+        Ok(load)
+    }
+}
+
+/// Reads all entries on all cores; the results are in the order of the entries.
+fn read_in_parallel(
+    entries: &[Entry],
+    look: Look,
+    params: &ReferenceParams,
+) -> Vec<Result<StoredPart, EntryProblem>> {
+    let num_threads = std::thread::available_parallelism()
+        .map_or(1, NonZero::get)
+        .min(entries.len());
+    let next = AtomicUsize::new(0);
+    let work = || {
+        let mut done = Vec::new();
+        loop {
+            let i = next.fetch_add(1, Ordering::Relaxed);
+            let Some(entry) = entries.get(i) else {
+                return done;
+            };
+            done.push((i, read_entry(entry, look, params)));
+        }
+    };
+    let mut read: Vec<_> = std::thread::scope(|scope| {
+        let workers: Vec<_> = (0..num_threads).map(|_| scope.spawn(work)).collect();
+        workers
+            .into_iter()
+            .flat_map(|worker| match worker.join() {
+                Ok(done) => done,
+                Err(panic) => std::panic::resume_unwind(panic),
+            })
+            .collect()
+    });
+    read.sort_by_key(|(i, _)| *i);
+    read.into_iter().map(|(_, part)| part).collect()
+}
+
+fn read_entry(
+    entry: &Entry,
+    look: Look,
+    params: &ReferenceParams,
+) -> Result<StoredPart, EntryProblem> {
+    let read = || -> Result<StoredPart, EntryError> {
+        let meta = read_meta(entry)?;
+        let cloud = read_cloud(&entry.path.join(CLOUD))?;
+        let no_outline = EntryError::NoOutline {
+            num_points: cloud.points.len(),
+        };
+        let reference = Reference::prepare(meta.name.as_str(), cloud, meta.coverage, params)
+            .ok_or(no_outline)?;
+        let warnings = troubles(entry, &reference, look, params)
+            .into_iter()
+            .map(|trouble| EntryWarning {
+                entry: entry.name.clone(),
+                trouble,
+            })
+            .collect();
+        Ok(StoredPart {
+            meta,
+            reference,
+            warnings,
+        })
+    };
+    read().map_err(|reason| EntryProblem {
+        entry: entry.name.clone(),
+        path: entry.path.clone(),
+        reason,
+    })
+}
+
+fn read_meta(entry: &Entry) -> Result<PartMeta, EntryError> {
+    /// The one line that every version has.
+    #[derive(Deserialize)]
+    struct Versioned {
+        schema_version: u32,
+    }
+    let text = read_text(&entry.path.join(META)).map_err(|source| match source.kind() {
+        io::ErrorKind::NotFound => EntryError::Missing { file: META },
+        io::ErrorKind::InvalidData => EntryError::BadMeta {
+            found: "it is not text".into(),
+        },
+        _ => EntryError::Unreadable { source },
+    })?;
+    let bad = |error: toml::de::Error| EntryError::BadMeta {
+        found: error
+            .message()
+            .lines()
+            .next()
+            .unwrap_or("no TOML")
+            .to_owned(),
+    };
+    let Versioned { schema_version } = toml::from_str(&text).map_err(bad)?;
+    if schema_version > SCHEMA_VERSION {
+        return Err(EntryError::Newer {
+            found: schema_version,
+            known: SCHEMA_VERSION,
+        });
+    }
+    let meta: PartMeta = toml::from_str(&text).map_err(bad)?;
+    if meta.name.as_str() == entry.name {
+        Ok(meta)
+    } else {
+        Err(EntryError::NameMismatch {
+            folder: entry.name.clone(),
+            name: meta.name,
+        })
+    }
+}
+
+fn read_text(path: &Path) -> io::Result<String> {
+    let mut text = String::new();
+    File::open(path)?.take(MAX_TEXT).read_to_string(&mut text)?;
+    Ok(text)
+}
+
+fn read_cloud(path: &Path) -> Result<PointCloud, EntryError> {
+    let not_a_cloud = |found: &str| EntryError::NotACloud {
+        found: found.to_owned(),
+    };
+    let mut cloud = match files::open(path) {
+        Ok(Opened::Cloud(cloud)) => cloud,
+        Ok(Opened::Mesh(_)) => return Err(not_a_cloud("a mesh")),
+        Ok(Opened::Depth(_)) => return Err(not_a_cloud("a depth image")),
+        Err(FileError::NotFound { .. }) => return Err(EntryError::Missing { file: CLOUD }),
+        Err(error) => return Err(EntryError::BadCloud(Box::new(error))),
+    };
+    if cloud.points.len() > MAX_POINTS {
+        return Err(not_a_cloud(&format!("{} points", cloud.points.len())));
+    }
+    let is_unit = |n: &nalgebra::Vector3<f32>| (n.norm() - 1.0).abs() < 0.01;
+    if !cloud
+        .normals
+        .as_ref()
+        .is_some_and(|n| n.iter().all(is_unit))
+    {
+        // A cloud put there by hand, or thinned by another program: made good as enrolling would.
+        let tree = KdTree::new(&cloud.points);
+        cloud.normals = Some(estimate_normals(
+            &cloud.points,
+            &tree,
+            Metres::from_mm(24.0),
+            &nalgebra::Point3::origin(),
+        ));
+    }
+    Ok(cloud)
+}
+
+fn troubles(
+    entry: &Entry,
+    reference: &Reference,
+    look: Look,
+    params: &ReferenceParams,
+) -> Vec<Trouble> {
+    let mut troubles = Vec::new();
+    if !entry.path.ends_with(&entry.name) {
+        troubles.push(Trouble::LeftAside);
+    }
+    for file in [SIGNATURE, THUMBNAIL] {
+        if !fs::exists(entry.path.join(file)).unwrap_or(false) {
+            troubles.push(Trouble::Missing { file });
+        } else if look == Look::Thorough && !belongs(&entry.path.join(file), reference, params) {
+            troubles.push(Trouble::Stale { file });
+        }
+    }
+    troubles
+}
+
+/// True if a file that is made from the cloud is whole and fits the cloud.
+fn belongs(file: &Path, reference: &Reference, params: &ReferenceParams) -> bool {
+    if file.ends_with(THUMBNAIL) {
+        return image::open(file).is_ok();
+    }
+    let stored = read_text(file)
+        .ok()
+        .and_then(|text| serde_json::from_str::<StoredSignature>(&text).ok());
+    let made = StoredSignature::of(reference, params);
+    matches!((stored, made), (Some(stored), Some(made)) if stored.agrees_with(&made))
+}

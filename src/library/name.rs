@@ -1,0 +1,201 @@
+//! The name of a part, which is also the name of its folder.
+
+use std::fmt;
+
+use serde::{Deserialize, Serialize};
+
+use crate::error::Advice;
+
+/// Lowercase letters, digits, `_` and `-`, 1 to 64 of them, the first a letter or digit; not a device name of Windows.
+///
+/// So a name is a folder name on every system, means the same on systems that ignore case, and holds no path.
+#[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord, Hash, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub struct PartName(String);
+
+/// Longest name, in characters.
+const MAX_LENGTH: usize = 64;
+
+/// Names that Windows keeps for devices, in any folder.
+const RESERVED: [&str; 22] = [
+    "con", "prn", "aux", "nul", "com1", "com2", "com3", "com4", "com5", "com6", "com7", "com8",
+    "com9", "lpt1", "lpt2", "lpt3", "lpt4", "lpt5", "lpt6", "lpt7", "lpt8", "lpt9",
+];
+
+/// Why a text is no name of a part.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum BadName {
+    /// Nothing at all.
+    #[error("a part's name is empty")]
+    Empty,
+    /// Too many characters.
+    #[error("a part's name has {found} characters, at most {limit} are allowed")]
+    TooLong {
+        /// Characters given.
+        found: usize,
+        /// Characters allowed.
+        limit: usize,
+    },
+    /// A character that is not allowed, or not at the beginning.
+    #[error("{name:?} is no name for a part: {character:?} cannot stand there")]
+    BadCharacter {
+        /// The name given.
+        name: String,
+        /// The first wrong character.
+        character: char,
+    },
+    /// A device name of Windows.
+    #[error("{name:?} is no name for a part: Windows keeps it for a device")]
+    Reserved {
+        /// The name given.
+        name: String,
+    },
+}
+
+impl Advice for BadName {
+    fn advice(&self) -> String {
+        let suggestion = match self {
+            Self::BadCharacter { name, .. } => suggested(name),
+            Self::Reserved { name } => Some(format!("{name}_part")),
+            Self::Empty | Self::TooLong { .. } => None,
+        };
+        format!(
+            "Use up to {MAX_LENGTH} lowercase letters, digits, _ and -, for example {}",
+            suggestion.as_deref().unwrap_or("front_door")
+        )
+    }
+}
+
+/// The nearest allowed name, if anything is left of it.
+fn suggested(name: &str) -> Option<String> {
+    let kept: String = name
+        .to_lowercase()
+        .chars()
+        .map(|c| if is_allowed(c) { c } else { '_' })
+        .take(MAX_LENGTH)
+        .collect();
+    PartName::new(kept.trim_matches(['_', '-']))
+        .ok()
+        .map(|n| n.0)
+}
+
+fn is_allowed(character: char) -> bool {
+    matches!(character, 'a'..='z' | '0'..='9' | '_' | '-')
+}
+
+impl PartName {
+    /// Checks a name.
+    pub fn new(name: &str) -> Result<Self, BadName> {
+        let bad = |character| BadName::BadCharacter {
+            name: name.to_owned(),
+            character,
+        };
+        let first = name.chars().next().ok_or(BadName::Empty)?;
+        if let Some(character) = name.chars().find(|&c| !is_allowed(c)) {
+            return Err(bad(character));
+        }
+        if !first.is_ascii_alphanumeric() {
+            return Err(bad(first));
+        }
+        if name.len() > MAX_LENGTH {
+            return Err(BadName::TooLong {
+                found: name.len(),
+                limit: MAX_LENGTH,
+            });
+        }
+        if RESERVED.contains(&name) {
+            return Err(BadName::Reserved {
+                name: name.to_owned(),
+            });
+        }
+        Ok(Self(name.to_owned()))
+    }
+
+    /// The name as text.
+    pub fn as_str(&self) -> &str {
+        &self.0
+    }
+}
+
+impl fmt::Display for PartName {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.pad(&self.0)
+    }
+}
+
+impl std::str::FromStr for PartName {
+    type Err = BadName;
+
+    fn from_str(name: &str) -> Result<Self, BadName> {
+        Self::new(name)
+    }
+}
+
+impl TryFrom<String> for PartName {
+    type Error = BadName;
+
+    fn try_from(name: String) -> Result<Self, BadName> {
+        Self::new(&name)
+    }
+}
+
+impl From<PartName> for String {
+    fn from(name: PartName) -> Self {
+        name.0
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn plain_names_are_taken() {
+        let longest = "a".repeat(64);
+        for name in ["front_door", "door-2", "7", longest.as_str(), "com10"] {
+            assert_eq!(PartName::new(name).expect("allowed").as_str(), name);
+        }
+    }
+
+    #[test]
+    fn paths_capitals_blanks_and_device_names_are_refused() {
+        let too_long = "a".repeat(65);
+        for name in [
+            "",
+            ".",
+            "..",
+            "../door",
+            "a/b",
+            "a\\b",
+            "C:",
+            ".hidden",
+            "-rf",
+            "_x",
+            "Door",
+            "a b",
+            "tür",
+            "a.b",
+            "a\n",
+            "a\0",
+            "con",
+            "lpt1",
+            too_long.as_str(),
+        ] {
+            assert!(PartName::new(name).is_err(), "{name:?}");
+        }
+    }
+
+    #[test]
+    fn the_advice_suggests_a_name_that_is_allowed() {
+        let error = PartName::new("Front Door").expect_err("capitals");
+        assert!(error.advice().ends_with("front_door"), "{}", error.advice());
+        let nothing_left = PartName::new("../..").expect_err("a path");
+        assert!(nothing_left.advice().ends_with("front_door"));
+        assert!(
+            PartName::new("con")
+                .expect_err("device")
+                .advice()
+                .ends_with("con_part")
+        );
+    }
+}

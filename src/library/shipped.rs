@@ -1,0 +1,50 @@
+//! The parts that the program brings along: copies of `reference_parts/` inside the binary.
+
+use std::{fs, io, path::Path};
+
+use super::store::{CLOUD, META, SIGNATURE, THUMBNAIL, sync_folder, write_file};
+
+/// A part's folder.
+struct ShippedPart {
+    name: &'static str,
+    files: [(&'static str, &'static [u8]); 4],
+}
+
+/// The files of the named parts, read when the program is built.
+macro_rules! shipped {
+    ($($name:literal),* $(,)?) => {
+        &[$(ShippedPart {
+            name: $name,
+            files: [
+                (META, include_bytes!(concat!("../../reference_parts/", $name, "/part.toml"))),
+                (CLOUD, include_bytes!(concat!("../../reference_parts/", $name, "/cloud.ply"))),
+                (SIGNATURE, include_bytes!(concat!("../../reference_parts/", $name, "/signature.json"))),
+                (THUMBNAIL, include_bytes!(concat!("../../reference_parts/", $name, "/thumbnail.png"))),
+            ],
+        }),*]
+    };
+}
+
+const SHIPPED: &[ShippedPart] = shipped![
+    "back_bumper",
+    "back_door",
+    "fender",
+    "front_bumper",
+    "front_door",
+    "grille",
+    "radiator_support",
+    "trunk_lid",
+];
+
+/// Writes all shipped parts into an empty folder.
+pub(super) fn write_shipped(folder: &Path) -> io::Result<()> {
+    for part in SHIPPED {
+        let part_folder = folder.join(part.name);
+        fs::create_dir(&part_folder)?;
+        for (name, content) in part.files {
+            write_file(&part_folder.join(name), content)?;
+        }
+        sync_folder(&part_folder)?;
+    }
+    sync_folder(folder)
+}

@@ -1,0 +1,215 @@
+//! A picture of every stage of an inspection, to see at which one it went wrong.
+
+use image::{Rgb, RgbImage};
+use nalgebra::Point2;
+
+use super::canvas::Canvas;
+use crate::{
+    pipeline::Inspection,
+    stages::{
+        contour::Contour,
+        project::PlaneImage,
+        scene::SceneCloud,
+        segment::{PointLabel, Segmentation},
+        signature::FanSignature,
+    },
+};
+
+/// A picture and the stage that it shows.
+#[derive(Clone, Debug)]
+pub struct Picture {
+    /// Name of the stage, fit for a file name.
+    pub stage: &'static str,
+    /// The picture.
+    pub image: RgbImage,
+}
+
+const DARK: Rgb<u8> = Rgb([24, 27, 32]);
+const LIGHT: Rgb<u8> = Rgb([232, 234, 238]);
+const DIM: Rgb<u8> = Rgb([96, 104, 116]);
+const FAINT: Rgb<u8> = Rgb([52, 60, 72]);
+/// Told apart by brightness as well as by hue, for those who see few colours.
+const PART: Rgb<u8> = Rgb([255, 196, 61]);
+const OUTLINE: Rgb<u8> = Rgb([255, 196, 61]);
+const OPENING: Rgb<u8> = Rgb([96, 176, 255]);
+const PLANES: [Rgb<u8>; 4] = [
+    Rgb([44, 82, 130]),
+    Rgb([40, 108, 96]),
+    Rgb([104, 70, 120]),
+    Rgb([120, 84, 60]),
+];
+
+/// Pictures of the stages that ran: segmentation (of an organised scene), binary image, contour, signature.
+pub fn stage_pictures(scene: &SceneCloud, inspection: &Inspection) -> Vec<Picture> {
+    let picture = |stage, image: Option<RgbImage>| image.map(|image| Picture { stage, image });
+    let plane = inspection.plane.as_ref();
+    let (contour, signature) = (inspection.contour.as_ref(), inspection.signature.as_ref());
+    [
+        picture(
+            "segmentation",
+            segmentation(scene, &inspection.segmentation),
+        ),
+        picture("binary", plane.map(binary)),
+        picture(
+            "contour",
+            plane
+                .zip(contour)
+                .map(|(plane, contour)| fan(plane, contour, signature)),
+        ),
+        picture("signature", signature.map(curves)),
+    ]
+    .into_iter()
+    .flatten()
+    .collect()
+}
+
+/// What every pixel was taken for; nearer is brighter. `None` for a scene without rows and columns.
+fn segmentation(scene: &SceneCloud, segmentation: &Segmentation) -> Option<RgbImage> {
+    let grid = scene.cloud.grid?;
+    let depths = || scene.cloud.finite().map(|(_, p)| p.z);
+    let (nearest, farthest) = (
+        depths().fold(f32::INFINITY, f32::min),
+        depths().fold(f32::NEG_INFINITY, f32::max),
+    );
+    let range = (farthest - nearest).max(1e-3);
+    let colour_of = |i: usize| {
+        let Rgb(base) = match segmentation.labels.get(i)? {
+            PointLabel::NoReading => return None,
+            PointLabel::Background(plane) => PLANES[usize::from(*plane) % PLANES.len()],
+            PointLabel::Rest => Rgb([190, 190, 190]),
+            PointLabel::Part => PART,
+        };
+        let nearness = 1.0 - (scene.cloud.points[i].z - nearest) / range;
+        let brightness = 0.55 + 0.45 * nearness;
+        Some(Rgb(base.map(|c| (f32::from(c) * brightness) as u8)))
+    };
+    Some(RgbImage::from_fn(
+        grid.width as u32,
+        grid.height as u32,
+        |u, v| colour_of(v as usize * grid.width + u as usize).unwrap_or(Rgb([0; 3])),
+    ))
+}
+
+/// The paper's picture: black on white.
+fn binary(plane: &PlaneImage) -> RgbImage {
+    let scale = scale_of(plane) as u32;
+    let image = &plane.image;
+    RgbImage::from_fn(
+        image.width as u32 * scale,
+        image.height as u32 * scale,
+        |u, v| {
+            if image.is_set(i64::from(u / scale), i64::from(v / scale)) {
+                Rgb([0; 3])
+            } else {
+                Rgb([255; 3])
+            }
+        },
+    )
+}
+
+/// Whole picture elements per pixel of the plane, so that the longer side is at least 600.
+fn scale_of(plane: &PlaneImage) -> usize {
+    let longer = plane.image.width.max(plane.image.height).max(1);
+    600_usize.div_ceil(longer).max(1)
+}
+
+/// The outline, the openings, the centroid and every fourth ray.
+fn fan(plane: &PlaneImage, contour: &Contour, signature: Option<&FanSignature>) -> RgbImage {
+    let scale = scale_of(plane);
+    let mut canvas = Canvas::new(plane.image.width * scale, plane.image.height * scale, DARK);
+    let place = |p: &Point2<f64>| {
+        let (u, v) = plane.pixel_of(p);
+        [(u + 0.5) * scale as f64, (v + 0.5) * scale as f64]
+    };
+    if let Some(signature) = signature {
+        let centroid = place(&signature.centroid);
+        for ray in signature.rays.iter().step_by(4) {
+            canvas.line(centroid, place(&(signature.centroid + ray)), DIM);
+        }
+    }
+    let closed = |border: &[Point2<f64>]| {
+        let again = border.first().copied();
+        border.iter().copied().chain(again).collect::<Vec<_>>()
+    };
+    for opening in &contour.openings {
+        canvas.polyline(closed(opening).iter().map(place), OPENING);
+    }
+    canvas.polyline(closed(&contour.outline).iter().map(place), OUTLINE);
+    if let Some(signature) = signature {
+        canvas.dot(place(&signature.centroid), 5.0, LIGHT);
+        if let Some(first) = signature.rays.first() {
+            canvas.dot(place(&(signature.centroid + first)), 4.0, LIGHT);
+        }
+    }
+    canvas.image
+}
+
+/// Size of each curve's half of the picture, picture elements.
+const CURVE: [usize; 2] = [800, 200];
+
+/// L above, Θ below, each over the rays in their order; the faint lines are quarters of the range.
+fn curves(signature: &FanSignature) -> RgbImage {
+    let [width, height] = CURVE;
+    let mut canvas = Canvas::new(width, 2 * height, DARK);
+    for (half, values, from_zero) in [(0, &signature.lengths, true), (1, &signature.angles, false)]
+    {
+        let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
+        let low = if from_zero {
+            0.0
+        } else {
+            values.iter().copied().fold(f64::INFINITY, f64::min)
+        };
+        let range = (high - low).max(1e-9);
+        let top = (half * height) as f64 + 8.0;
+        let room = height as f64 - 16.0;
+        for quarter in 0..=4 {
+            let y = top + room * f64::from(quarter) / 4.0;
+            canvas.line([0.0, y], [width as f64, y], FAINT);
+        }
+        let last = values.len().saturating_sub(1).max(1) as f64;
+        let place = |(i, value): (usize, &f64)| {
+            [
+                i as f64 / last * (width as f64 - 1.0),
+                top + room * (1.0 - (value - low) / range),
+            ]
+        };
+        let colour = if from_zero { OUTLINE } else { OPENING };
+        canvas.polyline(values.iter().enumerate().map(place), colour);
+    }
+    canvas.image
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        library::Library,
+        pipeline::{Recipe, Unwatched, run},
+        simulate::{CellSetup, PartKind, Side, frame},
+        stages::scene::scene_from_frame,
+    };
+
+    fn pictures_of(scene: &SceneCloud) -> Vec<Picture> {
+        let library = Library::default();
+        let inspection = run(scene, &library, &Recipe::default(), &Unwatched).expect("run");
+        stage_pictures(scene, &inspection)
+    }
+
+    #[test]
+    fn every_stage_that_ran_has_a_picture_that_shows_something() {
+        let setup = CellSetup::with_part(PartKind::BackDoor, Side::Left, 0, 2);
+        let pictures = pictures_of(&scene_from_frame(&frame(&setup).frame));
+        let stages: Vec<_> = pictures.iter().map(|p| p.stage).collect();
+        assert_eq!(stages, ["segmentation", "binary", "contour", "signature"]);
+        for picture in &pictures {
+            let first = picture.image.get_pixel(0, 0);
+            let num_other = picture.image.pixels().filter(|p| *p != first).count();
+            assert!(num_other > 500, "{}: {num_other} pixels", picture.stage);
+        }
+    }
+
+    #[test]
+    fn an_empty_scene_has_no_picture() {
+        assert!(pictures_of(&SceneCloud::default()).is_empty());
+    }
+}
