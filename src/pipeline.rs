@@ -75,7 +75,7 @@ pub struct AcceptParams {
 impl Default for AcceptParams {
     fn default() -> Self {
         Self {
-            min_score: 0.8,
+            min_score: 0.85,
             min_margin: 0.05,
         }
     }

@@ -5,6 +5,7 @@
 
 mod files;
 mod registration;
+mod scenes;
 mod silhouettes;
 
 use std::path::{Path, PathBuf};
