@@ -73,11 +73,11 @@ pub(super) fn run(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Out
         Coverage::AllAround => "seen from all around",
     };
     console.line(&format_args!(
-        "Enrolled {} from {}, {sides}: {} points, outline of {:.2} m with {} openings",
+        "Enrolled {} from {}, {sides}: {} points, outline of {:.0} mm, openings: {}",
         args.name,
         part.meta.enrolled.how.describe(),
         part.cloud.points.len(),
-        part.signature.perimeter_m,
+        part.signature.perimeter_m * 1000.0,
         part.signature.openings_m.len(),
     ));
     console.line(&format_args!(

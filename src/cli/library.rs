@@ -127,7 +127,7 @@ fn show(choice: &LibraryChoice, name: &PartName, console: &mut Console) -> anyho
         row(
             "outline",
             format!(
-                "{:.0} mm long, {} openings",
+                "{:.0} mm long; openings: {}",
                 outline.mm(),
                 view.contour.openings.len()
             ),

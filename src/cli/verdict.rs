@@ -229,7 +229,7 @@ pub(super) fn show_card(
         line(
             "fit",
             format!(
-                "{:.1} mm rms, {:.0} % of the part covered, {} by {}{ambiguous}",
+                "{:.1} mm rms, {:.0} % of what was seen lies on the reference, {} by {}{ambiguous}",
                 pose.fit.rms_m * 1000.0,
                 pose.fit.overlap * 100.0,
                 pose.stopped.name().replace('_', " "),

@@ -12,12 +12,11 @@ use serde::Deserialize;
 
 use super::{
     Library,
-    name::PartName,
     part::{PartMeta, SCHEMA_VERSION, StoredSignature},
+    problem::{EntryError, EntryProblem, EntryWarning, MAX_POINTS, Trouble},
     store::{CLOUD, Entry, LibraryError, LibraryFolder, META, SIGNATURE, THUMBNAIL},
 };
 use crate::{
-    error::Advice,
     files::{self, FileError, Opened},
     geometry::{cloud::PointCloud, nearest::KdTree, normals::estimate_normals},
     stages::reference::{Reference, ReferenceParams},
@@ -48,134 +47,8 @@ pub struct StoredPart {
     pub warnings: Vec<EntryWarning>,
 }
 
-/// A part that could not be loaded.
-#[derive(Debug, thiserror::Error)]
-#[error("{entry}: {reason}")]
-pub struct EntryProblem {
-    /// The name of its folder.
-    pub entry: String,
-    /// The folder.
-    pub path: PathBuf,
-    /// Why.
-    pub reason: EntryError,
-}
-
-/// Why a stored part cannot be loaded.
-#[derive(Debug, thiserror::Error)]
-pub enum EntryError {
-    /// Made by a newer version of this program.
-    #[error("made by a newer version of Partsight (schema {found}, this one reads up to {known})")]
-    Newer {
-        /// Its version.
-        found: u32,
-        /// The newest version read.
-        known: u32,
-    },
-    /// A file that must be there is not.
-    #[error("{file} is missing")]
-    Missing {
-        /// The file.
-        file: &'static str,
-    },
-    /// `part.toml` cannot be read by the system.
-    #[error("{META} cannot be read: {source}")]
-    Unreadable {
-        /// What the system says.
-        source: io::Error,
-    },
-    /// `part.toml` cannot be understood.
-    #[error("{META} is damaged: {found}")]
-    BadMeta {
-        /// The first thing wrong.
-        found: String,
-    },
-    /// Folder and `part.toml` do not agree on the name.
-    #[error("the folder is named {folder}, but {META} says {name}")]
-    NameMismatch {
-        /// Name of the folder.
-        folder: String,
-        /// Name in the file.
-        name: PartName,
-    },
-    /// The cloud cannot be read.
-    #[error("{CLOUD} cannot be used: {0}")]
-    BadCloud(Box<FileError>),
-    /// The file of the cloud holds something else, or too much of it.
-    #[error("{CLOUD} holds {found}, expected a cloud of at most {MAX_POINTS} points")]
-    NotACloud {
-        /// What it holds.
-        found: String,
-    },
-    /// No outline from any side.
-    #[error("{CLOUD} has no outline from any side ({num_points} points)")]
-    NoOutline {
-        /// Points of the cloud.
-        num_points: usize,
-    },
-}
-
-impl Advice for EntryProblem {
-    fn advice(&self) -> String {
-        match &self.reason {
-            EntryError::Newer { .. } => {
-                "Update Partsight, or enrol the part again with this version".into()
-            }
-            EntryError::NameMismatch { name, .. } => format!("Rename the folder to {name}"),
-            EntryError::Unreadable { .. } => format!("Ask for access to {}", self.path.display()),
-            _ => format!(
-                "Copy {} again from where it was made, or remove it with `partsight library remove {}` and enrol it again",
-                self.path.display(),
-                self.entry
-            ),
-        }
-    }
-}
-
-/// Something odd about a part that could be loaded.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("{entry}: {trouble}")]
-pub struct EntryWarning {
-    /// The part.
-    pub entry: String,
-    /// What is odd.
-    pub trouble: Trouble,
-}
-
-/// What can be odd about a stored part.
-#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Trouble {
-    /// A file that can be made again from the cloud is not there.
-    #[error("{file} is missing; it was made again from the cloud in memory")]
-    Missing {
-        /// The file.
-        file: &'static str,
-    },
-    /// A file that can be made again from the cloud is damaged or says something else than the cloud.
-    #[error("{file} does not belong to the cloud; the cloud counts")]
-    Stale {
-        /// The file.
-        file: &'static str,
-    },
-    /// An interrupted replacement left the part under another name.
-    #[error("an interrupted replacement left it aside; the next enrolment puts it back")]
-    LeftAside,
-}
-
-impl Advice for EntryWarning {
-    fn advice(&self) -> String {
-        match self.trouble {
-            Trouble::Missing { .. } | Trouble::Stale { .. } => {
-                "Copy the part again from where it was made, or enrol it again".into()
-            }
-            Trouble::LeftAside => "Check that the part is the one you want".into(),
-        }
-    }
-}
-
 /// The largest `part.toml` and `signature.json` read, bytes.
 const MAX_TEXT: u64 = 8 << 20;
-/// The largest cloud taken as a reference: twelve times what enrolling makes.
-const MAX_POINTS: usize = 200_000;
 
 /// How closely a stored part is looked at.
 #[derive(Clone, Copy, PartialEq, Eq)]

@@ -19,6 +19,7 @@ mod load;
 mod name;
 mod part;
 mod place;
+mod problem;
 mod shipped;
 mod store;
 mod thumbnail;
@@ -30,10 +31,11 @@ pub use self::{
         About, EnrolError, EnrolParams, EnrolWarning, Enrolled, enrol_captured, enrol_mesh,
         enrol_whole,
     },
-    load::{EntryError, EntryProblem, EntryWarning, LibraryLoad, StoredPart, Trouble},
+    load::{LibraryLoad, StoredPart},
     name::{BadName, PartName},
     part::{Enrolment, How, Part, PartMeta, SCHEMA_VERSION, StoredLiteral, StoredSignature},
     place::{LibraryPlace, open_library},
+    problem::{EntryError, EntryProblem, EntryWarning, Trouble},
     store::{LibraryError, LibraryFolder, Saved},
 };
 
