@@ -1,0 +1,65 @@
+//! How long the stages take, beside what they are meant to.
+
+use crate::pipeline::Timings;
+
+/// Times of one stage over many inspections.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct StageTimes {
+    /// The stage, as in reports.
+    pub stage: &'static str,
+    /// Median, milliseconds.
+    pub median_ms: f64,
+    /// 95th percentile, milliseconds.
+    pub p95_ms: f64,
+    /// What the design allows, milliseconds; signature and rank share a budget.
+    pub budget_ms: f64,
+}
+
+/// Medians and 95th percentiles per stage; empty without timings.
+pub fn stage_times(timings: &[Timings]) -> Vec<StageTimes> {
+    let columns: [(&'static str, f64, fn(&Timings) -> std::time::Duration); 7] = [
+        ("segment", 2.5, |t| t.segment),
+        ("project", 0.5, |t| t.project),
+        ("contour", 0.3, |t| t.contour),
+        ("signature", 0.2, |t| t.signature),
+        ("rank", 0.2, |t| t.rank),
+        ("pose", 8.0, |t| t.pose),
+        ("total", 12.0, |t| t.total),
+    ];
+    columns
+        .into_iter()
+        .filter_map(|(stage, budget_ms, of)| {
+            let ms = || timings.iter().map(|t| of(t).as_secs_f64() * 1e3);
+            Some(StageTimes {
+                stage,
+                median_ms: quantile(ms(), 0.5)?,
+                p95_ms: quantile(ms(), 0.95)?,
+                budget_ms,
+            })
+        })
+        .collect()
+}
+
+/// The value below which a share (0..1) of the values lies; `None` without values.
+pub(super) fn quantile(values: impl Iterator<Item = f64>, share: f64) -> Option<f64> {
+    let mut values: Vec<f64> = values.collect();
+    if values.is_empty() {
+        return None;
+    }
+    let position = ((values.len() - 1) as f64 * share).round() as usize;
+    Some(*values.select_nth_unstable_by(position, f64::total_cmp).1)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn quantiles_are_values_of_the_list() {
+        let values = || [5.0, 1.0, 4.0, 2.0, 3.0].into_iter();
+        assert_eq!(quantile(values(), 0.5), Some(3.0));
+        assert_eq!(quantile(values(), 0.0), Some(1.0));
+        assert_eq!(quantile(values(), 1.0), Some(5.0));
+        assert_eq!(quantile(std::iter::empty(), 0.5), None);
+    }
+}
