@@ -53,7 +53,7 @@ impl Workplace {
             "--part",
             name,
             "--pose",
-            "0 0 0 0 0 1400",
+            "0 0 0 0 0 1.4",
             "--out",
             &reference,
         ]);
@@ -155,7 +155,7 @@ fn the_pose_is_that_of_the_simulation() {
         "--part",
         "front_door",
         "--pose",
-        "5 -10 20 40 -30 1600",
+        "5deg -10deg 20deg 40mm -30mm 1600mm",
     ];
     place.accepted(&[&moved[..], &["--out", "moved.png", "--truth", "truth.json"]].concat());
     let line = &place
@@ -224,7 +224,7 @@ fn an_empty_cell_and_an_unknown_part_are_not_accepted() {
         "--part",
         "grille",
         "--pose",
-        "0 0 0 0 -5000 1400",
+        "0 0 0 0 -5 1.4",
         "--out",
         "empty.pcd",
     ];
@@ -415,7 +415,7 @@ fn a_cloud_is_aligned_with_itself_moved() {
         "--pose",
         "icp",
         "--initial",
-        "5 -11 22 50 20 -100",
+        "5deg -11deg 22deg 50mm 20mm -100mm",
     ];
     assert!(place.accepted(&started).out.contains("mm rms"));
 }

@@ -138,7 +138,7 @@ impl Recognition {
                 None => confusions.push((case.truth, found, 1)),
             }
         }
-        confusions.sort_by(|a, b| b.2.cmp(&a.2));
+        confusions.sort_by_key(|c| std::cmp::Reverse(c.2));
         confusions
     }
 }

@@ -1,9 +1,13 @@
 //! How long the stages take, beside what they are meant to.
 
+use std::time::Duration;
+
+use serde::Serialize;
+
 use crate::pipeline::Timings;
 
 /// Times of one stage over many inspections.
-#[derive(Clone, Copy, Debug, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
 pub struct StageTimes {
     /// The stage, as in reports.
     pub stage: &'static str,
@@ -17,7 +21,8 @@ pub struct StageTimes {
 
 /// Medians and 95th percentiles per stage; empty without timings.
 pub fn stage_times(timings: &[Timings]) -> Vec<StageTimes> {
-    let columns: [(&'static str, f64, fn(&Timings) -> std::time::Duration); 7] = [
+    type Pick = fn(&Timings) -> Duration;
+    let columns: [(&'static str, f64, Pick); 7] = [
         ("segment", 2.5, |t| t.segment),
         ("project", 0.5, |t| t.project),
         ("contour", 0.3, |t| t.contour),

@@ -25,7 +25,7 @@ use crate::{
 #[command(after_help = "\
 Examples:
   partsight align scan.ply reference.ply
-  partsight align scan.ply reference.ply --pose icp --initial \"0 0 30 100 0 0\"
+  partsight align scan.ply reference.ply --pose icp --initial \"0 0 30deg 100mm 0 0\"
   partsight align scan.ply door.stl --json
 
 Both in metres. A mesh is sampled evenly. The answer maps points of SOURCE onto TARGET.
@@ -38,7 +38,7 @@ pub(super) struct AlignArgs {
     /// How
     #[arg(long, value_enum, default_value_t = MethodChoice::Global)]
     pose: MethodChoice,
-    /// Where to start: angles in degrees, then a shift in millimetres; R = Rz·Ry·Rx
+    /// Where to start: three angles (radians, or 90deg) and a shift (metres, or 800mm); R = Rz·Ry·Rx
     #[arg(long, value_name = "\"rx ry rz x y z\"", value_parser = parse_pose, allow_hyphen_values = true)]
     initial: Option<RigidTransform>,
     /// Write one line of JSON, and nothing else, to standard output

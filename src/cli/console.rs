@@ -93,6 +93,11 @@ impl Console {
         self.progress.inc(1);
     }
 
+    /// Takes the progress bar away.
+    pub(super) fn end_progress(&self) {
+        self.progress.finish_and_clear();
+    }
+
     /// Ends the progress bar; the first failure to write an answer, if there was one.
     pub(super) fn finish(&mut self) -> io::Result<()> {
         self.progress.finish_and_clear();

@@ -72,25 +72,44 @@ pub(super) fn open_cloud(path: &Path) -> Result<(PointCloud, Vec<FileWarning>), 
     Ok((cloud, warnings))
 }
 
-/// Reads "rx ry rz x y z" in degrees and millimetres, R = Rz·Ry·Rx.
+/// Reads "rx ry rz x y z" as the paper writes its T1..T5 (eq. 15): radians and metres, R = Rz·Ry·Rx. A number may carry
+/// its unit instead: `90deg`, `800mm`.
 pub(super) fn parse_pose(text: &str) -> Result<RigidTransform, String> {
-    let numbers: Vec<f64> = text
+    let words: Vec<&str> = text
         .split(|c: char| c.is_whitespace() || c == ',')
         .filter(|word| !word.is_empty())
-        .map(|word| match word.parse::<f64>() {
-            Ok(number) if number.is_finite() => Ok(number),
-            _ => Err(format!("{word:?} is not a number")),
-        })
-        .collect::<Result<_, _>>()?;
-    let [rx, ry, rz, x, y, z] = <[f64; 6]>::try_from(numbers).map_err(|numbers| {
+        .collect();
+    let [rx, ry, rz, x, y, z] = <[&str; 6]>::try_from(words).map_err(|words| {
         format!(
-            "found {} numbers, expected six: three angles in degrees and three lengths in millimetres",
-            numbers.len()
+            "found {} numbers, expected six: three angles (radians, or 90deg) and three lengths (metres, or 800mm)",
+            words.len()
         )
     })?;
-    let [rx, ry, rz] = [rx, ry, rz].map(|degrees| Radians::from_degrees(degrees).0);
-    let [x, y, z] = [x, y, z].map(|mm| Metres::from_mm(mm).0);
-    Ok(from_euler_zyx([rx, ry, rz, x, y, z]))
+    let angle = |word| parse_number(word, &[("deg", Radians::from_degrees(1.0).0), ("rad", 1.0)]);
+    let length = |word| parse_number(word, &[("mm", Metres::from_mm(1.0).0), ("m", 1.0)]);
+    Ok(from_euler_zyx([
+        angle(rx)?,
+        angle(ry)?,
+        angle(rz)?,
+        length(x)?,
+        length(y)?,
+        length(z)?,
+    ]))
+}
+
+/// A number with one of the units given, or with none.
+fn parse_number(word: &str, units: &[(&str, f64)]) -> Result<f64, String> {
+    let with_unit = units
+        .iter()
+        .find_map(|(unit, factor)| word.strip_suffix(unit).map(|number| (number, *factor)));
+    let (number, factor) = with_unit.unwrap_or((word, 1.0));
+    match number.parse::<f64>() {
+        Ok(number) if number.is_finite() => Ok(number * factor),
+        _ => Err(format!(
+            "{word:?} is not a number with {} or no unit",
+            units[0].0
+        )),
+    }
 }
 
 #[cfg(test)]
@@ -98,10 +117,12 @@ mod tests {
     use super::*;
 
     #[test]
-    fn six_numbers_are_degrees_and_millimetres() {
-        let pose = parse_pose("0 0 90, 1000 -20.5 0").expect("six numbers");
-        let moved = pose * nalgebra::Point3::new(1.0, 0.0, 0.0);
+    fn six_numbers_are_radians_and_metres_or_what_their_unit_says() {
+        let plain = parse_pose("0 0 1.5707963267948966, 1 -0.0205 0").expect("six numbers");
+        let units = parse_pose("0deg 0rad 90deg 1000mm -20.5mm 0m").expect("six numbers");
+        let moved = plain * nalgebra::Point3::new(1.0, 0.0, 0.0);
         assert!((moved - nalgebra::Point3::new(1.0, 0.9795, 0.0)).norm() < 1e-12);
+        assert!((units.to_homogeneous() - plain.to_homogeneous()).norm() < 1e-12);
     }
 
     #[test]
@@ -113,6 +134,9 @@ mod tests {
             "a b c d e f",
             "0 0 0 0 0 nan",
             "0 0 0 0 0 inf",
+            "0 0 0 0 0 3cm",
+            "0mm 0 0 0 0 0",
+            "0 0 0 0 0 90deg",
         ] {
             assert!(parse_pose(text).is_err(), "{text}");
         }

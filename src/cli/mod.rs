@@ -4,6 +4,7 @@
 //! interface: see [`Outcome`].
 
 mod align;
+mod bench;
 mod console;
 mod enrol;
 mod first_look;
@@ -52,6 +53,7 @@ enum Command {
     Library(library::LibraryArgs),
     Align(align::AlignArgs),
     Simulate(simulate::SimulateArgs),
+    Bench(bench::BenchArgs),
 }
 
 /// What a call came to; its exit code.
@@ -85,6 +87,7 @@ pub fn run(cli: Cli) -> Outcome {
         Some(Command::Library(args)) => library::run(&args, &mut console),
         Some(Command::Align(args)) => align::run(&args, &mut console),
         Some(Command::Simulate(args)) => simulate::run(&args, &mut console),
+        Some(Command::Bench(args)) => bench::run(&args, &mut console),
     };
     let outcome = ran.unwrap_or_else(|error| {
         console.error(&error);

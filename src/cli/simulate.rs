@@ -23,7 +23,7 @@ use crate::{
 Examples:
   partsight simulate --part fender --out fender.pcd
   partsight simulate --part front_door --side right --seed 7 --out door.png --truth door.truth.json
-  partsight simulate --part grille --pose \"0 0 15 0 0 1200\" --out grille.pcd
+  partsight simulate --part grille --pose \"0 0 15deg 0 0 1.2\" --out grille.pcd
 
 The same arguments give the same file.")]
 pub(super) struct SimulateArgs {
@@ -39,7 +39,7 @@ pub(super) struct SimulateArgs {
     /// Model of the car; 0 is the standard one
     #[arg(long, default_value_t = 0)]
     model: u64,
-    /// Exact place: angles in degrees, then the part's middle before the camera in millimetres; R = Rz·Ry·Rx
+    /// Exact place: three angles (radians, or 15deg) and the part's middle before the camera (metres, or 1200mm); R = Rz·Ry·Rx
     #[arg(
         long,
         value_name = "\"rx ry rz x y z\"",
@@ -66,13 +66,23 @@ enum SideChoice {
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum PlacementChoice {
+pub(super) enum PlacementChoice {
     /// Hung with care: up to 10 degrees off
     Facing,
     /// Hung anyhow: up to 30 degrees off, any roll
     Placed,
     /// Up to 45 degrees off, any roll
     Hard,
+}
+
+impl From<PlacementChoice> for Placement {
+    fn from(choice: PlacementChoice) -> Self {
+        match choice {
+            PlacementChoice::Facing => Self::facing(),
+            PlacementChoice::Placed => Self::placed(),
+            PlacementChoice::Hard => Self::hard(),
+        }
+    }
 }
 
 pub(super) fn run(args: &SimulateArgs, console: &mut Console) -> anyhow::Result<Outcome> {
@@ -89,9 +99,7 @@ pub(super) fn run(args: &SimulateArgs, console: &mut Console) -> anyhow::Result<
     let mut setup = CellSetup::with_part(kind, side, args.model, args.seed);
     setup.pose = match (args.pose, args.placement) {
         (Some(camera_from_part), _) => PartPose::Fixed(camera_from_part),
-        (None, PlacementChoice::Facing) => PartPose::Drawn(Placement::facing()),
-        (None, PlacementChoice::Placed) => PartPose::Drawn(Placement::placed()),
-        (None, PlacementChoice::Hard) => PartPose::Drawn(Placement::hard()),
+        (None, placement) => PartPose::Drawn(placement.into()),
     };
     let simulated = frame(&setup);
     write_frame(&args.out, &simulated)?;

@@ -376,9 +376,10 @@ mod tests {
                     prop_assert!(a[0].abs_diff(b[0]) <= 1 && a[1].abs_diff(b[1]) <= 1);
                 }
                 // A hole lies in a shape, a shape in a hole or the frame.
-                match border.parent {
-                    Some(parent) => prop_assert_ne!(borders[parent].kind, border.kind),
-                    None => prop_assert_eq!(border.kind, BorderKind::Outer),
+                if let Some(parent) = border.parent {
+                    prop_assert_ne!(borders[parent].kind, border.kind);
+                } else {
+                    prop_assert_eq!(border.kind, BorderKind::Outer);
                 }
             }
         }

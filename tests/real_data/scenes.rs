@@ -25,7 +25,6 @@ fn inspected(scene: &SceneCloud, library: &Library) -> Inspection {
 }
 
 #[test]
-#[expect(clippy::print_stderr, reason = "the figures are worth reading")]
 fn no_recorded_scene_is_accepted_as_a_car_part() {
     let Some(data) = data_folder() else { return };
     let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference_parts");
@@ -140,7 +139,6 @@ fn hung(mesh: &TriangleMesh, turn: &Rotation3<f64>) -> (RigidTransform, Triangle
 }
 
 #[test]
-#[expect(clippy::print_stderr, reason = "the figures are worth reading")]
 fn doors_and_lid_of_a_car_are_told_apart_and_left_is_never_right() {
     let Some(data) = data_folder() else { return };
     let mut library = Library::default();

@@ -136,7 +136,6 @@ fn num_right(
 }
 
 #[test]
-#[expect(clippy::print_stderr, reason = "the figures are worth reading")]
 fn a_shape_is_found_again_turned_flipped_and_at_another_resolution() {
     let Some(data) = data_folder() else { return };
     let shapes = silhouettes(&data.join("silhouettes"));

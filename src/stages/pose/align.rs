@@ -154,6 +154,16 @@ fn spread_rotations(num: usize) -> impl Iterator<Item = UnitQuaternion<f64>> {
     })
 }
 
+fn level(num_surface: usize, scale: f64, max_steps: usize, search: Search) -> Level {
+    Level {
+        num_surface,
+        num_edges: 0,
+        scale,
+        max_steps,
+        search,
+    }
+}
+
 /// A target with what searching it needs, and the lengths that follow from it.
 struct PreparedTarget {
     cloud: PointCloud,
@@ -215,16 +225,6 @@ impl PreparedTarget {
         }
     }
 
-    fn level(&self, num_surface: usize, scale: f64, max_steps: usize, search: Search) -> Level {
-        Level {
-            num_surface,
-            num_edges: 0,
-            scale,
-            max_steps,
-            search,
-        }
-    }
-
     fn search(
         &self,
         source: &[Point3<f32>],
@@ -244,30 +244,30 @@ impl PreparedTarget {
         // From what a start is off by, halving, down to the spacing.
         let finest = (1.5 * self.spacing).min(0.1 * self.extent);
         let coarse = [
-            self.level(120, 0.35 * self.extent, 5, Search::Field),
-            self.level(200, 0.15 * self.extent, 5, Search::Field),
+            level(120, 0.35 * self.extent, 5, Search::Field),
+            level(200, 0.15 * self.extent, 5, Search::Field),
         ];
         let middle = [
-            self.level(600, 0.1 * self.extent, 8, Search::Field),
-            self.level(600, 0.05 * self.extent, 8, Search::Field),
+            level(600, 0.1 * self.extent, 8, Search::Field),
+            level(600, 0.05 * self.extent, 8, Search::Field),
         ];
         let mut fine = Vec::new();
         let mut scale = 0.03 * self.extent;
         while scale > finest {
-            fine.push(self.level(1500, scale, 10, Search::Field));
+            fine.push(level(1500, scale, 10, Search::Field));
             scale *= 0.5;
         }
-        fine.push(self.level(NUM_SOURCE_POINTS, finest, 20, Search::Tree));
+        fine.push(level(NUM_SOURCE_POINTS, finest, 20, Search::Tree));
 
         let limit = 0.2 * self.extent;
         let run = |start: &RigidTransform, levels: &[Level], limit: f64| {
             let refined = refine(&source_points, &target, start, levels);
-            let level = &levels[levels.len() - 1];
+            let last = &levels[levels.len() - 1];
             let cost = cost(
                 &source_points,
                 &target,
                 &refined.target_from_source,
-                level,
+                last,
                 limit,
             );
             (cost, refined)

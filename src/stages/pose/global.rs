@@ -231,7 +231,7 @@ struct Equations {
     num_pairs: usize,
 }
 
-/// Sums over pairs pulled together along all three axes: with J = [-[x]ₓ, I] the normal equations follow from them.
+/// Sums over pairs pulled together along all three axes: with J = (-skew(x), I) the normal equations follow from them.
 #[derive(Default)]
 struct PointSums {
     weight: f64,
@@ -354,7 +354,7 @@ impl PointSums {
 
     fn add_to(&self, matrix: &mut Matrix6<f64>, right: &mut Vector6<f64>) {
         let [xx, xy, xz, yy, yz, zz] = self.at_at;
-        // -[x]ₓ² = |x|² I - x xᵀ
+        // -skew(x)² = |x|² I - x xᵀ
         let turn = Matrix3::new(yy + zz, -xy, -xz, -xy, xx + zz, -yz, -xz, -yz, xx + yy);
         let cross = self.at.cross_matrix();
         let mut block = |row: usize, column: usize, values: &Matrix3<f64>| {
@@ -415,7 +415,7 @@ pub fn cost(
             .step_by(step)
             .map(|at| edge_distance_sq(&moved_edges, &at)),
     );
-    surface_cost + (there + back) / 2.0
+    surface_cost + f64::midpoint(there, back)
 }
 
 /// Squared distance of a point to the target's surface near its closest point: along the normal, and beside it what

@@ -199,27 +199,21 @@ fn connect_voxels(points: &[Point3<f32>], labels: &[PointLabel], link: Link) -> 
 
 fn describe(scene: &SceneCloud, indices: &[u32], link: Link) -> Cluster {
     let points = &scene.cloud.points;
-    let area = match (scene.intrinsics, scene.cloud.grid) {
+    let area = if let Some(camera) = scene.intrinsics {
         // A pixel at depth z covers z²/(fx fy).
-        (Some(camera), _) => {
-            indices
-                .iter()
-                .map(|&i| f64::from(points[i as usize].z).powi(2))
-                .sum::<f64>()
-                / (camera.fx * camera.fy)
-        }
+        let depths = indices.iter().map(|&i| f64::from(points[i as usize].z));
+        depths.map(|z| z * z).sum::<f64>() / (camera.fx * camera.fy)
+    } else {
         // Without a camera: as many squares as the cluster fills voxels.
-        _ => {
-            let size = voxel_size(link);
-            let mut voxels: Vec<[i32; 3]> = indices
-                .iter()
-                .map(|&i| points[i as usize])
-                .map(|p| [p.x, p.y, p.z].map(|x| (x / size).floor() as i32))
-                .collect();
-            voxels.sort_unstable();
-            voxels.dedup();
-            voxels.len() as f64 * f64::from(size).powi(2)
-        }
+        let size = voxel_size(link);
+        let mut voxels: Vec<[i32; 3]> = indices
+            .iter()
+            .map(|&i| points[i as usize])
+            .map(|p| [p.x, p.y, p.z].map(|x| (x / size).floor() as i32))
+            .collect();
+        voxels.sort_unstable();
+        voxels.dedup();
+        voxels.len() as f64 * f64::from(size).powi(2)
     };
     let touches_edge = scene.cloud.grid.is_some_and(|Grid { width, height }| {
         // Sensors lose a few pixels along the edge; a handful of stray pixels there does not count.

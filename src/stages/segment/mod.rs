@@ -21,7 +21,7 @@ use crate::{error::Advice, geometry::cloud::PointCloud, stages::scene::SceneClou
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct SegmentParams {
-    /// The paper's d_t: a point closer than this (plus the noise) to a background plane belongs to it, 1..50 mm.
+    /// The paper's `d_t`: a point closer than this (plus the noise) to a background plane belongs to it, 1..50 mm.
     /// Raising it eats what is near the wall.
     pub plane_distance: Metres,
     /// Standard deviation of the depth at 1 m, 0..20 mm; it grows with depth². Used until a plane shows the real one.

@@ -270,7 +270,7 @@ fn best_plane(
         ) else {
             continue;
         };
-        let num_inliers = count_inliers(&x, &y, &z, &reach, &plane) as f64;
+        let num_inliers = f64::from(count_inliers(&x, &y, &z, &reach, &plane));
         if num_inliers > best.map_or(least, |b| b.1) {
             best = Some((plane, num_inliers));
             let share = num_inliers / unclaimed.len() as f64;
@@ -375,22 +375,28 @@ impl Cells {
     /// The outermost reading of each row and column, where it lies close to the edge of the picture: sensors lose
     /// a few columns there.
     fn edge_points(&self) -> Vec<u32> {
-        let margin = |n: usize| (n / 16).max(1);
-        let mut found = Vec::new();
-        let mut first = |cells: &mut dyn Iterator<Item = usize>| {
-            found.extend(cells.filter_map(|c| self.point_in[c]).next());
+        let Self { columns, rows, .. } = *self;
+        // The first reading on a walk inwards from the edge, no further than a sixteenth of the picture.
+        let first = |from: usize, step: isize, length: usize| {
+            let walk = 0..(length / 16).max(1) as isize;
+            walk.map(|i| from.wrapping_add_signed(i * step))
+                .find_map(|cell| self.point_in[cell])
         };
-        for row in 0..self.rows {
-            let at = |column: usize| row * self.columns + column;
-            first(&mut (0..margin(self.columns)).map(at));
-            first(&mut (0..margin(self.columns)).map(|c| at(self.columns - 1 - c)));
-        }
-        for column in 0..self.columns {
-            let at = |row: usize| row * self.columns + column;
-            first(&mut (0..margin(self.rows)).map(at));
-            first(&mut (0..margin(self.rows)).map(|r| at(self.rows - 1 - r)));
-        }
-        found
+        let down = columns as isize;
+        let sides = (0..rows).flat_map(|row| {
+            let left = row * columns;
+            [
+                first(left, 1, columns),
+                first(left + columns - 1, -1, columns),
+            ]
+        });
+        let ends = (0..columns).flat_map(|column| {
+            [
+                first(column, down, rows),
+                first((rows - 1) * columns + column, -down, rows),
+            ]
+        });
+        sides.chain(ends).flatten().collect()
     }
 }
 

@@ -1,0 +1,248 @@
+//! `partsight bench`: how often right, how far off, how long, on simulated frames.
+
+use std::path::PathBuf;
+
+use anyhow::Context as _;
+use clap::{Args, ValueEnum};
+use serde::Serialize;
+
+use super::{
+    Outcome,
+    console::{Advised as _, Console, Table},
+};
+use crate::{
+    bench::{
+        Recognition, RecognitionSetup, StageTimes, enrol_standard_parts, recognise_all, stage_times,
+    },
+    files::write_atomically,
+    library::EnrolParams,
+    pipeline::{Recipe, Timings, Unwatched},
+    simulate::Placement,
+    stages::rank::Matcher,
+};
+
+/// Measure recognition, pose and speed on simulated frames with known truth
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  partsight bench
+  partsight bench recognition --poses 50 --model 3
+  partsight bench recognition --placement hard --json hard.json
+
+Each part is enrolled from one frontal capture of the standard car, then seen at drawn poses. Without a name: a few
+frames of each part, to time the stages. Times are those of this machine, at what else it is doing now.")]
+pub(super) struct BenchArgs {
+    /// What to measure
+    #[arg(value_enum, default_value_t = Bench::Speed)]
+    bench: Bench,
+    /// Poses of each part
+    #[arg(long, value_name = "N", default_value_t = 25, value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    poses: u64,
+    /// Seed of the first frame
+    #[arg(long, default_value_t = 1_000_000)]
+    seed: u64,
+    /// Model of the car that is seen; the enrolled one is 0
+    #[arg(long, default_value_t = 0)]
+    model: u64,
+    /// How far from square-on the poses are drawn
+    #[arg(long, value_enum, default_value_t = super::simulate::PlacementChoice::Placed)]
+    placement: super::simulate::PlacementChoice,
+    /// Write every case to this file as JSON
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Bench {
+    /// The time of each stage beside its budget
+    Speed,
+    /// Right, accepted and well placed, by the default matcher and by the paper's
+    Recognition,
+}
+
+/// What `--json` writes.
+#[derive(Debug, Serialize)]
+struct BenchFile<'a> {
+    schema: u32,
+    simulated: bool,
+    runs: Vec<RunLine<'a>>,
+}
+
+#[derive(Debug, Serialize)]
+struct RunLine<'a> {
+    matcher: Matcher,
+    num_frames: usize,
+    num_right: usize,
+    num_right_accepted: usize,
+    num_wrong_accepted: usize,
+    num_well_placed: usize,
+    stages: Vec<StageTimes>,
+    cases: Vec<CaseLine<'a>>,
+}
+
+#[derive(Debug, Serialize)]
+struct CaseLine<'a> {
+    truth: &'static str,
+    seed: u64,
+    found: Option<&'a str>,
+    score: f64,
+    accepted: bool,
+    rotation_error_deg: Option<f64>,
+    shift_error_mm: Option<f64>,
+    total_ms: f64,
+}
+
+pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let enrolled = enrol_standard_parts(&EnrolParams::default()).advised()?;
+    let matchers: &[Matcher] = match args.bench {
+        Bench::Speed => &[Matcher::Default],
+        Bench::Recognition => &[Matcher::Default, Matcher::Paper],
+    };
+    let setup = RecognitionSetup {
+        num_poses: args.poses,
+        first_seed: args.seed,
+        model_seed: args.model,
+        placement: Placement::from(args.placement),
+    };
+    let num_frames = args.poses as usize * enrolled.library.references.len();
+    console.start_progress(num_frames * matchers.len());
+    let mut runs: Vec<(Matcher, Recognition)> = Vec::new();
+    for &matcher in matchers {
+        let mut recipe = Recipe::default();
+        recipe.rank.matcher = matcher;
+        let recognition = recognise_all(&setup, &enrolled, &recipe, &Unwatched, |_, _| {
+            console.done();
+        })?;
+        runs.push((matcher, recognition));
+    }
+    console.end_progress();
+    console.line(&format_args!(
+        "Simulated: {num_frames} frames, {} of each part, car model {} against the enrolled model 0, one core.",
+        args.poses, args.model
+    ));
+    if args.bench == Bench::Recognition {
+        console.line(&"");
+        show_recognition(&runs, console);
+    }
+    for (matcher, recognition) in &runs {
+        console.line(&"");
+        console.line(&format_args!(
+            "Time per stage, {} matcher:",
+            name_of(*matcher)
+        ));
+        show_times(&times_of(recognition), console);
+    }
+    if let Some(path) = &args.json {
+        let file = BenchFile {
+            schema: 1,
+            simulated: true,
+            runs: runs
+                .iter()
+                .map(|(matcher, recognition)| run_line(*matcher, recognition))
+                .collect(),
+        };
+        write_atomically(path, |writer| {
+            serde_json::to_writer_pretty(&mut *writer, &file)?;
+            writeln!(writer)
+        })
+        .advised()
+        .with_context(|| format!("{} was not written", path.display()))?;
+    }
+    Ok(Outcome::Accepted)
+}
+
+fn name_of(matcher: Matcher) -> &'static str {
+    match matcher {
+        Matcher::Default => "default",
+        Matcher::Paper => "paper's",
+    }
+}
+
+fn times_of(recognition: &Recognition) -> Vec<StageTimes> {
+    let timings: Vec<Timings> = recognition.cases.iter().map(|c| c.timings).collect();
+    stage_times(&timings)
+}
+
+fn show_recognition(runs: &[(Matcher, Recognition)], console: &mut Console) {
+    let mut table = Table::new(&[
+        "matcher",
+        "right",
+        "right and accepted",
+        "wrong and accepted",
+        "pose within 2° and 10 mm",
+        "median error",
+        "95 % of errors below",
+    ]);
+    for (matcher, recognition) in runs {
+        let total = recognition.cases.len();
+        let share = |num: usize, of: usize| {
+            format!(
+                "{num}/{of} ({:.1} %)",
+                100.0 * num as f64 / of.max(1) as f64
+            )
+        };
+        let error = |quantile| {
+            recognition.pose_error_quantile(quantile).map_or_else(
+                || "-".to_owned(),
+                |e| format!("{}, {}", e.rotation, e.shift),
+            )
+        };
+        table.row([
+            name_of(*matcher).to_owned(),
+            share(recognition.num_right(), total),
+            share(recognition.num_right_accepted(), total),
+            share(recognition.num_wrong_accepted(), total),
+            share(recognition.num_well_placed(), recognition.num_right()),
+            error(0.5),
+            error(0.95),
+        ]);
+    }
+    table.show(console);
+    for (matcher, recognition) in runs {
+        for (truth, found, num) in recognition.confusions() {
+            console.line(&format_args!(
+                "  {} matcher: {truth} taken for {found}, {num}×",
+                name_of(*matcher)
+            ));
+        }
+    }
+}
+
+fn show_times(times: &[StageTimes], console: &mut Console) {
+    let mut table = Table::new(&["stage", "median", "95 %", "budget"]);
+    for t in times {
+        table.row([
+            t.stage.to_owned(),
+            format!("{:.2} ms", t.median_ms),
+            format!("{:.2} ms", t.p95_ms),
+            format!("{:.1} ms", t.budget_ms),
+        ]);
+    }
+    table.show(console);
+}
+
+fn run_line(matcher: Matcher, recognition: &Recognition) -> RunLine<'_> {
+    RunLine {
+        matcher,
+        num_frames: recognition.cases.len(),
+        num_right: recognition.num_right(),
+        num_right_accepted: recognition.num_right_accepted(),
+        num_wrong_accepted: recognition.num_wrong_accepted(),
+        num_well_placed: recognition.num_well_placed(),
+        stages: times_of(recognition),
+        cases: recognition
+            .cases
+            .iter()
+            .map(|c| CaseLine {
+                truth: c.truth.name(),
+                seed: c.seed,
+                found: c.found.as_deref(),
+                score: c.score,
+                accepted: c.is_accepted,
+                rotation_error_deg: c.pose_error.map(|e| e.rotation.degrees()),
+                shift_error_mm: c.pose_error.map(|e| e.shift.mm()),
+                total_ms: c.timings.total.as_secs_f64() * 1e3,
+            })
+            .collect(),
+    }
+}
