@@ -159,11 +159,11 @@ fn voxel_size(link: Link) -> f32 {
 
 fn connect_voxels(points: &[Point3<f32>], labels: &[PointLabel], link: Link) -> Vec<Vec<u32>> {
     let size = voxel_size(link);
-    let voxel_of = |p: &Point3<f32>| [p.x, p.y, p.z].map(|x| (x / size).floor() as i32);
+    let voxel_of = |p: &Point3<f32>| [p.x, p.y, p.z].map(|x| (x / size).floor() as i64);
     let mut forest = Forest {
         parents: Vec::new(),
     };
-    let mut id_of: HashMap<[i32; 3], u32> = HashMap::new();
+    let mut id_of: HashMap<[i64; 3], u32> = HashMap::new();
     let mut members: Vec<Vec<u32>> = Vec::new();
     for (i, p) in points
         .iter()
@@ -206,10 +206,10 @@ fn describe(scene: &SceneCloud, indices: &[u32], link: Link) -> Cluster {
     } else {
         // Without a camera: as many squares as the cluster fills voxels.
         let size = voxel_size(link);
-        let mut voxels: Vec<[i32; 3]> = indices
+        let mut voxels: Vec<[i64; 3]> = indices
             .iter()
             .map(|&i| points[i as usize])
-            .map(|p| [p.x, p.y, p.z].map(|x| (x / size).floor() as i32))
+            .map(|p| [p.x, p.y, p.z].map(|x| (x / size).floor() as i64))
             .collect();
         voxels.sort_unstable();
         voxels.dedup();
