@@ -71,7 +71,7 @@ fn list(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome
     let mut table = Table::new(&[
         "NAME",
         "TITLE",
-        "SIZE mm",
+        "W x H x D mm",
         "POINTS",
         "SEEN FROM",
         "ENROLLED",
@@ -118,7 +118,7 @@ fn show(choice: &LibraryChoice, name: &PartName, console: &mut Console) -> anyho
     row("notes", meta.notes);
     row(
         "size",
-        format!("{} mm along its principal axes", size_of(&reference)),
+        format!("{} mm, width x height x depth as enrolled", size_of(&reference)),
     );
     row("points", reference.cloud.points.len().to_string());
     row("seen from", seen_from(meta.coverage).to_owned());
@@ -216,15 +216,9 @@ fn seen_from(coverage: Coverage) -> &'static str {
     }
 }
 
-/// Length × width × depth along the axes of the standard view.
+/// Width, height and depth of the reference as it was enrolled.
 fn size_of(reference: &Reference) -> String {
-    let Some(view) = reference.views.first() else {
-        return "-".into();
-    };
-    let plane_from_part = view.plane_from_part.cast::<f32>();
-    let turned = reference.cloud.finite().map(|(_, p)| plane_from_part * p);
-    let bounds = crate::geometry::cloud::PointCloud::from_points(turned).bounds();
-    bounds.map_or_else(
+    reference.cloud.bounds().map_or_else(
         || "-".into(),
         |(low, high)| {
             let [x, y, z]: [f32; 3] = (high - low).into();

@@ -16,6 +16,8 @@ use super::nearest::Neighbour;
 const NOTHING: u32 = u32::MAX;
 /// A grid larger than this would cost more memory than it saves time: cells grow until it fits.
 const MAX_CELLS: f64 = 4e6;
+/// Cells along one axis, so that 16 bits number them: a long, thin cloud gets larger cells.
+const MAX_CELLS_ALONG: f64 = 60_000.0;
 
 /// Nearest points within a band around a cloud.
 #[derive(Clone, Debug)]
@@ -52,6 +54,7 @@ impl NearestField {
             .map(|x| f64::from(*x / cell) + 2.0)
             .product::<f64>();
         let cell = cell * (volume / MAX_CELLS).cbrt().max(1.0) as f32;
+        let cell = cell.max(extent.max() / MAX_CELLS_ALONG as f32);
         let layers = (band / cell).ceil() as usize;
         let low = low - Vector3::repeat((layers as f32 + 0.5) * cell);
         let size = [0, 1, 2].map(|axis| ((high[axis] - low[axis]) / cell) as usize + layers + 2);
@@ -81,61 +84,53 @@ impl NearestField {
         })
     }
 
-    fn centre(&self, cell: usize, side: f32) -> Point3<f32> {
-        let [sx, sy, _] = self.size;
-        let at = [cell % sx, cell / sx % sy, cell / (sx * sy)].map(|i| (i as f32 + 0.5) * side);
-        self.low + Vector3::from(at)
-    }
-
     /// Seeds the occupied cells and hands each cell's point on to its neighbours, one layer at a time.
     fn grow(&mut self, side: f32, layers: usize) {
         let [sx, sy, _] = self.size;
-        let mut front: Vec<usize> = Vec::new();
-        for (i, p) in self.points.iter().enumerate() {
-            let d = (p - self.low) * self.per_cell;
-            let cell = (d.z as usize * sy + d.y as usize) * sx + d.x as usize;
-            let centre = self.centre(cell, side);
-            let holder = self.nearest[cell];
-            if holder == NOTHING {
-                front.push(cell);
-            }
-            if holder == NOTHING
-                || (p - centre).norm_squared()
-                    < (self.points[holder as usize] - centre).norm_squared()
-            {
-                self.nearest[cell] = i as u32;
+        let (low, points) = (self.low, std::mem::take(&mut self.points));
+        let off_centre_sq = |point: u32, [x, y, z]: [u16; 3]| {
+            let at = |i: u16, low: f32| (f32::from(i) + 0.5) * side + low;
+            let centre = Point3::new(at(x, low.x), at(y, low.y), at(z, low.z));
+            (points[point as usize] - centre).norm_squared()
+        };
+        let mut front: Vec<[u16; 3]> = Vec::new();
+        for (i, p) in (0_u32..).zip(&points) {
+            let d = (p - low) * self.per_cell;
+            let at = [d.x as u16, d.y as u16, d.z as u16];
+            let holder = &mut self.nearest
+                [(usize::from(at[2]) * sy + usize::from(at[1])) * sx + usize::from(at[0])];
+            if *holder == NOTHING {
+                front.push(at);
+                *holder = i;
+            } else if off_centre_sq(i, at) < off_centre_sq(*holder, at) {
+                *holder = i;
             }
         }
-        // One extra cell of margin on every side keeps all neighbours inside the grid while layers are left.
-        let steps: Vec<isize> = (-1..=1_isize)
-            .flat_map(|z| (-1..=1_isize).flat_map(move |y| (-1..=1_isize).map(move |x| [x, y, z])))
-            .filter(|s| *s != [0, 0, 0])
-            .map(|[x, y, z]| (z * sy as isize + y) * sx as isize + x)
-            .collect();
         for _ in 0..layers {
             let mut next = Vec::new();
-            for &cell in &front {
-                let candidate = self.nearest[cell];
-                for &step in &steps {
-                    let neighbour = cell.wrapping_add_signed(step);
-                    let holder = self.nearest[neighbour];
-                    if holder == candidate {
-                        continue;
-                    }
-                    let centre = self.centre(neighbour, side);
-                    let distance_sq = (self.points[candidate as usize] - centre).norm_squared();
-                    if holder == NOTHING {
-                        next.push(neighbour);
-                    }
-                    if holder == NOTHING
-                        || distance_sq < (self.points[holder as usize] - centre).norm_squared()
-                    {
-                        self.nearest[neighbour] = candidate;
+            for &[x, y, z] in &front {
+                let candidate =
+                    self.nearest[(usize::from(z) * sy + usize::from(y)) * sx + usize::from(x)];
+                // One extra cell of margin on every side keeps all neighbours inside the grid while layers are left.
+                for (z, y) in (z - 1..=z + 1).flat_map(|z| (y - 1..=y + 1).map(move |y| (z, y))) {
+                    let row = (usize::from(z) * sy + usize::from(y)) * sx;
+                    for x in x - 1..=x + 1 {
+                        let holder = &mut self.nearest[row + usize::from(x)];
+                        if *holder == NOTHING {
+                            next.push([x, y, z]);
+                            *holder = candidate;
+                        } else if *holder != candidate
+                            && off_centre_sq(candidate, [x, y, z])
+                                < off_centre_sq(*holder, [x, y, z])
+                        {
+                            *holder = candidate;
+                        }
                     }
                 }
             }
             front = next;
         }
+        self.points = points;
     }
 }
 

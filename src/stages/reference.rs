@@ -95,10 +95,10 @@ const TURNS: [[f64; 2]; 9] = [
 
 /// Points kept of a view's outline and openings: about one per centimetre and a half around a door.
 const NUM_EDGES: usize = 256;
-/// Cells of the field of nearest points, metres: two spacings of a reference cloud.
-const FIELD_CELL: f32 = 0.016;
+/// Cells of the field of nearest points, metres: two to three spacings of a reference cloud.
+const FIELD_CELL: f32 = 0.02;
 /// How far off the part the field answers, metres: further than the outline's placement is off.
-const FIELD_BAND: f32 = 0.08;
+const FIELD_BAND: f32 = 0.06;
 
 /// Distance between neighbouring points of a reference cloud, metres: enrolment thins to this.
 pub const SPACING: f64 = 0.008;
