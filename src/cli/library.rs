@@ -118,7 +118,10 @@ fn show(choice: &LibraryChoice, name: &PartName, console: &mut Console) -> anyho
     row("notes", meta.notes);
     row(
         "size",
-        format!("{} mm, width x height x depth as enrolled", size_of(&reference)),
+        format!(
+            "{} mm, width x height x depth as enrolled",
+            size_of(&reference)
+        ),
     );
     row("points", reference.cloud.points.len().to_string());
     row("seen from", seen_from(meta.coverage).to_owned());

@@ -9,9 +9,12 @@ use std::{
 use anyhow::Context as _;
 
 use super::console::Advised as _;
-use crate::{files::write_atomically, report::Picture};
+use crate::{
+    files::write_atomically,
+    report::{Picture, strip},
+};
 
-/// Per inspected file `STEM.json` and `STEM.STAGE.png`.
+/// Per inspected file `STEM.json`, a `STEM.STAGE.png` for each stage, and `STEM.stages.png` with all of them.
 pub(super) struct ReportFolder {
     path: PathBuf,
     /// Stems that are taken, so that two files of one name in different folders do not overwrite each other.
@@ -37,7 +40,12 @@ impl ReportFolder {
         let stem = self.free_stem(scene);
         let json = self.path.join(format!("{stem}.json"));
         write_atomically(&json, |writer| writeln!(writer, "{line}")).advised()?;
-        for Picture { stage, image } in pictures {
+        let strip = Picture {
+            stage: "stages",
+            image: strip(pictures),
+        };
+        let shown = (!pictures.is_empty()).then_some(&strip);
+        for Picture { stage, image } in pictures.iter().chain(shown) {
             let mut png = std::io::Cursor::new(Vec::new());
             image.write_to(&mut png, image::ImageFormat::Png)?;
             let path = self.path.join(format!("{stem}.{stage}.png"));

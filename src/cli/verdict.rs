@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::{Outcome, console::Console};
 use crate::{
     error::Advice,
-    geometry::{principal::principal_axes, rigid::row_major},
+    geometry::rigid::row_major,
     library::Library,
     pipeline::{Inspection, Timings, Verdict},
     units::Metres,
@@ -156,15 +156,12 @@ pub(super) fn complaint(inspection: &Inspection) -> Option<(String, String)> {
     }
 }
 
-/// Where the part is: the middle of its reference (x, y, z in mm) and its turn (rx, ry, rz in degrees).
+/// Where the part is: the middle of its reference's extent (x, y, z in mm) and its turn (rx, ry, rz in degrees).
 pub(super) fn place_of(inspection: &Inspection, library: &Library) -> Option<([f64; 3], [f64; 3])> {
     let pose = inspection.pose.as_ref()?.as_ref().ok()?.camera_from_part();
     let reference = &library.references[inspection.ranking.entries.first()?.reference];
-    let points = reference
-        .cloud
-        .finite()
-        .map(|(_, p)| (p.cast::<f64>(), 1.0));
-    let middle = pose * principal_axes(points)?.mean;
+    let (low, high) = reference.cloud.bounds()?;
+    let middle = pose * nalgebra::center(&low, &high).cast::<f64>();
     // nalgebra's angles are those of Rz·Ry·Rx.
     let (rx, ry, rz) = pose.rotation.euler_angles();
     Some((

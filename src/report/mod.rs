@@ -3,4 +3,4 @@
 mod canvas;
 mod pictures;
 
-pub use self::pictures::{Picture, stage_pictures};
+pub use self::pictures::{Picture, stage_pictures, strip};

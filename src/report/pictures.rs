@@ -1,6 +1,9 @@
 //! A picture of every stage of an inspection, to see at which one it went wrong.
 
-use image::{Rgb, RgbImage};
+use image::{
+    Rgb, RgbImage,
+    imageops::{FilterType, replace, resize},
+};
 use nalgebra::Point2;
 
 use super::canvas::Canvas;
@@ -61,6 +64,31 @@ pub fn stage_pictures(scene: &SceneCloud, inspection: &Inspection) -> Vec<Pictur
     .into_iter()
     .flatten()
     .collect()
+}
+
+/// The pictures side by side at one height, for a first look.
+pub fn strip(pictures: &[Picture]) -> RgbImage {
+    const HEIGHT: u32 = 360;
+    const GAP: u32 = 8;
+    let scaled: Vec<RgbImage> = pictures
+        .iter()
+        .map(|p| {
+            let width = (p.image.width() * HEIGHT).div_ceil(p.image.height().max(1));
+            resize(&p.image, width, HEIGHT, FilterType::Triangle)
+        })
+        .collect();
+    let width = scaled
+        .iter()
+        .map(|s| s.width() + GAP)
+        .sum::<u32>()
+        .saturating_sub(GAP);
+    let mut strip = RgbImage::from_pixel(width, HEIGHT, DARK);
+    let mut left = 0;
+    for picture in &scaled {
+        replace(&mut strip, picture, i64::from(left), 0);
+        left += picture.width() + GAP;
+    }
+    strip
 }
 
 /// What every pixel was taken for; nearer is brighter. `None` for a scene without rows and columns.

@@ -95,7 +95,7 @@ const THIRD: [Level; 2] = [
         num_surface: 1500,
         num_edges: 256,
         scale: 0.01,
-        max_steps: 6,
+        max_steps: 15,
         search: Search::Tree,
     },
 ];

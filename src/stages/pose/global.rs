@@ -197,8 +197,8 @@ pub fn refine(
             });
             let Some(step) = equations.solve() else { break };
             pose = applied(&step, &pose);
-            // Below a hundredth of a millimetre and a thousandth of a degree nothing changes any more.
-            if step.fixed_rows::<3>(0).norm() < 2e-5 && step.fixed_rows::<3>(3).norm() < 1e-5 {
+            // A twentieth of a millimetre and of the angle that moves a part's end as far: far below the noise.
+            if step.fixed_rows::<3>(0).norm() < 5e-5 && step.fixed_rows::<3>(3).norm() < 5e-5 {
                 stopped = Stopped::Converged;
                 break;
             }
