@@ -1,0 +1,255 @@
+//! The whole inspection: moved and turned parts, poison, cancelling, the same bits for the same scene.
+
+use std::cell::Cell;
+
+use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
+use partsight::{
+    bench::{EnrolledStandard, enrol_standard_parts},
+    geometry::{
+        cloud::{Grid, PointCloud},
+        rigid::pose_error,
+    },
+    library::{EnrolParams, Library},
+    pipeline::{
+        Cancelled, Inspection, PoseChoice, Recipe, Stage, Unrecognisable, Unwatched, Verdict,
+        Watch, run,
+    },
+    simulate::{CellSetup, PartKind, PartPose, SensorNoise, Side, Subject, frame},
+    stages::{
+        pose::PoseMethod,
+        rank::Matcher,
+        scene::{SceneCloud, scene_from_cloud, scene_from_frame},
+    },
+};
+
+fn standard() -> EnrolledStandard {
+    enrol_standard_parts(&EnrolParams::default()).expect("eight parts")
+}
+
+fn inspected(scene: &SceneCloud, library: &Library, recipe: &Recipe) -> Inspection {
+    run(scene, library, recipe, &Unwatched).expect("nobody cancels")
+}
+
+/// A front door so far away that it fits the picture at any turn about the optical axis.
+fn door(roll: f64, shift: [f64; 2]) -> SceneCloud {
+    door_with(roll, shift, SensorNoise::kinect(5))
+}
+
+fn door_with(roll: f64, shift: [f64; 2], noise: SensorNoise) -> SceneCloud {
+    let mut setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 0, 5);
+    setup.noise = noise;
+    setup.pose = PartPose::Fixed(Isometry3::from_parts(
+        Vector3::new(shift[0], shift[1], 1.7).into(),
+        UnitQuaternion::from_axis_angle(&Vector3::z_axis(), roll),
+    ));
+    scene_from_frame(&frame(&setup).frame)
+}
+
+#[test]
+fn moving_and_turning_the_part_leaves_its_signature_up_to_a_cyclic_shift() {
+    let library = Library::default();
+    let lengths = |scene: &SceneCloud| {
+        let inspection = inspected(scene, &library, &Recipe::default());
+        inspection.signature.expect("an outline").lengths
+    };
+    let still = lengths(&door_with(0.0, [0.0, 0.0], SensorNoise::none()));
+    for (roll, shift) in [(0.7, [0.0, 0.0]), (-2.2, [0.05, -0.04]), (0.0, [0.1, 0.03])] {
+        let moved = lengths(&door_with(roll, shift, SensorNoise::none()));
+        let n = still.len();
+        let rms_at = |lag: usize| {
+            let sum: f64 = (0..n)
+                .map(|i| (still[i] - moved[(i + lag) % n]).powi(2))
+                .sum();
+            (sum / n as f64).sqrt()
+        };
+        let best = (0..n).map(rms_at).fold(f64::INFINITY, f64::min);
+        // Two pixels of the binary image, for noise at the edges, on rays of half a metre.
+        assert!(best < 0.010, "{best} m after a turn by {roll}");
+    }
+}
+
+#[test]
+fn the_pose_follows_the_part_in_both_directions() {
+    let EnrolledStandard {
+        library,
+        camera_from_model,
+    } = standard();
+    for kind in [PartKind::FrontDoor, PartKind::Fender, PartKind::TrunkLid] {
+        let truth = Isometry3::from_parts(
+            Vector3::new(0.04, -0.03, 1.5).into(),
+            UnitQuaternion::from_euler_angles(0.2, -0.3, 1.9),
+        );
+        let mut setup = CellSetup::with_part(kind, Side::Left, 0, 11);
+        setup.pose = PartPose::Fixed(truth);
+        let scene = scene_from_frame(&frame(&setup).frame);
+        let inspection = inspected(&scene, &library, &Recipe::default());
+        let pose = inspection.pose.expect("asked for").expect("a pose");
+        let camera_from_part = truth * camera_from_model[0].inverse();
+        let at_part = camera_from_model[0] * Point3::origin();
+        for (found, expected, at) in [
+            (pose.camera_from_part(), camera_from_part, at_part),
+            (
+                pose.target_from_source,
+                camera_from_part.inverse(),
+                camera_from_part * at_part,
+            ),
+        ] {
+            let error = pose_error(&found, &expected, &at);
+            assert!(
+                error.rotation.degrees() < 1.0 && error.shift.mm() < 6.0,
+                "{kind}: {error:?}"
+            );
+        }
+    }
+}
+
+#[test]
+fn the_same_scene_gives_the_same_bits() {
+    let EnrolledStandard { library, .. } = standard();
+    let scene = door(0.4, [0.02, 0.0]);
+    let once = inspected(&scene, &library, &Recipe::default());
+    let again = inspected(&scene, &library, &Recipe::default());
+    assert_eq!(once.segmentation, again.segmentation);
+    assert_eq!(once.ranking, again.ranking);
+    assert_eq!(once.pose, again.pose);
+    assert_eq!(once.verdict, again.verdict);
+}
+
+#[test]
+fn nothing_to_see_is_no_part_whatever_the_recipe() {
+    let EnrolledStandard { library, .. } = standard();
+    let nowhere = Point3::new(f32::NAN, f32::NAN, f32::NAN);
+    let cloud = |points: Vec<Point3<f32>>| scene_from_cloud(PointCloud::from_points(points));
+    let empty_cell = scene_from_frame(&frame(&CellSetup::new(Subject::Nothing, 3)).frame);
+    let all_nan = scene_from_cloud(PointCloud {
+        points: vec![nowhere; 640 * 480],
+        grid: Some(Grid {
+            width: 640,
+            height: 480,
+        }),
+        ..PointCloud::default()
+    });
+    let scenes = [
+        ("wall and floor only", empty_cell),
+        ("all NaN", all_nan),
+        ("empty", cloud(Vec::new())),
+        ("one point", cloud(vec![Point3::new(0.0, 0.0, 1.0)])),
+        ("all equal", cloud(vec![Point3::new(0.1, 0.2, 1.0); 5000])),
+        (
+            "a line",
+            cloud(
+                (0..5000)
+                    .map(|i| Point3::new(i as f32 * 2e-4, 0.0, 1.0))
+                    .collect(),
+            ),
+        ),
+        (
+            "far away",
+            cloud(
+                (0..5000)
+                    .map(|i| Point3::new((i % 70) as f32 * 1e6, (i / 70) as f32 * 1e6, 1e9))
+                    .collect(),
+            ),
+        ),
+    ];
+    for matcher in [Matcher::Default, Matcher::Paper] {
+        for pose in [
+            PoseChoice::Skip,
+            PoseChoice::By(PoseMethod::Global),
+            PoseChoice::By(PoseMethod::Icp),
+        ] {
+            let mut recipe = Recipe {
+                pose,
+                ..Recipe::default()
+            };
+            recipe.rank.matcher = matcher;
+            for (what, scene) in &scenes {
+                let inspection = inspected(scene, &library, &recipe);
+                assert!(
+                    matches!(inspection.verdict, Verdict::NoPart(_)),
+                    "{what}: {:?}",
+                    inspection.verdict
+                );
+            }
+        }
+    }
+}
+
+#[test]
+fn a_scene_of_stray_points_is_never_accepted() {
+    let EnrolledStandard { library, .. } = standard();
+    // Flat and curved sheets of no part's shape, alone in space.
+    for bend in [0.0, 0.5, -2.0] {
+        let points = (0..20_000).map(|i| {
+            let (u, v) = (
+                (i % 200) as f32 * 0.005 - 0.5,
+                (i / 200) as f32 * 0.005 - 0.25,
+            );
+            Point3::new(u, v, 1.2 + bend * u * u)
+        });
+        let inspection = inspected(
+            &scene_from_cloud(PointCloud::from_points(points)),
+            &library,
+            &Recipe::default(),
+        );
+        if let Verdict::Part {
+            part,
+            score,
+            rejected,
+            ..
+        } = &inspection.verdict
+        {
+            assert!(
+                rejected.is_some(),
+                "a sheet bent by {bend} was accepted as {part} with {score:.2}"
+            );
+        }
+    }
+}
+
+#[test]
+fn an_empty_library_says_so() {
+    let inspection = inspected(
+        &door(0.0, [0.0, 0.0]),
+        &Library::default(),
+        &Recipe::default(),
+    );
+    assert_eq!(
+        inspection.verdict,
+        Verdict::NoPart(Unrecognisable::EmptyLibrary)
+    );
+    assert!(inspection.contour.is_some(), "the stages before are kept");
+}
+
+#[test]
+fn a_cancelled_inspection_stops_before_the_next_stage() {
+    struct CancelAt {
+        stage: Stage,
+        reached: Cell<bool>,
+    }
+    impl Watch for CancelAt {
+        fn begins(&self, stage: Stage) {
+            assert!(!self.reached.get(), "{stage:?} began after the cancel");
+            self.reached.set(stage == self.stage);
+        }
+        fn is_cancelled(&self) -> bool {
+            self.reached.get()
+        }
+    }
+    let EnrolledStandard { library, .. } = standard();
+    let scene = door(0.0, [0.0, 0.0]);
+    for stage in [
+        Stage::Segment,
+        Stage::Project,
+        Stage::Contour,
+        Stage::Signature,
+        Stage::Rank,
+    ] {
+        let watch = CancelAt {
+            stage,
+            reached: Cell::new(false),
+        };
+        let result = run(&scene, &library, &Recipe::default(), &watch);
+        assert!(matches!(result, Err(Cancelled)), "cancelled at {stage:?}");
+    }
+}
