@@ -14,8 +14,8 @@ use crate::{
     stages::{
         pose::{
             PoseError, PoseEstimate, PoseMethod, RunnerUp,
-            global::{Level, Refined, Search, Source, Target, cost, refine},
             quality::{Fit, Tolerance, look_for, measure_fit},
+            refine::{Level, Refined, Search, Source, Target, cost, refine},
         },
         rank::{MatchEntry, MatchRanking, Placement, Query},
         reference::Reference,

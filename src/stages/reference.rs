@@ -15,7 +15,7 @@ use crate::{
     stages::{
         contour::{Contour, ContourParams, find_contour},
         correlation::{self, LiteralReference},
-        pose::global::{EdgePoints, Target},
+        pose::{edge_points::EdgePoints, refine::Target},
         project::{PlaneImage, ProjectParams, project_weighted},
         signature::{FanSignature, SignatureParams, describe},
     },

@@ -8,8 +8,8 @@ use nalgebra::Point3;
 
 use super::{
     Iteration, PoseError, PoseEstimate, PoseMethod, Stopped,
-    global::Search,
     quality::{Fit, Tolerance, look_for, measure_fit},
+    refine::Search,
 };
 use crate::{
     geometry::{

@@ -4,10 +4,13 @@
 //! [`PoseEstimate`]. The paper minimises eq. 12, E(R, t) = mean ‖qᵢ - R pᵢ - t‖² over closest points; E is reported for
 //! every method.
 
-pub mod align;
-pub mod global;
+mod align;
+pub mod edge_points;
+mod equations;
+mod global;
 pub mod icp;
 pub mod quality;
+pub mod refine;
 
 use crate::{geometry::rigid::RigidTransform, units::Metres};
 
@@ -15,6 +18,9 @@ pub use self::{
     align::align,
     quality::{Fit, Sight},
 };
+
+/// Fewer points than this do not fix a pose.
+const MIN_POINTS: usize = 10;
 
 /// How a pose is estimated.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]

@@ -6,7 +6,7 @@
 
 use nalgebra::Point3;
 
-use super::global::{Search, Target};
+use super::refine::{Search, Target};
 use crate::{
     geometry::{cloud::is_finite, rigid::RigidTransform},
     stages::scene::SceneCloud,

@@ -1,0 +1,203 @@
+//! Robust refinement from one or many starts: surface to surface, edge to edge.
+//!
+//! A sheet-metal part is nearly flat, so the distance between surfaces hardly tells where it is along itself; its
+//! outline and openings do. Each step therefore minimises the distance of source points to the target's tangent planes
+//! (Y. Chen and G. Medioni, "Object modelling by registration of multiple range images", Image and Vision Computing
+//! 10(3), 1992) together with the distance of the source's edge points to the target's edge points. Welsch weights
+//! (P. W. Holland and R. E. Welsch, "Robust regression using iteratively reweighted least-squares", Communications in
+//! Statistics 6(9), 1977) shrink from centimetres to the noise, so what has no counterpart loses its vote.
+
+use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3, Vector6};
+
+use super::{Iteration, Stopped, edge_points::EdgePoints, equations::Equations};
+use crate::geometry::{
+    cloud::PointCloud,
+    nearest::{KdTree, Neighbour},
+    nearest_field::NearestField,
+    rigid::RigidTransform,
+};
+
+/// What is aligned: a thinned surface and its edges, in source space.
+#[derive(Clone, Debug, Default)]
+pub struct Source {
+    /// Points of the surface, in an order such that any first n are spread over it.
+    pub surface: Vec<Point3<f32>>,
+    /// Points of outline and openings, likewise; may be empty.
+    pub edges: Vec<Point3<f32>>,
+}
+
+/// What it is aligned to, in target space.
+#[derive(Clone, Copy, Debug)]
+pub struct Target<'a> {
+    /// The target's points with unit normals.
+    pub cloud: &'a PointCloud,
+    /// Search tree over them.
+    pub tree: &'a KdTree,
+    /// Field of nearest points around them.
+    pub field: &'a NearestField,
+    /// Points of outline and openings; may be empty.
+    pub edges: &'a EdgePoints,
+    /// Distance between neighbouring points, metres: along the surface, a closest point within it is a hit.
+    pub spacing: f64,
+}
+
+impl Target<'_> {
+    /// The closest target point within reach.
+    pub fn nearest(&self, search: Search, query: &Point3<f32>, reach_sq: f32) -> Option<Neighbour> {
+        match search {
+            Search::Field => self
+                .field
+                .nearest(query)
+                .filter(|n| n.distance_sq < reach_sq),
+            Search::Tree => self.tree.nearest(query, reach_sq),
+        }
+    }
+}
+
+/// How closest points are found.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Search {
+    /// One look-up in the field: quick, off by up to a cell.
+    Field,
+    /// By the tree: exact.
+    Tree,
+}
+/// One level of a refinement, from coarse to fine.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Level {
+    /// Surface points used.
+    pub num_surface: usize,
+    /// Edge points used.
+    pub num_edges: usize,
+    /// Scale of the Welsch weight, metres: at this distance a pair still counts exp(-1).
+    pub scale: f64,
+    /// Most steps.
+    pub max_steps: usize,
+    /// How closest points are found.
+    pub search: Search,
+}
+
+/// A pose that a refinement ended at.
+#[derive(Clone, Debug)]
+pub struct Refined {
+    /// The pose.
+    pub target_from_source: RigidTransform,
+    /// Every step.
+    pub iterations: Vec<Iteration>,
+    /// Why it ended.
+    pub stopped: Stopped,
+}
+
+/// Refines one start through all levels.
+pub fn refine(
+    source: &Source,
+    target: &Target<'_>,
+    start: &RigidTransform,
+    levels: &[Level],
+) -> Refined {
+    let mut pose = *start;
+    let mut iterations = Vec::new();
+    let mut stopped = Stopped::IterationLimit;
+    for level in levels {
+        stopped = Stopped::IterationLimit;
+        for _ in 0..level.max_steps {
+            let equations = Equations::at(source, target, &pose, level);
+            iterations.push(Iteration {
+                e_m2: equations.e_m2(),
+                target_from_source: pose,
+                num_pairs: equations.num_pairs,
+            });
+            let Some(step) = equations.solve() else { break };
+            pose = applied(&step, &pose);
+            // A twentieth of a millimetre and of the angle that moves a part's end as far: far below the noise.
+            if step.fixed_rows::<3>(0).norm() < 5e-5 && step.fixed_rows::<3>(3).norm() < 5e-5 {
+                stopped = Stopped::Converged;
+                break;
+            }
+        }
+    }
+    Refined {
+        target_from_source: pose,
+        iterations,
+        stopped,
+    }
+}
+
+/// Turn (first three, radians) and shift (last three) in target space, applied after the pose.
+fn applied(step: &Vector6<f64>, pose: &RigidTransform) -> RigidTransform {
+    let turn = UnitQuaternion::from_scaled_axis(Vector3::new(step[0], step[1], step[2]));
+    let shift = Translation3::new(step[3], step[4], step[5]);
+    let mut next = Isometry3::from_parts(shift, turn) * pose;
+    next.rotation.renormalize();
+    next
+}
+
+/// How badly a pose fits, square metres: mean squared distance to the target's surface and edges, and of the
+/// target's edges to the source's, each cut off at `limit` metres.
+pub fn cost(
+    source: &Source,
+    target: &Target<'_>,
+    pose: &RigidTransform,
+    level: &Level,
+    limit: f64,
+) -> f64 {
+    let limit_sq = limit * limit;
+    let moved = pose.cast::<f32>();
+    let surface = &source.surface[..level.num_surface.min(source.surface.len())];
+    let surface_cost = mean(surface.iter().map(|p| {
+        let at = moved * p;
+        match target.nearest(level.search, &at, limit_sq as f32) {
+            Some(n) => surface_distance_sq(target, n.index, &at).min(limit_sq),
+            None => limit_sq,
+        }
+    }));
+    let edges = &source.edges[..level.num_edges.min(source.edges.len())];
+    if edges.is_empty() || target.edges.is_empty() {
+        return surface_cost;
+    }
+    let edge_distance_sq = |among: &EdgePoints, at: &Point3<f32>| {
+        among
+            .closest(at, limit_sq as f32)
+            .map_or(limit_sq, |c| f64::from(c.1))
+    };
+    let moved_edges: Vec<Point3<f32>> = edges.iter().map(|p| moved * p).collect();
+    let there = mean(
+        moved_edges
+            .iter()
+            .map(|at| edge_distance_sq(target.edges, at)),
+    );
+    let moved_edges = EdgePoints::new(&moved_edges, edges.len());
+    let step = (target.edges.len() / edges.len()).max(1);
+    let back = mean(
+        target
+            .edges
+            .iter()
+            .step_by(step)
+            .map(|at| edge_distance_sq(&moved_edges, &at)),
+    );
+    surface_cost + f64::midpoint(there, back)
+}
+
+/// Squared distance of a point to the target's surface near its closest point: along the normal, and beside it what
+/// goes beyond the target's spacing.
+fn surface_distance_sq(target: &Target<'_>, index: usize, at: &Point3<f32>) -> f64 {
+    let away: Vector3<f64> = (target.cloud.points[index] - at).cast();
+    match target
+        .cloud
+        .normals
+        .as_deref()
+        .and_then(|normals| normals.get(index))
+    {
+        Some(normal) => {
+            let along = normal.cast::<f64>().dot(&away);
+            let beside_sq = (away.norm_squared() - along * along).max(0.0);
+            along * along + (beside_sq - target.spacing * target.spacing).max(0.0)
+        }
+        None => away.norm_squared(),
+    }
+}
+
+fn mean(values: impl Iterator<Item = f64>) -> f64 {
+    let (n, sum) = values.fold((0.0_f64, 0.0), |(n, sum), value| (n + 1.0, sum + value));
+    sum / n.max(1.0)
+}
