@@ -2,24 +2,30 @@
 //!
 //! The window, the command line and the tests are three callers of [`run`].
 
-use std::time::{Duration, Instant};
+mod verdict;
+mod watch;
 
 use crate::{
-    error::Advice,
     library::Library,
     stages::{
         confirm::{ConfirmParams, Scene, UNCONFIRMED, confirm},
-        contour::{Contour, ContourError, ContourParams, find_contour},
+        contour::{Contour, ContourParams, find_contour},
         pose::{
             PoseError, PoseEstimate, PoseMethod,
             icp::{IcpParams, locate_by_icp},
         },
-        project::{PlaneImage, ProjectError, ProjectParams, project},
+        project::{PlaneImage, ProjectParams, project},
         rank::{MatchRanking, Matcher, Query, RankParams, place, rank},
         scene::SceneCloud,
-        segment::{NoPart, SegmentParams, Segmentation, SegmentedPart, segment},
-        signature::{FanSignature, SignatureError, SignatureParams, describe},
+        segment::{SegmentParams, Segmentation, SegmentedPart, segment},
+        signature::{FanSignature, SignatureParams, describe},
     },
+};
+
+use self::{verdict::verdict, watch::StageClock};
+pub use self::{
+    verdict::{AcceptParams, Rejection, Unrecognisable, Verdict},
+    watch::{Cancelled, Stage, Timings, Unwatched, Watch},
 };
 
 /// All parameters of an inspection.
@@ -62,25 +68,6 @@ impl Default for PoseChoice {
     }
 }
 
-/// When a verdict counts.
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(default)]
-pub struct AcceptParams {
-    /// Least score, 0..1. Raising it turns wrong verdicts into rejections, and some right ones too.
-    pub min_score: f64,
-    /// Least lead over the next part, 0..1.
-    pub min_margin: f64,
-}
-
-impl Default for AcceptParams {
-    fn default() -> Self {
-        Self {
-            min_score: 0.85,
-            min_margin: 0.05,
-        }
-    }
-}
-
 /// What an inspection found, stage by stage. A stage that could not run leaves the later ones empty.
 #[derive(Clone, Debug)]
 pub struct Inspection {
@@ -101,167 +88,6 @@ pub struct Inspection {
     /// How long each stage took.
     pub timings: Timings,
 }
-
-/// The verdict on a scene.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Verdict {
-    /// There is a part, and this is the best guess.
-    Part {
-        /// Name of the best match.
-        part: String,
-        /// Its score, 0..1.
-        score: f64,
-        /// Lead over the next part's score.
-        margin: f64,
-        /// `None` when accepted, else why not.
-        rejected: Option<Rejection>,
-    },
-    /// Nothing to recognise.
-    NoPart(Unrecognisable),
-}
-
-/// Why a best guess was not accepted.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Rejection {
-    /// The score is too low.
-    #[error("the best match, {part}, scores {score:.2}, below the threshold of {threshold:.2}")]
-    LowScore {
-        /// Best match.
-        part: String,
-        /// Its score.
-        score: f64,
-        /// Least score.
-        threshold: f64,
-    },
-    /// Another part fits nearly as well.
-    #[error(
-        "{part} and {other} fit almost equally well (margin {margin:.2}, needed {threshold:.2})"
-    )]
-    SmallMargin {
-        /// Best match.
-        part: String,
-        /// Next match.
-        other: String,
-        /// Lead.
-        margin: f64,
-        /// Least lead.
-        threshold: f64,
-    },
-    /// The paper's matcher was asked alone.
-    #[error(
-        "{part} is the nearest outline; the paper's matcher alone cannot tell it from an unknown part"
-    )]
-    Unconfirmed {
-        /// Best match.
-        part: String,
-    },
-    /// The pose could not be estimated.
-    #[error("no pose was found: {0}")]
-    NoPose(#[from] PoseError),
-}
-
-/// Why nothing could be recognised.
-#[derive(Clone, Debug, PartialEq, thiserror::Error)]
-pub enum Unrecognisable {
-    /// Segmentation left nothing.
-    #[error(transparent)]
-    NoPart(#[from] NoPart),
-    /// No projection.
-    #[error(transparent)]
-    Project(#[from] ProjectError),
-    /// No contour.
-    #[error(transparent)]
-    Contour(#[from] ContourError),
-    /// No signature.
-    #[error(transparent)]
-    Signature(#[from] SignatureError),
-    /// Nothing is enrolled.
-    #[error("no part is enrolled in the library")]
-    EmptyLibrary,
-}
-
-impl Advice for Rejection {
-    fn advice(&self) -> String {
-        match self {
-            Self::LowScore { .. } => {
-                "Check that this part is enrolled, that nothing covers it, and capture again".into()
-            }
-            Self::SmallMargin { .. } => {
-                "Turn the part so that its face looks at the camera and capture again".into()
-            }
-            Self::Unconfirmed { .. } => "Have the pose estimated too, with --pose global".into(),
-            Self::NoPose(error) => error.advice(),
-        }
-    }
-}
-
-impl Advice for Unrecognisable {
-    fn advice(&self) -> String {
-        match self {
-            Self::NoPart(error) => error.advice(),
-            Self::Project(error) => error.advice(),
-            Self::Contour(error) => error.advice(),
-            Self::Signature(error) => error.advice(),
-            Self::EmptyLibrary => "Enrol a part first: partsight enrol FILE --name NAME".into(),
-        }
-    }
-}
-
-/// How long each stage took.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Timings {
-    /// Segmentation.
-    pub segment: Duration,
-    /// Projection.
-    pub project: Duration,
-    /// Contour.
-    pub contour: Duration,
-    /// Signature.
-    pub signature: Duration,
-    /// Ranking.
-    pub rank: Duration,
-    /// Pose, confirmation of the best few included.
-    pub pose: Duration,
-    /// From the scene's points to the verdict.
-    pub total: Duration,
-}
-
-/// The stages, as progress is reported.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Stage {
-    /// Segmentation.
-    Segment,
-    /// Projection.
-    Project,
-    /// Contour.
-    Contour,
-    /// Signature.
-    Signature,
-    /// Ranking.
-    Rank,
-    /// Pose.
-    Pose,
-}
-
-/// How a caller follows and stops an inspection.
-pub trait Watch {
-    /// A stage begins.
-    fn begins(&self, _stage: Stage) {}
-    /// True when the caller has lost interest.
-    fn is_cancelled(&self) -> bool {
-        false
-    }
-}
-
-/// Nobody is watching.
-pub struct Unwatched;
-
-impl Watch for Unwatched {}
-
-/// The caller cancelled.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-#[error("the inspection was cancelled")]
-pub struct Cancelled;
 
 /// Inspects a scene: which enrolled part is it, and where?
 ///
@@ -358,82 +184,4 @@ fn recognise(
         }
     }
     Ok(Ok(()))
-}
-
-fn verdict(inspection: &Inspection, recipe: &Recipe) -> Verdict {
-    let Some(best) = inspection.ranking.entries.first() else {
-        return Verdict::NoPart(Unrecognisable::EmptyLibrary);
-    };
-    let accept = &recipe.accept;
-    let next = inspection.ranking.entries.get(1);
-    let margin = best.score - next.map_or(0.0, |n| n.score);
-    let part = best.part.clone();
-    let rejected = match (&inspection.pose, next) {
-        (Some(Err(error)), _) => Some(Rejection::NoPose(*error)),
-        (None, _) if recipe.rank.matcher == Matcher::Paper => {
-            Some(Rejection::Unconfirmed { part: part.clone() })
-        }
-        _ if best.score < accept.min_score => Some(Rejection::LowScore {
-            part: part.clone(),
-            score: best.score,
-            threshold: accept.min_score,
-        }),
-        (_, Some(next)) if margin < accept.min_margin => Some(Rejection::SmallMargin {
-            part: part.clone(),
-            other: next.part.clone(),
-            margin,
-            threshold: accept.min_margin,
-        }),
-        _ => None,
-    };
-    Verdict::Part {
-        part,
-        score: best.score,
-        margin,
-        rejected,
-    }
-}
-
-/// Times stages, tells the watch about them and stops between them when cancelled.
-struct StageClock<'a> {
-    watch: &'a dyn Watch,
-    started: Instant,
-    timings: std::cell::Cell<Timings>,
-}
-
-impl<'a> StageClock<'a> {
-    fn start(watch: &'a dyn Watch) -> Self {
-        Self {
-            watch,
-            started: Instant::now(),
-            timings: std::cell::Cell::default(),
-        }
-    }
-
-    fn time<T>(&self, stage: Stage, work: impl FnOnce() -> T) -> Result<T, Cancelled> {
-        if self.watch.is_cancelled() {
-            return Err(Cancelled);
-        }
-        self.watch.begins(stage);
-        let begun = Instant::now();
-        let output = work();
-        let mut timings = self.timings.get();
-        *match stage {
-            Stage::Segment => &mut timings.segment,
-            Stage::Project => &mut timings.project,
-            Stage::Contour => &mut timings.contour,
-            Stage::Signature => &mut timings.signature,
-            Stage::Rank => &mut timings.rank,
-            Stage::Pose => &mut timings.pose,
-        } = begun.elapsed();
-        self.timings.set(timings);
-        Ok(output)
-    }
-
-    fn finish(&self) -> Timings {
-        Timings {
-            total: self.started.elapsed(),
-            ..self.timings.get()
-        }
-    }
 }

@@ -5,19 +5,22 @@
 //! then follows from distances and from what the camera sees: is the scene's part on the reference, and is the
 //! reference in the scene?
 
-use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3};
+mod candidate;
+
+use nalgebra::{Point3, Vector3};
 use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
+use self::candidate::{Candidate, Trial, best_candidate, coarse_trials};
 use crate::{
-    geometry::rigid::{RigidTransform, pose_error},
+    geometry::rigid::RigidTransform,
     stages::{
         pose::{
-            PoseError, PoseEstimate, PoseMethod, RunnerUp,
+            PoseError, PoseEstimate, PoseMethod,
             quality::{Fit, Tolerance, look_for, measure_fit},
-            refine::{Level, Refined, Search, Source, Target, cost, refine},
+            refine::{Level, Search, Source, Target, refine},
         },
-        rank::{MatchEntry, MatchRanking, Placement, Query},
+        rank::{MatchEntry, MatchRanking, Query},
         reference::Reference,
         scene::SceneCloud,
         segment::SegmentedPart,
@@ -180,14 +183,6 @@ pub fn confirm(
 /// What a ranking's score is worth when the part was not looked for.
 pub const UNCONFIRMED: f64 = 0.3;
 
-struct Candidate {
-    refined: Refined,
-    /// The view whose edges it was refined to.
-    view: usize,
-    score: f64,
-    runner_up: Option<RunnerUp>,
-}
-
 /// Thins part and edges at random, so that any first n of them are spread over the part.
 fn thinned_source(scene: &Scene<'_>, params: &ConfirmParams) -> Source {
     let mut rng = Pcg64::seed_from_u64(params.seed);
@@ -208,151 +203,6 @@ fn thinned_source(scene: &Scene<'_>, params: &ConfirmParams) -> Source {
         .collect();
     edges.shuffle(&mut rng);
     Source { surface, edges }
-}
-
-/// A pose of one reference on its way from coarse to fine.
-struct Trial {
-    view: usize,
-    refined: Refined,
-    cost: f64,
-}
-
-/// The poses that the placements of one reference lead to, the cheapest first.
-fn coarse_trials(
-    scene: &Scene<'_>,
-    source: &Source,
-    reference: &Reference,
-    placements: &[Placement],
-    centre: &Point3<f64>,
-) -> Vec<Trial> {
-    let mut trials: Vec<Trial> = distinct_starts(scene, reference, placements, centre)
-        .into_iter()
-        .filter_map(|(view, start)| attempt(source, reference, view, &start, &FIRST))
-        .collect();
-    trials.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    trials
-}
-
-/// The best of the coarse poses after a finer refinement, with what else fits.
-fn best_candidate(
-    scene: &Scene<'_>,
-    source: &Source,
-    reference: &Reference,
-    trials: &[Trial],
-    levels: &[Level],
-    tolerance: Tolerance,
-) -> Option<Candidate> {
-    let centre = centre_of(&source.surface);
-    // Too few points decide between the two ways round of a near-symmetric part: both go on.
-    let first = trials.first()?;
-    let is_other = |t: &&Trial| {
-        let (a, b) = (
-            &first.refined.target_from_source,
-            &t.refined.target_from_source,
-        );
-        is_apart(a, b, &centre, POSE_APART)
-    };
-    let finer = |trial: &Trial| -> Option<Trial> {
-        let Trial { view, refined, .. } = trial;
-        let mut finer = attempt(
-            source,
-            reference,
-            *view,
-            &refined.target_from_source,
-            levels,
-        )?;
-        finer
-            .refined
-            .iterations
-            .splice(0..0, refined.iterations.iter().copied());
-        Some(finer)
-    };
-    let other = trials.iter().find(is_other);
-    let mut contenders: Vec<Trial> = [Some(first), other]
-        .into_iter()
-        .flatten()
-        .filter_map(finer)
-        .collect();
-    contenders.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-    let mut contenders = contenders.into_iter();
-    let Trial {
-        view,
-        refined,
-        cost,
-    } = contenders.next()?;
-    let runner_up = contenders
-        .next()
-        .map(|t| RunnerUp {
-            target_from_source: t.refined.target_from_source,
-            ratio: t.cost / cost.max(f64::MIN_POSITIVE),
-        })
-        .filter(|r| {
-            is_apart(
-                &refined.target_from_source,
-                &r.target_from_source,
-                &centre,
-                POSE_APART,
-            )
-        });
-    let target = reference.target(view)?;
-    let fit = fit_of(
-        scene,
-        source,
-        &target,
-        &refined.target_from_source,
-        tolerance,
-        Search::Field,
-    );
-    Some(Candidate {
-        score: fit.score(),
-        refined,
-        view,
-        runner_up,
-    })
-}
-
-/// Neighbouring views lead to nearly the same start: one of them is enough.
-fn distinct_starts(
-    scene: &Scene<'_>,
-    reference: &Reference,
-    placements: &[Placement],
-    centre: &Point3<f64>,
-) -> Vec<(usize, RigidTransform)> {
-    let mut starts: Vec<(usize, RigidTransform)> = Vec::new();
-    for placement in placements {
-        let start = start_of(scene, reference, placement);
-        if starts
-            .iter()
-            .all(|s| is_apart(&s.1, &start, centre, START_APART))
-        {
-            starts.push((placement.view, start));
-        }
-    }
-    starts
-}
-
-fn attempt(
-    source: &Source,
-    reference: &Reference,
-    view: usize,
-    start: &RigidTransform,
-    levels: &[Level],
-) -> Option<Trial> {
-    let target = reference.target(view)?;
-    let refined = refine(source, &target, start, levels);
-    let level = levels.last().unwrap_or(&FIRST[1]);
-    let cost = cost(
-        source,
-        &target,
-        &refined.target_from_source,
-        level,
-        COST_LIMIT,
-    );
-    Some(Trial {
-        view,
-        refined,
-        cost,
-    })
 }
 
 /// The winner, refined to the end.
@@ -383,19 +233,6 @@ fn finish(
     }
 }
 
-/// The pose that a placement in the plane stands for.
-fn start_of(scene: &Scene<'_>, reference: &Reference, placement: &Placement) -> RigidTransform {
-    let view = &reference.views[placement.view];
-    let flat = view.scene_plane_from_view_plane(placement.turn, &scene.query.signature.centroid);
-    let scene_plane_from_view_plane = Isometry3::from_parts(
-        Translation3::new(flat.translation.x, flat.translation.y, 0.0),
-        UnitQuaternion::from_axis_angle(&Vector3::z_axis(), flat.rotation.angle()),
-    );
-    view.plane_from_part.inverse()
-        * scene_plane_from_view_plane.inverse()
-        * scene.query.plane.plane_from_camera
-}
-
 fn centre_of(points: &[Point3<f32>]) -> Point3<f64> {
     let sum = points
         .iter()
@@ -403,17 +240,6 @@ fn centre_of(points: &[Point3<f32>]) -> Point3<f64> {
             sum + p.coords.cast::<f64>()
         });
     Point3::from(sum / points.len().max(1) as f64)
-}
-
-/// Turn (degrees) and shift (millimetres) below which two starts lead to the same pose.
-const START_APART: (f64, f64) = (8.0, 20.0);
-/// Turn and shift beyond which a refinement would not close, so that two poses are different ones.
-const POSE_APART: (f64, f64) = (10.0, 50.0);
-
-fn is_apart(a: &RigidTransform, b: &RigidTransform, at: &Point3<f64>, limits: (f64, f64)) -> bool {
-    // At the same point of the scene: the poses map from there.
-    let apart = pose_error(a, b, at);
-    apart.rotation.degrees() > limits.0 || apart.shift.mm() > limits.1
 }
 
 fn fit_of(

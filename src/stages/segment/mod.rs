@@ -11,6 +11,7 @@
 
 mod clusters;
 mod planes;
+mod subset;
 
 use nalgebra::Point3;
 

@@ -4,15 +4,8 @@ use nalgebra::{Point3, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
-use super::{PointLabel, SegmentParams};
-use crate::{
-    geometry::{
-        cloud::{Grid, is_finite},
-        plane::Plane,
-    },
-    stages::scene::SceneCloud,
-    units::Metres,
-};
+use super::{PointLabel, SegmentParams, subset::Subset};
+use crate::{geometry::plane::Plane, stages::scene::SceneCloud, units::Metres};
 
 /// A plane that was taken away.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -28,8 +21,6 @@ pub(super) struct Background {
     pub(super) noise_at_1m: Metres,
 }
 
-/// Points that planes are searched on; 5 000 fix a wall to a fraction of a millimetre and fit in the cache.
-const SUBSET_SIZE: usize = 5_000;
 /// A plane that holds less of the scene than this is not searched for: a floor seen as a strip along the lower edge
 /// of the picture holds a few per cent.
 const MIN_INLIER_SHARE: f64 = 0.012;
@@ -43,26 +34,6 @@ const MAX_BEHIND_SHARE: f64 = 0.04;
 const MIN_EDGE_SHARE: f64 = 0.08;
 /// Planes looked at before giving up, so that a faceted part costs bounded time.
 const MAX_CANDIDATES: usize = 6;
-
-/// A thinned-out scene in columns, so that counting inliers runs over plain arrays.
-struct Subset {
-    x: Vec<f32>,
-    y: Vec<f32>,
-    z: Vec<f32>,
-    /// Largest distance at which the point still belongs to a plane seen square on.
-    reach: Vec<f32>,
-    /// Position among `columns` × `rows` cells if the scene is organised.
-    cells: Option<Cells>,
-}
-
-struct Cells {
-    columns: usize,
-    rows: usize,
-    /// For each cell the index of its point in the subset.
-    point_in: Vec<Option<u32>>,
-    /// For each point of the subset its cell.
-    cell_of: Vec<u32>,
-}
 
 pub(super) fn find_background(scene: &SceneCloud, params: &SegmentParams) -> Background {
     let subset = Subset::new(scene, params);
@@ -135,94 +106,6 @@ pub(super) fn label_background(
         PointLabel::Rest
     };
     points.iter().map(label).collect()
-}
-
-impl Subset {
-    fn new(scene: &SceneCloud, params: &SegmentParams) -> Self {
-        let points = &scene.cloud.points;
-        let mut subset = Self {
-            x: Vec::new(),
-            y: Vec::new(),
-            z: Vec::new(),
-            reach: Vec::new(),
-            cells: None,
-        };
-        let base = params.plane_distance.0 as f32;
-        let noise = (params.noise_factor * params.noise_at_1m.0) as f32;
-        let mut push = |p: &Point3<f32>| {
-            subset.x.push(p.x);
-            subset.y.push(p.y);
-            subset.z.push(p.z);
-            subset.reach.push(base + noise * p.z * p.z);
-        };
-        match scene.cloud.grid {
-            None => {
-                let step = (scene.cloud.num_finite() / SUBSET_SIZE).max(1);
-                scene
-                    .cloud
-                    .finite()
-                    .step_by(step)
-                    .for_each(|(_, p)| push(p));
-            }
-            Some(Grid { width, height }) => {
-                let step = ((width * height) as f64 / SUBSET_SIZE as f64)
-                    .sqrt()
-                    .round()
-                    .max(1.0) as usize;
-                let (columns, rows) = (width.div_ceil(step), height.div_ceil(step));
-                let mut point_in = vec![None; columns * rows];
-                let mut cell_of = Vec::new();
-                for (cell, slot) in point_in.iter_mut().enumerate() {
-                    let (u, v) = (cell % columns * step, cell / columns * step);
-                    let p = &points[v * width + u];
-                    if is_finite(p) {
-                        *slot = Some(cell_of.len() as u32);
-                        cell_of.push(cell as u32);
-                        push(p);
-                    }
-                }
-                subset.cells = Some(Cells {
-                    columns,
-                    rows,
-                    point_in,
-                    cell_of,
-                });
-            }
-        }
-        subset
-    }
-
-    fn len(&self) -> usize {
-        self.x.len()
-    }
-
-    fn point(&self, i: u32) -> Point3<f64> {
-        let i = i as usize;
-        Point3::new(self.x[i], self.y[i], self.z[i]).cast()
-    }
-
-    /// Two more points for a sample that begins with `first`: on a grid from its neighbourhood, where they most
-    /// likely lie on the same surface, otherwise from anywhere.
-    fn companions(&self, first: u32, unclaimed: &[u32], rng: &mut Pcg64) -> Option<[u32; 2]> {
-        let Some(cells) = &self.cells else {
-            return Some([0; 2].map(|_: u32| unclaimed[rng.random_range(0..unclaimed.len())]));
-        };
-        // A tenth of the picture: wide enough to fix the direction, narrow enough to stay on one surface.
-        let reach = (cells.columns / 10).max(2) as i64;
-        let cell = i64::from(cells.cell_of[first as usize]);
-        let (column, row) = (cell % cells.columns as i64, cell / cells.columns as i64);
-        let mut one = || {
-            let u = column + rng.random_range(-reach..=reach);
-            let v = row + rng.random_range(-reach..=reach);
-            let inside = u >= 0 && v >= 0 && u < cells.columns as i64 && v < cells.rows as i64;
-            if inside {
-                cells.point_in[v as usize * cells.columns + u as usize]
-            } else {
-                None
-            }
-        };
-        Some([one()?, one()?])
-    }
 }
 
 /// The number of samples after which a good one was drawn with probability `p` (eq. 1), for a share of good samples
@@ -369,35 +252,6 @@ fn spreads_wider_than_the_rest(subset: &Subset, plane: &Plane, inliers: &[u32]) 
         // Without anything else the cloud is the plane itself: an isolated flat part.
         others.is_finite() && own > 1.2 * others
     })
-}
-
-impl Cells {
-    /// The outermost reading of each row and column, where it lies close to the edge of the picture: sensors lose
-    /// a few columns there.
-    fn edge_points(&self) -> Vec<u32> {
-        let Self { columns, rows, .. } = *self;
-        // The first reading on a walk inwards from the edge, no further than a sixteenth of the picture.
-        let first = |from: usize, step: isize, length: usize| {
-            let walk = 0..(length / 16).max(1) as isize;
-            walk.map(|i| from.wrapping_add_signed(i * step))
-                .find_map(|cell| self.point_in[cell])
-        };
-        let down = columns as isize;
-        let sides = (0..rows).flat_map(|row| {
-            let left = row * columns;
-            [
-                first(left, 1, columns),
-                first(left + columns - 1, -1, columns),
-            ]
-        });
-        let ends = (0..columns).flat_map(|column| {
-            [
-                first(column, down, rows),
-                first((rows - 1) * columns + column, -down, rows),
-            ]
-        });
-        sides.chain(ends).flatten().collect()
-    }
 }
 
 /// Standard deviation of depth at 1 m from the points' distances to a plane, by their median; `None` when the plane

@@ -1,0 +1,106 @@
+//! Following an inspection: its stages, their times, and how to stop it.
+
+use std::{
+    cell::Cell,
+    time::{Duration, Instant},
+};
+
+/// How long each stage took.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Timings {
+    /// Segmentation.
+    pub segment: Duration,
+    /// Projection.
+    pub project: Duration,
+    /// Contour.
+    pub contour: Duration,
+    /// Signature.
+    pub signature: Duration,
+    /// Ranking.
+    pub rank: Duration,
+    /// Pose, confirmation of the best few included.
+    pub pose: Duration,
+    /// From the scene's points to the verdict.
+    pub total: Duration,
+}
+
+/// The stages, as progress is reported.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Stage {
+    /// Segmentation.
+    Segment,
+    /// Projection.
+    Project,
+    /// Contour.
+    Contour,
+    /// Signature.
+    Signature,
+    /// Ranking.
+    Rank,
+    /// Pose.
+    Pose,
+}
+
+/// How a caller follows and stops an inspection.
+pub trait Watch {
+    /// A stage begins.
+    fn begins(&self, _stage: Stage) {}
+    /// True when the caller has lost interest.
+    fn is_cancelled(&self) -> bool {
+        false
+    }
+}
+
+/// Nobody is watching.
+pub struct Unwatched;
+
+impl Watch for Unwatched {}
+
+/// The caller cancelled.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[error("the inspection was cancelled")]
+pub struct Cancelled;
+
+/// Times stages, tells the watch about them and stops between them when cancelled.
+pub(super) struct StageClock<'a> {
+    watch: &'a dyn Watch,
+    started: Instant,
+    timings: Cell<Timings>,
+}
+
+impl<'a> StageClock<'a> {
+    pub(super) fn start(watch: &'a dyn Watch) -> Self {
+        Self {
+            watch,
+            started: Instant::now(),
+            timings: Cell::default(),
+        }
+    }
+
+    pub(super) fn time<T>(&self, stage: Stage, work: impl FnOnce() -> T) -> Result<T, Cancelled> {
+        if self.watch.is_cancelled() {
+            return Err(Cancelled);
+        }
+        self.watch.begins(stage);
+        let begun = Instant::now();
+        let output = work();
+        let mut timings = self.timings.get();
+        *match stage {
+            Stage::Segment => &mut timings.segment,
+            Stage::Project => &mut timings.project,
+            Stage::Contour => &mut timings.contour,
+            Stage::Signature => &mut timings.signature,
+            Stage::Rank => &mut timings.rank,
+            Stage::Pose => &mut timings.pose,
+        } = begun.elapsed();
+        self.timings.set(timings);
+        Ok(output)
+    }
+
+    pub(super) fn finish(&self) -> Timings {
+        Timings {
+            total: self.started.elapsed(),
+            ..self.timings.get()
+        }
+    }
+}
