@@ -248,3 +248,121 @@ fn rasterise(
         deviations,
     })
 }
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::UnitQuaternion;
+
+    use super::*;
+    use crate::geometry::cloud::PointCloud;
+
+    /// A plate of 1.0 × 0.4 m with a window near its right end, 1.2 m before the camera, tilted.
+    fn plate() -> Vec<Point3<f32>> {
+        let tilt = UnitQuaternion::from_euler_angles(0.3, -0.2, 0.4);
+        (0..250 * 100)
+            .map(|i| {
+                (
+                    f64::from(i % 250) * 0.004 - 0.5,
+                    f64::from(i / 250) * 0.004 - 0.2,
+                )
+            })
+            .filter(|(x, y)| !((0.2..0.4).contains(x) && (-0.1..0.1).contains(y)))
+            .map(|(x, y)| (tilt * Point3::new(x, y, 0.0) + Vector3::new(0.05, 0.02, 1.2)).cast())
+            .collect()
+    }
+
+    fn part(points: Vec<Point3<f32>>) -> SegmentedPart {
+        SegmentedPart::whole(&PointCloud::from_points(points))
+    }
+
+    fn projected(points: Vec<Point3<f32>>) -> PlaneImage {
+        project(&part(points), &ProjectParams::default()).expect("a plate")
+    }
+
+    #[test]
+    fn the_plane_faces_the_camera_and_is_right_handed() {
+        let plane = projected(plate());
+        let camera = plane.plane_from_camera * Point3::origin();
+        assert!(camera.z > 1.0, "the camera is at {camera}");
+        let rotation = plane.plane_from_camera.rotation.to_rotation_matrix();
+        assert!((rotation.matrix().determinant() - 1.0).abs() < 1e-9);
+        assert!(plane.deviations[0] > plane.deviations[1] && plane.deviations[2] < 1e-3);
+    }
+
+    #[test]
+    fn the_picture_has_the_plates_area_and_its_window_stays_open() {
+        let plane = projected(plate());
+        let area = plane.image.num_set() as f64 * plane.pixel.0.powi(2);
+        assert!((area - (0.4 - 0.04)).abs() < 0.02, "{area} m²");
+        // From every set pixel back into the camera's space there is a point of the plate nearby.
+        let camera_from_plane = plane.plane_from_camera.inverse();
+        let tree = crate::geometry::nearest::KdTree::new(&plate());
+        for (i, _) in plane
+            .image
+            .pixels
+            .iter()
+            .enumerate()
+            .filter(|(_, p)| **p == 1)
+        {
+            let at = plane.plane_point(
+                (i % plane.image.width) as f64,
+                (i / plane.image.width) as f64,
+            );
+            let back = camera_from_plane * Point3::new(at.x, at.y, 0.0);
+            let nearest = tree.nearest(&back.cast(), f32::INFINITY).expect("points");
+            assert!(nearest.distance_sq.sqrt() < 0.015);
+        }
+    }
+
+    #[test]
+    fn a_mirrored_part_gives_the_mirrored_picture_not_the_same_one() {
+        let mirrored = plate()
+            .iter()
+            .map(|p| Point3::new(-p.x, p.y, p.z))
+            .collect();
+        // The turn sense from the window to the plate's long axis flips with the part.
+        let sense = |plane: &PlaneImage| {
+            let (mut sum, mut num) = (Vector3::zeros(), 0.0);
+            for (i, _) in plane
+                .image
+                .pixels
+                .iter()
+                .enumerate()
+                .filter(|(_, p)| **p == 1)
+            {
+                let at = plane.plane_point(
+                    (i % plane.image.width) as f64,
+                    (i / plane.image.width) as f64,
+                );
+                sum += Vector3::new(at.x.powi(3), at.y.powi(3), at.x * at.x * at.y);
+                num += 1.0;
+            }
+            sum / num
+        };
+        let (one, other) = (sense(&projected(plate())), sense(&projected(mirrored)));
+        assert!(
+            (one.x.abs() - other.x.abs()).abs() < 1e-3,
+            "the same shape along itself: {one} {other}"
+        );
+    }
+
+    #[test]
+    fn what_spans_no_plane_or_too_much_is_named() {
+        let line = (0..500)
+            .map(|i| Point3::new(i as f32 * 0.002, 0.0, 1.0))
+            .collect();
+        let spot = vec![Point3::new(0.0, 0.0, 1.0); 500];
+        for points in [line, spot, Vec::new()] {
+            let found = project(&part(points), &ProjectParams::default());
+            assert!(matches!(found, Err(ProjectError::NoPlane { .. })));
+        }
+        let wide = (0..10_000)
+            .map(|i| Point3::new((i % 100) as f32, (i / 100) as f32, 500.0))
+            .collect();
+        let found = project(&part(wide), &ProjectParams::default());
+        assert!(
+            matches!(found, Err(ProjectError::TooLarge { .. })),
+            "{found:?}"
+        );
+    }
+}
