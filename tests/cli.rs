@@ -166,7 +166,7 @@ fn the_pose_is_that_of_the_simulation() {
         serde_json::from_slice(&fs::read(place.path("truth.json")).expect("written"))
             .expect("JSON");
     // Part space is that of the enrolment, 1.4 m before the camera: the truth's of the model, in its middle.
-    let model = matrix(&truth["camera_from_part"]);
+    let model = matrix(&truth["camera_from_model"]);
     for row in 0..3 {
         let [c, d] = [2, 3].map(|column| found[row * 4 + column]);
         for column in 0..3 {

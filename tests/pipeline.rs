@@ -253,3 +253,31 @@ fn a_cancelled_inspection_stops_before_the_next_stage() {
         assert!(matches!(result, Err(Cancelled)), "cancelled at {stage:?}");
     }
 }
+
+#[test]
+fn a_capture_saved_as_bare_points_is_recognised_as_well() {
+    let EnrolledStandard { library, .. } = standard();
+    for (i, kind) in (0..).zip(PartKind::ALL) {
+        for seed in [i, i + 8] {
+            let scene = scene_from_frame(
+                &frame(&CellSetup::with_part(kind, Side::Left, 0, 60 + seed)).frame,
+            );
+            let bare =
+                scene_from_cloud(PointCloud::from_points(scene.cloud.points.iter().copied()));
+            let inspection = inspected(&bare, &library, &Recipe::default());
+            let Verdict::Part {
+                part,
+                score,
+                rejected,
+                ..
+            } = inspection.verdict
+            else {
+                panic!("{kind}, seed {seed}: {:?}", inspection.verdict);
+            };
+            assert!(
+                part == kind.name() && rejected.is_none(),
+                "{kind}, seed {seed}: {part} {score:.2} {rejected:?}"
+            );
+        }
+    }
+}

@@ -38,7 +38,12 @@ impl Advice for InputError {
 
 /// Opens a captured scene.
 pub(super) fn open_scene(path: &Path) -> Result<(SceneCloud, Vec<FileWarning>), InputError> {
-    let opened = files::open(path)?;
+    let opened = match files::open(path) {
+        Ok(opened) => opened,
+        // A camera that is covered or looks at nothing: the file is sound, there is just no part to see.
+        Err(FileError::NoPoints { .. }) => return Ok((SceneCloud::default(), Vec::new())),
+        Err(error) => return Err(error.into()),
+    };
     let warnings = opened.warnings();
     let scene = match opened {
         Opened::Cloud(cloud) => scene_from_cloud(cloud),

@@ -18,7 +18,7 @@ use crate::{
         voxel::downsample,
     },
     stages::{
-        reference::{Coverage, Reference, ReferenceParams},
+        reference::{Coverage, Reference, ReferenceError, ReferenceParams},
         scene::SceneCloud,
         segment::{NoPart, SegmentParams, segment},
     },
@@ -98,6 +98,9 @@ pub enum EnrolError {
     /// No part in the scene.
     #[error(transparent)]
     NoPart(#[from] NoPart),
+    /// The cloud is no reference.
+    #[error(transparent)]
+    Reference(#[from] ReferenceError),
     /// Too few points.
     #[error("the cloud has {found} points, at least {needed} are needed")]
     TooFewPoints {
@@ -112,25 +115,17 @@ pub enum EnrolError {
         /// Triangles of the mesh.
         num_triangles: usize,
     },
-    /// No outline from any side.
-    #[error("the cloud of {num_points} points has no outline from any side")]
-    NoOutline {
-        /// Points after thinning.
-        num_points: usize,
-    },
 }
 
 impl Advice for EnrolError {
     fn advice(&self) -> String {
         match self {
             Self::NoPart(error) => error.advice(),
+            Self::Reference(error) => error.advice(),
             Self::TooFewPoints { .. } => {
                 "Capture the part from nearer, or export the cloud with more points".into()
             }
             Self::NoArea { .. } => "Export the mesh again with its faces".into(),
-            Self::NoOutline { .. } => {
-                "Check that the cloud shows the surface of one part and is in metres".into()
-            }
         }
     }
 }
@@ -234,17 +229,16 @@ fn assemble(
 ) -> Result<Enrolled, EnrolError> {
     // Colours are kept in no library: nothing uses them.
     cloud.colours = None;
-    let no_outline = EnrolError::NoOutline {
-        num_points: cloud.points.len(),
-    };
     let reference = Reference::prepare(
         about.name.as_str(),
         cloud.clone(),
         source.coverage,
         &params.reference,
-    )
-    .ok_or(no_outline)?;
-    let signature = StoredSignature::of(&reference, &params.reference).ok_or(no_outline)?;
+    )?;
+    let signature =
+        StoredSignature::of(&reference, &params.reference).ok_or(ReferenceError::NoOutline {
+            num_points: reference.cloud.points.len(),
+        })?;
     let part = Part {
         meta: PartMeta {
             schema_version: SCHEMA_VERSION,

@@ -148,11 +148,7 @@ fn read_entry(
     let read = || -> Result<StoredPart, EntryError> {
         let meta = read_meta(entry)?;
         let cloud = read_cloud(&entry.path.join(CLOUD))?;
-        let no_outline = EntryError::NoOutline {
-            num_points: cloud.points.len(),
-        };
-        let reference = Reference::prepare(meta.name.as_str(), cloud, meta.coverage, params)
-            .ok_or(no_outline)?;
+        let reference = Reference::prepare(meta.name.as_str(), cloud, meta.coverage, params)?;
         let warnings = troubles(entry, &reference, look, params)
             .into_iter()
             .map(|trouble| EntryWarning {

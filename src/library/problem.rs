@@ -6,7 +6,7 @@ use super::{
     name::PartName,
     store::{CLOUD, META},
 };
-use crate::{error::Advice, files::FileError};
+use crate::{error::Advice, files::FileError, stages::reference::ReferenceError};
 
 /// The largest cloud taken as a reference: twelve times what enrolling makes.
 pub(super) const MAX_POINTS: usize = 200_000;
@@ -69,12 +69,9 @@ pub enum EntryError {
         /// What it holds.
         found: String,
     },
-    /// No outline from any side.
-    #[error("{CLOUD} has no outline from any side ({num_points} points)")]
-    NoOutline {
-        /// Points of the cloud.
-        num_points: usize,
-    },
+    /// The cloud is no reference.
+    #[error(transparent)]
+    Reference(#[from] ReferenceError),
 }
 
 impl Advice for EntryProblem {

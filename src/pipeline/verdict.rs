@@ -113,7 +113,9 @@ impl Advice for Rejection {
                 "Check that this part is enrolled, that nothing covers it, and capture again".into()
             }
             Self::SmallMargin { .. } => {
-                "Turn the part so that its face looks at the camera and capture again".into()
+                "Turn the part so that its face looks at the camera and capture again; if both names stand for the same part, \
+                 remove one of them from the library"
+                    .into()
             }
             Self::Unconfirmed { .. } => "Have the pose estimated too, with --pose global".into(),
             Self::NoPose(error) => error.advice(),

@@ -16,8 +16,9 @@ use crate::geometry::rigid::{RigidTransform, row_major};
 pub struct Truth {
     /// What hangs before the camera.
     pub subject: Subject,
-    /// Maps the part's coordinates to the camera's; written as 16 numbers, row after row.
-    #[serde(with = "sixteen_numbers")]
+    /// Maps the model's own coordinates to the camera's; written as `camera_from_model`, 16 numbers row after row. An
+    /// enrolled part has other coordinates: those of the camera that saw it.
+    #[serde(rename = "camera_from_model", with = "sixteen_numbers")]
     pub camera_from_part: RigidTransform,
     /// Whether all of the part lies within the frame. Something may still stand before it.
     pub fully_visible: bool,

@@ -8,6 +8,7 @@ use nalgebra::{Isometry2, Point2, Point3, Unit, UnitQuaternion, Vector3};
 use rustfft::num_complex::Complex;
 
 use crate::{
+    error::Advice,
     geometry::{
         cloud::PointCloud, nearest::KdTree, nearest_field::NearestField, principal::principal_axes,
         rigid::RigidTransform,
@@ -19,7 +20,7 @@ use crate::{
         project::{PlaneImage, ProjectParams, project_weighted},
         signature::{FanSignature, SignatureParams, describe},
     },
-    units::Radians,
+    units::{Metres, Radians},
 };
 
 /// From where the reference cloud was seen.
@@ -42,6 +43,39 @@ pub struct ReferenceParams {
     /// Signature.
     pub signature: SignatureParams,
 }
+
+/// Why a cloud cannot be a reference.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum ReferenceError {
+    /// No view of it has an outline.
+    #[error("the cloud of {num_points} points has no outline from any side")]
+    NoOutline {
+        /// Points given.
+        num_points: usize,
+    },
+    /// Larger than any car part.
+    #[error("the part spans {:.1} m, expected at most {:.0} m", found.0, limit.0)]
+    TooLarge {
+        /// Its largest extent.
+        found: Metres,
+        /// The largest extent of a part.
+        limit: Metres,
+    },
+}
+
+impl Advice for ReferenceError {
+    fn advice(&self) -> String {
+        match self {
+            Self::NoOutline { .. } => "Check that the cloud shows the surface of one part and is in metres".into(),
+            Self::TooLarge { .. } => {
+                "Export it in metres (these look like millimetres), or cut the one part out of its scene".into()
+            }
+        }
+    }
+}
+
+/// No car part is longer than this, metres; what is, is a file in millimetres or a whole scene.
+const MAX_EXTENT: f64 = 5.0;
 
 /// An enrolled part, prepared for ranking and pose.
 #[derive(Clone, Debug)]
@@ -107,21 +141,32 @@ pub const SPACING: f64 = 0.008;
 const VIEW_DISTANCE: f64 = 1.3;
 
 impl Reference {
-    /// Prepares a reference cloud (part space, with normals); `None` when no view of it has a contour.
+    /// Prepares a reference cloud (part space, with normals).
     pub fn prepare(
         name: &str,
         cloud: PointCloud,
         coverage: Coverage,
         params: &ReferenceParams,
-    ) -> Option<Self> {
+    ) -> Result<Self, ReferenceError> {
+        let num_points = cloud.points.len();
+        let no_outline = ReferenceError::NoOutline { num_points };
+        let (low, high) = cloud.bounds().ok_or(no_outline)?;
+        let extent = f64::from((high - low).amax());
+        if !(extent <= MAX_EXTENT) {
+            return Err(ReferenceError::TooLarge {
+                found: Metres(extent),
+                limit: Metres(MAX_EXTENT),
+            });
+        }
         let tree = KdTree::new(&cloud.points);
-        let views: Vec<ReferenceView> = viewpoints(&cloud, coverage)?
+        let views: Vec<ReferenceView> = viewpoints(&cloud, coverage)
+            .ok_or(no_outline)?
             .iter()
             .filter_map(|viewpoint| ReferenceView::from_viewpoint(&cloud, &tree, viewpoint, params))
             .collect();
-        let literal = LiteralReference::new(&views.first()?.signature.literal);
+        let literal = LiteralReference::new(&views.first().ok_or(no_outline)?.signature.literal);
         let field = NearestField::new(&cloud.points, FIELD_CELL, FIELD_BAND);
-        Some(Self {
+        Ok(Self {
             name: name.to_owned(),
             cloud,
             tree,

@@ -2,7 +2,8 @@
 //!
 //! A depth frame becomes an organised cloud by the pinhole model. For an organised cloud that came without a camera
 //! the intrinsics are fitted from the points themselves, because x/z of a pinhole camera is linear in the column:
-//! later stages ask the camera what it would have seen at a place.
+//! later stages ask the camera what it would have seen at a place. A capture saved as bare points (PLY, XYZ) has lost
+//! its rows and columns, but not its viewpoint: it is put back onto a picture, so that it is inspected as well.
 
 use nalgebra::Point3;
 
@@ -18,6 +19,18 @@ pub struct SceneCloud {
     pub cloud: PointCloud,
     /// The camera, if the cloud is organised and a pinhole camera explains it.
     pub intrinsics: Option<Intrinsics>,
+    /// What lies at the edge of an organised cloud.
+    pub edge: PictureEdge,
+}
+
+/// What the edge of a picture is.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum PictureEdge {
+    /// The camera's view ends there; the scene goes on.
+    #[default]
+    View,
+    /// The points end there: the picture was put around them.
+    Points,
 }
 
 /// The points of a depth frame; pixels without a reading become NaN.
@@ -55,15 +68,112 @@ pub fn scene_from_frame(frame: &DepthFrame) -> SceneCloud {
             ..PointCloud::default()
         },
         intrinsics: Some(*camera),
+        edge: PictureEdge::View,
     }
 }
 
-/// A loaded cloud as a scene in camera space, with the camera fitted if the cloud is organised.
+/// A loaded cloud as a scene in camera space.
+///
+/// An organised cloud keeps its grid, and the camera is fitted. A cloud without rows and columns that one camera at
+/// the origin can have seen is put back onto a picture of its own density; any other stays as it is.
 pub fn scene_from_cloud(cloud: PointCloud) -> SceneCloud {
-    let intrinsics = cloud
-        .grid
-        .and_then(|grid| fit_intrinsics(&cloud.points, grid));
-    SceneCloud { cloud, intrinsics }
+    let intrinsics = match cloud.grid {
+        Some(grid) => fit_intrinsics(&cloud.points, grid),
+        None => match organised(&cloud) {
+            Some(scene) => return scene,
+            None => None,
+        },
+    };
+    SceneCloud {
+        cloud,
+        intrinsics,
+        edge: PictureEdge::View,
+    }
+}
+
+/// Fewer points than this are no picture.
+const MIN_PICTURE_POINTS: usize = 1000;
+/// Nearer than this no depth camera reads, metres.
+const NEAREST_READING: f32 = 0.05;
+/// Width or height of the picture over its distance: 120° of view.
+const WIDEST_VIEW: f32 = 3.5;
+/// Points per pixel of the picture that they are put back onto. A capture exported as bare points has lost at most
+/// its pixels without a reading; with about one point and a half per pixel few pixels stay empty.
+const POINTS_PER_PIXEL: f64 = 1.4;
+/// Share of the points that may lie behind another in the same pixel, by more than [`SAME_SURFACE`]: more means that
+/// no single camera saw them.
+const MAX_HIDDEN_SHARE: f64 = 0.02;
+/// Share of the pixels that are filled at least: a part cut out of its scene leaves the corners of its picture empty,
+/// and the edge of such a picture is no edge of the camera's view.
+const MIN_FILLED_SHARE: f64 = 0.75;
+/// Difference in depth, relative to the depth, up to which two points of a pixel are of one surface.
+const SAME_SURFACE: f32 = 0.05;
+
+/// Puts points back onto the picture of a camera at the origin; `None` if no such camera saw them all.
+fn organised(cloud: &PointCloud) -> Option<SceneCloud> {
+    let ratios = |p: &Point3<f32>| [p.x / p.z, p.y / p.z];
+    let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
+    let mut num_points = 0_usize;
+    for (_, p) in cloud.finite() {
+        if p.z < NEAREST_READING {
+            return None;
+        }
+        num_points += 1;
+        for (axis, ratio) in ratios(p).into_iter().enumerate() {
+            low[axis] = low[axis].min(ratio);
+            high[axis] = high[axis].max(ratio);
+        }
+    }
+    let [across, down] = [0, 1].map(|axis| high[axis] - low[axis]);
+    let is_picture = across > 0.0 && down > 0.0 && across.max(down) < WIDEST_VIEW;
+    if num_points < MIN_PICTURE_POINTS || !is_picture {
+        return None;
+    }
+    let focal = (num_points as f64 / POINTS_PER_PIXEL / f64::from(across * down)).sqrt();
+    let [width, height] = [across, down].map(|x| (f64::from(x) * focal) as usize + 1);
+    if width.min(height) < 8 {
+        return None;
+    }
+    let mut nearest: Vec<Option<u32>> = vec![None; width * height];
+    let mut num_hidden = 0_usize;
+    for (i, p) in cloud.finite() {
+        let [u, v] = ratios(p);
+        let column = (f64::from(u - low[0]) * focal) as usize;
+        let row = (f64::from(v - low[1]) * focal) as usize;
+        let slot = &mut nearest[row.min(height - 1) * width + column.min(width - 1)];
+        if let Some(holder) = *slot {
+            let held = cloud.points[holder as usize].z;
+            num_hidden += usize::from((held - p.z).abs() > SAME_SURFACE * p.z);
+            if held <= p.z {
+                continue;
+            }
+        }
+        *slot = Some(i as u32);
+    }
+    let num_filled = nearest.iter().flatten().count();
+    let is_full = num_filled as f64 >= MIN_FILLED_SHARE * nearest.len() as f64;
+    if !is_full || num_hidden as f64 > MAX_HIDDEN_SHARE * num_points as f64 {
+        return None;
+    }
+    let none = Point3::new(f32::NAN, f32::NAN, f32::NAN);
+    let pick = |slot: &Option<u32>| slot.map_or(none, |i| cloud.points[i as usize]);
+    Some(SceneCloud {
+        cloud: PointCloud {
+            points: nearest.iter().map(pick).collect(),
+            grid: Some(Grid { width, height }),
+            ..PointCloud::default()
+        },
+        // A ratio falls into the pixel whose centre is half a pixel further.
+        intrinsics: Some(Intrinsics {
+            width,
+            height,
+            fx: focal,
+            fy: focal,
+            cx: -f64::from(low[0]) * focal - 0.5,
+            cy: -f64::from(low[1]) * focal - 0.5,
+        }),
+        edge: PictureEdge::Points,
+    })
 }
 
 /// Fits column = fx · x/z + cx and row = fy · y/z + cy; `None` when the fit is off by more than a pixel (rms) or the
@@ -178,6 +288,37 @@ mod tests {
                 "{found} instead of {expected}"
             );
         }
+    }
+
+    #[test]
+    fn a_capture_exported_as_bare_points_becomes_a_picture_again() {
+        let scene = scene_from_frame(&tilted_wall());
+        // Another order: nothing but the positions is left.
+        let points: Vec<_> = scene.cloud.points.iter().rev().copied().collect();
+        let again = scene_from_cloud(PointCloud::from_points(points));
+        let (camera, grid) = (
+            again.intrinsics.expect("a camera"),
+            again.cloud.grid.expect("a grid"),
+        );
+        assert!(again.cloud.num_finite() as f64 > 0.9 * grid.num_cells() as f64);
+        for (i, p) in again.cloud.finite() {
+            let (u, v) = camera.pixel_of(&p.cast()).expect("in front");
+            assert!(
+                (u - (i % grid.width) as f64).abs() <= 0.51
+                    && (v - (i / grid.width) as f64).abs() <= 0.51
+            );
+        }
+    }
+
+    #[test]
+    fn a_cloud_seen_from_all_around_stays_without_a_picture() {
+        let points = (0..20_000).map(|i| {
+            let (a, b) = (i as f32 * 0.0917, i as f32 / 20_000.0 * 2.0 - 1.0);
+            let r = (1.0 - b * b).sqrt();
+            Point3::new(0.3 * r * a.cos(), 0.3 * b, 1.5 + 0.3 * r * a.sin())
+        });
+        let scene = scene_from_cloud(PointCloud::from_points(points));
+        assert_eq!((scene.cloud.grid, scene.intrinsics), (None, None));
     }
 
     #[test]

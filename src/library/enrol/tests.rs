@@ -122,7 +122,7 @@ fn too_few_points_and_lines_are_refused_by_name() {
     let line = PointCloud::from_points((0..500).map(|i| Point3::new(i as f32 * 0.01, 0.0, 1.0)));
     assert!(matches!(
         enrol_whole(&line, &about("x"), &params),
-        Err(EnrolError::NoOutline { .. })
+        Err(EnrolError::Reference(_))
     ));
     assert!(matches!(
         enrol_captured(&SceneCloud::default(), &about("x"), &params),

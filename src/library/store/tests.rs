@@ -240,10 +240,7 @@ fn a_cut_foreign_or_missing_cloud_is_named_and_the_others_load() {
     ));
     let line = PointCloud::from_points((0..300).map(|i| Point3::new(i as f32, 0.0, 1.0)));
     crate::files::save_cloud(&cloud, &line).expect("written");
-    assert!(matches!(
-        problem(&load(&library)),
-        EntryError::NoOutline { .. }
-    ));
+    assert!(matches!(problem(&load(&library)), EntryError::Reference(_)));
 }
 
 #[test]

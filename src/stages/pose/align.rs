@@ -8,11 +8,14 @@ use super::{
     icp::{IcpParams, icp},
     refine::Refined,
 };
-use crate::geometry::{
-    cloud::PointCloud,
-    nearest::KdTree,
-    principal::{PrincipalAxes, principal_axes},
-    rigid::RigidTransform,
+use crate::{
+    geometry::{
+        cloud::PointCloud,
+        nearest::KdTree,
+        principal::{PrincipalAxes, principal_axes},
+        rigid::RigidTransform,
+    },
+    units::Metres,
 };
 
 /// Aligns the source to the target: `target_from_source`.
@@ -24,46 +27,104 @@ pub fn align(
     method: PoseMethod,
     initial: Option<RigidTransform>,
 ) -> Result<PoseEstimate, PoseError> {
-    let source = finite_points("source", source)?;
-    let target = finite_points("target", target)?;
-    let source_axes = spanned_axes("source", &source)?;
-    let target_axes = spanned_axes("target", &target)?;
-    let prepared = PreparedTarget::new(&target);
-    match method {
+    let source = Centred::new("source", source)?;
+    let target = Centred::new("target", target)?;
+    let (small, large) = (
+        source.extent.min(target.extent),
+        source.extent.max(target.extent),
+    );
+    if large > MOST_DIFFERENT * small {
+        return Err(PoseError::SizesDiffer {
+            ratio: large / small,
+        });
+    }
+    let from_origin =
+        |start: RigidTransform| target.centring() * start * source.centring().inverse();
+    let prepared = PreparedTarget::new(&target.points);
+    let mut estimate = match method {
         PoseMethod::Icp => {
             let params = IcpParams::default();
-            let step = source.len().div_ceil(params.max_source_points).max(1);
-            let thinned: Vec<Point3<f32>> = source.iter().step_by(step).copied().collect();
-            let start = initial.unwrap_or_else(RigidTransform::identity);
-            let tree = KdTree::new(&target);
-            let run = icp(&thinned, &target, &tree, &start, &params)?;
+            let step = source
+                .points
+                .len()
+                .div_ceil(params.max_source_points)
+                .max(1);
+            let thinned: Vec<Point3<f32>> = source.points.iter().step_by(step).copied().collect();
+            let start = from_origin(initial.unwrap_or_else(RigidTransform::identity));
+            let tree = KdTree::new(&target.points);
+            let run = icp(&thinned, &target.points, &tree, &start, &params)?;
             let refined = Refined {
                 target_from_source: run.target_from_source,
                 iterations: run.iterations,
                 stopped: run.stopped,
             };
-            Ok(prepared.estimate(&source, refined, PoseMethod::Icp, None))
+            prepared.estimate(&source.points, refined, PoseMethod::Icp, None)
         }
         PoseMethod::Global => {
+            let no_turn = from_origin(RigidTransform::identity());
             let starts = match initial {
-                Some(start) => vec![start],
-                None => starts(&source_axes, &target_axes),
+                Some(start) => vec![from_origin(start)],
+                None => starts(no_turn, &source.axes, &target.axes),
             };
-            prepared.search(&source, &starts)
+            prepared.search(&source.points, &starts)?
         }
-    }
+    };
+    let (back, there) = (target.centring().inverse(), source.centring());
+    estimate.in_other_spaces(|pose| back * pose * there);
+    Ok(estimate)
 }
 
-fn finite_points(which: &'static str, cloud: &PointCloud) -> Result<Vec<Point3<f32>>, PoseError> {
-    let points: Vec<Point3<f32>> = cloud.finite().map(|(_, p)| *p).collect();
-    if points.len() < MIN_POINTS {
-        return Err(PoseError::TooFewPoints {
-            which,
-            found: points.len(),
-            needed: MIN_POINTS,
-        });
+/// A cloud whose size is another one's times this is of another thing, or in other units.
+const MOST_DIFFERENT: f64 = 50.0;
+
+/// The points of a cloud about their own middle: far from the origin `f32` would not resolve them.
+struct Centred {
+    points: Vec<Point3<f32>>,
+    middle: Point3<f64>,
+    axes: PrincipalAxes,
+    /// Standard deviation along the widest axis, metres.
+    extent: f64,
+}
+
+impl Centred {
+    fn new(which: &'static str, cloud: &PointCloud) -> Result<Self, PoseError> {
+        let found = cloud.num_finite();
+        if found < MIN_POINTS {
+            return Err(PoseError::TooFewPoints {
+                which,
+                found,
+                needed: MIN_POINTS,
+            });
+        }
+        let (low, high) = cloud.bounds().unwrap_or_default();
+        let middle: Point3<f64> = nalgebra::center(&low.cast::<f64>(), &high.cast::<f64>());
+        let points: Vec<Point3<f32>> = cloud
+            .finite()
+            .map(|(_, p)| (p.cast::<f64>() - middle.coords).cast())
+            .collect();
+        let axes = spanned_axes(which, &points)?;
+        let extent = axes.variances[0].sqrt();
+        // Coordinates come with 24 binary digits: further out than this they are rounded to steps of half a per cent
+        // of the cloud's own size.
+        let farthest = low.coords.amax().max(high.coords.amax());
+        if f64::from(farthest) * f64::from(f32::EPSILON) > 5e-3 * extent {
+            return Err(PoseError::TooFarOut {
+                which,
+                distance: Metres(f64::from(farthest)),
+            });
+        }
+        Ok(Self {
+            points,
+            middle,
+            axes,
+            extent,
+        })
     }
-    Ok(points)
+
+    /// Takes the cloud's space into that about its middle.
+    fn centring(&self) -> RigidTransform {
+        RigidTransform::translation(-self.middle.x, -self.middle.y, -self.middle.z)
+    }
 }
 
 /// The principal axes of points that lie on more than a line.
@@ -131,6 +192,67 @@ mod tests {
         let source = moved(&target, &from_euler_zyx([0.4, 0.3, -1.0, 0.1, 0.2, 0.3]));
         let run = || align(&source, &target, PoseMethod::Global, None).expect("a pose");
         assert_eq!(run(), run());
+    }
+
+    #[test]
+    fn clouds_far_from_the_origin_are_aligned_as_long_as_their_coordinates_resolve_them() {
+        let target = sheet();
+        for far in [1e3, 5e3, -5e3] {
+            let truth = from_euler_zyx([0.4, 0.3, -1.0, far, 0.2, 0.3]);
+            let far_off = moved(&target, &truth);
+            for (source, target, truth) in [
+                (&target, &far_off, truth),
+                (&far_off, &target, truth.inverse()),
+            ] {
+                let found = align(source, target, PoseMethod::Global, None).expect("a pose");
+                let centre = Point3::from(source.points[0].coords.cast::<f64>());
+                let error = pose_error(&found.target_from_source, &truth, &centre);
+                assert!(
+                    error.rotation.degrees() < 0.1 && error.shift.mm() < 2.0,
+                    "{error:?} at {far}"
+                );
+            }
+        }
+        let lost = moved(&target, &RigidTransform::translation(1e6, 0.0, 0.0));
+        for method in [PoseMethod::Global, PoseMethod::Icp] {
+            let found = align(&target, &lost, method, None);
+            assert!(
+                matches!(
+                    found,
+                    Err(PoseError::TooFarOut {
+                        which: "target",
+                        ..
+                    })
+                ),
+                "{found:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn millimetres_against_metres_are_named() {
+        let target = sheet();
+        let in_mm = PointCloud::from_points(target.points.iter().map(|p| p * 1000.0));
+        for (a, b) in [(&target, &in_mm), (&in_mm, &target)] {
+            assert!(matches!(
+                align(a, b, PoseMethod::Global, None),
+                Err(PoseError::SizesDiffer { .. })
+            ));
+        }
+    }
+
+    #[test]
+    fn a_poor_fit_raises_a_doubt_and_a_good_one_none() {
+        let target = sheet();
+        let source = moved(&target, &from_euler_zyx([0.4, 0.3, -1.0, 0.1, 0.2, 0.3]));
+        let good = align(&source, &target, PoseMethod::Global, None).expect("a pose");
+        assert_eq!(good.doubt(), None);
+        let mut rng = Pcg64::seed_from_u64(3);
+        let cube = PointCloud::from_points(
+            (0..5000).map(|_| Point3::from([(); 3].map(|()| rng.random::<f32>()))),
+        );
+        let poor = align(&cube, &target, PoseMethod::Global, None).expect("a pose");
+        assert!(poor.doubt().is_some(), "{:?}", poor.fit);
     }
 
     #[test]

@@ -47,8 +47,12 @@ const MAX_TARGET_POINTS: usize = 150_000;
 /// Points of the source used in the last refinement.
 const NUM_SOURCE_POINTS: usize = 4_000;
 
-/// Centre on centre: no turn, principal axes on principal axes, rotations spread evenly.
-pub(super) fn starts(source: &PrincipalAxes, target: &PrincipalAxes) -> Vec<RigidTransform> {
+/// As the clouds lie; then centre on centre: principal axes on principal axes, rotations spread evenly.
+pub(super) fn starts(
+    no_turn: RigidTransform,
+    source: &PrincipalAxes,
+    target: &PrincipalAxes,
+) -> Vec<RigidTransform> {
     let about_centres = |turn: UnitQuaternion<f64>| {
         let shift = target.mean - turn * source.mean;
         Isometry3::from_parts(Translation3::from(shift), turn)
@@ -67,7 +71,7 @@ pub(super) fn starts(source: &PrincipalAxes, target: &PrincipalAxes) -> Vec<Rigi
         UnitQuaternion::from_axis_angle(&Vector3::z_axis(), std::f64::consts::PI),
     ];
     let along_axes = half_turns.map(|half| about_centres(of_target * half * of_source.inverse()));
-    std::iter::once(RigidTransform::identity())
+    std::iter::once(no_turn)
         .chain(along_axes)
         .chain(spread_rotations(NUM_ROTATIONS).map(about_centres))
         .collect()
@@ -232,7 +236,7 @@ impl PreparedTarget {
                 .take_while(|scale| *scale > finest)
                 .map(|scale| level(1500, scale, 10, Search::Field))
                 .collect();
-        levels.push(level(NUM_SOURCE_POINTS, finest, 20, Search::Tree));
+        levels.push(level(NUM_SOURCE_POINTS, finest, 40, Search::Tree));
         levels
     }
 

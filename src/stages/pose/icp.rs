@@ -94,9 +94,10 @@ pub fn icp(
             break;
         }
         // Eq. (13), from the source as it was given: errors of single steps do not add up.
-        let next = fit_rigid(pairs.iter().copied()).ok_or(PoseError::Degenerate {
-            which: "target",
-            width: 0.0,
+        // All pairs on one spot: the target is one, or the source lies so far off that one corner is closest to all.
+        let next = fit_rigid(pairs.iter().copied()).ok_or(PoseError::OneSidedPairs {
+            num_pairs: pairs.len(),
+            rms: Metres(e_m2.sqrt()),
         })?;
         let turned = next.rotation.angle_to(&pose.rotation);
         let shifted = (next.translation.vector - pose.translation.vector).norm();
@@ -215,6 +216,6 @@ mod tests {
             &RigidTransform::identity(),
             &IcpParams::default(),
         );
-        assert!(matches!(found, Err(PoseError::Degenerate { .. })));
+        assert!(matches!(found, Err(PoseError::OneSidedPairs { .. })));
     }
 }

@@ -113,9 +113,85 @@ impl PoseEstimate {
         self.target_from_source.inverse()
     }
 
+    /// Carries the poses into other spaces; distances stay as they are.
+    fn in_other_spaces(&mut self, carried: impl Fn(&RigidTransform) -> RigidTransform) {
+        let runner_up = self.runner_up.iter_mut().map(|r| &mut r.target_from_source);
+        let steps = self
+            .iterations
+            .iter_mut()
+            .map(|i| &mut i.target_from_source);
+        for pose in steps.chain(runner_up).chain([&mut self.target_from_source]) {
+            *pose = carried(pose);
+        }
+    }
+
+    /// Why the pose should not be relied upon, if there is a reason.
+    pub fn doubt(&self) -> Option<Doubt> {
+        let overlap = self.fit.overlap;
+        let ambiguous = self.runner_up.filter(|r| r.ratio < AMBIGUOUS_BELOW);
+        if overlap < LEAST_OVERLAP {
+            Some(Doubt::LittleOverlap {
+                overlap,
+                needed: LEAST_OVERLAP,
+            })
+        } else if let Some(runner_up) = ambiguous {
+            Some(Doubt::Ambiguous {
+                ratio: runner_up.ratio,
+            })
+        } else if self.stopped == Stopped::IterationLimit {
+            Some(Doubt::Unsettled {
+                num_iterations: self.iterations.len(),
+            })
+        } else {
+            None
+        }
+    }
+
     /// True when a different pose fits (nearly) as well.
     pub fn is_ambiguous(&self) -> bool {
         self.runner_up.is_some_and(|r| r.ratio < AMBIGUOUS_BELOW)
+    }
+}
+
+/// Less of the source on the target than this is chance: a plane through a ball shares as much with it.
+const LEAST_OVERLAP: f64 = 0.25;
+
+/// Why a pose should not be relied upon.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum Doubt {
+    /// The source hardly lies on the target.
+    #[error("only {:.0} % of the source lies on the target, at least {:.0} % are needed", overlap * 100.0, needed * 100.0)]
+    LittleOverlap {
+        /// Share of the source on the target.
+        overlap: f64,
+        /// Least share.
+        needed: f64,
+    },
+    /// A different pose fits (nearly) as well.
+    #[error("another pose fits as well (its cost is {ratio:.2} times as high)")]
+    Ambiguous {
+        /// Cost of the other pose over this one's.
+        ratio: f64,
+    },
+    /// The search was still moving when its iterations were used up.
+    #[error("the pose was still moving after {num_iterations} iterations")]
+    Unsettled {
+        /// Iterations used.
+        num_iterations: usize,
+    },
+}
+
+impl crate::error::Advice for Doubt {
+    fn advice(&self) -> String {
+        match self {
+            Self::LittleOverlap { .. } => {
+                "Check that both clouds show the same thing and share at least half of it".into()
+            }
+            Self::Ambiguous { .. } => "Say where to start with --initial".into(),
+            Self::Unsettled { .. } => {
+                "Start from the pose found, with --initial, or use --pose global".into()
+            }
+        }
     }
 }
 
@@ -142,6 +218,14 @@ pub enum PoseError {
         /// Standard deviation along the second principal axis, metres.
         width: f64,
     },
+    /// All closest points of ICP lie on a spot or a line.
+    #[error("the closest points of all {num_pairs} pairs lie on a spot or a line, {rms} apart")]
+    OneSidedPairs {
+        /// Pairs used.
+        num_pairs: usize,
+        /// Root mean square distance of the pairs.
+        rms: Metres,
+    },
     /// No closest points within reach.
     #[error(
         "the clouds have only {found} pairs of points within {}, at least {needed} are needed",
@@ -155,6 +239,20 @@ pub enum PoseError {
         /// Largest distance of a pair.
         reach: Metres,
     },
+    /// One cloud is many times the other.
+    #[error("one cloud is {ratio:.0} times as large as the other")]
+    SizesDiffer {
+        /// Size of the larger over that of the smaller.
+        ratio: f64,
+    },
+    /// The coordinates are so large that they do not resolve the cloud.
+    #[error("the {which} cloud lies {:.0} m from the origin, too far to resolve its points", distance.0)]
+    TooFarOut {
+        /// Source or target.
+        which: &'static str,
+        /// Largest coordinate.
+        distance: Metres,
+    },
     /// The reference has no cloud.
     #[error("the reference is a flat shape without a cloud")]
     NoReferenceCloud,
@@ -165,9 +263,11 @@ impl crate::error::Advice for PoseError {
         match self {
             Self::TooFewPoints { .. } => "Capture the part again from nearer, or enrol it again".into(),
             Self::Degenerate { .. } => "Use a cloud that shows a surface, not a line or a single spot".into(),
-            Self::NoOverlap { .. } => {
+            Self::OneSidedPairs { .. } | Self::NoOverlap { .. } => {
                 "Check that both clouds show the same part in metres, or give a start with --initial".into()
             }
+            Self::SizesDiffer { .. } => "Export both in metres: one of them looks like millimetres".into(),
+            Self::TooFarOut { .. } => "Subtract a common offset from both clouds before exporting them".into(),
             Self::NoReferenceCloud => "Enrol the part from a capture, a cloud or a mesh".into(),
         }
     }

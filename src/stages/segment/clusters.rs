@@ -8,7 +8,11 @@ use std::collections::HashMap;
 use nalgebra::Point3;
 
 use super::{PointLabel, SegmentParams};
-use crate::{geometry::cloud::Grid, stages::scene::SceneCloud, units::Metres};
+use crate::{
+    geometry::cloud::Grid,
+    stages::scene::{PictureEdge, SceneCloud},
+    units::Metres,
+};
 
 /// One connected surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -215,7 +219,8 @@ fn describe(scene: &SceneCloud, indices: &[u32], link: Link) -> Cluster {
         voxels.dedup();
         voxels.len() as f64 * f64::from(size).powi(2)
     };
-    let touches_edge = scene.cloud.grid.is_some_and(|Grid { width, height }| {
+    let view = scene.cloud.grid.filter(|_| scene.edge == PictureEdge::View);
+    let touches_edge = view.is_some_and(|Grid { width, height }| {
         // Sensors lose a few pixels along the edge; a handful of stray pixels there does not count.
         const MARGIN: usize = 3;
         let at_edge = |i: &&u32| {

@@ -141,6 +141,12 @@ pub enum NoPart {
         /// Least number of points.
         needed: usize,
     },
+    /// Far larger than any cell.
+    #[error("the scene spans {extent:.0} m and holds nothing the size of a part")]
+    TooWide {
+        /// Largest extent, metres.
+        extent: f64,
+    },
     /// Nothing of a part's size is left once the background is gone.
     #[error(
         "nothing the size of a part stands before the background ({planes} planes removed, largest rest {found:.3} m², needed {needed:.3} m²)"
@@ -161,6 +167,7 @@ impl Advice for NoPart {
             Self::TooFewPoints { .. } => {
                 "Check that the camera is connected, uncovered and 0.6 to 3 m from the part, then capture again".into()
             }
+            Self::TooWide { .. } => "Export the scene in metres: it looks like millimetres".into(),
             Self::OnlyBackground { .. } => {
                 "Hang the part in front of the camera, at least 10 cm away from the wall, and capture again".into()
             }
@@ -192,7 +199,8 @@ pub fn segment(scene: &SceneCloud, params: &SegmentParams) -> Segmentation {
     } = planes::find_background(scene, params);
     let mut labels = planes::label_background(&scene.cloud.points, &planes, noise_at_1m, params);
     let clusters = clusters::connect(scene, &labels, noise_at_1m, params);
-    let part = take_part(scene, &clusters, &mut labels, &planes, noise_at_1m, params);
+    let part = take_part(scene, &clusters, &mut labels, &planes, noise_at_1m, params)
+        .map_err(|no_part| too_wide(scene).unwrap_or(no_part));
     Segmentation {
         labels,
         planes,
@@ -200,6 +208,15 @@ pub fn segment(scene: &SceneCloud, params: &SegmentParams) -> Segmentation {
         noise_at_1m,
         part,
     }
+}
+
+/// A scene wider than this is no cell: a file in millimetres reads as a thousand times as wide, metres.
+const WIDEST_SCENE: f64 = 200.0;
+
+fn too_wide(scene: &SceneCloud) -> Option<NoPart> {
+    let (low, high) = scene.cloud.bounds()?;
+    let extent = f64::from((high - low).amax());
+    (extent > WIDEST_SCENE).then_some(NoPart::TooWide { extent })
 }
 
 fn label_readings(points: &[Point3<f32>]) -> Vec<PointLabel> {

@@ -5,7 +5,11 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
 use super::{PointLabel, SegmentParams, subset::Subset};
-use crate::{geometry::plane::Plane, stages::scene::SceneCloud, units::Metres};
+use crate::{
+    geometry::plane::Plane,
+    stages::scene::{PictureEdge, SceneCloud},
+    units::Metres,
+};
 
 /// A plane that was taken away.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -32,6 +36,8 @@ const MAX_BEHIND_SHARE: f64 = 0.04;
 /// Share of the picture's edge that a background plane covers at least: a floor seen only along the lower edge
 /// covers a quarter, a part that hangs inside the picture nothing.
 const MIN_EDGE_SHARE: f64 = 0.08;
+/// Share of the points that lie before a background plane at least, where the picture ends with the points.
+const LEAST_FOREGROUND: f64 = 0.03;
 /// Planes looked at before giving up, so that a faceted part costs bounded time.
 const MAX_CANDIDATES: usize = 6;
 
@@ -55,7 +61,10 @@ pub(super) fn find_background(scene: &SceneCloud, params: &SegmentParams) -> Bac
         let Some((plane, inliers)) = refine(&subset, &unclaimed, plane) else {
             break;
         };
-        if is_background(&subset, &plane, &inliers, &foreground) {
+        let is_alone = inliers.len() as f64 > (1.0 - LEAST_FOREGROUND) * subset.len() as f64;
+        // Without a view around it a plane that is alone may as well be a flat part.
+        let may_be_part = is_alone && scene.edge == PictureEdge::Points;
+        if !may_be_part && is_background(&subset, &plane, &inliers, &foreground) {
             if planes.is_empty() {
                 noise_at_1m = measured_noise(&subset, &plane, &inliers).unwrap_or(noise_at_1m);
             }
