@@ -121,6 +121,7 @@ fn connect_pixels(
     for row in 0..height {
         let start = row * width;
         let mut previous: Option<usize> = None;
+        let mut last_meeting = (NO_RUN, NO_RUN);
         for i in start..start + width {
             if labels[i] != PointLabel::Rest {
                 continue;
@@ -135,11 +136,16 @@ fn connect_pixels(
             let above = (1..=(BRIDGED_PIXELS + 1).min(row))
                 .map(|rows| i - rows * width)
                 .find(|&a| run_of[a] != NO_RUN);
-            if let Some(above) = above
-                && run_of[above] != run
-                && link.joins(&points[above], &points[i])
-            {
-                forest.join(run_of[above], run);
+            if let Some(above) = above {
+                // Along a surface the same two runs meet pixel after pixel: one meeting is enough.
+                let meeting = (run_of[above], run);
+                if meeting != last_meeting
+                    && meeting.0 != run
+                    && link.joins(&points[above], &points[i])
+                {
+                    forest.join(meeting.0, run);
+                    last_meeting = meeting;
+                }
             }
         }
     }
