@@ -67,7 +67,7 @@ fn time_of_a_frame_of_the_window() {
     };
     let gpu = ViewportGpu::of_window(&render_state);
     let renderer = WgpuTestRenderer::from_render_state(render_state);
-    let (mut view, scene) = (Viewport::new(Ok(gpu)), example().scene);
+    let (mut view, scene) = (Viewport::new(Ok(gpu)), example());
     let style = ViewStyle::new(ViewColours::dark());
     let mut harness = Harness::builder()
         .with_size(Vec2::new(1000.0, 700.0))

@@ -14,6 +14,9 @@ struct Points {
     padding: f32,
 }
 
+// Background planes are flat: on them shading shows little but noise.
+const BACKGROUND_SHADING: f32 = 0.3;
+
 @group(1) @binding(0) var<uniform> points: Points;
 
 const BY_SEGMENT: u32 = 0u;
@@ -26,11 +29,11 @@ const LAST_PLANE: u32 = 5u;
 // The value of the upper 24 bits that says "no deviation".
 const NO_DEVIATION: i32 = -8388608;
 
-// Diameters on the screen, physical pixels: below one a point would flicker, above the last it hides the others.
-const DIAMETER_RANGE: vec2<f32> = vec2(1.0, 64.0);
+// Diameters on the screen, physical pixels: below the first a point flickers, above the last it hides the others.
+const DIAMETER_RANGE: vec2<f32> = vec2(1.5, 64.0);
 
 // Share of the background mixed into points that the scale does not speak of.
-const DIMMED: f32 = 0.55;
+const DIMMED: f32 = 0.4;
 
 // The Rust side is `GpuPoint` in points.rs.
 struct GpuPoint {
@@ -43,7 +46,8 @@ struct Corner {
     @builtin(position) clip: vec4<f32>,
     // −1..1 from edge to edge of the quad.
     @location(0) offset: vec2<f32>,
-    @location(1) @interpolate(flat) colour: vec3<f32>,
+    // The fourth is how much of the shading the point takes.
+    @location(1) @interpolate(flat) colour: vec4<f32>,
 }
 
 @vertex
@@ -57,7 +61,7 @@ fn vertex_main(@builtin(vertex_index) index: u32, point: GpuPoint) -> Corner {
     let offset = vec2(f32(index & 1u), f32(index >> 1u)) * 2.0 - 1.0;
     var corner: Corner;
     corner.offset = offset;
-    corner.colour = colour_of(point, role);
+    corner.colour = vec4(colour_of(point, role), select(1.0, BACKGROUND_SHADING, is_background(role)));
     if diameter <= 0.0 || clip.w <= view.near {
         // Beyond the far side of clip space: nothing is drawn.
         corner.clip = vec4(0.0, 0.0, 2.0, 1.0);
@@ -76,7 +80,7 @@ fn colour_of(point: GpuPoint, role: u32) -> vec3<f32> {
             return own;
         }
         case BY_HEIGHT: {
-            if role >= FIRST_PLANE && role <= LAST_PLANE {
+            if is_background(role) {
                 return dimmed;
             }
             let height = dot(points.height_from_set, vec4(point.position, 1.0));
@@ -92,9 +96,16 @@ fn colour_of(point: GpuPoint, role: u32) -> vec3<f32> {
             return deviation_colour(0.5 + 0.5 * deviation / view.deviation_range);
         }
         default: {
+            if is_background(role) {
+                return dimmed;
+            }
             return view.roles[0].rgb;
         }
     }
+}
+
+fn is_background(role: u32) -> bool {
+    return role >= FIRST_PLANE && role <= LAST_PLANE;
 }
 
 fn height_colour(share: f32) -> vec3<f32> {
@@ -120,5 +131,5 @@ fn fragment_main(corner: Corner) -> Pixel {
     if dot(corner.offset, corner.offset) > 1.0 {
         discard;
     }
-    return Pixel(vec4(corner.colour, 1.0), corner.clip.z);
+    return Pixel(corner.colour, corner.clip.z);
 }
