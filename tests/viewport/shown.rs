@@ -179,6 +179,49 @@ fn a_measured_distance_is_drawn_over_the_view() {
 }
 
 #[test]
+fn two_views_that_share_a_camera_turn_together_each_with_its_own_picture() {
+    let Some(render_state) = render_state() else {
+        return;
+    };
+    let gpu = ViewportGpu::of_window(&render_state);
+    let renderer = WgpuTestRenderer::from_render_state(render_state);
+    let (left, right) = (
+        Viewport::new(Ok(gpu.clone())),
+        Viewport::new(Ok(gpu.clone())),
+    );
+    let (scene, camera) = (example(), ViewCamera::default());
+    let styles = [ViewColours::dark(), ViewColours::light()].map(ViewStyle::new);
+    let mut harness = Harness::builder()
+        .with_size(Vec2::new(1000.0, 400.0))
+        .renderer(renderer)
+        .build_ui_state(
+            |ui, (camera, left, right): &mut (ViewCamera, Viewport, Viewport)| {
+                ui.columns(2, |columns| {
+                    left.ui(&mut columns[0], "ICP", camera, &scene, &styles[0]);
+                    right.ui(&mut columns[1], "ICP-GA", camera, &scene, &styles[1]);
+                });
+            },
+            (camera, left, right),
+        );
+    harness.run();
+    harness.render().expect("a picture");
+    harness.get_by_label("ICP-GA").focus();
+    harness.key_press(Key::ArrowRight);
+    harness.run();
+    let before = harness.state().1.num_pictures();
+    let picture = harness.render().expect("a picture");
+    keep("widget_linked", &picture);
+    assert_eq!(
+        harness.state().1.num_pictures(),
+        before + 1,
+        "the other view turned as well"
+    );
+    let (dark, light) = (picture.get_pixel(20, 390), picture.get_pixel(980, 390));
+    assert!(dark[0] < 60 && light[0] > 180, "{dark:?} {light:?}");
+    assert_eq!(gpu.trouble(), None);
+}
+
+#[test]
 fn without_a_device_the_view_says_so_in_words() {
     let mut harness = harness(Shown::new(Err(no_device()), ViewScene::default()), None);
     harness.run();

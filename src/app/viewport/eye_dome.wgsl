@@ -3,16 +3,29 @@
 @group(1) @binding(0) var colour: texture_2d<f32>;
 @group(1) @binding(1) var closeness: texture_2d<f32>;
 
-// Neighbours on two rings, logical pixels: the near one draws edges, the far one gives broad shapes.
-const NUM_DIRECTIONS: i32 = 8;
-const RINGS: vec2<f32> = vec2(1.5, 5.0);
-const RING_WEIGHTS: vec2<f32> = vec2(0.6, 0.4);
+// Neighbours on two rings, as x and y in logical pixels and weight: the near ring draws edges, the far one gives broad
+// shapes. Written out, because sines for each pixel cost more than all the rest.
+const NUM_NEIGHBOURS: i32 = 12;
+const NEIGHBOURS = array(
+    vec3(1.06, 1.06, 0.150),
+    vec3(-1.06, 1.06, 0.150),
+    vec3(-1.06, -1.06, 0.150),
+    vec3(1.06, -1.06, 0.150),
+    vec3(5.00, 0.00, 0.050),
+    vec3(3.54, 3.54, 0.050),
+    vec3(0.00, 5.00, 0.050),
+    vec3(-3.54, 3.54, 0.050),
+    vec3(-5.00, 0.00, 0.050),
+    vec3(-3.54, -3.54, 0.050),
+    vec3(-0.00, -5.00, 0.050),
+    vec3(3.54, -3.54, 0.050),
+);
 
-// Shade per unit of log2(depth): by eye, on a simulated Kinect frame.
-const GAIN: f32 = 60.0;
-// A neighbour this far in front (in log2 of depth, about 20 mm at 1 m) counts no more than one further still:
+// Shade per share of the depth: by eye, on a simulated Kinect frame.
+const GAIN: f32 = 85.0;
+// A neighbour this far in front (as a share of its depth: 20 mm at 1 m) counts no more than one further still:
 // an edge is an edge. Below the first value it is the sensor's noise.
-const STEP_RANGE: vec2<f32> = vec2(0.004, 0.03);
+const STEP_RANGE: vec2<f32> = vec2(0.003, 0.02);
 
 // Towards the light, in the view: x right, y down, z away. From the upper left, over the viewer's shoulder.
 const LIGHT: vec3<f32> = vec3(-0.42, -0.58, -0.70);
@@ -40,29 +53,27 @@ fn fragment_main(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
     if strength <= 0.0 {
         return vec4(flat_colour.rgb, 1.0);
     }
-    let last = vec2<i32>(view.size) - 1;
+    let closer_by = 1.0 / own;
     var behind = 0.0;
     // Least squares for the slope of near / z, over neighbours on the same surface.
     var moments = vec3(1e-6, 0.0, 1e-6);
     var products = vec2(0.0);
-    for (var ring = 0; ring < 2; ring++) {
-        for (var i = 0; i < NUM_DIRECTIONS; i++) {
-            let angle = (f32(i) + 0.5 * f32(ring)) * 0.785398163;
-            let step = round(vec2(cos(angle), sin(angle)) * RINGS[ring] * view.pixels_per_point);
-            let theirs = textureLoad(closeness, clamp(pixel + vec2<i32>(step), vec2(0), last), 0).r;
-            if theirs <= 0.0 {
-                continue;
-            }
+    var neighbours = NEIGHBOURS;
+    for (var i = 0; i < NUM_NEIGHBOURS; i++) {
+        let neighbour = neighbours[i];
+        let step = round(neighbour.xy * view.pixels_per_point);
+        let theirs = textureLoad(closeness, pixel + vec2<i32>(step), 0).r;
+        if theirs > 0.0 {
             // near / z: the ratio is that of the depths, and the near plane drops out.
-            let front = log2(theirs / own);
-            behind += RING_WEIGHTS[ring] * clamp(front - STEP_RANGE.x, 0.0, STEP_RANGE.y);
+            let front = theirs * closer_by - 1.0;
+            behind += neighbour.z * clamp(front - STEP_RANGE.x, 0.0, STEP_RANGE.y);
             if abs(front) < STEP_RANGE.y {
                 moments += vec3(step.x * step.x, step.x * step.y, step.y * step.y);
                 products += step * (theirs - own);
             }
         }
     }
-    let occlusion = exp(-strength * GAIN * behind / f32(NUM_DIRECTIONS));
+    let occlusion = exp(-strength * GAIN * behind);
     let light = mix(1.0, brightness(at.xy, own, moments, products), min(strength, 1.0));
     return vec4(flat_colour.rgb * occlusion * light, 1.0);
 }
