@@ -846,8 +846,13 @@ fn a_pose_that_is_not_found_is_a_line_with_its_reason_and_names_the_file() {
 fn causes_are_said_once_in_words_with_advice_that_fits() {
     let place = Workplace::new();
     place.with_part("fender");
+    fs::write(place.path("cut.pcd"), "VERSION 0.7\nFIELDS x y z\n").expect("written");
     let simulate = ["simulate", "--part", "grille", "--out"];
     for (args, expected) in [
+        (
+            &["inspect", "cut.pcd", "--library", "parts"][..],
+            "expected the end of the header",
+        ),
         (
             &[&simulate[..], &["no/such/x.pcd"]].concat()[..],
             "the folder does not exist",
