@@ -302,9 +302,13 @@ fn a_report_holds_the_line_and_a_picture_of_every_stage() {
     let ran = place.run(&[&inspect[..], &files].concat());
     assert_eq!(ran.code, 2);
     let read = |name: &str| fs::read_to_string(place.path("why/deep").join(name)).expect("there");
-    let written = ["fender.json", "fender-2.json", "missing.json"]
-        .map(read)
-        .concat();
+    let written = [
+        "fender.report.json",
+        "fender-2.report.json",
+        "missing.report.json",
+    ]
+    .map(read)
+    .concat();
     assert_eq!(written, ran.out);
     for stage in ["segmentation", "binary", "contour", "signature"] {
         let picture = place.path("why/deep").join(format!("fender.{stage}.png"));
@@ -550,4 +554,358 @@ fn the_same_seed_gives_the_same_file() {
     let has = |name: &str| Path::new(&place.path(name)).exists();
     make("c.png");
     assert!(has("c.json"), "the camera lies beside the image");
+}
+
+#[test]
+fn a_report_beside_its_captures_leaves_them_as_they_were() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    fs::create_dir(place.path("cap")).expect("made");
+    // The second and third are captures by whose names a report of the first would write.
+    let files = ["cap/g1.png", "cap/g1.contour.png", "cap/g1.report.png"];
+    for file in files {
+        place.accepted(&["simulate", "--part", "fender", "--out", file]);
+    }
+    let contents = || {
+        let json = files.map(|f| f.replace(".png", ".json"));
+        let all = files.iter().map(|f| (*f).to_owned()).chain(json);
+        all.map(|f| fs::read(place.path(&f)).expect("there"))
+            .collect::<Vec<_>>()
+    };
+    let before = contents();
+    let inspect = ["inspect", "--library", "parts", "--report", "cap"];
+    for _ in 0..2 {
+        place.run(&[&inspect[..], &files].concat());
+        assert!(contents() == before, "a capture was overwritten");
+    }
+    assert!(place.path("cap/g1.contour.report.json").exists());
+    let num_files = fs::read_dir(place.path("cap")).expect("listed").count();
+    place.run(&[&inspect[..], &files].concat());
+    let again = fs::read_dir(place.path("cap")).expect("listed").count();
+    assert_eq!(num_files, again, "an earlier report is replaced");
+}
+
+#[test]
+fn simulate_overwrites_neither_its_own_camera_nor_another_json() {
+    let place = Workplace::new();
+    let simulate = ["simulate", "--part", "grille", "--out"];
+    let run = |more: &[&str]| place.run(&[&simulate[..], more].concat());
+    for (more, expected) in [
+        (
+            &["tt.png", "--truth", "tt.json"][..],
+            "the camera of the depth image",
+        ),
+        (
+            &["tt.png", "--truth", "./tt.json"],
+            "the camera of the depth image",
+        ),
+        (&["tt.pcd", "--truth", "./tt.pcd"], "the same file"),
+    ] {
+        let ran = run(more);
+        assert_eq!(ran.code, 2, "{more:?}");
+        assert!(
+            ran.err.contains(expected) && ran.err.contains("to do"),
+            "{}",
+            ran.err
+        );
+    }
+    fs::write(place.path("keep.json"), "{\"shift\": 3}").expect("written");
+    let ran = run(&["keep.png"]);
+    assert_eq!(ran.code, 2);
+    assert!(
+        ran.err.contains("keep.json") && ran.err.contains("to do"),
+        "{}",
+        ran.err
+    );
+    let kept = fs::read_to_string(place.path("keep.json")).expect("there");
+    assert_eq!(kept, "{\"shift\": 3}");
+    assert!(!place.path("keep.png").exists());
+    for _ in 0..2 {
+        assert_eq!(run(&["tt.png", "--truth", "tt.truth.json"]).code, 0);
+    }
+    let camera = place.run(&["enrol", "tt.json", "--name", "x", "--library", "parts"]);
+    assert!(
+        camera.err.contains("this is the camera of tt.png"),
+        "{}",
+        camera.err
+    );
+}
+
+#[test]
+fn a_damaged_cloud_is_set_aside_by_its_checksum() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    place.with_part("grille");
+    let cloud = place.path("parts/fender/cloud.ply");
+    let mut bytes = fs::read(&cloud).expect("there");
+    let middle = bytes.len() / 2;
+    for byte in &mut bytes[middle..middle + 4] {
+        *byte ^= 0x10;
+    }
+    fs::write(&cloud, bytes).expect("written");
+    let ran = place.accepted(&["inspect", "grille.pcd", "--library", "parts"]);
+    assert!(
+        ran.err.contains("set aside fender: cloud.ply is damaged") && ran.err.contains("to do"),
+        "{}",
+        ran.err
+    );
+    let verify = place.run(&["library", "verify", "--library", "parts"]);
+    assert_eq!(verify.code, 1);
+    assert!(
+        verify.out.contains("DAMAGED  fender: cloud.ply"),
+        "{}",
+        verify.out
+    );
+}
+
+#[test]
+fn the_shipped_parts_are_sound() {
+    let shipped = concat!(env!("CARGO_MANIFEST_DIR"), "/reference_parts");
+    let verify = Workplace::new().accepted(&["library", "verify", "--library", shipped]);
+    assert_eq!(verify.out.matches("sound ").count(), 8, "{}", verify.out);
+}
+
+#[test]
+fn without_a_writable_data_folder_the_shipped_parts_are_used_from_the_program() {
+    let place = Workplace::new();
+    fs::write(place.path("data"), "a file where the data folder should be").expect("written");
+    let list = place.accepted(&["library", "list"]);
+    assert!(
+        list.out.contains("inside the program") && list.out.contains("8 parts"),
+        "{}",
+        list.out
+    );
+    assert!(
+        list.err.contains("warning") && list.err.contains("to do"),
+        "{}",
+        list.err
+    );
+    assert!(place.accepted(&[]).out.contains("front_door: accepted"));
+    place.accepted(&["library", "show", "fender"]);
+    place.accepted(&["library", "verify"]);
+    place.accepted(&[
+        "simulate",
+        "--part",
+        "fender",
+        "--placement",
+        "facing",
+        "--out",
+        "f.pcd",
+    ]);
+    let line = &place.accepted(&["inspect", "f.pcd", "--json"]).lines()[0];
+    assert_eq!(line["part"], "fender");
+    for change in [
+        &["enrol", "f.pcd", "--name", "mine"][..],
+        &["library", "remove", "fender"],
+    ] {
+        let ran = place.run(change);
+        assert_eq!(ran.code, 2, "{change:?}");
+        assert!(
+            ran.err.contains("cannot write") && ran.err.contains("--library"),
+            "{}",
+            ran.err
+        );
+    }
+}
+
+#[test]
+fn a_part_enrolled_twice_is_told_from_itself_by_nobody_and_said_so() {
+    let place = Workplace::new();
+    place.with_part("grille");
+    let enrol = |file: &str, name: &str| {
+        place.accepted(&["enrol", file, "--name", name, "--library", "parts"])
+    };
+    place.accepted(&[
+        "simulate",
+        "--part",
+        "fender",
+        "--placement",
+        "facing",
+        "--out",
+        "f.pcd",
+    ]);
+    let first = enrol("f.pcd", "wing");
+    assert_eq!(first.err, "", "a fender is no grille");
+    assert_eq!(
+        enrol("f.pcd", "wing").err,
+        "",
+        "what it replaces does not count"
+    );
+    let again = enrol("f.pcd", "copy");
+    assert!(
+        again.err.contains("copy cannot be told from wing"),
+        "{}",
+        again.err
+    );
+    assert!(again.err.contains("--name wing"), "{}", again.err);
+    let other = enrol("grille.pcd", "grille_again");
+    assert!(
+        other
+            .err
+            .contains("grille_again cannot be told from grille"),
+        "{}",
+        other.err
+    );
+}
+
+#[test]
+fn an_empty_library_is_one_error_and_no_line() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    fs::create_dir(place.path("empty")).expect("made");
+    let ran = place.run(&[
+        "inspect",
+        "fender.pcd",
+        "fender.pcd",
+        "--json",
+        "--library",
+        "empty",
+    ]);
+    assert_eq!((ran.code, ran.out.as_str()), (2, ""));
+    assert!(
+        ran.err.contains("no part to recognise") && ran.err.contains("to do"),
+        "{}",
+        ran.err
+    );
+    assert_eq!(ran.err.lines().count(), 2, "{}", ran.err);
+    let inside = ["parts/fender", "."].map(|dir| {
+        let list = place.run(&["library", "list", "--library", dir]);
+        assert_eq!(list.code, 0);
+        list.err
+    });
+    assert!(
+        inside[0].contains("is a part, not a library"),
+        "{}",
+        inside[0]
+    );
+    let bare = place.accepted(&["--library", "parts"]);
+    assert!(bare.out.contains("Simulated"), "{}", bare.out);
+    assert_eq!(
+        place.run(&["--library", "parts", "library", "list"]).code,
+        2
+    );
+}
+
+#[test]
+fn verify_tells_newer_from_damaged_and_names_what_it_skipped() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    fs::create_dir(place.path("parts/next")).expect("made");
+    fs::write(place.path("parts/next/part.toml"), "schema_version = 9\n").expect("written");
+    fs::create_dir(place.path("parts/My Door")).expect("made");
+    let verify = place.run(&["library", "verify", "--library", "parts"]);
+    assert_eq!(verify.code, 1);
+    assert!(
+        verify.out.contains("NEWER    next: made by a newer"),
+        "{}",
+        verify.out
+    );
+    assert!(verify.out.contains("skipped  My Door"), "{}", verify.out);
+    assert!(!verify.out.contains("DAMAGED"), "{}", verify.out);
+}
+
+#[test]
+fn a_pose_in_the_wrong_unit_is_doubted_and_an_unseen_part_is_said() {
+    let place = Workplace::new();
+    let simulate = ["simulate", "--part", "grille", "--out", "g.pcd", "--pose"];
+    let run = |pose: &str| place.accepted(&[&simulate[..], &[pose]].concat()).err;
+    assert_eq!(run("0 0 15° 0 0 130cm"), "");
+    assert!(run("0 0 15 0 0 1.2").contains("did you mean 15deg?"));
+    let far = run("0 0 0 0 0 1200");
+    assert!(far.contains("did you mean 1200mm?"), "{far}");
+    assert!(far.contains("does not see the part"), "{far}");
+}
+
+#[test]
+fn a_pose_that_is_not_found_is_a_line_with_its_reason_and_names_the_file() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    fs::write(place.path("few.xyz"), "0 0 1\n1 0 1\n0 1 1\n").expect("written");
+    let ran = place.run(&["align", "few.xyz", "parts/fender/cloud.ply", "--json"]);
+    assert_eq!(ran.code, 1, "{}", ran.err);
+    let line = &ran.lines()[0];
+    assert_eq!(line["target_from_source"], Value::Null);
+    assert!(line["reason"].as_str().expect("words").contains("3 points"));
+    assert!(
+        ran.err.contains("few.xyz: ") && !ran.err.contains("cloud.ply: "),
+        "{}",
+        ran.err
+    );
+    let enrol = place.run(&["enrol", "few.xyz", "--name", "few", "--library", "parts"]);
+    assert!(
+        enrol.err.contains("few.xyz: the cloud has 3 points"),
+        "{}",
+        enrol.err
+    );
+    let title = "t".repeat(81);
+    let long = ["enrol", "few.xyz", "--name", "few", "--title", &title];
+    assert!(place.run(&long).err.contains("at most 80"));
+}
+
+#[test]
+fn causes_are_said_once_in_words_with_advice_that_fits() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    fs::write(place.path("cut.pcd"), "VERSION 0.7\nFIELDS x y z\n").expect("written");
+    let simulate = ["simulate", "--part", "grille", "--out"];
+    for (args, expected) in [
+        (
+            &["inspect", "cut.pcd", "--library", "parts"][..],
+            "expected the end of the header",
+        ),
+        (
+            &[&simulate[..], &["no/such/x.pcd"]].concat()[..],
+            "the folder does not exist",
+        ),
+        (
+            &[&simulate[..], &["x.foo"]].concat(),
+            ".png for a depth image",
+        ),
+        (
+            &[
+                "inspect",
+                "fender.pcd",
+                "--library",
+                "parts",
+                "--report",
+                "fender.pcd",
+            ],
+            "a file of that name is there",
+        ),
+        (
+            &[
+                "inspect",
+                "fender.pcd",
+                "--library",
+                "parts",
+                "--report",
+                "fender.pcd/why",
+            ],
+            "a part of the path is a file",
+        ),
+        (
+            &["inspect", "parts", "--library", "parts"],
+            "a folder, expected a file",
+        ),
+        (
+            &["inspect", "/dev/null", "--library", "parts"],
+            "not a regular file",
+        ),
+    ] {
+        let ran = place.run(args);
+        assert_eq!(ran.code, 2, "{args:?}");
+        let message = ran.err.lines().next().unwrap_or_default();
+        assert_eq!(
+            message.matches(expected).count(),
+            1,
+            "{args:?}: {}",
+            ran.err
+        );
+        assert!(ran.err.contains("to do: "), "{args:?}: {}", ran.err);
+        assert!(
+            !ran.err.contains("os error") && !ran.err.contains(".partsight"),
+            "{}",
+            ran.err
+        );
+    }
 }

@@ -7,16 +7,14 @@ use serde::Serialize;
 
 use super::{
     MethodChoice, Outcome,
-    console::{Advised as _, Console, Table},
-    input::{open_cloud, parse_pose},
+    console::{Advised as _, Console, Table, advised_error},
+    input::{GivenPose, open_cloud, parse_pose},
     verdict::SCHEMA,
 };
 use crate::{
-    geometry::{
-        cloud::PointCloud,
-        rigid::{RigidTransform, row_major},
-    },
-    stages::pose::{PoseEstimate, align},
+    error::Advice as _,
+    geometry::{cloud::PointCloud, rigid::row_major},
+    stages::pose::{PoseError, PoseEstimate, PoseMethod, align},
     units::Metres,
 };
 
@@ -29,7 +27,9 @@ Examples:
   partsight align scan.ply door.stl --json
 
 Both in metres. A mesh is sampled evenly. The answer maps points of SOURCE onto TARGET.
-Exit codes: 0 aligned, 1 no pose was found, 2 a file could not be read.")]
+Exit codes: 0 aligned, 1 no pose was found or it should not be relied upon (hardly any overlap, ambiguous, not
+settled; the reason says which), 2 a file could not be read.
+With --json a pose that was not found is a line too: target_from_source is null, and reason says why.")]
 pub(super) struct AlignArgs {
     /// The cloud that is moved
     source: PathBuf,
@@ -40,7 +40,7 @@ pub(super) struct AlignArgs {
     pose: MethodChoice,
     /// Where to start: three angles (radians, or 90deg) and a shift (metres, or 800mm); R = Rz·Ry·Rx
     #[arg(long, value_name = "\"rx ry rz x y z\"", value_parser = parse_pose, allow_hyphen_values = true)]
-    initial: Option<RigidTransform>,
+    initial: Option<GivenPose>,
     /// Write one line of JSON, and nothing else, to standard output
     #[arg(long)]
     json: bool,
@@ -53,12 +53,14 @@ struct AlignLine<'a> {
     source: &'a str,
     target: &'a str,
     method: &'static str,
-    target_from_source: [f64; 16],
-    e_m2: f64,
-    rms_m: f64,
-    overlap: f64,
-    iterations: usize,
-    stopped: &'static str,
+    target_from_source: Option<[f64; 16]>,
+    /// Why there is none.
+    reason: Option<String>,
+    e_m2: Option<f64>,
+    rms_m: Option<f64>,
+    overlap: Option<f64>,
+    iterations: Option<usize>,
+    stopped: Option<&'static str>,
     ambiguous: bool,
     runner_up_ratio: Option<f64>,
     time_ms: f64,
@@ -73,37 +75,69 @@ pub(super) fn run(args: &AlignArgs, console: &mut Console) -> anyhow::Result<Out
         Ok(PointCloud::from_points(cloud.points))
     };
     let (source, target) = (open(&args.source)?, open(&args.target)?);
+    for doubt in args.initial.iter().flat_map(|given| &given.doubts) {
+        console.warn(doubt, doubt);
+    }
+    let initial = args.initial.as_ref().map(|given| given.pose);
     let clock = Instant::now();
-    let aligned = align(&source, &target, args.pose.into(), args.initial);
+    let aligned = align(&source, &target, args.pose.into(), initial);
     let time_ms = clock.elapsed().as_micros() as f64 / 1000.0;
-    let pose = match aligned.advised() {
-        Ok(pose) => pose,
-        Err(error) => {
-            console.error(&error);
-            return Ok(Outcome::NotAccepted);
-        }
-    };
+    if let Err(error) = &aligned {
+        let message = format!("{}: {error}", paths_meant(args, *error));
+        console.error(&advised_error(message, error.advice()));
+    }
+    let doubt = aligned.as_ref().ok().and_then(PoseEstimate::doubt);
+    if let Some(doubt) = &doubt {
+        console.warn(doubt, doubt);
+    }
     if args.json {
+        let pose = aligned.as_ref().ok();
+        let failure = aligned.as_ref().err().map(ToString::to_string);
+        let fit = pose.map(|pose| pose.fit);
         let line = AlignLine {
             schema: SCHEMA,
             source: &args.source.display().to_string(),
             target: &args.target.display().to_string(),
-            method: pose.method.name(),
-            target_from_source: row_major(&pose.target_from_source),
-            e_m2: pose.fit.e_m2,
-            rms_m: pose.fit.rms_m,
-            overlap: pose.fit.overlap,
-            iterations: pose.iterations.len(),
-            stopped: pose.stopped.name(),
-            ambiguous: pose.is_ambiguous(),
-            runner_up_ratio: pose.runner_up.map(|r| r.ratio),
+            method: PoseMethod::from(args.pose).name(),
+            target_from_source: pose.map(|pose| row_major(&pose.target_from_source)),
+            reason: failure.or_else(|| doubt.map(|doubt| doubt.to_string())),
+            e_m2: fit.map(|fit| fit.e_m2),
+            rms_m: fit.map(|fit| fit.rms_m),
+            overlap: fit.map(|fit| fit.overlap),
+            iterations: pose.map(|pose| pose.iterations.len()),
+            stopped: pose.map(|pose| pose.stopped.name()),
+            ambiguous: pose.is_some_and(PoseEstimate::is_ambiguous),
+            runner_up_ratio: pose.and_then(|pose| pose.runner_up).map(|r| r.ratio),
             time_ms,
         };
         console.line(&serde_json::to_string(&line)?);
-    } else {
-        show(&pose, time_ms, console);
+    } else if let Ok(pose) = &aligned {
+        show(pose, time_ms, console);
     }
-    Ok(Outcome::Accepted)
+    Ok(match (aligned, doubt) {
+        (Ok(_), None) => Outcome::Accepted,
+        _ => Outcome::NotAccepted,
+    })
+}
+
+/// The file that an error speaks of, or both.
+fn paths_meant(args: &AlignArgs, error: PoseError) -> String {
+    let (source, target) = (args.source.display(), args.target.display());
+    match error {
+        PoseError::TooFewPoints {
+            which: "source", ..
+        }
+        | PoseError::Degenerate {
+            which: "source", ..
+        } => source.to_string(),
+        PoseError::TooFewPoints {
+            which: "target", ..
+        }
+        | PoseError::Degenerate {
+            which: "target", ..
+        } => target.to_string(),
+        _ => format!("{source} onto {target}"),
+    }
 }
 
 fn show(pose: &PoseEstimate, time_ms: f64, console: &mut Console) {
@@ -136,9 +170,5 @@ fn show(pose: &PoseEstimate, time_ms: f64, console: &mut Console) {
             pose.iterations.len()
         ),
     );
-    if pose.is_ambiguous() {
-        row("beware", "another pose fits as well".to_owned());
-        row("to do", "Say where to start with --initial".to_owned());
-    }
     table.show(console);
 }

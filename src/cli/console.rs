@@ -108,13 +108,13 @@ impl Console {
 /// An error that brings its advice along.
 #[derive(Debug)]
 struct WithAdvice {
-    source: anyhow::Error,
+    message: String,
     advice: String,
 }
 
 impl Display for WithAdvice {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
-        write!(f, "{:#}", self.source)
+        f.write_str(&self.message)
     }
 }
 
@@ -136,10 +136,22 @@ impl<T, E: std::error::Error + Advice + Send + Sync + 'static> Advised<T> for Re
         self.map_err(|error| {
             anyhow::Error::new(WithAdvice {
                 advice: error.advice(),
-                source: anyhow::Error::new(error),
+                // Our messages hold their causes in words already.
+                message: error.to_string(),
             })
         })
     }
+}
+
+/// An error of the command line itself, with its advice.
+pub(super) fn advised_error(
+    message: impl Into<String>,
+    advice: impl Into<String>,
+) -> anyhow::Error {
+    anyhow::Error::new(WithAdvice {
+        message: message.into(),
+        advice: advice.into(),
+    })
 }
 
 /// Lines of cells under a heading, each column as wide as its widest cell.

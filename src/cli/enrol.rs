@@ -2,21 +2,21 @@
 
 use std::path::PathBuf;
 
-use anyhow::bail;
 use clap::Args;
 
 use super::{
     LibraryChoice, Outcome,
-    console::{Advised as _, Console},
+    console::{Advised as _, Console, advised_error},
 };
 use crate::{
+    error::Advice as _,
     files::{self, Opened},
     library::{
         About, EnrolParams, Enrolled, LibraryFolder, PartName, enrol_captured, enrol_mesh,
-        enrol_whole,
+        enrol_whole, most_alike,
     },
     stages::{
-        reference::Coverage,
+        reference::{Coverage, ReferenceParams},
         scene::{SceneCloud, scene_from_cloud, scene_from_frame},
     },
 };
@@ -46,8 +46,8 @@ pub(super) struct EnrolArgs {
     /// Take the part that stands before the background
     #[arg(long)]
     segment: bool,
-    /// Name for people, such as "Front door, left"
-    #[arg(long, value_name = "TEXT", default_value = "")]
+    /// Name for people, such as "Front door, left"; at most 80 characters
+    #[arg(long, value_name = "TEXT", default_value = "", value_parser = parse_title)]
     title: String,
     /// Anything worth remembering
     #[arg(long, value_name = "TEXT", default_value = "")]
@@ -64,7 +64,7 @@ pub(super) fn run(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Out
     }
     let folder = match &args.library.library {
         Some(path) => LibraryFolder::open_or_create(path).advised()?,
-        None => args.library.open()?.folder().clone(),
+        None => args.library.open_to_change()?,
     };
     let saved = folder.save(&enrolled.part).advised()?;
     let part = &enrolled.part;
@@ -87,13 +87,32 @@ pub(super) fn run(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Out
     if let Some(former) = saved.replaced {
         console.line(&format_args!("  the former one in  {}", former.display()));
     }
+    let others = folder.load(&ReferenceParams::default()).advised()?.library;
+    if let Some(likeness) = most_alike(&enrolled.reference, part.meta.coverage, &others) {
+        console.warn(&likeness, &likeness);
+    }
     Ok(Outcome::Accepted)
+}
+
+/// The longest title, in characters: one line of `library list`.
+const MAX_TITLE: usize = 80;
+
+fn parse_title(text: &str) -> Result<String, String> {
+    match text.chars().count() {
+        0..=MAX_TITLE => Ok(text.to_owned()),
+        found => Err(format!(
+            "{found} characters, at most {MAX_TITLE} are allowed; put the rest into --notes"
+        )),
+    }
 }
 
 fn enrolled_from(args: &EnrolArgs, console: &Console) -> anyhow::Result<Enrolled> {
     let opened = files::open(&args.file).advised()?;
     for warning in opened.warnings() {
-        console.warn(&warning, &warning);
+        console.warn(
+            &format_args!("{}: {warning}", args.file.display()),
+            &warning,
+        );
     }
     let file_name = args.file.file_name().unwrap_or(args.file.as_os_str());
     let about = About {
@@ -106,19 +125,25 @@ fn enrolled_from(args: &EnrolArgs, console: &Console) -> anyhow::Result<Enrolled
         simulated: args.simulated,
     };
     let params = EnrolParams::default();
-    let captured = |scene: &SceneCloud| enrol_captured(scene, &about, &params).advised();
-    match opened {
+    let path = args.file.display();
+    let captured = |scene: &SceneCloud| enrol_captured(scene, &about, &params);
+    let enrolled = match opened {
         Opened::Mesh(_) if args.segment => {
-            bail!("a mesh has no background to take the part out of; leave --segment out")
+            return Err(advised_error(
+                format!("{path}: a mesh has no background to take the part out of"),
+                "Leave --segment out",
+            ));
         }
-        Opened::Mesh(mesh) => enrol_mesh(&mesh, &about, &params).advised(),
+        Opened::Mesh(mesh) => enrol_mesh(&mesh, &about, &params),
         Opened::Depth(frame) if args.whole => {
-            enrol_whole(&scene_from_frame(&frame).cloud, &about, &params).advised()
+            enrol_whole(&scene_from_frame(&frame).cloud, &about, &params)
         }
         Opened::Depth(frame) => captured(&scene_from_frame(&frame)),
         Opened::Cloud(cloud) if args.segment || (cloud.grid.is_some() && !args.whole) => {
             captured(&scene_from_cloud(cloud))
         }
-        Opened::Cloud(cloud) => enrol_whole(&cloud, &about, &params).advised(),
-    }
+        Opened::Cloud(cloud) => enrol_whole(&cloud, &about, &params),
+    };
+    // The error speaks of the cloud, not of the file.
+    enrolled.map_err(|error| advised_error(format!("{path}: {error}"), error.advice()))
 }

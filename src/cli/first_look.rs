@@ -10,8 +10,8 @@ use crate::{
 /// The frame's seed.
 const SEED: u64 = 1;
 
-pub(super) fn run(console: &mut Console) -> anyhow::Result<Outcome> {
-    let load = LibraryChoice { library: None }.load_some(console)?;
+pub(super) fn run(library: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome> {
+    let load = library.load_some(console)?;
     let mut setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 0, SEED);
     setup.pose = PartPose::Drawn(Placement::facing());
     let scene = scene_from_frame(&frame(&setup).frame);

@@ -30,7 +30,9 @@ Examples:
   partsight inspect door.pcd --matcher paper --pose icp
 
 Files: PCD, PLY, XYZ or CSV text, or a 16-bit depth PNG with its intrinsics in a JSON beside it; metres.
-Exit codes: 0 every input accepted, 1 something was not accepted, 2 something could not be read.")]
+Exit codes: 0 every input accepted, 1 something was not accepted, 2 something could not be read.
+Without a part to compare with, because the library is empty or cannot be loaded, nothing is inspected: one error, no
+line of JSON, exit code 2.")]
 pub(super) struct InspectArgs {
     /// Captured scenes
     #[arg(required = true, value_name = "FILE")]

@@ -7,7 +7,7 @@ use super::{
     console::{Advised as _, Console, Table},
 };
 use crate::{
-    library::{PartName, StoredPart},
+    library::{EntryError, LibraryFolder, PartName, StoredPart},
     stages::reference::{Coverage, Reference, ReferenceParams},
     units::Metres,
 };
@@ -60,12 +60,14 @@ fn list(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome
     let (place, load) = choice.load(console)?;
     console.line(&format_args!(
         "{} ({}): {} parts",
-        place.folder().path().display(),
+        place.location(),
         place.describe(),
         load.parts.len()
     ));
     if load.parts.is_empty() {
-        console.note(&"Enrol one: partsight enrol FILE --name NAME");
+        let hint = place.folder().and_then(super::hint);
+        let hint = hint.unwrap_or_else(|| "Enrol one: partsight enrol FILE --name NAME".into());
+        console.note(&format_args!("  to do: {hint}"));
         return Ok(Outcome::Accepted);
     }
     let mut table = Table::new(&[
@@ -94,13 +96,12 @@ fn list(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome
 }
 
 fn show(choice: &LibraryChoice, name: &PartName, console: &mut Console) -> anyhow::Result<Outcome> {
-    let place = choice.open()?;
-    let folder = place.folder();
+    let place = choice.open(console)?;
     let StoredPart {
         meta,
         reference,
         warnings,
-    } = folder
+    } = place
         .read(name.as_str(), &ReferenceParams::default())
         .advised()?
         .advised()?;
@@ -152,9 +153,12 @@ fn show(choice: &LibraryChoice, name: &PartName, console: &mut Console) -> anyho
     );
     row(
         "folder",
-        folder.path().join(name.as_str()).display().to_string(),
+        match place.folder() {
+            Some(folder) => folder.path().join(name.as_str()).display().to_string(),
+            None => place.location(),
+        },
     );
-    if let Some(picture) = folder.thumbnail(name.as_str()) {
+    if let Some(picture) = place.folder().and_then(|f| f.thumbnail(name.as_str())) {
         row("picture", picture.display().to_string());
     }
     table.show(console);
@@ -162,11 +166,8 @@ fn show(choice: &LibraryChoice, name: &PartName, console: &mut Console) -> anyho
 }
 
 fn verify(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome> {
-    let place = choice.open()?;
-    let load = place
-        .folder()
-        .verify(&ReferenceParams::default())
-        .advised()?;
+    let place = choice.open(console)?;
+    let load = place.verify(&ReferenceParams::default()).advised()?;
     for meta in &load.parts {
         let is_odd = load.warnings.iter().any(|w| w.entry == meta.name.as_str());
         if !is_odd {
@@ -177,7 +178,19 @@ fn verify(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outco
         console.line(&format_args!("odd      {warning}"));
     }
     for problem in &load.problems {
-        console.line(&format_args!("DAMAGED  {problem}"));
+        let word = match problem.reason {
+            EntryError::Newer { .. } => "NEWER  ",
+            _ => "DAMAGED",
+        };
+        console.line(&format_args!("{word}  {problem}"));
+    }
+    let skipped = place
+        .folder()
+        .map_or(Ok(Vec::new()), LibraryFolder::skipped);
+    for name in skipped.advised()? {
+        console.line(&format_args!(
+            "skipped  {name}: not the name of a part (lowercase letters, digits, _ and -)"
+        ));
     }
     for problem in &load.problems {
         console.warn(problem, problem);
@@ -198,8 +211,7 @@ fn remove(
     name: &PartName,
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
-    let place = choice.open()?;
-    let folder = place.folder();
+    let folder = choice.open_to_change()?;
     let trash = folder.remove(name).advised()?;
     console.line(&format_args!(
         "Removed {name}. It is kept in {}",

@@ -15,14 +15,16 @@ mod report_folder;
 mod simulate;
 mod verdict;
 
-use std::{path::PathBuf, process::ExitCode};
+use std::{
+    path::{Path, PathBuf},
+    process::ExitCode,
+};
 
-use anyhow::bail;
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
-use self::console::{Advised as _, Console};
+use self::console::{Advised as _, Console, advised_error};
 use crate::{
-    library::{LibraryLoad, LibraryPlace, open_library},
+    library::{LibraryFolder, LibraryLoad, LibraryPlace, open_library},
     stages::{pose::PoseMethod, reference::ReferenceParams},
 };
 
@@ -44,6 +46,10 @@ Exit codes: 0 every input accepted, 1 something was not accepted, 2 could not ru
 pub struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
+    /// Without a command: the library's folder, else `reference_parts` in the working directory, else your own
+    // Named apart from the commands' own: that one is global to them, and would come up here.
+    #[arg(id = "bare_library", long = "library", value_name = "DIR")]
+    library: Option<PathBuf>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -81,7 +87,16 @@ impl From<Outcome> for ExitCode {
 pub fn run(cli: Cli) -> Outcome {
     let mut console = Console::new();
     let ran = match cli.command {
-        None => first_look::run(&mut console),
+        Some(_) if cli.library.is_some() => Err(advised_error(
+            "--library stands before the command",
+            "Put it behind the command, for example partsight inspect FILE --library DIR",
+        )),
+        None => first_look::run(
+            &LibraryChoice {
+                library: cli.library,
+            },
+            &mut console,
+        ),
         Some(Command::Inspect(args)) => inspect::run(&args, &mut console),
         Some(Command::Enrol(args)) => enrol::run(&args, &mut console),
         Some(Command::Library(args)) => library::run(&args, &mut console),
@@ -111,14 +126,29 @@ struct LibraryChoice {
 }
 
 impl LibraryChoice {
-    fn open(&self) -> anyhow::Result<LibraryPlace> {
-        open_library(self.library.as_deref()).advised()
+    /// Opens the library; says so where only the parts inside the program are left.
+    fn open(&self, console: &Console) -> anyhow::Result<LibraryPlace> {
+        let place = open_library(self.library.as_deref()).advised()?;
+        if let LibraryPlace::Program(reason) = &place {
+            console.warn(
+                &format_args!("{reason}; the shipped parts inside the program are used"),
+                reason,
+            );
+        }
+        Ok(place)
+    }
+
+    /// Opens the library to change it.
+    fn open_to_change(&self) -> anyhow::Result<LibraryFolder> {
+        open_library(self.library.as_deref())
+            .and_then(LibraryPlace::into_folder)
+            .advised()
     }
 
     /// Loads the library and names what had to be set aside.
     fn load(&self, console: &mut Console) -> anyhow::Result<(LibraryPlace, LibraryLoad)> {
-        let place = self.open()?;
-        let load = place.folder().load(&ReferenceParams::default()).advised()?;
+        let place = self.open(console)?;
+        let load = place.load(&ReferenceParams::default()).advised()?;
         for problem in &load.problems {
             console.warn(&format_args!("set aside {problem}"), problem);
         }
@@ -132,13 +162,38 @@ impl LibraryChoice {
     fn load_some(&self, console: &mut Console) -> anyhow::Result<LibraryLoad> {
         let (place, load) = self.load(console)?;
         if load.parts.is_empty() {
-            bail!(
-                "the library {} has no part to recognise; enrol one with `partsight enrol FILE --name NAME`",
-                place.folder().path().display()
-            );
+            let advice = place
+                .folder()
+                .and_then(hint)
+                .unwrap_or_else(|| "Enrol a part: partsight enrol FILE --name NAME".into());
+            return Err(advised_error(
+                format!("the library {} has no part to recognise", place.location()),
+                advice,
+            ));
         }
         Ok(load)
     }
+}
+
+/// What may be wrong with a folder that holds no parts.
+fn hint(folder: &LibraryFolder) -> Option<String> {
+    let path = folder.path();
+    if folder.is_itself_a_part() {
+        let above = path.canonicalize().ok();
+        let above = above.as_deref().and_then(Path::parent).unwrap_or(path);
+        return Some(format!(
+            "{} is a part, not a library: give the folder it lies in, --library {}",
+            path.display(),
+            above.display()
+        ));
+    }
+    let inner = path.join("reference_parts");
+    inner.is_dir().then(|| {
+        format!(
+            "Give the folder that holds the parts: --library {}",
+            inner.display()
+        )
+    })
 }
 
 /// A method of `align`.

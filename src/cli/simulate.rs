@@ -2,17 +2,16 @@
 
 use std::path::{Path, PathBuf};
 
-use anyhow::bail;
 use clap::{Args, ValueEnum, builder::PossibleValuesParser};
 
 use super::{
     Outcome,
-    console::{Advised as _, Console},
-    input::parse_pose,
+    console::{Advised as _, Console, advised_error},
+    input::{GivenPose, parse_pose},
 };
 use crate::{
-    files::{save_cloud, write_atomically, write_depth_png},
-    geometry::rigid::RigidTransform,
+    error::Advice,
+    files::{depth_png::intrinsics_path, save_cloud, write_atomically, write_depth_png},
     simulate::{CellSetup, PartKind, PartPose, Placement, Side, SimulatedFrame, frame},
     stages::scene::scene_from_frame,
 };
@@ -25,7 +24,8 @@ Examples:
   partsight simulate --part front_door --side right --seed 7 --out door.png --truth door.truth.json
   partsight simulate --part grille --pose \"0 0 15deg 0 0 1.2\" --out grille.pcd
 
-The same arguments give the same file.")]
+The same arguments give the same file.
+Of the doors and the fender only the left ones are shipped: a right one is not recognised until it is enrolled.")]
 pub(super) struct SimulateArgs {
     /// Which part
     #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(PartKind::ALL.map(PartKind::name)))]
@@ -47,7 +47,7 @@ pub(super) struct SimulateArgs {
         allow_hyphen_values = true,
         conflicts_with = "placement"
     )]
-    pose: Option<RigidTransform>,
+    pose: Option<GivenPose>,
     /// How far from square-on the pose is drawn
     #[arg(long, value_enum, default_value_t = PlacementChoice::Placed)]
     placement: PlacementChoice,
@@ -87,18 +87,19 @@ impl From<PlacementChoice> for Placement {
 
 pub(super) fn run(args: &SimulateArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let Some(kind) = PartKind::from_name(&args.part) else {
-        bail!("no part is called {}", args.part);
+        anyhow::bail!("no part is called {}", args.part);
     };
-    if args.truth.as_ref() == Some(&args.out) {
-        bail!("--out and --truth are the same file; name two");
+    check_outputs_differ(args)?;
+    for doubt in args.pose.iter().flat_map(|given| &given.doubts) {
+        console.warn(doubt, doubt);
     }
     let side = match args.side {
         SideChoice::Left => Side::Left,
         SideChoice::Right => Side::Right,
     };
     let mut setup = CellSetup::with_part(kind, side, args.model, args.seed);
-    setup.pose = match (args.pose, args.placement) {
-        (Some(camera_from_part), _) => PartPose::Fixed(camera_from_part),
+    setup.pose = match (&args.pose, args.placement) {
+        (Some(given), _) => PartPose::Fixed(given.pose),
         (None, placement) => PartPose::Drawn(placement.into()),
     };
     let simulated = frame(&setup);
@@ -118,14 +119,73 @@ pub(super) fn run(args: &SimulateArgs, console: &mut Console) -> anyhow::Result<
         kind.title().to_lowercase(),
         truth.visible_share * 100.0
     ));
+    if truth.visible_share < LEAST_VISIBLE {
+        console.warn(&OutOfSight, &OutOfSight);
+    }
     Ok(Outcome::Accepted)
 }
 
+/// Below this share "0 %" is shown.
+const LEAST_VISIBLE: f64 = 0.005;
+
+#[derive(Debug, thiserror::Error)]
+#[error("the camera does not see the part at this pose")]
+struct OutOfSight;
+
+impl Advice for OutOfSight {
+    fn advice(&self) -> String {
+        "Put the part's middle near the camera's axis, about 1.3 m away: --pose \"0 0 0 0 0 1.3\""
+            .into()
+    }
+}
+
+/// Refuses a call that would write one of its files over another.
+fn check_outputs_differ(args: &SimulateArgs) -> anyhow::Result<()> {
+    let Some(truth) = &args.truth else {
+        return Ok(());
+    };
+    if is_same_file(truth, &args.out) {
+        return Err(advised_error(
+            "--out and --truth are the same file",
+            "Name two",
+        ));
+    }
+    let camera = intrinsics_path(&args.out);
+    if is_png(&args.out) && is_same_file(truth, &camera) {
+        return Err(advised_error(
+            format!(
+                "--truth would overwrite {}, where the camera of the depth image goes",
+                camera.display()
+            ),
+            format!(
+                "Name another file, for example --truth {}",
+                args.out.with_extension("truth.json").display()
+            ),
+        ));
+    }
+    Ok(())
+}
+
+/// True if two paths, whose files need not exist, name one file.
+fn is_same_file(a: &Path, b: &Path) -> bool {
+    let full = |path: &Path| {
+        let folder = match path.parent() {
+            Some(parent) if !parent.as_os_str().is_empty() => parent,
+            _ => Path::new("."),
+        };
+        let name = path.file_name()?.to_owned();
+        Some((folder.canonicalize().ok()?, name))
+    };
+    a == b || full(a).is_some_and(|a| full(b) == Some(a))
+}
+
+fn is_png(path: &Path) -> bool {
+    path.extension()
+        .is_some_and(|e| e.eq_ignore_ascii_case("png"))
+}
+
 fn write_frame(path: &Path, simulated: &SimulatedFrame) -> anyhow::Result<()> {
-    let is_png = path
-        .extension()
-        .is_some_and(|e| e.eq_ignore_ascii_case("png"));
-    if is_png {
+    if is_png(path) {
         write_depth_png(path, &simulated.frame).advised()
     } else {
         save_cloud(path, &scene_from_frame(&simulated.frame).cloud).advised()

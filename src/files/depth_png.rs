@@ -52,7 +52,15 @@ pub fn write_depth_png(path: &Path, frame: &DepthFrame) -> Result<(), FileError>
         intrinsics: *intrinsics,
         metres_per_unit: *metres_per_unit,
     };
-    write_atomically(&intrinsics_path(path), |writer| {
+    let json = intrinsics_path(path);
+    // Whatever else lies there is somebody's data.
+    if std::fs::read(&json).is_ok_and(|bytes| !is_intrinsics(&bytes)) {
+        return Err(FileError::ForeignSidecar {
+            path: json,
+            image: path.to_owned(),
+        });
+    }
+    write_atomically(&json, |writer| {
         serde_json::to_writer_pretty(&mut *writer, &sidecar)?;
         writer.write_all(b"\n")
     })?;
@@ -67,6 +75,11 @@ pub fn write_depth_png(path: &Path, frame: &DepthFrame) -> Result<(), FileError>
             other => std::io::Error::other(other),
         })
     })
+}
+
+/// True for the JSON that describes a depth image's camera.
+pub(super) fn is_intrinsics(bytes: &[u8]) -> bool {
+    serde_json::from_slice::<Sidecar>(bytes).is_ok()
 }
 
 pub(super) fn read(source: Source<'_>) -> Result<DepthFrame, FileError> {
@@ -109,11 +122,22 @@ pub(super) fn read(source: Source<'_>) -> Result<DepthFrame, FileError> {
 
 fn decode(source: Source<'_>) -> Result<((usize, usize), Vec<u16>), FileError> {
     let wrong = |error: ImageError| match error {
-        ImageError::IoError(_) => {
-            source.truncated("PNG", source.bytes.len(), source.bytes.len() + 1)
-        }
+        ImageError::IoError(_) => source.cut_before("the end of the image", "PNG"),
         other => source.damaged(other.to_string()),
     };
+    let header = Header::of(source.bytes)
+        .ok_or_else(|| source.cut_before("the end of the header", "PNG"))?;
+    // Before the decoder, which refuses large sizes in words of its own.
+    source.limited("pixels", header.width.saturating_mul(header.height))?;
+    if header.colour_type == PALETTE {
+        return Err(FileError::WrongPngKind {
+            path: source.path.to_owned(),
+            found: match header.bits {
+                8 => "an 8-bit PNG with a palette".into(),
+                bits => format!("a {bits}-bit PNG with a palette"),
+            },
+        });
+    }
     let mut limits = Limits::no_limits();
     limits.max_alloc = Some(MAX_ANCILLARY_BYTES);
     let decoder = PngDecoder::with_limits(Cursor::new(source.bytes), limits).map_err(wrong)?;
@@ -140,6 +164,32 @@ fn decode(source: Source<'_>) -> Result<((usize, usize), Vec<u16>), FileError> {
     Ok(((width, height), depth))
 }
 
+/// What the first chunk of a PNG says, as far as it matters here.
+struct Header {
+    width: usize,
+    height: usize,
+    bits: u8,
+    colour_type: u8,
+}
+
+/// The colour type of a PNG whose pixels are numbers of colours in a table.
+const PALETTE: u8 = 3;
+
+impl Header {
+    /// `None` if the bytes end before it does.
+    fn of(bytes: &[u8]) -> Option<Self> {
+        // Eight bytes of magic, then the chunk's length and name.
+        let [w0, w1, w2, w3, h0, h1, h2, h3, bits, colour_type] =
+            *bytes.get(16..)?.first_chunk()?;
+        Some(Self {
+            width: u32::from_be_bytes([w0, w1, w2, w3]) as usize,
+            height: u32::from_be_bytes([h0, h1, h2, h3]) as usize,
+            bits,
+            colour_type,
+        })
+    }
+}
+
 /// What the decoder may take for itself: rows and text chunks, far above any camera's.
 const MAX_ANCILLARY_BYTES: u64 = 64 << 20;
 
@@ -151,12 +201,14 @@ fn kind_in_words(kind: ExtendedColorType) -> String {
         ExtendedColorType::L1
         | ExtendedColorType::L2
         | ExtendedColorType::L4
-        | ExtendedColorType::L8 => "greyscale with 8 bits or less".into(),
-        ExtendedColorType::La8 | ExtendedColorType::La16 => "greyscale with transparency".into(),
-        ExtendedColorType::Rgb8 => "colour".into(),
-        ExtendedColorType::Rgba8 => "colour with transparency".into(),
-        ExtendedColorType::Rgb16 | ExtendedColorType::Rgba16 => "16-bit colour".into(),
-        other => format!("{other:?}"),
+        | ExtendedColorType::L8 => "a greyscale PNG of 8 bits or less".into(),
+        ExtendedColorType::La8 | ExtendedColorType::La16 => {
+            "a greyscale PNG with transparency".into()
+        }
+        ExtendedColorType::Rgb8 => "a colour PNG".into(),
+        ExtendedColorType::Rgba8 => "a colour PNG with transparency".into(),
+        ExtendedColorType::Rgb16 | ExtendedColorType::Rgba16 => "a 16-bit colour PNG".into(),
+        other => format!("a PNG of {other:?}"),
     }
 }
 
@@ -178,7 +230,7 @@ fn read_sidecar(image: &Path, json: &Path) -> Result<Sidecar, FileError> {
 mod tests {
     use super::*;
     use crate::error::Advice as _;
-    use crate::files::{Opened, open};
+    use crate::files::{Opened, crc32, open};
 
     fn frame() -> DepthFrame {
         DepthFrame {
@@ -287,28 +339,74 @@ mod tests {
     #[test]
     fn an_image_larger_than_its_bytes_could_hold_takes_no_memory() {
         // A correct header of 7000×7000 pixels over the data of six.
-        let mut png = Vec::new();
-        let bytes = [0; 12];
-        PngEncoder::new(&mut png)
-            .write_image(&bytes, 3, 2, ExtendedColorType::L16)
-            .unwrap();
-        png[16..20].copy_from_slice(&7000_u32.to_be_bytes());
-        png[20..24].copy_from_slice(&7000_u32.to_be_bytes());
-        let checksum = crc32(&png[12..29]);
-        png[29..33].copy_from_slice(&checksum.to_be_bytes());
-        let source = Source {
-            path: Path::new("large.png"),
-            bytes: &png,
-        };
-        assert!(matches!(decode(source), Err(FileError::Truncated { .. })));
+        let png = with_header(|header| {
+            header[..4].copy_from_slice(&7000_u32.to_be_bytes());
+            header[4..8].copy_from_slice(&7000_u32.to_be_bytes());
+        });
+        assert!(matches!(decoded(&png), Err(FileError::Truncated { .. })));
     }
 
-    /// The PNG specification's checksum, bit by bit.
-    fn crc32(bytes: &[u8]) -> u32 {
-        !bytes.iter().fold(u32::MAX, |crc, &byte| {
-            (0..8).fold(crc ^ u32::from(byte), |crc, _| {
-                (crc >> 1) ^ (0xEDB8_8320 * (crc & 1))
-            })
+    /// A PNG of six pixels whose header was changed and made consistent again.
+    fn with_header(change: impl FnOnce(&mut [u8])) -> Vec<u8> {
+        let mut png = Vec::new();
+        PngEncoder::new(&mut png)
+            .write_image(&[0; 12], 3, 2, ExtendedColorType::L16)
+            .unwrap();
+        change(&mut png[16..29]);
+        let checksum = crc32(&png[12..29]);
+        png[29..33].copy_from_slice(&checksum.to_be_bytes());
+        png
+    }
+
+    fn decoded(png: &[u8]) -> Result<((usize, usize), Vec<u16>), FileError> {
+        decode(Source {
+            path: Path::new("test.png"),
+            bytes: png,
         })
+    }
+
+    #[test]
+    fn a_size_beyond_all_cameras_is_too_large_as_in_other_formats() {
+        let png = with_header(|header| {
+            header[..4].copy_from_slice(&(1_u32 << 16).to_be_bytes());
+            header[4..8].copy_from_slice(&(1_u32 << 15).to_be_bytes());
+        });
+        assert!(matches!(
+            decoded(&png),
+            Err(FileError::TooLarge { what: "pixels", found, .. }) if found == 1 << 31
+        ));
+    }
+
+    #[test]
+    fn a_palette_is_named_and_a_cut_image_invents_no_number() {
+        let palette = with_header(|header| header[8..10].copy_from_slice(&[8, PALETTE]));
+        let error = decoded(&palette).unwrap_err();
+        assert!(
+            error.to_string().contains("an 8-bit PNG with a palette"),
+            "{error}"
+        );
+        let whole = with_header(|_| {});
+        for length in [9, 20, whole.len() - 20] {
+            let error = decoded(&whole[..length]).unwrap_err();
+            assert!(
+                error.to_string().contains("expected the end of the"),
+                "{error}"
+            );
+        }
+    }
+
+    #[test]
+    fn a_camera_is_no_capture_and_nothing_else_is_overwritten_by_one() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("frame.png");
+        write_depth_png(&path, &frame()).unwrap();
+        let json = intrinsics_path(&path);
+        let error = open(&json).unwrap_err();
+        assert!(matches!(&error, FileError::IsIntrinsics { image, .. } if *image == path));
+        write_depth_png(&path, &frame()).expect("a camera may be replaced by a camera");
+        std::fs::write(&json, "{\"shift\": 3}").unwrap();
+        let error = write_depth_png(&path, &frame()).unwrap_err();
+        assert!(matches!(error, FileError::ForeignSidecar { .. }));
+        assert_eq!(std::fs::read_to_string(&json).unwrap(), "{\"shift\": 3}");
     }
 }

@@ -5,6 +5,8 @@ use std::path::{Path, PathBuf};
 
 use thiserror::Error;
 
+use super::cause::{advice_on, words_of};
+use super::names::{listed, nearest};
 use crate::error::Advice;
 
 /// Why a file could not be read or written. Every variant names the file.
@@ -23,12 +25,12 @@ pub enum FileError {
         path: PathBuf,
     },
     /// A folder, a pipe or a device where a file is needed.
-    #[error("{}: found a {found}, expected a file", path.display())]
+    #[error("{}: {found}", path.display())]
     NotAFile {
         /// The path as it was given.
         path: PathBuf,
-        /// "folder" or "device".
-        found: &'static str,
+        /// What is there instead.
+        found: NoFile,
     },
     /// The file has no bytes.
     #[error("{}: the file is empty", path.display())]
@@ -43,6 +45,14 @@ pub enum FileError {
         path: PathBuf,
         /// What its beginning looks like.
         found: String,
+    },
+    /// The camera of a depth image was given instead of the image.
+    #[error("{}: this is the camera of {}, not a capture", path.display(), image.display())]
+    IsIntrinsics {
+        /// The JSON.
+        path: PathBuf,
+        /// The image that it belongs to.
+        image: PathBuf,
     },
     /// A known format in a variant that is not read.
     #[error("{}: found {found}, expected {expected}", path.display())]
@@ -63,8 +73,8 @@ pub enum FileError {
         what: &'static str,
         /// Bytes there.
         found: u64,
-        /// Bytes needed; a lower bound for text.
-        expected: u64,
+        /// How much is needed.
+        expected: Expected,
     },
     /// The header contradicts itself or cannot be understood.
     #[error("{}: bad header: found {found}, expected {expected}", path.display())]
@@ -123,7 +133,7 @@ pub enum FileError {
         path: PathBuf,
     },
     /// A mesh was asked for by a name that the file does not have.
-    #[error("{}: no mesh named {wanted:?}; it has {}", path.display(), name_list(available))]
+    #[error("{}: no mesh named {wanted:?}; it has {}", path.display(), listed(available, wanted))]
     NoSuchMesh {
         /// The file, without the name.
         path: PathBuf,
@@ -133,7 +143,7 @@ pub enum FileError {
         available: Vec<String>,
     },
     /// The file has several meshes and none was named.
-    #[error("{}: {} meshes, expected one name after '#'; it has {}", path.display(), available.len(), name_list(available))]
+    #[error("{}: {} meshes, expected one name after '#'; it has {}", path.display(), available.len(), listed(available, ""))]
     NeedsMeshName {
         /// The file.
         path: PathBuf,
@@ -157,18 +167,26 @@ pub enum FileError {
         found: String,
     },
     /// A PNG of another kind than 16-bit greyscale.
-    #[error("{}: found a PNG of {found}, expected 16-bit greyscale depth", path.display())]
+    #[error("{}: found {found}, expected a 16-bit greyscale PNG of depth", path.display())]
     WrongPngKind {
         /// The image.
         path: PathBuf,
-        /// Its kind of pixel.
+        /// Its kind, such as "a colour PNG".
         found: String,
     },
     /// A cloud was to be saved under a name whose ending names no format that is written.
-    #[error("{}: no format to write for this name, expected .pcd, .ply or .xyz", path.display())]
+    #[error("{}: no format to write for this name, expected {ENDINGS}", path.display())]
     UnknownEnding {
         /// The path as it was given.
         path: PathBuf,
+    },
+    /// The camera of a depth image would be written over something that is no camera.
+    #[error("{}: there already, and not the camera of a depth image; the camera of {} would overwrite it", path.display(), image.display())]
+    ForeignSidecar {
+        /// The JSON.
+        path: PathBuf,
+        /// The image that was to be written.
+        image: PathBuf,
     },
     /// The system could not read.
     #[error("{}: cannot read: {source}", path.display())]
@@ -179,7 +197,7 @@ pub enum FileError {
         source: io::Error,
     },
     /// The system could not write; nothing was changed at that path.
-    #[error("{}: cannot write: {source}", path.display())]
+    #[error("{}: cannot write: {}", path.display(), words_of(source))]
     Write {
         /// The path that was to be written.
         path: PathBuf,
@@ -187,6 +205,31 @@ pub enum FileError {
         source: io::Error,
     },
 }
+
+/// What is at a path where a file is needed.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum NoFile {
+    /// A folder.
+    #[error("a folder, expected a file")]
+    Folder,
+    /// A pipe, a socket or a device.
+    #[error("not a regular file")]
+    Device,
+}
+
+/// How much of a cut file is missing.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Error)]
+pub enum Expected {
+    /// So many bytes; a lower bound for text.
+    #[error("{0}")]
+    Bytes(u64),
+    /// Nobody can say how many; what should still come.
+    #[error("{0}")]
+    More(&'static str),
+}
+
+/// The endings that a cloud or a depth image can be written under.
+const ENDINGS: &str = ".pcd, .ply, .xyz, or .png for a depth image";
 
 impl FileError {
     /// The variant for what the system said on reading.
@@ -197,7 +240,7 @@ impl FileError {
             io::ErrorKind::PermissionDenied => Self::PermissionDenied { path },
             io::ErrorKind::IsADirectory => Self::NotAFile {
                 path,
-                found: "folder",
+                found: NoFile::Folder,
             },
             _ => Self::Read { path, source },
         }
@@ -205,10 +248,9 @@ impl FileError {
 
     /// The variant for what the system said on writing.
     pub(super) fn writing(path: &Path, source: io::Error) -> Self {
-        let path = path.to_owned();
-        match source.kind() {
-            io::ErrorKind::PermissionDenied => Self::PermissionDenied { path },
-            _ => Self::Write { path, source },
+        Self::Write {
+            path: path.to_owned(),
+            source,
         }
     }
 }
@@ -222,7 +264,15 @@ impl Advice for FileError {
             Self::PermissionDenied { .. } => {
                 "Ask for access to this folder, or copy the file to a folder of your own".into()
             }
-            Self::NotAFile { .. } => "Choose a file, not a folder or a device".into(),
+            Self::NotAFile {
+                path,
+                found: NoFile::Folder,
+            } => format!(
+                "Give the files in it, for example {}",
+                path.join("*").display()
+            ),
+            Self::NotAFile { .. } => "Copy its content into a file and give that".into(),
+            Self::IsIntrinsics { image, .. } => format!("Give the PNG: {}", image.display()),
             Self::Empty { .. } => {
                 "Record or export the file again; its last copy was not completed".into()
             }
@@ -253,10 +303,12 @@ impl Advice for FileError {
                 "Export the part as a surface of triangles, not as curves or points".into()
             }
             Self::NoSuchMesh {
-                path, available, ..
-            } => match available.first() {
-                Some(first) => format!(
-                    "Add one of the names it has, for example {}#{first}",
+                path,
+                wanted,
+                available,
+            } => match nearest(available, wanted) {
+                Some(name) => format!(
+                    "Did you mean {}#{name}? Give one of the names it has",
                     path.display()
                 ),
                 None => format!("Open {} without a name after '#'", path.display()),
@@ -279,24 +331,18 @@ impl Advice for FileError {
                 "Save the depth image itself as 16-bit greyscale PNG, not the picture drawn from it"
                     .into()
             }
-            Self::UnknownEnding { .. } => "End the name in .pcd, .ply or .xyz".into(),
+            Self::UnknownEnding { .. } => format!("End the name in {ENDINGS}"),
+            Self::ForeignSidecar { path, .. } => format!(
+                "Choose another name for the image, or move {} away",
+                path.display()
+            ),
             Self::Read { .. } => {
                 "Copy the file to this computer's own disk and open the copy".into()
             }
-            Self::Write { .. } => {
-                "Check that the disk is not full and that the folder exists, then save again".into()
-            }
+            Self::Write { source, .. } => advice_on(source).into(),
         }
     }
 }
 
 /// A Kinect with depth in millimetres, as it stands in the JSON beside a depth image.
 const EXAMPLE_JSON: &str = r#"{"width":640,"height":480,"fx":525.0,"fy":525.0,"cx":319.5,"cy":239.5,"metres_per_unit":0.001}"#;
-
-fn name_list(names: &[String]) -> String {
-    if names.is_empty() {
-        "no named meshes".into()
-    } else {
-        names.join(", ")
-    }
-}

@@ -22,9 +22,12 @@
 //! takes a binary file that begins with "solid " for text and drops every solid after the first; `tobj` gives nothing
 //! for an OBJ without faces; none of the last two can say which line is wrong.
 
+mod cause;
+mod checksum;
 pub mod depth_png;
 mod error;
 mod gltf;
+mod names;
 mod obj;
 mod open;
 pub mod pcd;
@@ -37,11 +40,15 @@ mod surface;
 mod write;
 pub mod xyz;
 
+pub(crate) use self::cause::{advice_on, words_of};
+pub(crate) use self::checksum::crc32;
 pub use self::depth_png::write_depth_png;
-pub use self::error::FileError;
+pub use self::error::{Expected, FileError, NoFile};
+pub(crate) use self::open::open_bytes;
 pub use self::open::{FileWarning, Opened, open};
 pub use self::pcd::write_pcd;
 pub use self::ply::write_ply;
+pub(crate) use self::source::read_bytes;
 pub use self::write::{save_cloud, write_atomically};
 pub use self::xyz::write_xyz;
 

@@ -71,15 +71,22 @@ impl Opened {
 pub fn open(path: &Path) -> Result<Opened, FileError> {
     let (file, mesh_name) = split_mesh_name(path);
     let bytes = read_bytes(&file)?;
-    let source = Source {
-        path: &file,
-        bytes: &bytes,
-    };
+    read(&file, &bytes, mesh_name.as_deref())
+}
+
+/// As [`open`], for bytes that are in memory already; `path` is for the errors about them, and where a depth image's
+/// camera is looked for.
+pub(crate) fn open_bytes(path: &Path, bytes: &[u8]) -> Result<Opened, FileError> {
+    read(path, bytes, None)
+}
+
+fn read(path: &Path, bytes: &[u8], mesh_name: Option<&str>) -> Result<Opened, FileError> {
+    let source = Source { path, bytes };
     let format = recognise(source)?;
-    if let (Some(wanted), false) = (&mesh_name, matches!(format, Format::Gltf)) {
+    if let (Some(wanted), false) = (mesh_name, matches!(format, Format::Gltf)) {
         return Err(FileError::NoSuchMesh {
-            path: file,
-            wanted: wanted.clone(),
+            path: path.to_owned(),
+            wanted: wanted.to_owned(),
             available: Vec::new(),
         });
     }
@@ -88,7 +95,7 @@ pub fn open(path: &Path) -> Result<Opened, FileError> {
         Format::Ply => ply::read(source),
         Format::Stl => stl::read(source).map(Opened::Mesh),
         Format::Obj => obj::read(source),
-        Format::Gltf => gltf::read(source, mesh_name.as_deref()).map(Opened::Mesh),
+        Format::Gltf => gltf::read(source, mesh_name).map(Opened::Mesh),
         Format::DepthPng => depth_png::read(source).map(Opened::Depth),
         Format::Xyz => xyz::read(source).map(Opened::Cloud),
     }
@@ -149,6 +156,12 @@ fn recognise(source: Source<'_>) -> Result<Format, FileError> {
     }
     if gltf::is_json(bytes) {
         return Ok(Format::Gltf);
+    }
+    if depth_png::is_intrinsics(bytes) {
+        return Err(FileError::IsIntrinsics {
+            path: source.path.to_owned(),
+            image: source.path.with_extension("png"),
+        });
     }
     if obj::is_obj(source) {
         return Ok(Format::Obj);

@@ -5,7 +5,7 @@ use std::fs::{self, File};
 use std::io::Read as _;
 use std::path::Path;
 
-use super::error::FileError;
+use super::error::{Expected, FileError, NoFile};
 use super::{MAX_FILE_BYTES, MAX_POINTS};
 
 /// The bytes of a file and where they came from.
@@ -16,15 +16,15 @@ pub(super) struct Source<'a> {
 }
 
 /// All bytes of a regular file that is not empty and not above [`MAX_FILE_BYTES`].
-pub(super) fn read_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
+pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
     let wrong = |error| FileError::reading(path, error);
     // Before it is opened: a pipe without a writer would keep the opener waiting.
     let metadata = fs::metadata(path).map_err(wrong)?;
     if !metadata.is_file() {
         let found = if metadata.is_dir() {
-            "folder"
+            NoFile::Folder
         } else {
-            "device"
+            NoFile::Device
         };
         return Err(FileError::NotAFile {
             path: path.to_owned(),
@@ -72,7 +72,17 @@ impl<'a> Source<'a> {
             path: self.path.to_owned(),
             what,
             found: found as u64,
-            expected: expected as u64,
+            expected: Expected::Bytes(expected as u64),
+        }
+    }
+
+    /// As [`Self::truncated`], where nobody can say how many bytes are missing, only what should still come.
+    pub(super) fn cut_before(self, missing: &'static str, what: &'static str) -> FileError {
+        FileError::Truncated {
+            path: self.path.to_owned(),
+            what,
+            found: self.bytes.len() as u64,
+            expected: Expected::More(missing),
         }
     }
 

@@ -110,8 +110,7 @@ fn corners_of_text(source: Source<'_>) -> Result<Vec<[Point3<f32>; 3]>, FileErro
         }
     }
     if is_open {
-        let found = source.bytes.len();
-        return Err(source.truncated("solid", found, found + "endsolid".len()));
+        return Err(source.cut_before("the line endsolid", "STL text"));
     }
     source.limited("triangles", triangles.len())?;
     Ok(triangles)
@@ -140,6 +139,7 @@ mod tests {
     use std::path::Path;
 
     use super::*;
+    use crate::files::Expected;
 
     const SQUARE: &str = "solid square\n\
         facet normal 0 0 1\n outer loop\n vertex 0 0 0\n vertex 1 0 0\n vertex 1 1 0\n endloop\nendfacet\n\
@@ -220,7 +220,7 @@ mod tests {
         bytes[80..84].copy_from_slice(&u32::MAX.to_le_bytes());
         assert!(!is_binary(&bytes));
         assert!(
-            matches!(wrong_length(source(&bytes)), FileError::Truncated { expected, .. } if expected > 200_000_000_000)
+            matches!(wrong_length(source(&bytes)), FileError::Truncated { expected: Expected::Bytes(n), .. } if n > 200_000_000_000)
         );
     }
 

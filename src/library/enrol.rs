@@ -8,7 +8,9 @@ use nalgebra::{Point3, Vector3};
 
 use super::{
     name::PartName,
-    part::{Enrolment, How, Part, PartMeta, SCHEMA_VERSION, StoredSignature},
+    part::{
+        CloudCheck, Enrolment, How, Part, PartMeta, SCHEMA_VERSION, StoredSignature, cloud_bytes,
+    },
     thumbnail,
 };
 use crate::{
@@ -247,6 +249,7 @@ fn assemble(
             notes: about.notes.clone(),
             coverage: source.coverage,
             simulated: about.simulated,
+            cloud: CloudCheck::of(&cloud_bytes(&cloud), cloud.points.len()),
             enrolled: Enrolment {
                 at: about.at,
                 from: about.from.clone(),

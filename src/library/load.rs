@@ -1,6 +1,7 @@
 //! Loading a library: parts in parallel, each on its own, so that a damaged one is named and the others load.
 
 use std::{
+    borrow::Cow,
     fs::{self, File},
     io::{self, Read as _},
     num::NonZero,
@@ -12,12 +13,13 @@ use serde::Deserialize;
 
 use super::{
     Library,
-    part::{PartMeta, SCHEMA_VERSION, StoredSignature},
+    part::{CloudCheck, PartMeta, SCHEMA_VERSION, StoredSignature},
     problem::{EntryError, EntryProblem, EntryWarning, MAX_POINTS, Trouble},
+    shipped::shipped_entries,
     store::{CLOUD, Entry, LibraryError, LibraryFolder, META, SIGNATURE, THUMBNAIL},
 };
 use crate::{
-    files::{self, FileError, Opened},
+    files::{FileError, Opened, open_bytes, read_bytes},
     geometry::{cloud::PointCloud, nearest::KdTree, normals::estimate_normals},
     stages::reference::{Reference, ReferenceParams},
     units::Metres,
@@ -90,20 +92,37 @@ impl LibraryFolder {
         look: Look,
         params: &ReferenceParams,
     ) -> Result<LibraryLoad, LibraryError> {
-        let entries = self.entries()?;
-        let mut load = LibraryLoad::default();
-        for read in read_in_parallel(&entries, look, params) {
-            match read {
-                Ok(part) => {
-                    load.library.references.push(part.reference);
-                    load.parts.push(part.meta);
-                    load.warnings.extend(part.warnings);
-                }
-                Err(problem) => load.problems.push(problem),
-            }
-        }
-        Ok(load)
+        Ok(load_entries(&self.entries()?, look, params))
     }
+}
+
+/// Loads the parts that lie inside the program.
+pub(super) fn load_shipped(params: &ReferenceParams) -> LibraryLoad {
+    load_entries(&shipped_entries(), Look::Quick, params)
+}
+
+/// Loads one of the parts that lie inside the program; `None` if there is none of that name.
+pub(super) fn read_shipped(
+    name: &str,
+    params: &ReferenceParams,
+) -> Option<Result<StoredPart, EntryProblem>> {
+    let entry = shipped_entries().into_iter().find(|e| e.name == name)?;
+    Some(read_entry(&entry, Look::Quick, params))
+}
+
+fn load_entries(entries: &[Entry], look: Look, params: &ReferenceParams) -> LibraryLoad {
+    let mut load = LibraryLoad::default();
+    for read in read_in_parallel(entries, look, params) {
+        match read {
+            Ok(part) => {
+                load.library.references.push(part.reference);
+                load.parts.push(part.meta);
+                load.warnings.extend(part.warnings);
+            }
+            Err(problem) => load.problems.push(problem),
+        }
+    }
+    load
 }
 
 /// Reads all entries on all cores; the results are in the order of the entries.
@@ -147,7 +166,7 @@ fn read_entry(
 ) -> Result<StoredPart, EntryProblem> {
     let read = || -> Result<StoredPart, EntryError> {
         let meta = read_meta(entry)?;
-        let cloud = read_cloud(&entry.path.join(CLOUD))?;
+        let cloud = read_cloud(entry, &meta.cloud)?;
         let reference = Reference::prepare(meta.name.as_str(), cloud, meta.coverage, params)?;
         let warnings = troubles(entry, &reference, look, params)
             .into_iter()
@@ -175,7 +194,7 @@ fn read_meta(entry: &Entry) -> Result<PartMeta, EntryError> {
     struct Versioned {
         schema_version: u32,
     }
-    let text = read_text(&entry.path.join(META)).map_err(|source| match source.kind() {
+    let text = meta_text(entry).map_err(|source| match source.kind() {
         io::ErrorKind::NotFound => EntryError::Missing { file: META },
         io::ErrorKind::InvalidData => EntryError::BadMeta {
             found: "it is not text".into(),
@@ -208,23 +227,47 @@ fn read_meta(entry: &Entry) -> Result<PartMeta, EntryError> {
     }
 }
 
+fn meta_text(entry: &Entry) -> io::Result<String> {
+    match entry.shipped_file(META) {
+        Some(bytes) => String::from_utf8(bytes.to_vec()).map_err(io::Error::other),
+        None => read_text(&entry.path.join(META)),
+    }
+}
+
 fn read_text(path: &Path) -> io::Result<String> {
     let mut text = String::new();
     File::open(path)?.take(MAX_TEXT).read_to_string(&mut text)?;
     Ok(text)
 }
 
-fn read_cloud(path: &Path) -> Result<PointCloud, EntryError> {
+/// The cloud, held against what `part.toml` says of it.
+fn read_cloud(entry: &Entry, expected: &CloudCheck) -> Result<PointCloud, EntryError> {
+    let path = entry.path.join(CLOUD);
     let not_a_cloud = |found: &str| EntryError::NotACloud {
         found: found.to_owned(),
     };
-    let mut cloud = match files::open(path) {
-        Ok(Opened::Cloud(cloud)) => cloud,
-        Ok(Opened::Mesh(_)) => return Err(not_a_cloud("a mesh")),
-        Ok(Opened::Depth(_)) => return Err(not_a_cloud("a depth image")),
+    let bytes = match entry.shipped_file(CLOUD) {
+        Some(bytes) => Ok(Cow::Borrowed(bytes)),
+        None => read_bytes(&path).map(Cow::Owned),
+    };
+    let opened = bytes.and_then(|bytes| Ok((open_bytes(&path, &bytes)?, bytes)));
+    let (opened, bytes) = match opened {
+        Ok(opened) => opened,
         Err(FileError::NotFound { .. }) => return Err(EntryError::Missing { file: CLOUD }),
         Err(error) => return Err(EntryError::BadCloud(Box::new(error))),
     };
+    let mut cloud = match opened {
+        Opened::Cloud(cloud) => cloud,
+        Opened::Mesh(_) => return Err(not_a_cloud("a mesh")),
+        Opened::Depth(_) => return Err(not_a_cloud("a depth image")),
+    };
+    let found = CloudCheck::of(&bytes, cloud.points.len());
+    if found != *expected {
+        return Err(EntryError::ChangedCloud {
+            found,
+            expected: expected.clone(),
+        });
+    }
     if cloud.points.len() > MAX_POINTS {
         return Err(not_a_cloud(&format!("{} points", cloud.points.len())));
     }
@@ -234,7 +277,7 @@ fn read_cloud(path: &Path) -> Result<PointCloud, EntryError> {
         .as_ref()
         .is_some_and(|n| n.iter().all(is_unit))
     {
-        // A cloud put there by hand, or thinned by another program: made good as enrolling would.
+        // Made by another program: made good as enrolling would.
         let tree = KdTree::new(&cloud.points);
         cloud.normals = Some(estimate_normals(
             &cloud.points,
@@ -253,6 +296,9 @@ fn troubles(
     params: &ReferenceParams,
 ) -> Vec<Trouble> {
     let mut troubles = Vec::new();
+    if entry.shipped.is_some() {
+        return troubles;
+    }
     if !entry.path.ends_with(&entry.name) {
         troubles.push(Trouble::LeftAside);
     }

@@ -5,7 +5,7 @@
 //! ```text
 //! reference_parts/
 //!   front_door/
-//!     part.toml       schema version, name, notes, how it was enrolled
+//!     part.toml       schema version, name, notes, checksum of the cloud, how it was enrolled
 //!     cloud.ply       the reference cloud with normals: binary, metres, part space
 //!     signature.json  outline and fan signature of the standard view
 //!     thumbnail.png   for people
@@ -15,6 +15,7 @@
 //! Cloud and `part.toml` are all that an inspection needs; the other two can be made again from them.
 
 mod enrol;
+mod likeness;
 mod load;
 mod name;
 mod part;
@@ -31,9 +32,12 @@ pub use self::{
         About, EnrolError, EnrolParams, EnrolWarning, Enrolled, enrol_captured, enrol_mesh,
         enrol_whole,
     },
+    likeness::{Likeness, most_alike},
     load::{LibraryLoad, StoredPart},
     name::{BadName, PartName},
-    part::{Enrolment, How, Part, PartMeta, SCHEMA_VERSION, StoredLiteral, StoredSignature},
+    part::{
+        CloudCheck, Enrolment, How, Part, PartMeta, SCHEMA_VERSION, StoredLiteral, StoredSignature,
+    },
     place::{LibraryPlace, open_library},
     problem::{EntryError, EntryProblem, EntryWarning, Trouble},
     store::{LibraryError, LibraryFolder, Saved},

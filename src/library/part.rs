@@ -7,6 +7,7 @@ use serde::{Deserialize, Serialize};
 
 use super::name::PartName;
 use crate::{
+    files::{crc32, write_ply},
     geometry::{cloud::PointCloud, rigid::row_major},
     stages::{
         contour::ContourParams,
@@ -50,8 +51,29 @@ pub struct PartMeta {
     /// True if no real camera saw the part.
     #[serde(default)]
     pub simulated: bool,
+    /// The cloud that belongs to it.
+    pub cloud: CloudCheck,
     /// How it came into the library.
     pub enrolled: Enrolment,
+}
+
+/// By what `cloud.ply` is known to be the one that was enrolled, every byte of it.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct CloudCheck {
+    /// Its points.
+    pub num_points: usize,
+    /// The CRC-32 of the file, in eight hexadecimal digits.
+    pub crc32: String,
+}
+
+impl CloudCheck {
+    /// Of a file with these bytes and so many points.
+    pub(super) fn of(bytes: &[u8], num_points: usize) -> Self {
+        Self {
+            num_points,
+            crc32: format!("{:08x}", crc32(bytes)),
+        }
+    }
 }
 
 /// How a part came into the library.
@@ -131,6 +153,13 @@ pub struct StoredLiteral {
     pub lengths_px: Vec<f64>,
     /// Folded ray angles (eq. 9), radians.
     pub angles_rad: Vec<f64>,
+}
+
+/// The bytes of `cloud.ply`.
+pub(super) fn cloud_bytes(cloud: &PointCloud) -> Vec<u8> {
+    let mut bytes = Vec::new();
+    write_ply(&mut bytes, cloud).expect("memory takes everything");
+    bytes
 }
 
 impl StoredSignature {

@@ -6,15 +6,18 @@ use std::{
 };
 
 use super::{
-    shipped::write_shipped,
+    load::{LibraryLoad, StoredPart, load_shipped, read_shipped},
+    problem::EntryProblem,
+    shipped::{shipped_entries, write_shipped},
     store::{LibraryError, LibraryFolder, new_folder, sync_folder},
 };
+use crate::stages::reference::ReferenceParams;
 
 /// The folder looked for in the working directory.
 const IN_WORKING_FOLDER: &str = "reference_parts";
 
 /// A library, and why it is this one.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Debug)]
 pub enum LibraryPlace {
     /// Named by the caller.
     Given(LibraryFolder),
@@ -22,13 +25,60 @@ pub enum LibraryPlace {
     WorkingFolder(LibraryFolder),
     /// The user's own, in the folder that the system keeps for a user's data.
     User(LibraryFolder),
+    /// The shipped parts inside the program: there is no folder for the user's own, for this reason.
+    Program(LibraryError),
 }
 
 impl LibraryPlace {
-    /// The library.
-    pub fn folder(&self) -> &LibraryFolder {
+    /// The library's folder, if it has one.
+    pub fn folder(&self) -> Option<&LibraryFolder> {
         match self {
-            Self::Given(folder) | Self::WorkingFolder(folder) | Self::User(folder) => folder,
+            Self::Given(folder) | Self::WorkingFolder(folder) | Self::User(folder) => Some(folder),
+            Self::Program(_) => None,
+        }
+    }
+
+    /// The folder to change, or why there is none.
+    pub fn into_folder(self) -> Result<LibraryFolder, LibraryError> {
+        match self {
+            Self::Given(folder) | Self::WorkingFolder(folder) | Self::User(folder) => Ok(folder),
+            Self::Program(reason) => Err(reason),
+        }
+    }
+
+    /// Where it is, for people.
+    pub fn location(&self) -> String {
+        self.folder().map_or_else(
+            || "inside the program".into(),
+            |folder| folder.path().display().to_string(),
+        )
+    }
+
+    /// Loads all parts; see [`LibraryFolder::load`].
+    pub fn load(&self, params: &ReferenceParams) -> Result<LibraryLoad, LibraryError> {
+        self.folder()
+            .map_or_else(|| Ok(load_shipped(params)), |folder| folder.load(params))
+    }
+
+    /// As [`Self::load`], and holds every file of every part against its cloud.
+    pub fn verify(&self, params: &ReferenceParams) -> Result<LibraryLoad, LibraryError> {
+        self.folder()
+            .map_or_else(|| Ok(load_shipped(params)), |folder| folder.verify(params))
+    }
+
+    /// Loads one part.
+    pub fn read(
+        &self,
+        name: &str,
+        params: &ReferenceParams,
+    ) -> Result<Result<StoredPart, EntryProblem>, LibraryError> {
+        match self.folder() {
+            Some(folder) => folder.read(name, params),
+            None => read_shipped(name, params).ok_or_else(|| LibraryError::NoSuchPart {
+                path: PathBuf::from(self.location()),
+                name: name.to_owned(),
+                available: shipped_entries().into_iter().map(|e| e.name).collect(),
+            }),
         }
     }
 
@@ -38,12 +88,13 @@ impl LibraryPlace {
             Self::Given(_) => "given",
             Self::WorkingFolder(_) => "found in the working directory",
             Self::User(_) => "your own",
+            Self::Program(_) => "the shipped parts",
         }
     }
 }
 
 /// The library at `given`, else `reference_parts/` in the working directory if there, else the user's own, which is
-/// filled with the shipped parts the first time.
+/// filled with the shipped parts the first time. Where that cannot be written, the shipped parts inside the program.
 pub fn open_library(given: Option<&Path>) -> Result<LibraryPlace, LibraryError> {
     if let Some(path) = given {
         return LibraryFolder::open(path).map(LibraryPlace::Given);
@@ -52,14 +103,18 @@ pub fn open_library(given: Option<&Path>) -> Result<LibraryPlace, LibraryError> 
     if here.is_dir() {
         return LibraryFolder::open(here).map(LibraryPlace::WorkingFolder);
     }
-    let path = user_path()?;
+    let own = user_path().and_then(|path| open_filled(&path));
+    Ok(own.map_or_else(LibraryPlace::Program, LibraryPlace::User))
+}
+
+fn open_filled(path: &Path) -> Result<LibraryFolder, LibraryError> {
     if !path.is_dir() {
-        fill(&path).map_err(|source| LibraryError::Unwritable {
-            path: path.clone(),
+        fill(path).map_err(|source| LibraryError::Unwritable {
+            path: path.to_owned(),
             source,
         })?;
     }
-    LibraryFolder::open(&path).map(LibraryPlace::User)
+    LibraryFolder::open(path)
 }
 
 fn user_path() -> Result<PathBuf, LibraryError> {

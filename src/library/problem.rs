@@ -4,6 +4,7 @@ use std::{io, path::PathBuf};
 
 use super::{
     name::PartName,
+    part::CloudCheck,
     store::{CLOUD, META},
 };
 use crate::{error::Advice, files::FileError, stages::reference::ReferenceError};
@@ -68,6 +69,17 @@ pub enum EntryError {
     NotACloud {
         /// What it holds.
         found: String,
+    },
+    /// The cloud can be read, but is not the one that was enrolled.
+    #[error(
+        "{CLOUD} is damaged or was changed: it has {} points and the checksum {}, {META} says {} and {}",
+        found.num_points, found.crc32, expected.num_points, expected.crc32
+    )]
+    ChangedCloud {
+        /// What it is.
+        found: CloudCheck,
+        /// What was enrolled.
+        expected: CloudCheck,
     },
     /// The cloud is no reference.
     #[error(transparent)]

@@ -1,13 +1,18 @@
 //! The parts that the program brings along: copies of `reference_parts/` inside the binary.
 
-use std::{fs, io, path::Path};
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+};
 
-use super::store::{CLOUD, META, SIGNATURE, THUMBNAIL, sync_folder, write_file};
+use super::store::{
+    CLOUD, Entry, META, SIGNATURE, ShippedFiles, THUMBNAIL, sync_folder, write_file,
+};
 
 /// A part's folder.
 struct ShippedPart {
     name: &'static str,
-    files: [(&'static str, &'static [u8]); 4],
+    files: ShippedFiles,
 }
 
 /// The files of the named parts, read when the program is built.
@@ -47,4 +52,14 @@ pub(super) fn write_shipped(folder: &Path) -> io::Result<()> {
         sync_folder(&part_folder)?;
     }
     sync_folder(folder)
+}
+
+/// The shipped parts as they lie in the program.
+pub(super) fn shipped_entries() -> Vec<Entry> {
+    let entry = |part: &'static ShippedPart| Entry {
+        name: part.name.to_owned(),
+        path: PathBuf::from(part.name),
+        shipped: Some(&part.files),
+    };
+    SHIPPED.iter().map(entry).collect()
 }

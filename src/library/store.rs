@@ -14,15 +14,18 @@
 
 use std::{
     fs::{self, File},
-    io::{self, BufWriter, Write as _},
+    io::{self, Write as _},
     path::{Path, PathBuf},
 };
 
 use super::{
     name::PartName,
-    part::{Part, PartMeta},
+    part::{Part, PartMeta, cloud_bytes},
 };
-use crate::{error::Advice, files::write_ply};
+use crate::{
+    error::Advice,
+    files::{advice_on, words_of},
+};
 
 /// File names within a part's folder.
 pub(super) const META: &str = "part.toml";
@@ -48,6 +51,27 @@ pub(super) struct Entry {
     pub(super) name: String,
     /// The folder.
     pub(super) path: PathBuf,
+    /// Its files, if it lies inside the program.
+    pub(super) shipped: Option<&'static ShippedFiles>,
+}
+
+/// Names and contents of the files of a part inside the program.
+pub(super) type ShippedFiles = [(&'static str, &'static [u8]); 4];
+
+impl Entry {
+    /// A file of a part inside the program.
+    pub(super) fn shipped_file(&self, name: &str) -> Option<&'static [u8]> {
+        let mut files = self.shipped?.iter();
+        files.find(|(n, _)| *n == name).map(|(_, bytes)| *bytes)
+    }
+
+    fn in_folder(name: String, path: PathBuf) -> Self {
+        Self {
+            name,
+            path,
+            shipped: None,
+        }
+    }
 }
 
 /// Where a part was saved.
@@ -75,7 +99,7 @@ pub enum LibraryError {
         path: PathBuf,
     },
     /// The system could not read.
-    #[error("{}: cannot read the library: {source}", path.display())]
+    #[error("{}: cannot read the library: {}", path.display(), words_of(source))]
     Unreadable {
         /// The folder.
         path: PathBuf,
@@ -83,7 +107,7 @@ pub enum LibraryError {
         source: io::Error,
     },
     /// The system could not write; what was enrolled before still is.
-    #[error("{}: cannot write to the library: {source}", path.display())]
+    #[error("{}: cannot write to the library: {}", path.display(), words_of(source))]
     Unwritable {
         /// The folder.
         path: PathBuf,
@@ -120,11 +144,12 @@ impl Advice for LibraryError {
             }
             Self::NotAFolder { .. } => "Give the folder that holds the parts' folders".into(),
             Self::Unreadable { .. } => "Ask for access to this folder, or copy it elsewhere".into(),
-            Self::Unwritable { .. } => {
-                "Check that the disk is neither full nor write-protected, or choose another folder with --library"
-                    .into()
+            Self::Unwritable { source, .. } => {
+                format!("{}, or name another with --library", advice_on(source))
             }
-            Self::NoSuchPart { .. } => "Use one of the names that `partsight library list` shows".into(),
+            Self::NoSuchPart { .. } => {
+                "Use one of the names that `partsight library list` shows".into()
+            }
             Self::NoUserFolder => "Name a folder with --library".into(),
         }
     }
@@ -168,6 +193,31 @@ impl LibraryFolder {
         Ok(self.entries()?.into_iter().map(|e| e.name).collect())
     }
 
+    /// Folders that are not looked into because their name is no part's, in order.
+    pub fn skipped(&self) -> Result<Vec<String>, LibraryError> {
+        let list = || -> io::Result<Vec<String>> {
+            let mut skipped = Vec::new();
+            for found in fs::read_dir(&self.path)? {
+                let path = found?.path();
+                let name = path.file_name().unwrap_or_default().to_string_lossy();
+                if path.is_dir() && !name.starts_with('.') && !is_entry(&name, &path) {
+                    skipped.push(name.into_owned());
+                }
+            }
+            skipped.sort();
+            Ok(skipped)
+        };
+        list().map_err(|source| LibraryError::Unreadable {
+            path: self.path.clone(),
+            source,
+        })
+    }
+
+    /// True if this is the folder of one part and not of a library.
+    pub fn is_itself_a_part(&self) -> bool {
+        self.path.join(META).is_file()
+    }
+
     /// The folders of all parts in the order of their names; one that was renamed aside and never replaced counts.
     pub(super) fn entries(&self) -> Result<Vec<Entry>, LibraryError> {
         let list = || -> io::Result<Vec<Entry>> {
@@ -181,12 +231,9 @@ impl LibraryFolder {
                 };
                 if let Some(name) = file_name.strip_prefix(OLD_PREFIX) {
                     let name = name.to_owned();
-                    aside.push(Entry { name, path });
+                    aside.push(Entry::in_folder(name, path));
                 } else if !file_name.starts_with('.') && is_entry(&file_name, &path) {
-                    entries.push(Entry {
-                        name: file_name,
-                        path,
-                    });
+                    entries.push(Entry::in_folder(file_name, path));
                 }
             }
             for old in aside {
@@ -339,9 +386,7 @@ fn write_part(folder: &Path, part: &Part) -> io::Result<()> {
         thumbnail,
     } = part;
     write_file(&folder.join(META), meta_text(meta)?.as_bytes())?;
-    let mut bytes = BufWriter::new(Vec::new());
-    write_ply(&mut bytes, cloud)?;
-    write_file(&folder.join(CLOUD), &bytes.into_inner()?)?;
+    write_file(&folder.join(CLOUD), &cloud_bytes(cloud))?;
     write_file(&folder.join(SIGNATURE), &serde_json::to_vec(signature)?)?;
     let mut png = io::Cursor::new(Vec::new());
     thumbnail

@@ -122,7 +122,7 @@ fn parse(source: Source<'_>, json: &[u8]) -> Result<Document, FileError> {
     let text = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
     let mut root = Root::from_slice(text).map_err(|error| {
         if error.is_eof() {
-            source.truncated("JSON", json.len(), json.len() + 1)
+            source.cut_before("the end of the JSON", "JSON")
         } else {
             source.damaged(format!("its JSON: {error}"))
         }

@@ -108,11 +108,12 @@ fn without_a_name_or_with_a_wrong_one_the_names_are_listed() {
         matches!(&error, FileError::NeedsMeshName { available, .. } if *available == ["Left", "Right"])
     );
     assert!(error.advice().contains("test.gltf#Left"));
-    let error = read_bytes(&glb(), Some("Middle")).unwrap_err();
+    let error = read_bytes(&glb(), Some("right_door")).unwrap_err();
     assert!(
         matches!(&error, FileError::NoSuchMesh { available, .. } if *available == ["Left", "Right"])
     );
-    assert!(error.to_string().contains("Left, Right"));
+    assert!(error.to_string().contains("Right, Left"), "{error}");
+    assert!(error.advice().starts_with("Did you mean test.gltf#Right?"));
     // With one mesh there is nothing to choose.
     let lone = embedded().replace("[0,1]", "[1]");
     assert_eq!(

@@ -4,6 +4,7 @@ use nalgebra::Point3;
 use tempfile::TempDir;
 
 use super::*;
+use crate::files::{Expected, NoFile};
 
 /// A folder that holds one file with these bytes.
 fn file(name: &str, bytes: &[u8]) -> (TempDir, PathBuf) {
@@ -122,7 +123,7 @@ fn what_is_no_readable_file_is_named() {
     assert!(matches!(
         open(folder.path()),
         Err(FileError::NotAFile {
-            found: "folder",
+            found: NoFile::Folder,
             ..
         })
     ));
@@ -153,7 +154,10 @@ fn content_of_no_known_format_is_described() {
     let (_folder, path) = file("cut.stl", &binary_stl()[..100]);
     assert!(matches!(
         open(&path),
-        Err(FileError::Truncated { expected: 134, .. })
+        Err(FileError::Truncated {
+            expected: Expected::Bytes(134),
+            ..
+        })
     ));
 }
 

@@ -26,7 +26,7 @@ impl<'a> Body<'a> {
         let num_points = header.num_points;
         let stored = source.bytes.get(header.body_start..).unwrap_or_default();
         let Some(needed) = num_points.checked_mul(header.row_bytes) else {
-            return Err(source.truncated("point data", stored.len(), usize::MAX));
+            return Err(source.cut_before("more than a file can hold", "point data"));
         };
         let rows = Layout::Rows {
             row_bytes: header.row_bytes,

@@ -96,7 +96,7 @@ impl Header {
                 _ => return Err(source.malformed(i + 1, text, "a line of a PCD header")),
             }
         }
-        Err(source.truncated("PCD header", source.bytes.len(), source.bytes.len() + 1))
+        Err(source.cut_before("the end of the header", "PCD header"))
     }
 
     /// The field of that name that holds at least one number; the first one if there are several.

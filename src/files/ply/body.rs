@@ -201,7 +201,7 @@ impl<'a> Body<'a> {
         let (gap, rest) = self.rest.split_at(gap.unwrap_or(self.rest.len()));
         self.line += gap.split(|&byte| byte == b'\n').count() - 1;
         if rest.is_empty() {
-            return Err(self.source.truncated("rows", 0, 1));
+            return Err(self.source.cut_before("more numbers", "rows"));
         }
         let end = rest.iter().position(u8::is_ascii_whitespace);
         let (token, rest) = rest.split_at(end.unwrap_or(rest.len()));

@@ -151,7 +151,7 @@ impl Header {
                 _ => return Err(source.malformed(i + 1, &text, "a line of a PLY header")),
             }
         }
-        Err(source.truncated("PLY header", source.bytes.len(), source.bytes.len() + 1))
+        Err(source.cut_before("the end of the header", "PLY header"))
     }
 
     /// True if there are faces and they have not been read.

@@ -240,7 +240,55 @@ fn a_cut_foreign_or_missing_cloud_is_named_and_the_others_load() {
     ));
     let line = PointCloud::from_points((0..300).map(|i| Point3::new(i as f32, 0.0, 1.0)));
     crate::files::save_cloud(&cloud, &line).expect("written");
+    assert!(matches!(
+        problem(&load(&library)),
+        EntryError::ChangedCloud { .. }
+    ));
+    let meta = fs::read_to_string(damaged.join(META)).expect("text");
+    let mut meta: PartMeta = toml::from_str(&meta).expect("TOML");
+    meta.cloud = crate::library::CloudCheck::of(&fs::read(&cloud).expect("bytes"), 300);
+    fs::write(damaged.join(META), meta_text(&meta).expect("TOML")).expect("written");
     assert!(matches!(problem(&load(&library)), EntryError::Reference(_)));
+}
+
+#[test]
+fn a_flipped_bit_of_the_cloud_is_found_and_named() {
+    let (_guard, library, damaged) = two_parts();
+    let cloud = damaged.join(CLOUD);
+    let mut bytes = fs::read(&cloud).expect("bytes");
+    let at = bytes.len() - 1000;
+    bytes[at] ^= 1;
+    fs::write(&cloud, bytes).expect("written");
+    let loaded = load(&library);
+    let problem = problem(&loaded);
+    assert!(matches!(problem, EntryError::ChangedCloud { .. }));
+    assert!(
+        problem.to_string().starts_with("cloud.ply is damaged"),
+        "{problem}"
+    );
+}
+
+#[test]
+fn a_part_without_its_checksum_is_damaged() {
+    let (_guard, library, damaged) = two_parts();
+    let text = fs::read_to_string(damaged.join(META)).expect("text");
+    let without: Vec<_> = text.lines().filter(|l| !l.starts_with("crc32")).collect();
+    fs::write(damaged.join(META), without.join("\n")).expect("written");
+    assert!(matches!(
+        problem(&load(&library)),
+        EntryError::BadMeta { found } if found.contains("crc32")
+    ));
+}
+
+#[test]
+fn folders_that_are_no_parts_by_their_name_are_told() {
+    let (_guard, library) = library();
+    library.save(&part("plate", 0.4)).expect("saved");
+    fs::create_dir(library.path().join("My Door")).expect("made");
+    assert_eq!(library.skipped().expect("listed"), ["My Door"]);
+    assert!(!library.is_itself_a_part());
+    let inner = LibraryFolder::open(&library.path().join("plate")).expect("there");
+    assert!(inner.is_itself_a_part());
 }
 
 #[test]

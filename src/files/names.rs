@@ -1,0 +1,78 @@
+//! Names of meshes for an error: the nearest to what was asked for first, and not hundreds of them.
+
+/// Names shown; a car has hundreds.
+const MAX_SHOWN: usize = 10;
+
+/// The names as a list, those nearest to `wanted` first.
+pub(super) fn listed(names: &[String], wanted: &str) -> String {
+    if names.is_empty() {
+        return "no named meshes".into();
+    }
+    let nearest = nearest_first(names, wanted);
+    let shown: Vec<&str> = nearest.iter().take(MAX_SHOWN).copied().collect();
+    match names.len() - shown.len() {
+        0 => shown.join(", "),
+        more => format!("{} and {more} more", shown.join(", ")),
+    }
+}
+
+/// The name nearest to `wanted`, of equally near ones the first.
+pub(super) fn nearest<'a>(names: &'a [String], wanted: &str) -> Option<&'a str> {
+    nearest_first(names, wanted).first().copied()
+}
+
+fn nearest_first<'a>(names: &'a [String], wanted: &str) -> Vec<&'a str> {
+    let mut names: Vec<&str> = names.iter().map(String::as_str).collect();
+    if !wanted.is_empty() {
+        let wanted = letters_of(wanted);
+        names.sort_by_cached_key(|name| edits_between(&letters_of(name), &wanted));
+    }
+    names
+}
+
+/// Small letters and digits: `Door_FL`, `door-fl` and `DoorFL` are one word to a person. At most 64 of them.
+fn letters_of(name: &str) -> Vec<char> {
+    let kept = name.chars().filter(|c| c.is_alphanumeric());
+    kept.flat_map(char::to_lowercase).take(64).collect()
+}
+
+/// Letters to insert, remove or replace (V. I. Levenshtein, 1966), row by row.
+fn edits_between(a: &[char], b: &[char]) -> usize {
+    let mut row: Vec<usize> = (0..=b.len()).collect();
+    for (i, from) in a.iter().enumerate() {
+        let mut diagonal = row[0];
+        row[0] = i + 1;
+        for (j, to) in b.iter().enumerate() {
+            let replaced = diagonal + usize::from(from != to);
+            diagonal = row[j + 1];
+            row[j + 1] = replaced.min(row[j] + 1).min(diagonal + 1);
+        }
+    }
+    row[b.len()]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_nearest_name_comes_first_and_hundreds_are_not_shown() {
+        let mut names: Vec<String> = (0..200).map(|i| format!("bolt_{i}")).collect();
+        names.push("Door_FL".into());
+        names.push("Door_FR".into());
+        let list = listed(&names, "door-fl");
+        assert!(list.starts_with("Door_FL, Door_FR, bolt_"), "{list}");
+        assert!(list.ends_with(" and 192 more"), "{list}");
+        assert_eq!(nearest(&names, "doorfr"), Some("Door_FR"));
+        assert_eq!(listed(&names[..2], ""), "bolt_0, bolt_1");
+        assert_eq!(listed(&[], "x"), "no named meshes");
+    }
+
+    #[test]
+    fn edits_are_counted() {
+        let letters = |text: &str| text.chars().collect::<Vec<_>>();
+        for (a, b, edits) in [("kitten", "sitting", 3), ("", "abc", 3), ("abc", "abc", 0)] {
+            assert_eq!(edits_between(&letters(a), &letters(b)), edits, "{a} {b}");
+        }
+    }
+}

@@ -1,0 +1,92 @@
+//! Which enrolled part another one is hardest to tell from.
+//!
+//! The standard view of the part is ranked like a scene, and the best few are then looked for in it: a door and the
+//! same door enrolled again under another name score nearly 1, and every inspection of either is a near tie.
+
+use super::Library;
+use crate::{
+    error::Advice,
+    stages::{
+        confirm::{ConfirmParams, Scene, confirm},
+        rank::{Query, RankParams, rank},
+        reference::{Coverage, Reference},
+        scene::SceneCloud,
+        segment::SegmentedPart,
+    },
+};
+
+/// Two parts from this score on cannot be told apart. Two captures of one simulated part reach it, no two shipped parts
+/// do.
+const LEAST_SCORE: f64 = 0.9;
+
+/// Least score of the outlines, openings included; those of a grille's two captures differ most, at 0.8. Those of
+/// different shipped parts are below 0.5.
+const LEAST_OUTLINE_SCORE: f64 = 0.7;
+
+/// An enrolled part that looks like another one.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+#[error("{name} cannot be told from {other} ({score:.2})")]
+pub struct Likeness {
+    /// The part.
+    pub name: String,
+    /// The enrolled part that it looks like.
+    pub other: String,
+    /// The score with which it would be taken for that, 0..1.
+    pub score: f64,
+}
+
+impl Advice for Likeness {
+    fn advice(&self) -> String {
+        let Self { name, other, .. } = self;
+        format!(
+            "Remove one of them, `partsight library remove {name}` or `partsight library remove {other}`, or enrol with --name {other} to replace it"
+        )
+    }
+}
+
+/// The part of the library that `reference` cannot be told from; `None` if it can from all. A part of the same name, which
+/// it replaces, does not count.
+pub fn most_alike(
+    reference: &Reference,
+    coverage: Coverage,
+    library: &Library,
+) -> Option<Likeness> {
+    let name = reference.name.as_str();
+    let others = library.references.iter().filter(|r| r.name != name);
+    let others: Vec<Reference> = others.cloned().collect();
+    let view = reference.views.first()?;
+    let query = Query {
+        plane: &view.plane,
+        contour: &view.contour,
+        signature: &view.signature,
+    };
+    let ranking = rank(&query, &others, &RankParams::default());
+    let outlines = ranking.clone();
+    let outline_score = |other: &str| {
+        let mut entries = outlines.entries.iter();
+        entries.find(|e| e.part == other).map_or(0.0, |e| e.score)
+    };
+    let confirmed = match coverage {
+        Coverage::OneSide => {
+            let scene = Scene {
+                scene: &SceneCloud::default(),
+                part: &SegmentedPart::whole(&reference.cloud),
+                query,
+            };
+            confirm(&scene, &others, ranking, &ConfirmParams::default()).0
+        }
+        // Not what a camera sees at once: judged by its outline.
+        Coverage::AllAround => ranking,
+    };
+    // Surfaces alone are blind one way: a small part lies well on any large one.
+    let entries = confirmed.entries.iter();
+    let (other, score) = entries
+        .filter(|e| outline_score(&e.part) >= LEAST_OUTLINE_SCORE)
+        .map(|e| (&e.part, e.score))
+        .max_by(|a, b| a.1.total_cmp(&b.1))?;
+    (score >= LEAST_SCORE).then(|| Likeness {
+        name: name.to_owned(),
+        other: other.clone(),
+        score,
+    })
+}
