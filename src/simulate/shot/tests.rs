@@ -140,7 +140,7 @@ fn the_truth_survives_json_but_for_its_labels() {
     let setup = CellSetup::new(Subject::Object(ObjectKind::Hood), 8);
     let mut truth = frame(&setup).truth;
     let json = serde_json::to_value(&truth).unwrap();
-    assert_eq!(json["camera_from_part"].as_array().unwrap().len(), 16);
+    assert_eq!(json["camera_from_model"].as_array().unwrap().len(), 16);
     let back: Truth = serde_json::from_value(json.clone()).unwrap();
     truth.labels.clear();
     assert!(
