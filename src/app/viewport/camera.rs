@@ -1,0 +1,243 @@
+//! The eye of the 3-D view: where it stands, how it is moved, and how it maps the world to the screen.
+//!
+//! Pure arithmetic: fed with screen positions, it returns whether it moved, and knows neither egui nor wgpu.
+//!
+//! The world of the view is the product's `camera` space (x right, y down, z forward), so *up* is −y:
+//!
+//! ```text
+//!        up = −y                       yaw 0, pitch 0 is what the depth camera sees (front):
+//!          │   z forward                 yaw  turns about up; a drag to the right makes it grow
+//!          │  ╱                          pitch tilts; above 0 the eye looks down from above
+//!  camera  ●╱────── x right            eye = target − distance · forward
+//!          │
+//!          y down
+//! ```
+//!
+//! The depth is reversed and has no far end: 1 at the near plane, 0 at infinity, so that `f32` resolves far things
+//! as well as near ones (Reed, "Depth precision visualized", 2015).
+
+use std::f32::consts::{FRAC_PI_2, PI};
+
+use glam::{Mat4, Vec2, Vec3, camera::rh};
+
+use super::bounds::Bounds;
+
+/// Vertical opening of the view: near a Kinect's own 43° × 57°, so that the front view looks like the frame.
+const VERTICAL_FOV: f32 = 45.0 * PI / 180.0;
+/// A drag across the height of the view turns by this: half a turn, so that any side is one drag away.
+const TURN_PER_HEIGHT: f32 = PI;
+/// The near plane, as a share of the distance to the target: small enough to look past a nozzle at the eye.
+const NEAR_PER_DISTANCE: f32 = 0.02;
+/// Nearest and farthest the eye may stand from its target, metres: a screw head, and a whole hall.
+const DISTANCE_RANGE: (f32, f32) = (0.01, 200.0);
+/// Free room around what is fitted, as a share of the view.
+const FIT_MARGIN: f32 = 0.08;
+
+/// Width and height of the view, logical pixels.
+pub type ViewSize = Vec2;
+
+/// A standard direction of view.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StandardView {
+    /// As the depth camera sees the scene.
+    Front,
+    /// From above, the camera's right to the right.
+    Top,
+    /// From the camera's right-hand side, the camera's far side to the right.
+    Side,
+}
+
+/// What the view is to be fitted to at the next opportunity.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum FitRequest {
+    /// The part, where the scene has one, else everything.
+    Focus,
+    /// Everything, background included.
+    Everything,
+}
+
+/// The eye of one view, or of several linked ones that share it.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ViewCamera {
+    /// The point looked at and turned about, world, metres.
+    target: Vec3,
+    /// From eye to target, metres.
+    distance: f32,
+    /// Turn about up, radians, −π..π.
+    yaw: f32,
+    /// Tilt, radians, −π/2..π/2; above 0 the eye looks down.
+    pitch: f32,
+    /// Set until a view with something in it has been shown.
+    pending_fit: Option<FitRequest>,
+}
+
+impl Default for ViewCamera {
+    /// The front view, to be fitted to the first scene shown.
+    fn default() -> Self {
+        Self {
+            target: Vec3::new(0.0, 0.0, 1.5),
+            distance: 1.5,
+            yaw: 0.0,
+            pitch: 0.0,
+            pending_fit: Some(FitRequest::Focus),
+        }
+    }
+}
+
+impl ViewCamera {
+    /// The point looked at and turned about, world, metres.
+    pub fn target(&self) -> Vec3 {
+        self.target
+    }
+
+    /// From eye to target, metres.
+    pub fn distance(&self) -> f32 {
+        self.distance
+    }
+
+    /// Where the eye stands, world, metres.
+    pub fn eye(&self) -> Vec3 {
+        self.target - self.distance * self.forward()
+    }
+
+    /// Unit direction of view, world.
+    pub fn forward(&self) -> Vec3 {
+        let (sin_yaw, cos_yaw) = self.yaw.sin_cos();
+        let (sin_pitch, cos_pitch) = self.pitch.sin_cos();
+        Vec3::new(sin_yaw * cos_pitch, sin_pitch, cos_yaw * cos_pitch)
+    }
+
+    /// Unit direction that is right on the screen, world. Level by construction, also when looking straight down.
+    pub fn right(&self) -> Vec3 {
+        Vec3::new(self.yaw.cos(), 0.0, -self.yaw.sin())
+    }
+
+    /// Unit direction that is up on the screen, world.
+    pub fn up(&self) -> Vec3 {
+        self.right().cross(self.forward())
+    }
+
+    /// Turns about the target: `drag` is how far the pointer moved, logical pixels, y down.
+    pub fn orbit(&mut self, drag: Vec2, size: ViewSize) -> bool {
+        let turn = drag * (TURN_PER_HEIGHT / size.y.max(1.0));
+        self.turn(turn.x, turn.y)
+    }
+
+    /// Turns about the target by angles, radians: `right` about up, `down` towards looking from above.
+    pub fn turn(&mut self, right: f32, down: f32) -> bool {
+        self.changed(|camera| {
+            camera.yaw = (camera.yaw + right + PI).rem_euclid(2.0 * PI) - PI;
+            camera.pitch = (camera.pitch + down).clamp(-FRAC_PI_2, FRAC_PI_2);
+        })
+    }
+
+    /// Shifts eye and target so that the target plane follows the pointer, which moved by `drag`.
+    pub fn pan(&mut self, drag: Vec2, size: ViewSize) -> bool {
+        let metres_per_pixel = self.distance / focal(size);
+        self.changed(|camera| {
+            camera.target += (camera.up() * drag.y - camera.right() * drag.x) * metres_per_pixel;
+        })
+    }
+
+    /// Comes nearer by `factor` (above 1) or backs off (below 1), keeping what is under the cursor where it is.
+    ///
+    /// The eye moves along the ray through the cursor, so this holds for whatever depth the cursor is over.
+    pub fn zoom_at(&mut self, factor: f32, cursor: Vec2, size: ViewSize) -> bool {
+        if !(factor.is_finite() && factor > 0.0) {
+            return false;
+        }
+        let (least, most) = DISTANCE_RANGE;
+        let distance = (self.distance / factor).clamp(least, most);
+        let shrink = distance / self.distance;
+        let on_target_plane = self.eye() + self.ray(cursor, size) * self.distance;
+        self.changed(|camera| {
+            camera.target = on_target_plane + (camera.target - on_target_plane) * shrink;
+            camera.distance = distance;
+        })
+    }
+
+    /// Turns to a standard direction, keeping target and distance.
+    pub fn look(&mut self, view: StandardView) -> bool {
+        let (yaw, pitch) = match view {
+            StandardView::Front => (0.0, 0.0),
+            StandardView::Top => (0.0, FRAC_PI_2),
+            StandardView::Side => (-FRAC_PI_2, 0.0),
+        };
+        self.changed(|camera| (camera.yaw, camera.pitch) = (yaw, pitch))
+    }
+
+    /// Moves eye and target, without turning, so that the box just fills the view.
+    pub fn fit(&mut self, bounds: &Bounds, size: ViewSize) -> bool {
+        let (right, up, forward) = (self.right(), self.up(), self.forward());
+        let half = size / (2.0 * focal(size)) * (1.0 - FIT_MARGIN);
+        let centre = bounds.centre();
+        // At distance d a corner lies at depth d + z; it is inside the view while |x| ≤ half.x · (d + z).
+        let needed = bounds.corners().map(|corner| {
+            let offset = corner - centre;
+            let (x, y, z) = (offset.dot(right), offset.dot(up), offset.dot(forward));
+            (x.abs() / half.x).max(y.abs() / half.y) - z
+        });
+        let (least, most) = DISTANCE_RANGE;
+        let distance = needed.fold(least, f32::max).min(most);
+        self.changed(|camera| {
+            camera.target = centre;
+            camera.distance = distance;
+            camera.pending_fit = None;
+        })
+    }
+
+    /// Asks for a fit by the next view shown: the caller need not know its size.
+    pub fn request_fit(&mut self, request: FitRequest) {
+        self.pending_fit = Some(request);
+    }
+
+    /// The fit asked for and not yet done.
+    pub fn pending_fit(&self) -> Option<FitRequest> {
+        self.pending_fit
+    }
+
+    /// The near plane, metres before the eye.
+    pub fn near(&self) -> f32 {
+        self.distance * NEAR_PER_DISTANCE
+    }
+
+    /// World to clip space; the depth is `near / z`, z the metres along the direction of view.
+    pub fn clip_from_world(&self, size: ViewSize) -> Mat4 {
+        let view = rh::view::look_to_mat4(self.eye(), self.forward(), self.up());
+        let aspect = size.x.max(1.0) / size.y.max(1.0);
+        rh::proj::directx::perspective_infinite_reverse(VERTICAL_FOV, aspect, self.near()) * view
+    }
+
+    /// Where a world point is seen, logical pixels from the top left, y down; `None` behind the eye.
+    pub fn screen_from_world(&self, point: Vec3, size: ViewSize) -> Option<Vec2> {
+        let offset = point - self.eye();
+        let z = offset.dot(self.forward());
+        (z > self.near()).then(|| {
+            let seen = Vec2::new(offset.dot(self.right()), -offset.dot(self.up())) / z;
+            size / 2.0 + seen * focal(size)
+        })
+    }
+
+    /// The direction through a screen position, world, one metre long along the direction of view.
+    pub fn ray(&self, cursor: Vec2, size: ViewSize) -> Vec3 {
+        let seen = (cursor - size / 2.0) / focal(size);
+        self.forward() + self.right() * seen.x - self.up() * seen.y
+    }
+
+    fn changed(&mut self, apply: impl FnOnce(&mut Self)) -> bool {
+        let before = *self;
+        apply(self);
+        if !(self.target.is_finite() && self.distance.is_finite()) {
+            *self = before;
+        }
+        *self != before
+    }
+}
+
+/// Logical pixels that one metre covers at one metre from the eye.
+pub fn focal(size: ViewSize) -> f32 {
+    size.y.max(1.0) / (2.0 * (VERTICAL_FOV / 2.0).tan())
+}
+
+#[cfg(test)]
+mod tests;

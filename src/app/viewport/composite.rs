@@ -1,0 +1,96 @@
+//! The pass that puts the finished picture of a view into egui's own.
+
+use bytemuck::{Pod, Zeroable};
+use eframe::wgpu;
+
+use super::pass::{self, PassSpec};
+
+/// The text of the shader.
+pub(super) const SHADER: &str = include_str!("composite.wgsl");
+
+/// `Placement` in composite.wgsl.
+#[repr(C)]
+#[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
+struct Placement {
+    origin: [i32; 2],
+    is_linear: u32,
+    padding: u32,
+}
+
+/// Bytes of the placement, to be compared with the shader.
+#[cfg(test)]
+pub(super) const PLACEMENT_SIZE: usize = size_of::<Placement>();
+
+/// The pass, for windows of one format.
+pub(super) struct Composite {
+    layout: wgpu::BindGroupLayout,
+    pipeline: wgpu::RenderPipeline,
+    is_linear: bool,
+}
+
+/// A picture bound for this pass.
+pub(super) struct BoundPicture {
+    placement: wgpu::Buffer,
+    written: Option<Placement>,
+    group: wgpu::BindGroup,
+}
+
+impl Composite {
+    pub(super) fn new(device: &wgpu::Device, window_format: wgpu::TextureFormat) -> Self {
+        let layout = pass::layout(device, "view composite", &[pass::PICTURE, pass::UNIFORM]);
+        let pipeline = pass::pipeline(
+            device,
+            &PassSpec {
+                label: "view composite",
+                source: SHADER,
+                layouts: &[&layout],
+                instances: None,
+                topology: wgpu::PrimitiveTopology::TriangleList,
+                targets: &[window_format.into()],
+                depth: None,
+            },
+        );
+        Self {
+            layout,
+            pipeline,
+            is_linear: window_format.is_srgb(),
+        }
+    }
+
+    pub(super) fn bind(&self, device: &wgpu::Device, picture: &wgpu::TextureView) -> BoundPicture {
+        let placement = device.create_buffer(&wgpu::BufferDescriptor {
+            label: Some("view placement"),
+            size: size_of::<Placement>() as u64,
+            usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
+            mapped_at_creation: false,
+        });
+        let resources = [
+            wgpu::BindingResource::TextureView(picture),
+            placement.as_entire_binding(),
+        ];
+        BoundPicture {
+            group: pass::bind(device, "view composite", &self.layout, &resources),
+            placement,
+            written: None,
+        }
+    }
+
+    /// Says where in the window the picture's top left corner is, physical pixels.
+    pub(super) fn place(&self, queue: &wgpu::Queue, picture: &mut BoundPicture, origin: [i32; 2]) {
+        let placement = Placement {
+            origin,
+            is_linear: u32::from(self.is_linear),
+            padding: 0,
+        };
+        if picture.written != Some(placement) {
+            queue.write_buffer(&picture.placement, 0, bytemuck::bytes_of(&placement));
+            picture.written = Some(placement);
+        }
+    }
+
+    pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'static>, picture: &BoundPicture) {
+        pass.set_pipeline(&self.pipeline);
+        pass.set_bind_group(0, &picture.group, &[]);
+        pass.draw(0..3, 0..1);
+    }
+}

@@ -1,0 +1,221 @@
+//! The graphics device as the views of one window share it: pipelines, uploaded sets, and what went wrong.
+
+use std::{
+    collections::HashMap,
+    sync::{Arc, Mutex, MutexGuard, PoisonError, Weak},
+};
+
+use eframe::{egui_wgpu::RenderState, wgpu};
+
+use super::{
+    composite::Composite,
+    eye_dome,
+    lines::{self, GpuLines},
+    pass,
+    points::{self, GpuPoints},
+    scene::{LineSet, PointSet},
+    targets::{self, TargetLayouts},
+};
+use crate::error::Advice;
+
+/// Why a view cannot be drawn.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum ViewError {
+    /// There is nothing to draw with.
+    #[error("no graphics device was found ({reason})")]
+    NoDevice {
+        /// What the system said.
+        reason: String,
+    },
+    /// The device went away, for example with a driver update or a sleeping laptop.
+    #[error("the graphics device was lost ({reason})")]
+    DeviceLost {
+        /// What the system said.
+        reason: String,
+    },
+    /// The device refused something, for example for want of memory.
+    #[error("the graphics device reported an error ({reason})")]
+    DeviceError {
+        /// What the device said.
+        reason: String,
+    },
+    /// A picture larger than the device can draw was asked for.
+    #[error(
+        "a picture of {width} × {height} pixels was asked for, the device draws 1 × 1 to {most} × {most}"
+    )]
+    PictureSize {
+        /// Width asked for, pixels.
+        width: u32,
+        /// Height asked for, pixels.
+        height: u32,
+        /// Largest side, pixels.
+        most: u32,
+    },
+}
+
+impl Advice for ViewError {
+    fn advice(&self) -> String {
+        match self {
+            Self::NoDevice { .. } => {
+                "Install a Vulkan driver (on Debian mesa-vulkan-drivers), then start Partsight again".into()
+            }
+            Self::DeviceLost { .. } => "Start Partsight again".into(),
+            Self::DeviceError { .. } => {
+                "Close other programs that use the graphics device, then start Partsight again".into()
+            }
+            Self::PictureSize { .. } => "Ask for a smaller picture".into(),
+        }
+    }
+}
+
+/// A handle on the device for any number of views. Cloning is cheap and shares everything.
+///
+/// Make one for the window with [`ViewportGpu::of_window`], or one without any window with
+/// [`ViewportGpu::headless`].
+#[derive(Clone)]
+pub struct ViewportGpu(Arc<Shared>);
+
+struct Shared {
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    pipelines: Pipelines,
+    trouble: Arc<Mutex<Option<ViewError>>>,
+    points: Mutex<HashMap<u64, Weak<GpuPoints>>>,
+    lines: Mutex<HashMap<u64, Weak<GpuLines>>>,
+}
+
+/// The passes, made once per device.
+pub(super) struct Pipelines {
+    pub(super) uniform: wgpu::BindGroupLayout,
+    pub(super) targets: TargetLayouts,
+    pub(super) points: wgpu::RenderPipeline,
+    pub(super) lines: wgpu::RenderPipeline,
+    pub(super) eye_dome: wgpu::RenderPipeline,
+    pub(super) composite: Composite,
+}
+
+impl ViewportGpu {
+    /// The device that egui draws the window with. Call once, at start: `CreationContext::wgpu_render_state`.
+    pub fn of_window(render_state: &RenderState) -> Self {
+        let RenderState {
+            device,
+            queue,
+            target_format,
+            ..
+        } = render_state;
+        Self::new(device.clone(), queue.clone(), *target_format)
+    }
+
+    /// A device of its own, for pictures without a window.
+    pub fn headless() -> Result<Self, ViewError> {
+        let no_device = |reason: String| ViewError::NoDevice { reason };
+        let descriptor = wgpu::InstanceDescriptor::new_without_display_handle_from_env();
+        let instance = wgpu::Instance::new(descriptor);
+        let adapter =
+            pollster::block_on(instance.request_adapter(&wgpu::RequestAdapterOptions::default()))
+                .map_err(|error| no_device(error.to_string()))?;
+        let (device, queue) =
+            pollster::block_on(adapter.request_device(&wgpu::DeviceDescriptor::default()))
+                .map_err(|error| no_device(error.to_string()))?;
+        Ok(Self::new(device, queue, targets::COLOUR_FORMAT))
+    }
+
+    fn new(device: wgpu::Device, queue: wgpu::Queue, window_format: wgpu::TextureFormat) -> Self {
+        let trouble = Arc::new(Mutex::new(None));
+        listen(&device, &trouble);
+        Self(Arc::new(Shared {
+            pipelines: Pipelines::new(&device, window_format),
+            device,
+            queue,
+            trouble,
+            points: Mutex::default(),
+            lines: Mutex::default(),
+        }))
+    }
+
+    /// The first thing that went wrong with the device, if anything did. Views then show it in words.
+    pub fn trouble(&self) -> Option<ViewError> {
+        lock(&self.0.trouble).clone()
+    }
+
+    pub(super) fn device(&self) -> &wgpu::Device {
+        &self.0.device
+    }
+
+    pub(super) fn queue(&self) -> &wgpu::Queue {
+        &self.0.queue
+    }
+
+    pub(super) fn pipelines(&self) -> &Pipelines {
+        &self.0.pipelines
+    }
+
+    /// The set on the GPU, uploaded unless some view already holds it.
+    pub(super) fn points(&self, set: &PointSet) -> Arc<GpuPoints> {
+        held(&self.0.points, set.generation(), || {
+            GpuPoints::upload(&self.0.device, set)
+        })
+    }
+
+    /// As [`Self::points`].
+    pub(super) fn lines(&self, set: &LineSet) -> Arc<GpuLines> {
+        held(&self.0.lines, set.generation(), || {
+            GpuLines::upload(&self.0.device, set)
+        })
+    }
+}
+
+impl Pipelines {
+    fn new(device: &wgpu::Device, window_format: wgpu::TextureFormat) -> Self {
+        let uniform = pass::layout(device, "view uniform", &[pass::UNIFORM]);
+        let targets = TargetLayouts::new(device);
+        Self {
+            points: points::pipeline(device, &[&uniform, &uniform]),
+            lines: lines::pipeline(device, &[&uniform, &uniform, &targets.closeness]),
+            eye_dome: eye_dome::pipeline(device, &[&uniform, &targets.unshaded]),
+            composite: Composite::new(device, window_format),
+            uniform,
+            targets,
+        }
+    }
+}
+
+/// Keeps the first trouble. Without this wgpu panics on any error of the device.
+fn listen(device: &wgpu::Device, trouble: &Arc<Mutex<Option<ViewError>>>) {
+    let keep = |error: ViewError, trouble: &Mutex<Option<ViewError>>| {
+        lock(trouble).get_or_insert(error);
+    };
+    let on_lost = Arc::clone(trouble);
+    device.set_device_lost_callback(move |reason, message| {
+        // A device that was let go of on purpose is no trouble.
+        if reason != wgpu::DeviceLostReason::Destroyed {
+            keep(ViewError::DeviceLost { reason: message }, &on_lost);
+        }
+    });
+    let on_error = Arc::clone(trouble);
+    device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
+        keep(
+            ViewError::DeviceError {
+                reason: error.to_string(),
+            },
+            &on_error,
+        );
+    }));
+}
+
+/// The entry of this number, made if nobody holds it any more; entries that nobody holds are forgotten.
+fn held<T>(all: &Mutex<HashMap<u64, Weak<T>>>, number: u64, make: impl FnOnce() -> T) -> Arc<T> {
+    let mut all = lock(all);
+    if let Some(found) = all.get(&number).and_then(Weak::upgrade) {
+        return found;
+    }
+    all.retain(|_, entry| entry.strong_count() > 0);
+    let made = Arc::new(make());
+    all.insert(number, Arc::downgrade(&made));
+    made
+}
+
+/// A thread that panicked while holding the lock leaves a value as good as any other here.
+pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}

@@ -1,0 +1,103 @@
+//! The colour scale in the corner of a view: the same stops as the shader's, with the values at ends and middle.
+
+use egui::{Align2, Color32, FontId, Mesh, Painter, Pos2, Rect, Shape, Vec2};
+
+use super::{
+    renderer::height_range,
+    scene::ViewScene,
+    style::{Colouring, Legend, SCALE_STOPS, ViewStyle},
+};
+use crate::units::Metres;
+
+const BAR: Vec2 = Vec2::new(168.0, 8.0);
+const MARGIN: f32 = 14.0;
+
+/// Draws the scale that the view's points are coloured by, if it is one.
+pub(super) fn ui(painter: &Painter, rect: Rect, scene: &ViewScene, style: &ViewStyle) {
+    let fits = rect.width() > BAR.x + 4.0 * MARGIN && rect.height() > 100.0;
+    if style.legend == Legend::Hidden || !fits {
+        return;
+    }
+    let colours = &style.colours;
+    match style.colouring {
+        Colouring::Height => {
+            let [low, high] = height_range(scene).map(|metres| Metres(f64::from(metres)).mm());
+            let values = [low, f64::midpoint(low, high), high].map(|mm| format!("{mm:.0}"));
+            bar(
+                painter,
+                rect,
+                "height, mm",
+                &values,
+                &colours.height_scale,
+                style,
+            );
+        }
+        Colouring::Deviation => {
+            let end = style.deviation_range.mm();
+            let values = [format!("−{end}"), "0".into(), format!("+{end}")];
+            bar(
+                painter,
+                rect,
+                "deviation, mm",
+                &values,
+                &colours.deviation_scale,
+                style,
+            );
+        }
+        Colouring::Segment | Colouring::Plain => {}
+    }
+}
+
+fn bar(
+    painter: &Painter,
+    rect: Rect,
+    title: &str,
+    values: &[String; 3],
+    stops: &[Color32; SCALE_STOPS],
+    style: &ViewStyle,
+) {
+    let font = FontId::proportional(12.0);
+    let title_height = 18.0;
+    let top_left = Pos2::new(
+        rect.right() - MARGIN - BAR.x,
+        rect.top() + MARGIN + title_height,
+    );
+    let bar = Rect::from_min_size(top_left, BAR);
+    let plate = Rect::from_min_max(
+        bar.min - Vec2::new(10.0, title_height + 6.0),
+        bar.max + Vec2::new(10.0, 22.0),
+    );
+    painter.rect_filled(plate, 6.0, style.colours.background.gamma_multiply(0.8));
+    painter.text(
+        bar.right_top() - Vec2::new(0.0, 4.0),
+        Align2::RIGHT_BOTTOM,
+        title,
+        font.clone(),
+        style.colours.weak_text,
+    );
+    painter.add(Shape::mesh(gradient(bar, stops)));
+    let [low, middle, high] = values;
+    let below = Vec2::new(0.0, 4.0);
+    for (at, align, value) in [
+        (bar.left_bottom(), Align2::LEFT_TOP, low),
+        (bar.center_bottom(), Align2::CENTER_TOP, middle),
+        (bar.right_bottom(), Align2::RIGHT_TOP, high),
+    ] {
+        painter.text(at + below, align, value, font.clone(), style.colours.text);
+    }
+}
+
+fn gradient(bar: Rect, stops: &[Color32; SCALE_STOPS]) -> Mesh {
+    let mut mesh = Mesh::default();
+    for (i, colour) in (0_u32..).zip(stops) {
+        let x = bar.left() + bar.width() * i as f32 / (SCALE_STOPS - 1) as f32;
+        mesh.colored_vertex(Pos2::new(x, bar.top()), *colour);
+        mesh.colored_vertex(Pos2::new(x, bar.bottom()), *colour);
+        if i > 0 {
+            let last = 2 * (i - 1);
+            mesh.add_triangle(last, last + 1, last + 2);
+            mesh.add_triangle(last + 2, last + 1, last + 3);
+        }
+    }
+    mesh
+}

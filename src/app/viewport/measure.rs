@@ -1,0 +1,117 @@
+//! Measuring the distance between two picked points.
+
+use egui::{Align2, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2 as ScreenVec};
+use glam::Vec3;
+
+use super::{
+    camera::ViewCamera,
+    navigation::vec2,
+    style::{Role, ViewStyle},
+};
+use crate::units::Metres;
+
+/// Up to two points, and what lies between them.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub struct Measure {
+    points: [Option<Vec3>; 2],
+}
+
+impl Measure {
+    /// Takes the next point; a third one begins anew.
+    pub fn add(&mut self, point: Vec3) {
+        self.points = match self.points {
+            [Some(first), None] => [Some(first), Some(point)],
+            _ => [Some(point), None],
+        };
+    }
+
+    /// The distance, once both points are there.
+    pub fn distance(&self) -> Option<Metres> {
+        let [Some(a), Some(b)] = self.points else {
+            return None;
+        };
+        Some(Metres(f64::from(a.distance(b))))
+    }
+
+    /// Draws points, line and distance over the view.
+    pub(super) fn ui(&self, painter: &Painter, rect: Rect, camera: &ViewCamera, style: &ViewStyle) {
+        let colours = &style.colours;
+        let stroke = Stroke::new(2.0, colours.role(Role::Measure).colour);
+        let seen = self.points.map(|point| on_screen(point?, rect, camera));
+        if let [Some(a), Some(b)] = seen {
+            painter.line_segment(
+                [a, b],
+                Stroke::new(4.0, colours.background.gamma_multiply(0.6)),
+            );
+            painter.line_segment([a, b], stroke);
+        }
+        for at in seen.into_iter().flatten() {
+            painter.circle(at, 4.0, colours.background, stroke);
+        }
+        if let ([Some(a), Some(b)], Some(distance)) = (seen, self.distance()) {
+            plate(
+                painter,
+                a + (b - a) / 2.0,
+                &distance.to_string(),
+                style,
+                Anchor::Middle,
+            );
+        }
+    }
+}
+
+/// Where a plate of words stands relative to its point.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Anchor {
+    /// Centred on it.
+    Middle,
+    /// To its right.
+    Right,
+}
+
+/// Words on a plate of the background's colour, so that they can be read on any points.
+pub(super) fn plate(painter: &Painter, at: Pos2, text: &str, style: &ViewStyle, anchor: Anchor) {
+    let colours = &style.colours;
+    let galley = painter.layout_no_wrap(text.to_owned(), FontId::proportional(13.0), colours.text);
+    let size = galley.size() + ScreenVec::new(12.0, 6.0);
+    let rect = match anchor {
+        Anchor::Middle => Align2::CENTER_CENTER.anchor_size(at, size),
+        Anchor::Right => Align2::LEFT_CENTER.anchor_size(at + ScreenVec::new(8.0, 0.0), size),
+    };
+    painter.rect(
+        rect,
+        4.0,
+        colours.background.gamma_multiply(0.85),
+        Stroke::new(1.0, colours.weak_text.gamma_multiply(0.4)),
+        StrokeKind::Inside,
+    );
+    painter.add(Shape::galley(
+        rect.min + ScreenVec::new(6.0, 3.0),
+        galley,
+        colours.text,
+    ));
+}
+
+/// Where a world point is seen in the window, if it lies inside the view.
+pub(super) fn on_screen(point: Vec3, rect: Rect, camera: &ViewCamera) -> Option<Pos2> {
+    let seen = camera.screen_from_world(point, vec2(rect.size()))?;
+    let at = rect.min + ScreenVec::new(seen.x, seen.y);
+    rect.contains(at).then_some(at)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn two_points_give_a_distance_and_a_third_begins_anew() {
+        let mut measure = Measure::default();
+        measure.add(Vec3::ZERO);
+        assert_eq!(measure.distance(), None);
+        measure.add(Vec3::new(0.3, 0.4, 0.0));
+        let distance = measure.distance().expect("two points");
+        assert!((distance.mm() - 500.0).abs() < 1e-3);
+        measure.add(Vec3::ONE);
+        assert_eq!(measure.distance(), None);
+    }
+}

@@ -1,0 +1,63 @@
+//! The 3-D view: point clouds, lines and words, turned and measured by hand.
+//!
+//! ```text
+//! ViewScene   what is shown: PointSet, LineSet, TextLabel   scene, furniture   (data, made by the caller)
+//! ViewStyle   how it looks: colours by role, scales, sizes   style              (data, from the theme)
+//! ViewCamera  from where                                     camera             (pure; share it to link views)
+//!     │
+//!     ▼
+//! Viewport::ui ─► ViewportResponse: moved, picked, measured  widget, navigation, picking, measure, legend
+//!     │
+//!     ▼
+//! points ─► eye dome ─► lines ─► picture ─► window           renderer and one file a pass, each with its .wgsl
+//! ```
+//!
+//! A view at rest costs one copy of its finished picture: it is drawn anew only when camera, scene, style or size
+//! differ, and points are uploaded only when a set not seen before comes.
+//!
+//! | with | does |
+//! | --- | --- |
+//! | left drag, arrow keys | turn |
+//! | right, middle or Shift + left drag, Shift + arrow keys, two fingers | shift |
+//! | wheel, pinch, + and − | zoom, to the cursor |
+//! | F, Shift + F | fit the part, fit everything |
+//! | Z, Y, X | look along that axis: front, top, side |
+//! | M, Esc | measure between two clicked points, stop measuring |
+//!
+//! Keys go to the view that has the focus, or to the one under the pointer while nothing has it.
+
+pub mod bounds;
+pub mod camera;
+mod composite;
+mod detail;
+mod eye_dome;
+pub mod furniture;
+mod gpu;
+mod legend;
+mod lines;
+mod measure;
+mod navigation;
+mod pass;
+mod picking;
+mod points;
+mod renderer;
+pub mod scene;
+mod screenshot;
+pub mod style;
+mod targets;
+mod uniform;
+mod widget;
+
+pub use self::{
+    camera::{FitRequest, StandardView, ViewCamera},
+    gpu::{ViewError, ViewportGpu},
+    measure::Measure,
+    picking::PickedPoint,
+    scene::{Line, LineSet, PointSet, TextLabel, ViewScene},
+    screenshot::screenshot,
+    style::{Colouring, PointSize, Role, ViewColours, ViewStyle},
+    widget::{ViewTool, Viewport, ViewportResponse},
+};
+
+#[cfg(test)]
+mod shader_tests;

@@ -1,0 +1,132 @@
+//! Turns pointer, wheel, pinch and keys over a view into moves of its camera.
+
+use egui::{EventFilter, Key, Modifiers, PointerButton, Response, Ui};
+use glam::Vec2;
+
+use super::{
+    camera::{FitRequest, StandardView, ViewCamera, ViewSize},
+    scene::ViewScene,
+};
+
+/// One press of an arrow key turns by this, radians: 24 presses a full turn.
+const TURN_PER_PRESS: f32 = std::f32::consts::TAU / 24.0;
+/// One press of an arrow key with Shift shifts by this, logical pixels.
+const PAN_PER_PRESS: f32 = 40.0;
+/// One press of + comes nearer by this factor.
+const ZOOM_PER_PRESS: f32 = 1.2;
+/// Zoom per logical pixel that the wheel scrolls, as a power of e: one notch of about 50 is a factor 1.28.
+const ZOOM_PER_SCROLL: f32 = 0.005;
+
+/// Does the fit that the camera was asked for, once there is something to fit to; true if it moved.
+pub(super) fn fit_if_pending(camera: &mut ViewCamera, scene: &ViewScene, size: ViewSize) -> bool {
+    let bounds = match camera.pending_fit() {
+        Some(FitRequest::Focus) => scene.focus(),
+        Some(FitRequest::Everything) => scene.bounds(),
+        None => None,
+    };
+    bounds.is_some_and(|bounds| camera.fit(&bounds, size))
+}
+
+/// Moves the camera by what happened over the view since the last frame; true if it moved.
+pub(super) fn navigate(
+    ui: &Ui,
+    response: &Response,
+    camera: &mut ViewCamera,
+    size: ViewSize,
+) -> bool {
+    let by_pointer = drag(ui, response, camera, size);
+    let by_wheel = zoom(ui, response, camera, size);
+    let by_keys = is_listening(ui, response) && keys(ui, response, camera, size);
+    by_pointer || by_wheel || by_keys
+}
+
+/// A view hears keys while it has the focus, or while nothing has it and the pointer is over the view.
+pub(super) fn is_listening(ui: &Ui, response: &Response) -> bool {
+    response.has_focus()
+        || (response.contains_pointer() && ui.memory(egui::Memory::focused).is_none())
+}
+
+fn drag(ui: &Ui, response: &Response, camera: &mut ViewCamera, size: ViewSize) -> bool {
+    let moved = vec2(response.drag_delta());
+    // Two fingers pan with the pinch in `zoom`.
+    if ui.input(egui::InputState::multi_touch).is_some() {
+        return false;
+    }
+    let shift = ui.input(|input| input.modifiers.shift);
+    if response.dragged_by(PointerButton::Primary) && !shift {
+        camera.orbit(moved, size)
+    } else if response.dragged() {
+        camera.pan(moved, size)
+    } else {
+        false
+    }
+}
+
+fn zoom(ui: &Ui, response: &Response, camera: &mut ViewCamera, size: ViewSize) -> bool {
+    if !response.contains_pointer() {
+        return false;
+    }
+    let Some(cursor) = response.hover_pos() else {
+        return false;
+    };
+    let (scroll, pinch, fingers) = ui.input(|input| {
+        let fingers = input
+            .multi_touch()
+            .map_or(egui::Vec2::ZERO, |touch| touch.translation_delta);
+        (input.smooth_scroll_delta().y, input.zoom_delta(), fingers)
+    });
+    let factor = pinch * (scroll * ZOOM_PER_SCROLL).exp();
+    let zoomed = camera.zoom_at(factor, vec2(cursor - response.rect.min), size);
+    camera.pan(vec2(fingers), size) || zoomed
+}
+
+fn keys(ui: &Ui, response: &Response, camera: &mut ViewCamera, size: ViewSize) -> bool {
+    if response.has_focus() {
+        // The arrows are ours; Tab still leaves the view.
+        let arrows = EventFilter {
+            tab: false,
+            horizontal_arrows: true,
+            vertical_arrows: true,
+            escape: true,
+        };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(response.id, arrows));
+    }
+    let presses =
+        |modifiers, key| ui.input_mut(|input| input.count_and_consume_key(modifiers, key)) as f32;
+    let arrows = |modifiers| {
+        Vec2::new(
+            presses(modifiers, Key::ArrowRight) - presses(modifiers, Key::ArrowLeft),
+            presses(modifiers, Key::ArrowDown) - presses(modifiers, Key::ArrowUp),
+        )
+    };
+    let before = *camera;
+    let pan = arrows(Modifiers::SHIFT) * PAN_PER_PRESS;
+    let turn = arrows(Modifiers::NONE) * TURN_PER_PRESS;
+    camera.pan(pan, size);
+    camera.turn(turn.x, turn.y);
+    let nearer = presses(Modifiers::NONE, Key::Plus) + presses(Modifiers::NONE, Key::Equals)
+        - presses(Modifiers::NONE, Key::Minus);
+    camera.zoom_at(ZOOM_PER_PRESS.powf(nearer), size / 2.0, size);
+    for (key, view) in [
+        (Key::Z, StandardView::Front),
+        (Key::Y, StandardView::Top),
+        (Key::X, StandardView::Side),
+    ] {
+        if presses(Modifiers::NONE, key) > 0.0 {
+            camera.look(view);
+            camera.request_fit(FitRequest::Focus);
+        }
+    }
+    if presses(Modifiers::NONE, Key::F) > 0.0 {
+        camera.request_fit(FitRequest::Focus);
+    }
+    if presses(Modifiers::SHIFT, Key::F) > 0.0 {
+        camera.request_fit(FitRequest::Everything);
+    }
+    *camera != before
+}
+
+/// egui's vector as glam's.
+pub(super) fn vec2(v: egui::Vec2) -> Vec2 {
+    Vec2::new(v.x, v.y)
+}

@@ -1,0 +1,310 @@
+//! Draws one view into its own picture, and only when something that can be seen has changed.
+//!
+//! ```text
+//! points ─► colour, near / z ─► eye dome ─► picture ◄─ lines          composite: picture ─► window
+//! └──────────── only when camera, scene, style or size changed ──────┘            each frame of the window
+//! ```
+
+use std::sync::Arc;
+
+use eframe::wgpu;
+use glam::{Mat4, Vec3, Vec4};
+
+use super::{
+    camera::{ViewCamera, ViewSize},
+    composite::BoundPicture,
+    gpu::ViewportGpu,
+    lines::{GpuLines, LinesUniform},
+    pass::Uniform,
+    points::{GpuPoints, NUM_SAMPLES, PointsUniform},
+    scene::ViewScene,
+    style::{PointSize, ViewStyle},
+    targets::Targets,
+    uniform::ViewUniform,
+};
+
+/// What is to be drawn.
+#[derive(Clone)]
+pub(super) struct Frame {
+    pub(super) camera: ViewCamera,
+    pub(super) scene: ViewScene,
+    pub(super) style: ViewStyle,
+    /// Logical pixels.
+    pub(super) size: ViewSize,
+    /// Physical pixels.
+    pub(super) target: [u32; 2],
+    /// How many of the [`NUM_SAMPLES`] random samples of each point set are drawn.
+    pub(super) num_samples: usize,
+}
+
+/// Everything that the picture depends on; equal keys, equal pictures.
+#[derive(Clone, Debug, PartialEq)]
+struct PictureKey {
+    view: ViewUniform,
+    points: Vec<(u64, PointsUniform)>,
+    lines: Vec<(u64, LinesUniform)>,
+    num_samples: usize,
+}
+
+/// The GPU side of one view.
+#[derive(Default)]
+pub(super) struct ViewRenderer {
+    drawn: Option<PictureKey>,
+    held: Option<Held>,
+    points: Vec<Arc<GpuPoints>>,
+    lines: Vec<Arc<GpuLines>>,
+    set_uniforms: Vec<Uniform>,
+    num_pictures: u64,
+}
+
+struct Held {
+    targets: Targets,
+    bound: BoundPicture,
+    view: Uniform,
+}
+
+impl ViewRenderer {
+    /// Records the drawing of the frame, unless the picture already shows it; true if it did.
+    pub(super) fn draw(
+        &mut self,
+        gpu: &ViewportGpu,
+        frame: &Frame,
+        encoder: &mut wgpu::CommandEncoder,
+    ) -> bool {
+        let key = PictureKey::of(frame);
+        if self.drawn.as_ref() == Some(&key) {
+            return false;
+        }
+        self.hold(gpu, frame.target);
+        self.hold_sets(gpu, frame, &key);
+        self.write_uniforms(gpu, &key);
+        if let Some(held) = &self.held {
+            self.record(gpu, held, encoder, frame.num_samples);
+            self.num_pictures += 1;
+        }
+        self.drawn = Some(key);
+        true
+    }
+
+    /// Says where in the window the picture goes.
+    pub(super) fn place(&mut self, gpu: &ViewportGpu, origin: [i32; 2]) {
+        if let Some(held) = &mut self.held {
+            gpu.pipelines()
+                .composite
+                .place(gpu.queue(), &mut held.bound, origin);
+        }
+    }
+
+    /// Draws the picture into egui's own pass.
+    pub(super) fn composite(&self, gpu: &ViewportGpu, pass: &mut wgpu::RenderPass<'static>) {
+        if let Some(held) = &self.held {
+            gpu.pipelines().composite.draw(pass, &held.bound);
+        }
+    }
+
+    /// The finished picture, once drawn.
+    pub(super) fn picture(&self) -> Option<&wgpu::Texture> {
+        self.held.as_ref().map(|held| &held.targets.picture_texture)
+    }
+
+    /// How often the picture was drawn anew.
+    pub(super) fn num_pictures(&self) -> u64 {
+        self.num_pictures
+    }
+
+    fn hold(&mut self, gpu: &ViewportGpu, size: [u32; 2]) {
+        if self
+            .held
+            .as_ref()
+            .is_some_and(|held| held.targets.size == size)
+        {
+            return;
+        }
+        let (device, pipelines) = (gpu.device(), gpu.pipelines());
+        let targets = Targets::new(device, &pipelines.targets, size);
+        let bound = pipelines.composite.bind(device, &targets.picture);
+        let view = Uniform::new::<ViewUniform>(device, "view", &pipelines.uniform);
+        self.held = Some(Held {
+            targets,
+            bound,
+            view,
+        });
+    }
+
+    fn hold_sets(&mut self, gpu: &ViewportGpu, frame: &Frame, key: &PictureKey) {
+        let same = |now: &PictureKey, then: &PictureKey| {
+            now.points
+                .iter()
+                .map(|p| p.0)
+                .eq(then.points.iter().map(|p| p.0))
+                && now
+                    .lines
+                    .iter()
+                    .map(|l| l.0)
+                    .eq(then.lines.iter().map(|l| l.0))
+        };
+        if self.drawn.as_ref().is_some_and(|drawn| same(key, drawn)) {
+            return;
+        }
+        // The new ones first: those that stay must not be let go of in between.
+        self.points = frame
+            .scene
+            .points
+            .iter()
+            .map(|set| gpu.points(set))
+            .collect();
+        self.lines = frame.scene.lines.iter().map(|set| gpu.lines(set)).collect();
+    }
+
+    fn write_uniforms(&mut self, gpu: &ViewportGpu, key: &PictureKey) {
+        let num_sets = key.points.len() + key.lines.len();
+        while self.set_uniforms.len() < num_sets {
+            let uniform =
+                Uniform::new::<PointsUniform>(gpu.device(), "view set", &gpu.pipelines().uniform);
+            self.set_uniforms.push(uniform);
+        }
+        if let Some(held) = &self.held {
+            held.view.write(gpu.queue(), &key.view);
+        }
+        let (for_points, for_lines) = self.set_uniforms.split_at(key.points.len());
+        for (uniform, (_, value)) in for_points.iter().zip(&key.points) {
+            uniform.write(gpu.queue(), value);
+        }
+        for (uniform, (_, value)) in for_lines.iter().zip(&key.lines) {
+            uniform.write(gpu.queue(), value);
+        }
+    }
+
+    fn record(
+        &self,
+        gpu: &ViewportGpu,
+        held: &Held,
+        encoder: &mut wgpu::CommandEncoder,
+        num_samples: usize,
+    ) {
+        let (pipelines, targets) = (gpu.pipelines(), &held.targets);
+        let (for_points, for_lines) = self.set_uniforms.split_at(self.points.len());
+
+        let mut pass = begin(
+            encoder,
+            "view points",
+            &[&targets.colour, &targets.closeness],
+            Some(&targets.depth),
+        );
+        pass.set_pipeline(&pipelines.points);
+        pass.set_bind_group(0, &held.view.group, &[]);
+        for (points, uniform) in self.points.iter().zip(for_points) {
+            pass.set_bind_group(1, &uniform.group, &[]);
+            points.draw(&mut pass, num_samples);
+        }
+        drop(pass);
+
+        let mut pass = begin(
+            encoder,
+            "view eye dome and lines",
+            &[&targets.picture],
+            None,
+        );
+        pass.set_pipeline(&pipelines.eye_dome);
+        pass.set_bind_group(0, &held.view.group, &[]);
+        pass.set_bind_group(1, &targets.unshaded_group, &[]);
+        pass.draw(0..3, 0..1);
+        pass.set_pipeline(&pipelines.lines);
+        pass.set_bind_group(2, &targets.closeness_group, &[]);
+        for (lines, uniform) in self.lines.iter().zip(for_lines) {
+            pass.set_bind_group(1, &uniform.group, &[]);
+            lines.draw(&mut pass);
+        }
+    }
+}
+
+/// Begins a pass that clears all it draws to: colours to nothing, depth to infinitely far.
+fn begin<'a>(
+    encoder: &'a mut wgpu::CommandEncoder,
+    label: &str,
+    colours: &[&wgpu::TextureView],
+    depth: Option<&wgpu::TextureView>,
+) -> wgpu::RenderPass<'a> {
+    let colours: Vec<_> = colours
+        .iter()
+        .map(|&view| {
+            Some(wgpu::RenderPassColorAttachment {
+                view,
+                depth_slice: None,
+                resolve_target: None,
+                ops: wgpu::Operations {
+                    load: wgpu::LoadOp::Clear(wgpu::Color::TRANSPARENT),
+                    store: wgpu::StoreOp::Store,
+                },
+            })
+        })
+        .collect();
+    encoder.begin_render_pass(&wgpu::RenderPassDescriptor {
+        label: Some(label),
+        color_attachments: &colours,
+        depth_stencil_attachment: depth.map(|view| wgpu::RenderPassDepthStencilAttachment {
+            view,
+            depth_ops: Some(wgpu::Operations {
+                load: wgpu::LoadOp::Clear(0.0),
+                store: wgpu::StoreOp::Discard,
+            }),
+            stencil_ops: None,
+        }),
+        ..wgpu::RenderPassDescriptor::default()
+    })
+}
+
+impl PictureKey {
+    fn of(frame: &Frame) -> Self {
+        let Frame {
+            camera,
+            scene,
+            style,
+            size,
+            target,
+            num_samples,
+        } = frame;
+        let clip_from_world = camera.clip_from_world(*size);
+        let pixels_per_point = target[1] as f32 / size.y.max(1.0);
+        // Fewer points are drawn larger, so that the surface stays as closed as it was.
+        let growth = (NUM_SAMPLES as f32 / *num_samples as f32).sqrt();
+        let (size_unit, diameter) = match style.point_size {
+            PointSize::Pixels(pixels) => (0, pixels * pixels_per_point),
+            PointSize::Metres(metres) => (1, metres.0 as f32),
+        };
+        let points = scene.points.iter().map(|set| {
+            let uniform = PointsUniform {
+                clip_from_set: clip_from_world * set.world_from_set,
+                height_from_set: height_from(&set.world_from_set),
+                colouring: set.colouring.unwrap_or(style.colouring) as u32,
+                size_unit,
+                diameter: diameter * growth,
+                padding: 0.0,
+            };
+            (set.generation(), uniform)
+        });
+        let lines = scene.lines.iter().map(|set| {
+            let clip_from_set = clip_from_world * set.world_from_set;
+            (set.generation(), LinesUniform { clip_from_set })
+        });
+        Self {
+            view: ViewUniform::new(camera, style, height_range(scene), *size, *target),
+            points: points.collect(),
+            lines: lines.collect(),
+            num_samples: *num_samples,
+        }
+    }
+}
+
+/// Up is −y, so a height is minus the second row of the transform.
+fn height_from(world_from_set: &Mat4) -> Vec4 {
+    -world_from_set.row(1)
+}
+
+/// Height above the camera's level at the ends of the height scale, metres.
+pub(super) fn height_range(scene: &ViewScene) -> [f32; 2] {
+    let height = |point: Vec3| -point.y;
+    scene.focus().map_or([0.0, 1.0], |bounds| {
+        [height(bounds.high), height(bounds.low)]
+    })
+}

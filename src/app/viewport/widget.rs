@@ -1,0 +1,298 @@
+//! The view as a widget: input in, picture out.
+
+use std::sync::{Arc, Mutex};
+
+use eframe::{
+    egui_wgpu::{Callback, CallbackResources, CallbackTrait, ScreenDescriptor},
+    wgpu,
+};
+use egui::{
+    Align, CursorIcon, Key, Layout, Modifiers, PaintCallbackInfo, Rect, Response, RichText, Sense,
+    Ui, UiBuilder,
+};
+
+use super::{
+    camera::ViewCamera,
+    detail::MovingDetail,
+    gpu::{ViewError, ViewportGpu, lock},
+    legend,
+    measure::{self, Anchor, Measure},
+    navigation::{self, vec2},
+    picking::{self, PickedPoint},
+    renderer::{Frame, ViewRenderer},
+    scene::ViewScene,
+    style::ViewStyle,
+};
+use crate::{error::Advice, units::Metres};
+
+/// What a click on the view does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ViewTool {
+    /// Picks a point.
+    #[default]
+    Look,
+    /// Sets the ends of a measured distance.
+    Measure,
+}
+
+/// One 3-D view in the window.
+///
+/// It keeps what belongs to the view alone; camera, scene and style come with each frame, so that two views are linked
+/// by giving both the same [`ViewCamera`]. Its resources on the GPU go when it is dropped.
+pub struct Viewport {
+    gpu: Result<ViewportGpu, ViewError>,
+    renderer: Arc<Mutex<ViewRenderer>>,
+    detail: MovingDetail,
+    shown_camera: Option<ViewCamera>,
+    /// What a click does.
+    pub tool: ViewTool,
+    /// The distance being measured.
+    pub measure: Measure,
+}
+
+/// What happened in a view in this frame.
+#[derive(Clone, Debug)]
+pub struct ViewportResponse {
+    /// egui's own, for focus, hover and context menus.
+    pub response: Response,
+    /// The camera was moved.
+    pub changed: bool,
+    /// A point was clicked.
+    pub picked: Option<PickedPoint>,
+    /// The distance between the two points measured, as long as they stand.
+    pub measured: Option<Metres>,
+}
+
+impl Viewport {
+    /// A view drawn by `gpu`; with an error, the view says it in words instead.
+    pub fn new(gpu: Result<ViewportGpu, ViewError>) -> Self {
+        Self {
+            gpu,
+            renderer: Arc::default(),
+            detail: MovingDetail::default(),
+            shown_camera: None,
+            tool: ViewTool::default(),
+            measure: Measure::default(),
+        }
+    }
+
+    /// Shows the scene in all the room that is left in `ui`. `label` names the view for a screen reader and must
+    /// differ between views.
+    pub fn ui(
+        &mut self,
+        ui: &mut Ui,
+        label: &str,
+        camera: &mut ViewCamera,
+        scene: &ViewScene,
+        style: &ViewStyle,
+    ) -> ViewportResponse {
+        let (rect, _) = ui.allocate_exact_size(ui.available_size(), Sense::hover());
+        let id = ui.scope_id().with(("viewport", label));
+        let response = ui.interact(rect, id, Sense::click_and_drag() | Sense::FOCUSABLE);
+        describe(ui, &response, label);
+        let size = vec2(rect.size());
+        if response.clicked() || response.drag_started() {
+            response.request_focus();
+        }
+
+        let moved = navigation::navigate(ui, &response, camera, size);
+        let fitted = navigation::fit_if_pending(camera, scene, size);
+        self.tool_keys(ui, &response);
+        let picked = self.click(&response, camera, scene, style);
+
+        match self.drawable() {
+            Ok(gpu) => {
+                let gpu = gpu.clone();
+                self.paint(ui, &gpu, rect, camera, scene, style);
+                self.overlay(ui, rect, camera, scene, style);
+            }
+            Err(error) => say(ui, rect, &error, style),
+        }
+        if response.has_focus() {
+            let inside = rect.shrink(1.0);
+            ui.painter().rect_stroke(
+                inside,
+                0.0,
+                ui.visuals().selection.stroke,
+                egui::StrokeKind::Inside,
+            );
+        }
+        if self.tool == ViewTool::Measure && response.hovered() {
+            ui.set_cursor_icon(CursorIcon::Crosshair);
+        }
+        ViewportResponse {
+            response,
+            changed: moved || fitted,
+            picked,
+            measured: self.measure.distance(),
+        }
+    }
+
+    /// How often the picture was drawn anew since the view was made: it stands still while nothing changes.
+    pub fn num_pictures(&self) -> u64 {
+        lock(&self.renderer).num_pictures()
+    }
+
+    fn drawable(&self) -> Result<&ViewportGpu, ViewError> {
+        let gpu = self.gpu.as_ref().map_err(Clone::clone)?;
+        gpu.trouble().map_or(Ok(gpu), Err)
+    }
+
+    fn tool_keys(&mut self, ui: &Ui, response: &Response) {
+        if !navigation::is_listening(ui, response) {
+            return;
+        }
+        let pressed = |key| ui.input_mut(|input| input.consume_key(Modifiers::NONE, key));
+        if pressed(Key::M) {
+            self.tool = match self.tool {
+                ViewTool::Look => ViewTool::Measure,
+                ViewTool::Measure => ViewTool::Look,
+            };
+        }
+        let is_measuring = self.tool == ViewTool::Measure || self.measure != Measure::default();
+        if is_measuring && pressed(Key::Escape) {
+            self.tool = ViewTool::Look;
+            self.measure = Measure::default();
+        }
+    }
+
+    fn click(
+        &mut self,
+        response: &Response,
+        camera: &ViewCamera,
+        scene: &ViewScene,
+        style: &ViewStyle,
+    ) -> Option<PickedPoint> {
+        if !response.clicked() {
+            return None;
+        }
+        let cursor = vec2(response.interact_pointer_pos()? - response.rect.min);
+        let is_shown = |role| style.colours.role(role).weight > 0.0;
+        let picked = picking::pick(camera, scene, is_shown, cursor, vec2(response.rect.size()))?;
+        if self.tool == ViewTool::Measure {
+            self.measure.add(picked.position);
+        }
+        Some(picked)
+    }
+
+    fn paint(
+        &mut self,
+        ui: &Ui,
+        gpu: &ViewportGpu,
+        rect: Rect,
+        camera: &ViewCamera,
+        scene: &ViewScene,
+        style: &ViewStyle,
+    ) {
+        let now = ui.input(|input| input.time);
+        let has_moved = self.shown_camera.is_some_and(|shown| shown != *camera);
+        self.shown_camera = Some(*camera);
+        let (num_samples, rests_in) = self.detail.frame(has_moved, now);
+        if let Some(seconds) = rests_in {
+            ui.request_repaint_after_secs(seconds as f32);
+        }
+        let callback = PaintView {
+            gpu: gpu.clone(),
+            renderer: Arc::clone(&self.renderer),
+            rect,
+            frame: Frame {
+                camera: *camera,
+                scene: scene.clone(),
+                style: style.clone(),
+                size: vec2(rect.size()),
+                // Both are set in `prepare`, where the window's scale is known for certain.
+                target: [0, 0],
+                num_samples,
+            },
+        };
+        ui.painter()
+            .add(Callback::new_paint_callback(rect, callback));
+    }
+
+    fn overlay(
+        &self,
+        ui: &Ui,
+        rect: Rect,
+        camera: &ViewCamera,
+        scene: &ViewScene,
+        style: &ViewStyle,
+    ) {
+        let painter = ui.painter_at(rect);
+        for label in &scene.labels {
+            if let Some(at) = measure::on_screen(label.at, rect, camera) {
+                measure::plate(&painter, at, &label.text, style, Anchor::Right);
+            }
+        }
+        self.measure.ui(&painter, rect, camera, style);
+        legend::ui(&painter, rect, scene, style);
+    }
+}
+
+/// Names the view and its keys for a screen reader.
+fn describe(ui: &Ui, response: &Response, label: &str) {
+    ui.accesskit_node_builder(response.id, |node| {
+        node.set_role(egui::accesskit::Role::Canvas);
+        node.set_label(label);
+        node.set_description(
+            "3-D view. Arrow keys turn, with Shift they shift, plus and minus zoom, F fits, X, Y and Z look along an \
+             axis, M measures",
+        );
+    });
+}
+
+/// Says in place of the view why there is none.
+fn say(ui: &mut Ui, rect: Rect, error: &ViewError, style: &ViewStyle) {
+    let colours = &style.colours;
+    ui.painter().rect_filled(rect, 0.0, colours.background);
+    let inside = rect.shrink(24.0);
+    let layout = Layout::top_down(Align::Center);
+    ui.scope_builder(UiBuilder::new().max_rect(inside).layout(layout), |ui| {
+        ui.add_space((inside.height() / 2.0 - 40.0).max(0.0));
+        ui.label(RichText::new("No 3-D view").size(20.0).color(colours.text));
+        ui.label(RichText::new(error.to_string()).color(colours.weak_text));
+        ui.label(RichText::new(error.advice()).color(colours.text));
+    });
+}
+
+/// One frame of a view on its way into egui's pass.
+struct PaintView {
+    gpu: ViewportGpu,
+    renderer: Arc<Mutex<ViewRenderer>>,
+    rect: Rect,
+    frame: Frame,
+}
+
+impl CallbackTrait for PaintView {
+    fn prepare(
+        &self,
+        device: &wgpu::Device,
+        _queue: &wgpu::Queue,
+        screen: &ScreenDescriptor,
+        encoder: &mut wgpu::CommandEncoder,
+        _resources: &mut CallbackResources,
+    ) -> Vec<wgpu::CommandBuffer> {
+        // Rounded as egui rounds, so that a texel is a pixel; but not cut at the window's edge.
+        let pixel = |points: f32| (points * screen.pixels_per_point).round() as i32;
+        let origin = [pixel(self.rect.min.x), pixel(self.rect.min.y)];
+        let end = [pixel(self.rect.max.x), pixel(self.rect.max.y)];
+        let most = device.limits().max_texture_dimension_2d as i32;
+        let target = [0, 1].map(|axis| (end[axis] - origin[axis]).clamp(1, most) as u32);
+        let frame = Frame {
+            target,
+            ..self.frame.clone()
+        };
+        let mut renderer = lock(&self.renderer);
+        renderer.draw(&self.gpu, &frame, encoder);
+        renderer.place(&self.gpu, origin);
+        Vec::new()
+    }
+
+    fn paint(
+        &self,
+        _info: PaintCallbackInfo,
+        pass: &mut wgpu::RenderPass<'static>,
+        _resources: &CallbackResources,
+    ) {
+        lock(&self.renderer).composite(&self.gpu, pass);
+    }
+}

@@ -1,0 +1,131 @@
+//! The 3-D view drawn for real, on whatever graphics device there is: software Vulkan will do.
+//!
+//! Without any device these tests say so and pass, unless `PARTSIGHT_REQUIRE_GPU=1` asks for one. With
+//! `PARTSIGHT_VIEW_PICTURES=DIR` they leave what they drew in that folder.
+
+mod pictures;
+mod shown;
+mod speed;
+
+use std::path::PathBuf;
+
+use eframe::egui_wgpu::{RenderState, RendererOptions};
+use egui_kittest::wgpu::{create_render_state, default_wgpu_setup};
+use image::RgbaImage;
+use nalgebra::Point3;
+use partsight::{
+    app::viewport::{PointSet, TextLabel, ViewError, ViewScene, ViewportGpu, furniture},
+    geometry::{nearest::KdTree, rigid::RigidTransform},
+    simulate::{self, CellSetup, PartKind, Side},
+    stages::{
+        scene::scene_from_frame,
+        segment::{SegmentParams, Segmentation, segment},
+    },
+    units::Metres,
+};
+
+/// A device without a window, or `None` with the reason printed.
+#[expect(clippy::print_stderr, reason = "a test that skips must say why")]
+fn device() -> Option<ViewportGpu> {
+    match ViewportGpu::headless() {
+        Ok(gpu) => Some(gpu),
+        Err(ViewError::NoDevice { reason })
+            if std::env::var_os("PARTSIGHT_REQUIRE_GPU").is_none() =>
+        {
+            eprintln!("skipped, for want of a graphics device: {reason}");
+            None
+        }
+        Err(error) => panic!("{error}"),
+    }
+}
+
+/// What egui's test harness draws with, or `None` as with [`device`].
+fn render_state() -> Option<RenderState> {
+    device()?;
+    Some(create_render_state(
+        default_wgpu_setup(),
+        RendererOptions::PREDICTABLE,
+    ))
+}
+
+/// Keeps a picture where the environment asks for it.
+fn keep(name: &str, picture: &RgbaImage) {
+    if let Some(folder) = std::env::var_os("PARTSIGHT_VIEW_PICTURES") {
+        let folder = PathBuf::from(folder);
+        std::fs::create_dir_all(&folder).expect("the folder for pictures");
+        picture
+            .save(folder.join(format!("{name}.png")))
+            .expect("a picture written");
+    }
+}
+
+/// A simulated front door, segmented, with its deviation from the exact part, axes, camera and nozzle.
+struct Example {
+    scene: ViewScene,
+    segmentation: Segmentation,
+}
+
+fn example() -> Example {
+    let setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 1, 7);
+    let shot = simulate::frame(&setup);
+    let scene = scene_from_frame(&shot.frame);
+    let segmentation = segment(&scene, &SegmentParams::default());
+    let positions: Vec<[f32; 3]> = scene.cloud.points.iter().map(|p| [p.x, p.y, p.z]).collect();
+    let deviations = deviations(
+        &scene.cloud.points,
+        &segmentation,
+        &setup,
+        &shot.truth.camera_from_part,
+    );
+    let points = PointSet::segmented(positions, &segmentation.labels).with_deviations(deviations);
+    let part = &segmentation.part.as_ref().expect("a part").cloud;
+    let mut view = ViewScene {
+        points: vec![points],
+        lines: vec![
+            furniture::axes(Metres(0.25)).at(&shot.truth.camera_from_part),
+            furniture::frustum(&setup.intrinsics, Metres(0.25)),
+        ],
+        labels: Vec::new(),
+    };
+    let middle = part.points[part.points.len() / 2];
+    let surface = glam::Vec3::new(middle.x, middle.y, middle.z);
+    let mouth = surface + glam::Vec3::new(0.03, -0.06, -0.14);
+    view.lines
+        .push(furniture::nozzle(mouth, surface - mouth, surface));
+    view.labels.push(TextLabel {
+        at: mouth,
+        text: "Stand-off 15.5 cm".into(),
+    });
+    Example {
+        scene: view,
+        segmentation,
+    }
+}
+
+/// Nearest distance to the exact part, positive on the camera's side.
+fn deviations(
+    points: &[Point3<f32>],
+    segmentation: &Segmentation,
+    setup: &CellSetup,
+    camera_from_part: &RigidTransform,
+) -> Vec<f32> {
+    let camera_from_part = camera_from_part.cast::<f32>();
+    let exact: Vec<Point3<f32>> = setup
+        .subject
+        .mesh()
+        .sample_evenly(60_000, 1)
+        .expect("a part has a surface")
+        .points
+        .iter()
+        .map(|p| camera_from_part * p)
+        .collect();
+    let tree = KdTree::new(&exact);
+    let mut deviations = vec![f32::NAN; points.len()];
+    for &i in &segmentation.part.as_ref().expect("a part").indices {
+        let point = points[i as usize];
+        if let Some(nearest) = tree.nearest(&point, 0.05 * 0.05) {
+            deviations[i as usize] = exact[nearest.index].z - point.z;
+        }
+    }
+    deviations
+}

@@ -1,0 +1,195 @@
+//! The view as a widget in a window without a screen.
+
+use eframe::egui::{Event, Key, Modifiers, Pos2, Theme, Vec2};
+use egui_kittest::{Harness, kittest::Queryable as _, wgpu::WgpuTestRenderer};
+use partsight::{
+    app::viewport::{
+        Colouring, ViewCamera, ViewColours, ViewError, ViewScene, ViewStyle, ViewTool, Viewport,
+        ViewportGpu,
+    },
+    units::Metres,
+};
+
+use crate::{example, keep, render_state};
+
+struct Shown {
+    view: Viewport,
+    camera: ViewCamera,
+    scene: ViewScene,
+    style: ViewStyle,
+    measured: Option<Metres>,
+    num_picked: usize,
+}
+
+impl Shown {
+    fn new(gpu: Result<ViewportGpu, ViewError>, scene: ViewScene) -> Self {
+        Self {
+            view: Viewport::new(gpu),
+            camera: ViewCamera::default(),
+            scene,
+            style: ViewStyle::new(ViewColours::dark()),
+            measured: None,
+            num_picked: 0,
+        }
+    }
+}
+
+fn harness<'a>(state: Shown, renderer: Option<WgpuTestRenderer>) -> Harness<'a, Shown> {
+    let builder = Harness::builder()
+        .with_size(Vec2::new(800.0, 600.0))
+        .with_theme(Theme::Dark);
+    let builder = match renderer {
+        Some(renderer) => builder.renderer(renderer),
+        None => builder,
+    };
+    builder.build_ui_state(
+        |ui, state: &mut Shown| {
+            let Shown {
+                view,
+                camera,
+                scene,
+                style,
+                measured,
+                num_picked,
+            } = state;
+            let shown = view.ui(ui, "Scene", camera, scene, style);
+            *measured = shown.measured;
+            *num_picked += usize::from(shown.picked.is_some());
+        },
+        state,
+    )
+}
+
+#[test]
+fn the_view_shows_a_frame_and_draws_nothing_anew_while_nothing_changes() {
+    let Some(render_state) = render_state() else {
+        return;
+    };
+    let gpu = ViewportGpu::of_window(&render_state);
+    let renderer = WgpuTestRenderer::from_render_state(render_state);
+    let mut harness = harness(Shown::new(Ok(gpu.clone()), example().scene), Some(renderer));
+    harness.state_mut().style.colouring = Colouring::Deviation;
+    harness.run();
+    let picture = harness.render().expect("a picture");
+    keep("widget_deviation", &picture);
+    let colours: std::collections::HashSet<_> = picture.pixels().collect();
+    assert!(colours.len() > 500, "{}", colours.len());
+    let drawn = harness.state().view.num_pictures();
+    for _ in 0..5 {
+        harness.step();
+        harness.render().expect("a picture");
+    }
+    assert_eq!(
+        harness.state().view.num_pictures(),
+        drawn,
+        "a view at rest stands still"
+    );
+    harness.state_mut().style.colouring = Colouring::Height;
+    harness.step();
+    keep("widget_height", &harness.render().expect("a picture"));
+    assert_eq!(harness.state().view.num_pictures(), drawn + 1);
+    assert_eq!(gpu.trouble(), None);
+}
+
+#[test]
+fn keys_turn_zoom_and_fit_once_the_view_has_the_focus() {
+    let mut harness = harness(Shown::new(Err(no_device()), example().scene), None);
+    harness.run();
+    let fitted = harness.state().camera;
+    harness.get_by_label("Scene").focus();
+    harness.run();
+    harness.key_press(Key::ArrowRight);
+    harness.run();
+    let turned = harness.state().camera;
+    assert!(turned.forward().x > fitted.forward().x);
+    assert_eq!(turned.target(), fitted.target());
+    harness.key_press(Key::Plus);
+    harness.run();
+    assert!(harness.state().camera.distance() < turned.distance());
+    harness.key_press(Key::Z);
+    harness.run();
+    assert!((harness.state().camera.forward() - fitted.forward()).length() < 1e-6);
+    assert!((harness.state().camera.distance() - fitted.distance()).abs() < 1e-4);
+}
+
+#[test]
+fn dragging_turns_and_the_wheel_zooms_to_the_cursor() {
+    let mut harness = harness(Shown::new(Err(no_device()), example().scene), None);
+    harness.run();
+    let fitted = harness.state().camera;
+    harness.drag_at(Pos2::new(300.0, 300.0));
+    harness.run();
+    harness.hover_at(Pos2::new(420.0, 300.0));
+    harness.run();
+    harness.drop_at(Pos2::new(420.0, 300.0));
+    harness.run();
+    let turned = harness.state().camera;
+    assert!(turned.forward().x > fitted.forward().x + 0.1, "{turned:?}");
+    assert!((turned.distance() - fitted.distance()).abs() < 1e-6);
+    harness.event(Event::MouseWheel {
+        unit: eframe::egui::MouseWheelUnit::Point,
+        delta: Vec2::new(0.0, 100.0),
+        phase: eframe::egui::TouchPhase::Move,
+        modifiers: Modifiers::NONE,
+    });
+    harness.run();
+    let zoomed = harness.state().camera;
+    assert!(zoomed.distance() < 0.8 * turned.distance(), "{zoomed:?}");
+}
+
+#[test]
+fn two_clicks_measure_a_distance() {
+    let mut harness = harness(Shown::new(Err(no_device()), example().scene), None);
+    harness.run();
+    harness.get_by_label("Scene").focus();
+    harness.key_press(Key::M);
+    harness.run();
+    assert_eq!(harness.state().view.tool, ViewTool::Measure);
+    for x in [300.0, 500.0] {
+        click(&mut harness, Pos2::new(x, 400.0));
+    }
+    assert_eq!(harness.state().num_picked, 2);
+    let measured = harness.state().measured.expect("two points of the part");
+    assert!((100.0..1500.0).contains(&measured.mm()), "{measured}");
+    harness.key_press(Key::Escape);
+    harness.run();
+    assert_eq!(harness.state().measured, None);
+}
+
+#[test]
+fn a_measured_distance_is_drawn_over_the_view() {
+    let Some(render_state) = render_state() else {
+        return;
+    };
+    let gpu = ViewportGpu::of_window(&render_state);
+    let renderer = WgpuTestRenderer::from_render_state(render_state);
+    let mut harness = harness(Shown::new(Ok(gpu), example().scene), Some(renderer));
+    harness.state_mut().view.tool = ViewTool::Measure;
+    harness.run();
+    for x in [300.0, 500.0] {
+        click(&mut harness, Pos2::new(x, 400.0));
+    }
+    assert!(harness.state().measured.is_some());
+    keep("widget_measure", &harness.render().expect("a picture"));
+}
+
+#[test]
+fn without_a_device_the_view_says_so_in_words() {
+    let mut harness = harness(Shown::new(Err(no_device()), ViewScene::default()), None);
+    harness.run();
+    harness.get_by_label("No 3-D view");
+    harness.get_by_label_contains("Vulkan driver");
+}
+
+fn no_device() -> ViewError {
+    ViewError::NoDevice {
+        reason: "none in this test".into(),
+    }
+}
+
+fn click(harness: &mut Harness<'_, Shown>, at: Pos2) {
+    harness.drag_at(at);
+    harness.run();
+    harness.drop_at(at);
+    harness.run();
+}
