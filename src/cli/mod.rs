@@ -22,6 +22,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use self::console::{Advised as _, Console};
 use crate::{
+    app,
     library::{LibraryLoad, LibraryPlace, open_library},
     stages::{pose::PoseMethod, reference::ReferenceParams},
 };
@@ -31,7 +32,7 @@ use crate::{
 #[command(
     version,
     after_help = "\
-Without a command: inspects one frame of a simulated cell and shows what came out.
+Without a command: opens the window. Without a display: inspects one frame of a simulated cell in the terminal.
 
 Examples:
   partsight simulate --part fender --out fender.pcd
@@ -81,7 +82,7 @@ impl From<Outcome> for ExitCode {
 pub fn run(cli: Cli) -> Outcome {
     let mut console = Console::new();
     let ran = match cli.command {
-        None => first_look::run(&mut console),
+        None => window(&mut console),
         Some(Command::Inspect(args)) => inspect::run(&args, &mut console),
         Some(Command::Enrol(args)) => enrol::run(&args, &mut console),
         Some(Command::Library(args)) => library::run(&args, &mut console),
@@ -98,6 +99,17 @@ pub fn run(cli: Cli) -> Outcome {
         Err(error) => {
             console.error(&anyhow::Error::new(error).context("the output could not be written"));
             Outcome::CouldNotRun
+        }
+    }
+}
+
+/// Opens the window; where there can be none, says why and takes the first look in the terminal instead.
+fn window(console: &mut Console) -> anyhow::Result<Outcome> {
+    match app::run(None) {
+        Ok(()) => Ok(Outcome::Accepted),
+        Err(error) => {
+            console.warn(&format_args!("no window: {error}"), &error);
+            first_look::run(console)
         }
     }
 }
