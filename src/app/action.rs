@@ -42,7 +42,7 @@ pub enum Action {
     /// Put the pose on the clipboard, row after row.
     CopyPose,
     /// The worker has news.
-    Hear(News<Result<Inspected, Trouble>>),
+    Hear(News<Result<Arc<Inspected>, Trouble>>),
 }
 
 /// What is to be done outside the state.
@@ -142,7 +142,7 @@ fn capture(state: &mut State) -> Effect {
 }
 
 /// Takes in what the worker tells, unless it is about something that nobody waits for any more.
-fn hear(state: &mut State, news: News<Result<Inspected, Trouble>>) {
+fn hear(state: &mut State, news: News<Result<Arc<Inspected>, Trouble>>) {
     let of = match &news {
         News::Begins { generation, .. }
         | News::Done { generation, .. }
@@ -174,7 +174,7 @@ fn hear(state: &mut State, news: News<Result<Inspected, Trouble>>) {
     }
 }
 
-fn show(state: &mut State, generation: u64, inspected: Inspected) {
+fn show(state: &mut State, generation: u64, inspected: Arc<Inspected>) {
     for warning in &inspected.warnings {
         let Trouble { what, advice } = Trouble::of(warning);
         notify(state, Notice { what, advice });
@@ -189,7 +189,7 @@ fn show(state: &mut State, generation: u64, inspected: Inspected) {
     state.candidate = 0;
     state.shown = Some(Shown {
         generation,
-        inspected: Arc::new(inspected),
+        inspected,
     });
 }
 
@@ -231,7 +231,7 @@ mod tests {
         }
     }
 
-    fn done(generation: u64, outcome: Result<Inspected, Trouble>) -> Action {
+    fn done(generation: u64, outcome: Result<Arc<Inspected>, Trouble>) -> Action {
         Action::Hear(News::Done {
             generation,
             outcome,

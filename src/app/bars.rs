@@ -87,8 +87,10 @@ const OTHER_KEYS: [(&str, &str); 7] = [
 ];
 
 /// What the keys cause. Called after the panels, so that a focused control has its keys first.
-pub(super) fn shortcuts(ctx: &egui::Context, actions: &mut Vec<Action>) {
-    let is_pressing = ctx.memory(|memory| memory.focused().is_some());
+///
+/// The space bar presses a focused control; `space_is_free` says that what has the focus does not use it.
+pub(super) fn shortcuts(ctx: &egui::Context, space_is_free: bool, actions: &mut Vec<Action>) {
+    let is_pressing = !space_is_free && ctx.memory(|memory| memory.focused().is_some());
     for shortcut in &SHORTCUTS {
         // Space presses a focused control.
         if shortcut.key == Key::Space && is_pressing {
@@ -206,7 +208,7 @@ fn source_menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
         Source::Cell(choice) => format!("Simulated · {}", choice.title()),
         Source::File(path) => shortened(&file_name(path), 24),
     };
-    ui.menu_button(format!("Source · {now} ⏷"), |ui| {
+    ui.menu_button(format!("Source · {now} ▼"), |ui| {
         ui.set_min_width(220.0);
         ui.label(RichText::new("Simulated cell").font(font::heading()));
         for choice in CellChoice::all() {

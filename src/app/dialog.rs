@@ -45,20 +45,24 @@ impl FileDialog {
         }
     }
 
-    /// `Some` once it was closed: with what follows from it, if anything.
-    pub(super) fn poll(&mut self) -> Option<Option<Action>> {
-        match self
-            .answer
-            .as_mut()
+    /// Ready once it was closed, with what follows from it, if anything.
+    pub(super) fn poll(&mut self) -> Poll<Option<Action>> {
+        let answer = self.answer.as_mut();
+        answer
             .poll(&mut Context::from_waker(&self.waker))
-        {
-            Poll::Pending => None,
-            Poll::Ready(Some(path)) => Some(Some(Action::Open(path))),
-            Poll::Ready(None) if self.opened.elapsed() < TOO_QUICK => Some(Some(Action::Notify(Notice {
-                what: "The desktop offers no file dialog".into(),
-                advice: "Drop the file onto the window, or install the package xdg-desktop-portal-gtk or zenity".into(),
-            }))),
-            Poll::Ready(None) => Some(None),
-        }
+            .map(|path| match path {
+                Some(path) => Some(Action::Open(path)),
+                None if self.opened.elapsed() < TOO_QUICK => Some(Action::Notify(never_opened())),
+                None => None,
+            })
+    }
+}
+
+fn never_opened() -> Notice {
+    Notice {
+        what: "The desktop offers no file dialog".into(),
+        advice:
+            "Drop the file onto the window, or install the package xdg-desktop-portal-gtk or zenity"
+                .into(),
     }
 }

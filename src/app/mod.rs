@@ -9,6 +9,7 @@
 
 pub mod action;
 mod bars;
+mod deviation;
 mod dialog;
 pub mod figures;
 mod inspect;

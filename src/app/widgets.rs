@@ -46,7 +46,8 @@ pub(super) fn mark(painter: &Painter, centre: Pos2, radius: f32, mark: Mark, the
 /// A name on the left and its value on the right.
 pub(super) fn row(ui: &mut Ui, theme: &Theme, name: &str, value: &str) {
     ui.horizontal(|ui| {
-        ui.set_min_height(20.0);
+        // Nothing here is pressed.
+        ui.spacing_mut().interact_size.y = 0.0;
         ui.label(RichText::new(name).color(theme.weak_text));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             ui.label(RichText::new(value).color(theme.text));

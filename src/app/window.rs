@@ -1,6 +1,6 @@
 //! The window as eframe drives it: fetch news, draw the last result, apply what was done.
 
-use std::{io, path::PathBuf};
+use std::{io, path::PathBuf, sync::Arc, task::Poll};
 
 use eframe::egui_wgpu::RenderState;
 use egui::{CentralPanel, Frame, Ui};
@@ -20,7 +20,7 @@ use super::{
 /// The window.
 pub struct Window {
     state: State,
-    worker: Worker<Request, Result<Inspected, Trouble>>,
+    worker: Worker<Request, Result<Arc<Inspected>, Trouble>>,
     dialog: Option<FileDialog>,
     installed: Option<ThemeChoice>,
     inspect: InspectPanel,
@@ -72,9 +72,7 @@ impl Window {
             Some(Effect::CancelWork) => self.worker.cancel(),
             Some(Effect::ShowFileDialog) => {
                 // One at a time: a second would hide behind the first.
-                if self.dialog.is_none() {
-                    self.dialog = Some(FileDialog::open(ctx));
-                }
+                self.dialog.get_or_insert_with(|| FileDialog::open(ctx));
             }
             Some(Effect::CopyText(text)) => ctx.copy_text(text),
         }
@@ -105,7 +103,7 @@ impl eframe::App for Window {
         while let Some(news) = self.worker.try_next() {
             self.act(Action::Hear(news), ctx);
         }
-        if let Some(closed) = self.dialog.as_mut().and_then(FileDialog::poll) {
+        if let Some(Poll::Ready(closed)) = self.dialog.as_mut().map(FileDialog::poll) {
             self.dialog = None;
             if let Some(action) = closed {
                 self.act(action, ctx);
@@ -127,7 +125,7 @@ impl eframe::App for Window {
                 Workspace::Inspect => self.inspect.ui(ui, &self.state, theme, &mut actions),
             });
         bars::help(&ctx, &self.state, theme, &mut actions);
-        bars::shortcuts(&ctx, &mut actions);
+        bars::shortcuts(&ctx, self.inspect.view_has_focus(), &mut actions);
         for action in actions {
             self.act(action, &ctx);
         }

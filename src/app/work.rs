@@ -7,7 +7,7 @@ use std::{
 
 use nalgebra::Point3;
 
-use super::figures::Figures;
+use super::{deviation::deviations, figures::Figures};
 use crate::{
     error::Advice,
     files::{self, FileError, FileWarning, Opened},
@@ -152,6 +152,9 @@ pub struct Inspected {
     pub min_score: f64,
     /// Middle of the best reference's extent, part space, metres.
     pub middle: Option<Point3<f64>>,
+    /// Signed distance of every point of the scene to the best reference at its pose, metres; NaN where there is
+    /// none, empty without a pose.
+    pub deviations: Vec<f32>,
 }
 
 /// What the window shows of a library.
@@ -230,9 +233,9 @@ impl Inspector {
         &mut self,
         request: Request,
         watch: &dyn Watch,
-    ) -> Option<Result<Inspected, Trouble>> {
+    ) -> Option<Result<Arc<Inspected>, Trouble>> {
         match self.inspect(request, watch) {
-            Ok(inspected) => inspected.map(Ok),
+            Ok(inspected) => inspected.map(Arc::new).map(Ok),
             Err(error) => Some(Err(Trouble::of(&error))),
         }
     }
@@ -267,9 +270,10 @@ impl Inspector {
             return Ok(None);
         };
         let best = inspection.ranking.entries.first();
-        let bounds = best.and_then(|best| {
-            let reference = load.library.references.get(best.reference)?;
-            reference.cloud.bounds()
+        let best = best.and_then(|best| load.library.references.get(best.reference));
+        let bounds = best.and_then(|reference| reference.cloud.bounds());
+        let deviations = best.map_or_else(Vec::new, |reference| {
+            deviations(&scene, &inspection, reference)
         });
         let figures = Figures::of(&scene, &inspection, &load.library, &shown.titles);
         Ok(Some(Inspected {
@@ -281,6 +285,7 @@ impl Inspector {
             warnings,
             min_score: self.recipe.accept.min_score,
             middle: bounds.map(|(low, high)| nalgebra::center(&low, &high).cast()),
+            deviations,
         }))
     }
 }
@@ -354,6 +359,9 @@ mod tests {
             panic!("no part");
         };
         assert_eq!((part.as_str(), rejected), ("front_door", &None));
+        let known = inspected.deviations.iter().filter(|d| d.is_finite());
+        let mean = known.clone().sum::<f32>() / known.clone().count() as f32;
+        assert!(known.count() > 10_000 && mean.abs() < 0.002, "{mean}");
 
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("part.obj");

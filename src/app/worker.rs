@@ -9,7 +9,7 @@ use std::{
     sync::{
         Arc, Condvar, Mutex, MutexGuard, PoisonError,
         atomic::{AtomicU64, Ordering},
-        mpsc::{Receiver, SyncSender, TryRecvError, sync_channel},
+        mpsc::{Receiver, SyncSender, sync_channel},
     },
     thread::{self, JoinHandle},
 };
@@ -132,10 +132,7 @@ impl<R: Send + 'static, T: Send + 'static> Worker<R, T> {
 
     /// The next news, without waiting; `None` when there are none.
     pub fn try_next(&self) -> Option<News<T>> {
-        match self.news.as_ref()?.try_recv() {
-            Ok(news) => Some(news),
-            Err(TryRecvError::Empty | TryRecvError::Disconnected) => None,
-        }
+        self.news.as_ref()?.try_recv().ok()
     }
 }
 

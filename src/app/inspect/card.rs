@@ -61,6 +61,8 @@ pub(super) fn ui(
         );
         ui.multiply_opacity(0.55);
     }
+    // Text lies closer than controls do.
+    ui.spacing_mut().interact_size.y = 22.0;
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let headline = Headline::of(inspected);
         verdict(ui, &headline, theme);

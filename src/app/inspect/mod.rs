@@ -45,6 +45,11 @@ impl InspectPanel {
         }
     }
 
+    /// True while keys go to the 3-D view.
+    pub(super) fn view_has_focus(&self) -> bool {
+        self.view.has_focus()
+    }
+
     pub(super) fn ui(
         &mut self,
         ui: &mut Ui,

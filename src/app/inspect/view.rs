@@ -1,4 +1,4 @@
-//! The scene in three dimensions, with the enrolled part laid over it at its pose.
+//! The scene in three dimensions, the part coloured by its deviation from the enrolled one.
 
 use std::sync::Arc;
 
@@ -9,13 +9,16 @@ use crate::{
         state::{State, ThemeChoice},
         theme::{Theme, font, space},
         viewport::{
-            Colouring, FitRequest, PointSet, StandardView, ViewCamera, ViewColours, ViewError,
-            ViewScene, ViewStyle, ViewTool, Viewport, ViewportGpu, furniture,
+            Colouring, FitRequest, LineSet, PointSet, StandardView, ViewCamera, ViewColours,
+            ViewError, ViewScene, ViewStyle, ViewTool, Viewport, ViewportGpu, furniture,
         },
         work::Inspected,
     },
     units::Metres,
 };
+
+/// Ends of the scale of deviations: a few times a depth camera's noise, so that a dent shows and noise does not.
+const DEVIATION_RANGE: Metres = Metres(0.01);
 
 /// The view of the last result.
 pub(super) struct SceneView {
@@ -24,6 +27,14 @@ pub(super) struct SceneView {
     scene: ViewScene,
     style: ViewStyle,
     styled: ThemeChoice,
+    /// What a person chose to colour by; until then the deviation where there is one, else the segments.
+    chosen: Option<Colouring>,
+    /// The axes of the part's middle, where it was found.
+    axes: Vec<LineSet>,
+    frustum: Vec<LineSet>,
+    shows_camera: bool,
+    has_deviations: bool,
+    has_focus: bool,
     caption: String,
 }
 
@@ -35,8 +46,17 @@ impl SceneView {
             viewport: Viewport::new(gpu),
             camera,
             scene: ViewScene::default(),
-            style: ViewStyle::new(ViewColours::dark()),
+            style: ViewStyle {
+                deviation_range: DEVIATION_RANGE,
+                ..ViewStyle::new(ViewColours::dark())
+            },
             styled: ThemeChoice::Dark,
+            chosen: None,
+            axes: Vec::new(),
+            frustum: Vec::new(),
+            shows_camera: false,
+            has_deviations: false,
+            has_focus: false,
             caption: String::new(),
         }
     }
@@ -50,15 +70,29 @@ impl SceneView {
             ..
         } = &**inspected;
         let points: Vec<[f32; 3]> = scene.cloud.points.iter().map(|p| [p.x, p.y, p.z]).collect();
-        let mut lines = vec![furniture::axes(Metres(0.15))];
-        if let Some(camera) = &scene.intrinsics {
-            lines.push(furniture::frustum(camera, Metres(0.25)));
+        let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+        let axes = pose.zip(inspected.middle).map(|(pose, middle)| {
+            let camera_from_middle =
+                pose.camera_from_part() * nalgebra::Translation3::from(middle.coords);
+            furniture::axes(Metres(0.15)).at(&camera_from_middle)
+        });
+        self.axes = axes.into_iter().collect();
+        let frustum = scene.intrinsics.as_ref();
+        self.frustum = frustum
+            .map(|camera| furniture::frustum(camera, Metres(0.25)))
+            .into_iter()
+            .collect();
+        let mut set = PointSet::segmented(points, &inspection.segmentation.labels);
+        self.has_deviations = !inspected.deviations.is_empty();
+        if self.has_deviations {
+            set = set.with_deviations(inspected.deviations.clone());
         }
         self.scene = ViewScene {
-            points: vec![PointSet::segmented(points, &inspection.segmentation.labels)],
-            lines,
+            points: vec![set],
+            lines: self.axes.clone(),
             labels: Vec::new(),
         };
+        self.place_lines();
         self.camera.request_fit(FitRequest::Focus);
         let num_planes = inspection.segmentation.planes.len();
         self.caption = format!(
@@ -71,19 +105,21 @@ impl SceneView {
 
     pub(super) fn ui(&mut self, ui: &mut Ui, state: &State, inspected: &Inspected) {
         if self.styled != state.theme {
-            let colouring = self.style.colouring;
             self.style = ViewStyle::new(match state.theme {
                 ThemeChoice::Dark => ViewColours::dark(),
                 ThemeChoice::Light => ViewColours::light(),
             });
-            self.style.colouring = colouring;
+            self.style.deviation_range = DEVIATION_RANGE;
             self.styled = state.theme;
         }
+        self.style.colouring = self.colouring();
         let theme = Theme::of(state.theme);
         let rect = ui.available_rect_before_wrap();
         let label = "3-D view of the scene";
-        self.viewport
+        let seen = self
+            .viewport
             .ui(ui, label, &mut self.camera, &self.scene, &self.style);
+        self.has_focus = seen.response.has_focus();
         let bar = Rect::from_min_size(
             rect.min + Vec2::splat(space::MEDIUM),
             vec2(rect.width() - 20.0, space::TARGET),
@@ -113,6 +149,26 @@ impl SceneView {
         }
     }
 
+    /// True while keys go to the view; the space bar then still captures.
+    pub(super) fn has_focus(&self) -> bool {
+        self.has_focus
+    }
+
+    fn place_lines(&mut self) {
+        self.scene.lines.clone_from(&self.axes);
+        if self.shows_camera {
+            self.scene.lines.extend_from_slice(&self.frustum);
+        }
+    }
+
+    fn colouring(&self) -> Colouring {
+        match (self.chosen, self.has_deviations) {
+            (Some(Colouring::Deviation) | None, false) => Colouring::Segment,
+            (Some(chosen), _) => chosen,
+            (None, true) => Colouring::Deviation,
+        }
+    }
+
     fn controls(&mut self, ui: &mut Ui) {
         let button = |ui: &mut Ui, text: &str| {
             let text = RichText::new(text).font(font::small());
@@ -134,17 +190,28 @@ impl SceneView {
                 self.camera.request_fit(FitRequest::Focus);
             }
         }
-        let now = RichText::new(format!("Colour · {} ⏷", self.style.colouring.title()))
+        let now = RichText::new(format!("Colour · {} ▼", self.style.colouring.title()))
             .font(font::small());
         ui.menu_button(now, |ui| {
-            for colouring in [Colouring::Segment, Colouring::Height, Colouring::Plain] {
+            for colouring in Colouring::ALL {
                 let is_chosen = self.style.colouring == colouring;
                 if ui.selectable_label(is_chosen, colouring.title()).clicked() {
-                    self.style.colouring = colouring;
                     ui.close();
                 }
             }
         });
+        let text = RichText::new("Camera").font(font::small());
+        let camera = Button::new(text)
+            .selected(self.shows_camera)
+            .min_size(Vec2::splat(space::TARGET));
+        if ui
+            .add(camera)
+            .on_hover_text("Show where the camera is")
+            .clicked()
+        {
+            self.shows_camera = !self.shows_camera;
+            self.place_lines();
+        }
         let is_measuring = self.viewport.tool == ViewTool::Measure;
         let text = RichText::new("Measure").font(font::small());
         let measure = Button::new(text)
