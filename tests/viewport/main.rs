@@ -16,7 +16,7 @@ use nalgebra::Point3;
 use partsight::{
     app::viewport::{PointSet, TextLabel, ViewError, ViewScene, ViewportGpu, furniture},
     geometry::{nearest::KdTree, rigid::RigidTransform},
-    simulate::{self, CellSetup, PartKind, Side},
+    simulate::{self, CellSetup, PartKind, PartPose, Placement, Side},
     stages::{
         scene::scene_from_frame,
         segment::{SegmentParams, Segmentation, segment},
@@ -60,13 +60,9 @@ fn keep(name: &str, picture: &RgbaImage) {
 }
 
 /// A simulated front door, segmented, with its deviation from the exact part, axes, camera and nozzle.
-struct Example {
-    scene: ViewScene,
-    segmentation: Segmentation,
-}
-
-fn example() -> Example {
-    let setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 1, 7);
+fn example() -> ViewScene {
+    let mut setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 1, 7);
+    setup.pose = PartPose::Drawn(Placement::facing());
     let shot = simulate::frame(&setup);
     let scene = scene_from_frame(&shot.frame);
     let segmentation = segment(&scene, &SegmentParams::default());
@@ -96,10 +92,7 @@ fn example() -> Example {
         at: mouth,
         text: "Stand-off 15.5 cm".into(),
     });
-    Example {
-        scene: view,
-        segmentation,
-    }
+    view
 }
 
 /// Nearest distance to the exact part, positive on the camera's side.

@@ -46,16 +46,9 @@ fn a_segmented_frame_shows_the_part_in_its_colour_in_every_colouring_and_theme()
         for colouring in Colouring::ALL {
             let mut style = ViewStyle::new(colours.clone());
             style.colouring = colouring;
-            style.deviation_range = Metres::from_mm(8.0);
-            let picture = screenshot(
-                &gpu,
-                &ViewCamera::default(),
-                &example.scene,
-                &style,
-                SIZE,
-                1.0,
-            )
-            .expect("a picture");
+            style.deviation_range = Metres::from_mm(12.0);
+            let picture = screenshot(&gpu, &ViewCamera::default(), &example, &style, SIZE, 1.0)
+                .expect("a picture");
             keep(
                 &format!("{}_{theme}", colouring.title().to_lowercase()),
                 &picture,
@@ -90,8 +83,7 @@ fn other_directions_and_sizes_draw_as_well() {
         let mut camera = ViewCamera::default();
         camera.look(view);
         style.point_size = size;
-        let picture =
-            screenshot(&gpu, &camera, &example.scene, &style, SIZE, 1.0).expect("a picture");
+        let picture = screenshot(&gpu, &camera, &example, &style, SIZE, 1.0).expect("a picture");
         keep(name, &picture);
         assert!(num_colours(&picture) > 100);
     }
@@ -100,8 +92,8 @@ fn other_directions_and_sizes_draw_as_well() {
     style.colouring = Colouring::Plain;
     for (name, eye_dome) in [("turned_flat", 0.0), ("turned_shaded", 1.0)] {
         style.eye_dome = eye_dome;
-        let picture = screenshot(&gpu, &camera, &example.scene, &style, [1600, 1200], 2.0)
-            .expect("a picture");
+        let picture =
+            screenshot(&gpu, &camera, &example, &style, [1600, 1200], 2.0).expect("a picture");
         keep(name, &picture);
     }
 }

@@ -67,7 +67,7 @@ fn the_view_shows_a_frame_and_draws_nothing_anew_while_nothing_changes() {
     };
     let gpu = ViewportGpu::of_window(&render_state);
     let renderer = WgpuTestRenderer::from_render_state(render_state);
-    let mut harness = harness(Shown::new(Ok(gpu.clone()), example().scene), Some(renderer));
+    let mut harness = harness(Shown::new(Ok(gpu.clone()), example()), Some(renderer));
     harness.state_mut().style.colouring = Colouring::Deviation;
     harness.run();
     let picture = harness.render().expect("a picture");
@@ -93,7 +93,7 @@ fn the_view_shows_a_frame_and_draws_nothing_anew_while_nothing_changes() {
 
 #[test]
 fn keys_turn_zoom_and_fit_once_the_view_has_the_focus() {
-    let mut harness = harness(Shown::new(Err(no_device()), example().scene), None);
+    let mut harness = harness(Shown::new(Err(no_device()), example()), None);
     harness.run();
     let fitted = harness.state().camera;
     harness.get_by_label("Scene").focus();
@@ -114,9 +114,11 @@ fn keys_turn_zoom_and_fit_once_the_view_has_the_focus() {
 
 #[test]
 fn dragging_turns_and_the_wheel_zooms_to_the_cursor() {
-    let mut harness = harness(Shown::new(Err(no_device()), example().scene), None);
+    let mut harness = harness(Shown::new(Err(no_device()), example()), None);
     harness.run();
     let fitted = harness.state().camera;
+    harness.hover_at(Pos2::new(300.0, 300.0));
+    harness.run();
     harness.drag_at(Pos2::new(300.0, 300.0));
     harness.run();
     harness.hover_at(Pos2::new(420.0, 300.0));
@@ -126,7 +128,10 @@ fn dragging_turns_and_the_wheel_zooms_to_the_cursor() {
     let turned = harness.state().camera;
     assert!(turned.forward().x > fitted.forward().x + 0.1, "{turned:?}");
     assert!((turned.distance() - fitted.distance()).abs() < 1e-6);
+    harness.hover_at(Pos2::new(420.0, 300.0));
+    harness.run();
     harness.event(Event::MouseWheel {
+        source: eframe::egui::MouseWheelSource::Wheel,
         unit: eframe::egui::MouseWheelUnit::Point,
         delta: Vec2::new(0.0, 100.0),
         phase: eframe::egui::TouchPhase::Move,
@@ -139,7 +144,7 @@ fn dragging_turns_and_the_wheel_zooms_to_the_cursor() {
 
 #[test]
 fn two_clicks_measure_a_distance() {
-    let mut harness = harness(Shown::new(Err(no_device()), example().scene), None);
+    let mut harness = harness(Shown::new(Err(no_device()), example()), None);
     harness.run();
     harness.get_by_label("Scene").focus();
     harness.key_press(Key::M);
@@ -163,7 +168,7 @@ fn a_measured_distance_is_drawn_over_the_view() {
     };
     let gpu = ViewportGpu::of_window(&render_state);
     let renderer = WgpuTestRenderer::from_render_state(render_state);
-    let mut harness = harness(Shown::new(Ok(gpu), example().scene), Some(renderer));
+    let mut harness = harness(Shown::new(Ok(gpu), example()), Some(renderer));
     harness.state_mut().view.tool = ViewTool::Measure;
     harness.run();
     for x in [300.0, 500.0] {
@@ -171,6 +176,49 @@ fn a_measured_distance_is_drawn_over_the_view() {
     }
     assert!(harness.state().measured.is_some());
     keep("widget_measure", &harness.render().expect("a picture"));
+}
+
+#[test]
+fn two_views_that_share_a_camera_turn_together_each_with_its_own_picture() {
+    let Some(render_state) = render_state() else {
+        return;
+    };
+    let gpu = ViewportGpu::of_window(&render_state);
+    let renderer = WgpuTestRenderer::from_render_state(render_state);
+    let (left, right) = (
+        Viewport::new(Ok(gpu.clone())),
+        Viewport::new(Ok(gpu.clone())),
+    );
+    let (scene, camera) = (example(), ViewCamera::default());
+    let styles = [ViewColours::dark(), ViewColours::light()].map(ViewStyle::new);
+    let mut harness = Harness::builder()
+        .with_size(Vec2::new(1000.0, 400.0))
+        .renderer(renderer)
+        .build_ui_state(
+            |ui, (camera, left, right): &mut (ViewCamera, Viewport, Viewport)| {
+                ui.columns(2, |columns| {
+                    left.ui(&mut columns[0], "ICP", camera, &scene, &styles[0]);
+                    right.ui(&mut columns[1], "ICP-GA", camera, &scene, &styles[1]);
+                });
+            },
+            (camera, left, right),
+        );
+    harness.run();
+    harness.render().expect("a picture");
+    harness.get_by_label("ICP-GA").focus();
+    harness.key_press(Key::ArrowRight);
+    harness.run();
+    let before = harness.state().1.num_pictures();
+    let picture = harness.render().expect("a picture");
+    keep("widget_linked", &picture);
+    assert_eq!(
+        harness.state().1.num_pictures(),
+        before + 1,
+        "the other view turned as well"
+    );
+    let (dark, light) = (picture.get_pixel(20, 390), picture.get_pixel(980, 390));
+    assert!(dark[0] < 60 && light[0] > 180, "{dark:?} {light:?}");
+    assert_eq!(gpu.trouble(), None);
 }
 
 #[test]

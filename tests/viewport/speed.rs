@@ -1,6 +1,7 @@
 //! Figures about the view's speed, printed for a person; nothing is asserted on a clock.
 //!
-//! `cargo test --release --test viewport -- --ignored --nocapture`
+//! `cargo test --release --test viewport -- --ignored --nocapture`; without eye-dome lighting if `PARTSIGHT_VIEW_FLAT`
+//! is set.
 
 use std::time::{Duration, Instant};
 
@@ -12,6 +13,25 @@ use partsight::app::viewport::{
 };
 
 use crate::{device, example, render_state};
+
+/// Processor time of all threads of this process so far, in seconds: unlike a clock it does not depend on what else
+/// the machine does. 0 where there is no /proc.
+fn processor_seconds() -> f64 {
+    const TICKS_PER_SECOND: f64 = 100.0;
+    let stat = std::fs::read_to_string("/proc/self/stat").unwrap_or_default();
+    // The name, in brackets, may hold spaces; user and system time are the 12th and 13th fields after it.
+    let fields = stat
+        .rsplit(')')
+        .next()
+        .unwrap_or_default()
+        .split_whitespace();
+    fields
+        .skip(11)
+        .take(2)
+        .filter_map(|ticks| ticks.parse::<f64>().ok())
+        .sum::<f64>()
+        / TICKS_PER_SECOND
+}
 
 fn median(mut times: Vec<Duration>) -> Duration {
     times.sort_unstable();
@@ -31,15 +51,15 @@ fn bowl(num_points: usize) -> Vec<[f32; 3]> {
 
 #[test]
 #[ignore = "prints figures, checks nothing"]
-#[expect(clippy::print_stderr, reason = "the figures are the point")]
 fn time_of_a_picture_on_this_device() {
     let Some(gpu) = device() else { return };
-    for num_points in [300_000, 1_000_000, 4_000_000] {
+    for (num_points, eye_dome) in [(0, 0.0), (300_000, 0.0), (300_000, 1.0), (1_000_000, 1.0)] {
         let scene = ViewScene {
             points: vec![PointSet::new(bowl(num_points), Role::Part)],
             ..ViewScene::default()
         };
-        let style = ViewStyle::new(ViewColours::dark());
+        let mut style = ViewStyle::new(ViewColours::dark());
+        style.eye_dome = eye_dome;
         let mut camera = ViewCamera::default();
         let take = |camera: &ViewCamera| {
             let start = Instant::now();
@@ -47,28 +67,33 @@ fn time_of_a_picture_on_this_device() {
             start.elapsed()
         };
         let first = take(&camera);
-        let times = (0..9).map(|_| {
-            camera.turn(0.05, 0.01);
+        let before = processor_seconds();
+        let times = (0..20).map(|_| {
+            camera.turn(0.02, 0.01);
             take(&camera)
         });
         let rest = median(times.collect());
+        let busy = (processor_seconds() - before) / 20.0 * 1e3;
         eprintln!(
-            "{num_points} points, with upload and read-back: first {first:.1?}, then {rest:.1?}"
+            "{num_points} points, eye dome {eye_dome}, with upload and read-back: {first:.1?}, then {rest:.1?}, \
+             {busy:.0} ms of processor time"
         );
     }
 }
 
 #[test]
 #[ignore = "prints figures, checks nothing"]
-#[expect(clippy::print_stderr, reason = "the figures are the point")]
 fn time_of_a_frame_of_the_window() {
     let Some(render_state) = render_state() else {
         return;
     };
     let gpu = ViewportGpu::of_window(&render_state);
     let renderer = WgpuTestRenderer::from_render_state(render_state);
-    let (mut view, scene) = (Viewport::new(Ok(gpu)), example().scene);
-    let style = ViewStyle::new(ViewColours::dark());
+    let (mut view, scene) = (Viewport::new(Ok(gpu)), example());
+    let mut style = ViewStyle::new(ViewColours::dark());
+    if std::env::var_os("PARTSIGHT_VIEW_FLAT").is_some() {
+        style.eye_dome = 0.0;
+    }
     let mut harness = Harness::builder()
         .with_size(Vec2::new(1000.0, 700.0))
         .renderer(renderer)
@@ -82,6 +107,7 @@ fn time_of_a_frame_of_the_window() {
     harness.render().expect("a picture");
     for (name, turn) in [("at rest", 0.0), ("turning", 0.02)] {
         let (mut ui_times, mut all_times) = (Vec::new(), Vec::new());
+        let before = processor_seconds();
         for _ in 0..60 {
             harness.state_mut().turn(turn, 0.0);
             let start = Instant::now();
@@ -90,8 +116,9 @@ fn time_of_a_frame_of_the_window() {
             harness.render().expect("a picture");
             all_times.push(start.elapsed());
         }
+        let busy = (processor_seconds() - before) / 60.0 * 1e3;
         eprintln!(
-            "a frame {name}: {:.2?} on the UI thread, {:.1?} with drawing and read-back",
+            "a frame {name}: {:.2?} on the UI thread, {:.1?} with drawing and read-back, {busy:.0} ms of processor time",
             median(ui_times),
             median(all_times)
         );

@@ -6,7 +6,7 @@ use glam::{DVec3, Vec3};
 const TRIM_SIGMAS: f64 = 2.0;
 /// The box reaches this far about the trimmed mean, and never past the points. An even surface spans ±1.73 σ; a
 /// part with a heavy body and a thin frame, such as a door, more.
-const BOX_SIGMAS: f64 = 3.0;
+const BOX_SIGMAS: f64 = 4.0;
 
 /// An upright box, world, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -62,7 +62,7 @@ impl Bounds {
     }
 
     /// The box that holds the bulk of the points: mean and standard deviation, once more without what lies beyond
-    /// 2 σ, then ± 3 σ cut at the outermost points. Points that are not finite do not count; `None` without any.
+    /// 2 σ, then ± 4 σ cut at the outermost points. Points that are not finite do not count; `None` without any.
     pub fn robust(points: impl Iterator<Item = Vec3> + Clone) -> Option<Self> {
         let finite = points.filter(|p| p.is_finite());
         let first = Spread::of(finite.clone())?;
@@ -144,7 +144,7 @@ mod tests {
             Vec3::new(f32::INFINITY, 0.0, 0.0),
         ]);
         let bounds = Bounds::robust(points.into_iter()).expect("points");
-        assert!((bounds.high - bounds.low).max_element() < 2.0, "{bounds:?}");
+        assert!((bounds.high - bounds.low).max_element() < 2.5, "{bounds:?}");
     }
 
     #[test]

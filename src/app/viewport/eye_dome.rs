@@ -5,8 +5,9 @@
 //! Boucheny, "Visualisation scientifique de grands volumes de données : pour une approche perceptive", doctoral thesis,
 //! Université Joseph Fourier, Grenoble, 2009. As he has it, the shade falls off exponentially with the sum of what
 //! stands in front. Our deviations: neighbours on two rings in one pass in place of one ring at several resolutions;
-//! the depth enters as a logarithm, so that the same shape shades alike near and far; and differences are cut below
-//! (the sensor's noise) and above (an edge is an edge).
+//! differences count as a share of the depth, so that the same shape shades alike near and far; they are cut below (the
+//! sensor's noise) and above (an edge is an edge); and a soft light from the upper left is added, on the normal that
+//! the slope of the depth over the same neighbours gives, because a door is too smooth to occlude itself.
 
 use eframe::wgpu;
 

@@ -88,6 +88,7 @@ struct Shared {
 pub(super) struct Pipelines {
     pub(super) uniform: wgpu::BindGroupLayout,
     pub(super) targets: TargetLayouts,
+    point_table: wgpu::BindGroupLayout,
     pub(super) points: wgpu::RenderPipeline,
     pub(super) lines: wgpu::RenderPipeline,
     pub(super) eye_dome: wgpu::RenderPipeline,
@@ -153,7 +154,13 @@ impl ViewportGpu {
     /// The set on the GPU, uploaded unless some view already holds it.
     pub(super) fn points(&self, set: &PointSet) -> Arc<GpuPoints> {
         held(&self.0.points, set.generation(), || {
-            GpuPoints::upload(&self.0.device, set)
+            let Shared {
+                device,
+                queue,
+                pipelines,
+                ..
+            } = &*self.0;
+            GpuPoints::upload(device, queue, &pipelines.point_table, set)
         })
     }
 
@@ -169,13 +176,15 @@ impl Pipelines {
     fn new(device: &wgpu::Device, window_format: wgpu::TextureFormat) -> Self {
         let uniform = pass::layout(device, "view uniform", &[pass::UNIFORM]);
         let targets = TargetLayouts::new(device);
+        let point_table = pass::layout(device, "view points", &[pass::TABLE]);
         Self {
-            points: points::pipeline(device, &[&uniform, &uniform]),
+            points: points::pipeline(device, &[&uniform, &uniform, &point_table]),
             lines: lines::pipeline(device, &[&uniform, &uniform, &targets.closeness]),
             eye_dome: eye_dome::pipeline(device, &[&uniform, &targets.unshaded]),
             composite: Composite::new(device, window_format),
             uniform,
             targets,
+            point_table,
         }
     }
 }

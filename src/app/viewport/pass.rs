@@ -110,6 +110,13 @@ pub(super) const PICTURE: wgpu::BindingType = wgpu::BindingType::Texture {
     multisampled: false,
 };
 
+/// A binding for a table of whole numbers that is read texel by texel.
+pub(super) const TABLE: wgpu::BindingType = wgpu::BindingType::Texture {
+    sample_type: wgpu::TextureSampleType::Uint,
+    view_dimension: wgpu::TextureViewDimension::D2,
+    multisampled: false,
+};
+
 /// A uniform buffer with the group that binds it alone.
 pub(super) struct Uniform {
     buffer: wgpu::Buffer,

@@ -1,14 +1,16 @@
-//! Points on the GPU: a buffer per point set, uploaded once, and the pass that draws it as discs.
+//! Points on the GPU: a table of them per point set, uploaded once, and the pass that draws it as discs.
 //!
-//! Each point is an instance of one camera-facing quad that the shader cuts round. A point takes 16 bytes, with its
-//! role and deviation beside the position, so that another colouring is another uniform and no upload.
+//! Each point is a camera-facing triangle about a disc that the shader cuts out: half the work of a quad, and less
+//! than an instance each, which drivers handle one by one. The shader looks the point up by the number of the corner.
+//! The table is a texture because every backend lets a vertex shader read one. A point takes 16 bytes, with its role
+//! and deviation beside the position, so that another colouring is another uniform and no upload.
 //!
-//! The buffer holds the points in [`NUM_SAMPLES`] random samples, one after the other, each in the set's own order:
+//! The table holds the points in [`NUM_SAMPLES`] random samples, one after the other, each in the set's own order:
 //! drawing the first few samples draws an even share of the cloud, which keeps a slow device fluent while the eye
 //! moves, and nothing is chosen or sorted in a frame. Within a sample neighbours stay neighbours, as caches like it.
 
 use bytemuck::{Pod, Zeroable};
-use eframe::wgpu::{self, util::DeviceExt as _};
+use eframe::wgpu;
 use glam::{Mat4, Vec4};
 
 use super::{
@@ -23,13 +25,16 @@ pub(super) const SHADER: &str = concat!(include_str!("view.wgsl"), include_str!(
 /// Into how many random samples a set is divided.
 pub(super) const NUM_SAMPLES: usize = 8;
 
-/// Most points of one buffer: 64 MiB, which every device allows.
-const POINTS_PER_BUFFER: usize = 4 << 20;
+/// Points in one row of a table; `ROW` in points.wgsl.
+const ROW: usize = 2048;
+
+/// Most points of one table: 2048 rows, 64 MiB, which every device allows.
+const POINTS_PER_TABLE: usize = 2048 * ROW;
 
 /// The upper 24 bits of [`GpuPoint::role_and_deviation`] for a point without deviation; `NO_DEVIATION` in points.wgsl.
 const NO_DEVIATION: i32 = -(1 << 23);
 
-/// `GpuPoint` in points.wgsl.
+/// One texel of the table; taken apart by `point_at` in points.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, Default, PartialEq, Pod, Zeroable)]
 struct GpuPoint {
@@ -51,48 +56,84 @@ pub(super) struct PointsUniform {
 
 /// The points of one set.
 pub(super) struct GpuPoints {
-    chunks: Vec<Chunk>,
+    tables: Vec<Table>,
 }
 
-struct Chunk {
-    buffer: wgpu::Buffer,
-    /// Where each sample ends, points from the start of the buffer.
+struct Table {
+    group: wgpu::BindGroup,
+    /// Where each sample ends, points from the start of the table.
     sample_ends: [u32; NUM_SAMPLES],
 }
 
 impl GpuPoints {
     /// Copies a set to the GPU, without the points that are not finite.
-    pub(super) fn upload(device: &wgpu::Device, set: &PointSet) -> Self {
+    pub(super) fn upload(
+        device: &wgpu::Device,
+        queue: &wgpu::Queue,
+        layout: &wgpu::BindGroupLayout,
+        set: &PointSet,
+    ) -> Self {
         let num_points = set.positions().len();
-        let starts = (0..num_points).step_by(POINTS_PER_BUFFER);
-        let chunks = starts.map(|start| {
-            let end = num_points.min(start + POINTS_PER_BUFFER);
+        let starts = (0..num_points).step_by(POINTS_PER_TABLE);
+        let tables = starts.map(|start| {
+            let end = num_points.min(start + POINTS_PER_TABLE);
             let (points, sample_ends) = in_samples(set, start..end);
-            let buffer = device.create_buffer_init(&wgpu::util::BufferInitDescriptor {
-                label: Some("view points"),
-                contents: bytemuck::cast_slice(&points),
-                usage: wgpu::BufferUsages::VERTEX,
-            });
-            Chunk {
-                buffer,
+            let texels = upload_table(device, queue, points);
+            let resources = [wgpu::BindingResource::TextureView(&texels)];
+            Table {
+                group: pass::bind(device, "view points", layout, &resources),
                 sample_ends,
             }
         });
         Self {
-            chunks: chunks.collect(),
+            tables: tables.collect(),
         }
     }
 
-    /// Draws the first `num_samples` samples with the pipeline and groups already set.
+    /// Draws the first `num_samples` samples with the pipeline and the groups before the table's already set.
     pub(super) fn draw(&self, pass: &mut wgpu::RenderPass<'_>, num_samples: usize) {
-        for chunk in &self.chunks {
-            let num_points = chunk.sample_ends[num_samples.clamp(1, NUM_SAMPLES) - 1];
-            if num_points > 0 {
-                pass.set_vertex_buffer(0, chunk.buffer.slice(..));
-                pass.draw(0..4, 0..num_points);
-            }
+        for table in &self.tables {
+            let num_points = table.sample_ends[num_samples.clamp(1, NUM_SAMPLES) - 1];
+            pass.set_bind_group(2, &table.group, &[]);
+            pass.draw(0..3 * num_points, 0..1);
         }
     }
+}
+
+fn upload_table(
+    device: &wgpu::Device,
+    queue: &wgpu::Queue,
+    mut points: Vec<GpuPoint>,
+) -> wgpu::TextureView {
+    let num_rows = points.len().div_ceil(ROW).max(1);
+    points.resize(num_rows * ROW, GpuPoint::default());
+    let size = wgpu::Extent3d {
+        width: ROW as u32,
+        height: num_rows as u32,
+        depth_or_array_layers: 1,
+    };
+    let texture = device.create_texture(&wgpu::TextureDescriptor {
+        label: Some("view points"),
+        size,
+        mip_level_count: 1,
+        sample_count: 1,
+        dimension: wgpu::TextureDimension::D2,
+        format: wgpu::TextureFormat::Rgba32Uint,
+        usage: wgpu::TextureUsages::TEXTURE_BINDING | wgpu::TextureUsages::COPY_DST,
+        view_formats: &[],
+    });
+    let rows = wgpu::TexelCopyBufferLayout {
+        offset: 0,
+        bytes_per_row: Some((ROW * size_of::<GpuPoint>()) as u32),
+        rows_per_image: None,
+    };
+    queue.write_texture(
+        texture.as_image_copy(),
+        bytemuck::cast_slice(&points),
+        rows,
+        size,
+    );
+    texture.create_view(&wgpu::TextureViewDescriptor::default())
 }
 
 /// The finite points of a range, sample after sample, and where each sample ends.
@@ -145,20 +186,14 @@ pub(super) fn pipeline(
     device: &wgpu::Device,
     layouts: &[&wgpu::BindGroupLayout],
 ) -> wgpu::RenderPipeline {
-    const ATTRIBUTES: [wgpu::VertexAttribute; 2] =
-        wgpu::vertex_attr_array![0 => Float32x3, 1 => Uint32];
     pass::pipeline(
         device,
         &PassSpec {
             label: "view points",
             source: SHADER,
             layouts,
-            instances: Some(wgpu::VertexBufferLayout {
-                array_stride: size_of::<GpuPoint>() as u64,
-                step_mode: wgpu::VertexStepMode::Instance,
-                attributes: &ATTRIBUTES,
-            }),
-            topology: wgpu::PrimitiveTopology::TriangleStrip,
+            instances: None,
+            topology: wgpu::PrimitiveTopology::TriangleList,
             targets: &[COLOUR_FORMAT.into(), CLOSENESS_FORMAT.into()],
             depth: Some(wgpu::DepthStencilState {
                 format: DEPTH_FORMAT,

@@ -1,4 +1,4 @@
-// Points as camera-facing discs: one instance a point, four corners a quad, cut round in the fragment shader.
+// Points as camera-facing discs: three corners a point, cut round in the fragment shader.
 
 // The Rust side is `PointsUniform` in points.rs.
 struct Points {
@@ -14,6 +14,9 @@ struct Points {
     padding: f32,
 }
 
+// Background planes are flat: on them shading shows little but noise.
+const BACKGROUND_SHADING: f32 = 0.3;
+
 @group(1) @binding(0) var<uniform> points: Points;
 
 const BY_SEGMENT: u32 = 0u;
@@ -26,57 +29,74 @@ const LAST_PLANE: u32 = 5u;
 // The value of the upper 24 bits that says "no deviation".
 const NO_DEVIATION: i32 = -8388608;
 
-// Diameters on the screen, physical pixels: below one a point would flicker, above the last it hides the others.
-const DIAMETER_RANGE: vec2<f32> = vec2(1.0, 64.0);
+// Diameters on the screen, physical pixels: below the first a point flickers, above the last it hides the others.
+const DIAMETER_RANGE: vec2<f32> = vec2(1.5, 64.0);
 
 // Share of the background mixed into points that the scale does not speak of.
-const DIMMED: f32 = 0.55;
+const DIMMED: f32 = 0.4;
 
-// The Rust side is `GpuPoint` in points.rs.
-struct GpuPoint {
-    @location(0) position: vec3<f32>,
-    // Low 8 bits: role. Upper 24, signed: deviation in micrometres.
-    @location(1) role_and_deviation: u32,
+// One texel a point, in rows. The Rust side is `GpuPoint` in points.rs.
+@group(2) @binding(0) var texels: texture_2d<u32>;
+
+// `ROW` in points.rs.
+const ROW: u32 = 2048u;
+
+struct Point {
+    position: vec3<f32>,
+    role: u32,
+    // Micrometres.
+    deviation: i32,
 }
+
+fn point_at(index: u32) -> Point {
+    let texel = textureLoad(texels, vec2(index % ROW, index / ROW), 0);
+    let role = min(texel.w & 0xffu, NUM_ROLES - 1u);
+    return Point(bitcast<vec3<f32>>(texel.xyz), role, bitcast<i32>(texel.w) >> 8u);
+}
+
+// The smallest even triangle about a disc of radius 1.
+const CORNERS = array(vec2(0.0, 2.0), vec2(-1.7320508, -1.0), vec2(1.7320508, -1.0));
 
 struct Corner {
     @builtin(position) clip: vec4<f32>,
-    // −1..1 from edge to edge of the quad.
+    // From the middle of the disc; its edge is at 1.
     @location(0) offset: vec2<f32>,
-    @location(1) @interpolate(flat) colour: vec3<f32>,
+    // The fourth is how much of the shading the point takes.
+    @location(1) @interpolate(flat) colour: vec4<f32>,
 }
 
 @vertex
-fn vertex_main(@builtin(vertex_index) index: u32, point: GpuPoint) -> Corner {
-    let role = min(point.role_and_deviation & 0xffu, NUM_ROLES - 1u);
+fn vertex_main(@builtin(vertex_index) index: u32) -> Corner {
+    let point = point_at(index / 3u);
     let clip = points.clip_from_set * vec4(point.position, 1.0);
-    var diameter = points.diameter * view.roles[role].w;
+    var diameter = points.diameter * view.roles[point.role].w;
     if points.size_unit == 1u {
         diameter *= view.focal / clip.w;
     }
-    let offset = vec2(f32(index & 1u), f32(index >> 1u)) * 2.0 - 1.0;
+    var corners = CORNERS;
+    let offset = corners[index % 3u];
     var corner: Corner;
     corner.offset = offset;
-    corner.colour = colour_of(point, role);
     if diameter <= 0.0 || clip.w <= view.near {
         // Beyond the far side of clip space: nothing is drawn.
         corner.clip = vec4(0.0, 0.0, 2.0, 1.0);
-    } else {
-        let size = clamp(diameter, DIAMETER_RANGE.x, DIAMETER_RANGE.y);
-        corner.clip = vec4(clip.xy + offset * size / view.size * clip.w, clip.zw);
+        return corner;
     }
+    let size = clamp(diameter, DIAMETER_RANGE.x, DIAMETER_RANGE.y);
+    corner.clip = vec4(clip.xy + offset * size / view.size * clip.w, clip.zw);
+    corner.colour = vec4(colour_of(point), select(1.0, BACKGROUND_SHADING, is_background(point.role)));
     return corner;
 }
 
-fn colour_of(point: GpuPoint, role: u32) -> vec3<f32> {
-    let own = view.roles[role].rgb;
+fn colour_of(point: Point) -> vec3<f32> {
+    let own = view.roles[point.role].rgb;
     let dimmed = mix(own, view.background.rgb, DIMMED);
     switch points.colouring {
         case BY_SEGMENT: {
             return own;
         }
         case BY_HEIGHT: {
-            if role >= FIRST_PLANE && role <= LAST_PLANE {
+            if is_background(point.role) {
                 return dimmed;
             }
             let height = dot(points.height_from_set, vec4(point.position, 1.0));
@@ -84,17 +104,23 @@ fn colour_of(point: GpuPoint, role: u32) -> vec3<f32> {
             return height_colour((height - view.height_range.x) / span);
         }
         case BY_DEVIATION: {
-            let micrometres = bitcast<i32>(point.role_and_deviation) >> 8u;
-            if micrometres == NO_DEVIATION {
+            if point.deviation == NO_DEVIATION {
                 return dimmed;
             }
-            let deviation = f32(micrometres) * 1e-6;
+            let deviation = f32(point.deviation) * 1e-6;
             return deviation_colour(0.5 + 0.5 * deviation / view.deviation_range);
         }
         default: {
+            if is_background(point.role) {
+                return dimmed;
+            }
             return view.roles[0].rgb;
         }
     }
+}
+
+fn is_background(role: u32) -> bool {
+    return role >= FIRST_PLANE && role <= LAST_PLANE;
 }
 
 fn height_colour(share: f32) -> vec3<f32> {
@@ -120,5 +146,5 @@ fn fragment_main(corner: Corner) -> Pixel {
     if dot(corner.offset, corner.offset) > 1.0 {
         discard;
     }
-    return Pixel(vec4(corner.colour, 1.0), corner.clip.z);
+    return Pixel(corner.colour, corner.clip.z);
 }

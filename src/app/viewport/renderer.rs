@@ -266,8 +266,8 @@ impl PictureKey {
         } = frame;
         let clip_from_world = camera.clip_from_world(*size);
         let pixels_per_point = target[1] as f32 / size.y.max(1.0);
-        // Fewer points are drawn larger, so that the surface stays as closed as it was.
-        let growth = (NUM_SAMPLES as f32 / *num_samples as f32).sqrt();
+        // Fewer points are drawn larger, but not so much that they cover as much as before: filling costs as well.
+        let growth = (NUM_SAMPLES as f32 / *num_samples as f32).powf(0.25);
         let (size_unit, diameter) = match style.point_size {
             PointSize::Pixels(pixels) => (0, pixels * pixels_per_point),
             PointSize::Metres(metres) => (1, metres.0 as f32),

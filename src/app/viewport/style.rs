@@ -132,7 +132,7 @@ impl Colouring {
 pub enum PointSize {
     /// The same on the screen at any distance, logical pixels, 1..20.
     Pixels(f32),
-    /// The same in the world, so that near points are larger; at least one pixel.
+    /// The same in the world, so that near points are larger; at least a pixel and a half.
     Metres(Metres),
 }
 
@@ -153,7 +153,7 @@ pub struct ViewStyle {
     pub colours: ViewColours,
     /// What decides the colour of a point, for sets that do not say so themselves.
     pub colouring: Colouring,
-    /// Diameter of the part's points; those of other roles are smaller by their role's factor.
+    /// Diameter of a point, to be multiplied by its role's weight.
     pub point_size: PointSize,
     /// Strength of the eye-dome lighting, 0 (off) to 2. Raising it deepens edges and noise alike.
     pub eye_dome: f32,
@@ -169,7 +169,8 @@ impl ViewStyle {
         Self {
             colours,
             colouring: Colouring::default(),
-            point_size: PointSize::Pixels(2.5),
+            // The spacing of a depth camera's points on a part: closed surfaces at any zoom.
+            point_size: PointSize::Metres(Metres::from_mm(4.0)),
             eye_dome: 1.0,
             deviation_range: Metres::from_mm(5.0),
             legend: Legend::default(),
@@ -215,12 +216,12 @@ impl ViewColours {
             text: hex(0xe8_eaed),
             weak_text: hex(0x9a_a0a8),
             roles: [
-                role(0x8b_94a3, 0.8),
+                role(0xa3_abb8, 1.0),
                 role(0x4f_c4b2, 1.0),
-                role(0x4a_5f94, 0.7),
-                role(0x9a_7440, 0.7),
-                role(0x7a_5590, 0.7),
-                role(0x5d_7a4e, 0.7),
+                role(0x2f_3b5c, 1.2),
+                role(0x5c_4728, 1.2),
+                role(0x4b_3558, 1.2),
+                role(0x3a_4c31, 1.2),
                 role(0x8d_97a8, 1.0),
                 role(0xe3_a73f, 1.0),
                 role(0xe8_6a5c, 1.0),
@@ -253,12 +254,12 @@ impl ViewColours {
             text: hex(0x1b_1e23),
             weak_text: hex(0x5a_616b),
             roles: [
-                role(0x7d_8592, 0.8),
+                role(0x8d_95a3, 1.0),
                 role(0x1d_a08c, 1.0),
-                role(0xa9_b8dc, 0.7),
-                role(0xd9_bd92, 0.7),
-                role(0xc7_acd6, 0.7),
-                role(0xb3_c9a6, 0.7),
+                role(0xcc_d6ec, 1.2),
+                role(0xe6_d3b4, 1.2),
+                role(0xd9_c8e4, 1.2),
+                role(0xc9_d9bf, 1.2),
                 role(0x7c_8696, 1.0),
                 role(0xd0_8a1c, 1.0),
                 role(0xc9_3c2e, 1.0),

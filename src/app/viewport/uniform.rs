@@ -8,8 +8,8 @@ use super::{
     style::{Role, SCALE_STOPS, ViewStyle},
 };
 
-/// Opacity of a line behind a surface: to be guessed at, not to be read.
-const HIDDEN_LINE_OPACITY: f32 = 0.18;
+/// Opacity of a line behind a surface: it can be found, and is not mistaken for one in front.
+const HIDDEN_LINE_OPACITY: f32 = 0.4;
 
 /// `View` in view.wgsl, which explains the fields.
 #[repr(C)]

@@ -7,8 +7,8 @@ use eframe::{
     wgpu,
 };
 use egui::{
-    Align, CursorIcon, Key, Layout, Modifiers, PaintCallbackInfo, Rect, Response, RichText, Sense,
-    Ui, UiBuilder,
+    Align, CursorIcon, Key, Label, Layout, Modifiers, PaintCallbackInfo, Rect, Response, RichText,
+    Sense, Ui, UiBuilder,
 };
 
 use super::{
@@ -248,9 +248,11 @@ fn say(ui: &mut Ui, rect: Rect, error: &ViewError, style: &ViewStyle) {
     let layout = Layout::top_down(Align::Center);
     ui.scope_builder(UiBuilder::new().max_rect(inside).layout(layout), |ui| {
         ui.add_space((inside.height() / 2.0 - 40.0).max(0.0));
-        ui.label(RichText::new("No 3-D view").size(20.0).color(colours.text));
-        ui.label(RichText::new(error.to_string()).color(colours.weak_text));
-        ui.label(RichText::new(error.advice()).color(colours.text));
+        // Selectable text would take the drags away from the view.
+        let mut say = |text: RichText| ui.add(Label::new(text).selectable(false));
+        say(RichText::new("No 3-D view").size(20.0).color(colours.text));
+        say(RichText::new(error.to_string()).color(colours.weak_text));
+        say(RichText::new(error.advice()).color(colours.text));
     });
 }
 
