@@ -339,28 +339,33 @@ pub(super) fn help(ctx: &egui::Context, state: &State, theme: &Theme, actions: &
     if state.help == HelpPage::Closed {
         return;
     }
-    let modal = Modal::new(Id::unique("help")).show(ctx, |ui| {
-        ui.set_max_width(520.0);
-        ui.label(
-            RichText::new("Shortcuts")
-                .font(font::verdict())
-                .color(theme.text),
-        );
-        ui.add_space(space::SMALL);
-        egui::Grid::new("shortcuts")
-            .num_columns(2)
-            .spacing(vec2(24.0, 6.0))
-            .show(ui, |ui| {
-                let of_window = SHORTCUTS.iter().map(|s| (s.keys, s.does));
-                for (keys, does) in of_window.chain(OTHER_KEYS) {
-                    ui.label(RichText::new(keys).font(font::body_strong()));
-                    ui.label(RichText::new(does).color(theme.weak_text));
-                    ui.end_row();
-                }
-            });
-        ui.add_space(space::MEDIUM);
-        labelled(ui, Button::new("Close"), "Close").clicked()
-    });
+    let modal = Modal::new(Id::unique("help"))
+        .frame(Frame::window(&ctx.global_style()).inner_margin(Margin::same(18)))
+        .show(ctx, |ui| {
+            ui.set_max_width(520.0);
+            let height = ui.spacing().interact_size.y;
+            ui.spacing_mut().interact_size.y = 24.0;
+            ui.label(
+                RichText::new("Shortcuts")
+                    .font(font::verdict())
+                    .color(theme.text),
+            );
+            ui.add_space(space::SMALL);
+            egui::Grid::new("shortcuts")
+                .num_columns(2)
+                .spacing(vec2(24.0, 6.0))
+                .show(ui, |ui| {
+                    let of_window = SHORTCUTS.iter().map(|s| (s.keys, s.does));
+                    for (keys, does) in of_window.chain(OTHER_KEYS) {
+                        ui.label(RichText::new(keys).font(font::body_strong()));
+                        ui.label(RichText::new(does).color(theme.weak_text));
+                        ui.end_row();
+                    }
+                });
+            ui.spacing_mut().interact_size.y = height;
+            ui.add_space(space::MEDIUM);
+            labelled(ui, Button::new("Close"), "Close").clicked()
+        });
     if modal.inner || modal.backdrop_response.clicked() {
         actions.push(Action::ToggleHelp);
     }

@@ -80,6 +80,10 @@ pub fn run(library: Option<PathBuf>) -> Result<(), WindowError> {
         eframe::Error::Wgpu(error) => WindowError::NoAdapter {
             reason: error.to_string(),
         },
+        // Its own words are about the library that asked.
+        eframe::Error::WinitEventLoop(_) => WindowError::Refused {
+            reason: "the desktop does not answer".into(),
+        },
         error => WindowError::Refused {
             reason: error.to_string(),
         },
