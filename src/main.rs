@@ -1,4 +1,4 @@
-//! Partsight's command line.
+//! Partsight: the window, or a command.
 
 use std::process::ExitCode;
 

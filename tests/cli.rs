@@ -29,6 +29,9 @@ impl Workplace {
         command
             .args(args)
             .current_dir(self.folder.path())
+            // Also on a desktop: these tests read the terminal.
+            .env_remove("DISPLAY")
+            .env_remove("WAYLAND_DISPLAY")
             .env("XDG_DATA_HOME", self.path("data"))
             .env("HOME", self.folder.path());
         command

@@ -1,4 +1,4 @@
-//! `partsight` alone: one inspection of the simulated cell, so that a first call shows something.
+//! `partsight` alone without a display: one inspection of the simulated cell, so that a first call shows something.
 
 use super::{LibraryChoice, Outcome, console::Console, verdict::show_card};
 use crate::{

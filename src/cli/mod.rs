@@ -24,6 +24,7 @@ use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use self::console::{Advised as _, Console, advised_error};
 use crate::{
+    app,
     library::{LibraryFolder, LibraryLoad, LibraryPlace, open_library},
     stages::{pose::PoseMethod, reference::ReferenceParams},
 };
@@ -33,7 +34,7 @@ use crate::{
 #[command(
     version,
     after_help = "\
-Without a command: inspects one frame of a simulated cell and shows what came out.
+Without a command: opens the window. Without a display: inspects one frame of a simulated cell in the terminal.
 
 Examples:
   partsight simulate --part fender --out fender.pcd
@@ -91,7 +92,7 @@ pub fn run(cli: Cli) -> Outcome {
             "--library stands before the command",
             "Put it behind the command, for example partsight inspect FILE --library DIR",
         )),
-        None => first_look::run(
+        None => window(
             &LibraryChoice {
                 library: cli.library,
             },
@@ -113,6 +114,17 @@ pub fn run(cli: Cli) -> Outcome {
         Err(error) => {
             console.error(&anyhow::Error::new(error).context("the output could not be written"));
             Outcome::CouldNotRun
+        }
+    }
+}
+
+/// Opens the window; where there can be none, says why and takes the first look in the terminal instead.
+fn window(library: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome> {
+    match app::run(library.library.clone()) {
+        Ok(()) => Ok(Outcome::Accepted),
+        Err(error) => {
+            console.warn(&format_args!("no window: {error}"), &error);
+            first_look::run(library, console)
         }
     }
 }

@@ -1,0 +1,68 @@
+//! The system's file dialog, asked without waiting for it.
+
+use std::{
+    path::PathBuf,
+    pin::Pin,
+    sync::Arc,
+    task::{Context, Poll, Wake, Waker},
+    time::{Duration, Instant},
+};
+
+use super::{action::Action, state::Notice};
+
+/// A dialog that is open.
+pub(super) struct FileDialog {
+    answer: Pin<Box<dyn Future<Output = Option<PathBuf>>>>,
+    waker: Waker,
+    opened: Instant,
+}
+
+/// Nobody closes a dialog as quickly as this: it never opened.
+const TOO_QUICK: Duration = Duration::from_millis(250);
+
+struct Repaint(egui::Context);
+
+impl Wake for Repaint {
+    fn wake(self: Arc<Self>) {
+        self.0.request_repaint();
+    }
+}
+
+impl FileDialog {
+    pub(super) fn open(ctx: &egui::Context) -> Self {
+        let dialog = rfd::AsyncFileDialog::new()
+            .set_title("Open a captured scene")
+            .add_filter(
+                "Captured scenes",
+                &["pcd", "ply", "xyz", "txt", "csv", "png"],
+            )
+            .add_filter("All files", &["*"])
+            .pick_file();
+        Self {
+            answer: Box::pin(async move { Some(dialog.await?.path().to_owned()) }),
+            waker: Arc::new(Repaint(ctx.clone())).into(),
+            opened: Instant::now(),
+        }
+    }
+
+    /// Ready once it was closed, with what follows from it, if anything.
+    pub(super) fn poll(&mut self) -> Poll<Option<Action>> {
+        let answer = self.answer.as_mut();
+        answer
+            .poll(&mut Context::from_waker(&self.waker))
+            .map(|path| match path {
+                Some(path) => Some(Action::Open(path)),
+                None if self.opened.elapsed() < TOO_QUICK => Some(Action::Notify(never_opened())),
+                None => None,
+            })
+    }
+}
+
+fn never_opened() -> Notice {
+    Notice {
+        what: "The desktop offers no file dialog".into(),
+        advice:
+            "Drop the file onto the window, or install the package xdg-desktop-portal-gtk or zenity"
+                .into(),
+    }
+}

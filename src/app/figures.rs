@@ -1,0 +1,242 @@
+//! What the stage pictures draw, prepared once per inspection on the worker: plain numbers, ready to be scaled.
+
+use image::RgbImage;
+use nalgebra::{Isometry2, Point2};
+
+use crate::{
+    library::Library,
+    pipeline::Inspection,
+    report::stage_pictures,
+    stages::{
+        contour::Contour,
+        rank::{MatchEntry, Placement},
+        reference::ReferenceView,
+        scene::SceneCloud,
+        signature::FanSignature,
+    },
+};
+
+/// A closed or open line in plane space, metres, y up.
+pub type PlaneLine = Vec<[f32; 2]>;
+
+/// What is drawn of an inspection. What its stages did not make is not there.
+#[derive(Debug, Default)]
+pub struct Figures {
+    /// What every point was taken for, as the camera sees it.
+    pub segmentation: Option<RgbImage>,
+    /// The binary image, black on white.
+    pub binary: Option<RgbImage>,
+    /// Outline, openings and rays.
+    pub contour: Option<ContourFigure>,
+    /// Lengths and angles.
+    pub signature: Option<Curves>,
+    /// One per entry of the ranking, in its order.
+    pub candidates: Vec<Candidate>,
+    /// Base-10 logarithm of E, square metres, per iteration.
+    pub log_e: Vec<f32>,
+    /// Points of the part.
+    pub num_part: usize,
+    /// Points of the scene with a reading.
+    pub num_points: usize,
+}
+
+/// The part's shape in its plane.
+#[derive(Debug)]
+pub struct ContourFigure {
+    /// Outline first, then the openings; each closed.
+    pub borders: Vec<PlaneLine>,
+    /// Ends of every fourth ray; all start at the centroid.
+    pub ray_ends: PlaneLine,
+    /// The centroid.
+    pub centroid: [f32; 2],
+    /// Smallest and largest coordinates.
+    pub bounds: [[f32; 2]; 2],
+}
+
+/// The two curves of a signature.
+#[derive(Debug)]
+pub struct Curves {
+    /// L, metres.
+    pub lengths: Vec<f32>,
+    /// Θ, radians, continuous.
+    pub angles: Vec<f32>,
+}
+
+/// An enrolled part as the ranking placed it.
+#[derive(Debug)]
+pub struct Candidate {
+    /// Its name for people.
+    pub title: String,
+    /// Its score, 0..1.
+    pub score: f32,
+    /// Its outline laid over the scene's, closed; empty if the matcher places nothing.
+    pub outline: PlaneLine,
+    /// Its signature at the best lag.
+    pub curves: Option<Curves>,
+}
+
+/// More corners than this are finer than any picture shows.
+const MAX_CORNERS: usize = 400;
+
+impl Figures {
+    /// Prepares them; `titles` are the references' names for people.
+    pub fn of(
+        scene: &SceneCloud,
+        inspection: &Inspection,
+        library: &Library,
+        titles: &[String],
+    ) -> Self {
+        let mut figures = Self {
+            num_points: scene.cloud.num_finite(),
+            ..Self::default()
+        };
+        for picture in stage_pictures(scene, inspection) {
+            match picture.stage {
+                "segmentation" => figures.segmentation = Some(picture.image),
+                "binary" => figures.binary = Some(picture.image),
+                _ => {}
+            }
+        }
+        if let Ok(part) = &inspection.segmentation.part {
+            figures.num_part = part.cloud.points.len();
+        }
+        if let (Some(contour), Some(signature)) = (&inspection.contour, &inspection.signature) {
+            figures.contour = Some(ContourFigure::of(contour, signature));
+            figures.signature = Some(Curves::of(&signature.lengths, &signature.angles));
+            let entries = inspection.ranking.entries.iter();
+            figures.candidates = entries
+                .map(|entry| Candidate::of(entry, signature, library, titles))
+                .collect();
+        }
+        if let Some(Ok(pose)) = &inspection.pose {
+            let e = pose.iterations.iter().map(|step| step.e_m2);
+            figures.log_e = e
+                .filter(|e| *e > 0.0 && e.is_finite())
+                .map(|e| e.log10() as f32)
+                .collect();
+        }
+        figures
+    }
+}
+
+impl ContourFigure {
+    fn of(contour: &Contour, signature: &FanSignature) -> Self {
+        let mut borders = vec![closed(&contour.outline, &Isometry2::identity())];
+        let openings = contour.openings.iter();
+        borders.extend(openings.map(|opening| closed(opening, &Isometry2::identity())));
+        let rays = signature.rays.iter().step_by(4);
+        let mut bounds = [[f32::INFINITY; 2], [f32::NEG_INFINITY; 2]];
+        for [x, y] in borders.iter().flatten().copied() {
+            bounds[0] = [bounds[0][0].min(x), bounds[0][1].min(y)];
+            bounds[1] = [bounds[1][0].max(x), bounds[1][1].max(y)];
+        }
+        Self {
+            ray_ends: rays.map(|ray| plain(&(signature.centroid + ray))).collect(),
+            centroid: plain(&signature.centroid),
+            borders,
+            bounds,
+        }
+    }
+}
+
+impl Curves {
+    fn of(lengths: &[f64], angles: &[f64]) -> Self {
+        let narrow = |values: &[f64]| values.iter().map(|value| *value as f32).collect();
+        Self {
+            lengths: narrow(lengths),
+            angles: narrow(angles),
+        }
+    }
+
+    /// A view's signature, shifted by the lag and turned, beside the scene's.
+    fn placed(view: &ReferenceView, placement: &Placement, scene: &FanSignature) -> Option<Self> {
+        let (lengths, angles) = (&view.signature.lengths, &view.signature.angles);
+        let num = lengths.len();
+        if num == 0 || num != scene.lengths.len() {
+            return None;
+        }
+        let lag = placement.lag % num;
+        let at = |ray: usize| (ray + num - lag) % num;
+        let whole = std::f64::consts::TAU;
+        let turned: Vec<f64> = (0..num)
+            .map(|ray| {
+                // The view's last ray is followed by its first, a whole circle on.
+                let again = if ray >= lag { whole } else { 0.0 };
+                angles[at(ray)] + placement.turn.0 + again
+            })
+            .collect();
+        let apart = turned.iter().zip(&scene.angles).map(|(a, b)| a - b);
+        let circles = (apart.sum::<f64>() / num as f64 / whole).round() * whole;
+        let turned: Vec<f64> = turned.iter().map(|angle| angle - circles).collect();
+        let shifted: Vec<f64> = (0..num).map(|ray| lengths[at(ray)]).collect();
+        Some(Self::of(&shifted, &turned))
+    }
+}
+
+impl Candidate {
+    fn of(entry: &MatchEntry, scene: &FanSignature, library: &Library, titles: &[String]) -> Self {
+        let title = titles.get(entry.reference).unwrap_or(&entry.part).clone();
+        let placed = entry.placements.first().and_then(|placement| {
+            let reference = library.references.get(entry.reference)?;
+            Some((placement, reference.views.get(placement.view)?))
+        });
+        let outline = placed.map_or_else(Vec::new, |(placement, view)| {
+            let moved = view.scene_plane_from_view_plane(placement.turn, &scene.centroid);
+            closed(&view.contour.outline, &moved)
+        });
+        Self {
+            title,
+            score: entry.score as f32,
+            outline,
+            curves: placed.and_then(|(placement, view)| Curves::placed(view, placement, scene)),
+        }
+    }
+}
+
+/// The border moved and thinned, its first corner repeated at the end.
+fn closed(border: &[Point2<f64>], moved: &Isometry2<f64>) -> PlaneLine {
+    let step = border.len().div_ceil(MAX_CORNERS).max(1);
+    let corners = border.iter().step_by(step).chain(border.first());
+    corners.map(|corner| plain(&(moved * corner))).collect()
+}
+
+fn plain(point: &Point2<f64>) -> [f32; 2] {
+    [point.x as f32, point.y as f32]
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{
+        app::work::{CellChoice, Inspector, Request},
+        pipeline::Unwatched,
+    };
+
+    #[test]
+    fn the_best_parts_outline_and_signature_lie_on_the_scenes() {
+        let request = Request::Capture {
+            choice: CellChoice::InTurn,
+            number: 1,
+        };
+        let answer = Inspector::new(None).answer(request, &Unwatched);
+        let inspected = answer.expect("not cancelled").expect("inspected");
+        let figures = &inspected.figures;
+        let (contour, scene) = (
+            figures.contour.as_ref().expect("a contour"),
+            figures.signature.as_ref().expect("a signature"),
+        );
+        let best = &figures.candidates[0];
+        let curves = best.curves.as_ref().expect("placed");
+        let mean_apart = |a: &[f32], b: &[f32]| {
+            a.iter().zip(b).map(|(a, b)| (a - b).abs()).sum::<f32>() / a.len() as f32
+        };
+        assert!(mean_apart(&curves.lengths, &scene.lengths) < 0.05);
+        assert!(mean_apart(&curves.angles, &scene.angles) < 0.2);
+        let [low, high] = contour.bounds;
+        for [x, y] in &best.outline {
+            assert!(*x > low[0] - 0.1 && *x < high[0] + 0.1);
+            assert!(*y > low[1] - 0.1 && *y < high[1] + 0.1);
+        }
+        assert!(figures.segmentation.is_some() && figures.binary.is_some());
+        assert!(figures.log_e.len() > 1);
+    }
+}

@@ -1,0 +1,250 @@
+//! The verdict card: which part, accepted or not, where, how sure, and what to do next.
+
+use egui::{Align, Button, Layout, Rect, RichText, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
+
+use crate::{
+    app::{
+        action::Action,
+        bars::focus_ring,
+        state::{State, UnitSystem},
+        theme::{ROUNDING, Theme, font, space},
+        widgets::{Mark, heading, mark, row},
+        work::{Inspected, Origin},
+    },
+    error::Advice as _,
+    geometry::rigid::RigidTransform,
+    pipeline::Verdict,
+    stages::pose::PoseEstimate,
+};
+
+/// What the card says first.
+struct Headline {
+    title: String,
+    is_accepted: bool,
+    /// Why not, and what to do.
+    complaint: Option<(String, String)>,
+}
+
+impl Headline {
+    fn of(inspected: &Inspected) -> Self {
+        match &inspected.inspection.verdict {
+            Verdict::Part { part, rejected, .. } => {
+                let best = inspected.figures.candidates.first();
+                Self {
+                    title: best.map_or_else(|| part.clone(), |best| best.title.clone()),
+                    is_accepted: rejected.is_none(),
+                    complaint: rejected.as_ref().map(|r| (r.to_string(), r.advice())),
+                }
+            }
+            Verdict::NoPart(reason) => Self {
+                title: "No part".into(),
+                is_accepted: false,
+                complaint: Some((reason.to_string(), reason.advice())),
+            },
+        }
+    }
+}
+
+/// Draws the card.
+pub(super) fn ui(
+    ui: &mut Ui,
+    inspected: &Inspected,
+    state: &State,
+    theme: &Theme,
+    actions: &mut Vec<Action>,
+) {
+    if state.is_old() {
+        ui.label(
+            RichText::new("Old result: a new one is on its way")
+                .font(font::body_strong())
+                .color(theme.warning),
+        );
+        ui.multiply_opacity(0.55);
+    }
+    // Text lies closer than controls do.
+    ui.spacing_mut().interact_size.y = 22.0;
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        let headline = Headline::of(inspected);
+        verdict(ui, &headline, theme);
+        score(ui, inspected, &headline, theme);
+        let pose = inspected
+            .inspection
+            .pose
+            .as_ref()
+            .and_then(|pose| pose.as_ref().ok());
+        if let Some(pose) = pose {
+            offset(ui, inspected, pose, state.units, theme);
+            fit(ui, pose, state.units, theme);
+        }
+        footer(ui, inspected, theme);
+        if pose.is_some() {
+            ui.add_space(space::MEDIUM);
+            let width = ui.available_width();
+            let copy = Button::new("Copy pose").min_size(vec2(width, space::TARGET));
+            let copied = ui.add(copy);
+            focus_ring(ui, copied.rect, &copied, theme);
+            if copied
+                .on_hover_text("camera_from_part, four rows, metres")
+                .clicked()
+            {
+                actions.push(Action::CopyPose);
+            }
+        }
+    });
+}
+
+fn verdict(ui: &mut Ui, headline: &Headline, theme: &Theme) {
+    ui.label(
+        RichText::new(&headline.title)
+            .font(font::title())
+            .color(theme.text),
+    );
+    let (sign, word, colour) = if headline.is_accepted {
+        (Mark::Good, "Accepted", theme.accepted)
+    } else {
+        (Mark::Bad, "Not accepted", theme.rejected)
+    };
+    ui.horizontal(|ui| {
+        let (rect, _) = ui.allocate_exact_size(Vec2::splat(20.0), Sense::hover());
+        mark(ui.painter(), rect.center(), 9.0, sign, theme);
+        ui.label(RichText::new(word).font(font::verdict()).color(colour));
+    });
+    if let Some((reason, advice)) = &headline.complaint {
+        ui.add_space(space::SMALL);
+        ui.label(RichText::new(sentence(reason)).color(theme.text));
+        ui.label(
+            RichText::new(advice)
+                .font(font::body_strong())
+                .color(theme.warning),
+        );
+    }
+}
+
+/// The text with a capital letter first.
+fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| {
+        first.to_uppercase().collect::<String>() + letters.as_str()
+    })
+}
+
+/// The score as a bar against the threshold, and the lead over the next part.
+fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline, theme: &Theme) {
+    let Verdict::Part { score, margin, .. } = inspected.inspection.verdict else {
+        return;
+    };
+    ui.add_space(space::MEDIUM);
+    row(ui, theme, "Score", &format!("{score:.2}"));
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 12.0), Sense::hover());
+    let painter = ui.painter();
+    let bar = Rect::from_min_max(rect.min + vec2(0.0, 2.0), rect.max - vec2(0.0, 2.0));
+    painter.rect_filled(bar, ROUNDING, theme.track);
+    let width = bar.width() * score.clamp(0.0, 1.0) as f32;
+    let fill = if headline.is_accepted {
+        theme.accepted
+    } else {
+        theme.rejected
+    };
+    painter.rect_filled(
+        Rect::from_min_size(bar.min, vec2(width, bar.height())),
+        ROUNDING,
+        fill,
+    );
+    let tick = bar.left() + bar.width() * inspected.min_score as f32;
+    let tick = Rect::from_min_max(
+        pos2(tick - 1.0, rect.top()),
+        pos2(tick + 1.0, rect.bottom()),
+    );
+    painter.rect_filled(tick, 0.0, theme.text);
+    let caption = |text: String| {
+        RichText::new(text)
+            .font(font::small())
+            .color(theme.weak_text)
+    };
+    ui.horizontal(|ui| {
+        if let Some(next) = inspected.figures.candidates.get(1) {
+            ui.label(caption(format!("Next: {} {:.2}", next.title, next.score)));
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.label(caption(format!("threshold {:.2}", inspected.min_score)));
+        });
+    });
+    if inspected.figures.candidates.len() > 1 {
+        ui.label(caption(format!("Margin to the next {margin:.2}")));
+    }
+}
+
+/// How far the part is off its standard position, at its middle, and how it is turned.
+fn offset(
+    ui: &mut Ui,
+    inspected: &Inspected,
+    pose: &PoseEstimate,
+    units: UnitSystem,
+    theme: &Theme,
+) {
+    let camera_from_part = pose.camera_from_part();
+    heading(ui, theme, "Offset from standard position");
+    let middle = inspected.middle;
+    let shift = middle.map(|middle| camera_from_part * middle - middle);
+    if let Some(shift) = shift {
+        for (axis, metres) in [("x", shift.x), ("y", shift.y), ("z", shift.z)] {
+            row(ui, theme, axis, &units.signed_length(metres));
+        }
+    }
+    for (axis, angle) in turns(&camera_from_part) {
+        row(ui, theme, axis, &units.signed_angle(angle));
+    }
+    let note = "Part's middle, camera axes · R = Rz·Ry·Rx";
+    ui.label(
+        RichText::new(note)
+            .font(font::small())
+            .color(theme.weak_text),
+    );
+}
+
+/// nalgebra's angles are those of Rz·Ry·Rx.
+fn turns(pose: &RigidTransform) -> [(&'static str, f64); 3] {
+    let (rx, ry, rz) = pose.rotation.euler_angles();
+    [("rx", rx), ("ry", ry), ("rz", rz)]
+}
+
+fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem, theme: &Theme) {
+    heading(ui, theme, "Fit");
+    row(ui, theme, "rms", &units.length(pose.fit.rms_m));
+    row(
+        ui,
+        theme,
+        "overlap",
+        &format!("{:.0} %", pose.fit.overlap * 100.0),
+    );
+    if let Some(runner_up) = pose.runner_up {
+        row(
+            ui,
+            theme,
+            "runner-up pose",
+            &format!("{:.1}× worse", runner_up.ratio),
+        );
+    }
+    let stopped = pose.stopped.name().replace('_', " ");
+    let by = format!("{stopped} · {}", pose.method.name());
+    row(
+        ui,
+        theme,
+        &format!("{} iterations", pose.iterations.len()),
+        &by,
+    );
+    if pose.is_ambiguous() {
+        let text = "Another pose fits as well: check which way round the part hangs";
+        ui.label(RichText::new(text).color(theme.warning));
+    }
+}
+
+fn footer(ui: &mut Ui, inspected: &Inspected, theme: &Theme) {
+    heading(ui, theme, "Inspection");
+    let ms = inspected.inspection.timings.total.as_secs_f64() * 1000.0;
+    row(ui, theme, "time", &format!("{ms:.1} ms"));
+    row(ui, theme, "scene", &inspected.origin.title());
+    if matches!(inspected.origin, Origin::Simulated { .. }) {
+        row(ui, theme, "camera", "simulated");
+    }
+}

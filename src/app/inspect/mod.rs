@@ -1,0 +1,155 @@
+//! Inspect, the operator's workspace: the view, the verdict and the stages.
+
+mod card;
+mod plots;
+mod strip;
+mod view;
+
+use std::sync::Arc;
+
+use egui::{Align2, ColorImage, Frame, Margin, Panel, TextureHandle, TextureOptions, Ui};
+use image::RgbImage;
+
+use self::view::SceneView;
+use super::{
+    action::Action,
+    state::{Shown, State},
+    theme::{Theme, font},
+    viewport::{ViewError, ViewportGpu},
+    work::Inspected,
+};
+
+/// Width of the verdict card, logical pixels, and in a narrow window.
+const CARD: [f32; 2] = [340.0, 300.0];
+/// Height of the stage strip, logical pixels, and in a low window.
+const STRIP: [f32; 2] = [196.0, 164.0];
+
+/// What the workspace keeps between frames: nothing but what was made of the last result.
+pub(super) struct InspectPanel {
+    view: SceneView,
+    made: Option<Made>,
+}
+
+/// Textures of one result.
+struct Made {
+    generation: u64,
+    segmentation: Option<TextureHandle>,
+    binary: Option<TextureHandle>,
+}
+
+impl InspectPanel {
+    pub(super) fn new(gpu: Result<ViewportGpu, ViewError>) -> Self {
+        Self {
+            view: SceneView::new(gpu),
+            made: None,
+        }
+    }
+
+    /// True while keys go to the 3-D view.
+    pub(super) fn view_has_focus(&self) -> bool {
+        self.view.has_focus()
+    }
+
+    pub(super) fn ui(
+        &mut self,
+        ui: &mut Ui,
+        state: &State,
+        theme: &Theme,
+        actions: &mut Vec<Action>,
+    ) {
+        let Some(shown) = &state.shown else {
+            empty(ui, state, theme);
+            return;
+        };
+        self.make(ui.ctx(), shown);
+        let inspected: &Inspected = &shown.inspected;
+        let size = ui.available_size();
+        let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
+
+        Panel::right("verdict")
+            .exact_size(if size.x > 1100.0 { CARD[0] } else { CARD[1] })
+            .resizable(false)
+            .frame(panel(Margin::symmetric(18, 14)))
+            .show(ui, |ui| card::ui(ui, inspected, state, theme, actions));
+        Panel::bottom("stages")
+            .exact_size(if size.y > 760.0 { STRIP[0] } else { STRIP[1] })
+            .resizable(false)
+            .frame(panel(Margin::ZERO))
+            .show(ui, |ui| {
+                let pictures = self.pictures(inspected, state, theme);
+                strip::ui(ui, &pictures, actions);
+            });
+        if state.enlarged.is_some() {
+            let pictures = self.pictures(inspected, state, theme);
+            strip::enlarged_ui(ui, &pictures, actions);
+        } else {
+            self.view.ui(ui, state, inspected);
+        }
+    }
+
+    fn pictures<'a>(
+        &'a self,
+        inspected: &'a Inspected,
+        state: &'a State,
+        theme: &'a Theme,
+    ) -> plots::Pictures<'a> {
+        let made = self.made.as_ref();
+        plots::Pictures {
+            inspected,
+            state,
+            theme,
+            segmentation: made.and_then(|made| made.segmentation.as_ref()),
+            binary: made.and_then(|made| made.binary.as_ref()),
+        }
+    }
+
+    /// Uploads what a new result shows, once.
+    fn make(&mut self, ctx: &egui::Context, shown: &Shown) {
+        if self
+            .made
+            .as_ref()
+            .is_some_and(|made| made.generation == shown.generation)
+        {
+            return;
+        }
+        let figures = &shown.inspected.figures;
+        self.made = Some(Made {
+            generation: shown.generation,
+            segmentation: texture(ctx, "segmentation", figures.segmentation.as_ref()),
+            binary: texture(ctx, "binary image", figures.binary.as_ref()),
+        });
+        self.view.show(&Arc::clone(&shown.inspected));
+    }
+}
+
+fn texture(ctx: &egui::Context, name: &str, image: Option<&RgbImage>) -> Option<TextureHandle> {
+    let image = image?;
+    let size = [image.width() as usize, image.height() as usize];
+    let options = TextureOptions {
+        mipmap_mode: Some(egui::TextureFilter::Linear),
+        ..TextureOptions::LINEAR
+    };
+    Some(ctx.load_texture(name, ColorImage::from_rgb(size, image.as_raw()), options))
+}
+
+/// Before the first result.
+fn empty(ui: &Ui, state: &State, theme: &Theme) {
+    let text = match &state.work {
+        Some(work) => format!("{}…", work.what),
+        None => "Nothing inspected yet\nPress Capture for a frame of the simulated cell, or drop a captured scene here"
+            .into(),
+    };
+    let rect = ui.max_rect();
+    let galley = ui.painter().layout(
+        text.clone(),
+        font::verdict(),
+        theme.weak_text,
+        rect.width() * 0.8,
+    );
+    let at = Align2::CENTER_CENTER
+        .align_size_within_rect(galley.size(), rect)
+        .min;
+    ui.painter().galley(at, galley, theme.weak_text);
+    let response = ui.interact(rect, ui.scope_id().with("empty"), egui::Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &text));
+}

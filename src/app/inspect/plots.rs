@@ -1,0 +1,284 @@
+//! The stage pictures: textures made once, curves and outlines drawn from prepared numbers.
+
+use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, TextureHandle, pos2, vec2};
+
+use crate::app::{
+    figures::{Candidate, ContourFigure, Curves},
+    state::{StagePanel, State},
+    theme::{ROUNDING, Theme, font},
+    widgets::{Scale, caption, curve, fitted},
+    work::Inspected,
+};
+
+/// What the pictures are drawn from.
+pub(super) struct Pictures<'a> {
+    pub(super) inspected: &'a Inspected,
+    pub(super) state: &'a State,
+    pub(super) theme: &'a Theme,
+    pub(super) segmentation: Option<&'a TextureHandle>,
+    pub(super) binary: Option<&'a TextureHandle>,
+}
+
+/// How much a picture tells.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Detail {
+    /// In the strip: the shape alone.
+    Small,
+    /// Enlarged: with scales and names.
+    Large,
+}
+
+/// The paper's goal for E, 1e-6 m², as a power of ten.
+const GOAL: f32 = -6.0;
+
+impl Pictures<'_> {
+    /// Draws the picture of a stage into a rectangle.
+    pub(super) fn paint(&self, panel: StagePanel, painter: &Painter, rect: Rect, detail: Detail) {
+        painter.rect_filled(rect, ROUNDING, self.theme.canvas);
+        let figures = &self.inspected.figures;
+        let inner = rect.shrink(if detail == Detail::Large { 12.0 } else { 5.0 });
+        let is_there = match panel {
+            StagePanel::Segmentation => self.texture(self.segmentation, painter, rect),
+            StagePanel::BinaryImage => self.texture(self.binary, painter, rect),
+            StagePanel::Contour => figures
+                .contour
+                .as_ref()
+                .map(|contour| self.contour(contour, painter, inner)),
+            StagePanel::Signature => figures
+                .signature
+                .as_ref()
+                .map(|curves| self.signature(curves, painter, inner, detail)),
+            StagePanel::Ranking => (!figures.candidates.is_empty())
+                .then(|| self.ranking(&figures.candidates, painter, inner, detail)),
+            StagePanel::Alignment => (!figures.log_e.is_empty())
+                .then(|| self.alignment(&figures.log_e, painter, inner, detail)),
+        };
+        if is_there.is_none() {
+            let font = font::small();
+            painter.text(
+                rect.center(),
+                Align2::CENTER_CENTER,
+                "not reached",
+                font,
+                self.theme.weak_text,
+            );
+        }
+    }
+
+    fn candidate(&self) -> Option<&Candidate> {
+        self.inspected.figures.candidates.get(self.state.candidate)
+    }
+
+    fn texture(
+        &self,
+        texture: Option<&TextureHandle>,
+        painter: &Painter,
+        rect: Rect,
+    ) -> Option<()> {
+        let texture = texture?;
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        let place = fitted(rect, texture.aspect_ratio());
+        // What is old is dimmed by the painter, pictures too.
+        let tint = Color32::WHITE.gamma_multiply(painter.opacity());
+        let _ = self;
+        painter.image(texture.id(), place, whole, tint);
+        Some(())
+    }
+
+    fn contour(&self, figure: &ContourFigure, painter: &Painter, rect: Rect) {
+        let [low, high] = figure.bounds;
+        let (wide, tall) = ((high[0] - low[0]).max(1e-3), (high[1] - low[1]).max(1e-3));
+        let place = fitted(rect, wide / tall);
+        let (across, up) = (
+            Scale::new([low[0], high[0]], [place.left(), place.right()]),
+            Scale::new([low[1], high[1]], [place.bottom(), place.top()]),
+        );
+        let at = |p: &[f32; 2]| pos2(across.at(p[0]), up.at(p[1]));
+        let centroid = at(&figure.centroid);
+        let ray = Stroke::new(1.0, self.theme.weak_text.gamma_multiply(0.45));
+        for end in &figure.ray_ends {
+            painter.line_segment([centroid, at(end)], ray);
+        }
+        for (place, border) in figure.borders.iter().enumerate() {
+            let colour = if place == 0 {
+                self.theme.first_series
+            } else {
+                self.theme.second_series
+            };
+            painter.line(border.iter().map(at).collect(), Stroke::new(1.6, colour));
+        }
+        if let Some(candidate) = self.candidate() {
+            let outline: Vec<Pos2> = candidate.outline.iter().map(at).collect();
+            let stroke = Stroke::new(1.2, self.theme.reference_series);
+            painter.extend(Shape::dashed_line(&outline, stroke, 5.0, 4.0));
+        }
+        painter.circle_filled(centroid, 3.5, self.theme.second_series);
+    }
+
+    fn signature(&self, scene: &Curves, painter: &Painter, rect: Rect, detail: Detail) {
+        let reference = self.candidate().and_then(|c| c.curves.as_ref());
+        let half = rect.height() / 2.0;
+        let halves = [
+            (
+                "L, m",
+                1,
+                &scene.lengths,
+                reference.map(|r| &r.lengths),
+                self.theme.first_series,
+            ),
+            (
+                "Θ, rad",
+                2,
+                &scene.angles,
+                reference.map(|r| &r.angles),
+                self.theme.second_series,
+            ),
+        ];
+        for (name, number, values, other, colour) in halves {
+            let top = rect.top() + half * (number - 1) as f32;
+            let area =
+                Rect::from_min_size(pos2(rect.left(), top), vec2(rect.width(), half)).shrink(4.0);
+            let range = range_of(values.iter().chain(other.into_iter().flatten()));
+            let up = Scale::new(range, [area.bottom(), area.top()]);
+            let last = values.len().saturating_sub(1).max(1) as f32;
+            let across = Scale::new([0.0, last], [area.left(), area.right()]);
+            if detail == Detail::Large {
+                self.level(painter, area, &up, range[0], &format!("{:.2}", range[0]));
+                self.level(painter, area, &up, range[1], &format!("{:.2}", range[1]));
+            }
+            if let Some(other) = other {
+                let stroke = Stroke::new(1.0, self.theme.reference_series);
+                painter.line(curve(other, &across, &up), stroke);
+            }
+            painter.line(curve(values, &across, &up), Stroke::new(1.6, colour));
+            if detail == Detail::Large {
+                let at = area.left_center();
+                painter.text(at, Align2::LEFT_CENTER, name, font::body_strong(), colour);
+            }
+        }
+    }
+
+    fn ranking(&self, candidates: &[Candidate], painter: &Painter, rect: Rect, detail: Detail) {
+        let theme = self.theme;
+        let num_rows = candidates.len().min(match detail {
+            Detail::Small => 6,
+            Detail::Large => 16,
+        });
+        let row = (rect.height() / num_rows.max(1) as f32).min(40.0);
+        let is_large = detail == Detail::Large;
+        let names = if is_large {
+            210.0
+        } else {
+            (rect.width() * 0.48).min(92.0)
+        };
+        let values = if is_large { 60.0 } else { 0.0 };
+        let bars = Scale::new([0.0, 1.0], [rect.left() + names, rect.right() - values]);
+        let font = if is_large {
+            font::body()
+        } else {
+            font::scale()
+        };
+        for (place, candidate) in candidates.iter().take(num_rows).enumerate() {
+            let middle = rect.top() + row * (place as f32 + 0.5);
+            let is_chosen = place == self.state.candidate;
+            let colour = if is_chosen {
+                theme.text
+            } else {
+                theme.weak_text
+            };
+            let clip = Rect::from_min_max(rect.min, pos2(rect.left() + names - 4.0, rect.bottom()));
+            painter
+                .with_clip_rect(clip.intersect(painter.clip_rect()))
+                .text(
+                    pos2(rect.left(), middle),
+                    Align2::LEFT_CENTER,
+                    &candidate.title,
+                    font.clone(),
+                    colour,
+                );
+            let y = [middle - row * 0.3, middle + row * 0.3];
+            let bar =
+                |to: f32| Rect::from_min_max(pos2(bars.at(0.0), y[0]), pos2(bars.at(to), y[1]));
+            painter.rect_filled(bar(1.0), 2.0, theme.track);
+            let fill = match (
+                place,
+                f64::from(candidate.score) >= self.inspected.min_score,
+            ) {
+                (0, true) => theme.accepted,
+                _ => theme.weak_text.gamma_multiply(0.6),
+            };
+            painter.rect_filled(bar(candidate.score.clamp(0.0, 1.0)), 2.0, fill);
+            if is_large {
+                let at = pos2(rect.right(), middle);
+                let score = format!("{:.2}", candidate.score);
+                painter.text(at, Align2::RIGHT_CENTER, score, font::body(), colour);
+            }
+        }
+        let threshold = bars.at(self.inspected.min_score as f32);
+        let bottom = rect.top() + row * num_rows as f32;
+        painter.vline(threshold, rect.top()..=bottom, Stroke::new(1.0, theme.text));
+    }
+
+    fn alignment(&self, log_e: &[f32], painter: &Painter, rect: Rect, detail: Detail) {
+        let [low, high] = range_of(log_e.iter());
+        let (low, high) = (low.min(GOAL).floor(), high.max(GOAL + 1.0).ceil());
+        let mut area = rect;
+        area.min.x += if detail == Detail::Large { 44.0 } else { 26.0 };
+        let up = Scale::new([low, high], [area.bottom() - 4.0, area.top() + 6.0]);
+        let last = (log_e.len() - 1).max(1) as f32;
+        let across = Scale::new([0.0, last], [area.left() + 4.0, area.right() - 6.0]);
+        for power in low as i32..=high as i32 {
+            let y = up.at(power as f32);
+            painter.hline(area.x_range(), y, self.theme.edge_stroke());
+            let at = pos2(area.left() - 4.0, y);
+            caption(
+                painter,
+                at,
+                Align2::RIGHT_CENTER,
+                &format!("1e{power}"),
+                self.theme.weak_text,
+            );
+        }
+        let y = up.at(GOAL);
+        let goal = [pos2(area.left(), y), pos2(area.right(), y)];
+        let stroke = Stroke::new(1.4, self.theme.second_series);
+        painter.extend(Shape::dashed_line(&goal, stroke, 5.0, 4.0));
+        let points = curve(log_e, &across, &up);
+        if let Some(end) = points.last() {
+            painter.circle_filled(*end, 3.0, self.theme.first_series);
+        }
+        painter.line(points, Stroke::new(1.8, self.theme.first_series));
+        if detail == Detail::Large {
+            let at = pos2(area.right(), y - 4.0);
+            let text = "the paper's goal, 1e\u{2212}6 m²";
+            painter.text(
+                at,
+                Align2::RIGHT_BOTTOM,
+                text,
+                font::small(),
+                self.theme.second_series,
+            );
+        }
+    }
+
+    /// A faint line across, with its value.
+    fn level(&self, painter: &Painter, area: Rect, up: &Scale, value: f32, text: &str) {
+        let y = up.at(value);
+        painter.hline(area.x_range(), y, self.theme.edge_stroke());
+        let at = pos2(area.right(), y);
+        caption(
+            painter,
+            at,
+            Align2::RIGHT_BOTTOM,
+            text,
+            self.theme.weak_text,
+        );
+    }
+}
+
+/// Smallest and largest.
+fn range_of<'a>(values: impl Iterator<Item = &'a f32>) -> [f32; 2] {
+    values.fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], value| {
+        [low.min(*value), high.max(*value)]
+    })
+}

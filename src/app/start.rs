@@ -1,0 +1,95 @@
+//! Opening the window, or saying in words why it cannot be opened.
+
+use std::{env, path::PathBuf};
+
+use eframe::NativeOptions;
+
+use super::window::Window;
+use crate::error::Advice;
+
+/// Why there is no window.
+#[derive(Debug, thiserror::Error)]
+pub enum WindowError {
+    /// No desktop to open a window on.
+    #[error("there is no display to open a window on")]
+    NoDisplay,
+    /// The desktop refused.
+    #[error("the window could not be opened ({reason})")]
+    Refused {
+        /// What the system said.
+        reason: String,
+    },
+    /// Nothing can draw.
+    #[error("there is no graphics driver that can draw the window ({reason})")]
+    NoAdapter {
+        /// What the system said.
+        reason: String,
+    },
+}
+
+impl Advice for WindowError {
+    fn advice(&self) -> String {
+        match self {
+            Self::NoDisplay => {
+                "Start Partsight from a desktop session, or over SSH with ssh -X; neither DISPLAY nor WAYLAND_DISPLAY is set"
+                    .into()
+            }
+            Self::Refused { .. } => {
+                "Check that DISPLAY or WAYLAND_DISPLAY names a running desktop, and that the package libxkbcommon-x11-0 is installed"
+                    .into()
+            }
+            Self::NoAdapter { .. } => {
+                "Install a Vulkan driver: on Debian and Ubuntu the package mesa-vulkan-drivers".into()
+            }
+        }
+    }
+}
+
+/// The window's size when it opens, logical pixels.
+const SIZE: [f32; 2] = [1440.0, 900.0];
+/// Below this something would be cut off.
+const MIN_SIZE: [f32; 2] = [960.0, 640.0];
+
+/// Opens the window with the library of this folder, else the one found as on the command line, and returns when it is
+/// closed.
+pub fn run(library: Option<PathBuf>) -> Result<(), WindowError> {
+    // Without either nobody would see the window; asking the system only costs a wait.
+    if cfg!(all(unix, not(target_os = "macos"))) && !is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")
+    {
+        return Err(WindowError::NoDisplay);
+    }
+    let options = NativeOptions {
+        viewport: egui::ViewportBuilder::default()
+            .with_title("Partsight")
+            .with_app_id("partsight")
+            .with_inner_size(SIZE)
+            .with_min_inner_size(MIN_SIZE),
+        renderer: eframe::Renderer::Wgpu,
+        ..NativeOptions::default()
+    };
+    let opened = eframe::run_native(
+        "partsight",
+        options,
+        Box::new(|cc| {
+            Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), library)
+                .map(|window| Box::new(window) as Box<dyn eframe::App>)
+                .map_err(Into::into)
+        }),
+    );
+    opened.map_err(|error| match error {
+        eframe::Error::Wgpu(error) => WindowError::NoAdapter {
+            reason: error.to_string(),
+        },
+        // Its own words are about the library that asked.
+        eframe::Error::WinitEventLoop(_) => WindowError::Refused {
+            reason: "the desktop does not answer".into(),
+        },
+        error => WindowError::Refused {
+            reason: error.to_string(),
+        },
+    })
+}
+
+fn is_set(variable: &str) -> bool {
+    env::var_os(variable).is_some_and(|value| !value.is_empty())
+}

@@ -1,0 +1,281 @@
+//! What the window knows: plain data, without any type of the user interface.
+
+use std::{path::PathBuf, sync::Arc};
+
+use super::work::{CellChoice, Inspected, LibraryShown};
+use crate::pipeline::Stage;
+
+/// Everything that the panels read. Only [`apply`](super::action::apply) changes it.
+#[derive(Debug, Default)]
+pub struct State {
+    /// What Capture takes a scene from.
+    pub source: Source,
+    /// The last result.
+    pub shown: Option<Shown>,
+    /// What is being worked on; the result shown is old meanwhile.
+    pub work: Option<Work>,
+    /// The workspace in front.
+    pub workspace: Workspace,
+    /// Units that lengths and angles are shown in.
+    pub units: UnitSystem,
+    /// Colours.
+    pub theme: ThemeChoice,
+    /// What a person should know, oldest first.
+    pub notices: Vec<Notice>,
+    /// The stage that fills the middle, if one is enlarged.
+    pub enlarged: Option<StagePanel>,
+    /// Place in the ranking of the part that contour and signature are compared with; 0 is the best.
+    pub candidate: usize,
+    /// Whether the list of shortcuts is open.
+    pub help: HelpPage,
+    /// The library in use, once loaded.
+    pub library: Option<Arc<LibraryShown>>,
+    /// How many frames of the simulated cell were asked for.
+    pub num_captures: u64,
+    /// The generation of the newest request.
+    pub generation: u64,
+}
+
+impl State {
+    /// True while the result shown is not what was asked for last.
+    pub fn is_old(&self) -> bool {
+        self.work.is_some() && self.shown.is_some()
+    }
+}
+
+/// Where Capture takes a scene from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Source {
+    /// The simulated cell.
+    Cell(CellChoice),
+    /// A file, read again at each capture.
+    File(PathBuf),
+}
+
+impl Default for Source {
+    fn default() -> Self {
+        Self::Cell(CellChoice::default())
+    }
+}
+
+/// A result, and the number by which what was made for it is known.
+#[derive(Clone, Debug)]
+pub struct Shown {
+    /// The generation of the request that it answers.
+    pub generation: u64,
+    /// The result.
+    pub inspected: Arc<Inspected>,
+}
+
+/// A request at work.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Work {
+    /// Its generation.
+    pub generation: u64,
+    /// What is being done, for a person.
+    pub what: String,
+    /// The stage begun last.
+    pub stage: Option<Stage>,
+}
+
+/// The workspaces.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Workspace {
+    /// The operator's: which part is it, and is it accepted?
+    #[default]
+    Inspect,
+}
+
+impl Workspace {
+    /// Every workspace, in the order of the rail and of the number keys.
+    pub const ALL: [Self; 1] = [Self::Inspect];
+
+    /// What a person calls it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Inspect => "Inspect",
+        }
+    }
+}
+
+/// Units for people.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum UnitSystem {
+    /// Millimetres and degrees.
+    #[default]
+    MillimetresDegrees,
+    /// Metres and radians.
+    MetresRadians,
+}
+
+impl UnitSystem {
+    /// Its sign.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::MillimetresDegrees => "mm · °",
+            Self::MetresRadians => "m · rad",
+        }
+    }
+
+    /// The other one.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::MillimetresDegrees => Self::MetresRadians,
+            Self::MetresRadians => Self::MillimetresDegrees,
+        }
+    }
+
+    /// A length in metres, for a person.
+    pub fn length(self, metres: f64) -> String {
+        match self {
+            Self::MillimetresDegrees => format!("{:.1} mm", metres * 1000.0),
+            Self::MetresRadians => format!("{metres:.4} m"),
+        }
+    }
+
+    /// A difference of lengths in metres, with its sign.
+    pub fn signed_length(self, metres: f64) -> String {
+        match self {
+            Self::MillimetresDegrees => format!("{} mm", signed(metres * 1000.0, 1)),
+            Self::MetresRadians => format!("{} m", signed(metres, 4)),
+        }
+    }
+
+    /// An angle in radians, with its sign.
+    pub fn signed_angle(self, radians: f64) -> String {
+        match self {
+            Self::MillimetresDegrees => format!("{}°", signed(radians.to_degrees(), 2)),
+            Self::MetresRadians => format!("{} rad", signed(radians, 4)),
+        }
+    }
+}
+
+/// A number with its sign, a true minus; what rounds to nothing has none.
+fn signed(value: f64, decimals: usize) -> String {
+    let digits = format!("{:.decimals$}", value.abs());
+    if digits.bytes().all(|b| matches!(b, b'0' | b'.')) {
+        digits
+    } else if value < 0.0 {
+        format!("\u{2212}{digits}")
+    } else {
+        format!("+{digits}")
+    }
+}
+
+/// Colours.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum ThemeChoice {
+    /// Light on dark.
+    #[default]
+    Dark,
+    /// Dark on light.
+    Light,
+}
+
+impl ThemeChoice {
+    /// What a person calls it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Dark => "Dark",
+            Self::Light => "Light",
+        }
+    }
+
+    /// The other one.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::Dark => Self::Light,
+            Self::Light => Self::Dark,
+        }
+    }
+}
+
+/// Whether the list of shortcuts is open.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum HelpPage {
+    /// Not open.
+    #[default]
+    Closed,
+    /// Open.
+    Open,
+}
+
+/// Something that a person should know.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Notice {
+    /// What happened.
+    pub what: String,
+    /// What to do about it.
+    pub advice: String,
+}
+
+/// The pictures of the stage strip, in order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StagePanel {
+    /// What every point was taken for.
+    Segmentation,
+    /// The part in its own plane.
+    BinaryImage,
+    /// Outline, openings, centroid and rays.
+    Contour,
+    /// Lengths and angles of the rays.
+    Signature,
+    /// The enrolled parts, best first.
+    Ranking,
+    /// E per iteration.
+    Alignment,
+}
+
+impl StagePanel {
+    /// Every picture, in order.
+    pub const ALL: [Self; 6] = [
+        Self::Segmentation,
+        Self::BinaryImage,
+        Self::Contour,
+        Self::Signature,
+        Self::Ranking,
+        Self::Alignment,
+    ];
+
+    /// What a person calls it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Segmentation => "Segmentation",
+            Self::BinaryImage => "Binary image",
+            Self::Contour => "Contour",
+            Self::Signature => "Signatures",
+            Self::Ranking => "Ranking",
+            Self::Alignment => "Alignment",
+        }
+    }
+
+    /// The panel that shows what a stage of the pipeline does.
+    pub fn of(stage: Stage) -> Self {
+        match stage {
+            Stage::Segment => Self::Segmentation,
+            Stage::Project => Self::BinaryImage,
+            Stage::Contour => Self::Contour,
+            Stage::Signature => Self::Signature,
+            Stage::Rank => Self::Ranking,
+            Stage::Pose => Self::Alignment,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_person_reads_signs_and_units() {
+        let mm = UnitSystem::MillimetresDegrees;
+        assert_eq!(mm.signed_length(0.0423), "+42.3 mm");
+        assert_eq!(mm.signed_length(-0.0081), "\u{2212}8.1 mm");
+        assert_eq!(mm.signed_length(-0.000_01), "0.0 mm");
+        assert_eq!(mm.signed_angle(std::f64::consts::FRAC_PI_2), "+90.00°");
+        assert_eq!(UnitSystem::MetresRadians.signed_length(0.0423), "+0.0423 m");
+        assert_eq!(mm.other().other(), mm);
+    }
+}

@@ -1,0 +1,106 @@
+//! Small things that several panels draw.
+
+use egui::{Align, Align2, Color32, Layout, Painter, Pos2, Rect, RichText, Stroke, Ui, pos2, vec2};
+
+use super::theme::{Theme, font};
+
+/// What a mark says beside its colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Mark {
+    /// A tick.
+    Good,
+    /// A cross.
+    Bad,
+    /// An exclamation mark.
+    Look,
+}
+
+/// A filled disc with a sign in it.
+pub(super) fn mark(painter: &Painter, centre: Pos2, radius: f32, mark: Mark, theme: &Theme) {
+    let fill = match mark {
+        Mark::Good => theme.accepted,
+        Mark::Bad => theme.rejected,
+        Mark::Look => theme.warning,
+    };
+    painter.circle_filled(centre, radius, fill);
+    let at = |x: f32, y: f32| centre + vec2(x, y) * radius;
+    let stroke = Stroke::new(radius * 0.24, theme.panel);
+    match mark {
+        Mark::Good => {
+            painter.line(
+                vec![at(-0.45, 0.02), at(-0.12, 0.36), at(0.46, -0.34)],
+                stroke,
+            );
+        }
+        Mark::Bad => {
+            painter.line_segment([at(-0.36, -0.36), at(0.36, 0.36)], stroke);
+            painter.line_segment([at(-0.36, 0.36), at(0.36, -0.36)], stroke);
+        }
+        Mark::Look => {
+            painter.line_segment([at(0.0, -0.52), at(0.0, 0.14)], stroke);
+            painter.circle_filled(at(0.0, 0.44), radius * 0.14, theme.panel);
+        }
+    }
+}
+
+/// A name on the left and its value on the right.
+pub(super) fn row(ui: &mut Ui, theme: &Theme, name: &str, value: &str) {
+    ui.horizontal(|ui| {
+        // Nothing here is pressed.
+        ui.spacing_mut().interact_size.y = 0.0;
+        ui.label(RichText::new(name).color(theme.weak_text));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.label(RichText::new(value).color(theme.text));
+        });
+    });
+}
+
+/// The heading of a group.
+pub(super) fn heading(ui: &mut Ui, theme: &Theme, text: &str) {
+    ui.add_space(super::theme::space::MEDIUM);
+    ui.label(
+        RichText::new(text)
+            .font(font::heading())
+            .color(theme.weak_text),
+    );
+}
+
+/// Text on a picture.
+pub(super) fn caption(painter: &Painter, at: Pos2, anchor: Align2, text: &str, colour: Color32) {
+    painter.text(at, anchor, text, font::scale(), colour);
+}
+
+/// The largest rectangle of this aspect (width over height) in the middle of another.
+pub(super) fn fitted(outer: Rect, aspect: f32) -> Rect {
+    let width = outer.width().min(outer.height() * aspect);
+    Rect::from_center_size(outer.center(), vec2(width, width / aspect.max(1e-3)))
+}
+
+/// A straight map from a range of numbers to a stretch of the screen.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Scale {
+    from: [f32; 2],
+    to: [f32; 2],
+}
+
+impl Scale {
+    pub(super) fn new(from: [f32; 2], to: [f32; 2]) -> Self {
+        Self { from, to }
+    }
+
+    pub(super) fn at(&self, value: f32) -> f32 {
+        let range = self.from[1] - self.from[0];
+        let share = if range.abs() < 1e-12 {
+            0.5
+        } else {
+            (value - self.from[0]) / range
+        };
+        self.to[0] + share * (self.to[1] - self.to[0])
+    }
+}
+
+/// A curve over evenly spaced places.
+pub(super) fn curve(values: &[f32], across: &Scale, up: &Scale) -> Vec<Pos2> {
+    let place = |(i, value): (usize, &f32)| pos2(across.at(i as f32), up.at(*value));
+    values.iter().enumerate().map(place).collect()
+}

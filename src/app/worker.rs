@@ -1,0 +1,299 @@
+//! The one thread that works for the window: the newest request wins, and giving up is immediate.
+//!
+//! A request waits in a slot of one; a newer one replaces it and cancels the one at work. Every request has a
+//! generation number that comes back with its news, so that what belongs to an older one is thrown away on arrival.
+
+use std::{
+    any::Any,
+    panic::{AssertUnwindSafe, catch_unwind},
+    sync::{
+        Arc, Condvar, Mutex, MutexGuard, PoisonError,
+        atomic::{AtomicU64, Ordering},
+        mpsc::{Receiver, SyncSender, sync_channel},
+    },
+    thread::{self, JoinHandle},
+};
+
+use crate::pipeline::{Stage, Watch};
+
+/// What the thread tells the window.
+#[derive(Debug)]
+pub enum News<T> {
+    /// A stage begins.
+    Begins {
+        /// Of which request.
+        generation: u64,
+        /// The stage.
+        stage: Stage,
+    },
+    /// The work is done.
+    Done {
+        /// Of which request.
+        generation: u64,
+        /// What came out.
+        outcome: T,
+    },
+    /// The work panicked; the thread goes on with the next request.
+    Panicked {
+        /// Of which request.
+        generation: u64,
+        /// What the panic said.
+        message: String,
+    },
+}
+
+/// News that the window has not fetched yet; beyond this many a stage's beginning is not told.
+const MAX_NEWS: usize = 32;
+
+/// The thread, its slot and its news. Dropping it cancels the work and waits for the thread.
+pub struct Worker<R, T> {
+    shared: Arc<Shared<R>>,
+    news: Option<Receiver<News<T>>>,
+    thread: Option<JoinHandle<()>>,
+}
+
+struct Shared<R> {
+    slot: Mutex<Slot<R>>,
+    filled: Condvar,
+    /// Generation of the newest request; a cancelled one is no longer the newest.
+    newest: AtomicU64,
+}
+
+struct Slot<R> {
+    waiting: Option<(u64, R)>,
+    is_closed: bool,
+}
+
+impl<R: Send + 'static, T: Send + 'static> Worker<R, T> {
+    /// Starts the thread. `work` answers a request, or `None` when it was cancelled; `on_news` is called from the
+    /// thread whenever there is something to fetch.
+    pub fn start(
+        mut work: impl FnMut(R, &dyn Watch) -> Option<T> + Send + 'static,
+        on_news: impl Fn() + Send + 'static,
+    ) -> std::io::Result<Self> {
+        let shared = Arc::new(Shared {
+            slot: Mutex::new(Slot {
+                waiting: None,
+                is_closed: false,
+            }),
+            filled: Condvar::new(),
+            newest: AtomicU64::new(0),
+        });
+        let (sender, news) = sync_channel(MAX_NEWS);
+        let of_thread = Arc::clone(&shared);
+        let thread = thread::Builder::new()
+            .name("inspection".into())
+            .spawn(move || {
+                while let Some((generation, request)) = of_thread.next() {
+                    let watch = WorkWatch {
+                        generation,
+                        newest: &of_thread.newest,
+                        news: &sender,
+                        on_news: &on_news,
+                    };
+                    // What `work` holds (a loaded library) is only ever replaced whole.
+                    let answer = catch_unwind(AssertUnwindSafe(|| work(request, &watch)));
+                    let told = match answer {
+                        Ok(Some(outcome)) => News::Done {
+                            generation,
+                            outcome,
+                        },
+                        Ok(None) => continue,
+                        Err(panic) => News::Panicked {
+                            generation,
+                            message: message_of(panic.as_ref()),
+                        },
+                    };
+                    if sender.send(told).is_err() {
+                        return;
+                    }
+                    on_news();
+                }
+            })?;
+        Ok(Self {
+            shared,
+            news: Some(news),
+            thread: Some(thread),
+        })
+    }
+
+    /// Asks for work; whatever was asked for before is cancelled. Generations only grow.
+    pub fn request(&self, generation: u64, request: R) {
+        self.shared.newest.store(generation, Ordering::Relaxed);
+        self.shared.slot().waiting = Some((generation, request));
+        self.shared.filled.notify_one();
+    }
+
+    /// Gives up whatever is waiting or at work.
+    pub fn cancel(&self) {
+        self.shared.newest.store(0, Ordering::Relaxed);
+        self.shared.slot().waiting = None;
+    }
+
+    /// The next news, without waiting; `None` when there are none.
+    pub fn try_next(&self) -> Option<News<T>> {
+        self.news.as_ref()?.try_recv().ok()
+    }
+}
+
+impl<R, T> Drop for Worker<R, T> {
+    fn drop(&mut self) {
+        self.shared.newest.store(0, Ordering::Relaxed);
+        self.shared.slot().is_closed = true;
+        self.shared.filled.notify_one();
+        // A thread that is about to tell something must not wait for a reader.
+        self.news = None;
+        if let Some(thread) = self.thread.take() {
+            // It catches its own panics.
+            let _ = thread.join();
+        }
+    }
+}
+
+impl<R> Shared<R> {
+    fn slot(&self) -> MutexGuard<'_, Slot<R>> {
+        self.slot.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Waits for a request; `None` when the worker closes.
+    fn next(&self) -> Option<(u64, R)> {
+        let mut slot = self.slot();
+        loop {
+            if slot.is_closed {
+                return None;
+            }
+            if let Some(job) = slot.waiting.take() {
+                return Some(job);
+            }
+            slot = self
+                .filled
+                .wait(slot)
+                .unwrap_or_else(PoisonError::into_inner);
+        }
+    }
+}
+
+/// Follows one request.
+struct WorkWatch<'a, T> {
+    generation: u64,
+    newest: &'a AtomicU64,
+    news: &'a SyncSender<News<T>>,
+    on_news: &'a dyn Fn(),
+}
+
+impl<T> Watch for WorkWatch<'_, T> {
+    fn begins(&self, stage: Stage) {
+        let generation = self.generation;
+        // A window that is behind misses a stage, not a result.
+        if self
+            .news
+            .try_send(News::Begins { generation, stage })
+            .is_ok()
+        {
+            (self.on_news)();
+        }
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.newest.load(Ordering::Relaxed) != self.generation
+    }
+}
+
+fn message_of(panic: &(dyn Any + Send)) -> String {
+    let text = panic.downcast_ref::<&str>().map(ToString::to_string);
+    text.or_else(|| panic.downcast_ref::<String>().cloned())
+        .unwrap_or_else(|| "no message".into())
+}
+
+#[cfg(test)]
+mod tests {
+    use std::time::{Duration, Instant};
+
+    use super::*;
+
+    fn wait_for<R: Send + 'static, T: Send + 'static>(worker: &Worker<R, T>) -> News<T> {
+        let until = Instant::now() + Duration::from_secs(10);
+        while Instant::now() < until {
+            if let Some(news) = worker.try_next() {
+                return news;
+            }
+            thread::sleep(Duration::from_millis(1));
+        }
+        panic!("no news within ten seconds");
+    }
+
+    #[test]
+    fn a_newer_request_cancels_the_one_at_work() {
+        let work = |seconds: u64, watch: &dyn Watch| {
+            let until = Instant::now() + Duration::from_secs(seconds);
+            while Instant::now() < until {
+                if watch.is_cancelled() {
+                    return None;
+                }
+                thread::sleep(Duration::from_millis(1));
+            }
+            Some(seconds)
+        };
+        let worker = Worker::start(work, || {}).expect("started");
+        worker.request(1, 60);
+        thread::sleep(Duration::from_millis(20));
+        worker.request(2, 60);
+        worker.request(3, 0);
+        assert!(matches!(
+            wait_for(&worker),
+            News::Done {
+                generation: 3,
+                outcome: 0
+            }
+        ));
+    }
+
+    #[test]
+    fn a_cancelled_request_says_nothing_and_closing_does_not_wait_for_it() {
+        let work = |(), watch: &dyn Watch| {
+            while !watch.is_cancelled() {
+                thread::sleep(Duration::from_millis(1));
+            }
+            None::<()>
+        };
+        let worker = Worker::start(work, || {}).expect("started");
+        worker.request(1, ());
+        thread::sleep(Duration::from_millis(20));
+        worker.cancel();
+        worker.request(2, ());
+        let begun = Instant::now();
+        drop(worker);
+        assert!(begun.elapsed() < Duration::from_secs(5));
+    }
+
+    #[test]
+    fn a_panic_is_told_and_the_next_request_is_answered() {
+        let work = |number: u32, watch: &dyn Watch| {
+            watch.begins(Stage::Segment);
+            assert!(number != 7, "seven is too much");
+            Some(number)
+        };
+        let worker = Worker::start(work, || {}).expect("started");
+        worker.request(1, 7);
+        assert!(matches!(
+            wait_for(&worker),
+            News::Begins { generation: 1, .. }
+        ));
+        let News::Panicked { message, .. } = wait_for(&worker) else {
+            panic!("the panic was not told");
+        };
+        assert!(message.contains("seven"));
+        worker.request(2, 8);
+        assert!(matches!(
+            wait_for(&worker),
+            News::Begins { generation: 2, .. }
+        ));
+        assert!(matches!(
+            wait_for(&worker),
+            News::Done {
+                generation: 2,
+                outcome: 8
+            }
+        ));
+    }
+}

@@ -1,0 +1,218 @@
+//! The window, by what a person reads and presses. No graphics adapter is needed: the 3-D view then says so in words.
+
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+    thread,
+    time::{Duration, Instant},
+};
+
+use egui::{Key, Modifiers, Role, Vec2};
+use egui_kittest::{
+    Harness,
+    kittest::{NodeT as _, Queryable as _},
+};
+use partsight::{
+    app::{
+        Window,
+        state::{StagePanel, ThemeChoice, UnitSystem},
+    },
+    files::save_cloud,
+    simulate::{CellSetup, PartKind, PartPose, Placement, Side, frame},
+    stages::scene::scene_from_frame,
+};
+
+type WindowHarness = Harness<'static, Window>;
+
+fn open_at(size: Vec2) -> WindowHarness {
+    let mut harness = Harness::builder().with_size(size).build_eframe(|cc| {
+        Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), None).expect("a thread")
+    });
+    settle(&mut harness);
+    harness
+}
+
+fn open() -> WindowHarness {
+    open_at(Vec2::new(1440.0, 900.0))
+}
+
+/// Draws until nothing is at work any more.
+fn settle(harness: &mut WindowHarness) {
+    let until = Instant::now() + Duration::from_mins(1);
+    harness.step();
+    while harness.state().state().work.is_some() {
+        assert!(Instant::now() < until, "still working after a minute");
+        thread::sleep(Duration::from_millis(5));
+        harness.step();
+    }
+    harness.run_steps(3);
+}
+
+fn generation(harness: &WindowHarness) -> u64 {
+    let shown = harness.state().state().shown.as_ref();
+    shown.expect("a result").generation
+}
+
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        Err("the window opens files itself".into())
+    }
+}
+
+fn drop_file(harness: &mut WindowHarness, path: &Path) {
+    let dropped = Arc::new(Dropped(path.to_owned()));
+    harness.input_mut().dropped_files.push(dropped);
+    settle(harness);
+}
+
+#[test]
+fn it_opens_with_a_first_frame_inspected() {
+    let harness = open();
+    harness.get_by_label("Front door, left");
+    harness.get_by_label("Accepted");
+    harness.get_by_label("Simulated frame 1");
+    assert!(harness.state().state().notices.is_empty());
+}
+
+#[test]
+fn capture_inspects_the_next_part() {
+    let mut harness = open();
+    harness.get_by_label("Capture").click();
+    settle(&mut harness);
+    harness.get_by_label("Simulated frame 2");
+    harness.key_press(Key::Space);
+    settle(&mut harness);
+    // Whether or not the button has the focus now: one capture, not two.
+    assert_eq!(harness.state().state().num_captures, 3);
+}
+
+#[test]
+fn a_file_dropped_on_the_window_is_inspected() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("captured.pcd");
+    let mut setup = CellSetup::with_part(PartKind::Fender, Side::Left, 0, 5);
+    setup.pose = PartPose::Drawn(Placement::facing());
+    let scene = scene_from_frame(&frame(&setup).frame);
+    save_cloud(&path, &scene.cloud).expect("written");
+    let mut harness = open();
+    drop_file(&mut harness, &path);
+    harness.get_by_label("Fender, left");
+    harness.get_by_label("captured.pcd");
+}
+
+#[test]
+fn a_broken_file_is_a_notice_and_the_window_goes_on() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("broken.pcd");
+    std::fs::write(&path, "VERSION .7\nFIELDS x y z\nPOINTS 9999999999\n").expect("written");
+    let mut harness = open();
+    drop_file(&mut harness, &path);
+    assert_eq!(harness.state().state().notices.len(), 1);
+    harness.get_by_label("Accepted");
+    harness.get_by_label("Dismiss").click();
+    harness.run_steps(2);
+    assert!(harness.query_by_label("Dismiss").is_none());
+    harness.get_by_label_contains("Source").click();
+    harness.run_steps(2);
+    harness.get_by_label("Every part in turn").click();
+    settle(&mut harness);
+    harness.get_by_label("Simulated frame 2");
+}
+
+#[test]
+fn cancel_gives_up_at_once_and_keeps_the_last_result() {
+    let mut harness = open();
+    let before = generation(&harness);
+    let context = harness.ctx.clone();
+    let window = harness.state_mut();
+    window.act(partsight::app::action::Action::Capture, &context);
+    assert!(window.state().is_old());
+    harness.step();
+    // On a quick machine the result may be there already; then there is nothing to cancel.
+    if let Some(cancel) = harness.query_by_label("Cancel") {
+        harness.get_by_label_contains("Old result");
+        cancel.click();
+        harness.run_steps(2);
+        assert_eq!(generation(&harness), before);
+    }
+    assert!(harness.state().state().work.is_none());
+    thread::sleep(Duration::from_millis(300));
+    harness.run_steps(2);
+    assert!(!harness.state().state().is_old());
+}
+
+#[test]
+fn a_stage_fills_the_middle_until_escape() {
+    let mut harness = open();
+    harness.get_by_label("Enlarge contour").click();
+    harness.run_steps(2);
+    harness.get_by_label("Contour, enlarged");
+    harness.get_by_label("Back door, left").click();
+    harness.run_steps(2);
+    assert_ne!(harness.state().state().candidate, 0);
+    harness.key_press(Key::Escape);
+    harness.run_steps(2);
+    assert!(harness.query_by_label("Contour, enlarged").is_none());
+    for panel in StagePanel::ALL {
+        let label = format!("Enlarge {}", panel.title().to_lowercase());
+        harness.get_by_label(&label).click();
+        harness.run_steps(2);
+        harness.get_by_label(&format!("{}, enlarged", panel.title()));
+        harness.get_by_label("Close").click();
+        harness.run_steps(2);
+    }
+}
+
+#[test]
+fn units_colours_and_shortcuts_have_their_keys() {
+    let mut harness = open();
+    harness.key_press(Key::U);
+    harness.key_press(Key::T);
+    harness.run_steps(2);
+    assert_eq!(harness.state().state().units, UnitSystem::MetresRadians);
+    assert_eq!(harness.state().state().theme, ThemeChoice::Light);
+    harness.get_by_label("m · rad");
+    harness.key_press(Key::F1);
+    harness.run_steps(2);
+    harness.get_by_label("Shortcuts");
+    harness.key_press_modifiers(Modifiers::NONE, Key::Escape);
+    harness.run_steps(2);
+    assert!(harness.query_by_label("Shortcuts").is_none());
+}
+
+#[test]
+fn every_control_is_large_enough_labelled_and_inside_a_small_window() {
+    let size = Vec2::new(1024.0, 768.0);
+    let mut harness = open_at(size);
+    for panel in [None, Some("Enlarge ranking")] {
+        if let Some(label) = panel {
+            harness.get_by_label(label).click();
+            harness.run_steps(2);
+        }
+        let mut num_controls = 0;
+        for role in [Role::Button, Role::Tab] {
+            for node in harness.get_all_by_role(role) {
+                let label = node.accesskit_node().label().unwrap_or_default();
+                let rect = node.rect();
+                assert!(!label.is_empty(), "a control at {rect:?} has no label");
+                assert!(
+                    rect.width() >= 35.9 && rect.height() >= 35.9,
+                    "{label}: {rect:?}"
+                );
+                assert!(
+                    rect.min.x >= 0.0 && rect.max.x <= size.x && rect.min.y >= 0.0,
+                    "{label}: {rect:?}"
+                );
+                num_controls += 1;
+            }
+        }
+        assert!(num_controls >= 14, "{num_controls} controls");
+    }
+}
