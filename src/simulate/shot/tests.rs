@@ -149,6 +149,6 @@ fn the_truth_survives_json_but_for_its_labels() {
     );
     assert_eq!((back.subject, back.part()), (truth.subject, None));
     let mut skewed = json;
-    skewed["camera_from_part"][0] = 7.0.into();
+    skewed["camera_from_model"][0] = 7.0.into();
     assert!(serde_json::from_value::<Truth>(skewed).is_err());
 }
