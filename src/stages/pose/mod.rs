@@ -188,9 +188,7 @@ impl crate::error::Advice for Doubt {
                 "Check that both clouds show the same thing and share at least half of it".into()
             }
             Self::Ambiguous { .. } => "Say where to start with --initial".into(),
-            Self::Unsettled { .. } => {
-                "Start from the pose found, with --initial, or use --pose global".into()
-            }
+            Self::Unsettled { .. } => "Run it again from the pose found, with --initial".into(),
         }
     }
 }

@@ -109,8 +109,12 @@ pub fn refine(
             });
             let Some(step) = equations.solve() else { break };
             pose = applied(&step, &pose);
-            // A twentieth of a millimetre and of the angle that moves a part's end as far: far below the noise.
-            if step.fixed_rows::<3>(0).norm() < 5e-5 && step.fixed_rows::<3>(3).norm() < 5e-5 {
+            // A half per cent of what the level can tell apart: a twentieth of a millimetre on a part, more on a scan
+            // of a street.
+            let shift_settled = (0.005 * level.scale).max(1e-5);
+            if step.fixed_rows::<3>(0).norm() < 5e-5
+                && step.fixed_rows::<3>(3).norm() < shift_settled
+            {
                 stopped = Stopped::Converged;
                 break;
             }
