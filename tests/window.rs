@@ -14,7 +14,7 @@ use egui_kittest::{
 };
 use partsight::{
     app::{
-        Window,
+        Window, WindowOptions,
         state::{StagePanel, ThemeChoice, UnitSystem},
     },
     files::save_cloud,
@@ -26,7 +26,12 @@ type WindowHarness = Harness<'static, Window>;
 
 fn open_at(size: Vec2) -> WindowHarness {
     let mut harness = Harness::builder().with_size(size).build_eframe(|cc| {
-        Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), None).expect("a thread")
+        Window::new(
+            &cc.egui_ctx,
+            cc.wgpu_render_state.as_ref(),
+            WindowOptions::default(),
+        )
+        .expect("a thread")
     });
     settle(&mut harness);
     harness
@@ -40,7 +45,7 @@ fn open() -> WindowHarness {
 fn settle(harness: &mut WindowHarness) {
     let until = Instant::now() + Duration::from_mins(1);
     harness.step();
-    while harness.state().state().work.is_some() {
+    while !harness.state().state().works.is_empty() {
         assert!(Instant::now() < until, "still working after a minute");
         thread::sleep(Duration::from_millis(5));
         harness.step();
@@ -142,7 +147,7 @@ fn cancel_gives_up_at_once_and_keeps_the_last_result() {
         harness.run_steps(2);
         assert_eq!(generation(&harness), before);
     }
-    assert!(harness.state().state().work.is_none());
+    assert!(harness.state().state().works.is_empty());
     thread::sleep(Duration::from_millis(300));
     harness.run_steps(2);
     assert!(!harness.state().state().is_old());

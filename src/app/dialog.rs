@@ -1,4 +1,4 @@
-//! The system's file dialog, asked without waiting for it.
+//! The system's file dialogs, asked without waiting for them.
 
 use std::{
     path::PathBuf,
@@ -8,10 +8,14 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::{action::Action, state::Notice};
+use super::{
+    action::{Action, Ask},
+    state::{Notice, NoticeKind},
+};
 
 /// A dialog that is open.
-pub(super) struct FileDialog {
+pub(super) struct Dialog {
+    ask: Ask,
     answer: Pin<Box<dyn Future<Output = Option<PathBuf>>>>,
     waker: Waker,
     opened: Instant,
@@ -28,18 +32,24 @@ impl Wake for Repaint {
     }
 }
 
-impl FileDialog {
-    pub(super) fn open(ctx: &egui::Context) -> Self {
-        let dialog = rfd::AsyncFileDialog::new()
-            .set_title("Open a captured scene")
-            .add_filter(
-                "Captured scenes",
-                &["pcd", "ply", "xyz", "txt", "csv", "png"],
-            )
-            .add_filter("All files", &["*"])
-            .pick_file();
+impl Dialog {
+    pub(super) fn open(ask: Ask, ctx: &egui::Context) -> Self {
+        let dialog = rfd::AsyncFileDialog::new();
+        let answer: Pin<Box<dyn Future<Output = Option<rfd::FileHandle>>>> = match ask {
+            Ask::Scene => Box::pin(
+                dialog
+                    .set_title("Open a captured scene")
+                    .add_filter(
+                        "Captured scenes",
+                        &["pcd", "ply", "xyz", "txt", "csv", "png"],
+                    )
+                    .add_filter("All files", &["*"])
+                    .pick_file(),
+            ),
+        };
         Self {
-            answer: Box::pin(async move { Some(dialog.await?.path().to_owned()) }),
+            ask,
+            answer: Box::pin(async move { Some(answer.await?.path().to_owned()) }),
             waker: Arc::new(Repaint(ctx.clone())).into(),
             opened: Instant::now(),
         }
@@ -51,7 +61,7 @@ impl FileDialog {
         answer
             .poll(&mut Context::from_waker(&self.waker))
             .map(|path| match path {
-                Some(path) => Some(Action::Open(path)),
+                Some(path) => Some(Action::Chosen(self.ask, path)),
                 None if self.opened.elapsed() < TOO_QUICK => Some(Action::Notify(never_opened())),
                 None => None,
             })
@@ -60,6 +70,7 @@ impl FileDialog {
 
 fn never_opened() -> Notice {
     Notice {
+        kind: NoticeKind::Look,
         what: "The desktop offers no file dialog".into(),
         advice:
             "Drop the file onto the window, or install the package xdg-desktop-portal-gtk or zenity"

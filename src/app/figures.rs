@@ -3,6 +3,7 @@
 use image::RgbImage;
 use nalgebra::{Isometry2, Point2};
 
+use super::shelf::LibraryShown;
 use crate::{
     library::Library,
     pipeline::Inspection,
@@ -79,12 +80,12 @@ pub struct Candidate {
 const MAX_CORNERS: usize = 400;
 
 impl Figures {
-    /// Prepares them; `titles` are the references' names for people.
+    /// Prepares them; `shown` knows the references' names for people.
     pub fn of(
         scene: &SceneCloud,
         inspection: &Inspection,
         library: &Library,
-        titles: &[String],
+        shown: &LibraryShown,
     ) -> Self {
         let mut figures = Self {
             num_points: scene.cloud.num_finite(),
@@ -105,7 +106,7 @@ impl Figures {
             figures.signature = Some(Curves::of(&signature.lengths, &signature.angles));
             let entries = inspection.ranking.entries.iter();
             figures.candidates = entries
-                .map(|entry| Candidate::of(entry, signature, library, titles))
+                .map(|entry| Candidate::of(entry, signature, library, shown))
                 .collect();
         }
         if let Some(Ok(pose)) = &inspection.pose {
@@ -174,8 +175,13 @@ impl Curves {
 }
 
 impl Candidate {
-    fn of(entry: &MatchEntry, scene: &FanSignature, library: &Library, titles: &[String]) -> Self {
-        let title = titles.get(entry.reference).unwrap_or(&entry.part).clone();
+    fn of(
+        entry: &MatchEntry,
+        scene: &FanSignature,
+        library: &Library,
+        shown: &LibraryShown,
+    ) -> Self {
+        let title = shown.title(entry.reference).to_owned();
         let placed = entry.placements.first().and_then(|placement| {
             let reference = library.references.get(entry.reference)?;
             Some((placement, reference.views.get(placement.view)?))
@@ -207,18 +213,23 @@ fn plain(point: &Point2<f64>) -> [f32; 2] {
 #[cfg(test)]
 mod tests {
     use crate::{
-        app::work::{CellChoice, Inspector, Request},
+        app::{
+            inspect::work::{InspectRequest, inspect},
+            shelf::Shelf,
+            source::{CellChoice, SceneSource},
+        },
         pipeline::Unwatched,
     };
 
     #[test]
     fn the_best_parts_outline_and_signature_lie_on_the_scenes() {
-        let request = Request::Capture {
-            choice: CellChoice::InTurn,
-            number: 1,
+        let choice = CellChoice::InTurn;
+        let request = InspectRequest {
+            source: SceneSource::Cell { choice, number: 1 },
+            recipe: std::sync::Arc::default(),
         };
-        let answer = Inspector::new(None).answer(request, &Unwatched);
-        let inspected = answer.expect("not cancelled").expect("inspected");
+        let inspected = inspect(&request, &Shelf::default(), &Unwatched).expect("inspected");
+        let inspected = inspected.expect("not cancelled");
         let figures = &inspected.figures;
         let (contour, scene) = (
             figures.contour.as_ref().expect("a contour"),

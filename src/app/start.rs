@@ -1,10 +1,10 @@
 //! Opening the window, or saying in words why it cannot be opened.
 
-use std::{env, path::PathBuf};
+use std::env;
 
 use eframe::NativeOptions;
 
-use super::window::Window;
+use super::window::{Window, WindowOptions};
 use crate::error::Advice;
 
 /// Why there is no window.
@@ -50,9 +50,8 @@ const SIZE: [f32; 2] = [1440.0, 900.0];
 /// Below this something would be cut off.
 const MIN_SIZE: [f32; 2] = [960.0, 640.0];
 
-/// Opens the window with the library of this folder, else the one found as on the command line, and returns when it is
-/// closed.
-pub fn run(library: Option<PathBuf>) -> Result<(), WindowError> {
+/// Opens the window and returns when it is closed.
+pub fn run(given: WindowOptions) -> Result<(), WindowError> {
     // Without either nobody would see the window; asking the system only costs a wait.
     if cfg!(all(unix, not(target_os = "macos"))) && !is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")
     {
@@ -71,7 +70,7 @@ pub fn run(library: Option<PathBuf>) -> Result<(), WindowError> {
         "partsight",
         options,
         Box::new(|cc| {
-            Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), library)
+            Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), given)
                 .map(|window| Box::new(window) as Box<dyn eframe::App>)
                 .map_err(Into::into)
         }),

@@ -1,9 +1,20 @@
 //! What the window knows: plain data, without any type of the user interface.
 
-use std::{path::PathBuf, sync::Arc};
+use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
 
-use super::work::{CellChoice, Inspected, LibraryShown};
-use crate::pipeline::Stage;
+use super::{
+    action::Effect,
+    align::AlignState,
+    compare::CompareState,
+    enrol::EnrolState,
+    history::HistoryState,
+    inspect::work::Inspected,
+    job::{Request, Trouble},
+    lane::Lane,
+    shelf::LibraryShown,
+    source::CellChoice,
+};
+use crate::pipeline::{Recipe, Stage};
 
 /// Everything that the panels read. Only [`apply`](super::action::apply) changes it.
 #[derive(Debug, Default)]
@@ -12,8 +23,8 @@ pub struct State {
     pub source: Source,
     /// The last result.
     pub shown: Option<Shown>,
-    /// What is being worked on; the result shown is old meanwhile.
-    pub work: Option<Work>,
+    /// What is being worked on, by whom; while a scene is, the result shown is old.
+    pub works: BTreeMap<Lane, Work>,
     /// The workspace in front.
     pub workspace: Workspace,
     /// Units that lengths and angles are shown in.
@@ -30,16 +41,51 @@ pub struct State {
     pub help: HelpPage,
     /// The library in use, once loaded.
     pub library: Option<Arc<LibraryShown>>,
+    /// The parameters that scenes are inspected with.
+    pub recipe: Arc<Recipe>,
     /// How many frames of the simulated cell were asked for.
     pub num_captures: u64,
     /// The generation of the newest request.
     pub generation: u64,
+    /// Of the Enrol workspace.
+    pub enrol: EnrolState,
+    /// Of the Compare workspace.
+    pub compare: CompareState,
+    /// Of the Align workspace.
+    pub align: AlignState,
+    /// Of the History workspace.
+    pub history: HistoryState,
 }
 
 impl State {
     /// True while the result shown is not what was asked for last.
     pub fn is_old(&self) -> bool {
-        self.work.is_some() && self.shown.is_some()
+        self.works.contains_key(&Lane::Inspect) && self.shown.is_some()
+    }
+
+    /// The work that the window tells of: the front workspace's own, else any.
+    pub fn work(&self) -> Option<(Lane, &Work)> {
+        let own = self.workspace.lane();
+        let all = self.works.iter().map(|(lane, work)| (*lane, work));
+        let mut all = all.filter(|(lane, _)| *lane != Lane::Write);
+        let own = own.and_then(|own| self.works.get_key_value(&own).map(|(l, w)| (*l, w)));
+        own.or_else(|| all.next())
+    }
+
+    /// Writes down that the work has begun, and has it done; whatever its lane was at is given up.
+    pub(super) fn begin(&mut self, what: impl Into<String>, request: Request) -> Effect {
+        self.generation += 1;
+        let work = Work {
+            generation: self.generation,
+            what: what.into(),
+            stage: None,
+            progress: None,
+        };
+        self.works.insert(request.lane(), work);
+        Effect::Post {
+            generation: self.generation,
+            request,
+        }
     }
 }
 
@@ -76,6 +122,8 @@ pub struct Work {
     pub what: String,
     /// The stage begun last.
     pub stage: Option<Stage>,
+    /// How many of how many are done.
+    pub progress: Option<(usize, usize)>,
 }
 
 /// The workspaces.
@@ -84,6 +132,14 @@ pub enum Workspace {
     /// The operator's: which part is it, and is it accepted?
     #[default]
     Inspect,
+    /// New parts.
+    Enrol,
+    /// The engineer's: why was this taken for that?
+    Compare,
+    /// Methods of pose estimation side by side.
+    Align,
+    /// What was inspected before.
+    History,
 }
 
 impl Workspace {
@@ -94,6 +150,21 @@ impl Workspace {
     pub fn title(self) -> &'static str {
         match self {
             Self::Inspect => "Inspect",
+            Self::Enrol => "Enrol",
+            Self::Compare => "Compare",
+            Self::Align => "Align",
+            Self::History => "History",
+        }
+    }
+
+    /// Who works for it.
+    pub fn lane(self) -> Option<Lane> {
+        match self {
+            Self::Inspect => Some(Lane::Inspect),
+            Self::Enrol => Some(Lane::Enrol),
+            Self::Compare => Some(Lane::Compare),
+            Self::Align => Some(Lane::Align),
+            Self::History => None,
         }
     }
 }
@@ -202,13 +273,46 @@ pub enum HelpPage {
     Open,
 }
 
+/// What a notice is about.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum NoticeKind {
+    /// Something deserves a look.
+    #[default]
+    Look,
+    /// Something was done.
+    Done,
+}
+
 /// Something that a person should know.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
+    /// What it is about.
+    pub kind: NoticeKind,
     /// What happened.
     pub what: String,
-    /// What to do about it.
+    /// What to do about it; may be empty.
     pub advice: String,
+}
+
+impl Notice {
+    /// Something was done.
+    pub fn done(what: impl Into<String>) -> Self {
+        Self {
+            kind: NoticeKind::Done,
+            what: what.into(),
+            advice: String::new(),
+        }
+    }
+}
+
+impl From<Trouble> for Notice {
+    fn from(Trouble { what, advice }: Trouble) -> Self {
+        Self {
+            kind: NoticeKind::Look,
+            what,
+            advice,
+        }
+    }
 }
 
 /// The pictures of the stage strip, in order.

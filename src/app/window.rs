@@ -1,45 +1,72 @@
 //! The window as eframe drives it: fetch news, draw the last result, apply what was done.
 
-use std::{io, path::PathBuf, sync::Arc, task::Poll};
+use std::{collections::BTreeMap, io, path::PathBuf, task::Poll};
 
 use eframe::egui_wgpu::RenderState;
 use egui::{CentralPanel, Frame, Ui};
 
 use super::{
     action::{Action, Effect, apply},
+    align::AlignPanel,
     bars,
-    dialog::FileDialog,
+    compare::ComparePanel,
+    dialog::Dialog,
+    enrol::EnrolPanel,
+    history::HistoryPanel,
     inspect::InspectPanel,
+    job::{Outcome, Request, answer},
+    keys,
+    lane::Lane,
+    rail,
+    shelf::Shelf,
     state::{State, ThemeChoice, Workspace},
     theme::Theme,
     viewport::{ViewError, ViewportGpu},
-    work::{Inspected, Inspector, Request, Trouble},
     worker::Worker,
 };
+
+/// What the window is opened with.
+#[derive(Clone, Debug, Default)]
+pub struct WindowOptions {
+    /// The library's folder; without it the one found as on the command line.
+    pub library: Option<PathBuf>,
+}
 
 /// The window.
 pub struct Window {
     state: State,
-    worker: Worker<Request, Result<Arc<Inspected>, Trouble>>,
-    dialog: Option<FileDialog>,
+    workers: BTreeMap<Lane, Worker<Request, Outcome>>,
+    dialog: Option<Dialog>,
     installed: Option<ThemeChoice>,
     inspect: InspectPanel,
+    enrol: EnrolPanel,
+    compare: ComparePanel,
+    align: AlignPanel,
+    history: HistoryPanel,
 }
 
 impl Window {
-    /// Starts the thread and asks for the first frame. Without a `render_state` the 3-D view says so in words.
+    /// Starts the threads and asks for the first frame. Without a `render_state` the 3-D view says so in words.
     pub fn new(
         ctx: &egui::Context,
         render_state: Option<&RenderState>,
-        library: Option<PathBuf>,
+        options: WindowOptions,
     ) -> io::Result<Self> {
         Theme::install_fonts(ctx);
-        let mut inspector = Inspector::new(library);
-        let repaint = ctx.clone();
-        let worker = Worker::start(
-            move |request, watch| inspector.answer(request, watch),
-            move || repaint.request_repaint(),
-        )?;
+        let shelf = Shelf::new(options.library);
+        let start = |lane: Lane| {
+            let (shelf, repaint) = (shelf.clone(), ctx.clone());
+            let worker = Worker::start(
+                lane.name(),
+                move |request, desk| answer(request, &shelf, desk),
+                move || repaint.request_repaint(),
+            );
+            worker.map(|worker| (lane, worker))
+        };
+        let workers = Lane::ALL
+            .into_iter()
+            .map(start)
+            .collect::<io::Result<_>>()?;
         let gpu = render_state
             .map(ViewportGpu::of_window)
             .ok_or_else(|| ViewError::NoDevice {
@@ -47,10 +74,14 @@ impl Window {
             });
         let mut window = Self {
             state: State::default(),
-            worker,
+            workers,
             dialog: None,
             installed: None,
-            inspect: InspectPanel::new(gpu),
+            inspect: InspectPanel::new(gpu.clone()),
+            enrol: EnrolPanel::new(gpu.clone()),
+            compare: ComparePanel::new(gpu.clone()),
+            align: AlignPanel::new(gpu),
+            history: HistoryPanel::new(),
         };
         window.act(Action::Capture, ctx);
         Ok(window)
@@ -68,11 +99,19 @@ impl Window {
             Some(Effect::Post {
                 generation,
                 request,
-            }) => self.worker.request(generation, request),
-            Some(Effect::CancelWork) => self.worker.cancel(),
-            Some(Effect::ShowFileDialog) => {
+            }) => {
+                if let Some(worker) = self.workers.get(&request.lane()) {
+                    worker.request(generation, request);
+                }
+            }
+            Some(Effect::CancelWork(lane)) => {
+                if let Some(worker) = self.workers.get(&lane) {
+                    worker.cancel();
+                }
+            }
+            Some(Effect::ShowDialog(ask)) => {
                 // One at a time: a second would hide behind the first.
-                self.dialog.get_or_insert_with(|| FileDialog::open(ctx));
+                self.dialog.get_or_insert_with(|| Dialog::open(ask, ctx));
             }
             Some(Effect::CopyText(text)) => ctx.copy_text(text),
         }
@@ -100,10 +139,12 @@ impl Window {
 impl eframe::App for Window {
     fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
         self.install_theme(ctx);
-        while let Some(news) = self.worker.try_next() {
-            self.act(Action::Hear(news), ctx);
+        for lane in Lane::ALL {
+            while let Some(news) = self.workers.get(&lane).and_then(Worker::try_next) {
+                self.act(Action::Hear(lane, news), ctx);
+            }
         }
-        if let Some(Poll::Ready(closed)) = self.dialog.as_mut().map(FileDialog::poll) {
+        if let Some(Poll::Ready(closed)) = self.dialog.as_mut().map(Dialog::poll) {
             self.dialog = None;
             if let Some(action) = closed {
                 self.act(action, ctx);
@@ -118,14 +159,25 @@ impl eframe::App for Window {
         let mut actions = Vec::new();
         bars::top_bar(ui, &self.state, theme, &mut actions);
         bars::notices(ui, &self.state, theme, &mut actions);
-        bars::rail(ui, &self.state, theme, &mut actions);
+        rail::ui(ui, &self.state, theme, &mut actions);
         CentralPanel::default()
             .frame(Frame::new().fill(theme.canvas))
             .show(ui, |ui| match self.state.workspace {
                 Workspace::Inspect => self.inspect.ui(ui, &self.state, theme, &mut actions),
+                Workspace::Enrol => self.enrol.ui(ui, &self.state, theme, &mut actions),
+                Workspace::Compare => self.compare.ui(ui, &self.state, theme, &mut actions),
+                Workspace::Align => self.align.ui(ui, &self.state, theme, &mut actions),
+                Workspace::History => self.history.ui(ui, &self.state, theme, &mut actions),
             });
-        bars::help(&ctx, &self.state, theme, &mut actions);
-        bars::shortcuts(&ctx, self.inspect.view_has_focus(), &mut actions);
+        let view_has_focus = match self.state.workspace {
+            Workspace::Inspect => self.inspect.view_has_focus(),
+            Workspace::Enrol => self.enrol.view_has_focus(),
+            Workspace::Compare => self.compare.view_has_focus(),
+            Workspace::Align => self.align.view_has_focus(),
+            Workspace::History => false,
+        };
+        keys::help(&ctx, &self.state, theme, &mut actions);
+        keys::shortcuts(&ctx, &self.state, view_has_focus, &mut actions);
         for action in actions {
             self.act(action, &ctx);
         }

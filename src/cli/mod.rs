@@ -120,7 +120,10 @@ pub fn run(cli: Cli) -> Outcome {
 
 /// Opens the window; where there can be none, says why and takes the first look in the terminal instead.
 fn window(library: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome> {
-    match app::run(library.library.clone()) {
+    let options = app::WindowOptions {
+        library: library.library.clone(),
+    };
+    match app::run(options) {
         Ok(()) => Ok(Outcome::Accepted),
         Err(error) => {
             console.warn(&format_args!("no window: {error}"), &error);

@@ -57,6 +57,17 @@ pub struct PartMeta {
     pub enrolled: Enrolment,
 }
 
+impl PartMeta {
+    /// Its title, or its name where it has none.
+    pub fn shown_title(&self) -> &str {
+        if self.title.is_empty() {
+            self.name.as_str()
+        } else {
+            &self.title
+        }
+    }
+}
+
 /// By what `cloud.ply` is known to be the one that was enrolled, every byte of it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CloudCheck {

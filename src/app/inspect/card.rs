@@ -6,10 +6,11 @@ use crate::{
     app::{
         action::Action,
         bars::focus_ring,
+        inspect::work::Inspected,
+        source::Origin,
         state::{State, UnitSystem},
         theme::{ROUNDING, Theme, font, space},
         widgets::{Mark, heading, mark, row},
-        work::{Inspected, Origin},
     },
     error::Advice as _,
     geometry::rigid::RigidTransform,
@@ -150,7 +151,7 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline, theme: &Theme)
         ROUNDING,
         fill,
     );
-    let tick = bar.left() + bar.width() * inspected.min_score as f32;
+    let tick = bar.left() + bar.width() * inspected.recipe.accept.min_score as f32;
     let tick = Rect::from_min_max(
         pos2(tick - 1.0, rect.top()),
         pos2(tick + 1.0, rect.bottom()),
@@ -166,7 +167,10 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline, theme: &Theme)
             ui.label(caption(format!("Next: {} {:.2}", next.title, next.score)));
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            ui.label(caption(format!("threshold {:.2}", inspected.min_score)));
+            ui.label(caption(format!(
+                "threshold {:.2}",
+                inspected.recipe.accept.min_score
+            )));
         });
     });
     if inspected.figures.candidates.len() > 1 {

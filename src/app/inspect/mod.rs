@@ -4,19 +4,19 @@ mod card;
 mod plots;
 mod strip;
 mod view;
+pub mod work;
 
 use std::sync::Arc;
 
 use egui::{Align2, ColorImage, Frame, Margin, Panel, TextureHandle, TextureOptions, Ui};
 use image::RgbImage;
 
-use self::view::SceneView;
+use self::{view::SceneView, work::Inspected};
 use super::{
     action::Action,
     state::{Shown, State},
     theme::{Theme, font},
     viewport::{ViewError, ViewportGpu},
-    work::Inspected,
 };
 
 /// Width of the verdict card, logical pixels, and in a narrow window.
@@ -134,8 +134,8 @@ fn texture(ctx: &egui::Context, name: &str, image: Option<&RgbImage>) -> Option<
 
 /// Before the first result.
 fn empty(ui: &Ui, state: &State, theme: &Theme) {
-    let text = match &state.work {
-        Some(work) => format!("{}…", work.what),
+    let text = match state.work() {
+        Some((_, work)) => format!("{}…", work.what),
         None => "Nothing inspected yet\nPress Capture for a frame of the simulated cell, or drop a captured scene here"
             .into(),
     };

@@ -4,10 +4,10 @@ use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, TextureHandle, p
 
 use crate::app::{
     figures::{Candidate, ContourFigure, Curves},
+    inspect::work::Inspected,
     state::{StagePanel, State},
     theme::{ROUNDING, Theme, font},
     widgets::{Scale, caption, curve, fitted},
-    work::Inspected,
 };
 
 /// What the pictures are drawn from.
@@ -202,7 +202,7 @@ impl Pictures<'_> {
             painter.rect_filled(bar(1.0), 2.0, theme.track);
             let fill = match (
                 place,
-                f64::from(candidate.score) >= self.inspected.min_score,
+                f64::from(candidate.score) >= self.inspected.recipe.accept.min_score,
             ) {
                 (0, true) => theme.accepted,
                 _ => theme.weak_text.gamma_multiply(0.6),
@@ -214,7 +214,7 @@ impl Pictures<'_> {
                 painter.text(at, Align2::RIGHT_CENTER, score, font::body(), colour);
             }
         }
-        let threshold = bars.at(self.inspected.min_score as f32);
+        let threshold = bars.at(self.inspected.recipe.accept.min_score as f32);
         let bottom = rect.top() + row * num_rows as f32;
         painter.vline(threshold, rect.top()..=bottom, Stroke::new(1.0, theme.text));
     }

@@ -143,7 +143,7 @@ fn candidates(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<Action>) {
                 .add(button.min_size(Vec2::splat(space::TARGET)))
                 .clicked()
             {
-                actions.push(Action::Compare(place));
+                actions.push(Action::Candidate(place));
             }
         }
     });

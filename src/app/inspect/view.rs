@@ -6,13 +6,13 @@ use egui::{Button, Rect, RichText, Ui, UiBuilder, Vec2, pos2, vec2};
 
 use crate::{
     app::{
+        inspect::work::Inspected,
         state::{State, ThemeChoice},
         theme::{Theme, font, space},
         viewport::{
             Colouring, FitRequest, LineSet, PointSet, StandardView, ViewCamera, ViewColours,
             ViewError, ViewScene, ViewStyle, ViewTool, Viewport, ViewportGpu, furniture,
         },
-        work::Inspected,
     },
     units::Metres,
 };
@@ -136,7 +136,10 @@ impl SceneView {
             font::small(),
             theme.weak_text,
         );
-        if matches!(inspected.origin, crate::app::work::Origin::Simulated { .. }) {
+        if matches!(
+            inspected.origin,
+            crate::app::source::Origin::Simulated { .. }
+        ) {
             let corner = pos2(rect.right() - 14.0, rect.bottom() - 12.0);
             let text = format!("{} · no camera was read", inspected.origin.title());
             painter.text(

@@ -1,0 +1,41 @@
+//! Align.
+
+mod state;
+mod work;
+
+use egui::Ui;
+
+pub(super) use self::work::answer;
+pub use self::{
+    state::{AlignAction, AlignState, apply, hear},
+    work::{AlignAnswer, AlignRequest},
+};
+use super::{
+    action::Action,
+    state::State,
+    theme::Theme,
+    viewport::{ViewError, ViewportGpu},
+};
+
+/// What the workspace keeps between frames.
+pub(super) struct AlignPanel;
+
+impl AlignPanel {
+    pub(super) fn new(_gpu: Result<ViewportGpu, ViewError>) -> Self {
+        Self
+    }
+
+    /// True while keys go to a 3-D view.
+    pub(super) fn view_has_focus(&self) -> bool {
+        false
+    }
+
+    pub(super) fn ui(
+        &mut self,
+        _ui: &mut Ui,
+        _state: &State,
+        _theme: &Theme,
+        _actions: &mut Vec<Action>,
+    ) {
+    }
+}

@@ -1,0 +1,168 @@
+//! Shortcuts, and the list of them.
+
+use egui::{Button, Frame, Id, Key, KeyboardShortcut, Margin, Modal, Modifiers, RichText, vec2};
+
+use super::{
+    action::{Action, Ask},
+    bars::labelled,
+    state::{HelpPage, State, Workspace},
+    theme::{Theme, font, space},
+};
+
+/// A shortcut, what it causes, and how the list names both.
+pub(super) struct Shortcut {
+    pub(super) modifiers: Modifiers,
+    pub(super) key: Key,
+    pub(super) keys: &'static str,
+    pub(super) does: &'static str,
+    pub(super) action: fn() -> Action,
+}
+
+/// The shortcuts of the whole window.
+const SHORTCUTS: [Shortcut; 6] = [
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::Space,
+        keys: "Space",
+        does: "Capture and inspect",
+        action: || Action::Capture,
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::O,
+        keys: "Ctrl O",
+        does: "Open a captured scene",
+        action: || Action::Ask(Ask::Scene),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::U,
+        keys: "U",
+        does: "Millimetres and degrees, or metres and radians",
+        action: || Action::SwitchUnits,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::T,
+        keys: "T",
+        does: "Dark or light",
+        action: || Action::SwitchTheme,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::F1,
+        keys: "F1",
+        does: "This list",
+        action: || Action::ToggleHelp,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::Escape,
+        keys: "Esc",
+        does: "Close the enlarged stage",
+        action: || Action::CloseTop,
+    },
+];
+
+/// Keys of the 3-D view and of the focus, for the list alone.
+const OTHER_KEYS: [(&str, &str); 7] = [
+    ("Tab, Enter", "Go to the next control, press it"),
+    ("Arrow keys, left drag", "Turn the 3-D view"),
+    ("Shift + those, right drag", "Shift it"),
+    ("+ \u{2212}, wheel", "Zoom it"),
+    ("F, Shift F", "Fit the part, fit everything"),
+    ("Z, Y, X", "Look from the front, the top, the side"),
+    ("M", "Measure between two clicked points"),
+];
+
+/// The keys of the rail, in its order.
+const RAIL_KEYS: [(Key, &str); 5] = [
+    (Key::Num1, "1"),
+    (Key::Num2, "2"),
+    (Key::Num3, "3"),
+    (Key::Num4, "4"),
+    (Key::Num5, "5"),
+];
+
+/// The shortcuts of a workspace alone; they come before the window's.
+fn of_workspace(workspace: Workspace) -> &'static [Shortcut] {
+    match workspace {
+        Workspace::Inspect
+        | Workspace::Enrol
+        | Workspace::Compare
+        | Workspace::Align
+        | Workspace::History => &[],
+    }
+}
+
+/// What the keys cause. Called after the panels, so that a focused control has its keys first.
+///
+/// The space bar presses a focused control; `space_is_free` says that what has the focus does not use it. While a
+/// person writes, only keys with Ctrl are shortcuts.
+pub(super) fn shortcuts(
+    ctx: &egui::Context,
+    state: &State,
+    space_is_free: bool,
+    actions: &mut Vec<Action>,
+) {
+    let is_pressing = !space_is_free && ctx.memory(|memory| memory.focused().is_some());
+    let is_writing = ctx.text_edit_focused();
+    for shortcut in of_workspace(state.workspace).iter().chain(&SHORTCUTS) {
+        let is_plain = shortcut.modifiers.is_none();
+        if shortcut.key == Key::Space && is_pressing || is_plain && is_writing {
+            continue;
+        }
+        let keys = KeyboardShortcut::new(shortcut.modifiers, shortcut.key);
+        if ctx.input_mut(|input| input.consume_shortcut(&keys)) {
+            actions.push((shortcut.action)());
+        }
+    }
+    if is_writing {
+        return;
+    }
+    for ((key, _), workspace) in RAIL_KEYS.into_iter().zip(Workspace::ALL) {
+        if ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key)) {
+            actions.push(Action::GoTo(workspace));
+        }
+    }
+}
+
+/// The list of shortcuts.
+pub(super) fn help(ctx: &egui::Context, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+    if state.help == HelpPage::Closed {
+        return;
+    }
+    let modal = Modal::new(Id::unique("help"))
+        .frame(Frame::window(&ctx.global_style()).inner_margin(Margin::same(18)))
+        .show(ctx, |ui| {
+            ui.set_max_width(520.0);
+            let height = ui.spacing().interact_size.y;
+            ui.spacing_mut().interact_size.y = 24.0;
+            ui.label(
+                RichText::new("Shortcuts")
+                    .font(font::verdict())
+                    .color(theme.text),
+            );
+            ui.add_space(space::SMALL);
+            egui::Grid::new("shortcuts")
+                .num_columns(2)
+                .spacing(vec2(24.0, 6.0))
+                .show(ui, |ui| {
+                    let own = of_workspace(state.workspace).iter();
+                    let named = own.chain(&SHORTCUTS).map(|s| (s.keys, s.does));
+                    let of_rail = RAIL_KEYS.into_iter().zip(Workspace::ALL);
+                    let of_rail = of_rail.map(|((_, keys), workspace)| (keys, workspace.title()));
+                    for (keys, does) in named.chain(of_rail).chain(OTHER_KEYS) {
+                        ui.label(RichText::new(keys).font(font::body_strong()));
+                        ui.label(RichText::new(does).color(theme.weak_text));
+                        ui.end_row();
+                    }
+                });
+            ui.spacing_mut().interact_size.y = height;
+            ui.add_space(space::MEDIUM);
+            labelled(ui, Button::new("Close"), "Close").clicked()
+        });
+    if modal.inner || modal.backdrop_response.clicked() {
+        actions.push(Action::ToggleHelp);
+    }
+}

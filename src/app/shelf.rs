@@ -1,0 +1,111 @@
+//! The library in use, shared by the threads: loaded when first needed, replaced whole when it was changed.
+
+use std::{
+    path::{Path, PathBuf},
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+};
+
+use super::job::Trouble;
+use crate::{
+    library::{Library, LibraryError, LibraryLoad, LibraryPlace, PartMeta, open_library},
+    stages::reference::ReferenceParams,
+};
+
+/// A handle to the library in use; clones share it.
+#[derive(Clone, Debug, Default)]
+pub struct Shelf {
+    /// The folder that was asked for; without one [`open_library`] finds it.
+    given: Option<PathBuf>,
+    loaded: Arc<Mutex<Option<Arc<Shelved>>>>,
+}
+
+/// A loaded library.
+#[derive(Debug)]
+pub struct Shelved {
+    /// Where it lies.
+    pub place: LibraryPlace,
+    /// The references, prepared.
+    pub library: Library,
+    /// What the window shows of it.
+    pub shown: Arc<LibraryShown>,
+}
+
+/// What the window shows of a library.
+#[derive(Debug, Default)]
+pub struct LibraryShown {
+    /// Its folder.
+    pub path: PathBuf,
+    /// What is written down of every part, in the library's order.
+    pub parts: Vec<PartMeta>,
+    /// What had to be set aside, and what is odd.
+    pub troubles: Vec<Trouble>,
+}
+
+impl LibraryShown {
+    /// Name for people of the part at this place.
+    pub fn title(&self, place: usize) -> &str {
+        self.parts.get(place).map_or("", PartMeta::shown_title)
+    }
+
+    /// The place of a part.
+    pub fn place_of(&self, name: &str) -> Option<usize> {
+        self.parts
+            .iter()
+            .position(|part| part.name.as_str() == name)
+    }
+}
+
+impl Shelf {
+    /// The library of this folder, else the one that [`open_library`] finds.
+    pub fn new(given: Option<PathBuf>) -> Self {
+        Self {
+            given,
+            loaded: Arc::default(),
+        }
+    }
+
+    /// The library; loads it if nobody has yet.
+    pub fn get(&self) -> Result<Arc<Shelved>, LibraryError> {
+        let mut loaded = self.lock();
+        if let Some(shelved) = &*loaded {
+            return Ok(Arc::clone(shelved));
+        }
+        let shelved = Arc::new(load(self.given.as_deref())?);
+        *loaded = Some(Arc::clone(&shelved));
+        Ok(shelved)
+    }
+
+    /// Loads it anew, after it was changed.
+    pub fn reload(&self) -> Result<Arc<Shelved>, LibraryError> {
+        let shelved = Arc::new(load(self.given.as_deref())?);
+        *self.lock() = Some(Arc::clone(&shelved));
+        Ok(shelved)
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Option<Arc<Shelved>>> {
+        // What it holds is only ever replaced whole.
+        self.loaded.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+fn load(given: Option<&Path>) -> Result<Shelved, LibraryError> {
+    let place = open_library(given)?;
+    let LibraryLoad {
+        library,
+        parts,
+        problems,
+        warnings,
+    } = place.load(&ReferenceParams::default())?;
+    let troubles = problems.iter().map(Trouble::of);
+    let troubles = troubles.chain(warnings.iter().map(Trouble::of)).collect();
+    let shown = Arc::new(LibraryShown {
+        path: place.location().into(),
+        parts,
+        troubles,
+    });
+    Ok(Shelved {
+        place,
+        library,
+        shown,
+    })
+}

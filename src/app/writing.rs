@@ -1,0 +1,62 @@
+//! Writing what a person asked to have as a file.
+
+use std::path::PathBuf;
+
+use super::{job::Trouble, source::file_name};
+use crate::files::write_atomically;
+
+/// What is to be written.
+#[derive(Clone, Debug)]
+pub enum WriteRequest {
+    /// A text file.
+    Text {
+        /// Where to.
+        path: PathBuf,
+        /// Its contents.
+        text: String,
+    },
+}
+
+/// What was written.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Written {
+    /// In words, for a notice.
+    pub what: String,
+    /// The file, or the folder of the files.
+    pub path: PathBuf,
+}
+
+/// Writes it: whole, or not at all.
+pub(super) fn answer(request: &WriteRequest) -> Result<Written, Trouble> {
+    match request {
+        WriteRequest::Text { path, text } => {
+            write_atomically(path, |writer| writer.write_all(text.as_bytes()))
+                .map_err(|error| Trouble::of(&error))?;
+            Ok(Written {
+                what: format!("Wrote {}", file_name(path)),
+                path: path.clone(),
+            })
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_is_written_whole_and_a_missing_folder_is_said_in_words() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("table.csv");
+        let text = "part,e_m2\nfender,1e-7\n".to_owned();
+        let written = answer(&WriteRequest::Text {
+            path: path.clone(),
+            text: text.clone(),
+        });
+        assert_eq!(written.expect("written").what, "Wrote table.csv");
+        assert_eq!(std::fs::read_to_string(&path).expect("read"), text);
+        let path = folder.path().join("missing").join("table.csv");
+        let trouble = answer(&WriteRequest::Text { path, text }).expect_err("refused");
+        assert!(!trouble.what.is_empty() && !trouble.advice.is_empty());
+    }
+}
