@@ -1,6 +1,9 @@
 //! Everything a person or a thread can cause, and the one function that makes it so.
 
-use std::{path::PathBuf, sync::Arc};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use super::{
     align::{self, AlignAction},
@@ -11,9 +14,10 @@ use super::{
     job::{Answer, Outcome, Request, Trouble},
     lane::Lane,
     shelf::LibraryShown,
-    source::{CellChoice, SceneSource, file_name},
+    source::{CellChoice, Origin, SceneSource, file_name},
     state::{HelpPage, Notice, NoticeKind, Shown, Source, StagePanel, State, Workspace},
     worker::News,
+    writing::WriteRequest,
 };
 
 /// Something that happened.
@@ -29,6 +33,8 @@ pub enum Action {
     Chosen(Ask, PathBuf),
     /// Open this file and inspect it.
     Open(PathBuf),
+    /// Use the library that is found without choosing one.
+    UseFoundLibrary,
     /// Give up what this lane is at.
     Cancel(Lane),
     /// Bring a workspace to the front.
@@ -68,6 +74,12 @@ pub enum Action {
 pub enum Ask {
     /// A captured scene to open.
     Scene,
+    /// The folder of another library.
+    Library,
+    /// The folder that the report of the inspection in front goes to.
+    ReportFolder,
+    /// The file that the listed history goes to.
+    HistoryCsv,
 }
 
 /// What is to be done outside the state.
@@ -103,6 +115,16 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::Chosen(Ask::Scene, path) | Action::Open(path) => {
             state.source = Source::File(path);
             return Some(capture(state));
+        }
+        Action::Chosen(Ask::Library, path) => {
+            state.chosen_library = Some(path);
+            return Some(open_library(state));
+        }
+        Action::Chosen(Ask::ReportFolder, folder) => return export(state, folder),
+        Action::Chosen(Ask::HistoryCsv, path) => return Some(history::export(state, path)),
+        Action::UseFoundLibrary => {
+            state.chosen_library = None;
+            return Some(open_library(state));
         }
         Action::Cancel(lane) => {
             state.works.remove(&lane);
@@ -162,6 +184,39 @@ fn capture(state: &mut State) -> Effect {
     state.begin(what, Request::Inspect(InspectRequest { source, recipe }))
 }
 
+/// More files than this nobody looks through.
+const MAX_RECENT: usize = 8;
+
+/// Puts a file first among the recent ones.
+fn remember(recent: &mut Vec<PathBuf>, path: &Path) {
+    recent.retain(|known| known != path);
+    recent.insert(0, path.to_owned());
+    recent.truncate(MAX_RECENT);
+}
+
+/// Asks for the library that was chosen.
+fn open_library(state: &mut State) -> Effect {
+    let chosen = state.chosen_library.clone();
+    state.begin("Opening the library", Request::Library(chosen))
+}
+
+/// Writes the report of the inspection in front.
+fn export(state: &mut State, folder: PathBuf) -> Option<Effect> {
+    let inspected = Arc::clone(&state.shown.as_ref()?.inspected);
+    let request = WriteRequest::Report { folder, inspected };
+    Some(state.begin("Writing the report", Request::Write(request)))
+}
+
+/// Inspects the scene in front again: something that its result rests on has changed.
+pub(super) fn inspect_again(state: &mut State) -> Option<Effect> {
+    let shown = &state.shown.as_ref()?.inspected;
+    let request = InspectRequest {
+        source: SceneSource::AtHand(Arc::clone(&shown.scene), shown.origin.clone()),
+        recipe: Arc::clone(&state.recipe),
+    };
+    Some(state.begin("Inspecting again", Request::Inspect(request)))
+}
+
 /// Takes in what a thread tells, unless it is about something that nobody waits for any more.
 fn hear(state: &mut State, lane: Lane, news: News<Outcome>) -> Option<Effect> {
     let of = news.generation();
@@ -195,6 +250,10 @@ fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> 
         Ok(Answer::Enrol(answer)) => return enrol::hear(state, Ok(answer)),
         Ok(Answer::Compare(answer)) => return compare::hear(state, Ok(answer)),
         Ok(Answer::Align(answer)) => return align::hear(state, Ok(answer)),
+        Ok(Answer::Library(library)) => {
+            use_library(state, &library);
+            return inspect_again(state);
+        }
         Ok(Answer::Written(written)) => notify(state, Notice::done(written.what)),
         Err(trouble) => {
             notify(state, trouble.clone().into());
@@ -202,11 +261,25 @@ fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> 
                 Lane::Enrol => return enrol::hear(state, Err(trouble)),
                 Lane::Compare => return compare::hear(state, Err(trouble)),
                 Lane::Align => return align::hear(state, Err(trouble)),
-                Lane::Inspect | Lane::Write => {}
+                Lane::Inspect => return without_scene(state),
+                Lane::Write => {}
             }
         }
     }
     None
+}
+
+/// A file that could not be inspected is no recent one; at the start the simulated cell takes its place.
+fn without_scene(state: &mut State) -> Option<Effect> {
+    let Source::File(path) = &state.source else {
+        return None;
+    };
+    state.recent.retain(|known| known != path);
+    if state.shown.is_some() {
+        return None;
+    }
+    state.source = Source::default();
+    Some(capture(state))
 }
 
 fn show(state: &mut State, generation: u64, inspected: Arc<Inspected>) {
@@ -214,10 +287,15 @@ fn show(state: &mut State, generation: u64, inspected: Arc<Inspected>) {
         notify(state, Trouble::of(warning).into());
     }
     use_library(state, &inspected.library);
+    if let Origin::File(path) = &inspected.origin {
+        remember(&mut state.recent, path);
+    }
+    let is_past = history::take_in(state, generation, &inspected);
     state.candidate = 0;
     state.shown = Some(Shown {
         generation,
         inspected,
+        is_past,
     });
 }
 
@@ -335,7 +413,9 @@ mod tests {
         );
         apply(&mut state, done(newer, Err(trouble())));
         assert_eq!(state.notices.len(), 1);
-        assert!(state.works.is_empty());
+        // With nothing to show yet, the simulated cell takes the file's place.
+        assert_eq!(state.source, Source::default());
+        assert!(state.generation > newer && state.works.contains_key(&Lane::Inspect));
     }
 
     #[test]

@@ -7,6 +7,7 @@ use egui::{
 
 use super::{
     action::{Action, Ask},
+    shelf::LibraryShown,
     source::{CellChoice, file_name},
     state::{NoticeKind, Source, StagePanel, State},
     theme::{ROUNDING, Theme, font, space},
@@ -88,6 +89,18 @@ fn source_menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
             actions.push(Action::Ask(Ask::Scene));
             ui.close();
         }
+        if !state.recent.is_empty() {
+            ui.label(RichText::new("Recent files").font(font::heading()));
+        }
+        for path in &state.recent {
+            let is_chosen = matches!(&state.source, Source::File(file) if file == path);
+            let name = shortened(&file_name(path), 34);
+            let entry = ui.selectable_label(is_chosen, name);
+            if entry.on_hover_text(path.display().to_string()).clicked() {
+                actions.push(Action::Open(path.clone()));
+                ui.close();
+            }
+        }
     })
     .response
     .on_hover_text("Where Capture takes a scene from");
@@ -134,11 +147,31 @@ fn settings(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>
     if let Some(library) = &state.library
         && ui.available_width() > 300.0
     {
-        let num = library.parts.len();
-        let text = format!("{num} parts · {}", shortened(&file_name(&library.path), 20));
-        ui.label(RichText::new(text).color(theme.weak_text))
-            .on_hover_text(library.path.display().to_string());
+        library_menu(ui, state, library, actions);
     }
+}
+
+/// Which library is in use, and others to use.
+fn library_menu(ui: &mut Ui, state: &State, library: &LibraryShown, actions: &mut Vec<Action>) {
+    let num = library.parts.len();
+    let text = format!(
+        "{num} parts · {} ▼",
+        shortened(&file_name(&library.path), 20)
+    );
+    ui.menu_button(text, |ui| {
+        ui.set_min_width(260.0);
+        ui.label(RichText::new("Library in use").font(font::heading()));
+        ui.label(library.path.display().to_string());
+        ui.separator();
+        if ui.button("Use another library…").clicked() {
+            actions.push(Action::Ask(Ask::Library));
+            ui.close();
+        }
+        if state.chosen_library.is_some() && ui.button("Use the usual library").clicked() {
+            actions.push(Action::UseFoundLibrary);
+            ui.close();
+        }
+    });
 }
 
 /// What is being worked on, and the way out.

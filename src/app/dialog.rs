@@ -46,6 +46,19 @@ impl Dialog {
                     .add_filter("All files", &["*"])
                     .pick_file(),
             ),
+            Ask::ReportFolder => Box::pin(
+                dialog
+                    .set_title("Folder for the report of this inspection")
+                    .pick_folder(),
+            ),
+            Ask::HistoryCsv => Box::pin(
+                dialog
+                    .set_title("Export the listed inspections")
+                    .set_file_name("inspections.csv")
+                    .add_filter("Comma-separated values", &["csv"])
+                    .save_file(),
+            ),
+            Ask::Library => Box::pin(dialog.set_title("Use another library").pick_folder()),
         };
         Self {
             ask,

@@ -1,6 +1,6 @@
 //! What the window asks its threads for, what they answer, and who does it.
 
-use std::sync::Arc;
+use std::{path::PathBuf, sync::Arc};
 
 use super::{
     align::{AlignAnswer, AlignRequest},
@@ -8,7 +8,7 @@ use super::{
     enrol::{EnrolAnswer, EnrolRequest},
     inspect::work::{InspectRequest, Inspected, inspect},
     lane::Lane,
-    shelf::Shelf,
+    shelf::{LibraryShown, Shelf},
     worker::Desk,
     writing::{WriteRequest, Written},
 };
@@ -19,6 +19,8 @@ use crate::error::Advice;
 pub enum Request {
     /// Get a scene and inspect it.
     Inspect(InspectRequest),
+    /// Use another library: the one of this folder, else the one that is found without.
+    Library(Option<PathBuf>),
     /// Something of the Enrol workspace.
     Enrol(EnrolRequest),
     /// Something of the Compare workspace.
@@ -33,7 +35,7 @@ impl Request {
     /// Whose work it is.
     pub fn lane(&self) -> Lane {
         match self {
-            Self::Inspect(_) => Lane::Inspect,
+            Self::Inspect(_) | Self::Library(_) => Lane::Inspect,
             Self::Enrol(_) => Lane::Enrol,
             Self::Compare(_) => Lane::Compare,
             Self::Align(_) => Lane::Align,
@@ -47,6 +49,8 @@ impl Request {
 pub enum Answer {
     /// A scene with everything that was found in it.
     Inspected(Arc<Inspected>),
+    /// The library that is in use now.
+    Library(Arc<LibraryShown>),
     /// Something of the Enrol workspace.
     Enrol(EnrolAnswer),
     /// Something of the Compare workspace.
@@ -86,6 +90,10 @@ pub fn answer(request: Request, shelf: &Shelf, desk: &dyn Desk<Outcome>) -> Opti
             Ok(inspected) => inspected.map(|found| Ok(Answer::Inspected(Arc::new(found)))),
             Err(error) => Some(Err(Trouble::of(&error))),
         },
+        Request::Library(given) => Some(match shelf.choose(given) {
+            Ok(shelved) => Ok(Answer::Library(Arc::clone(&shelved.shown))),
+            Err(error) => Err(Trouble::of(&error)),
+        }),
         Request::Enrol(request) => super::enrol::answer(request, shelf, desk),
         Request::Compare(request) => super::compare::answer(request, shelf, desk),
         Request::Align(request) => super::align::answer(request, shelf, desk),

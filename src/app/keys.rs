@@ -5,6 +5,7 @@ use egui::{Button, Frame, Id, Key, KeyboardShortcut, Margin, Modal, Modifiers, R
 use super::{
     action::{Action, Ask},
     bars::labelled,
+    history,
     state::{HelpPage, State, Workspace},
     theme::{Theme, font, space},
 };
@@ -19,7 +20,7 @@ pub(super) struct Shortcut {
 }
 
 /// The shortcuts of the whole window.
-const SHORTCUTS: [Shortcut; 6] = [
+const SHORTCUTS: [Shortcut; 7] = [
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::Space,
@@ -33,6 +34,13 @@ const SHORTCUTS: [Shortcut; 6] = [
         keys: "Ctrl O",
         does: "Open a captured scene",
         action: || Action::Ask(Ask::Scene),
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::E,
+        keys: "Ctrl E",
+        does: "Export the inspection in front",
+        action: || Action::Ask(Ask::ReportFolder),
     },
     Shortcut {
         modifiers: Modifiers::NONE,
@@ -87,11 +95,8 @@ const RAIL_KEYS: [(Key, &str); 5] = [
 /// The shortcuts of a workspace alone; they come before the window's.
 fn of_workspace(workspace: Workspace) -> &'static [Shortcut] {
     match workspace {
-        Workspace::Inspect
-        | Workspace::Enrol
-        | Workspace::Compare
-        | Workspace::Align
-        | Workspace::History => &[],
+        Workspace::Inspect | Workspace::Enrol | Workspace::Compare | Workspace::Align => &[],
+        Workspace::History => &history::SHORTCUTS,
     }
 }
 
@@ -109,7 +114,8 @@ pub(super) fn shortcuts(
     let is_writing = ctx.text_edit_focused();
     for shortcut in of_workspace(state.workspace).iter().chain(&SHORTCUTS) {
         let is_plain = shortcut.modifiers.is_none();
-        if shortcut.key == Key::Space && is_pressing || is_plain && is_writing {
+        if matches!(shortcut.key, Key::Space | Key::Enter) && is_pressing || is_plain && is_writing
+        {
             continue;
         }
         let keys = KeyboardShortcut::new(shortcut.modifiers, shortcut.key);

@@ -13,10 +13,13 @@ use crate::{
 
 /// A handle to the library in use; clones share it.
 #[derive(Clone, Debug, Default)]
-pub struct Shelf {
+pub struct Shelf(Arc<Mutex<Choice>>);
+
+#[derive(Debug, Default)]
+struct Choice {
     /// The folder that was asked for; without one [`open_library`] finds it.
     given: Option<PathBuf>,
-    loaded: Arc<Mutex<Option<Arc<Shelved>>>>,
+    loaded: Option<Arc<Shelved>>,
 }
 
 /// A loaded library.
@@ -58,33 +61,47 @@ impl LibraryShown {
 impl Shelf {
     /// The library of this folder, else the one that [`open_library`] finds.
     pub fn new(given: Option<PathBuf>) -> Self {
-        Self {
-            given,
-            loaded: Arc::default(),
-        }
+        let loaded = None;
+        Self(Arc::new(Mutex::new(Choice { given, loaded })))
     }
 
     /// The library; loads it if nobody has yet.
     pub fn get(&self) -> Result<Arc<Shelved>, LibraryError> {
-        let mut loaded = self.lock();
-        if let Some(shelved) = &*loaded {
+        let mut choice = self.lock();
+        if let Some(shelved) = &choice.loaded {
             return Ok(Arc::clone(shelved));
         }
-        let shelved = Arc::new(load(self.given.as_deref())?);
-        *loaded = Some(Arc::clone(&shelved));
-        Ok(shelved)
+        choice.load()
     }
 
     /// Loads it anew, after it was changed.
     pub fn reload(&self) -> Result<Arc<Shelved>, LibraryError> {
-        let shelved = Arc::new(load(self.given.as_deref())?);
-        *self.lock() = Some(Arc::clone(&shelved));
+        self.lock().load()
+    }
+
+    /// Uses another library from now on: the one of this folder, else the one that [`open_library`] finds. One that
+    /// cannot be loaded leaves the old one in use.
+    pub fn choose(&self, given: Option<PathBuf>) -> Result<Arc<Shelved>, LibraryError> {
+        let mut other = Choice {
+            given,
+            loaded: None,
+        };
+        let shelved = other.load()?;
+        *self.lock() = other;
         Ok(shelved)
     }
 
-    fn lock(&self) -> MutexGuard<'_, Option<Arc<Shelved>>> {
+    fn lock(&self) -> MutexGuard<'_, Choice> {
         // What it holds is only ever replaced whole.
-        self.loaded.lock().unwrap_or_else(PoisonError::into_inner)
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Choice {
+    fn load(&mut self) -> Result<Arc<Shelved>, LibraryError> {
+        let shelved = Arc::new(load(self.given.as_deref())?);
+        self.loaded = Some(Arc::clone(&shelved));
+        Ok(shelved)
     }
 }
 
@@ -108,4 +125,24 @@ fn load(given: Option<&Path>) -> Result<Shelved, LibraryError> {
         library,
         shown,
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_library_that_cannot_be_loaded_leaves_the_old_one_in_use() {
+        let shelf = Shelf::default();
+        let before = shelf.get().expect("the shipped parts");
+        assert_eq!(before.shown.place_of("fender"), Some(2));
+        assert_eq!(before.shown.title(2), "Fender, left");
+        shelf
+            .choose(Some("no/such/library".into()))
+            .expect_err("refused");
+        let after = shelf.get().expect("still there");
+        assert!(Arc::ptr_eq(&before, &after));
+        let anew = shelf.reload().expect("loaded again");
+        assert!(!Arc::ptr_eq(&before, &anew));
+    }
 }

@@ -13,7 +13,8 @@ use crate::{
 };
 
 /// What hangs in the simulated cell when a frame is captured.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum CellChoice {
     /// The eight parts one after the other.
     #[default]
@@ -88,6 +89,8 @@ impl CellChoice {
 pub enum Origin {
     /// A frame of the simulated cell.
     Simulated {
+        /// What hung there.
+        choice: CellChoice,
         /// Its number, which is also its seed.
         number: u64,
     },
@@ -99,8 +102,21 @@ impl Origin {
     /// What a person calls it.
     pub fn title(&self) -> String {
         match self {
-            Self::Simulated { number } => format!("Simulated frame {number}"),
+            Self::Simulated { number, .. } => format!("Simulated frame {number}"),
             Self::File(path) => file_name(path),
+        }
+    }
+}
+
+impl Origin {
+    /// The same scene again: the frame is simulated as before, the file is read once more.
+    pub fn source(&self) -> SceneSource {
+        match self {
+            Self::Simulated { choice, number } => SceneSource::Cell {
+                choice: *choice,
+                number: *number,
+            },
+            Self::File(path) => SceneSource::File(path.clone()),
         }
     }
 }
@@ -172,7 +188,10 @@ impl SceneSource {
                 setup.pose = PartPose::Drawn(Placement::facing());
                 Ok(Captured {
                     scene: Arc::new(scene_from_frame(&frame(&setup).frame)),
-                    origin: Origin::Simulated { number: *number },
+                    origin: Origin::Simulated {
+                        choice: *choice,
+                        number: *number,
+                    },
                     warnings: Vec::new(),
                 })
             }

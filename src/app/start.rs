@@ -4,7 +4,10 @@ use std::env;
 
 use eframe::NativeOptions;
 
-use super::window::{Window, WindowOptions};
+use super::{
+    settings,
+    window::{Window, WindowOptions},
+};
 use crate::error::Advice;
 
 /// Why there is no window.
@@ -57,11 +60,12 @@ pub fn run(given: WindowOptions) -> Result<(), WindowError> {
     {
         return Err(WindowError::NoDisplay);
     }
+    let size = given.settings.as_deref().and_then(settings::window_size);
     let options = NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("Partsight")
             .with_app_id("partsight")
-            .with_inner_size(SIZE)
+            .with_inner_size(size.unwrap_or(SIZE))
             .with_min_inner_size(MIN_SIZE),
         renderer: eframe::Renderer::Wgpu,
         ..NativeOptions::default()

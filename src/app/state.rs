@@ -39,6 +39,10 @@ pub struct State {
     pub candidate: usize,
     /// Whether the list of shortcuts is open.
     pub help: HelpPage,
+    /// Scenes opened last, the newest first.
+    pub recent: Vec<PathBuf>,
+    /// The library's folder that a person chose in the window.
+    pub chosen_library: Option<PathBuf>,
     /// The library in use, once loaded.
     pub library: Option<Arc<LibraryShown>>,
     /// The parameters that scenes are inspected with.
@@ -111,6 +115,8 @@ pub struct Shown {
     pub generation: u64,
     /// The result.
     pub inspected: Arc<Inspected>,
+    /// True if it was taken out of the history.
+    pub is_past: bool,
 }
 
 /// A request at work.
@@ -127,7 +133,8 @@ pub struct Work {
 }
 
 /// The workspaces.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Workspace {
     /// The operator's: which part is it, and is it accepted?
     #[default]
@@ -144,7 +151,7 @@ pub enum Workspace {
 
 impl Workspace {
     /// Every workspace, in the order of the rail and of the number keys.
-    pub const ALL: [Self; 1] = [Self::Inspect];
+    pub const ALL: [Self; 2] = [Self::Inspect, Self::History];
 
     /// What a person calls it.
     pub fn title(self) -> &'static str {
@@ -170,7 +177,8 @@ impl Workspace {
 }
 
 /// Units for people.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum UnitSystem {
     /// Millimetres and degrees.
     #[default]
@@ -235,7 +243,8 @@ fn signed(value: f64, decimals: usize) -> String {
 }
 
 /// Colours.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum ThemeChoice {
     /// Light on dark.
     #[default]

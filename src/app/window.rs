@@ -17,9 +17,10 @@ use super::{
     job::{Outcome, Request, answer},
     keys,
     lane::Lane,
-    rail,
+    memory::Memory,
+    rail, settings,
     shelf::Shelf,
-    state::{State, ThemeChoice, Workspace},
+    state::{Notice, State, ThemeChoice, Workspace},
     theme::Theme,
     viewport::{ViewError, ViewportGpu},
     worker::Worker,
@@ -28,14 +29,17 @@ use super::{
 /// What the window is opened with.
 #[derive(Clone, Debug, Default)]
 pub struct WindowOptions {
-    /// The library's folder; without it the one found as on the command line.
+    /// The library's folder; without it the one chosen last, else the one found as on the command line.
     pub library: Option<PathBuf>,
+    /// Where the settings are kept; without it nothing is remembered.
+    pub settings: Option<PathBuf>,
 }
 
 /// The window.
 pub struct Window {
     state: State,
     workers: BTreeMap<Lane, Worker<Request, Outcome>>,
+    memory: Memory,
     dialog: Option<Dialog>,
     installed: Option<ThemeChoice>,
     inspect: InspectPanel,
@@ -53,7 +57,9 @@ impl Window {
         options: WindowOptions,
     ) -> io::Result<Self> {
         Theme::install_fonts(ctx);
-        let shelf = Shelf::new(options.library);
+        let WindowOptions { library, settings } = options;
+        let (remembered, trouble) = settings.as_deref().map(settings::load).unwrap_or_default();
+        let shelf = Shelf::new(library.or_else(|| remembered.library.clone()));
         let start = |lane: Lane| {
             let (shelf, repaint) = (shelf.clone(), ctx.clone());
             let worker = Worker::start(
@@ -73,7 +79,8 @@ impl Window {
                 reason: "the window draws without one".into(),
             });
         let mut window = Self {
-            state: State::default(),
+            memory: Memory::start(settings, remembered.clone())?,
+            state: remembered.into_state(),
             workers,
             dialog: None,
             installed: None,
@@ -83,6 +90,7 @@ impl Window {
             align: AlignPanel::new(gpu),
             history: HistoryPanel::new(),
         };
+        window.state.notices.extend(trouble.map(Notice::from));
         window.act(Action::Capture, ctx);
         Ok(window)
     }
@@ -151,6 +159,13 @@ impl eframe::App for Window {
             }
         }
         self.take_drops(ctx);
+        if let Some(notice) = self.memory.keep(&self.state, ctx) {
+            self.act(Action::Notify(notice), ctx);
+        }
+    }
+
+    fn on_exit(&mut self) {
+        self.memory.finish();
     }
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {

@@ -1,9 +1,19 @@
 //! Writing what a person asked to have as a file.
 
-use std::path::PathBuf;
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
-use super::{job::Trouble, source::file_name};
-use crate::files::write_atomically;
+use super::{
+    inspect::work::Inspected,
+    job::Trouble,
+    source::{Origin, file_name},
+};
+use crate::{
+    files::write_atomically,
+    report::{InspectionLine, ReportError, ReportFolder, stage_pictures},
+};
 
 /// What is to be written.
 #[derive(Clone, Debug)]
@@ -14,6 +24,13 @@ pub enum WriteRequest {
         path: PathBuf,
         /// Its contents.
         text: String,
+    },
+    /// An inspection: a line of JSON and the pictures of its stages.
+    Report {
+        /// Where to.
+        folder: PathBuf,
+        /// The inspection.
+        inspected: Arc<Inspected>,
     },
 }
 
@@ -37,7 +54,30 @@ pub(super) fn answer(request: &WriteRequest) -> Result<Written, Trouble> {
                 path: path.clone(),
             })
         }
+        WriteRequest::Report { folder, inspected } => {
+            write_report(folder, inspected).map_err(|error| Trouble::of(&error))
+        }
     }
+}
+
+/// As `partsight inspect --report` does.
+fn write_report(folder: &Path, inspected: &Inspected) -> Result<Written, ReportError> {
+    let name = match &inspected.origin {
+        Origin::File(path) => path.clone(),
+        Origin::Simulated { number, .. } => format!("simulated_{number}").into(),
+    };
+    let scene = name.display().to_string();
+    let line = InspectionLine::of(&scene, &inspected.inspection).to_json();
+    let pictures = stage_pictures(&inspected.scene, &inspected.inspection);
+    let path = ReportFolder::make(folder)?.write(&name, &line, &pictures)?;
+    Ok(Written {
+        what: format!(
+            "Wrote {} and the pictures of its stages to {}",
+            file_name(&path),
+            folder.display()
+        ),
+        path,
+    })
 }
 
 #[cfg(test)]

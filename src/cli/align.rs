@@ -9,11 +9,11 @@ use super::{
     MethodChoice, Outcome,
     console::{Advised as _, Console, Table, advised_error},
     input::{GivenPose, open_cloud, parse_pose},
-    verdict::SCHEMA,
 };
 use crate::{
     error::Advice as _,
     geometry::{cloud::PointCloud, rigid::row_major},
+    report::SCHEMA,
     stages::pose::{PoseError, PoseEstimate, PoseMethod, align},
     units::Metres,
 };

@@ -11,7 +11,6 @@ mod first_look;
 mod input;
 mod inspect;
 mod library;
-mod report_folder;
 mod simulate;
 mod verdict;
 
@@ -122,6 +121,7 @@ pub fn run(cli: Cli) -> Outcome {
 fn window(library: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome> {
     let options = app::WindowOptions {
         library: library.library.clone(),
+        settings: app::settings::users_file(),
     };
     match app::run(options) {
         Ok(()) => Ok(Outcome::Accepted),

@@ -122,7 +122,12 @@ impl InspectPanel {
     }
 }
 
-fn texture(ctx: &egui::Context, name: &str, image: Option<&RgbImage>) -> Option<TextureHandle> {
+/// Uploads a picture.
+pub(in crate::app) fn texture(
+    ctx: &egui::Context,
+    name: &str,
+    image: Option<&RgbImage>,
+) -> Option<TextureHandle> {
     let image = image?;
     let size = [image.width() as usize, image.height() as usize];
     let options = TextureOptions {
