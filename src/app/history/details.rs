@@ -38,14 +38,14 @@ impl Details {
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             verdict(ui, past, theme);
             self.picture(ui, past, theme);
+            ui.add_space(space::MEDIUM);
+            buttons(ui, past, theme, actions);
             heading(ui, theme, &format!("Inspection {}", past.number));
             ui.scope(|ui| {
                 // Text lies closer than controls do.
                 ui.spacing_mut().interact_size.y = 22.0;
                 figures(ui, past, theme);
             });
-            ui.add_space(space::MEDIUM);
-            buttons(ui, past, theme, actions);
         });
     }
 
@@ -131,21 +131,21 @@ fn figures(ui: &mut Ui, past: &PastInspection, theme: &Theme) {
 }
 
 fn buttons(ui: &mut Ui, past: &PastInspection, theme: &Theme, actions: &mut Vec<Action>) {
-    let wide = vec2(ui.available_width(), space::TARGET);
-    let open = RichText::new("Open").font(font::body_strong());
-    let key = RichText::new("Enter").font(font::small());
-    let open = Button::new(open.color(theme.on_accent))
-        .shortcut_text(key.color(theme.on_accent))
-        .fill(theme.accent)
-        .min_size(wide);
-    if labelled(ui, open, "Open").clicked() {
-        actions.push(Action::History(HistoryAction::Open(past.number)));
-    }
-    let again = Button::new("Inspect again").min_size(wide);
-    if labelled(ui, again, "Inspect again")
-        .on_hover_text("With the recipe and the library now in use")
-        .clicked()
-    {
-        actions.push(Action::History(HistoryAction::InspectAgain(past.number)));
-    }
+    ui.horizontal(|ui| {
+        let open = RichText::new("Open").font(font::body_strong());
+        let key = RichText::new("Enter").font(font::small());
+        let open = Button::new(open.color(theme.on_accent))
+            .shortcut_text(key.color(theme.on_accent))
+            .fill(theme.accent);
+        if labelled(ui, open, "Open").clicked() {
+            actions.push(Action::History(HistoryAction::Open(past.number)));
+        }
+        let again = Button::new("Inspect again");
+        if labelled(ui, again, "Inspect again")
+            .on_hover_text("With the recipe and the library now in use")
+            .clicked()
+        {
+            actions.push(Action::History(HistoryAction::InspectAgain(past.number)));
+        }
+    });
 }

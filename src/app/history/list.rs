@@ -13,14 +13,16 @@ use crate::app::{
     widgets::{Mark, mark},
 };
 
+/// In more width than this all choices of the filter stand side by side, logical pixels.
+const WIDE: f32 = 520.0;
 /// Height of a row: a target for a gloved finger.
 const ROW: f32 = 40.0;
 
 pub(super) fn ui(ui: &mut Ui, history: &HistoryState, theme: &Theme, actions: &mut Vec<Action>) {
-    bar(ui, history, theme, actions);
+    bar(ui, history, actions);
     ui.add_space(space::SMALL);
     let columns = Columns::across(ui.available_width());
-    head(ui, &columns, theme);
+    head(ui, history, &columns, theme);
     let listed = history.listed();
     if listed.is_empty() {
         ui.add_space(space::LARGE);
@@ -40,7 +42,7 @@ pub(super) fn ui(ui: &mut Ui, history: &HistoryState, theme: &Theme, actions: &m
 }
 
 /// What to list, and what to do with it.
-fn bar(ui: &mut Ui, history: &HistoryState, theme: &Theme, actions: &mut Vec<Action>) {
+fn bar(ui: &mut Ui, history: &HistoryState, actions: &mut Vec<Action>) {
     ui.horizontal(|ui| {
         let filter = &history.filter;
         let mut text = filter.text.clone();
@@ -58,27 +60,40 @@ fn bar(ui: &mut Ui, history: &HistoryState, theme: &Theme, actions: &mut Vec<Act
                 verdict,
             })));
         }
-        let choices = std::iter::once(None).chain(PastVerdict::ALL.map(Some));
-        for choice in choices {
-            let title = choice.map_or("All", PastVerdict::title);
-            let button = Button::selectable(filter.verdict == choice, title);
-            let target = Vec2::splat(space::TARGET);
-            if ui.add(button.min_size(target)).clicked() {
-                actions.push(Action::History(HistoryAction::Filter(HistoryFilter {
-                    text: filter.text.clone(),
-                    verdict: choice,
-                })));
-            }
+        let is_wide = ui.available_width() > WIDE;
+        if is_wide {
+            verdicts(ui, filter, actions);
+        } else {
+            let now = filter.verdict.map_or("All", PastVerdict::title);
+            ui.menu_button(format!("Verdict · {now} ▼"), |ui| {
+                verdicts(ui, filter, actions)
+            });
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if labelled(ui, Button::new("Export CSV…"), "Export CSV…").clicked() {
                 actions.push(Action::Ask(Ask::HistoryCsv));
             }
-            let count = format!("{} of {}", history.listed().len(), history.num_rows());
-            ui.label(RichText::new(count).color(theme.weak_text))
-                .on_hover_text("Kept until the window closes");
         });
     });
+}
+
+/// Which verdicts to list.
+fn verdicts(ui: &mut Ui, filter: &HistoryFilter, actions: &mut Vec<Action>) {
+    for choice in std::iter::once(None).chain(PastVerdict::ALL.map(Some)) {
+        let title = choice.map_or("All", PastVerdict::title);
+        let button = Button::selectable(filter.verdict == choice, title);
+        if ui
+            .add(button.min_size(Vec2::splat(space::TARGET)))
+            .clicked()
+        {
+            let text = filter.text.clone();
+            let filter = HistoryFilter {
+                text,
+                verdict: choice,
+            };
+            actions.push(Action::History(HistoryAction::Filter(filter)));
+        }
+    }
 }
 
 /// Where the columns lie, from the left edge of the list.
@@ -107,14 +122,21 @@ impl Columns {
     }
 }
 
-fn head(ui: &mut Ui, columns: &Columns, theme: &Theme) {
-    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 22.0), Sense::hover());
+fn head(ui: &mut Ui, history: &HistoryState, columns: &Columns, theme: &Theme) {
+    let size = vec2(ui.available_width(), 22.0);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    let count = format!("{} of {}", history.listed().len(), history.num_rows());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &count));
     let painter = ui.painter();
     let text = |x: f32, anchor: Align2, text: &str| {
         let at = pos2(rect.left() + x, rect.center().y);
         painter.text(at, anchor, text, font::heading(), theme.weak_text);
     };
-    text(columns.part, Align2::LEFT_CENTER, "Part");
+    text(
+        columns.part,
+        Align2::LEFT_CENTER,
+        &format!("Part · {count}"),
+    );
     text(columns.scene, Align2::LEFT_CENTER, "Scene");
     text(columns.score, Align2::RIGHT_CENTER, "Score");
     text(columns.time, Align2::RIGHT_CENTER, "ms");
