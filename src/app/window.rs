@@ -31,6 +31,8 @@ use super::{
 pub struct WindowOptions {
     /// The library's folder; without it the one chosen last, else the one found as on the command line.
     pub library: Option<PathBuf>,
+    /// The captured scene that is opened first; without it Capture takes one from the source.
+    pub scene: Option<PathBuf>,
     /// Where the settings are kept; without it nothing is remembered.
     pub settings: Option<PathBuf>,
 }
@@ -57,7 +59,11 @@ impl Window {
         options: WindowOptions,
     ) -> io::Result<Self> {
         Theme::install_fonts(ctx);
-        let WindowOptions { library, settings } = options;
+        let WindowOptions {
+            library,
+            scene,
+            settings,
+        } = options;
         let (remembered, trouble) = settings.as_deref().map(settings::load).unwrap_or_default();
         let shelf = Shelf::new(library.or_else(|| remembered.library.clone()));
         let start = |lane: Lane| {
@@ -91,7 +97,7 @@ impl Window {
             history: HistoryPanel::new(),
         };
         window.state.notices.extend(trouble.map(Notice::from));
-        window.act(Action::Capture, ctx);
+        window.act(scene.map_or(Action::Capture, Action::Open), ctx);
         Ok(window)
     }
 
