@@ -7,25 +7,15 @@ use std::{
     time::{Duration, Instant},
 };
 
-use egui::{Key, Vec2};
-use egui_kittest::{Harness, kittest::Queryable as _};
+use egui::Key;
+use egui_kittest::kittest::Queryable as _;
 use partsight::app::{
-    Window, WindowOptions,
+    WindowOptions,
     action::{Action, Ask},
     state::{ThemeChoice, UnitSystem, Workspace},
 };
 
-type WindowHarness = Harness<'static, Window>;
-
-fn open(options: WindowOptions) -> WindowHarness {
-    let mut harness = Harness::builder()
-        .with_size(Vec2::new(1440.0, 900.0))
-        .build_eframe(|cc| {
-            Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), options).expect("threads")
-        });
-    settle(&mut harness);
-    harness
-}
+use super::set_up::{USUAL, act, open, open_with, settle};
 
 fn remembering(path: &Path) -> WindowOptions {
     WindowOptions {
@@ -34,27 +24,9 @@ fn remembering(path: &Path) -> WindowOptions {
     }
 }
 
-/// Draws until nothing is at work any more.
-fn settle(harness: &mut WindowHarness) {
-    let until = Instant::now() + Duration::from_mins(1);
-    harness.step();
-    while !harness.state().state().works.is_empty() {
-        assert!(Instant::now() < until, "still working after a minute");
-        thread::sleep(Duration::from_millis(5));
-        harness.step();
-    }
-    harness.run_steps(3);
-}
-
-fn act(harness: &mut WindowHarness, action: Action) {
-    let context = harness.ctx.clone();
-    harness.state_mut().act(action, &context);
-    settle(harness);
-}
-
 #[test]
 fn an_earlier_inspection_is_found_and_opened_again_with_its_stages() {
-    let mut harness = open(WindowOptions::default());
+    let mut harness = open();
     harness.key_press(Key::Space);
     settle(&mut harness);
     harness.get_by_label("Simulated frame 2");
@@ -77,7 +49,7 @@ fn an_earlier_inspection_is_found_and_opened_again_with_its_stages() {
 
 #[test]
 fn the_list_is_filtered_by_what_is_written_and_keys_do_not_switch_meanwhile() {
-    let mut harness = open(WindowOptions::default());
+    let mut harness = open();
     harness.key_press(Key::Space);
     settle(&mut harness);
     harness.get_by_label("History").click();
@@ -96,7 +68,7 @@ fn the_list_is_filtered_by_what_is_written_and_keys_do_not_switch_meanwhile() {
 #[test]
 fn the_report_of_an_inspection_is_written_and_a_bad_folder_is_a_notice() {
     let folder = tempfile::tempdir().expect("a folder");
-    let mut harness = open(WindowOptions::default());
+    let mut harness = open();
     let out = folder.path().join("report");
     act(&mut harness, Action::Chosen(Ask::ReportFolder, out.clone()));
     let text = fs::read_to_string(out.join("simulated_1.report.json")).expect("written");
@@ -121,7 +93,7 @@ fn the_report_of_an_inspection_is_written_and_a_bad_folder_is_a_notice() {
 fn the_listed_history_is_written_as_a_table() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("inspections.csv");
-    let mut harness = open(WindowOptions::default());
+    let mut harness = open();
     act(&mut harness, Action::Chosen(Ask::HistoryCsv, path.clone()));
     let text = fs::read_to_string(&path).expect("written");
     assert_eq!(text.lines().count(), 2);
@@ -132,7 +104,7 @@ fn the_listed_history_is_written_as_a_table() {
 fn the_window_starts_as_it_was_left() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("partsight").join("settings.toml");
-    let mut harness = open(remembering(&path));
+    let mut harness = open_with(USUAL, remembering(&path));
     harness.key_press(Key::T);
     harness.key_press(Key::U);
     harness.run_steps(2);
@@ -144,7 +116,7 @@ fn the_window_starts_as_it_was_left() {
         thread::sleep(Duration::from_millis(10));
     }
     drop(harness);
-    let harness = open(remembering(&path));
+    let harness = open_with(USUAL, remembering(&path));
     let state = harness.state().state();
     assert_eq!(state.theme, ThemeChoice::Light);
     assert_eq!(state.units, UnitSystem::MetresRadians);
@@ -156,7 +128,7 @@ fn broken_settings_are_set_aside_with_a_notice() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("settings.toml");
     fs::write(&path, "theme = \"lig").expect("written");
-    let harness = open(remembering(&path));
+    let harness = open_with(USUAL, remembering(&path));
     harness.get_by_label_contains("are not used");
     harness.get_by_label_contains("set aside as");
     harness.get_by_label("Accepted");
@@ -174,7 +146,7 @@ fn a_remembered_file_that_is_gone_gives_way_to_the_simulated_cell() {
         gone.display().to_string()
     );
     fs::write(&path, text).expect("written");
-    let harness = open(remembering(&path));
+    let harness = open_with(USUAL, remembering(&path));
     harness.get_by_label_contains("gone.pcd");
     harness.get_by_label("Simulated frame 1");
     assert!(harness.state().state().recent.is_empty());
