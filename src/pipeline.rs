@@ -167,6 +167,7 @@ fn recognise(
                 entry.score *= UNCONFIRMED;
             }
             inspection.ranking.entries[0].score = pose.as_ref().map_or(0.0, |p| p.fit.score());
+            inspection.ranking.entries[0].pose = pose.as_ref().ok().cloned();
             inspection.pose = Some(pose);
         }
         PoseChoice::By(PoseMethod::Global) => {
