@@ -46,6 +46,13 @@ impl Dialog {
                     .add_filter("All files", &["*"])
                     .pick_file(),
             ),
+            Ask::Picture => Box::pin(
+                dialog
+                    .set_title("Save a picture of the view")
+                    .set_file_name("view.png")
+                    .add_filter("Pictures", &["png"])
+                    .save_file(),
+            ),
         };
         Self {
             ask,

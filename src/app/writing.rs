@@ -1,8 +1,13 @@
 //! Writing what a person asked to have as a file.
 
-use std::path::PathBuf;
+use std::{
+    io::{self, Cursor},
+    path::PathBuf,
+};
 
-use super::{job::Trouble, source::file_name};
+use image::ImageFormat;
+
+use super::{job::Trouble, source::file_name, viewport::ViewShot};
 use crate::files::write_atomically;
 
 /// What is to be written.
@@ -14,6 +19,13 @@ pub enum WriteRequest {
         path: PathBuf,
         /// Its contents.
         text: String,
+    },
+    /// A picture of a 3-D view, as a PNG.
+    Picture {
+        /// Where to.
+        path: PathBuf,
+        /// What is on it.
+        shot: Box<ViewShot>,
     },
 }
 
@@ -34,6 +46,20 @@ pub(super) fn answer(request: &WriteRequest) -> Result<Written, Trouble> {
                 .map_err(|error| Trouble::of(&error))?;
             Ok(Written {
                 what: format!("Wrote {}", file_name(path)),
+                path: path.clone(),
+            })
+        }
+        WriteRequest::Picture { path, shot } => {
+            let picture = shot.take().map_err(|error| Trouble::of(&error))?;
+            let mut png = Cursor::new(Vec::new());
+            let encoded = picture.write_to(&mut png, ImageFormat::Png);
+            write_atomically(path, |writer| {
+                encoded.map_err(io::Error::other)?;
+                writer.write_all(png.get_ref())
+            })
+            .map_err(|error| Trouble::of(&error))?;
+            Ok(Written {
+                what: format!("Saved the picture {}", path.display()),
                 path: path.clone(),
             })
         }

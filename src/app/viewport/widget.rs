@@ -21,6 +21,7 @@ use super::{
     picking::{self, PickedPoint},
     renderer::{Frame, ViewRenderer},
     scene::ViewScene,
+    screenshot::ViewShot,
     style::ViewStyle,
 };
 use crate::{error::Advice, units::Metres};
@@ -131,6 +132,26 @@ impl Viewport {
     /// How often the picture was drawn anew since the view was made: it stands still while nothing changes.
     pub fn num_pictures(&self) -> u64 {
         lock(&self.renderer).num_pictures()
+    }
+
+    /// The view as it is with these, to be drawn anywhere else; `size` in logical pixels.
+    pub fn shot(
+        &self,
+        camera: &ViewCamera,
+        scene: &ViewScene,
+        style: &ViewStyle,
+        size: egui::Vec2,
+        pixels_per_point: f32,
+    ) -> Result<ViewShot, ViewError> {
+        let pixels = |points: f32| (points * pixels_per_point).round().max(1.0) as u32;
+        Ok(ViewShot {
+            gpu: self.drawable()?.clone(),
+            camera: *camera,
+            scene: scene.clone(),
+            style: style.clone(),
+            size: [pixels(size.x), pixels(size.y)],
+            pixels_per_point,
+        })
     }
 
     fn drawable(&self) -> Result<&ViewportGpu, ViewError> {
