@@ -12,6 +12,7 @@ use super::{
     compare::ComparePanel,
     dialog::Dialog,
     enrol::EnrolPanel,
+    headless::WorkCounts,
     history::HistoryPanel,
     inspect::InspectPanel,
     job::{Outcome, Request, answer},
@@ -38,6 +39,7 @@ pub struct Window {
     workers: BTreeMap<Lane, Worker<Request, Outcome>>,
     dialog: Option<Dialog>,
     installed: Option<ThemeChoice>,
+    gpu: Result<ViewportGpu, ViewError>,
     inspect: InspectPanel,
     enrol: EnrolPanel,
     compare: ComparePanel,
@@ -77,6 +79,7 @@ impl Window {
             workers,
             dialog: None,
             installed: None,
+            gpu: gpu.clone(),
             inspect: InspectPanel::new(gpu.clone()),
             enrol: EnrolPanel::new(gpu.clone()),
             compare: ComparePanel::new(gpu.clone()),
@@ -117,6 +120,27 @@ impl Window {
         }
     }
 
+    /// What the views draw with; the window itself draws with the same device.
+    pub(super) fn gpu(&self) -> &Result<ViewportGpu, ViewError> {
+        &self.gpu
+    }
+
+    /// True when nothing can be drawn any more, not even words.
+    fn is_lost(&self) -> bool {
+        let trouble = self.gpu.as_ref().ok().and_then(ViewportGpu::trouble);
+        matches!(trouble, Some(ViewError::DeviceLost { .. }))
+    }
+
+    /// What the frames of the Inspect workspace have done so far.
+    pub fn counts(&self) -> WorkCounts {
+        self.inspect.counts()
+    }
+
+    /// Share of the points that the Inspect workspace's view drew in the last frame, 0..1.
+    pub fn detail_of_view(&self) -> f32 {
+        self.inspect.detail()
+    }
+
     fn install_theme(&mut self, ctx: &egui::Context) {
         if self.installed != Some(self.state.theme) {
             Theme::install(self.state.theme, ctx);
@@ -136,9 +160,13 @@ impl Window {
     }
 }
 
-impl eframe::App for Window {
-    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+impl Window {
+    /// Takes in what the threads, the dialog and the desktop have to tell.
+    pub(super) fn fetch(&mut self, ctx: &egui::Context) {
         self.install_theme(ctx);
+        if self.is_lost() {
+            ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+        }
         for lane in Lane::ALL {
             while let Some(news) = self.workers.get(&lane).and_then(Worker::try_next) {
                 self.act(Action::Hear(lane, news), ctx);
@@ -153,7 +181,12 @@ impl eframe::App for Window {
         self.take_drops(ctx);
     }
 
-    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+    /// Draws everything, and does what a person caused.
+    pub(super) fn show(&mut self, ui: &mut Ui) {
+        // egui breaks off on a device that is gone, unless there is nothing to draw.
+        if self.is_lost() {
+            return;
+        }
         let ctx = ui.ctx().clone();
         let theme = Theme::of(self.state.theme);
         let mut actions = Vec::new();
@@ -181,5 +214,15 @@ impl eframe::App for Window {
         for action in actions {
             self.act(action, &ctx);
         }
+    }
+}
+
+impl eframe::App for Window {
+    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        self.fetch(ctx);
+    }
+
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        self.show(ui);
     }
 }

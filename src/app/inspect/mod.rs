@@ -22,6 +22,7 @@ use self::{
 };
 use super::{
     action::{Action, Ask},
+    headless::WorkCounts,
     keys::Shortcut,
     state::{Shown, State},
     theme::{Theme, font},
@@ -62,6 +63,7 @@ pub(in crate::app) const SHORTCUTS: [Shortcut; 3] = [
 pub(super) struct InspectPanel {
     view: SceneView,
     made: Option<Made>,
+    num_made: u64,
 }
 
 /// Textures of one result.
@@ -76,12 +78,25 @@ impl InspectPanel {
         Self {
             view: SceneView::new(gpu),
             made: None,
+            num_made: 0,
         }
     }
 
     /// True while keys go to the 3-D view.
     pub(super) fn view_has_focus(&self) -> bool {
         self.view.has_focus()
+    }
+
+    /// What its frames have done so far.
+    pub(super) fn counts(&self) -> WorkCounts {
+        let mut counts = self.view.counts();
+        counts.made += self.num_made;
+        counts
+    }
+
+    /// Share of the points that the view drew last, 0..1.
+    pub(super) fn detail(&self) -> f32 {
+        self.view.viewport.detail()
     }
 
     pub(super) fn ui(
@@ -147,6 +162,7 @@ impl InspectPanel {
         {
             return;
         }
+        self.num_made += 1;
         let figures = &shown.inspected.figures;
         self.made = Some(Made {
             generation: shown.generation,

@@ -12,6 +12,7 @@ use super::{
 use crate::{
     app::{
         action::Action,
+        headless::WorkCounts,
         inspect::work::Inspected,
         job::Trouble,
         source::Origin,
@@ -39,6 +40,7 @@ pub(super) struct SceneView {
     styled: ThemeChoice,
     /// What the lines and words of the scene were chosen by.
     placed: Option<(BTreeSet<ViewPart>, UnitSystem)>,
+    num_placed: u64,
     has_deviations: bool,
     has_focus: bool,
     caption: String,
@@ -58,6 +60,7 @@ impl SceneView {
             style: style(ThemeChoice::Dark),
             styled: ThemeChoice::Dark,
             placed: None,
+            num_placed: 0,
             has_deviations: false,
             has_focus: false,
             caption: String::new(),
@@ -127,6 +130,15 @@ impl SceneView {
         self.has_focus
     }
 
+    /// What its frames have done so far.
+    pub(super) fn counts(&self) -> WorkCounts {
+        WorkCounts {
+            uploads: self.viewport.num_uploads(),
+            pictures: self.viewport.num_pictures(),
+            made: self.num_placed,
+        }
+    }
+
     /// The view as it is now, or why there is none.
     fn shot(&self, pixels_per_point: f32) -> Result<ViewShot, Trouble> {
         self.viewport
@@ -185,6 +197,7 @@ impl SceneView {
         self.scene.lines = lines;
         self.scene.labels = labels;
         self.placed = Some((parts.clone(), units));
+        self.num_placed += 1;
     }
 
     fn colouring(&self, state: &State) -> Colouring {

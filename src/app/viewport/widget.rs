@@ -13,7 +13,7 @@ use egui::{
 
 use super::{
     camera::ViewCamera,
-    detail::MovingDetail,
+    detail::{MovingDetail, Next},
     gpu::{ViewError, ViewportGpu, lock},
     legend,
     measure::{self, Anchor, Measure},
@@ -134,6 +134,17 @@ impl Viewport {
         lock(&self.renderer).num_pictures()
     }
 
+    /// How often a set was copied to the device, for any of the views that share it.
+    pub fn num_uploads(&self) -> u64 {
+        self.gpu.as_ref().map_or(0, ViewportGpu::num_uploads)
+    }
+
+    /// Share of the points that was drawn in the last frame, 0..1: less than all only while a slow device follows a
+    /// moving eye.
+    pub fn detail(&self) -> f32 {
+        self.detail.share()
+    }
+
     /// The view as it is with these, to be drawn anywhere else; `size` in logical pixels.
     pub fn shot(
         &self,
@@ -208,9 +219,11 @@ impl Viewport {
         let now = ui.input(|input| input.time);
         let has_moved = self.shown_camera.is_some_and(|shown| shown != *camera);
         self.shown_camera = Some(*camera);
-        let (num_samples, rests_in) = self.detail.frame(has_moved, now);
-        if let Some(seconds) = rests_in {
-            ui.request_repaint_after_secs(seconds as f32);
+        let (num_samples, next) = self.detail.frame(has_moved, now);
+        match next {
+            Next::AtOnce => ui.request_repaint(),
+            Next::Within(seconds) => ui.request_repaint_after_secs(seconds as f32),
+            Next::Whenever => {}
         }
         let callback = PaintView {
             gpu: gpu.clone(),
