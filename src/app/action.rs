@@ -10,7 +10,11 @@ use super::{
     compare::{self, CompareAction},
     enrol::{self, EnrolAction},
     history::{self, HistoryAction},
-    inspect::work::{InspectRequest, Inspected},
+    inspect::{
+        self,
+        state::InspectAction,
+        work::{InspectRequest, Inspected},
+    },
     job::{Answer, Outcome, Request, Trouble},
     lane::Lane,
     shelf::LibraryShown,
@@ -57,6 +61,8 @@ pub enum Action {
     Notify(Notice),
     /// Put the pose on the clipboard, row after row.
     CopyPose,
+    /// Of the Inspect workspace.
+    Inspect(InspectAction),
     /// Of the Enrol workspace.
     Enrol(EnrolAction),
     /// Of the Compare workspace.
@@ -80,6 +86,8 @@ pub enum Ask {
     ReportFolder,
     /// The file that the listed history goes to.
     HistoryCsv,
+    /// Where a picture of the 3-D view is to go.
+    Picture,
 }
 
 /// What is to be done outside the state.
@@ -126,6 +134,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
             state.chosen_library = None;
             return Some(open_library(state));
         }
+        Action::Chosen(Ask::Picture, path) => state.inspect.picture_to = Some(path),
         Action::Cancel(lane) => {
             state.works.remove(&lane);
             return Some(Effect::CancelWork(lane));
@@ -155,6 +164,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         }
         Action::Notify(notice) => notify(state, notice),
         Action::CopyPose => return pose_text(state).map(Effect::CopyText),
+        Action::Inspect(action) => return inspect::state::apply(state, action),
         Action::Enrol(action) => return enrol::apply(state, action),
         Action::Compare(action) => return compare::apply(state, action),
         Action::Align(action) => return align::apply(state, action),

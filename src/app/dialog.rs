@@ -59,6 +59,13 @@ impl Dialog {
                     .save_file(),
             ),
             Ask::Library => Box::pin(dialog.set_title("Use another library").pick_folder()),
+            Ask::Picture => Box::pin(
+                dialog
+                    .set_title("Save a picture of the view")
+                    .set_file_name("view.png")
+                    .add_filter("Pictures", &["png"])
+                    .save_file(),
+            ),
         };
         Self {
             ask,

@@ -5,7 +5,7 @@ use egui::{Button, Frame, Id, Key, KeyboardShortcut, Margin, Modal, Modifiers, R
 use super::{
     action::{Action, Ask},
     bars::labelled,
-    history,
+    history, inspect,
     state::{HelpPage, State, Workspace},
     theme::{Theme, font, space},
 };
@@ -95,7 +95,8 @@ const RAIL_KEYS: [(Key, &str); 5] = [
 /// The shortcuts of a workspace alone; they come before the window's.
 fn of_workspace(workspace: Workspace) -> &'static [Shortcut] {
     match workspace {
-        Workspace::Inspect | Workspace::Enrol | Workspace::Compare | Workspace::Align => &[],
+        Workspace::Inspect => &inspect::SHORTCUTS,
+        Workspace::Enrol | Workspace::Compare | Workspace::Align => &[],
         Workspace::History => &history::SHORTCUTS,
     }
 }

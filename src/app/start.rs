@@ -1,11 +1,12 @@
 //! Opening the window, or saying in words why it cannot be opened.
 
-use std::env;
+use std::{cell::OnceCell, env, rc::Rc};
 
 use eframe::NativeOptions;
 
 use super::{
     settings,
+    viewport::{ViewError, ViewportGpu},
     window::{Window, WindowOptions},
 };
 use crate::error::Advice;
@@ -19,6 +20,12 @@ pub enum WindowError {
     /// The desktop refused.
     #[error("the window could not be opened ({reason})")]
     Refused {
+        /// What the system said.
+        reason: String,
+    },
+    /// The device went away while the window was open, and with it all that draws.
+    #[error("the graphics device was lost while the window was open ({reason})")]
+    DeviceLost {
         /// What the system said.
         reason: String,
     },
@@ -40,6 +47,9 @@ impl Advice for WindowError {
             Self::Refused { .. } => {
                 "Check that DISPLAY or WAYLAND_DISPLAY names a running desktop, and that the package libxkbcommon-x11-0 is installed"
                     .into()
+            }
+            Self::DeviceLost { .. } => {
+                "Start Partsight again; every part that was enrolled and every file that was written is there".into()
             }
             Self::NoAdapter { .. } => {
                 "Install a Vulkan driver: on Debian and Ubuntu the package mesa-vulkan-drivers".into()
@@ -70,12 +80,20 @@ pub fn run(given: WindowOptions) -> Result<(), WindowError> {
         renderer: eframe::Renderer::Wgpu,
         ..NativeOptions::default()
     };
+    let gpu = Rc::new(OnceCell::new());
+    let of_window = Rc::clone(&gpu);
     let opened = eframe::run_native(
         "partsight",
         options,
         Box::new(|cc| {
             Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), given)
-                .map(|window| Box::new(window) as Box<dyn eframe::App>)
+                .map(|window| {
+                    if let Ok(gpu) = window.gpu() {
+                        // Opened once: the cell is empty.
+                        let _ = of_window.set(gpu.clone());
+                    }
+                    Box::new(window) as Box<dyn eframe::App>
+                })
                 .map_err(Into::into)
         }),
     );
@@ -90,7 +108,11 @@ pub fn run(given: WindowOptions) -> Result<(), WindowError> {
         error => WindowError::Refused {
             reason: error.to_string(),
         },
-    })
+    })?;
+    match gpu.get().and_then(ViewportGpu::trouble) {
+        Some(ViewError::DeviceLost { reason }) => Err(WindowError::DeviceLost { reason }),
+        _ => Ok(()),
+    }
 }
 
 fn is_set(variable: &str) -> bool {

@@ -8,7 +8,7 @@ use super::{
     compare::CompareState,
     enrol::EnrolState,
     history::HistoryState,
-    inspect::work::Inspected,
+    inspect::{state::InspectState, work::Inspected},
     job::{Request, Trouble},
     lane::Lane,
     shelf::LibraryShown,
@@ -51,6 +51,8 @@ pub struct State {
     pub num_captures: u64,
     /// The generation of the newest request.
     pub generation: u64,
+    /// Of the Inspect workspace.
+    pub inspect: InspectState,
     /// Of the Enrol workspace.
     pub enrol: EnrolState,
     /// Of the Compare workspace.
@@ -208,8 +210,8 @@ impl UnitSystem {
     /// A length in metres, for a person.
     pub fn length(self, metres: f64) -> String {
         match self {
-            Self::MillimetresDegrees => format!("{:.1} mm", metres * 1000.0),
-            Self::MetresRadians => format!("{metres:.4} m"),
+            Self::MillimetresDegrees => format!("{} mm", minus(metres * 1000.0, 1)),
+            Self::MetresRadians => format!("{} m", minus(metres, 4)),
         }
     }
 
@@ -221,6 +223,14 @@ impl UnitSystem {
         }
     }
 
+    /// An angle in radians, for a person.
+    pub fn angle(self, radians: f64) -> String {
+        match self {
+            Self::MillimetresDegrees => format!("{:.1}°", radians.to_degrees()),
+            Self::MetresRadians => format!("{radians:.3} rad"),
+        }
+    }
+
     /// An angle in radians, with its sign.
     pub fn signed_angle(self, radians: f64) -> String {
         match self {
@@ -228,6 +238,12 @@ impl UnitSystem {
             Self::MetresRadians => format!("{} rad", signed(radians, 4)),
         }
     }
+}
+
+/// A number with a true minus where it is below 0.
+fn minus(value: f64, decimals: usize) -> String {
+    let text = signed(value, decimals);
+    text.strip_prefix('+').map(str::to_owned).unwrap_or(text)
 }
 
 /// A number with its sign, a true minus; what rounds to nothing has none.
@@ -389,6 +405,9 @@ mod tests {
         assert_eq!(mm.signed_length(-0.000_01), "0.0 mm");
         assert_eq!(mm.signed_angle(std::f64::consts::FRAC_PI_2), "+90.00°");
         assert_eq!(UnitSystem::MetresRadians.signed_length(0.0423), "+0.0423 m");
+        assert_eq!(mm.length(-0.0481), "\u{2212}48.1 mm");
+        assert_eq!(mm.length(0.15), "150.0 mm");
+        assert_eq!(mm.angle(0.1), "5.7°");
         assert_eq!(mm.other().other(), mm);
     }
 }

@@ -12,6 +12,7 @@ use super::{
     compare::ComparePanel,
     dialog::Dialog,
     enrol::EnrolPanel,
+    headless::WorkCounts,
     history::HistoryPanel,
     inspect::InspectPanel,
     job::{Outcome, Request, answer},
@@ -44,6 +45,7 @@ pub struct Window {
     memory: Memory,
     dialog: Option<Dialog>,
     installed: Option<ThemeChoice>,
+    gpu: Result<ViewportGpu, ViewError>,
     inspect: InspectPanel,
     enrol: EnrolPanel,
     compare: ComparePanel,
@@ -90,6 +92,7 @@ impl Window {
             workers,
             dialog: None,
             installed: None,
+            gpu: gpu.clone(),
             inspect: InspectPanel::new(gpu.clone()),
             enrol: EnrolPanel::new(gpu.clone()),
             compare: ComparePanel::new(gpu.clone()),
@@ -131,6 +134,27 @@ impl Window {
         }
     }
 
+    /// What the views draw with; the window itself draws with the same device.
+    pub(super) fn gpu(&self) -> &Result<ViewportGpu, ViewError> {
+        &self.gpu
+    }
+
+    /// True when nothing can be drawn any more, not even words.
+    fn is_lost(&self) -> bool {
+        let trouble = self.gpu.as_ref().ok().and_then(ViewportGpu::trouble);
+        matches!(trouble, Some(ViewError::DeviceLost { .. }))
+    }
+
+    /// What the frames of the Inspect workspace have done so far.
+    pub fn counts(&self) -> WorkCounts {
+        self.inspect.counts()
+    }
+
+    /// Share of the points that the Inspect workspace's view drew in the last frame, 0..1.
+    pub fn detail_of_view(&self) -> f32 {
+        self.inspect.detail()
+    }
+
     fn install_theme(&mut self, ctx: &egui::Context) {
         if self.installed != Some(self.state.theme) {
             Theme::install(self.state.theme, ctx);
@@ -150,9 +174,13 @@ impl Window {
     }
 }
 
-impl eframe::App for Window {
-    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+impl Window {
+    /// Takes in what the threads, the dialog and the desktop have to tell.
+    pub(super) fn fetch(&mut self, ctx: &egui::Context) {
         self.install_theme(ctx);
+        if self.is_lost() {
+            ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+        }
         for lane in Lane::ALL {
             while let Some(news) = self.workers.get(&lane).and_then(Worker::try_next) {
                 self.act(Action::Hear(lane, news), ctx);
@@ -174,7 +202,12 @@ impl eframe::App for Window {
         self.memory.finish();
     }
 
-    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+    /// Draws everything, and does what a person caused.
+    pub(super) fn show(&mut self, ui: &mut Ui) {
+        // egui breaks off on a device that is gone, unless there is nothing to draw.
+        if self.is_lost() {
+            return;
+        }
         let ctx = ui.ctx().clone();
         let theme = Theme::of(self.state.theme);
         let mut actions = Vec::new();
@@ -202,5 +235,15 @@ impl eframe::App for Window {
         for action in actions {
             self.act(action, &ctx);
         }
+    }
+}
+
+impl eframe::App for Window {
+    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        self.fetch(ctx);
+    }
+
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        self.show(ui);
     }
 }

@@ -1,14 +1,18 @@
 //! Writing what a person asked to have as a file.
 
 use std::{
+    io::{self, Cursor},
     path::{Path, PathBuf},
     sync::Arc,
 };
+
+use image::ImageFormat;
 
 use super::{
     inspect::work::Inspected,
     job::Trouble,
     source::{Origin, file_name},
+    viewport::ViewShot,
 };
 use crate::{
     files::write_atomically,
@@ -31,6 +35,13 @@ pub enum WriteRequest {
         folder: PathBuf,
         /// The inspection.
         inspected: Arc<Inspected>,
+    },
+    /// A picture of a 3-D view, as a PNG.
+    Picture {
+        /// Where to.
+        path: PathBuf,
+        /// What is on it.
+        shot: Box<ViewShot>,
     },
 }
 
@@ -56,6 +67,20 @@ pub(super) fn answer(request: &WriteRequest) -> Result<Written, Trouble> {
         }
         WriteRequest::Report { folder, inspected } => {
             write_report(folder, inspected).map_err(|error| Trouble::of(&error))
+        }
+        WriteRequest::Picture { path, shot } => {
+            let picture = shot.take().map_err(|error| Trouble::of(&error))?;
+            let mut png = Cursor::new(Vec::new());
+            let encoded = picture.write_to(&mut png, ImageFormat::Png);
+            write_atomically(path, |writer| {
+                encoded.map_err(io::Error::other)?;
+                writer.write_all(png.get_ref())
+            })
+            .map_err(|error| Trouble::of(&error))?;
+            Ok(Written {
+                what: format!("Saved the picture {}", path.display()),
+                path: path.clone(),
+            })
         }
     }
 }

@@ -5,10 +5,12 @@
 
 mod recognition;
 mod speed;
+mod window;
 
 pub use self::{
     recognition::{
         Case, EnrolledStandard, Recognition, RecognitionSetup, enrol_standard_parts, recognise_all,
     },
     speed::{StageTimes, stage_times},
+    window::{FrameCost, WindowCost, window_cost},
 };

@@ -1,6 +1,6 @@
 //! `partsight bench`: how often right, how far off, how long, on simulated frames.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use clap::{Args, ValueEnum};
@@ -11,8 +11,10 @@ use super::{
     console::{Advised as _, Console, Table},
 };
 use crate::{
+    app::WindowOptions,
     bench::{
-        Recognition, RecognitionSetup, StageTimes, enrol_standard_parts, recognise_all, stage_times,
+        Recognition, RecognitionSetup, StageTimes, WindowCost, enrol_standard_parts, recognise_all,
+        stage_times, window_cost,
     },
     files::write_atomically,
     library::EnrolParams,
@@ -28,6 +30,7 @@ Examples:
   partsight bench
   partsight bench recognition --poses 50 --model 3
   partsight bench recognition --placement hard --json hard.json
+  partsight bench window
 
 Each part is enrolled from one frontal capture of the standard car, then seen at drawn poses. Without a name: a few
 frames of each part, to time the stages. Times are those of this machine, at what else it is doing now.")]
@@ -58,6 +61,19 @@ enum Bench {
     Speed,
     /// Right, accepted and well placed, by the default matcher and by the paper's
     Recognition,
+    /// Processor time of a frame of the window, at rest and turning; needs no display
+    Window,
+}
+
+/// Frames of each kind that are measured.
+const NUM_FRAMES: usize = 120;
+
+/// What `--json` writes of the window.
+#[derive(Debug, Serialize)]
+struct WindowFile {
+    schema: u32,
+    simulated: bool,
+    window: WindowCost,
 }
 
 /// What `--json` writes.
@@ -93,9 +109,12 @@ struct CaseLine<'a> {
 }
 
 pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    if args.bench == Bench::Window {
+        return frames(args, console);
+    }
     let enrolled = enrol_standard_parts(&EnrolParams::default()).advised()?;
     let matchers: &[Matcher] = match args.bench {
-        Bench::Speed => &[Matcher::Default],
+        Bench::Speed | Bench::Window => &[Matcher::Default],
         Bench::Recognition => &[Matcher::Default, Matcher::Paper],
     };
     let setup = RecognitionSetup {
@@ -141,12 +160,57 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
                 .map(|(matcher, recognition)| run_line(*matcher, recognition))
                 .collect(),
         };
-        write_atomically(path, |writer| {
-            serde_json::to_writer_pretty(&mut *writer, &file)?;
-            writeln!(writer)
-        })
-        .advised()
-        .with_context(|| format!("{} was not written", path.display()))?;
+        write_json(path, &file)?;
+    }
+    Ok(Outcome::Accepted)
+}
+
+fn write_json(path: &Path, file: &impl Serialize) -> anyhow::Result<()> {
+    write_atomically(path, |writer| {
+        serde_json::to_writer_pretty(&mut *writer, file)?;
+        writeln!(writer)
+    })
+    .advised()
+    .with_context(|| format!("{} was not written", path.display()))
+}
+
+/// Frames of the window's first result, without a display.
+fn frames(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let cost = window_cost(NUM_FRAMES, WindowOptions::default()).advised()?;
+    let [width, height] = cost.size;
+    console.line(&format_args!(
+        "A window of {width} × {height} with a scene of {} points; processor time of the window's own thread, without \
+         the drawing itself.",
+        cost.num_points
+    ));
+    console.line(&"");
+    let mut table = Table::new(&[
+        "a frame",
+        "median",
+        "95 %",
+        "budget",
+        "from frame to frame",
+        "points drawn",
+    ]);
+    for frame in &cost.frames {
+        let paced = frame.paced_p50_ms.map(|ms| format!("{ms:.1} ms"));
+        table.row([
+            frame.what.to_owned(),
+            format!("{:.2} ms", frame.busy_p50_ms),
+            format!("{:.2} ms", frame.busy_p95_ms),
+            "4.0 ms".to_owned(),
+            paced.unwrap_or_else(|| "-".to_owned()),
+            format!("{:.0} %", frame.detail * 100.0),
+        ]);
+    }
+    table.show(console);
+    if let Some(path) = &args.json {
+        let file = WindowFile {
+            schema: 1,
+            simulated: true,
+            window: cost,
+        };
+        write_json(path, &file)?;
     }
     Ok(Outcome::Accepted)
 }

@@ -1,7 +1,11 @@
 //! The verdict card: which part, accepted or not, where, how sure, and what to do next.
 
-use egui::{Align, Button, Layout, Rect, RichText, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
+use egui::{
+    Align, Button, Frame, Layout, Panel, Rect, RichText, ScrollArea, Sense, Ui, Vec2, pos2,
+    style::ScrollStyle, vec2,
+};
 
+use super::stand_off;
 use crate::{
     app::{
         action::Action,
@@ -17,6 +21,9 @@ use crate::{
     pipeline::Verdict,
     stages::pose::PoseEstimate,
 };
+
+/// A window lower than this has the offsets beside each other, logical pixels.
+const LOW: f32 = 800.0;
 
 /// What the card says first.
 struct Headline {
@@ -62,34 +69,43 @@ pub(super) fn ui(
         );
         ui.multiply_opacity(0.55);
     }
+    let inspection = &inspected.inspection;
+    let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+    if pose.is_some() {
+        // What is pressed stays in sight, however low the window.
+        Panel::bottom("pose out")
+            .exact_size(space::TARGET + space::MEDIUM)
+            .resizable(false)
+            .show_separator_line(false)
+            .frame(Frame::new())
+            .show(ui, |ui| copy_pose(ui, theme, actions));
+    }
     // Text lies closer than controls do.
-    ui.spacing_mut().interact_size.y = 22.0;
+    ui.spacing_mut().interact_size.y = 20.0;
+    ui.spacing_mut().item_spacing.y = 3.0;
+    ui.spacing_mut().scroll = ScrollStyle::thin();
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let headline = Headline::of(inspected);
         verdict(ui, &headline, theme);
         score(ui, inspected, &headline, theme);
-        let pose = inspected
-            .inspection
-            .pose
-            .as_ref()
-            .and_then(|pose| pose.as_ref().ok());
         if let Some(pose) = pose {
             offset(ui, inspected, pose, state.units, theme);
             fit(ui, pose, state.units, theme);
+            stand_off::ui(ui, inspected, state.units, theme);
         }
         footer(ui, inspected, theme);
-        if pose.is_some() {
-            ui.add_space(space::MEDIUM);
-            let width = ui.available_width();
-            let copy = Button::new("Copy pose").min_size(vec2(width, space::TARGET));
-            let copied = ui.add(copy);
-            focus_ring(ui, copied.rect, &copied, theme);
-            if copied
-                .on_hover_text("camera_from_part, four rows, metres")
-                .clicked()
-            {
-                actions.push(Action::CopyPose);
-            }
+    });
+}
+
+fn copy_pose(ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
+    ui.with_layout(Layout::bottom_up(Align::Min), |ui| {
+        let width = ui.available_width();
+        let copy = Button::new("Copy pose").min_size(vec2(width, space::TARGET));
+        let copied = ui.add(copy);
+        focus_ring(ui, copied.rect, &copied, theme);
+        let says = "camera_from_part, four rows, metres";
+        if copied.on_hover_text(says).clicked() {
+            actions.push(Action::CopyPose);
         }
     });
 }
@@ -122,7 +138,7 @@ fn verdict(ui: &mut Ui, headline: &Headline, theme: &Theme) {
 }
 
 /// The text with a capital letter first.
-fn sentence(text: &str) -> String {
+pub(super) fn sentence(text: &str) -> String {
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| {
         first.to_uppercase().collect::<String>() + letters.as_str()
@@ -190,13 +206,29 @@ fn offset(
     heading(ui, theme, "Offset from standard position");
     let middle = inspected.middle;
     let shift = middle.map(|middle| camera_from_part * middle - middle);
-    if let Some(shift) = shift {
-        for (axis, metres) in [("x", shift.x), ("y", shift.y), ("z", shift.z)] {
-            row(ui, theme, axis, &units.signed_length(metres));
+    let shifts = shift.map_or_else(Vec::new, |shift| {
+        [("x", shift.x), ("y", shift.y), ("z", shift.z)]
+            .map(|(axis, metres)| (axis, units.signed_length(metres)))
+            .into()
+    });
+    let turns = turns(&camera_from_part).map(|(axis, angle)| (axis, units.signed_angle(angle)));
+    let rows = |ui: &mut Ui, rows: &[(&str, String)]| {
+        for (axis, value) in rows {
+            row(ui, theme, axis, value);
         }
-    }
-    for (axis, angle) in turns(&camera_from_part) {
-        row(ui, theme, axis, &units.signed_angle(angle));
+    };
+    if ui.ctx().content_rect().height() < LOW && !shifts.is_empty() {
+        ui.spacing_mut().item_spacing.x = space::LARGE;
+        ui.columns(2, |columns| {
+            if let [left, right] = columns {
+                rows(left, &shifts);
+                rows(right, &turns);
+            }
+        });
+        ui.spacing_mut().item_spacing.x = space::SMALL;
+    } else {
+        rows(ui, &shifts);
+        rows(ui, &turns);
     }
     let note = "Part's middle, camera axes · R = Rz·Ry·Rx";
     ui.label(

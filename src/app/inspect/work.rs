@@ -5,6 +5,7 @@ use std::sync::Arc;
 use jiff::Timestamp;
 use nalgebra::Point3;
 
+use super::scene::{Ingredients, SceneFigure};
 use crate::{
     app::{
         deviation::deviations,
@@ -16,6 +17,7 @@ use crate::{
     files::FileWarning,
     library::LibraryError,
     pipeline::{self, Inspection, Recipe, Watch},
+    report::stand_off::{StandOff, StandOffError, stand_off},
     stages::scene::SceneCloud,
 };
 
@@ -52,6 +54,10 @@ pub struct Inspected {
     /// Signed distance of every point of the scene to the best reference at its pose, metres; NaN where there is
     /// none, empty without a pose.
     pub deviations: Vec<f32>,
+    /// The nozzle's stand-off over the best reference at its pose; `None` without a pose.
+    pub stand_off: Option<Result<StandOff, StandOffError>>,
+    /// What the 3-D view shows.
+    pub view: SceneFigure,
 }
 
 /// Why a scene could not be inspected.
@@ -99,6 +105,23 @@ pub fn inspect(
     let deviations = best.map_or_else(Vec::new, |reference| {
         deviations(&scene, &inspection, reference)
     });
+    let middle = bounds.map(|(low, high)| nalgebra::center(&low, &high).cast());
+    let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+    let stand_off = best.zip(pose).map(|(reference, pose)| {
+        stand_off(
+            reference,
+            &pose.camera_from_part(),
+            &request.recipe.stand_off,
+        )
+    });
+    let view = SceneFigure::of(&Ingredients {
+        scene: &scene,
+        inspection: &inspection,
+        reference: best,
+        middle,
+        deviations: &deviations,
+        stand_off: stand_off.as_ref().and_then(|found| found.as_ref().ok()),
+    });
     let figures = Figures::of(&scene, &inspection, library, &shelved.shown);
     Ok(Some(Inspected {
         origin,
@@ -109,8 +132,10 @@ pub fn inspect(
         figures,
         library: Arc::clone(&shelved.shown),
         warnings,
-        middle: bounds.map(|(low, high)| nalgebra::center(&low, &high).cast()),
+        middle,
         deviations,
+        stand_off,
+        view,
     }))
 }
 
