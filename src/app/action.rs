@@ -68,6 +68,8 @@ pub enum Action {
 pub enum Ask {
     /// A captured scene to open.
     Scene,
+    /// A folder of kept cases.
+    CasesFolder,
 }
 
 /// What is to be done outside the state.
@@ -100,6 +102,9 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
             return Some(capture(state));
         }
         Action::Ask(ask) => return Some(Effect::ShowDialog(ask)),
+        Action::Chosen(Ask::CasesFolder, path) => {
+            return compare::apply(state, CompareAction::Folder(path));
+        }
         Action::Chosen(Ask::Scene, path) | Action::Open(path) => {
             state.source = Source::File(path);
             return Some(capture(state));

@@ -46,6 +46,7 @@ impl Dialog {
                     .add_filter("All files", &["*"])
                     .pick_file(),
             ),
+            Ask::CasesFolder => Box::pin(dialog.set_title("Folder of kept cases").pick_folder()),
         };
         Self {
             ask,

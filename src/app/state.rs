@@ -144,7 +144,7 @@ pub enum Workspace {
 
 impl Workspace {
     /// Every workspace, in the order of the rail and of the number keys.
-    pub const ALL: [Self; 1] = [Self::Inspect];
+    pub const ALL: [Self; 2] = [Self::Inspect, Self::Compare];
 
     /// What a person calls it.
     pub fn title(self) -> &'static str {

@@ -9,7 +9,7 @@ use super::{
     action::{Action, Effect, apply},
     align::AlignPanel,
     bars,
-    compare::ComparePanel,
+    compare::{ComparePanel, CompareState},
     dialog::Dialog,
     enrol::EnrolPanel,
     history::HistoryPanel,
@@ -30,6 +30,8 @@ use super::{
 pub struct WindowOptions {
     /// The library's folder; without it the one found as on the command line.
     pub library: Option<PathBuf>,
+    /// The folder of kept cases; without it the user's own.
+    pub cases: Option<PathBuf>,
 }
 
 /// The window.
@@ -73,7 +75,10 @@ impl Window {
                 reason: "the window draws without one".into(),
             });
         let mut window = Self {
-            state: State::default(),
+            state: State {
+                compare: CompareState::with_folder(options.cases),
+                ..State::default()
+            },
             workers,
             dialog: None,
             installed: None,

@@ -122,6 +122,7 @@ pub fn run(cli: Cli) -> Outcome {
 fn window(library: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome> {
     let options = app::WindowOptions {
         library: library.library.clone(),
+        ..app::WindowOptions::default()
     };
     match app::run(options) {
         Ok(()) => Ok(Outcome::Accepted),

@@ -1,14 +1,18 @@
 //! Compare.
 
+pub mod comparison;
+pub mod matrix;
+pub mod parameters;
 mod state;
+pub mod study;
 mod work;
 
 use egui::Ui;
 
 pub(super) use self::work::answer;
 pub use self::{
-    state::{CompareAction, CompareState, apply, hear},
-    work::{CompareAnswer, CompareRequest},
+    state::{Cases, CompareAction, CompareState, Front, Undo, apply, hear},
+    work::{CaseChange, CaseDone, CaseRun, CompareAnswer, CompareRequest},
 };
 use super::{
     action::Action,
