@@ -5,6 +5,7 @@ use egui::{Button, Frame, Id, Key, KeyboardShortcut, Margin, Modal, Modifiers, R
 use super::{
     action::{Action, Ask},
     bars::labelled,
+    compare,
     state::{HelpPage, State, Workspace},
     theme::{Theme, font, space},
 };
@@ -87,11 +88,8 @@ const RAIL_KEYS: [(Key, &str); 5] = [
 /// The shortcuts of a workspace alone; they come before the window's.
 fn of_workspace(workspace: Workspace) -> &'static [Shortcut] {
     match workspace {
-        Workspace::Inspect
-        | Workspace::Enrol
-        | Workspace::Compare
-        | Workspace::Align
-        | Workspace::History => &[],
+        Workspace::Compare => &compare::SHORTCUTS,
+        Workspace::Inspect | Workspace::Enrol | Workspace::Align | Workspace::History => &[],
     }
 }
 
