@@ -88,6 +88,8 @@ pub enum Ask {
     HistoryCsv,
     /// Where a picture of the 3-D view is to go.
     Picture,
+    /// A folder of kept cases.
+    CasesFolder,
 }
 
 /// What is to be done outside the state.
@@ -120,6 +122,9 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
             return Some(capture(state));
         }
         Action::Ask(ask) => return Some(Effect::ShowDialog(ask)),
+        Action::Chosen(Ask::CasesFolder, path) => {
+            return compare::apply(state, CompareAction::Folder(path));
+        }
         Action::Chosen(Ask::Scene, path) | Action::Open(path) => {
             state.source = Source::File(path);
             return Some(capture(state));

@@ -66,6 +66,7 @@ impl Dialog {
                     .add_filter("Pictures", &["png"])
                     .save_file(),
             ),
+            Ask::CasesFolder => Box::pin(dialog.set_title("Folder of kept cases").pick_folder()),
         };
         Self {
             ask,

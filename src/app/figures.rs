@@ -173,7 +173,7 @@ impl ContourFigure {
 }
 
 impl Curves {
-    fn of(lengths: &[f64], angles: &[f64]) -> Self {
+    pub(super) fn of(lengths: &[f64], angles: &[f64]) -> Self {
         let narrow = |values: &[f64]| values.iter().map(|value| *value as f32).collect();
         Self {
             lengths: narrow(lengths),
@@ -182,7 +182,11 @@ impl Curves {
     }
 
     /// A view's signature, shifted by the lag and turned, beside the scene's.
-    fn placed(view: &ReferenceView, placement: &Placement, scene: &FanSignature) -> Option<Self> {
+    pub(super) fn placed(
+        view: &ReferenceView,
+        placement: &Placement,
+        scene: &FanSignature,
+    ) -> Option<Self> {
         let (lengths, angles) = (&view.signature.lengths, &view.signature.angles);
         let num = lengths.len();
         if num == 0 || num != scene.lengths.len() {
@@ -244,13 +248,14 @@ fn shortened(title: &str) -> String {
 }
 
 /// The border moved and thinned, its first corner repeated at the end.
-fn closed(border: &[Point2<f64>], moved: &Isometry2<f64>) -> PlaneLine {
+pub(super) fn closed(border: &[Point2<f64>], moved: &Isometry2<f64>) -> PlaneLine {
     let step = border.len().div_ceil(MAX_CORNERS).max(1);
     let corners = border.iter().step_by(step).chain(border.first());
     corners.map(|corner| plain(&(moved * corner))).collect()
 }
 
-fn plain(point: &Point2<f64>) -> [f32; 2] {
+/// The point as it is drawn.
+pub(super) fn plain(point: &Point2<f64>) -> [f32; 2] {
     [point.x as f32, point.y as f32]
 }
 

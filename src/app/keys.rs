@@ -5,7 +5,7 @@ use egui::{Button, Frame, Id, Key, KeyboardShortcut, Margin, Modal, Modifiers, R
 use super::{
     action::{Action, Ask},
     bars::labelled,
-    history, inspect,
+    compare, history, inspect,
     state::{HelpPage, State, Workspace},
     theme::{Theme, font, space},
 };
@@ -96,8 +96,9 @@ const RAIL_KEYS: [(Key, &str); 5] = [
 fn of_workspace(workspace: Workspace) -> &'static [Shortcut] {
     match workspace {
         Workspace::Inspect => &inspect::SHORTCUTS,
-        Workspace::Enrol | Workspace::Compare | Workspace::Align => &[],
+        Workspace::Compare => &compare::SHORTCUTS,
         Workspace::History => &history::SHORTCUTS,
+        Workspace::Enrol | Workspace::Align => &[],
     }
 }
 

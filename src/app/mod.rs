@@ -16,6 +16,7 @@ mod deviation;
 mod dialog;
 pub mod enrol;
 pub mod figures;
+pub mod fitted;
 pub mod headless;
 pub mod history;
 pub mod inspect;

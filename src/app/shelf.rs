@@ -5,7 +5,7 @@ use std::{
     sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 
-use super::job::Trouble;
+use super::{fitted::FittedCache, job::Trouble};
 use crate::{
     library::{Library, LibraryError, LibraryLoad, LibraryPlace, PartMeta, open_library},
     stages::reference::ReferenceParams,
@@ -31,6 +31,8 @@ pub struct Shelved {
     pub library: Library,
     /// What the window shows of it.
     pub shown: Arc<LibraryShown>,
+    /// The references as another recipe wants them.
+    pub(super) fitted: FittedCache,
 }
 
 /// What the window shows of a library.
@@ -124,6 +126,7 @@ fn load(given: Option<&Path>) -> Result<Shelved, LibraryError> {
         place,
         library,
         shown,
+        fitted: FittedCache::default(),
     })
 }
 

@@ -153,7 +153,7 @@ pub enum Workspace {
 
 impl Workspace {
     /// Every workspace, in the order of the rail and of the number keys.
-    pub const ALL: [Self; 2] = [Self::Inspect, Self::History];
+    pub const ALL: [Self; 3] = [Self::Inspect, Self::Compare, Self::History];
 
     /// What a person calls it.
     pub fn title(self) -> &'static str {

@@ -9,7 +9,7 @@ use super::{
     action::{Action, Effect, apply},
     align::AlignPanel,
     bars,
-    compare::ComparePanel,
+    compare::{ComparePanel, CompareState},
     dialog::Dialog,
     enrol::EnrolPanel,
     headless::WorkCounts,
@@ -36,6 +36,8 @@ pub struct WindowOptions {
     pub scene: Option<PathBuf>,
     /// Where the settings are kept; without it nothing is remembered.
     pub settings: Option<PathBuf>,
+    /// The folder of kept cases; without it the user's own.
+    pub cases: Option<PathBuf>,
 }
 
 /// The window.
@@ -65,6 +67,7 @@ impl Window {
             library,
             scene,
             settings,
+            cases,
         } = options;
         let (remembered, trouble) = settings.as_deref().map(settings::load).unwrap_or_default();
         let shelf = Shelf::new(library.or_else(|| remembered.library.clone()));
@@ -88,7 +91,10 @@ impl Window {
             });
         let mut window = Self {
             memory: Memory::start(settings, remembered.clone())?,
-            state: remembered.into_state(),
+            state: State {
+                compare: CompareState::with_folder(cases),
+                ..remembered.into_state()
+            },
             workers,
             dialog: None,
             installed: None,

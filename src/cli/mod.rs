@@ -133,6 +133,7 @@ fn window(
         library: library.library.clone(),
         settings: app::settings::users_file(),
         scene,
+        ..app::WindowOptions::default()
     };
     match app::run(options) {
         Ok(()) => Ok(Outcome::Accepted),

@@ -95,7 +95,8 @@ pub fn inspect(
         origin,
         warnings,
     } = request.source.read()?;
-    let library = &shelved.library;
+    let fitted = shelved.fitting(&request.recipe);
+    let library = &*fitted;
     let Ok(inspection) = pipeline::run(&scene, library, &request.recipe, watch) else {
         return Ok(None);
     };
