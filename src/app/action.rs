@@ -3,7 +3,7 @@
 use std::{path::PathBuf, sync::Arc};
 
 use super::{
-    align::{self, AlignAction},
+    align::{self, AlignAction, AlignAsk},
     compare::{self, CompareAction},
     enrol::{self, EnrolAction},
     history::{self, HistoryAction},
@@ -68,6 +68,8 @@ pub enum Action {
 pub enum Ask {
     /// A captured scene to open.
     Scene,
+    /// Something of the Align workspace.
+    Align(AlignAsk),
 }
 
 /// What is to be done outside the state.
@@ -103,6 +105,9 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::Chosen(Ask::Scene, path) | Action::Open(path) => {
             state.source = Source::File(path);
             return Some(capture(state));
+        }
+        Action::Chosen(Ask::Align(ask), path) => {
+            return align::apply(state, AlignAction::Chosen(ask, path));
         }
         Action::Cancel(lane) => {
             state.works.remove(&lane);

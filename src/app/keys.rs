@@ -4,18 +4,19 @@ use egui::{Button, Frame, Id, Key, KeyboardShortcut, Margin, Modal, Modifiers, R
 
 use super::{
     action::{Action, Ask},
+    align,
     bars::labelled,
     state::{HelpPage, State, Workspace},
     theme::{Theme, font, space},
 };
 
 /// A shortcut, what it causes, and how the list names both.
-pub(super) struct Shortcut {
-    pub(super) modifiers: Modifiers,
-    pub(super) key: Key,
-    pub(super) keys: &'static str,
-    pub(super) does: &'static str,
-    pub(super) action: fn() -> Action,
+pub(in crate::app) struct Shortcut {
+    pub(in crate::app) modifiers: Modifiers,
+    pub(in crate::app) key: Key,
+    pub(in crate::app) keys: &'static str,
+    pub(in crate::app) does: &'static str,
+    pub(in crate::app) action: fn() -> Action,
 }
 
 /// The shortcuts of the whole window.
@@ -87,11 +88,8 @@ const RAIL_KEYS: [(Key, &str); 5] = [
 /// The shortcuts of a workspace alone; they come before the window's.
 fn of_workspace(workspace: Workspace) -> &'static [Shortcut] {
     match workspace {
-        Workspace::Inspect
-        | Workspace::Enrol
-        | Workspace::Compare
-        | Workspace::Align
-        | Workspace::History => &[],
+        Workspace::Inspect | Workspace::Enrol | Workspace::Compare | Workspace::History => &[],
+        Workspace::Align => &align::SHORTCUTS,
     }
 }
 

@@ -144,7 +144,7 @@ pub enum Workspace {
 
 impl Workspace {
     /// Every workspace, in the order of the rail and of the number keys.
-    pub const ALL: [Self; 1] = [Self::Inspect];
+    pub const ALL: [Self; 2] = [Self::Inspect, Self::Align];
 
     /// What a person calls it.
     pub fn title(self) -> &'static str {
@@ -210,6 +210,14 @@ impl UnitSystem {
         match self {
             Self::MillimetresDegrees => format!("{} mm", signed(metres * 1000.0, 1)),
             Self::MetresRadians => format!("{} m", signed(metres, 4)),
+        }
+    }
+
+    /// The size of an angle in radians, for a person.
+    pub fn angle(self, radians: f64) -> String {
+        match self {
+            Self::MillimetresDegrees => format!("{:.2}°", radians.to_degrees()),
+            Self::MetresRadians => format!("{radians:.4} rad"),
         }
     }
 

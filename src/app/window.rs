@@ -80,7 +80,7 @@ impl Window {
             inspect: InspectPanel::new(gpu.clone()),
             enrol: EnrolPanel::new(gpu.clone()),
             compare: ComparePanel::new(gpu.clone()),
-            align: AlignPanel::new(gpu),
+            align: AlignPanel::new(&gpu),
             history: HistoryPanel::new(),
         };
         window.act(Action::Capture, ctx);
