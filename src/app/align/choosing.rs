@@ -5,8 +5,10 @@ use egui::{
 };
 
 use super::{
+    custom::Form,
     start::Start,
-    state::{AlignAction, AlignAsk, AlignState, Form, Pairing},
+    state::{AlignAction, AlignAsk, AlignState, Pairing},
+    views::Look,
 };
 use crate::app::{
     action::{Action, Ask},
@@ -14,13 +16,34 @@ use crate::app::{
     source::file_name,
     state::State,
     theme::{Theme, font, space},
+    viewport::StandardView,
 };
 
 /// Longest name shown of a file.
 const NAME: usize = 22;
 
-/// Draws both rows.
-pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+/// Height of a remark about a custom start, logical pixels.
+const REMARK: f32 = 18.0;
+
+/// The height that everything takes.
+pub(super) fn height(state: &State) -> f32 {
+    let align = &state.align;
+    let rows = 2.0 * space::TARGET + space::SMALL;
+    if align.pairing != Pairing::MovedCopy || align.custom.form == Form::Closed {
+        return rows;
+    }
+    let num_remarks = align.custom.remarks.len().max(1) as f32;
+    rows + space::SMALL + space::TARGET + num_remarks * (space::SMALL + REMARK)
+}
+
+/// Draws it; answers from where the views are to look, if a person said so.
+pub(super) fn ui(
+    ui: &mut Ui,
+    state: &State,
+    theme: &Theme,
+    actions: &mut Vec<Action>,
+) -> Option<Look> {
+    let mut look = None;
     ui.horizontal(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             run(ui, state, theme, actions);
@@ -38,19 +61,48 @@ pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Ac
             });
         });
     });
-    ui.horizontal(|ui| match state.align.pairing {
-        Pairing::MovedCopy => starts(ui, state, theme, actions),
-        Pairing::Scene => scene(ui, state, theme),
-        Pairing::Files => files(ui, state, actions),
+    ui.horizontal(|ui| {
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            look = look_menu(ui);
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                match state.align.pairing {
+                    Pairing::MovedCopy => starts(ui, state, theme, actions),
+                    Pairing::Scene => scene(ui, state, theme),
+                    Pairing::Files => files(ui, state, actions),
+                }
+            });
+        });
     });
     let is_writing = state.align.custom.form == Form::Open;
     if state.align.pairing == Pairing::MovedCopy && is_writing {
         custom(ui, state, theme, actions);
     }
+    look
+}
+
+/// From where the views look, for all of them at once.
+fn look_menu(ui: &mut Ui) -> Option<Look> {
+    let menu = ui.menu_button("View ▼", |ui| {
+        let looks = [
+            ("Fit", Look::Fit),
+            ("Front", Look::From(StandardView::Front)),
+            ("Top", Look::From(StandardView::Top)),
+            ("Side", Look::From(StandardView::Side)),
+        ];
+        let chosen = looks
+            .into_iter()
+            .find(|(text, _)| ui.button(*text).clicked());
+        if chosen.is_some() {
+            ui.close();
+        }
+        chosen.map(|(_, look)| look)
+    });
+    menu.response.on_hover_text("Of all 3-D views");
+    menu.inner.flatten()
 }
 
 fn choice(ui: &mut Ui, is_chosen: bool, text: &str) -> Response {
-    let button = Button::selectable(is_chosen, text);
+    let button = Button::new(text).selected(is_chosen);
     ui.add(button.min_size(Vec2::splat(space::TARGET)))
 }
 
@@ -178,22 +230,19 @@ fn custom(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) 
         }
     });
     let plain = "Radians and metres, or with a unit: deg, mm, cm, m; R = Rz·Ry·Rx";
-    let remarks = custom.remarks.iter().filter(|_| !custom.text.is_empty());
-    let mut num_remarks = 0;
-    for remark in remarks {
-        num_remarks += 1;
-        ui.label(
-            RichText::new(remark)
-                .font(font::small())
-                .color(theme.warning),
+    ui.spacing_mut().interact_size.y = REMARK;
+    let mut line = |text: &str, colour| {
+        let text = RichText::new(text).font(font::small()).color(colour);
+        ui.add_sized(
+            vec2(ui.available_width(), REMARK),
+            egui::Label::new(text).truncate().halign(Align::LEFT),
         );
+    };
+    if custom.remarks.is_empty() {
+        line(plain, theme.weak_text);
     }
-    if num_remarks == 0 {
-        ui.label(
-            RichText::new(plain)
-                .font(font::small())
-                .color(theme.weak_text),
-        );
+    for remark in &custom.remarks {
+        line(remark, theme.warning);
     }
 }
 

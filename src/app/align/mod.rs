@@ -1,14 +1,16 @@
 //! Align, the engineer's: every method on the same two clouds, side by side, and Table I.
 //!
 //! ```text
-//! toolbar   what is aligned to what, from where       start, pair
+//! choosing  what is aligned to what, from where       start, custom, pair
 //! views     one 3-D view a method, one camera         track: the poses of a method and E at each
-//! plot      E per iteration, and the scrubber
+//! scrubber  E per iteration, and the iteration shown   plot, playback
 //! side      Table I, the true error                   table
 //! ```
 
 mod choosing;
+mod custom;
 mod pair;
+mod playback;
 mod plot;
 mod scrubber;
 mod series;
@@ -24,13 +26,12 @@ use egui::{Frame, Key, Margin, Modifiers, Panel, Ui};
 
 pub(super) use self::work::answer;
 pub use self::{
+    custom::{CustomStart, Form},
     pair::{Pair, PairSource},
+    playback::{Comparison, Playback},
     start::Start,
-    state::{
-        AlignAction, AlignAsk, AlignState, Comparison, CustomStart, Form, Pairing, Playback,
-        TableShown, apply, hear,
-    },
-    table::{TableCell, TableFigures, TableRow},
+    state::{AlignAction, AlignAsk, AlignState, Pairing, apply, hear},
+    table::{TableCell, TableFigures, TableRow, TableShown},
     track::{MethodRun, Track},
     work::{AlignAnswer, AlignRequest},
 };
@@ -113,10 +114,14 @@ impl AlignPanel {
             .resizable(false)
             .frame(panel(Margin::symmetric(18, 14)))
             .show(ui, |ui| self.side.ui(ui, state, theme, actions));
-        Panel::top("alignment")
+        let look = Panel::top("alignment")
+            .exact_size(choosing::height(state) + 16.0)
             .resizable(false)
             .frame(panel(Margin::symmetric(12, 8)))
             .show(ui, |ui| choosing::ui(ui, state, theme, actions));
+        if let Some(look) = look.inner {
+            self.views.look(look);
+        }
         Panel::bottom("iterations")
             .exact_size(if size.y > 760.0 { PLOT[0] } else { PLOT[1] })
             .resizable(false)

@@ -5,8 +5,8 @@ use std::ops::RangeInclusive;
 use egui::{Align2, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
 
 use super::{
+    playback::Comparison,
     series,
-    state::Comparison,
     track::{MethodRun, Track},
 };
 use crate::app::{
@@ -89,15 +89,18 @@ pub(super) fn paint(painter: &Painter, axes: &Axes, shown: &Comparison, place: f
     let ends = [pos2(area.left(), goal), pos2(area.right(), goal)];
     let stroke = Stroke::new(1.4, theme.accepted);
     painter.extend(Shape::dashed_line(&ends, stroke, 6.0, 5.0));
-    let mut taken = vec![name_the_goal(painter, area, goal, theme)];
-
-    for (run, track) in shown.tracks() {
-        let points = curve(&track.log_e, &across, &up);
-        let end = points.last().copied();
-        painter.extend(series::line(run.method, &points, theme));
-        if let Some(end) = end {
-            painter.circle_filled(end, 3.5, series::colour(run.method, theme));
-            taken.push(name(painter, area, end, &taken, run, theme));
+    let curves: Vec<Vec<Pos2>> = shown
+        .tracks()
+        .map(|(_, track)| curve(&track.log_e, &across, &up))
+        .collect();
+    for ((run, _), points) in shown.tracks().zip(&curves) {
+        painter.extend(series::line(run.method, points, theme));
+    }
+    let mut taken = vec![name_the_goal(painter, area, goal, &curves, theme)];
+    for ((run, _), points) in shown.tracks().zip(&curves) {
+        if let Some(end) = points.last() {
+            painter.circle_filled(*end, 3.5, series::colour(run.method, theme));
+            taken.push(name(painter, area, *end, &taken, run, theme));
         }
     }
 
@@ -116,11 +119,41 @@ fn shade(painter: &Painter, axes: &Axes, track: &Track, theme: &Theme) {
     }
 }
 
-/// Its name above the goal's line, at the left end where curves have not come down yet.
-fn name_the_goal(painter: &Painter, area: Rect, goal: f32, theme: &Theme) -> Rect {
-    let text = "accepted below 1e-6 (Algorithm 3)";
-    let at = pos2(area.left() + 6.0, goal - 3.0);
-    painter.text(at, Align2::LEFT_BOTTOM, text, font::small(), theme.accepted)
+/// The goal's name above its line, where no curve runs through it: at the right end, in the middle or at the left.
+fn name_the_goal(
+    painter: &Painter,
+    area: Rect,
+    goal: f32,
+    curves: &[Vec<Pos2>],
+    theme: &Theme,
+) -> Rect {
+    let text = "accepted below 1e-6 (Algorithm 3)".to_owned();
+    let galley = painter.layout_no_wrap(text, font::small(), theme.accepted);
+    let size = galley.size();
+    let free = area.width() - size.x - 12.0;
+    let place = |(share, lift): (f32, f32)| {
+        let x = area.left() + 6.0 + share * free;
+        Rect::from_min_size(pos2(x, goal + lift), size)
+    };
+    let (above, below) = (-size.y - 2.0, 3.0);
+    let shares = [1.0, 0.5, 0.0];
+    let places = shares.map(|share| (share, above));
+    let places = places.into_iter().chain(shares.map(|share| (share, below)));
+    let is_free = |rect: &Rect| {
+        area.contains_rect(*rect) && !curves.iter().any(|points| runs_through(points, *rect))
+    };
+    let rect = places.map(place).find(is_free);
+    let rect = rect.unwrap_or_else(|| place((1.0, above)));
+    painter.galley(rect.min, galley, theme.accepted);
+    rect
+}
+
+/// True if the curve crosses the rectangle, nearly enough: its pieces are looked at in small steps.
+fn runs_through(points: &[Pos2], rect: Rect) -> bool {
+    const STEPS: usize = 8;
+    points.windows(2).any(|ends| {
+        (0..=STEPS).any(|i| rect.contains(ends[0].lerp(ends[1], i as f32 / STEPS as f32)))
+    })
 }
 
 /// The method's name beside the end of its curve, moved up or down to where it is free.

@@ -6,8 +6,9 @@ use egui::{
 };
 
 use super::{
+    playback::{Comparison, Playback},
     plot::{self, Axes},
-    state::{AlignAction, AlignState, Comparison, Playback},
+    state::{AlignAction, AlignState},
 };
 use crate::app::{
     action::Action,

@@ -20,8 +20,10 @@ use crate::{
     stages::pose::PoseMethod,
 };
 
-/// Width of a column of numbers, logical pixels.
-const COLUMN: f32 = 62.0;
+/// Width of a column of numbers at most, logical pixels.
+const COLUMN: f32 = 88.0;
+/// Room for the names on the left of them.
+const NAMES: f32 = 44.0;
 /// Height of the name above the rows of a part.
 const PART: f32 = 26.0;
 
@@ -108,7 +110,7 @@ fn progress(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>
                 return;
             }
             let (text, label, action) = if num == 0 {
-                ("Run", "Run Table I", AlignAction::RunTable)
+                ("Run Table I", "Run Table I", AlignAction::RunTable)
             } else if num < total {
                 ("Go on", "Go on with Table I", AlignAction::RunTable)
             } else {
@@ -156,11 +158,10 @@ fn shortly(time: Duration) -> String {
 /// The right edges of the columns, from left to right.
 fn columns(rect: Rect) -> impl Iterator<Item = (usize, f32)> {
     let num = PoseMethod::ALL.len();
+    let width = ((rect.width() - NAMES) / num as f32).min(COLUMN);
     (0..num).map(move |place| {
-        (
-            place,
-            rect.right() - 8.0 - COLUMN * (num - 1 - place) as f32,
-        )
+        let right = rect.right() - 8.0;
+        (place, right - width * (num - 1 - place) as f32)
     })
 }
 

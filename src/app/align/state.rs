@@ -4,10 +4,11 @@ use std::{path::PathBuf, sync::Arc, time::Duration};
 
 use super::{
     AlignAnswer, AlignRequest,
+    custom::{CustomStart, Form},
     pair::{Pair, PairSource},
+    playback::{Comparison, Playback},
     start::Start,
-    table::{self, TableRow},
-    track::{MethodRun, Track},
+    table::{self, TableShown},
 };
 use crate::{
     app::{
@@ -74,75 +75,6 @@ impl Pairing {
     }
 }
 
-/// A start as a person writes it.
-#[derive(Debug, Default)]
-pub struct CustomStart {
-    /// Whether it is being written.
-    pub form: Form,
-    /// The text.
-    pub text: String,
-    /// What is wrong with it, and what is odd about it.
-    pub remarks: Vec<String>,
-}
-
-/// Whether a form is open.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Form {
-    /// Not open.
-    #[default]
-    Closed,
-    /// Open.
-    Open,
-}
-
-/// Whether the scrubber moves by itself.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Playback {
-    /// It stands.
-    #[default]
-    Paused,
-    /// It moves on.
-    Playing,
-}
-
-/// A pair and what the methods made of it.
-#[derive(Debug)]
-pub struct Comparison {
-    /// The pair.
-    pub pair: Arc<Pair>,
-    /// One per method that has run, in their order.
-    pub runs: Vec<Arc<MethodRun>>,
-}
-
-impl Comparison {
-    /// The longest way's last place.
-    pub fn last_place(&self) -> usize {
-        let tracks = self.tracks().map(|(_, track)| track.poses.len());
-        tracks.max().unwrap_or(1).saturating_sub(1)
-    }
-
-    /// The ways of the methods that found a pose.
-    pub fn tracks(&self) -> impl Iterator<Item = (&MethodRun, &Track)> {
-        let found = |run: &'_ MethodRun| run.track.is_ok();
-        let runs = self.runs.iter().map(Arc::as_ref);
-        runs.filter(move |run| found(run))
-            .filter_map(|run| Some((run, run.track.as_ref().ok()?)))
-    }
-}
-
-/// Table I as far as it is there.
-#[derive(Debug, Default)]
-pub struct TableShown {
-    /// The rows, part after part.
-    pub rows: Vec<Arc<TableRow>>,
-    /// The work that adds rows, or added the last.
-    pub generation: Option<u64>,
-    /// Rows that were there when it began.
-    pub num_before: usize,
-    /// How long it took for the rows that it added.
-    pub elapsed: Duration,
-}
-
 /// Something that happened in the workspace.
 #[derive(Debug)]
 pub enum AlignAction {
@@ -192,11 +124,6 @@ pub enum AlignAsk {
     /// Where Table I is written to.
     TableFile,
 }
-
-/// The scrubber plays a whole way in so many seconds, short ones more quickly.
-const PLAY_SECONDS: f32 = 6.0;
-/// Slowest pace, iterations per second.
-const LEAST_PACE: f32 = 10.0;
 
 impl AlignState {
     /// True while rows are being added to Table I.
@@ -348,73 +275,6 @@ fn run_table(state: &mut State) -> Effect {
     effect
 }
 
-impl CustomStart {
-    fn write(&mut self, text: String) {
-        self.remarks = match parse_pose(&text) {
-            Ok(given) => given.doubts.iter().map(ToString::to_string).collect(),
-            Err(problem) => vec![problem],
-        };
-        self.text = text;
-    }
-
-    /// True if the text is a start.
-    pub fn is_start(&self) -> bool {
-        parse_pose(&self.text).is_ok()
-    }
-}
-
-impl AlignState {
-    /// The last place of the scrubber.
-    pub fn last_place(&self) -> usize {
-        self.shown.as_ref().map_or(0, Comparison::last_place)
-    }
-
-    fn go_to(&mut self, place: f32) {
-        self.place = place.clamp(0.0, self.last_place() as f32);
-    }
-
-    fn toggle_play(&mut self) {
-        self.playback = match self.playback {
-            Playback::Playing => Playback::Paused,
-            Playback::Paused if self.last_place() == 0 => Playback::Paused,
-            Playback::Paused => {
-                if self.place >= self.last_place() as f32 {
-                    self.place = 0.0;
-                }
-                Playback::Playing
-            }
-        };
-    }
-
-    fn advance(&mut self, seconds: f32) {
-        if self.playback == Playback::Paused {
-            return;
-        }
-        let last = self.last_place() as f32;
-        self.go_to(self.place + seconds * (last / PLAY_SECONDS).max(LEAST_PACE));
-        if self.place >= last {
-            self.playback = Playback::Paused;
-        }
-    }
-
-    /// A method has run: the first of a pair brings the pair to the front.
-    fn take_in(&mut self, run: Arc<MethodRun>) {
-        match (self.coming.take(), &mut self.shown) {
-            (Some(pair), shown) => {
-                let runs = vec![run];
-                *shown = Some(Comparison { pair, runs });
-                self.playback = Playback::Paused;
-            }
-            (None, Some(shown)) => shown.runs.push(run),
-            (None, None) => return,
-        }
-        // The end is what a person wants to see first.
-        if self.playback == Playback::Paused {
-            self.place = self.last_place() as f32;
-        }
-    }
-}
-
 /// Takes in what the thread answers.
 pub fn hear(state: &mut State, outcome: Result<AlignAnswer, Trouble>) -> Option<Effect> {
     let align = &mut state.align;
@@ -429,15 +289,6 @@ pub fn hear(state: &mut State, outcome: Result<AlignAnswer, Trouble>) -> Option<
         Err(_) => align.coming = None,
     }
     None
-}
-
-impl TableShown {
-    /// About how long the rest takes, from the rows that were added since the work began.
-    pub fn remaining(&self, total: usize) -> Option<Duration> {
-        let num_added = self.rows.len().saturating_sub(self.num_before);
-        let num_left = total.saturating_sub(self.rows.len());
-        (num_added > 0).then(|| self.elapsed.mul_f64(num_left as f64 / num_added as f64))
-    }
 }
 
 #[cfg(test)]

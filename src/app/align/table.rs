@@ -1,9 +1,31 @@
 //! Table I: every enrolled part from T1 to T5 by every method, row after row.
 
-use std::{fmt::Write as _, time::Duration};
+use std::{fmt::Write as _, sync::Arc, time::Duration};
 
 use super::track::MethodRun;
 use crate::{app::job::Trouble, stages::pose::PoseMethod};
+
+/// Table I as far as it is there.
+#[derive(Debug, Default)]
+pub struct TableShown {
+    /// The rows, part after part.
+    pub rows: Vec<Arc<TableRow>>,
+    /// The work that adds rows, or added the last.
+    pub generation: Option<u64>,
+    /// Rows that were there when it began.
+    pub num_before: usize,
+    /// How long it took for the rows that it added.
+    pub elapsed: Duration,
+}
+
+impl TableShown {
+    /// About how long the rest takes, from the rows that were added since the work began.
+    pub fn remaining(&self, total: usize) -> Option<Duration> {
+        let num_added = self.rows.len().saturating_sub(self.num_before);
+        let num_left = total.saturating_sub(self.rows.len());
+        (num_added > 0).then(|| self.elapsed.mul_f64(num_left as f64 / num_added as f64))
+    }
+}
 
 /// One part from one start.
 #[derive(Debug)]
@@ -132,8 +154,6 @@ pub(super) fn text(rows: &[impl AsRef<TableRow>], separator: char) -> String {
 
 #[cfg(test)]
 mod tests {
-    use std::sync::Arc;
-
     use super::*;
 
     fn cell(method: PoseMethod, e_m2: Option<f64>) -> TableCell {

@@ -7,7 +7,7 @@ use std::{
 
 use super::pair::Pair;
 use crate::{
-    app::job::Trouble,
+    app::{job::Trouble, widgets::sentence},
     error::Advice as _,
     geometry::rigid::{self, RigidTransform},
     stages::pose::{Doubt, Fit, Iteration, PoseError, PoseEstimate, PoseMethod, Stopped, align},
@@ -139,7 +139,7 @@ fn in_the_window(error: &PoseError) -> Trouble {
         other => other.advice(),
     };
     Trouble {
-        what: error.to_string(),
+        what: sentence(&error.to_string()),
         advice,
     }
 }
@@ -151,7 +151,7 @@ fn doubted(doubt: &Doubt) -> Trouble {
         Doubt::LittleOverlap { .. } => doubt.advice(),
     };
     Trouble {
-        what: doubt.to_string(),
+        what: sentence(&doubt.to_string()),
         advice,
     }
 }

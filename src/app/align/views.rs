@@ -6,17 +6,18 @@ use egui::{Align2, Rect, RichText, Ui, UiBuilder, pos2, vec2};
 
 use super::{
     pair::Pair,
+    playback::Comparison,
     series,
-    state::{AlignState, Comparison},
+    state::AlignState,
     track::{MethodRun, Track},
 };
 use crate::{
     app::{
         state::{State, ThemeChoice},
-        theme::{Theme, font, space},
+        theme::{ROUNDING, Theme, font, space},
         viewport::{
-            FitRequest, PointSize, Role, ViewCamera, ViewColours, ViewError, ViewScene, ViewStyle,
-            Viewport, ViewportGpu, scene::mat4,
+            FitRequest, PointSize, Role, StandardView, ViewCamera, ViewColours, ViewError,
+            ViewScene, ViewStyle, Viewport, ViewportGpu, scene::mat4,
         },
     },
     stages::pose::PoseMethod,
@@ -24,11 +25,20 @@ use crate::{
 };
 
 /// Height of the words above a view, logical pixels, and where the view is narrow.
-const HEAD: [f32; 2] = [66.0, 84.0];
+const HEAD: [f32; 2] = [66.0, 98.0];
 /// A view narrower than this has its figures on two lines.
 const NARROW: f32 = 300.0;
 /// Reference clouds are thinned to 8 mm: closed from afar, with the other cloud still seen between.
 const POINT: Metres = Metres(0.005);
+
+/// From where the views are to look.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Look {
+    /// As now, but so that all is seen.
+    Fit,
+    /// From a side.
+    From(StandardView),
+}
 
 /// The views, and what they are drawn with.
 pub(super) struct LinkedViews {
@@ -36,6 +46,10 @@ pub(super) struct LinkedViews {
     camera: ViewCamera,
     styled: Option<ThemeChoice>,
     has_focus: bool,
+    /// The pair that the views show.
+    shows: Option<Arc<Pair>>,
+    /// Set until the camera was fitted to where a method ended on this pair.
+    awaits_fit: bool,
 }
 
 struct View {
@@ -43,8 +57,6 @@ struct View {
     viewport: Viewport,
     style: ViewStyle,
     scene: ViewScene,
-    /// The pair that the scene shows.
-    shows: Option<Arc<Pair>>,
 }
 
 impl LinkedViews {
@@ -54,13 +66,14 @@ impl LinkedViews {
             viewport: Viewport::new(gpu.clone()),
             style: ViewStyle::new(ViewColours::dark()),
             scene: ViewScene::default(),
-            shows: None,
         };
         Self {
             views: PoseMethod::ALL.into_iter().map(view).collect(),
             camera: ViewCamera::default(),
             styled: None,
             has_focus: false,
+            shows: None,
+            awaits_fit: false,
         }
     }
 
@@ -81,6 +94,7 @@ impl LinkedViews {
             }
             self.styled = Some(state.theme);
         }
+        self.put_in(shown);
         let all = ui.available_rect_before_wrap();
         ui.allocate_rect(all, egui::Sense::hover());
         let width = all.width() / self.views.len() as f32;
@@ -91,7 +105,6 @@ impl LinkedViews {
             let builder = UiBuilder::new().max_rect(cell).id_salt(place);
             ui.scope_builder(builder, |ui| {
                 ui.set_clip_rect(cell.intersect(ui.clip_rect()));
-                view.put_in(shown, &mut self.camera);
                 self.has_focus |= view.ui(ui, shown, &mut self.camera, state, theme);
             });
             if place > 0 {
@@ -110,23 +123,45 @@ impl LinkedViews {
             );
         }
     }
-}
 
-impl View {
+    /// Turns all views, and fits them.
+    pub(super) fn look(&mut self, look: Look) {
+        if let Look::From(view) = look {
+            self.camera.look(view);
+        }
+        self.camera.request_fit(FitRequest::Focus);
+    }
+
     /// Takes in a pair not seen before; its points are shared, not copied.
-    fn put_in(&mut self, shown: &Comparison, camera: &mut ViewCamera) {
+    fn put_in(&mut self, shown: &Comparison) {
         let pair = &shown.pair;
         if !self
             .shows
             .as_ref()
             .is_some_and(|known| Arc::ptr_eq(known, pair))
         {
-            self.scene.points = vec![pair.target_points.clone(), pair.source_points.clone()];
+            for view in &mut self.views {
+                view.scene.points = vec![pair.target_points.clone(), pair.source_points.clone()];
+            }
             self.shows = Some(Arc::clone(pair));
-            camera.request_fit(FitRequest::Focus);
+            self.awaits_fit = true;
+        }
+        // Where a method ended, not where it began: from T1 the source lies far off.
+        if self.awaits_fit
+            && let Some((run, track)) = shown.tracks().next()
+        {
+            let place = track.poses.len();
+            let view = self.views.iter_mut().find(|view| view.method == run.method);
+            if let Some(source) = view.and_then(|view| view.scene.points.last_mut()) {
+                source.world_from_set = mat4(&track.pose_at(place));
+            }
+            self.camera.request_fit(FitRequest::Focus);
+            self.awaits_fit = false;
         }
     }
+}
 
+impl View {
     /// True if keys go to it.
     fn ui(
         &mut self,
@@ -238,10 +273,9 @@ fn heading(ui: &mut Ui, run: &MethodRun, state: &State, theme: &Theme) {
                     .on_hover_text(format!("{}\n{}", doubt.what, doubt.advice)),
             };
             let rms = state.units.length(track.fit.rms_m);
-            let figures = format!(
-                "E {} m² · rms {rms} · {ms:.0} ms",
-                scientific(track.end_e_m2())
-            );
+            let overlap = track.fit.overlap * 100.0;
+            let e = scientific(track.end_e_m2());
+            let figures = format!("E {e} m² · rms {rms} on {overlap:.0} % · {ms:.0} ms");
             weak(ui, &figures, theme);
         }
         Err(_) => weak(ui, &format!("No pose · {ms:.0} ms"), theme),
@@ -271,7 +305,9 @@ fn below(ui: &Ui, rect: Rect, track: &Track, place: usize, theme: &Theme) {
         let width = rect.width() - 2.0 * space::MEDIUM;
         let text = format!("{}\n{}", doubt.what, doubt.advice);
         let galley = painter.layout(text, font::small(), theme.warning, width);
-        let at = written.left_top() - vec2(0.0, galley.size().y + 2.0);
+        let at = written.left_top() - vec2(0.0, galley.size().y + 4.0);
+        let plate = Rect::from_min_size(at, galley.size()).expand(4.0);
+        painter.rect_filled(plate, ROUNDING, theme.panel);
         painter.galley(at, galley, theme.warning);
     }
 }
