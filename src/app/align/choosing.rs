@@ -1,7 +1,7 @@
 //! Above the views: what is aligned to what, from where, and Run.
 
 use egui::{
-    Align, Align2, Button, DragValue, Layout, Response, RichText, TextEdit, Ui, Vec2, vec2,
+    Align, Align2, Button, DragValue, Label, Layout, Response, RichText, TextEdit, Ui, Vec2, vec2,
 };
 
 use super::{
@@ -232,11 +232,10 @@ fn custom(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) 
     let plain = "Radians and metres, or with a unit: deg, mm, cm, m; R = Rz·Ry·Rx";
     ui.spacing_mut().interact_size.y = REMARK;
     let mut line = |text: &str, colour| {
-        let text = RichText::new(text).font(font::small()).color(colour);
-        ui.add_sized(
-            vec2(ui.available_width(), REMARK),
-            egui::Label::new(text).truncate().halign(Align::LEFT),
-        );
+        ui.horizontal(|ui| {
+            let text = RichText::new(text).font(font::small()).color(colour);
+            ui.add(Label::new(text).truncate());
+        });
     };
     if custom.remarks.is_empty() {
         line(plain, theme.weak_text);

@@ -17,7 +17,11 @@ use crate::{
         viewport::{PointSet, Role},
     },
     files,
-    geometry::{cloud::PointCloud, nearest::KdTree, rigid::RigidTransform},
+    geometry::{
+        cloud::PointCloud,
+        nearest::KdTree,
+        rigid::{self, RigidTransform},
+    },
     stages::{reference::Reference, scene::cloud_of},
 };
 
@@ -68,6 +72,8 @@ pub struct Pair {
     pub truth: Option<RigidTransform>,
     /// Middle of the source's points, where shifts are compared; source space.
     pub middle: Point3<f64>,
+    /// What is odd about the files.
+    pub warnings: Vec<Trouble>,
 }
 
 /// E is measured over so many points of the source, up to twice as many.
@@ -93,7 +99,9 @@ impl Pair {
             }
             PairSource::Files { source, target } => {
                 let title = format!("{} onto {}", file_name(source), file_name(target));
-                let (mut source, mut target) = (open(source)?, open(target)?);
+                let mut warnings = Vec::new();
+                let mut source = open(source, &mut warnings)?;
+                let mut target = open(target, &mut warnings)?;
                 // Far from the origin neither drawing nor E would resolve the points.
                 if let Some((low, high)) = target.bounds() {
                     let middle = nalgebra::center(&low.cast::<f64>(), &high.cast::<f64>()).coords;
@@ -101,7 +109,10 @@ impl Pair {
                         *point = (point.cast::<f64>() - middle).cast();
                     }
                 }
-                Ok(Self::new(title, source, target, None))
+                Ok(Self {
+                    warnings,
+                    ..Self::new(title, source, target, None)
+                })
             }
         }
     }
@@ -139,18 +150,30 @@ impl Pair {
             target_points: drawn(&target, Role::Reference),
             truth,
             middle,
+            warnings: Vec::new(),
             source,
             target,
         }
     }
 
+    /// How far a pose is from the truth, where that is known.
+    pub fn true_error(&self, target_from_source: &RigidTransform) -> Option<rigid::PoseError> {
+        let truth = self.truth.as_ref()?;
+        Some(rigid::pose_error(target_from_source, truth, &self.middle))
+    }
+
     /// E(R, t) of eq. 12 at a pose, square metres, over [`sample`](Self::sample): the mean squared distance to the
     /// closest points of the target, however far they are. Infinite without points.
     pub fn e_m2(&self, target_from_source: &RigidTransform) -> f64 {
+        self.e_m2_over(target_from_source, 1)
+    }
+
+    /// The same over every `step`-th point of the sample.
+    pub(super) fn e_m2_over(&self, target_from_source: &RigidTransform, step: usize) -> f64 {
         let moved = target_from_source.cast::<f32>();
         let nearest = |p| self.target_tree.nearest(&(moved * p), f32::INFINITY);
         let (mut sum_sq, mut num) = (0.0, 0.0);
-        for neighbour in self.sample.iter().filter_map(nearest) {
+        for neighbour in self.sample.iter().step_by(step).filter_map(nearest) {
             sum_sq += f64::from(neighbour.distance_sq);
             num += 1.0;
         }
@@ -179,8 +202,9 @@ fn find<'a>(shelved: &'a Shelved, part: &str) -> Result<(&'a Reference, &'a str)
     Ok((reference, title))
 }
 
-fn open(path: &Path) -> Result<PointCloud, Trouble> {
+fn open(path: &Path, warnings: &mut Vec<Trouble>) -> Result<PointCloud, Trouble> {
     let opened = files::open(path).map_err(|error| Trouble::of(&error))?;
+    warnings.extend(opened.warnings().iter().map(Trouble::of));
     let cloud = cloud_of(opened).ok_or_else(|| Trouble {
         what: format!("{}: the mesh has no area", path.display()),
         advice: "Export the mesh again with its faces".into(),

@@ -39,7 +39,7 @@ impl Axes {
             [low.min(range[0]), high.max(range[1])]
         });
         let (low, high) = (low.floor(), high.ceil());
-        let area = Rect::from_min_max(rect.min + vec2(LEFT, 6.0), rect.max - vec2(14.0, 12.0));
+        let area = Rect::from_min_max(rect.min + vec2(LEFT, 6.0), rect.max - vec2(14.0, 16.0));
         let last = shown.last_place();
         Self {
             area,
@@ -116,6 +116,13 @@ fn shade(painter: &Painter, axes: &Axes, track: &Track, theme: &Theme) {
         let x = [search.start, search.end].map(|place| axes.across.at(place as f32));
         let stretch = Rect::from_x_y_ranges(x[0]..=x[1], axes.area.y_range());
         painter.rect_filled(stretch, 0.0, theme.control);
+    }
+    let all = track.searches.first().zip(track.searches.last());
+    if let Some((first, last)) = all {
+        let middle = (first.start + last.end) as f32 / 2.0;
+        let at = pos2(axes.across.at(middle), axes.area.top() + 2.0);
+        let text = "genetic search";
+        painter.text(at, Align2::CENTER_TOP, text, font::small(), theme.weak_text);
     }
 }
 

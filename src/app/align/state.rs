@@ -279,7 +279,12 @@ fn run_table(state: &mut State) -> Effect {
 pub fn hear(state: &mut State, outcome: Result<AlignAnswer, Trouble>) -> Option<Effect> {
     let align = &mut state.align;
     match outcome {
-        Ok(AlignAnswer::Prepared(pair)) => align.coming = Some(pair),
+        Ok(AlignAnswer::Prepared(pair)) => {
+            align.coming = Some(Arc::clone(&pair));
+            for warning in &pair.warnings {
+                notify(state, warning.clone().into());
+            }
+        }
         Ok(AlignAnswer::Ran(run)) => align.take_in(run),
         Ok(AlignAnswer::Row { row, elapsed }) => {
             align.table.rows.push(row);

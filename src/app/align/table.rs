@@ -2,7 +2,10 @@
 
 use std::{fmt::Write as _, sync::Arc, time::Duration};
 
-use super::track::MethodRun;
+use super::{
+    pair::Pair,
+    track::{estimated, in_the_window},
+};
 use crate::{app::job::Trouble, stages::pose::PoseMethod};
 
 /// Table I as far as it is there.
@@ -69,23 +72,24 @@ pub struct TableFigures {
 }
 
 impl TableCell {
-    /// From a method's run.
-    pub fn of(run: &MethodRun) -> Self {
-        let figures = run.track.as_ref().map(|track| {
-            let error = track.true_error;
+    /// Runs the method on a pair whose truth is known.
+    pub fn of(method: PoseMethod, pair: &Pair) -> Self {
+        let (aligned, time) = estimated(method, pair);
+        let figures = aligned.map(|estimate| {
+            let error = pair.true_error(&estimate.target_from_source);
             TableFigures {
-                e_m2: track.end_e_m2(),
-                rms_m: track.fit.rms_m,
+                e_m2: pair.e_m2(&estimate.target_from_source),
+                rms_m: estimate.fit.rms_m,
                 rotation_deg: error.map_or(f64::NAN, |error| error.rotation.degrees()),
                 shift_mm: error.map_or(f64::NAN, |error| error.shift.mm()),
-                num_iterations: track.poses.len().saturating_sub(1),
-                stopped: track.stopped.name(),
+                num_iterations: estimate.iterations.len(),
+                stopped: estimate.stopped.name(),
             }
         });
         Self {
-            method: run.method,
-            time: run.time,
-            figures: figures.map_err(Clone::clone),
+            method,
+            time,
+            figures: figures.map_err(|error| in_the_window(&error)),
         }
     }
 }

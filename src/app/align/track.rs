@@ -50,19 +50,31 @@ pub struct Track {
 /// Nothing that `f32` points resolve is smaller: E of 1e-16 m² is 10 nm.
 const LEAST_E: f64 = 1e-16;
 
+/// A way is measured with at most so many searches for a closest point: a long one on fewer points.
+const MOST_SEARCHES: usize = 1_000_000;
+
+/// Runs a method on a pair, and takes the time.
+pub(super) fn estimated(
+    method: PoseMethod,
+    pair: &Pair,
+) -> (Result<PoseEstimate, PoseError>, Duration) {
+    let clock = Instant::now();
+    let aligned = align(&pair.source, &pair.target, method, None);
+    (aligned, clock.elapsed())
+}
+
 impl MethodRun {
-    /// Runs the method on the pair.
+    /// Runs the method on the pair, and follows its way.
     pub fn of(method: PoseMethod, pair: &Pair) -> Self {
-        let clock = Instant::now();
-        let aligned = align(&pair.source, &pair.target, method, None);
-        let time = clock.elapsed();
+        let (aligned, time) = estimated(method, pair);
+        let track = match aligned {
+            Ok(estimate) => Ok(Track::of(&estimate, pair)),
+            Err(error) => Err(in_the_window(&error)),
+        };
         Self {
             method,
             time,
-            track: match aligned {
-                Ok(estimate) => Ok(Track::of(&estimate, pair)),
-                Err(error) => Err(in_the_window(&error)),
-            },
+            track,
         }
     }
 }
@@ -73,8 +85,7 @@ impl Track {
         let steps = estimate.iterations.iter();
         let mut poses: Vec<RigidTransform> = steps.map(|step| step.target_from_source).collect();
         poses.push(end);
-        let e_m2: Vec<f64> = poses.iter().map(|pose| pair.e_m2(pose)).collect();
-        let true_error = pair.truth.as_ref();
+        let e_m2 = e_along(&poses, pair);
         let log_e: Vec<f32> = e_m2.iter().map(|e| e.max(LEAST_E).log10() as f32).collect();
         let range = [f32::INFINITY, f32::NEG_INFINITY];
         Self {
@@ -85,7 +96,7 @@ impl Track {
             searches: searches(&estimate.iterations),
             stopped: estimate.stopped,
             fit: estimate.fit,
-            true_error: true_error.map(|truth| rigid::pose_error(&end, truth, &pair.middle)),
+            true_error: pair.true_error(&end),
             doubt: estimate.doubt().map(|doubt| doubted(&doubt)),
             e_m2,
             poses,
@@ -125,12 +136,28 @@ impl Track {
     }
 }
 
+/// E at every pose. Where a pose is the one before, as between generations without progress, so is its E.
+fn e_along(poses: &[RigidTransform], pair: &Pair) -> Vec<f64> {
+    let step = (poses.len() * pair.sample.len())
+        .div_ceil(MOST_SEARCHES)
+        .max(1);
+    let last = poses.len().saturating_sub(1);
+    let mut all: Vec<f64> = Vec::with_capacity(poses.len());
+    for (place, pose) in poses.iter().enumerate() {
+        let is_same = place > 0 && place < last && poses[place - 1] == *pose;
+        let before = all.last().copied().filter(|_| is_same);
+        let step = if place == last { 1 } else { step };
+        all.push(before.unwrap_or_else(|| pair.e_m2_over(pose, step)));
+    }
+    all
+}
+
 fn searches(_iterations: &[Iteration]) -> Vec<Range<usize>> {
     Vec::new()
 }
 
 /// The error with advice that can be followed in the window.
-fn in_the_window(error: &PoseError) -> Trouble {
+pub(super) fn in_the_window(error: &PoseError) -> Trouble {
     let advice = match error {
         PoseError::OneSidedPairs { .. } | PoseError::NoOverlap { .. } => {
             "Choose a start that is nearer, or check that both clouds show the same part in metres"

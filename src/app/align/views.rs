@@ -16,8 +16,8 @@ use crate::{
         state::{State, ThemeChoice},
         theme::{ROUNDING, Theme, font, space},
         viewport::{
-            FitRequest, PointSize, Role, StandardView, ViewCamera, ViewColours, ViewError,
-            ViewScene, ViewStyle, Viewport, ViewportGpu, scene::mat4,
+            FitRequest, PointSize, Role, RoleColour, StandardView, ViewCamera, ViewColours,
+            ViewError, ViewScene, ViewStyle, Viewport, ViewportGpu, scene::mat4,
         },
     },
     stages::pose::PoseMethod,
@@ -29,7 +29,7 @@ const HEAD: [f32; 2] = [66.0, 98.0];
 /// A view narrower than this has its figures on two lines.
 const NARROW: f32 = 300.0;
 /// Reference clouds are thinned to 8 mm: closed from afar, with the other cloud still seen between.
-const POINT: Metres = Metres(0.005);
+const POINT: Metres = Metres(0.0075);
 
 /// From where the views are to look.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -40,6 +40,9 @@ pub(super) enum Look {
     From(StandardView),
 }
 
+/// The source's points are smaller than the target's, so that neither hides the other where both lie alike.
+const SOURCE_WEIGHT: f32 = 0.6;
+
 /// The views, and what they are drawn with.
 pub(super) struct LinkedViews {
     views: Vec<View>,
@@ -48,8 +51,6 @@ pub(super) struct LinkedViews {
     has_focus: bool,
     /// The pair that the views show.
     shows: Option<Arc<Pair>>,
-    /// Set until the camera was fitted to where a method ended on this pair.
-    awaits_fit: bool,
 }
 
 struct View {
@@ -73,7 +74,6 @@ impl LinkedViews {
             styled: None,
             has_focus: false,
             shows: None,
-            awaits_fit: false,
         }
     }
 
@@ -94,10 +94,10 @@ impl LinkedViews {
             }
             self.styled = Some(state.theme);
         }
-        self.put_in(shown);
         let all = ui.available_rect_before_wrap();
         ui.allocate_rect(all, egui::Sense::hover());
         let width = all.width() / self.views.len() as f32;
+        self.put_in(shown, vec2(width, all.height() - head(width)));
         for (place, view) in self.views.iter_mut().enumerate() {
             let left = all.left() + place as f32 * width;
             let rect = Rect::from_min_size(pos2(left, all.top()), vec2(width, all.height()));
@@ -133,30 +133,27 @@ impl LinkedViews {
     }
 
     /// Takes in a pair not seen before; its points are shared, not copied.
-    fn put_in(&mut self, shown: &Comparison) {
+    fn put_in(&mut self, shown: &Comparison, size: egui::Vec2) {
         let pair = &shown.pair;
-        if !self
+        if self
             .shows
             .as_ref()
             .is_some_and(|known| Arc::ptr_eq(known, pair))
         {
-            for view in &mut self.views {
-                view.scene.points = vec![pair.target_points.clone(), pair.source_points.clone()];
-            }
-            self.shows = Some(Arc::clone(pair));
-            self.awaits_fit = true;
+            return;
         }
-        // Where a method ended, not where it began: from T1 the source lies far off.
-        if self.awaits_fit
-            && let Some((run, track)) = shown.tracks().next()
-        {
-            let place = track.poses.len();
-            let view = self.views.iter_mut().find(|view| view.method == run.method);
-            if let Some(source) = view.and_then(|view| view.scene.points.last_mut()) {
-                source.world_from_set = mat4(&track.pose_at(place));
-            }
-            self.camera.request_fit(FitRequest::Focus);
-            self.awaits_fit = false;
+        for view in &mut self.views {
+            // The smaller points first: where both lie on the same place, each is seen.
+            view.scene.points = vec![pair.source_points.clone(), pair.target_points.clone()];
+        }
+        self.shows = Some(Arc::clone(pair));
+        // On the target alone: from T1 the source begins far off.
+        let target = ViewScene {
+            points: vec![pair.target_points.clone()],
+            ..ViewScene::default()
+        };
+        if let Some(bounds) = target.bounds() {
+            self.camera.fit(&bounds, glam::vec2(size.x, size.y));
         }
     }
 }
@@ -172,9 +169,8 @@ impl View {
         theme: &Theme,
     ) -> bool {
         let run = shown.runs.iter().find(|run| run.method == self.method);
-        let is_narrow = ui.available_width() < NARROW;
         let all = ui.available_rect_before_wrap();
-        let split = all.top() + HEAD[usize::from(is_narrow)];
+        let split = all.top() + head(all.width());
         let head = Rect::from_min_max(all.min, pos2(all.right(), split));
         ui.painter().rect_filled(all, 0.0, theme.canvas);
         let builder = UiBuilder::new().max_rect(head.shrink2(vec2(space::MEDIUM, space::SMALL)));
@@ -204,7 +200,7 @@ impl View {
             }
             Some(Ok(track)) => {
                 let place = state.align.place.round() as usize;
-                if let Some(source) = self.scene.points.last_mut() {
+                if let Some(source) = self.scene.points.first_mut() {
                     source.world_from_set = mat4(&track.pose_at(place));
                 }
                 let has_focus = self.view(ui, body, camera);
@@ -212,7 +208,7 @@ impl View {
                 has_focus
             }
             None => {
-                if let Some(source) = self.scene.points.last_mut() {
+                if let Some(source) = self.scene.points.first_mut() {
                     source.world_from_set = glam::Mat4::IDENTITY;
                 }
                 self.view(ui, body, camera)
@@ -238,13 +234,21 @@ impl View {
     }
 }
 
+/// Height of the words above a view of this width.
+fn head(width: f32) -> f32 {
+    HEAD[usize::from(width < NARROW)]
+}
+
 fn style(method: PoseMethod, choice: ThemeChoice) -> ViewStyle {
     let mut colours = match choice {
         ThemeChoice::Dark => ViewColours::dark(),
         ThemeChoice::Light => ViewColours::light(),
     };
     // The source has the colour of its curve.
-    colours.roles[Role::Moving as usize].colour = series::colour(method, Theme::of(choice));
+    colours.roles[Role::Moving as usize] = RoleColour {
+        colour: series::colour(method, Theme::of(choice)),
+        weight: SOURCE_WEIGHT,
+    };
     ViewStyle {
         point_size: PointSize::Metres(POINT),
         ..ViewStyle::new(colours)

@@ -108,7 +108,7 @@ fn table(
                 if desk.is_cancelled() {
                     return Ok(None);
                 }
-                cells.push(TableCell::of(&MethodRun::of(method, &pair)));
+                cells.push(TableCell::of(method, &pair));
             }
             let row = TableRow {
                 part: reference.name.clone(),

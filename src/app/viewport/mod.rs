@@ -55,7 +55,7 @@ pub use self::{
     picking::PickedPoint,
     scene::{Line, LineSet, PointSet, TextLabel, ViewScene},
     screenshot::screenshot,
-    style::{Colouring, PointSize, Role, ViewColours, ViewStyle},
+    style::{Colouring, PointSize, Role, RoleColour, ViewColours, ViewStyle},
     widget::{ViewTool, Viewport, ViewportResponse},
 };
 

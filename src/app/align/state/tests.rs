@@ -7,6 +7,7 @@ use crate::{
         state::Workspace,
         worker::{Desk, News},
     },
+    geometry::{cloud::PointCloud, rigid::RigidTransform},
     pipeline::{Stage, Watch},
     stages::pose::PoseMethod,
 };
@@ -86,7 +87,7 @@ fn place(state: &State) -> usize {
 }
 
 /// E by its definition: every distance, no tree.
-fn slow_e(pair: &Pair, pose: &crate::geometry::rigid::RigidTransform) -> f64 {
+fn slow_e(pair: &Pair, pose: &RigidTransform) -> f64 {
     let target: Vec<_> = pair.target.finite().map(|(_, p)| p.cast::<f64>()).collect();
     let every = 40;
     let nearest = |p: &nalgebra::Point3<f32>| {
@@ -306,6 +307,38 @@ fn an_old_result_stays_until_the_first_method_of_the_next_has_run() {
     run_whole(&mut state, &shelf, AlignAction::Run, &Tray::of(2));
     let shown = state.align.shown.as_ref().expect("a result");
     assert!(!Arc::ptr_eq(&old, &shown.pair) && shown.runs.len() == 1);
+}
+
+#[test]
+fn two_files_far_from_the_origin_are_laid_over_each_other() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let shelf = Shelf::default();
+    let cloud = &shelf.get().expect("shipped parts").library.references[2].cloud;
+    let off = nalgebra::Vector3::new(400.0, -300.0, 0.0);
+    let turned = Start::Paper(1).transform();
+    let mut state = State::default();
+    apply(&mut state, AlignAction::Choose(Pairing::Files));
+    for (name, ask, moved) in [
+        ("target.ply", AlignAsk::Target, RigidTransform::identity()),
+        ("source.ply", AlignAsk::Source, turned),
+    ] {
+        let path = folder.path().join(name);
+        let points = cloud.points.iter().map(|p| moved * p.cast::<f64>() + off);
+        let points = PointCloud::from_points(points.map(|p| p.cast()));
+        crate::files::save_cloud(&path, &points).expect("written");
+        apply(&mut state, AlignAction::Chosen(ask, path));
+    }
+    run_whole(&mut state, &shelf, AlignAction::Run, &Tray::of(usize::MAX));
+    let shown = state.align.shown.as_ref().expect("a result");
+    assert_eq!(shown.pair.title, "source.ply onto target.ply");
+    let global = shown
+        .tracks()
+        .find(|(run, _)| run.method == PoseMethod::Global);
+    let (_, track) = global.expect("a pose");
+    // At 400 m a coordinate is rounded to 0.03 mm.
+    assert!(track.end_e_m2() < 1e-8, "{}", track.end_e_m2());
+    assert!(track.e_m2[0] > 1e-2, "it began as the files lie");
+    assert_eq!(track.true_error, None);
 }
 
 #[test]
