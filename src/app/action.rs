@@ -6,7 +6,7 @@ use std::{
 };
 
 use super::{
-    align::{self, AlignAction},
+    align::{self, AlignAction, AlignAsk},
     compare::{self, CompareAction},
     enrol::{self, EnrolAction},
     history::{self, HistoryAction},
@@ -90,6 +90,8 @@ pub enum Ask {
     Picture,
     /// A folder of kept cases.
     CasesFolder,
+    /// Something of the Align workspace.
+    Align(AlignAsk),
 }
 
 /// What is to be done outside the state.
@@ -140,6 +142,9 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
             return Some(open_library(state));
         }
         Action::Chosen(Ask::Picture, path) => state.inspect.picture_to = Some(path),
+        Action::Chosen(Ask::Align(ask), path) => {
+            return align::apply(state, AlignAction::Chosen(ask, path));
+        }
         Action::Cancel(lane) => {
             state.works.remove(&lane);
             return Some(Effect::CancelWork(lane));

@@ -10,6 +10,7 @@ use std::{
 
 use super::{
     action::{Action, Ask},
+    align::AlignAsk,
     state::{Notice, NoticeKind},
 };
 
@@ -67,6 +68,25 @@ impl Dialog {
                     .save_file(),
             ),
             Ask::CasesFolder => Box::pin(dialog.set_title("Folder of kept cases").pick_folder()),
+            Ask::Align(AlignAsk::TableFile) => Box::pin(
+                dialog
+                    .set_title("Export Table I")
+                    .set_file_name("table1.csv")
+                    .add_filter("Comma-separated values", &["csv"])
+                    .save_file(),
+            ),
+            Ask::Align(AlignAsk::Source | AlignAsk::Target) => Box::pin(
+                dialog
+                    .set_title("Open a cloud or a mesh")
+                    .add_filter(
+                        "Clouds and meshes",
+                        &[
+                            "pcd", "ply", "xyz", "txt", "csv", "png", "stl", "obj", "gltf", "glb",
+                        ],
+                    )
+                    .add_filter("All files", &["*"])
+                    .pick_file(),
+            ),
         };
         Self {
             ask,

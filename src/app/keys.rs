@@ -4,6 +4,7 @@ use egui::{Button, Frame, Id, Key, KeyboardShortcut, Margin, Modal, Modifiers, R
 
 use super::{
     action::{Action, Ask},
+    align,
     bars::labelled,
     compare, history, inspect,
     state::{HelpPage, State, Workspace},
@@ -11,12 +12,12 @@ use super::{
 };
 
 /// A shortcut, what it causes, and how the list names both.
-pub(super) struct Shortcut {
-    pub(super) modifiers: Modifiers,
-    pub(super) key: Key,
-    pub(super) keys: &'static str,
-    pub(super) does: &'static str,
-    pub(super) action: fn() -> Action,
+pub(in crate::app) struct Shortcut {
+    pub(in crate::app) modifiers: Modifiers,
+    pub(in crate::app) key: Key,
+    pub(in crate::app) keys: &'static str,
+    pub(in crate::app) does: &'static str,
+    pub(in crate::app) action: fn() -> Action,
 }
 
 /// The shortcuts of the whole window.
@@ -97,8 +98,9 @@ fn of_workspace(workspace: Workspace) -> &'static [Shortcut] {
     match workspace {
         Workspace::Inspect => &inspect::SHORTCUTS,
         Workspace::Compare => &compare::SHORTCUTS,
+        Workspace::Align => &align::SHORTCUTS,
         Workspace::History => &history::SHORTCUTS,
-        Workspace::Enrol | Workspace::Align => &[],
+        Workspace::Enrol => &[],
     }
 }
 

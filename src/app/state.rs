@@ -153,7 +153,7 @@ pub enum Workspace {
 
 impl Workspace {
     /// Every workspace, in the order of the rail and of the number keys.
-    pub const ALL: [Self; 3] = [Self::Inspect, Self::Compare, Self::History];
+    pub const ALL: [Self; 4] = [Self::Inspect, Self::Compare, Self::Align, Self::History];
 
     /// What a person calls it.
     pub fn title(self) -> &'static str {
@@ -223,11 +223,11 @@ impl UnitSystem {
         }
     }
 
-    /// An angle in radians, for a person.
+    /// The size of an angle in radians, for a person.
     pub fn angle(self, radians: f64) -> String {
         match self {
-            Self::MillimetresDegrees => format!("{:.1}°", radians.to_degrees()),
-            Self::MetresRadians => format!("{radians:.3} rad"),
+            Self::MillimetresDegrees => format!("{:.2}°", radians.to_degrees()),
+            Self::MetresRadians => format!("{radians:.4} rad"),
         }
     }
 
@@ -407,7 +407,7 @@ mod tests {
         assert_eq!(UnitSystem::MetresRadians.signed_length(0.0423), "+0.0423 m");
         assert_eq!(mm.length(-0.0481), "\u{2212}48.1 mm");
         assert_eq!(mm.length(0.15), "150.0 mm");
-        assert_eq!(mm.angle(0.1), "5.7°");
+        assert_eq!(mm.angle(0.1), "5.73°");
         assert_eq!(mm.other().other(), mm);
     }
 }

@@ -102,7 +102,7 @@ impl Window {
             inspect: InspectPanel::new(gpu.clone()),
             enrol: EnrolPanel::new(gpu.clone()),
             compare: ComparePanel::new(gpu.clone()),
-            align: AlignPanel::new(gpu),
+            align: AlignPanel::new(&gpu),
             history: HistoryPanel::new(),
         };
         window.state.notices.extend(trouble.map(Notice::from));
@@ -178,9 +178,7 @@ impl Window {
             self.act(Action::Open(path), ctx);
         }
     }
-}
 
-impl Window {
     /// Takes in what the threads, the dialog and the desktop have to tell.
     pub(super) fn fetch(&mut self, ctx: &egui::Context) {
         self.install_theme(ctx);
@@ -202,10 +200,6 @@ impl Window {
         if let Some(notice) = self.memory.keep(&self.state, ctx) {
             self.act(Action::Notify(notice), ctx);
         }
-    }
-
-    fn on_exit(&mut self) {
-        self.memory.finish();
     }
 
     /// Draws everything, and does what a person caused.
@@ -251,5 +245,9 @@ impl eframe::App for Window {
 
     fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
         self.show(ui);
+    }
+
+    fn on_exit(&mut self) {
+        self.memory.finish();
     }
 }

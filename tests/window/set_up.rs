@@ -8,8 +8,12 @@ use std::{
 };
 
 use egui::Vec2;
-use egui_kittest::Harness;
-use partsight::app::{Window, WindowOptions, action::Action, state::State};
+use egui_kittest::{Harness, kittest::Queryable as _};
+use partsight::app::{
+    Window, WindowOptions,
+    action::Action,
+    state::{State, Workspace},
+};
 
 /// A window without a screen.
 pub(crate) type WindowHarness = Harness<'static, Window>;
@@ -35,7 +39,10 @@ pub(crate) fn open() -> WindowHarness {
 
 /// Draws until nothing is at work any more.
 pub(crate) fn settle(harness: &mut WindowHarness) {
-    wait_until(harness, |state| state.works.is_empty());
+    wait_until(harness, |state| {
+        let is_behind = state.workspace == Workspace::Compare && state.is_compare_behind();
+        state.works.is_empty() && !is_behind
+    });
     harness.run_steps(3);
     // Wherever a test comes by: nothing to be pressed or filled in without a name.
     harness.check_accessibility();
@@ -43,13 +50,19 @@ pub(crate) fn settle(harness: &mut WindowHarness) {
 
 /// Draws until the state is so.
 pub(crate) fn wait_until(harness: &mut WindowHarness, is_so: impl Fn(&State) -> bool) {
-    let until = Instant::now() + Duration::from_mins(2);
+    let until = Instant::now() + Duration::from_mins(3);
     harness.step();
     while !is_so(harness.state().state()) {
-        assert!(Instant::now() < until, "still working after two minutes");
+        assert!(Instant::now() < until, "still working after three minutes");
         thread::sleep(Duration::from_millis(5));
         harness.step();
     }
+}
+
+/// Presses what has this label, and waits for what comes of it.
+pub(crate) fn press(harness: &mut WindowHarness, label: &str) {
+    harness.get_by_label(label).click();
+    settle(harness);
 }
 
 /// Does what a person could cause, and waits for what comes of it.

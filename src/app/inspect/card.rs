@@ -14,7 +14,7 @@ use crate::{
         source::Origin,
         state::{State, UnitSystem},
         theme::{ROUNDING, Theme, font, space},
-        widgets::{Mark, heading, mark, row},
+        widgets::{Mark, heading, mark, row, sentence},
     },
     error::Advice as _,
     geometry::rigid::RigidTransform,
@@ -135,14 +135,6 @@ fn verdict(ui: &mut Ui, headline: &Headline, theme: &Theme) {
                 .color(theme.warning),
         );
     }
-}
-
-/// The text with a capital letter first.
-pub(super) fn sentence(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| {
-        first.to_uppercase().collect::<String>() + letters.as_str()
-    })
 }
 
 /// The score as a bar against the threshold, and the lead over the next part.

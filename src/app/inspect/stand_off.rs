@@ -7,7 +7,7 @@ use crate::{
         inspect::work::Inspected,
         state::UnitSystem,
         theme::{ROUNDING, Theme, font, space},
-        widgets::{Mark, Scale, heading, mark, row},
+        widgets::{Mark, Scale, heading, mark, row, sentence},
     },
     report::stand_off::{StandOff, StandOffParams},
 };
@@ -21,7 +21,7 @@ pub(super) fn ui(ui: &mut Ui, inspected: &Inspected, units: UnitSystem, theme: &
     match found {
         Ok(found) => figures(ui, found, &inspected.recipe.stand_off, units, theme),
         Err(error) => {
-            let text = super::card::sentence(&error.to_string());
+            let text = sentence(&error.to_string());
             ui.label(RichText::new(text).color(theme.weak_text));
         }
     }

@@ -55,7 +55,7 @@ pub use self::{
     picking::PickedPoint,
     scene::{Line, LineSet, PointSet, TextLabel, ViewScene},
     screenshot::{ViewShot, screenshot},
-    style::{Colouring, Legend, PointSize, Role, ViewColours, ViewStyle},
+    style::{Colouring, Legend, PointSize, Role, RoleColour, ViewColours, ViewStyle},
     widget::{ViewTool, Viewport, ViewportResponse},
 };
 

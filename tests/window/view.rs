@@ -1,11 +1,7 @@
 //! The Inspect workspace, by what a person reads and presses. No graphics adapter is needed but for the last tests,
 //! which say so where there is none.
 
-use std::{
-    path::PathBuf,
-    thread,
-    time::{Duration, Instant},
-};
+use std::path::PathBuf;
 
 use egui::{Key, Role, Vec2};
 use egui_kittest::{Harness, kittest::Queryable as _};
@@ -20,7 +16,7 @@ use partsight::{
     simulate::ObjectKind,
 };
 
-type WindowHarness = Harness<'static, Window>;
+use super::set_up::{SMALL, USUAL, WindowHarness, act, settle};
 
 /// Whether the window draws for real.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -49,7 +45,7 @@ fn open_at(size: Vec2, drawn: Drawn) -> WindowHarness {
 }
 
 fn open() -> WindowHarness {
-    open_at(Vec2::new(1440.0, 900.0), Drawn::InWords)
+    open_at(USUAL, Drawn::InWords)
 }
 
 /// True where something can draw; says so where nothing can.
@@ -66,24 +62,6 @@ fn can_draw() -> bool {
             false
         }
     }
-}
-
-/// Draws until nothing is at work any more.
-fn settle(harness: &mut WindowHarness) {
-    let until = Instant::now() + Duration::from_mins(1);
-    harness.step();
-    while !harness.state().state().works.is_empty() {
-        assert!(Instant::now() < until, "still working after a minute");
-        thread::sleep(Duration::from_millis(5));
-        harness.step();
-    }
-    harness.run_steps(3);
-}
-
-fn act(harness: &mut WindowHarness, action: Action) {
-    let context = harness.ctx.clone();
-    harness.state_mut().act(action, &context);
-    settle(harness);
 }
 
 #[test]
@@ -182,7 +160,7 @@ fn a_picture_of_the_view_is_saved_on_its_own_thread() {
         return;
     }
     let folder = tempfile::tempdir().expect("a folder");
-    let mut harness = open_at(Vec2::new(1024.0, 768.0), Drawn::ForReal);
+    let mut harness = open_at(SMALL, Drawn::ForReal);
     // Without an ending it is a PNG all the same.
     let chosen = Action::Chosen(Ask::Picture, folder.path().join("door"));
     act(&mut harness, chosen);
@@ -196,7 +174,7 @@ fn a_picture_of_the_view_is_saved_on_its_own_thread() {
 
 #[test]
 fn nothing_of_the_workspace_is_cut_off_in_small_windows() {
-    for size in [Vec2::new(1024.0, 768.0), Vec2::new(960.0, 600.0)] {
+    for size in [SMALL, Vec2::new(960.0, 600.0)] {
         let mut harness = open_at(size, Drawn::InWords);
         let copy = harness.get_by_label("Copy pose").rect();
         assert!(copy.max.y <= size.y && copy.max.x <= size.x, "{copy:?}");
@@ -243,9 +221,9 @@ fn pictures_of_the_workspace() {
         return;
     }
     let sizes = [
-        ("1440x900", Vec2::new(1440.0, 900.0), 1.0),
-        ("1024x768", Vec2::new(1024.0, 768.0), 1.0),
-        ("1440x900_150", Vec2::new(1440.0, 900.0), 1.5),
+        ("1440x900", USUAL, 1.0),
+        ("1024x768", SMALL, 1.0),
+        ("1440x900_150", USUAL, 1.5),
     ];
     let keep = |harness: &mut WindowHarness, name: &str| {
         harness.run_steps(4);

@@ -1,73 +1,33 @@
 //! The Compare workspace, by what a person reads and presses. No graphics adapter is needed.
 
-use std::{
-    path::Path,
-    thread,
-    time::{Duration, Instant},
-};
+use std::path::Path;
 
 use egui::{Key, Modifiers, Role, Vec2};
-use egui_kittest::{
-    Harness,
-    kittest::{NodeT as _, Queryable as _},
-};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use partsight::{
     app::{
-        Window, WindowOptions,
+        WindowOptions,
         action::Action,
         compare::{CompareAction, Front},
         source::CellChoice,
-        state::Workspace,
     },
     cases::{CaseFolder, Truth},
     pipeline::Recipe,
     simulate::{ObjectKind, PartKind, Side},
 };
 
-type WindowHarness = Harness<'static, Window>;
+use super::set_up::{SMALL, USUAL, WindowHarness, act, open_with, press, settle};
 
 fn open_at(size: Vec2, cases: &Path) -> WindowHarness {
     let options = WindowOptions {
         cases: Some(cases.to_owned()),
         ..WindowOptions::default()
     };
-    let mut harness = Harness::builder().with_size(size).build_eframe(|cc| {
-        Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), options).expect("a thread")
-    });
-    settle(&mut harness);
-    harness
+    open_with(size, options)
 }
 
 fn open(cases: &Path) -> WindowHarness {
-    open_at(Vec2::new(1440.0, 900.0), cases)
-}
-
-/// Draws until nothing is at work any more, and nothing waits for its turn.
-fn settle(harness: &mut WindowHarness) {
-    let until = Instant::now() + Duration::from_mins(2);
-    harness.run_steps(2);
-    let is_busy = |harness: &WindowHarness| {
-        let state = harness.state().state();
-        let is_front = state.workspace == Workspace::Compare;
-        !state.works.is_empty() || is_front && state.is_compare_behind()
-    };
-    while is_busy(harness) {
-        assert!(Instant::now() < until, "still working after two minutes");
-        thread::sleep(Duration::from_millis(5));
-        harness.step();
-    }
-    harness.run_steps(3);
-}
-
-fn act(harness: &mut WindowHarness, action: Action) {
-    let context = harness.ctx.clone();
-    harness.state_mut().act(action, &context);
-    settle(harness);
-}
-
-fn press(harness: &mut WindowHarness, label: &str) {
-    harness.get_by_label(label).click();
-    settle(harness);
+    open_at(USUAL, cases)
 }
 
 /// A scene of the cell, in front of the workspace.
@@ -94,8 +54,7 @@ const DOOR: CellChoice = CellChoice::Part(PartKind::FrontDoor, Side::Left);
 fn a_case_is_kept_run_and_opened_again_from_its_cell() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = open(folder.path());
-    harness.key_press(Key::Num2);
-    settle(&mut harness);
+    press(&mut harness, "Compare");
     harness.get_by_label_contains("Contours at the best lag");
     harness.get_by_label_contains("No kept cases in");
     assert!(harness.state().state().compare.study.is_some());
@@ -261,7 +220,7 @@ fn another_part_can_be_compared_from_the_list_of_distances() {
 #[test]
 fn every_control_is_large_enough_labelled_and_inside_a_small_window() {
     let folder = tempfile::tempdir().expect("a folder");
-    let size = Vec2::new(1024.0, 768.0);
+    let size = SMALL;
     let mut harness = open_at(size, folder.path());
     press(&mut harness, "Compare");
     keep(&mut harness, DOOR, "Front door, left");
