@@ -252,5 +252,19 @@ fn thread_seconds() -> Option<f64> {
     Some(nanoseconds / 1e9)
 }
 
+/// Processor time of all threads of this process so far, seconds, in steps of ten milliseconds: with a software driver
+/// the drawing is in it. `None` where there is no /proc.
+pub fn process_seconds() -> Option<f64> {
+    const TICKS_PER_SECOND: f64 = 100.0;
+    let stat = fs::read_to_string("/proc/self/stat").ok()?;
+    // The name, in brackets, may hold spaces; user and system time are the 12th and 13th fields after it.
+    let fields = stat.rsplit(')').next()?.split_whitespace();
+    let ticks = fields
+        .skip(11)
+        .take(2)
+        .filter_map(|ticks| ticks.parse::<f64>().ok());
+    Some(ticks.sum::<f64>() / TICKS_PER_SECOND)
+}
+
 #[cfg(test)]
 mod tests;

@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::speed::quantile;
 use crate::app::{
     WindowOptions,
-    headless::{FrameTime, HeadlessWindow, Pace},
+    headless::{FrameTime, HeadlessWindow, Pace, process_seconds},
     viewport::ViewError,
 };
 
@@ -21,6 +21,9 @@ pub struct FrameCost {
     pub busy_p50_ms: f64,
     /// The same, 95th percentile.
     pub busy_p95_ms: f64,
+    /// Processor time of all threads, mean: with a software driver the drawing is in it. `None` where the system does
+    /// not tell.
+    pub all_threads_mean_ms: Option<f64>,
     /// From frame to frame with the device waited for, median; `None` where it is not.
     pub paced_p50_ms: Option<f64>,
     /// Share of the points that was drawn in the last frame, 0..1.
@@ -47,8 +50,13 @@ pub fn window_cost(num_frames: usize, options: WindowOptions) -> Result<WindowCo
     window.settle();
     let shown = window.window().state().shown.as_ref();
     let num_points = shown.map_or(0, |shown| shown.inspected.figures.num_points);
-    let rest = frames(&mut window, num_frames, Pace::Ahead, |_| Vec::new());
-    let mut costs = vec![cost("at rest", &rest, Pace::Ahead, &window)];
+    let mut costs = vec![frames(
+        "at rest",
+        &mut window,
+        num_frames,
+        Pace::Ahead,
+        |_| Vec::new(),
+    )];
 
     let middle = Pos2::new(SIZE[0] as f32 * 0.4, SIZE[1] as f32 * 0.45);
     let button = |pressed| Event::PointerButton {
@@ -70,8 +78,7 @@ pub fn window_cost(num_frames: usize, options: WindowOptions) -> Result<WindowCo
             let swing = (i as f32 * 0.12).sin() * 260.0;
             vec![Event::PointerMoved(middle + Vec2::new(swing, swing * 0.3))]
         };
-        let times = frames(&mut window, num_frames, pace, hand);
-        costs.push(cost(what, &times, pace, &window));
+        costs.push(frames(what, &mut window, num_frames, pace, hand));
         window.frame(vec![button(false)], Pace::InStep);
     }
     Ok(WindowCost {
@@ -82,25 +89,26 @@ pub fn window_cost(num_frames: usize, options: WindowOptions) -> Result<WindowCo
 }
 
 fn frames(
+    what: &'static str,
     window: &mut HeadlessWindow,
     num_frames: usize,
     pace: Pace,
     events: impl Fn(usize) -> Vec<Event>,
-) -> Vec<FrameTime> {
+) -> FrameCost {
     /// Frames in which caches fill and the view learns how slow the device is.
     const NUM_FIRST: usize = 12;
-    let times: Vec<FrameTime> = (1..=num_frames + NUM_FIRST)
-        .map(|i| {
-            let time = window.frame(events(i), pace);
-            // Outside the time taken: a device that is behind must not fill the memory.
-            window.wait();
-            time
-        })
-        .collect();
-    times.into_iter().skip(NUM_FIRST).collect()
-}
-
-fn cost(what: &'static str, times: &[FrameTime], pace: Pace, window: &HeadlessWindow) -> FrameCost {
+    let mut draw = |i| {
+        let time = window.frame(events(i), pace);
+        // Outside the time taken: a device that is behind must not fill the memory.
+        window.wait();
+        time
+    };
+    for i in 1..=NUM_FIRST {
+        draw(i);
+    }
+    let before = process_seconds();
+    let times: Vec<FrameTime> = (1..=num_frames).map(|i| draw(i + NUM_FIRST)).collect();
+    let spent = process_seconds().zip(before).map(|(now, then)| now - then);
     let busy = |share| quantile(times.iter().map(|t| t.busy * 1e3), share).unwrap_or(0.0);
     let whole = quantile(times.iter().map(|t| t.whole * 1e3), 0.5);
     FrameCost {
@@ -108,6 +116,7 @@ fn cost(what: &'static str, times: &[FrameTime], pace: Pace, window: &HeadlessWi
         num_frames: times.len(),
         busy_p50_ms: busy(0.5),
         busy_p95_ms: busy(0.95),
+        all_threads_mean_ms: spent.map(|s| s * 1e3 / num_frames.max(1) as f64),
         paced_p50_ms: whole.filter(|_| pace == Pace::InStep),
         detail: f64::from(window.window().detail_of_view()),
     }
