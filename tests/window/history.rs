@@ -42,6 +42,7 @@ fn an_earlier_inspection_is_found_and_opened_again_with_its_stages() {
     settle(&mut harness);
     assert_eq!(harness.state().state().workspace, Workspace::Inspect);
     harness.get_by_label("Simulated frame 1");
+    harness.get_by_label_contains("From the history");
     harness.get_by_label("Enlarge contour");
     // Looking again is no inspection.
     assert_eq!(harness.state().state().history.num_rows(), 2);

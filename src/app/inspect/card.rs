@@ -8,11 +8,11 @@ use egui::{
 use super::stand_off;
 use crate::{
     app::{
-        action::Action,
+        action::{Action, Ask},
         bars::focus_ring,
         inspect::work::Inspected,
         source::Origin,
-        state::{State, UnitSystem},
+        state::{State, UnitSystem, Workspace},
         theme::{ROUNDING, Theme, font, space},
         widgets::{Mark, heading, mark, row, sentence},
     },
@@ -69,17 +69,20 @@ pub(super) fn ui(
         );
         ui.multiply_opacity(0.55);
     }
+    if state.shown.as_ref().is_some_and(|shown| shown.is_past) {
+        let text = "From the history: not what hangs there now";
+        let text = RichText::new(text).font(font::body_strong());
+        ui.label(text.color(theme.warning));
+    }
     let inspection = &inspected.inspection;
     let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
-    if pose.is_some() {
-        // What is pressed stays in sight, however low the window.
-        Panel::bottom("pose out")
-            .exact_size(space::TARGET + space::MEDIUM)
-            .resizable(false)
-            .show_separator_line(false)
-            .frame(Frame::new())
-            .show(ui, |ui| copy_pose(ui, theme, actions));
-    }
+    // What is pressed stays in sight, however low the window.
+    Panel::bottom("ways on")
+        .exact_size(space::TARGET + space::MEDIUM)
+        .resizable(false)
+        .show_separator_line(false)
+        .frame(Frame::new())
+        .show(ui, |ui| ways_on(ui, pose, theme, actions));
     // Text lies closer than controls do.
     ui.spacing_mut().interact_size.y = 20.0;
     ui.spacing_mut().item_spacing.y = 3.0;
@@ -97,16 +100,37 @@ pub(super) fn ui(
     });
 }
 
-fn copy_pose(ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
+/// What can be done with the result.
+fn ways_on(ui: &mut Ui, pose: Option<&PoseEstimate>, theme: &Theme, actions: &mut Vec<Action>) {
+    let ways = [
+        (
+            "Export…",
+            "A report: a line of JSON and the pictures of all stages (Ctrl E)",
+            (|| Action::Ask(Ask::ReportFolder)) as fn() -> Action,
+        ),
+        (
+            "Wrong part?",
+            "See in Compare why it was taken for this",
+            || Action::GoTo(Workspace::Compare),
+        ),
+        ("Copy pose", "camera_from_part, four rows, metres", || {
+            Action::CopyPose
+        }),
+    ];
+    let num = if pose.is_some() { 3 } else { 2 };
     ui.with_layout(Layout::bottom_up(Align::Min), |ui| {
-        let width = ui.available_width();
-        let copy = Button::new("Copy pose").min_size(vec2(width, space::TARGET));
-        let copied = ui.add(copy);
-        focus_ring(ui, copied.rect, &copied, theme);
-        let says = "camera_from_part, four rows, metres";
-        if copied.on_hover_text(says).clicked() {
-            actions.push(Action::CopyPose);
-        }
+        ui.horizontal(|ui| {
+            ui.spacing_mut().button_padding.x = 4.0;
+            let gaps = ui.spacing().item_spacing.x * (num - 1) as f32;
+            let size = vec2((ui.available_width() - gaps) / num as f32, space::TARGET);
+            for (label, says, action) in ways.into_iter().take(num) {
+                let button = ui.add(Button::new(label).min_size(size));
+                focus_ring(ui, button.rect, &button, theme);
+                if button.on_hover_text(says).clicked() {
+                    actions.push(action());
+                }
+            }
+        });
     });
 }
 
