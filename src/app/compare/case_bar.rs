@@ -5,7 +5,6 @@ use egui::{Button, RichText, ScrollArea, Sense, TextEdit, Ui, Vec2, WidgetInfo};
 use super::{CompareAction, Front, matrix::truth_title};
 use crate::{
     app::{
-        action::Action,
         bars::{labelled, shortened},
         state::State,
         theme::{Theme, font, space},
@@ -15,21 +14,16 @@ use crate::{
 };
 
 /// Draws the bar.
-pub(super) fn ui(
-    ui: &mut Ui,
-    state: &State,
-    theme: &Theme,
-    acts: &mut Vec<CompareAction>,
-    _actions: &mut Vec<Action>,
-) {
+pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<CompareAction>) {
     ui.horizontal_wrapped(|ui| {
         case_menu(ui, state, acts);
         verdict(ui, state, theme);
         truth_menu(ui, state, acts);
-        ui.label(RichText::new("against").color(theme.weak_text));
-        against_menu(ui, state, acts);
     });
     ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new("against").color(theme.weak_text));
+        against_menu(ui, state, acts);
+        ui.add_space(space::MEDIUM);
         deeds(ui, state, theme, acts);
     });
 }
@@ -202,7 +196,11 @@ fn deeds(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<CompareAction
             let mut remark = compare.remark.clone();
             let edit = TextEdit::singleline(&mut remark)
                 .hint_text("Remark")
-                .desired_width(170.0)
+                .desired_width(if ui.available_width() > 500.0 {
+                    200.0
+                } else {
+                    80.0
+                })
                 .align(egui::Align2::LEFT_CENTER)
                 .min_size(Vec2::new(0.0, space::TARGET));
             let response = ui.add(edit);

@@ -99,6 +99,8 @@ pub struct Correlation {
     pub cross: Vec<f32>,
     /// The lag that the first value stands at.
     pub first_lag: i64,
+    /// What a lag counts.
+    pub steps: &'static str,
     /// ‖A − C‖₁ of these two.
     pub l1: f64,
     /// Smallest and largest value of both.
@@ -193,7 +195,12 @@ impl Trace {
 }
 
 impl Correlation {
-    fn new(name: &'static str, auto: &[f64], cross: &[f64], first_lag: i64) -> Self {
+    fn new(
+        name: &'static str,
+        auto: &[f64],
+        cross: &[f64],
+        (first_lag, steps): (i64, &'static str),
+    ) -> Self {
         let num = auto.len().max(cross.len());
         let at = |values: &[f64], i: usize| values.get(i).copied().unwrap_or(0.0);
         // Eq. (11), the shorter padded with zeros (Note 1).
@@ -207,6 +214,7 @@ impl Correlation {
             auto,
             cross,
             first_lag,
+            steps,
             l1,
         }
     }
@@ -250,10 +258,15 @@ fn of_rays(
     };
     let auto = around(&view.spectrum, 0);
     let cross = around(&spectrum(&scene.rays), placement.lag % num);
-    let name = "|L·e^iΘ|, m²";
+    let name = "Rays, m²";
     (
         traces,
-        vec![Correlation::new(name, &auto, &cross, -(half as i64))],
+        vec![Correlation::new(
+            name,
+            &auto,
+            &cross,
+            (-(half as i64), "rays"),
+        )],
     )
 }
 
@@ -265,7 +278,7 @@ fn as_written(query: &Query<'_>, reference: &Reference) -> ([Trace; 2], Vec<Corr
     let first_lag = 1 - part.signature.lengths.len() as i64;
     let correlated = |name, auto: &[f64], of_part: &[f64], of_scene: &[f64]| {
         let cross = linear_correlation(of_part, of_scene);
-        Correlation::new(name, auto, &cross, first_lag)
+        Correlation::new(name, auto, &cross, (first_lag, "pixels"))
     };
     let correlations = vec![
         correlated(

@@ -14,6 +14,8 @@ use crate::{
 
 /// Height of a row.
 const ROW: f32 = 40.0;
+/// A row wider than this has room for both figures.
+const WIDE: f32 = 270.0;
 
 /// Draws the list.
 pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<CompareAction>) {
@@ -35,8 +37,8 @@ pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<Compa
         ui.label(RichText::new("Needs an outline").color(theme.weak_text));
         return;
     };
+    ui.spacing_mut().interact_size.y = 0.0;
     ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().interact_size.y = 0.0;
         let chosen = study.recipe.rank.matcher;
         let small = |text: &str, colour| RichText::new(text).font(font::small()).color(colour);
         let with_sign = |name: &str, is_chosen: bool| {
@@ -57,7 +59,8 @@ pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<Compa
         .show(ui, |ui| {
             for distance in &study.distances {
                 let is_against = study.against.as_deref() == Some(&distance.part);
-                if row(ui, distance, is_against, state.units, theme) {
+                let matcher = study.recipe.rank.matcher;
+                if row(ui, distance, is_against, matcher, state.units, theme) {
                     acts.push(CompareAction::Against(Some(distance.part.clone())));
                 }
             }
@@ -69,6 +72,7 @@ fn row(
     ui: &mut Ui,
     distance: &PartDistance,
     is_against: bool,
+    matcher: Matcher,
     units: UnitSystem,
     theme: &Theme,
 ) -> bool {
@@ -82,6 +86,12 @@ fn row(
         let label = format!("Compare with {}: {figures}", distance.title);
         WidgetInfo::selected(egui::Role::Button, true, is_against, label)
     });
+    // Where there is little room the other matcher's figure is on the bar and in the hover text alone.
+    let written = match matcher {
+        _ if rect.width() > WIDE => figures.clone(),
+        Matcher::Default => outline.clone(),
+        Matcher::Paper => format!("{:.2e}", distance.paper),
+    };
     let painter = ui.painter_at(rect);
     if is_against || response.hovered() {
         painter.rect_filled(rect, ROUNDING, theme.control);
@@ -94,7 +104,7 @@ fn row(
     let value = painter.text(
         inner.right_top(),
         Align2::RIGHT_TOP,
-        &figures,
+        &written,
         font::small(),
         theme.text,
     );

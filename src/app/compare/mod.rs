@@ -93,7 +93,7 @@ impl ComparePanel {
             .resizable(false)
             .frame(panel(Margin::symmetric(12, 8)))
             .show(ui, |ui| {
-                case_bar::ui(ui, state, theme, &mut acts, actions);
+                case_bar::ui(ui, state, theme, &mut acts);
             });
         self::body(ui, state, theme, &mut acts, actions);
         actions.extend(acts.into_iter().map(Action::Compare));

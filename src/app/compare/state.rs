@@ -54,6 +54,8 @@ pub struct CompareState {
     /// The inspected scene that was followed last.
     followed: Option<Shown>,
     is_listed: bool,
+    /// What was said last of something done: the next takes its place.
+    said: Option<Notice>,
 }
 
 /// The case in front.
@@ -306,11 +308,11 @@ fn hear_done(state: &mut State, done: CaseDone) {
     match done {
         CaseDone::Listed => {}
         CaseDone::Kept(case) => {
-            notify(state, Notice::done(format!("Kept as {}", case.name)));
+            say(state, format!("Kept as {}", case.name));
             state.compare.remark.clear();
         }
         CaseDone::Removed { name, trash } => {
-            notify(state, Notice::done(format!("Removed {name}")));
+            say(state, format!("Removed {name}"));
             let is_front = matches!(&state.compare.front, Front::Kept(case) if case.name == name);
             if is_front {
                 state.compare.front = Front::Scene;
@@ -320,10 +322,18 @@ fn hear_done(state: &mut State, done: CaseDone) {
             state.compare.undo = Some(Undo::Removal { name, trash });
         }
         CaseDone::Restored(name) => {
-            notify(state, Notice::done(format!("{name} is back")));
+            say(state, format!("{name} is back"));
             state.compare.undo = None;
         }
     }
+}
+
+/// Says that something was done, in the place of what was said before.
+fn say(state: &mut State, what: String) {
+    let notice = Notice::done(what);
+    let before = state.compare.said.replace(notice.clone());
+    state.notices.retain(|known| Some(known) != before.as_ref());
+    notify(state, notice);
 }
 
 /// Another case has another truth.
@@ -465,7 +475,7 @@ fn use_recipe(state: &mut State) -> Option<Effect> {
         1 => "Scenes are inspected with this recipe now: 1 changed from default".to_owned(),
         _ => format!("Scenes are inspected with this recipe now: {num} changed from default"),
     };
-    notify(state, Notice::done(text));
+    say(state, text);
     let before = std::mem::replace(&mut state.recipe, tried);
     state.compare.undo = Some(Undo::Use(before));
     inspect_again(state)
@@ -482,9 +492,9 @@ fn undo(state: &mut State) -> Option<Effect> {
             // What was in use stays on trial.
             let tried = std::mem::replace(&mut state.recipe, before);
             state.compare.tried.get_or_insert(tried);
-            notify(
+            say(
                 state,
-                Notice::done("Scenes are inspected with the recipe before again"),
+                "Scenes are inspected with the recipe before again".into(),
             );
             inspect_again(state)
         }
