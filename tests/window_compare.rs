@@ -76,7 +76,7 @@ fn show(harness: &mut WindowHarness, choice: CellChoice) {
 
 fn keep(harness: &mut WindowHarness, choice: CellChoice, truth: &str) {
     show(harness, choice);
-    press(harness, "Choose what it is ▼");
+    press(harness, "Choose… ▼");
     press(harness, &format!("It is: {truth}"));
     press(harness, "Keep case");
 }
@@ -119,7 +119,7 @@ fn a_case_is_kept_run_and_opened_again_from_its_cell() {
     keep(&mut harness, DOOR, "Front door, left");
     // Said to be another part: accepted as what it is not.
     show(&mut harness, FENDER);
-    press(&mut harness, "Choose what it is ▼");
+    press(&mut harness, "Choose… ▼");
     press(&mut harness, "It is: Back door, left");
     harness.key_press(Key::K);
     settle(&mut harness);

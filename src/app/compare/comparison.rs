@@ -182,13 +182,13 @@ impl Overlay {
 }
 
 impl Trace {
-    fn new(name: &'static str, measure: Measure, query: Vec<f32>, reference: Vec<f32>) -> Self {
-        let range = range_of(query.iter().chain(&reference));
+    fn new(name: &'static str, measure: Measure, query: &[f32], reference: &[f32]) -> Self {
+        let range = range_of(query.iter().chain(reference));
         Self {
             name,
             measure,
-            query: every(&query),
-            reference: every(&reference),
+            query: every(query),
+            reference: every(reference),
             range,
         }
     }
@@ -239,8 +239,8 @@ fn of_rays(
     let other = placed.and_then(|(placement, view)| Curves::placed(view, placement, scene));
     let (lengths, angles) = other.map_or_else(Default::default, |c| (c.lengths, c.angles));
     let traces = [
-        Trace::new("L", Measure::Length, own.lengths, lengths),
-        Trace::new("Θ", Measure::Angle, own.angles, angles),
+        Trace::new("L", Measure::Length, &own.lengths, &lengths),
+        Trace::new("Θ", Measure::Angle, &own.angles, &angles),
     ];
     let num = scene.rays.len();
     let Some((placement, view)) = placed.filter(|(_, view)| view.spectrum.len() == num) else {
@@ -295,8 +295,8 @@ fn as_written(query: &Query<'_>, reference: &Reference) -> ([Trace; 2], Vec<Corr
         ),
     ];
     let traces = [
-        Trace::new("L", Measure::Pixels, own.lengths, other.lengths),
-        Trace::new("Θ", Measure::Angle, own.angles, other.angles),
+        Trace::new("L", Measure::Pixels, &own.lengths, &other.lengths),
+        Trace::new("Θ", Measure::Angle, &own.angles, &other.angles),
     ];
     (traces, correlations)
 }

@@ -116,12 +116,13 @@ fn header(
             num => RichText::new(format!("{num} wrong and accepted")).color(theme.rejected),
         };
         ui.label(wrong.font(font::body_strong()));
-        let mut rest = format!(
+        let rest = format!(
             "· {} of {} right · {} refused",
             tally.right, tally.total, tally.refused
         );
+        let mut rest = vec![rest];
         if !run.troubles.is_empty() {
-            rest += &format!(" · {} damaged", run.troubles.len());
+            rest.push(format!("{} damaged", run.troubles.len()));
         }
         let done = run.results.len() + run.troubles.len();
         if run.ended.is_none() {
@@ -130,11 +131,11 @@ fn header(
             } else {
                 "stopped"
             };
-            rest += &format!(" · {verb}, {done} of {} done", run.total);
+            rest.push(format!("{verb}, {done} of {} done", run.total));
         }
-        ui.label(RichText::new(rest).color(theme.text));
+        ui.label(RichText::new(rest.join(" · ")).color(theme.text));
         if *run.recipe != **state.tried_recipe() {
-            let text = "· with another recipe than the one on the right";
+            let text = "· with another recipe";
             ui.label(RichText::new(text).color(theme.warning));
         }
     });

@@ -17,6 +17,8 @@ use crate::{
 
 /// Height of a picture's title.
 const TITLE: f32 = 19.0;
+/// Captions of a picture narrower than this have two lines.
+const NARROW: f32 = 270.0;
 
 /// Draws all three, each into its rectangle.
 pub(super) fn ui(ui: &mut Ui, rects: [Rect; 3], state: &State, theme: &Theme) {
@@ -125,7 +127,9 @@ impl Picture {
             theme.weak_text,
             rect.width(),
         );
-        let top = TITLE + lines.size().y + 5.0;
+        // Side by side the pictures begin at the same height.
+        let least = if rect.width() < NARROW { 30.0 } else { 15.0 };
+        let top = TITLE + lines.size().y.max(least) + 5.0;
         painter.galley(at, lines, theme.weak_text);
         let canvas = Rect::from_min_max(rect.min + vec2(0.0, top), rect.max);
         painter.rect_filled(canvas, ROUNDING, theme.canvas);
@@ -267,8 +271,8 @@ impl Picture {
         self.painter.line(c, Stroke::new(1.6, theme.first_series));
         let legend = [
             (format!("{name}:"), theme.weak_text),
-            ("A itself".to_owned(), theme.reference_series),
-            ("C with query".to_owned(), theme.first_series),
+            ("A: itself".to_owned(), theme.reference_series),
+            ("C: query".to_owned(), theme.first_series),
         ];
         let mut at = pos2(plot.left(), below.top());
         for (text, colour) in legend {
@@ -276,6 +280,11 @@ impl Picture {
                 .painter
                 .text(at, Align2::LEFT_TOP, text, font::small(), colour);
             at.x = drawn.right() + 6.0;
+        }
+        if range[0] > 0.2 * range[1] {
+            let at = plot.left_bottom() + vec2(4.0, -1.0);
+            let text = "the axis does not begin at 0";
+            self.text(at, Align2::LEFT_BOTTOM, text, theme.weak_text);
         }
         // Lags stand further apart where the curve was thinned.
         let (first, whole) = (correlation.first_lag, -2 * correlation.first_lag);
