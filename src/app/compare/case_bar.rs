@@ -21,7 +21,7 @@ pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<Compa
     let remark = if ui.available_width() > WIDE {
         220.0
     } else {
-        70.0
+        140.0
     };
     ui.horizontal_wrapped(|ui| {
         case_menu(ui, state, acts);

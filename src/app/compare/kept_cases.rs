@@ -107,8 +107,8 @@ fn header(
     let Some(run) = &compare.run else {
         return;
     };
+    let height = std::mem::take(&mut ui.spacing_mut().interact_size.y);
     ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().interact_size.y = 0.0;
         let tally = &run.matrix.tally;
         // The worst is said first.
         let wrong = match tally.wrong_accepted {
@@ -139,6 +139,7 @@ fn header(
             ui.label(RichText::new(text).color(theme.warning));
         }
     });
+    ui.spacing_mut().interact_size.y = height;
 }
 
 /// All cases, before any run.

@@ -46,7 +46,7 @@ pub(super) fn ui(ui: &mut Ui, rects: [Rect; 3], state: &State, theme: &Theme) {
         let caption = match comparison.matcher {
             Matcher::Default => {
                 let share = comparison.relative_l1;
-                format!("default: finds the lag · ‖A − C‖₁ {share:.2} of ‖A‖₁")
+                format!("default: finds the lag · ‖A − C‖₁ {share:.2} of ‖A‖₁ · axis not from 0")
             }
             Matcher::Paper => {
                 let (l1, share) = (comparison.l1, comparison.relative_l1);
@@ -280,11 +280,6 @@ impl Picture {
                 .painter
                 .text(at, Align2::LEFT_TOP, text, font::small(), colour);
             at.x = drawn.right() + 6.0;
-        }
-        if range[0] > 0.2 * range[1] {
-            let at = plot.left_bottom() + vec2(4.0, -1.0);
-            let text = "the axis does not begin at 0";
-            self.text(at, Align2::LEFT_BOTTOM, text, theme.weak_text);
         }
         // Lags stand further apart where the curve was thinned.
         let (first, whole) = (correlation.first_lag, -2 * correlation.first_lag);
