@@ -9,7 +9,7 @@ use super::{
     action::{Action, Effect, apply},
     align::AlignPanel,
     bars,
-    compare::{ComparePanel, CompareState},
+    compare::{self, CompareState},
     dialog::Dialog,
     enrol::EnrolPanel,
     headless::WorkCounts,
@@ -50,7 +50,6 @@ pub struct Window {
     gpu: Result<ViewportGpu, ViewError>,
     inspect: InspectPanel,
     enrol: EnrolPanel,
-    compare: ComparePanel,
     align: AlignPanel,
     history: HistoryPanel,
 }
@@ -101,7 +100,6 @@ impl Window {
             gpu: gpu.clone(),
             inspect: InspectPanel::new(gpu.clone()),
             enrol: EnrolPanel::new(gpu.clone()),
-            compare: ComparePanel::new(gpu.clone()),
             align: AlignPanel::new(&gpu),
             history: HistoryPanel::new(),
         };
@@ -219,16 +217,15 @@ impl Window {
             .show(ui, |ui| match self.state.workspace {
                 Workspace::Inspect => self.inspect.ui(ui, &self.state, theme, &mut actions),
                 Workspace::Enrol => self.enrol.ui(ui, &self.state, theme, &mut actions),
-                Workspace::Compare => self.compare.ui(ui, &self.state, theme, &mut actions),
+                Workspace::Compare => compare::ui(ui, &self.state, theme, &mut actions),
                 Workspace::Align => self.align.ui(ui, &self.state, theme, &mut actions),
                 Workspace::History => self.history.ui(ui, &self.state, theme, &mut actions),
             });
         let view_has_focus = match self.state.workspace {
             Workspace::Inspect => self.inspect.view_has_focus(),
             Workspace::Enrol => self.enrol.view_has_focus(),
-            Workspace::Compare => self.compare.view_has_focus(),
             Workspace::Align => self.align.view_has_focus(),
-            Workspace::History => false,
+            Workspace::Compare | Workspace::History => false,
         };
         keys::help(&ctx, &self.state, theme, &mut actions);
         keys::shortcuts(&ctx, &self.state, view_has_focus, &mut actions);

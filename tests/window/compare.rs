@@ -3,14 +3,12 @@
 use std::path::Path;
 
 use egui::{Key, Modifiers, Role, Vec2};
-use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use egui_kittest::{
+    Node,
+    kittest::{NodeT as _, Queryable as _},
+};
 use partsight::{
-    app::{
-        WindowOptions,
-        action::Action,
-        compare::{CompareAction, Front},
-        source::CellChoice,
-    },
+    app::{WindowOptions, action::Action, compare::Front, source::CellChoice},
     cases::{CaseFolder, Truth},
     pipeline::Recipe,
     simulate::{ObjectKind, PartKind, Side},
@@ -37,7 +35,7 @@ fn show(harness: &mut WindowHarness, choice: CellChoice) {
 
 fn keep(harness: &mut WindowHarness, choice: CellChoice, truth: &str) {
     show(harness, choice);
-    press(harness, "Choose what it is ▼");
+    press(harness, "Choose… ▼");
     press(harness, &format!("It is: {truth}"));
     press(harness, "Keep case");
 }
@@ -79,7 +77,7 @@ fn a_case_is_kept_run_and_opened_again_from_its_cell() {
     keep(&mut harness, DOOR, "Front door, left");
     // Said to be another part: accepted as what it is not.
     show(&mut harness, FENDER);
-    press(&mut harness, "Choose what it is ▼");
+    press(&mut harness, "Choose… ▼");
     press(&mut harness, "It is: Back door, left");
     harness.key_press(Key::K);
     settle(&mut harness);
@@ -110,7 +108,7 @@ fn a_case_is_kept_run_and_opened_again_from_its_cell() {
         assert_eq!(result.found, case.meta.about.found);
     }
 
-    let cell = "Back door, left taken for fender, left: 1, wrong and accepted";
+    let cell = "Back door, left taken for Fender, left: 1, wrong and accepted";
     harness.get_by_label(cell).focus();
     harness.run_steps(1);
     harness.key_press(Key::Enter);
@@ -159,13 +157,18 @@ fn a_changed_parameter_shows_at_once_and_can_be_used_undone_and_reset() {
     assert!(study(&harness).found.accepted);
 
     // Written into the field as a person would.
-    harness.get_by_label("Accept from").click();
-    harness.run_steps(2);
-    harness.key_press_modifiers(Modifiers::COMMAND, Key::A);
-    harness.get_by_label("Accept from").type_text("1");
-    harness.run_steps(1);
-    harness.key_press(Key::Enter);
-    settle(&mut harness);
+    let accept_from = |harness: &mut WindowHarness, text: &str| {
+        let field = |harness: &mut WindowHarness, act: &dyn Fn(&Node<'_>)| {
+            act(&harness.get_by_role_and_label(Role::SpinButton, "Accept from"));
+            harness.run_steps(30);
+        };
+        field(harness, &|node| node.scroll_to_me());
+        field(harness, &|node| node.click());
+        field(harness, &|node| node.type_text(text));
+        harness.key_press(Key::Enter);
+        settle(harness);
+    };
+    accept_from(&mut harness, "1");
     harness.get_by_label("1 changed from default");
     assert!(!study(&harness).found.accepted);
     assert!((study(&harness).recipe.accept.min_score - 1.0).abs() < 1e-9);
@@ -186,8 +189,7 @@ fn a_changed_parameter_shows_at_once_and_can_be_used_undone_and_reset() {
     assert!(study(&harness).found.accepted);
 
     // What is out of range is refused in words and changes nothing.
-    let action = CompareAction::Set("accept.min_score", 1.5);
-    act(&mut harness, Action::Compare(action));
+    accept_from(&mut harness, "1.5");
     harness.get_by_label_contains("Accept from cannot be 1.5");
     harness.get_by_label("0 changed from default");
 
@@ -296,7 +298,7 @@ fn it_is_drawn_in_both_sizes_and_colours() {
         shot(&mut harness, "case");
         press(&mut harness, "Run all cases");
         shot(&mut harness, "run");
-        let cell = "Back door, left taken for fender, left: 1, wrong and accepted";
+        let cell = "Back door, left taken for Fender, left: 1, wrong and accepted";
         press(&mut harness, cell);
         harness.get_by_label_contains("Open simulated").click();
         settle(&mut harness);

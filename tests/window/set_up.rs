@@ -59,8 +59,10 @@ pub(crate) fn wait_until(harness: &mut WindowHarness, is_so: impl Fn(&State) -> 
     }
 }
 
-/// Presses what has this label, and waits for what comes of it.
+/// Presses what has this label, once it is in sight, and waits for what comes of it.
 pub(crate) fn press(harness: &mut WindowHarness, label: &str) {
+    harness.get_by_label(label).scroll_to_me();
+    harness.run_steps(30);
     harness.get_by_label(label).click();
     settle(harness);
 }

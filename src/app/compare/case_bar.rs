@@ -5,7 +5,6 @@ use egui::{Button, RichText, ScrollArea, Sense, TextEdit, Ui, Vec2, WidgetInfo};
 use super::{CompareAction, Front, matrix::truth_title};
 use crate::{
     app::{
-        action::Action,
         bars::{labelled, shortened},
         state::State,
         theme::{Theme, font, space},
@@ -14,23 +13,26 @@ use crate::{
     cases::{Answered, Judgement, Truth},
 };
 
+/// A bar wider than this has room for a long remark.
+const WIDE: f32 = 800.0;
+
 /// Draws the bar.
-pub(super) fn ui(
-    ui: &mut Ui,
-    state: &State,
-    theme: &Theme,
-    acts: &mut Vec<CompareAction>,
-    _actions: &mut Vec<Action>,
-) {
+pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<CompareAction>) {
+    let remark = if ui.available_width() > WIDE {
+        220.0
+    } else {
+        140.0
+    };
     ui.horizontal_wrapped(|ui| {
         case_menu(ui, state, acts);
         verdict(ui, state, theme);
         truth_menu(ui, state, acts);
-        ui.label(RichText::new("against").color(theme.weak_text));
-        against_menu(ui, state, acts);
     });
     ui.horizontal_wrapped(|ui| {
-        deeds(ui, state, theme, acts);
+        ui.label(RichText::new("against").color(theme.weak_text));
+        against_menu(ui, state, acts);
+        ui.add_space(space::MEDIUM);
+        deeds(ui, state, remark, theme, acts);
     });
 }
 
@@ -88,23 +90,17 @@ fn verdict(ui: &mut Ui, state: &State, theme: &Theme) {
             .font(font::body_strong())
             .color(theme.text)
     };
-    match &found.part {
-        Some(_) => {
-            ui.label(weak("taken for"));
-            ui.label(strong(&study.found_title));
-        }
-        None => {
-            ui.label(weak("taken for"));
-            ui.label(strong("nothing"));
-        }
-    }
+    ui.label(weak("taken for"));
+    ui.label(strong(match found.part {
+        Some(_) => &study.found_title,
+        None => "nothing",
+    }));
     let judgement = judged(state);
     let sign = match judgement {
         Some(Judgement::WrongAccepted) => Mark::Bad,
         Some(Judgement::Right) => Mark::Good,
-        Some(Judgement::Refused) => Mark::Look,
         None if found.accepted => Mark::Good,
-        None => Mark::Look,
+        Some(Judgement::Refused) | None => Mark::Look,
     };
     let (rect, _) = ui.allocate_exact_size(Vec2::splat(18.0), Sense::hover());
     mark(ui.painter(), rect.center(), 8.0, sign, theme);
@@ -139,7 +135,7 @@ fn truth_menu(ui: &mut Ui, state: &State, acts: &mut Vec<CompareAction>) {
     };
     let chosen = state.compare.truth.as_ref();
     let title = chosen.map_or_else(
-        || "Choose what it is ▼".to_owned(),
+        || "Choose… ▼".to_owned(),
         |truth| format!("{} ▼", truth_title(truth, library)),
     );
     menu(ui, &title, "What truly hung before the camera", &mut |ui| {
@@ -194,7 +190,13 @@ fn against_menu(ui: &mut Ui, state: &State, acts: &mut Vec<CompareAction>) {
 }
 
 /// What can be done with the case, and with all of them.
-fn deeds(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<CompareAction>) {
+fn deeds(
+    ui: &mut Ui,
+    state: &State,
+    remark_width: f32,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+) {
     let compare = &state.compare;
     let key = |text: &str| RichText::new(text).font(font::small());
     match &compare.front {
@@ -202,7 +204,7 @@ fn deeds(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<CompareAction
             let mut remark = compare.remark.clone();
             let edit = TextEdit::singleline(&mut remark)
                 .hint_text("Remark")
-                .desired_width(170.0)
+                .desired_width(remark_width)
                 .align(egui::Align2::LEFT_CENTER)
                 .min_size(Vec2::new(0.0, space::TARGET));
             let response = ui.add(edit);

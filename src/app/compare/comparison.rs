@@ -99,6 +99,8 @@ pub struct Correlation {
     pub cross: Vec<f32>,
     /// The lag that the first value stands at.
     pub first_lag: i64,
+    /// What a lag counts.
+    pub steps: &'static str,
     /// ‖A − C‖₁ of these two.
     pub l1: f64,
     /// Smallest and largest value of both.
@@ -180,20 +182,25 @@ impl Overlay {
 }
 
 impl Trace {
-    fn new(name: &'static str, measure: Measure, query: Vec<f32>, reference: Vec<f32>) -> Self {
-        let range = range_of(query.iter().chain(&reference));
+    fn new(name: &'static str, measure: Measure, query: &[f32], reference: &[f32]) -> Self {
+        let range = range_of(query.iter().chain(reference));
         Self {
             name,
             measure,
-            query: every(&query),
-            reference: every(&reference),
+            query: every(query),
+            reference: every(reference),
             range,
         }
     }
 }
 
 impl Correlation {
-    fn new(name: &'static str, auto: &[f64], cross: &[f64], first_lag: i64) -> Self {
+    fn new(
+        name: &'static str,
+        auto: &[f64],
+        cross: &[f64],
+        (first_lag, steps): (i64, &'static str),
+    ) -> Self {
         let num = auto.len().max(cross.len());
         let at = |values: &[f64], i: usize| values.get(i).copied().unwrap_or(0.0);
         // Eq. (11), the shorter padded with zeros (Note 1).
@@ -207,6 +214,7 @@ impl Correlation {
             auto,
             cross,
             first_lag,
+            steps,
             l1,
         }
     }
@@ -231,8 +239,8 @@ fn of_rays(
     let other = placed.and_then(|(placement, view)| Curves::placed(view, placement, scene));
     let (lengths, angles) = other.map_or_else(Default::default, |c| (c.lengths, c.angles));
     let traces = [
-        Trace::new("L", Measure::Length, own.lengths, lengths),
-        Trace::new("Θ", Measure::Angle, own.angles, angles),
+        Trace::new("L", Measure::Length, &own.lengths, &lengths),
+        Trace::new("Θ", Measure::Angle, &own.angles, &angles),
     ];
     let num = scene.rays.len();
     let Some((placement, view)) = placed.filter(|(_, view)| view.spectrum.len() == num) else {
@@ -250,10 +258,15 @@ fn of_rays(
     };
     let auto = around(&view.spectrum, 0);
     let cross = around(&spectrum(&scene.rays), placement.lag % num);
-    let name = "|L·e^iΘ|, m²";
+    let name = "Rays, m²";
     (
         traces,
-        vec![Correlation::new(name, &auto, &cross, -(half as i64))],
+        vec![Correlation::new(
+            name,
+            &auto,
+            &cross,
+            (-(half as i64), "rays"),
+        )],
     )
 }
 
@@ -265,7 +278,7 @@ fn as_written(query: &Query<'_>, reference: &Reference) -> ([Trace; 2], Vec<Corr
     let first_lag = 1 - part.signature.lengths.len() as i64;
     let correlated = |name, auto: &[f64], of_part: &[f64], of_scene: &[f64]| {
         let cross = linear_correlation(of_part, of_scene);
-        Correlation::new(name, auto, &cross, first_lag)
+        Correlation::new(name, auto, &cross, (first_lag, "pixels"))
     };
     let correlations = vec![
         correlated(
@@ -282,8 +295,8 @@ fn as_written(query: &Query<'_>, reference: &Reference) -> ([Trace; 2], Vec<Corr
         ),
     ];
     let traces = [
-        Trace::new("L", Measure::Pixels, own.lengths, other.lengths),
-        Trace::new("Θ", Measure::Angle, own.angles, other.angles),
+        Trace::new("L", Measure::Pixels, &own.lengths, &other.lengths),
+        Trace::new("Θ", Measure::Angle, &own.angles, &other.angles),
     ];
     (traces, correlations)
 }

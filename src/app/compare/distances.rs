@@ -1,8 +1,11 @@
 //! How far every enrolled part is off, by both matchers; a row compares with its part.
 
-use egui::{Align2, Rect, RichText, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, Label, Rect, RichText, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
-use super::{CompareAction, study::PartDistance};
+use super::{
+    CompareAction,
+    study::{PartDistance, Study},
+};
 use crate::{
     app::{
         bars::focus_ring,
@@ -14,6 +17,8 @@ use crate::{
 
 /// Height of a row.
 const ROW: f32 = 40.0;
+/// A row wider than this has room for both figures.
+const WIDE: f32 = 270.0;
 
 /// Draws the list.
 pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<CompareAction>) {
@@ -35,29 +40,28 @@ pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<Compa
         ui.label(RichText::new("Needs an outline").color(theme.weak_text));
         return;
     };
+    ui.spacing_mut().interact_size.y = 0.0;
     ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().interact_size.y = 0.0;
         let chosen = study.recipe.rank.matcher;
         let small = |text: &str, colour| RichText::new(text).font(font::small()).color(colour);
-        let with_sign = |name: &str, is_chosen: bool| {
-            if is_chosen {
+        let with_sign = |name: &str, matcher| {
+            if matcher == chosen {
                 format!("{name} (in use)")
             } else {
                 name.to_owned()
             }
         };
-        let default = with_sign("default: outlines apart", chosen == Matcher::Default);
-        ui.label(small(&default, theme.first_series));
-        let paper = with_sign("paper: ‖A − C‖₁", chosen == Matcher::Paper);
-        ui.label(small(&paper, theme.second_series));
+        let default = with_sign("default: outlines apart", Matcher::Default);
+        ui.add(Label::new(small(&default, theme.first_series)).extend());
+        let paper = with_sign("paper: ‖A − C‖₁", Matcher::Paper);
+        ui.add(Label::new(small(&paper, theme.second_series)).extend());
     });
     ScrollArea::vertical()
         .id_salt("distances")
         .auto_shrink(false)
         .show(ui, |ui| {
             for distance in &study.distances {
-                let is_against = study.against.as_deref() == Some(&distance.part);
-                if row(ui, distance, is_against, state.units, theme) {
+                if row(ui, study, distance, state.units, theme) {
                     acts.push(CompareAction::Against(Some(distance.part.clone())));
                 }
             }
@@ -67,11 +71,12 @@ pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<Compa
 /// True when it was pressed.
 fn row(
     ui: &mut Ui,
+    study: &Study,
     distance: &PartDistance,
-    is_against: bool,
     units: UnitSystem,
     theme: &Theme,
 ) -> bool {
+    let is_against = study.against.as_deref() == Some(&distance.part);
     let size = vec2(ui.available_width() - space::MEDIUM, ROW);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let outline = distance
@@ -82,6 +87,12 @@ fn row(
         let label = format!("Compare with {}: {figures}", distance.title);
         WidgetInfo::selected(egui::Role::Button, true, is_against, label)
     });
+    // Where there is little room the other matcher's figure is on the bar and in the hover text alone.
+    let written = match study.recipe.rank.matcher {
+        _ if rect.width() > WIDE => figures.clone(),
+        Matcher::Default => outline.clone(),
+        Matcher::Paper => format!("{:.2e}", distance.paper),
+    };
     let painter = ui.painter_at(rect);
     if is_against || response.hovered() {
         painter.rect_filled(rect, ROUNDING, theme.control);
@@ -94,7 +105,7 @@ fn row(
     let value = painter.text(
         inner.right_top(),
         Align2::RIGHT_TOP,
-        &figures,
+        &written,
         font::small(),
         theme.text,
     );

@@ -9,7 +9,7 @@ use egui::{
 
 use super::{
     CaseRun, CompareAction,
-    matrix::{Matrix, MatrixCell, answer_title, part_title, truth_title},
+    matrix::{Matrix, MatrixCell, part_title, truth_title},
 };
 use crate::{
     app::{
@@ -18,13 +18,13 @@ use crate::{
         state::State,
         theme::{ROUNDING, Theme, font, space},
     },
-    cases::{Judgement, KeptCase},
+    cases::{Answered, Judgement, KeptCase},
 };
 
 /// Width of the rows' names.
 const NAMES: f32 = 118.0;
 /// Height of the columns' names where the columns are narrow.
-const UPRIGHT: f32 = 92.0;
+const UPRIGHT: f32 = 104.0;
 /// A column wider than this has its name written across.
 const WIDE: f32 = 110.0;
 
@@ -107,8 +107,8 @@ fn header(
     let Some(run) = &compare.run else {
         return;
     };
+    let height = std::mem::take(&mut ui.spacing_mut().interact_size.y);
     ui.horizontal_wrapped(|ui| {
-        ui.spacing_mut().interact_size.y = 0.0;
         let tally = &run.matrix.tally;
         // The worst is said first.
         let wrong = match tally.wrong_accepted {
@@ -116,12 +116,13 @@ fn header(
             num => RichText::new(format!("{num} wrong and accepted")).color(theme.rejected),
         };
         ui.label(wrong.font(font::body_strong()));
-        let mut rest = format!(
+        let rest = format!(
             "· {} of {} right · {} refused",
             tally.right, tally.total, tally.refused
         );
+        let mut rest = vec![rest];
         if !run.troubles.is_empty() {
-            rest += &format!(" · {} damaged", run.troubles.len());
+            rest.push(format!("{} damaged", run.troubles.len()));
         }
         let done = run.results.len() + run.troubles.len();
         if run.ended.is_none() {
@@ -130,14 +131,15 @@ fn header(
             } else {
                 "stopped"
             };
-            rest += &format!(" · {verb}, {done} of {} done", run.total);
+            rest.push(format!("{verb}, {done} of {} done", run.total));
         }
-        ui.label(RichText::new(rest).color(theme.text));
+        ui.label(RichText::new(rest.join(" · ")).color(theme.text));
         if *run.recipe != **state.tried_recipe() {
-            let text = "· with another recipe than the one on the right";
+            let text = "· with another recipe";
             ui.label(RichText::new(text).color(theme.warning));
         }
     });
+    ui.spacing_mut().interact_size.y = height;
 }
 
 /// All cases, before any run.
@@ -181,12 +183,11 @@ fn of_cell(
         return;
     };
     let (truth, answer) = &cell.cell;
-    let text = format!(
-        "Is {}, taken for {}: {}",
-        truth_title(truth, shown),
-        answer_title(answer, shown).to_lowercase(),
-        cell.results.len()
-    );
+    let (truth, num) = (truth_title(truth, shown), cell.results.len());
+    let text = match answer {
+        Answered::Part(part) => format!("{truth} taken for {}: {num}", part_title(part, shown)),
+        Answered::NotAccepted => format!("{truth} not accepted: {num}"),
+    };
     ui.label(RichText::new(text).color(theme.weak_text));
     for result in cell
         .results
@@ -242,7 +243,7 @@ fn matrix(ui: &mut Ui, matrix: &Matrix, theme: &Theme, acts: &mut Vec<CompareAct
             let name = shortened(name, (width / 6.5) as usize);
             painter.text(at, Align2::CENTER_BOTTOM, name, font::small(), colour);
         } else {
-            let galley = painter.layout_no_wrap(shortened(name, 15), font::small(), colour);
+            let galley = painter.layout_no_wrap(shortened(name, 18), font::small(), colour);
             let at = pos2(middle - galley.size().y / 2.0, origin.y - 4.0);
             let upright = TextShape::new(at, galley, colour).with_angle(-FRAC_PI_2);
             painter.add(Shape::Text(upright));
@@ -275,7 +276,10 @@ fn matrix(ui: &mut Ui, matrix: &Matrix, theme: &Theme, acts: &mut Vec<CompareAct
             Judgement::WrongAccepted => (theme.rejected, "wrong and accepted"),
             Judgement::Refused => (theme.warning, "refused"),
         };
-        let label = format!("{truth} taken for {}: {num}, {word}", answer.to_lowercase());
+        let label = match &cell.cell.1 {
+            Answered::Part(_) => format!("{truth} taken for {answer}: {num}, {word}"),
+            Answered::NotAccepted => format!("{truth} not accepted: {num}, {word}"),
+        };
         response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &label));
         painter.rect_filled(rect, ROUNDING, colour.gamma_multiply(0.28));
         let stroke = Stroke::new(if response.hovered() { 2.0 } else { 1.0 }, colour);

@@ -27,7 +27,6 @@ use super::{
     keys::Shortcut,
     state::State,
     theme::{Theme, space},
-    viewport::{ViewError, ViewportGpu},
 };
 
 /// The shortcuts of the workspace.
@@ -58,46 +57,27 @@ pub(in crate::app) const SHORTCUTS: [Shortcut; 3] = [
 /// Width of the recipe, logical pixels, and in a narrow window.
 const RECIPE: [f32; 2] = [310.0, 284.0];
 
-/// What the workspace keeps between frames: nothing, everything it shows is in the state.
-pub(super) struct ComparePanel;
-
-impl ComparePanel {
-    pub(super) fn new(_gpu: Result<ViewportGpu, ViewError>) -> Self {
-        Self
+/// Draws the workspace. Nothing is kept between frames: everything it shows is in the state.
+pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+    let mut acts = Vec::new();
+    if state.is_compare_behind() {
+        acts.push(CompareAction::Follow);
     }
-
-    /// True while keys go to a 3-D view; there is none.
-    pub(super) fn view_has_focus(&self) -> bool {
-        false
-    }
-
-    pub(super) fn ui(
-        &mut self,
-        ui: &mut Ui,
-        state: &State,
-        theme: &Theme,
-        actions: &mut Vec<Action>,
-    ) {
-        let mut acts = Vec::new();
-        if state.is_compare_behind() {
-            acts.push(CompareAction::Follow);
-        }
-        let width = ui.available_width();
-        let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
-        Panel::right("recipe")
-            .exact_size(if width > 1100.0 { RECIPE[0] } else { RECIPE[1] })
-            .resizable(false)
-            .frame(panel(Margin::ZERO))
-            .show(ui, |ui| recipe_panel::ui(ui, state, theme, &mut acts));
-        Panel::top("case")
-            .resizable(false)
-            .frame(panel(Margin::symmetric(12, 8)))
-            .show(ui, |ui| {
-                case_bar::ui(ui, state, theme, &mut acts, actions);
-            });
-        self::body(ui, state, theme, &mut acts, actions);
-        actions.extend(acts.into_iter().map(Action::Compare));
-    }
+    let width = ui.available_width();
+    let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
+    Panel::right("recipe")
+        .exact_size(if width > 1100.0 { RECIPE[0] } else { RECIPE[1] })
+        .resizable(false)
+        .frame(panel(Margin::ZERO))
+        .show(ui, |ui| recipe_panel::ui(ui, state, theme, &mut acts));
+    Panel::top("case")
+        .resizable(false)
+        .frame(panel(Margin::symmetric(12, 8)))
+        .show(ui, |ui| {
+            case_bar::ui(ui, state, theme, &mut acts);
+        });
+    body(ui, state, theme, &mut acts, actions);
+    actions.extend(acts.into_iter().map(Action::Compare));
 }
 
 /// Three pictures above; the distances and the kept cases below.

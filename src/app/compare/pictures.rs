@@ -15,8 +15,10 @@ use crate::{
     stages::rank::Matcher,
 };
 
-/// Height of the two lines above a picture.
-const CAPTIONS: f32 = 38.0;
+/// Height of a picture's title.
+const TITLE: f32 = 19.0;
+/// Captions of a picture narrower than this have two lines.
+const NARROW: f32 = 270.0;
 
 /// Draws all three, each into its rectangle.
 pub(super) fn ui(ui: &mut Ui, rects: [Rect; 3], state: &State, theme: &Theme) {
@@ -44,7 +46,7 @@ pub(super) fn ui(ui: &mut Ui, rects: [Rect; 3], state: &State, theme: &Theme) {
         let caption = match comparison.matcher {
             Matcher::Default => {
                 let share = comparison.relative_l1;
-                format!("default: finds the lag · ‖A − C‖₁ {share:.2} of ‖A‖₁")
+                format!("default: finds the lag · ‖A − C‖₁ {share:.2} of ‖A‖₁ · axis not from 0")
             }
             Matcher::Paper => {
                 let (l1, share) = (comparison.l1, comparison.relative_l1);
@@ -118,15 +120,18 @@ impl Picture {
             font::body_strong(),
             theme.text,
         );
-        let at = rect.min + vec2(0.0, 19.0);
-        painter.text(
-            at,
-            Align2::LEFT_TOP,
-            caption,
+        let at = rect.min + vec2(0.0, TITLE);
+        let lines = painter.layout(
+            caption.to_owned(),
             font::small(),
             theme.weak_text,
+            rect.width(),
         );
-        let canvas = Rect::from_min_max(rect.min + vec2(0.0, CAPTIONS), rect.max);
+        // Side by side the pictures begin at the same height.
+        let least = if rect.width() < NARROW { 30.0 } else { 15.0 };
+        let top = TITLE + lines.size().y.max(least) + 5.0;
+        painter.galley(at, lines, theme.weak_text);
+        let canvas = Rect::from_min_max(rect.min + vec2(0.0, top), rect.max);
         painter.rect_filled(canvas, ROUNDING, theme.canvas);
         let response = ui.interact(canvas, ui.scope_id().with(title), Sense::hover());
         response.widget_info(|| {
@@ -212,7 +217,7 @@ impl Picture {
             .extend(Shape::dashed_line(&reference, stroke, 6.0, 3.0));
         self.painter
             .line(curve(&trace.query, &across, &up), Stroke::new(1.6, colour));
-        let at = area.left_top();
+        let at = pos2(plot.left(), area.top());
         self.text(at, Align2::LEFT_TOP, &title, colour);
         let read = |place: usize| {
             let value = |values: &[f32]| {
@@ -249,7 +254,7 @@ impl Picture {
             name,
             ..
         } = correlation;
-        let range = [range[0].min(0.0), range[1]];
+        let range = *range;
         let decimals = if range[1] < 10.0 { 3 } else { 0 };
         let mut below = area;
         below.max.y -= 14.0;
@@ -265,13 +270,16 @@ impl Picture {
             .line(a, Stroke::new(1.4, theme.reference_series));
         self.painter.line(c, Stroke::new(1.6, theme.first_series));
         let legend = [
-            (format!("A, C of {name}"), theme.weak_text),
-            ("A, part with itself".into(), theme.reference_series),
-            ("C, part with query".into(), theme.first_series),
+            (format!("{name}:"), theme.weak_text),
+            ("A: itself".to_owned(), theme.reference_series),
+            ("C: query".to_owned(), theme.first_series),
         ];
-        for (place, (text, colour)) in legend.iter().enumerate() {
-            let at = plot.left_top() + vec2(4.0, 13.0 * place as f32);
-            self.text(at, Align2::LEFT_TOP, text, *colour);
+        let mut at = pos2(plot.left(), below.top());
+        for (text, colour) in legend {
+            let drawn = self
+                .painter
+                .text(at, Align2::LEFT_TOP, text, font::small(), colour);
+            at.x = drawn.right() + 6.0;
         }
         // Lags stand further apart where the curve was thinned.
         let (first, whole) = (correlation.first_lag, -2 * correlation.first_lag);
@@ -280,8 +288,9 @@ impl Picture {
         let zero = across.at(-first as f32 / per_value.max(f32::MIN_POSITIVE));
         self.painter
             .vline(zero, plot.y_range(), theme.edge_stroke());
+        let zero_text = format!("lag 0, in {}", correlation.steps);
         let at = pos2(zero, plot.bottom() + 1.0);
-        self.text(at, Align2::CENTER_TOP, "lag 0", theme.weak_text);
+        self.text(at, Align2::CENTER_TOP, &zero_text, theme.weak_text);
         let at = pos2(plot.left(), plot.bottom() + 1.0);
         self.text(at, Align2::LEFT_TOP, &first.to_string(), theme.weak_text);
         let at = pos2(plot.right(), plot.bottom() + 1.0);

@@ -346,7 +346,10 @@ fn outcome(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<CompareActi
     } else {
         Button::new(text)
     };
-    let response = ui.add_enabled(can_use, button.min_size(vec2(width, space::TARGET)));
+    let button = button.min_size(vec2(width, space::TARGET));
+    let response = ui
+        .vertical_centered(|ui| ui.add_enabled(can_use, button))
+        .inner;
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, can_use, "Use this recipe"));
     let response = response
         .on_hover_text("Scenes are inspected with it from now on")

@@ -48,12 +48,16 @@ pub struct CompareState {
     pub cell: Option<Cell>,
     /// What can be taken back.
     pub undo: Option<Undo>,
+    /// True while the study is of what was asked for last.
+    is_current: bool,
     due: Due,
     errands: VecDeque<(String, CompareRequest)>,
     posted: Option<(u64, Errand)>,
     /// The inspected scene that was followed last.
     followed: Option<Shown>,
     is_listed: bool,
+    /// What was said last of something done: the next takes its place.
+    said: Option<Notice>,
 }
 
 /// The case in front.
@@ -183,9 +187,9 @@ impl State {
         self.compare.errand(self) == Some(Errand::Run)
     }
 
-    /// True while the study shown is not of what is asked for.
+    /// True while the study shown, if any, is not of what was asked for last; also after that was cancelled.
     pub fn is_study_old(&self) -> bool {
-        self.compare.due != Due::No || self.compare.errand(self) == Some(Errand::Study)
+        !self.compare.is_current || self.compare.due != Due::No
     }
 
     /// True if [`CompareAction::Follow`] would do something.
@@ -194,9 +198,8 @@ impl State {
         let has_more = !compare.errands.is_empty() || compare.due != Due::No;
         let is_free = match compare.errand(self) {
             None => true,
-            Some(Errand::Study) => false,
             Some(Errand::Run) => compare.due == Due::Now,
-            Some(Errand::Cases) => false,
+            Some(Errand::Study | Errand::Cases) => false,
         };
         !compare.is_listed || has_more && is_free || self.has_new_scene()
     }
@@ -272,7 +275,10 @@ pub fn apply(state: &mut State, action: CompareAction) -> Option<Effect> {
 /// Takes in what the thread answers.
 pub fn hear(state: &mut State, outcome: Result<CompareAnswer, Trouble>) -> Option<Effect> {
     match outcome {
-        Ok(CompareAnswer::Studied(study)) => state.compare.study = Some(study),
+        Ok(CompareAnswer::Studied(study)) => {
+            state.compare.study = Some(study);
+            state.compare.is_current = true;
+        }
         Ok(CompareAnswer::Ran(run)) => {
             if run.ended.is_some() {
                 for trouble in run.troubles.clone() {
@@ -306,11 +312,11 @@ fn hear_done(state: &mut State, done: CaseDone) {
     match done {
         CaseDone::Listed => {}
         CaseDone::Kept(case) => {
-            notify(state, Notice::done(format!("Kept as {}", case.name)));
+            say(state, format!("Kept as {}", case.name));
             state.compare.remark.clear();
         }
         CaseDone::Removed { name, trash } => {
-            notify(state, Notice::done(format!("Removed {name}")));
+            say(state, format!("Removed {name}"));
             let is_front = matches!(&state.compare.front, Front::Kept(case) if case.name == name);
             if is_front {
                 state.compare.front = Front::Scene;
@@ -320,10 +326,18 @@ fn hear_done(state: &mut State, done: CaseDone) {
             state.compare.undo = Some(Undo::Removal { name, trash });
         }
         CaseDone::Restored(name) => {
-            notify(state, Notice::done(format!("{name} is back")));
+            say(state, format!("{name} is back"));
             state.compare.undo = None;
         }
     }
+}
+
+/// Says that something was done, in the place of what was said before.
+fn say(state: &mut State, what: String) {
+    let notice = Notice::done(what);
+    let before = state.compare.said.replace(notice.clone());
+    state.notices.retain(|known| Some(known) != before.as_ref());
+    notify(state, notice);
 }
 
 /// Another case has another truth.
@@ -465,7 +479,7 @@ fn use_recipe(state: &mut State) -> Option<Effect> {
         1 => "Scenes are inspected with this recipe now: 1 changed from default".to_owned(),
         _ => format!("Scenes are inspected with this recipe now: {num} changed from default"),
     };
-    notify(state, Notice::done(text));
+    say(state, text);
     let before = std::mem::replace(&mut state.recipe, tried);
     state.compare.undo = Some(Undo::Use(before));
     inspect_again(state)
@@ -482,9 +496,9 @@ fn undo(state: &mut State) -> Option<Effect> {
             // What was in use stays on trial.
             let tried = std::mem::replace(&mut state.recipe, before);
             state.compare.tried.get_or_insert(tried);
-            notify(
+            say(
                 state,
-                Notice::done("Scenes are inspected with the recipe before again"),
+                "Scenes are inspected with the recipe before again".into(),
             );
             inspect_again(state)
         }
@@ -536,6 +550,7 @@ fn next(state: &mut State) -> Option<Effect> {
     }
     state.compare.due = Due::No;
     let request = study_request(state)?;
+    state.compare.is_current = false;
     let what = "Comparing".to_owned();
     let request = CompareRequest::Study(Box::new(request));
     Some(post(state, what, request, Errand::Study))
@@ -552,7 +567,7 @@ fn study_request(state: &State) -> Option<StudyRequest> {
     let case = match &compare.front {
         Front::Kept(case) => CaseScene::Kept {
             folder: compare.cases.as_ref()?.folder.clone(),
-            case: KeptCase::clone(case),
+            case: case.clone(),
         },
         Front::Scene => {
             let inspected = &state.shown.as_ref()?.inspected;
@@ -572,4 +587,172 @@ fn study_request(state: &State) -> Option<StudyRequest> {
         truth: compare.truth.clone(),
         against: compare.against.clone(),
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        app::{action, job::Answer, worker::News},
+        cases::{CaseMeta, Edge, Found, SCHEMA_VERSION, SceneRecord},
+    };
+
+    fn kept(name: &str) -> KeptCase {
+        let about = CaseAbout {
+            origin: name.into(),
+            simulated: true,
+            kept_at: Timestamp::UNIX_EPOCH,
+            remark: String::new(),
+            truth: Truth::Part("fender".into()),
+            found: Found::default(),
+        };
+        let scene = SceneRecord {
+            bytes: 0,
+            crc32: 0,
+            picture_edge: Edge::View,
+            camera: None,
+        };
+        KeptCase {
+            name: name.into(),
+            meta: CaseMeta {
+                schema_version: SCHEMA_VERSION,
+                about,
+                scene,
+            },
+        }
+    }
+
+    fn listed(done: CaseDone) -> CompareAnswer {
+        CompareAnswer::Cases {
+            folder: CaseFolder::at("cases"),
+            cases: [kept("a"), kept("b")].into(),
+            troubles: Vec::new(),
+            done,
+        }
+    }
+
+    fn posted(effect: Option<Effect>) -> Option<(u64, CompareRequest)> {
+        match effect? {
+            Effect::Post {
+                generation,
+                request: Request::Compare(request),
+            } => Some((generation, request)),
+            other => panic!("expected a request of the workspace, found {other:?}"),
+        }
+    }
+
+    fn act(state: &mut State, action: CompareAction) -> Option<(u64, CompareRequest)> {
+        posted(apply(state, action))
+    }
+
+    fn done(
+        state: &mut State,
+        generation: u64,
+        answer: CompareAnswer,
+    ) -> Option<(u64, CompareRequest)> {
+        let news = News::Done {
+            generation,
+            outcome: Ok(Answer::Compare(answer)),
+        };
+        posted(action::apply(
+            state,
+            action::Action::Hear(Lane::Compare, news),
+        ))
+    }
+
+    /// Two kept cases, the first in front and under study.
+    fn with_a_case() -> (State, u64) {
+        let mut state = State::default();
+        let (generation, request) = act(&mut state, CompareAction::Follow).expect("posted");
+        assert!(matches!(
+            request,
+            CompareRequest::Cases {
+                change: CaseChange::List,
+                ..
+            }
+        ));
+        assert!(done(&mut state, generation, listed(CaseDone::Listed)).is_none());
+        let opened = act(&mut state, CompareAction::OpenCase("a".into()));
+        let (generation, request) = opened.expect("posted");
+        let CompareRequest::Study(request) = request else {
+            panic!("studied");
+        };
+        assert_eq!(request.truth, Some(Truth::Part("fender".into())));
+        (state, generation)
+    }
+
+    #[test]
+    fn a_change_of_the_kept_cases_is_never_pushed_out() {
+        let (mut state, _) = with_a_case();
+        let (removing, _) = act(&mut state, CompareAction::Remove("b".into())).expect("posted");
+        // The study that it pushed out, and whatever comes meanwhile, waits.
+        let set = CompareAction::Set("accept.min_score", 0.5);
+        assert!(act(&mut state, set).is_none());
+        assert!(act(&mut state, CompareAction::RunAll).is_none());
+        assert!(!state.is_compare_behind());
+        let removed = CaseDone::Removed {
+            name: "b".into(),
+            trash: "trash/b".into(),
+        };
+        let (running, request) = done(&mut state, removing, listed(removed)).expect("posted");
+        assert!(matches!(request, CompareRequest::Run { .. }));
+        assert!(state.is_running_cases());
+        assert!(matches!(state.compare.undo, Some(Undo::Removal { .. })));
+        // The recipe was changed before the run began: the case in front still comes, as soon as it may.
+        assert!(state.is_compare_behind());
+        let (studying, request) = act(&mut state, CompareAction::Follow).expect("posted");
+        assert!(matches!(request, CompareRequest::Study(_)) && studying > running);
+    }
+
+    #[test]
+    fn another_recipe_gives_a_run_up_and_another_part_waits_for_its_end() {
+        let (mut state, _) = with_a_case();
+        let (_, request) = act(&mut state, CompareAction::RunAll).expect("posted");
+        assert!(matches!(request, CompareRequest::Run { .. }));
+        let against = CompareAction::Against(Some("grille".into()));
+        assert!(act(&mut state, against).is_none());
+        assert!(state.is_running_cases() && state.is_study_old());
+        let set = CompareAction::Set("project.pixel", 4.0);
+        let (_, request) = act(&mut state, set).expect("posted");
+        let CompareRequest::Study(request) = request else {
+            panic!("studied");
+        };
+        assert_eq!(request.recipe.project.pixel, crate::units::Metres(0.004));
+        assert_eq!(request.against.as_deref(), Some("grille"));
+        assert!(!state.is_running_cases());
+    }
+
+    #[test]
+    fn a_study_that_was_cancelled_stays_marked_old_and_is_not_kept() {
+        let (mut state, _) = with_a_case();
+        assert!(state.is_study_old());
+        action::apply(&mut state, action::Action::Cancel(Lane::Compare));
+        assert!(state.is_study_old() && !state.is_compare_behind());
+        assert!(act(&mut state, CompareAction::Keep).is_none());
+        assert!(state.notices[0].what.contains("no case to keep"));
+    }
+
+    #[test]
+    fn a_recipe_that_is_the_one_in_use_again_is_no_longer_on_trial() {
+        let (mut state, _) = with_a_case();
+        act(&mut state, CompareAction::Set("project.pixel", 4.0)).expect("posted");
+        assert!(state.compare.tried.is_some());
+        act(&mut state, CompareAction::Reset("project.pixel")).expect("posted");
+        assert!(state.compare.tried.is_none());
+        // Nothing is inspected anew for what changes nothing or cannot be.
+        assert!(act(&mut state, CompareAction::ResetAll).is_none());
+        assert!(act(&mut state, CompareAction::Set("project.pixel", 400.0)).is_none());
+        assert!(state.notices[0].what.contains("Pixel cannot be 400 mm"));
+        assert!(state.compare.tried.is_none());
+    }
+
+    #[test]
+    fn what_is_said_of_something_done_takes_the_place_of_what_was_said_before() {
+        let mut state = State::default();
+        for name in ["a", "b"] {
+            hear_done(&mut state, CaseDone::Kept(Box::new(kept(name))));
+        }
+        let said: Vec<_> = state.notices.iter().map(|n| n.what.as_str()).collect();
+        assert_eq!(said, ["Kept as b"]);
+    }
 }

@@ -6,7 +6,7 @@ use super::comparison::Comparison;
 use crate::{
     app::{job::Trouble, shelf::LibraryShown, shelf::Shelf},
     cases::{CaseFolder, Found, KeptCase, Truth},
-    error::Advice as _,
+    error::Advice,
     library::Library,
     pipeline::{self, Inspection, Recipe, Verdict, Watch},
     stages::{
@@ -32,7 +32,7 @@ pub enum CaseScene {
         /// From here.
         folder: CaseFolder,
         /// The case.
-        case: KeptCase,
+        case: Box<KeptCase>,
     },
 }
 
@@ -202,7 +202,7 @@ fn against(request: &StudyRequest, found: &Found, library: &Library) -> Option<S
 
 fn advice(verdict: &Verdict) -> String {
     match verdict {
-        Verdict::Part { rejected, .. } => rejected.as_ref().map(|r| r.advice()),
+        Verdict::Part { rejected, .. } => rejected.as_ref().map(Advice::advice),
         Verdict::NoPart(reason) => Some(reason.advice()),
     }
     .unwrap_or_default()
