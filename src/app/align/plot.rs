@@ -18,6 +18,8 @@ use crate::app::{
 const GOAL: f32 = -6.0;
 /// Room for the scale on the left, logical pixels.
 const LEFT: f32 = 48.0;
+/// Opacity of a method's level after its end.
+const HELD: f32 = 0.5;
 /// More powers of ten than this are named every second one only.
 const MANY_POWERS: i32 = 7;
 
@@ -85,6 +87,18 @@ pub(super) fn paint(painter: &Painter, axes: &Axes, shown: &Comparison, place: f
             theme.weak_text,
         );
     }
+    for share in [0, 1, 2] {
+        let number = axes.last * share / 2;
+        let at = pos2(across.at(number as f32), area.bottom() + 3.0);
+        let anchor = [Align2::LEFT_TOP, Align2::CENTER_TOP, Align2::RIGHT_TOP][share];
+        painter.text(
+            at,
+            anchor,
+            number.to_string(),
+            font::scale(),
+            theme.weak_text,
+        );
+    }
     let goal = up.at(GOAL);
     let ends = [pos2(area.left(), goal), pos2(area.right(), goal)];
     let stroke = Stroke::new(1.4, theme.accepted);
@@ -95,6 +109,11 @@ pub(super) fn paint(painter: &Painter, axes: &Axes, shown: &Comparison, place: f
         .collect();
     for ((run, _), points) in shown.tracks().zip(&curves) {
         painter.extend(series::line(run.method, points, theme));
+        if let Some(end) = points.last() {
+            // Where it ended it stays, while others go on.
+            let colour = series::colour(run.method, theme).gamma_multiply(HELD);
+            painter.hline(end.x..=area.right(), end.y, Stroke::new(1.0, colour));
+        }
     }
     let mut taken = vec![name_the_goal(painter, area, goal, &curves, theme)];
     for ((run, _), points) in shown.tracks().zip(&curves) {
