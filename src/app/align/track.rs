@@ -91,7 +91,7 @@ impl Track {
             stopped: estimate.stopped,
             fit: estimate.fit,
             true_error: pair.true_error(&end),
-            doubt: estimate.doubt().map(|doubt| doubted(&doubt)),
+            doubt: estimate.doubt().map(|doubt| doubted(&doubt, pair)),
             e_m2,
             poses,
         }
@@ -161,10 +161,14 @@ pub(super) fn in_the_window(error: &PoseError) -> Trouble {
     }
 }
 
-fn doubted(doubt: &Doubt) -> Trouble {
+fn doubted(doubt: &Doubt, pair: &Pair) -> Trouble {
     let advice = match doubt {
         Doubt::Ambiguous { .. } => "Check which way round the part lies".into(),
         Doubt::Unsettled { .. } => "Try another method, or a start that is nearer".into(),
+        // They do show the same.
+        Doubt::LittleOverlap { .. } if pair.truth.is_some() => {
+            "Choose a start that is nearer".into()
+        }
         Doubt::LittleOverlap { .. } => doubt.advice(),
     };
     Trouble {
