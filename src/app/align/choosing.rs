@@ -161,7 +161,7 @@ fn starts(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) 
             actions.push(Action::Align(AlignAction::ChooseStart(paper)));
         }
     }
-    let is_custom = matches!(start, Start::Custom(_)) || state.align.custom.form == Form::Open;
+    let is_custom = matches!(start, Start::Custom(_));
     let button = choice(ui, is_custom, "Custom…");
     let button = match start {
         Start::Custom(_) => button.on_hover_text(numbers(start)),

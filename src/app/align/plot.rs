@@ -1,14 +1,10 @@
-//! E per iteration on a logarithmic scale: one curve per method, the goal of Algorithm 3, the genetic searches.
+//! E per iteration on a logarithmic scale: one curve per method, the goal of Algorithm 3.
 
 use std::ops::RangeInclusive;
 
 use egui::{Align2, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
 
-use super::{
-    playback::Comparison,
-    series,
-    track::{MethodRun, Track},
-};
+use super::{playback::Comparison, series, track::MethodRun};
 use crate::app::{
     theme::{Theme, font},
     widgets::{Scale, curve},
@@ -18,6 +14,8 @@ use crate::app::{
 const GOAL: f32 = -6.0;
 /// Room for the scale on the left, logical pixels.
 const LEFT: f32 = 48.0;
+/// Opacity of a method's level after its end.
+const HELD: f32 = 0.5;
 /// More powers of ten than this are named every second one only.
 const MANY_POWERS: i32 = 7;
 
@@ -63,14 +61,11 @@ impl Axes {
     }
 }
 
-/// Draws scale, goal, searches, curves and the scrubber at `place`.
+/// Draws scale, goal, curves and the scrubber at `place`.
 pub(super) fn paint(painter: &Painter, axes: &Axes, shown: &Comparison, place: f32, theme: &Theme) {
     let Axes {
         area, across, up, ..
     } = *axes;
-    for (_, track) in shown.tracks() {
-        shade(painter, axes, track, theme);
-    }
     let is_tall = axes.powers[1] - axes.powers[0] <= MANY_POWERS;
     for power in axes.powers().filter(|power| is_tall || power % 2 == 0) {
         let y = up.at(power as f32);
@@ -85,6 +80,18 @@ pub(super) fn paint(painter: &Painter, axes: &Axes, shown: &Comparison, place: f
             theme.weak_text,
         );
     }
+    for share in [0, 1, 2] {
+        let number = axes.last * share / 2;
+        let at = pos2(across.at(number as f32), area.bottom() + 3.0);
+        let anchor = [Align2::LEFT_TOP, Align2::CENTER_TOP, Align2::RIGHT_TOP][share];
+        painter.text(
+            at,
+            anchor,
+            number.to_string(),
+            font::scale(),
+            theme.weak_text,
+        );
+    }
     let goal = up.at(GOAL);
     let ends = [pos2(area.left(), goal), pos2(area.right(), goal)];
     let stroke = Stroke::new(1.4, theme.accepted);
@@ -95,6 +102,11 @@ pub(super) fn paint(painter: &Painter, axes: &Axes, shown: &Comparison, place: f
         .collect();
     for ((run, _), points) in shown.tracks().zip(&curves) {
         painter.extend(series::line(run.method, points, theme));
+        if let Some(end) = points.last() {
+            // Where it ended it stays, while others go on.
+            let colour = series::colour(run.method, theme).gamma_multiply(HELD);
+            painter.hline(end.x..=area.right(), end.y, Stroke::new(1.0, colour));
+        }
     }
     let mut taken = vec![name_the_goal(painter, area, goal, &curves, theme)];
     for ((run, _), points) in shown.tracks().zip(&curves) {
@@ -108,22 +120,6 @@ pub(super) fn paint(painter: &Painter, axes: &Axes, shown: &Comparison, place: f
     let stroke = Stroke::new(1.5, theme.text);
     painter.vline(x, area.top()..=area.bottom() + 6.0, stroke);
     painter.circle_filled(pos2(x, area.bottom() + 6.0), 5.0, theme.text);
-}
-
-/// The stretches in which the genetic algorithm searched.
-fn shade(painter: &Painter, axes: &Axes, track: &Track, theme: &Theme) {
-    for search in &track.searches {
-        let x = [search.start, search.end].map(|place| axes.across.at(place as f32));
-        let stretch = Rect::from_x_y_ranges(x[0]..=x[1], axes.area.y_range());
-        painter.rect_filled(stretch, 0.0, theme.control);
-    }
-    let all = track.searches.first().zip(track.searches.last());
-    if let Some((first, last)) = all {
-        let middle = (first.start + last.end) as f32 / 2.0;
-        let at = pos2(axes.across.at(middle), axes.area.top() + 2.0);
-        let text = "genetic search";
-        painter.text(at, Align2::CENTER_TOP, text, font::small(), theme.weak_text);
-    }
 }
 
 /// The goal's name above its line, where no curve runs through it: at the right end, in the middle or at the left.

@@ -1,16 +1,13 @@
 //! The way of one method from its start to its end, with E at every pose: ready to be drawn and scrubbed.
 
-use std::{
-    ops::Range,
-    time::{Duration, Instant},
-};
+use std::time::{Duration, Instant};
 
 use super::pair::Pair;
 use crate::{
     app::{job::Trouble, widgets::sentence},
     error::Advice as _,
     geometry::rigid::{self, RigidTransform},
-    stages::pose::{Doubt, Fit, Iteration, PoseError, PoseEstimate, PoseMethod, Stopped, align},
+    stages::pose::{Doubt, Fit, PoseError, PoseEstimate, PoseMethod, Stopped, align},
 };
 
 /// What one method made of a pair.
@@ -35,8 +32,6 @@ pub struct Track {
     pub log_e: Vec<f32>,
     /// Smallest and largest of them.
     pub log_range: [f32; 2],
-    /// The iterations in which the genetic algorithm searched.
-    pub searches: Vec<Range<usize>>,
     /// Why it ended.
     pub stopped: Stopped,
     /// How well the end fits.
@@ -93,11 +88,10 @@ impl Track {
                 .iter()
                 .fold(range, |[low, high], e| [low.min(*e), high.max(*e)]),
             log_e,
-            searches: searches(&estimate.iterations),
             stopped: estimate.stopped,
             fit: estimate.fit,
             true_error: pair.true_error(&end),
-            doubt: estimate.doubt().map(|doubt| doubted(&doubt)),
+            doubt: estimate.doubt().map(|doubt| doubted(&doubt, pair)),
             e_m2,
             poses,
         }
@@ -152,10 +146,6 @@ fn e_along(poses: &[RigidTransform], pair: &Pair) -> Vec<f64> {
     all
 }
 
-fn searches(_iterations: &[Iteration]) -> Vec<Range<usize>> {
-    Vec::new()
-}
-
 /// The error with advice that can be followed in the window.
 pub(super) fn in_the_window(error: &PoseError) -> Trouble {
     let advice = match error {
@@ -171,10 +161,14 @@ pub(super) fn in_the_window(error: &PoseError) -> Trouble {
     }
 }
 
-fn doubted(doubt: &Doubt) -> Trouble {
+fn doubted(doubt: &Doubt, pair: &Pair) -> Trouble {
     let advice = match doubt {
         Doubt::Ambiguous { .. } => "Check which way round the part lies".into(),
         Doubt::Unsettled { .. } => "Try another method, or a start that is nearer".into(),
+        // They do show the same.
+        Doubt::LittleOverlap { .. } if pair.truth.is_some() => {
+            "Choose a start that is nearer".into()
+        }
         Doubt::LittleOverlap { .. } => doubt.advice(),
     };
     Trouble {
