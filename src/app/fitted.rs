@@ -9,7 +9,7 @@ use std::{
 use super::shelf::Shelved;
 use crate::{
     library::Library,
-    pipeline::Recipe,
+    pipeline::{Recipe, Watch},
     stages::reference::{Reference, ReferenceParams},
 };
 
@@ -39,50 +39,60 @@ impl Deref for Fitted<'_> {
 
 impl Shelved {
     /// The references, prepared as the recipe prepares scenes. Takes as long as loading the library when the
-    /// parameters are neither the default nor those asked for last.
-    pub fn fitting(&self, recipe: &Recipe) -> Fitted<'_> {
+    /// parameters are neither the default nor those asked for last; `None` when cancelled.
+    pub fn fitting(&self, recipe: &Recipe, watch: &dyn Watch) -> Option<Fitted<'_>> {
         let params = ReferenceParams {
             project: recipe.project.clone(),
             contour: recipe.contour.clone(),
             signature: recipe.signature.clone(),
         };
         if params == ReferenceParams::default() {
-            return Fitted::AsLoaded(&self.library);
+            return Some(Fitted::AsLoaded(&self.library));
         }
         let lock = || self.fitted.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((known, library)) = &*lock()
             && *known == params
         {
-            return Fitted::Anew(Arc::clone(library));
+            return Some(Fitted::Anew(Arc::clone(library)));
         }
         let references = self.library.references.iter().zip(&self.shown.parts);
         let references = references.map(|(loaded, meta)| {
+            if watch.is_cancelled() {
+                return None;
+            }
             // One that has no outline any more keeps the one it has, and its place.
             let cloud = loaded.cloud.clone();
-            Reference::prepare(&loaded.name, cloud, meta.coverage, &params)
-                .unwrap_or_else(|_| loaded.clone())
+            let prepared = Reference::prepare(&loaded.name, cloud, meta.coverage, &params);
+            Some(prepared.unwrap_or_else(|_| loaded.clone()))
         });
         let library = Arc::new(Library {
-            references: references.collect(),
+            references: references.collect::<Option<_>>()?,
         });
         *lock() = Some((params, Arc::clone(&library)));
-        Fitted::Anew(library)
+        Some(Fitted::Anew(library))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::shelf::Shelf;
+    use crate::{app::shelf::Shelf, pipeline::Unwatched};
+
+    struct Hurried;
+    impl Watch for Hurried {
+        fn is_cancelled(&self) -> bool {
+            true
+        }
+    }
 
     #[test]
     fn references_have_as_many_rays_as_the_recipe_gives_scenes() {
         let shelved = Shelf::default().get().expect("the shipped parts");
         let mut recipe = Recipe::default();
-        let loaded = shelved.fitting(&recipe);
+        let loaded = shelved.fitting(&recipe, &Unwatched).expect("loaded");
         assert!(matches!(loaded, Fitted::AsLoaded(_)));
         recipe.signature.num_rays = 128;
-        let fitted = shelved.fitting(&recipe);
+        let fitted = shelved.fitting(&recipe, &Unwatched).expect("prepared");
         let names = |library: &Library| -> Vec<String> {
             let references = library.references.iter();
             references.map(|r| r.name.clone()).collect()
@@ -91,9 +101,13 @@ mod tests {
         for view in fitted.references.iter().flat_map(|r| &r.views) {
             assert_eq!(view.signature.rays.len(), 128);
         }
-        let (Fitted::Anew(first), Fitted::Anew(again)) = (fitted, shelved.fitting(&recipe)) else {
+        let again = shelved.fitting(&recipe, &Unwatched).expect("known");
+        let (Fitted::Anew(first), Fitted::Anew(again)) = (fitted, again) else {
             panic!("prepared anew");
         };
         assert!(Arc::ptr_eq(&first, &again));
+
+        recipe.signature.num_rays = 64;
+        assert!(shelved.fitting(&recipe, &Hurried).is_none());
     }
 }

@@ -48,13 +48,15 @@
 //! listed, the checksum when a scene is read.
 
 mod confusion;
+mod error;
 mod judge;
 mod meta;
 mod store;
 
 pub use self::{
     confusion::{Cell, Confusion, Tally},
+    error::CaseError,
     judge::{Answered, CaseResult, Found, Judgement, Truth, found_in},
     meta::{CaseAbout, CaseMeta, Edge, SCHEMA_VERSION, SceneRecord},
-    store::{CaseError, CaseFolder, CaseList, KeptCase},
+    store::{CaseFolder, CaseList, KeptCase},
 };

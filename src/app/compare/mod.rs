@@ -6,13 +6,17 @@
 mod case_bar;
 pub mod comparison;
 mod distances;
+mod errands;
+mod keeping;
 mod kept_cases;
 pub mod matrix;
+mod parameter_table;
 pub mod parameters;
 mod pictures;
 mod recipe_panel;
 mod state;
 pub mod study;
+mod trial;
 mod work;
 
 use egui::{Frame, Key, Margin, Modifiers, Panel, Rect, Ui, UiBuilder, pos2, vec2};

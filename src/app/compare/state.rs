@@ -2,24 +2,22 @@
 
 use std::{collections::VecDeque, path::PathBuf, sync::Arc};
 
-use jiff::Timestamp;
-
 use super::{
     CompareAnswer, CompareRequest,
-    parameters::{Parameter, num_changed},
-    study::{CameraKind, CaseScene, Study, StudyRequest},
+    errands::{Due, Errand, change_cases, next},
+    keeping::keep,
+    parameters::Parameter,
+    study::Study,
+    trial::{change_recipe, undo, use_recipe},
     work::{CaseChange, CaseDone, CaseRun},
 };
 use crate::{
     app::{
         action::{Effect, notify},
-        inspect::work::InspectRequest,
-        job::{Request, Trouble},
-        lane::Lane,
-        source::{Origin, SceneSource},
+        job::Trouble,
         state::{Notice, NoticeKind, Shown, State},
     },
-    cases::{CaseAbout, CaseFolder, Cell, KeptCase, Truth},
+    cases::{CaseFolder, Cell, KeptCase, Truth},
     pipeline::Recipe,
 };
 
@@ -49,13 +47,13 @@ pub struct CompareState {
     /// What can be taken back.
     pub undo: Option<Undo>,
     /// True while the study is of what was asked for last.
-    is_current: bool,
-    due: Due,
-    errands: VecDeque<(String, CompareRequest)>,
-    posted: Option<(u64, Errand)>,
+    pub(super) is_current: bool,
+    pub(super) due: Due,
+    pub(super) errands: VecDeque<(String, CompareRequest)>,
+    pub(super) posted: Option<(u64, Errand)>,
     /// The inspected scene that was followed last.
-    followed: Option<Shown>,
-    is_listed: bool,
+    pub(super) followed: Option<Shown>,
+    pub(super) is_listed: bool,
     /// What was said last of something done: the next takes its place.
     said: Option<Notice>,
 }
@@ -103,25 +101,6 @@ impl Undo {
     }
 }
 
-/// Whether the case in front has to be studied.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-enum Due {
-    #[default]
-    No,
-    /// Once a run is over.
-    WhenFree,
-    /// At once: a run with a recipe that nobody wants any more is given up.
-    Now,
-}
-
-/// What the thread is at.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Errand {
-    Study,
-    Cases,
-    Run,
-}
-
 /// Something that happened in the workspace.
 #[derive(Clone, Debug)]
 pub enum CompareAction {
@@ -166,48 +145,6 @@ impl CompareState {
             folder,
             ..Self::default()
         }
-    }
-
-    /// What the thread is at, if anything.
-    fn errand(&self, state: &State) -> Option<Errand> {
-        let (generation, errand) = self.posted?;
-        let work = state.works.get(&Lane::Compare)?;
-        (work.generation == generation).then_some(errand)
-    }
-}
-
-impl State {
-    /// The recipe on trial.
-    pub fn tried_recipe(&self) -> &Arc<Recipe> {
-        self.compare.tried.as_ref().unwrap_or(&self.recipe)
-    }
-
-    /// True while all kept cases are run.
-    pub fn is_running_cases(&self) -> bool {
-        self.compare.errand(self) == Some(Errand::Run)
-    }
-
-    /// True while the study shown, if any, is not of what was asked for last; also after that was cancelled.
-    pub fn is_study_old(&self) -> bool {
-        !self.compare.is_current || self.compare.due != Due::No
-    }
-
-    /// True if [`CompareAction::Follow`] would do something.
-    pub fn is_compare_behind(&self) -> bool {
-        let compare = &self.compare;
-        let has_more = !compare.errands.is_empty() || compare.due != Due::No;
-        let is_free = match compare.errand(self) {
-            None => true,
-            Some(Errand::Run) => compare.due == Due::Now,
-            Some(Errand::Study | Errand::Cases) => false,
-        };
-        !compare.is_listed || has_more && is_free || self.has_new_scene()
-    }
-
-    /// True if another scene was inspected since.
-    fn has_new_scene(&self) -> bool {
-        let number = |shown: &Option<Shown>| shown.as_ref().map(|shown| shown.generation);
-        number(&self.shown) != number(&self.compare.followed)
     }
 }
 
@@ -333,7 +270,7 @@ fn hear_done(state: &mut State, done: CaseDone) {
 }
 
 /// Says that something was done, in the place of what was said before.
-fn say(state: &mut State, what: String) {
+pub(super) fn say(state: &mut State, what: String) {
     let notice = Notice::done(what);
     let before = state.compare.said.replace(notice.clone());
     state.notices.retain(|known| Some(known) != before.as_ref());
@@ -388,56 +325,6 @@ fn open_case(state: &mut State, name: &str) {
     state.compare.due = Due::Now;
 }
 
-fn keep(state: &mut State) {
-    let refuse = |state: &mut State, what: &str, advice: &str| {
-        let notice = Notice {
-            kind: NoticeKind::Look,
-            what: what.into(),
-            advice: advice.into(),
-        };
-        notify(state, notice);
-    };
-    let Some(study) = state
-        .compare
-        .study
-        .clone()
-        .filter(|_| !state.is_study_old())
-    else {
-        return refuse(
-            state,
-            "There is no case to keep yet",
-            "Capture or open a scene, and wait until it was inspected",
-        );
-    };
-    if matches!(state.compare.front, Front::Kept(_)) {
-        return refuse(
-            state,
-            "This case is kept already",
-            "Capture or open another scene",
-        );
-    }
-    let Some(truth) = state.compare.truth.clone() else {
-        return refuse(
-            state,
-            "A case without a truth teaches nothing",
-            "Choose first what it is",
-        );
-    };
-    let about = CaseAbout {
-        origin: study.title.clone(),
-        simulated: study.camera == CameraKind::Simulated,
-        kept_at: Timestamp::now(),
-        remark: state.compare.remark.trim().to_owned(),
-        truth,
-        found: study.found.clone(),
-    };
-    let change = CaseChange::Keep {
-        scene: Arc::clone(&study.scene),
-        about: Box::new(about),
-    };
-    change_cases(state, "Keeping the case", change);
-}
-
 fn run_all(state: &mut State) {
     let Some(cases) = state.compare.cases.clone().filter(|c| !c.list.is_empty()) else {
         let none = Notice {
@@ -457,302 +344,5 @@ fn run_all(state: &mut State) {
     state.compare.errands.push_back(errand);
 }
 
-/// Tries another recipe on the case in front at once.
-fn change_recipe(state: &mut State, change: impl FnOnce(&mut Recipe) -> Result<(), Trouble>) {
-    let mut recipe = Recipe::clone(state.tried_recipe());
-    match change(&mut recipe) {
-        Ok(()) if recipe == **state.tried_recipe() => {}
-        Ok(()) => {
-            let is_in_use = recipe == *state.recipe;
-            state.compare.tried = (!is_in_use).then(|| Arc::new(recipe));
-            state.compare.due = Due::Now;
-        }
-        Err(trouble) => notify(state, trouble.into()),
-    }
-}
-
-fn use_recipe(state: &mut State) -> Option<Effect> {
-    let tried = state.compare.tried.take()?;
-    let num = num_changed(&tried);
-    let text = match num {
-        0 => "Scenes are inspected with the default recipe now".to_owned(),
-        1 => "Scenes are inspected with this recipe now: 1 changed from default".to_owned(),
-        _ => format!("Scenes are inspected with this recipe now: {num} changed from default"),
-    };
-    say(state, text);
-    let before = std::mem::replace(&mut state.recipe, tried);
-    state.compare.undo = Some(Undo::Use(before));
-    inspect_again(state)
-}
-
-fn undo(state: &mut State) -> Option<Effect> {
-    match state.compare.undo.take()? {
-        Undo::Removal { name, trash } => {
-            let change = CaseChange::Restore { name, from: trash };
-            change_cases(state, "Putting the case back", change);
-            next(state)
-        }
-        Undo::Use(before) => {
-            // What was in use stays on trial.
-            let tried = std::mem::replace(&mut state.recipe, before);
-            state.compare.tried.get_or_insert(tried);
-            say(
-                state,
-                "Scenes are inspected with the recipe before again".into(),
-            );
-            inspect_again(state)
-        }
-    }
-}
-
-/// The scene in front of the Inspect workspace, with the recipe now in use.
-fn inspect_again(state: &mut State) -> Option<Effect> {
-    let Some(shown) = &state.shown else {
-        return next(state);
-    };
-    let inspected = &shown.inspected;
-    let source = SceneSource::AtHand(Arc::clone(&inspected.scene), inspected.origin.clone());
-    let recipe = Arc::clone(&state.recipe);
-    let request = Request::Inspect(InspectRequest { source, recipe });
-    Some(state.begin("Inspecting with another recipe", request))
-}
-
-fn change_cases(state: &mut State, what: &str, change: CaseChange) {
-    let folder = state.compare.folder.clone();
-    let request = CompareRequest::Cases { folder, change };
-    state.compare.errands.push_back((what.into(), request));
-}
-
-/// Posts what is next. Cases are never kept or removed by halves: nothing pushes them out of their thread.
-fn next(state: &mut State) -> Option<Effect> {
-    let errand = state.compare.errand(state);
-    match errand {
-        Some(Errand::Cases) => return None,
-        Some(Errand::Run) if state.compare.errands.is_empty() && state.compare.due != Due::Now => {
-            return None;
-        }
-        _ => {}
-    }
-    if let Some((what, request)) = state.compare.errands.pop_front() {
-        if errand == Some(Errand::Study) {
-            // It is pushed out, and has its turn again.
-            state.compare.due = state.compare.due.max(Due::WhenFree);
-        }
-        let kind = match &request {
-            CompareRequest::Run { .. } => Errand::Run,
-            CompareRequest::Cases { .. } => Errand::Cases,
-            CompareRequest::Study(_) => Errand::Study,
-        };
-        return Some(post(state, what, request, kind));
-    }
-    if state.compare.due == Due::No {
-        return None;
-    }
-    state.compare.due = Due::No;
-    let request = study_request(state)?;
-    state.compare.is_current = false;
-    let what = "Comparing".to_owned();
-    let request = CompareRequest::Study(Box::new(request));
-    Some(post(state, what, request, Errand::Study))
-}
-
-fn post(state: &mut State, what: String, request: CompareRequest, kind: Errand) -> Effect {
-    let effect = state.begin(what, Request::Compare(request));
-    state.compare.posted = Some((state.generation, kind));
-    effect
-}
-
-fn study_request(state: &State) -> Option<StudyRequest> {
-    let compare = &state.compare;
-    let case = match &compare.front {
-        Front::Kept(case) => CaseScene::Kept {
-            folder: compare.cases.as_ref()?.folder.clone(),
-            case: case.clone(),
-        },
-        Front::Scene => {
-            let inspected = &state.shown.as_ref()?.inspected;
-            CaseScene::AtHand {
-                scene: Arc::clone(&inspected.scene),
-                title: inspected.origin.title(),
-                camera: match inspected.origin {
-                    Origin::Simulated { .. } => CameraKind::Simulated,
-                    Origin::File(_) => CameraKind::Real,
-                },
-            }
-        }
-    };
-    Some(StudyRequest {
-        case,
-        recipe: Arc::clone(state.tried_recipe()),
-        truth: compare.truth.clone(),
-        against: compare.against.clone(),
-    })
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::{
-        app::{action, job::Answer, worker::News},
-        cases::{CaseMeta, Edge, Found, SCHEMA_VERSION, SceneRecord},
-    };
-
-    fn kept(name: &str) -> KeptCase {
-        let about = CaseAbout {
-            origin: name.into(),
-            simulated: true,
-            kept_at: Timestamp::UNIX_EPOCH,
-            remark: String::new(),
-            truth: Truth::Part("fender".into()),
-            found: Found::default(),
-        };
-        let scene = SceneRecord {
-            bytes: 0,
-            crc32: 0,
-            picture_edge: Edge::View,
-            camera: None,
-        };
-        KeptCase {
-            name: name.into(),
-            meta: CaseMeta {
-                schema_version: SCHEMA_VERSION,
-                about,
-                scene,
-            },
-        }
-    }
-
-    fn listed(done: CaseDone) -> CompareAnswer {
-        CompareAnswer::Cases {
-            folder: CaseFolder::at("cases"),
-            cases: [kept("a"), kept("b")].into(),
-            troubles: Vec::new(),
-            done,
-        }
-    }
-
-    fn posted(effect: Option<Effect>) -> Option<(u64, CompareRequest)> {
-        match effect? {
-            Effect::Post {
-                generation,
-                request: Request::Compare(request),
-            } => Some((generation, request)),
-            other => panic!("expected a request of the workspace, found {other:?}"),
-        }
-    }
-
-    fn act(state: &mut State, action: CompareAction) -> Option<(u64, CompareRequest)> {
-        posted(apply(state, action))
-    }
-
-    fn done(
-        state: &mut State,
-        generation: u64,
-        answer: CompareAnswer,
-    ) -> Option<(u64, CompareRequest)> {
-        let news = News::Done {
-            generation,
-            outcome: Ok(Answer::Compare(answer)),
-        };
-        posted(action::apply(
-            state,
-            action::Action::Hear(Lane::Compare, news),
-        ))
-    }
-
-    /// Two kept cases, the first in front and under study.
-    fn with_a_case() -> (State, u64) {
-        let mut state = State::default();
-        let (generation, request) = act(&mut state, CompareAction::Follow).expect("posted");
-        assert!(matches!(
-            request,
-            CompareRequest::Cases {
-                change: CaseChange::List,
-                ..
-            }
-        ));
-        assert!(done(&mut state, generation, listed(CaseDone::Listed)).is_none());
-        let opened = act(&mut state, CompareAction::OpenCase("a".into()));
-        let (generation, request) = opened.expect("posted");
-        let CompareRequest::Study(request) = request else {
-            panic!("studied");
-        };
-        assert_eq!(request.truth, Some(Truth::Part("fender".into())));
-        (state, generation)
-    }
-
-    #[test]
-    fn a_change_of_the_kept_cases_is_never_pushed_out() {
-        let (mut state, _) = with_a_case();
-        let (removing, _) = act(&mut state, CompareAction::Remove("b".into())).expect("posted");
-        // The study that it pushed out, and whatever comes meanwhile, waits.
-        let set = CompareAction::Set("accept.min_score", 0.5);
-        assert!(act(&mut state, set).is_none());
-        assert!(act(&mut state, CompareAction::RunAll).is_none());
-        assert!(!state.is_compare_behind());
-        let removed = CaseDone::Removed {
-            name: "b".into(),
-            trash: "trash/b".into(),
-        };
-        let (running, request) = done(&mut state, removing, listed(removed)).expect("posted");
-        assert!(matches!(request, CompareRequest::Run { .. }));
-        assert!(state.is_running_cases());
-        assert!(matches!(state.compare.undo, Some(Undo::Removal { .. })));
-        // The recipe was changed before the run began: the case in front still comes, as soon as it may.
-        assert!(state.is_compare_behind());
-        let (studying, request) = act(&mut state, CompareAction::Follow).expect("posted");
-        assert!(matches!(request, CompareRequest::Study(_)) && studying > running);
-    }
-
-    #[test]
-    fn another_recipe_gives_a_run_up_and_another_part_waits_for_its_end() {
-        let (mut state, _) = with_a_case();
-        let (_, request) = act(&mut state, CompareAction::RunAll).expect("posted");
-        assert!(matches!(request, CompareRequest::Run { .. }));
-        let against = CompareAction::Against(Some("grille".into()));
-        assert!(act(&mut state, against).is_none());
-        assert!(state.is_running_cases() && state.is_study_old());
-        let set = CompareAction::Set("project.pixel", 4.0);
-        let (_, request) = act(&mut state, set).expect("posted");
-        let CompareRequest::Study(request) = request else {
-            panic!("studied");
-        };
-        assert_eq!(request.recipe.project.pixel, crate::units::Metres(0.004));
-        assert_eq!(request.against.as_deref(), Some("grille"));
-        assert!(!state.is_running_cases());
-    }
-
-    #[test]
-    fn a_study_that_was_cancelled_stays_marked_old_and_is_not_kept() {
-        let (mut state, _) = with_a_case();
-        assert!(state.is_study_old());
-        action::apply(&mut state, action::Action::Cancel(Lane::Compare));
-        assert!(state.is_study_old() && !state.is_compare_behind());
-        assert!(act(&mut state, CompareAction::Keep).is_none());
-        assert!(state.notices[0].what.contains("no case to keep"));
-    }
-
-    #[test]
-    fn a_recipe_that_is_the_one_in_use_again_is_no_longer_on_trial() {
-        let (mut state, _) = with_a_case();
-        act(&mut state, CompareAction::Set("project.pixel", 4.0)).expect("posted");
-        assert!(state.compare.tried.is_some());
-        act(&mut state, CompareAction::Reset("project.pixel")).expect("posted");
-        assert!(state.compare.tried.is_none());
-        // Nothing is inspected anew for what changes nothing or cannot be.
-        assert!(act(&mut state, CompareAction::ResetAll).is_none());
-        assert!(act(&mut state, CompareAction::Set("project.pixel", 400.0)).is_none());
-        assert!(state.notices[0].what.contains("Pixel cannot be 400 mm"));
-        assert!(state.compare.tried.is_none());
-    }
-
-    #[test]
-    fn what_is_said_of_something_done_takes_the_place_of_what_was_said_before() {
-        let mut state = State::default();
-        for name in ["a", "b"] {
-            hear_done(&mut state, CaseDone::Kept(Box::new(kept(name))));
-        }
-        let said: Vec<_> = state.notices.iter().map(|n| n.what.as_str()).collect();
-        assert_eq!(said, ["Kept as b"]);
-    }
-}
+mod tests;

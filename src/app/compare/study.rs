@@ -121,7 +121,7 @@ pub fn study(
     if watch.is_cancelled() {
         return None;
     }
-    let fitted = shelved.fitting(&request.recipe);
+    let fitted = shelved.fitting(&request.recipe, watch)?;
     let library: &Library = &fitted;
     let inspection = pipeline::run(&scene, library, &request.recipe, watch).ok()?;
     let found = Found::from(&inspection.verdict);

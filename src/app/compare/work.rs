@@ -179,7 +179,7 @@ fn run(
         Ok(list) => list,
         Err(error) => return Some(Err(Trouble::of(&error))),
     };
-    let library = shelved.fitting(recipe);
+    let library = shelved.fitting(recipe, desk)?;
     let order = library.references.iter().map(|r| r.name.clone());
     let order: Vec<String> = order.collect();
     let total = list.cases.len();

@@ -95,7 +95,9 @@ pub fn inspect(
         origin,
         warnings,
     } = request.source.read()?;
-    let fitted = shelved.fitting(&request.recipe);
+    let Some(fitted) = shelved.fitting(&request.recipe, watch) else {
+        return Ok(None);
+    };
     let library = &*fitted;
     let Ok(inspection) = pipeline::run(&scene, library, &request.recipe, watch) else {
         return Ok(None);

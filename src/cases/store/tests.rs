@@ -1,6 +1,7 @@
 use super::*;
 use crate::{
     cases::{Found, Truth, found_in},
+    error::Advice as _,
     pipeline::{Recipe, Unwatched},
     simulate::{CellSetup, PartKind, PartPose, Placement, Side, frame},
     stages::scene::{PictureEdge, scene_from_cloud, scene_from_frame},
