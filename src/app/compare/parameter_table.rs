@@ -40,7 +40,7 @@ macro_rules! number {
 
 /// All parameters, group by group in the order of the flow.
 #[rustfmt::skip]
-pub const PARAMETERS: [Parameter; 27] = [
+pub const PARAMETERS: [Parameter; 31] = [
     number!("segment.plane_distance", "Plane distance", Segmentation, Front, Millimetres, [1.0, 50.0], 1,
         |r| r.segment.plane_distance.0, |r, v| r.segment.plane_distance = Metres(v),
         "The paper's d_t: a point closer than this (plus the noise) to a background plane belongs to it. Raising it eats what is near the wall."),
@@ -149,4 +149,17 @@ pub const PARAMETERS: [Parameter; 27] = [
     number!("accept.min_margin", "Margin at least", Acceptance, Front, None, [0.0, 1.0], 2,
         |r| r.accept.min_margin, |r, v| r.accept.min_margin = v,
         "Least lead over the next part. Raising it rejects parts that are alike."),
+    number!("stand_off.taught", "Taught distance", StandOff, Fold, Millimetres, [20.0, 1000.0], 0,
+        |r| r.stand_off.taught.0, |r, v| r.stand_off.taught = Metres(v),
+        "Distance of the nozzle from the part when its path was taught (the paper's standard d)."),
+    // The ranges of the two ends do not overlap: the band is never empty.
+    number!("stand_off.nearest", "Band from", StandOff, Fold, Millimetres, [10.0, 150.0], 0,
+        |r| r.stand_off.nearest.0, |r, v| r.stand_off.nearest = Metres(v),
+        "Nearest distance that still coats well. Raising it calls more of the path too near."),
+    number!("stand_off.farthest", "Band to", StandOff, Fold, Millimetres, [160.0, 1000.0], 0,
+        |r| r.stand_off.farthest.0, |r, v| r.stand_off.farthest = Metres(v),
+        "Farthest distance that still coats well. Raising it forgives more of the path."),
+    number!("stand_off.num_rays", "Rays of the path", StandOff, Fold, None, [10.0, 10_000.0], 0,
+        |r| r.stand_off.num_rays as f64, |r, v| r.stand_off.num_rays = v as usize,
+        "Places of the taught path that are looked at. Raising it costs about 2 µs each and finds a smaller worst spot."),
 ];

@@ -18,17 +18,20 @@ pub enum Group {
     Pose,
     /// When a verdict counts.
     Acceptance,
+    /// How far the taught path would be off.
+    StandOff,
 }
 
 impl Group {
     /// Every group, in the order of the flow.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Segmentation,
         Self::BinaryImage,
         Self::Contour,
         Self::Match,
         Self::Pose,
         Self::Acceptance,
+        Self::StandOff,
     ];
 
     /// What a person calls it.
@@ -40,6 +43,7 @@ impl Group {
             Self::Match => "Match",
             Self::Pose => "Pose",
             Self::Acceptance => "Acceptance",
+            Self::StandOff => "Stand-off",
         }
     }
 }
