@@ -11,7 +11,7 @@ use egui::{
 
 use crate::{
     app::{
-        figures::{Alignment, Candidate, ContourFigure, Curves},
+        figures::{Alignment, Candidate, ContourFigure, Curves, PlaneLine},
         inspect::work::Inspected,
         state::{StagePanel, State},
         theme::{ROUNDING, Theme, font},
@@ -40,6 +40,19 @@ pub(super) enum Detail {
 
 /// A ranking narrower than this has its names over the bars, logical pixels.
 const STACKED: f32 = 125.0;
+impl Detail {
+    /// Of so many corners drawn over so many logical pixels, every how-manieth is worth drawing: a stroke costs the
+    /// same however short, and a small picture shows none shorter than two pixels.
+    fn step(self, num_corners: usize, pixels: f32) -> usize {
+        match self {
+            Self::Large => 1,
+            Self::Small => num_corners
+                .div_ceil((pixels / 2.0).max(8.0) as usize)
+                .max(1),
+        }
+    }
+}
+
 /// The paper's goal for E, 1e-6 m², as a power of ten.
 const GOAL: f32 = -6.0;
 
@@ -55,7 +68,7 @@ impl Pictures<'_> {
             StagePanel::Contour => figures
                 .contour
                 .as_ref()
-                .map(|contour| self.contour(contour, painter, inner)),
+                .map(|contour| self.contour(contour, painter, inner, detail)),
             StagePanel::Signature => figures
                 .signature
                 .as_ref()
@@ -113,7 +126,7 @@ impl Pictures<'_> {
         Some(())
     }
 
-    fn contour(&self, figure: &ContourFigure, painter: &Painter, rect: Rect) {
+    fn contour(&self, figure: &ContourFigure, painter: &Painter, rect: Rect, detail: Detail) {
         let [low, high] = figure.bounds;
         let (wide, tall) = ((high[0] - low[0]).max(1e-3), (high[1] - low[1]).max(1e-3));
         let place = fitted(rect, wide / tall);
@@ -123,8 +136,14 @@ impl Pictures<'_> {
         );
         let at = |p: &[f32; 2]| pos2(across.at(p[0]), up.at(p[1]));
         let centroid = at(&figure.centroid);
+        let corners = |border: &PlaneLine| -> Vec<Pos2> {
+            let step = detail.step(border.len(), rect.width());
+            let last = border.last().into_iter();
+            border.iter().step_by(step).chain(last).map(at).collect()
+        };
         let ray = Stroke::new(1.0, self.theme.weak_text.gamma_multiply(0.45));
-        for end in &figure.ray_ends {
+        let step = detail.step(figure.ray_ends.len(), rect.width() / 2.0);
+        for end in figure.ray_ends.iter().step_by(step) {
             painter.line_segment([centroid, at(end)], ray);
         }
         for (place, border) in figure.borders.iter().enumerate() {
@@ -133,10 +152,10 @@ impl Pictures<'_> {
             } else {
                 self.theme.second_series
             };
-            painter.line(border.iter().map(at).collect(), Stroke::new(1.6, colour));
+            painter.line(corners(border), Stroke::new(1.6, colour));
         }
         if let Some(candidate) = self.candidate() {
-            let outline: Vec<Pos2> = candidate.outline.iter().map(at).collect();
+            let outline = corners(&candidate.outline);
             let stroke = Stroke::new(1.2, self.theme.reference_series);
             painter.extend(Shape::dashed_line(&outline, stroke, 5.0, 4.0));
         }
@@ -168,7 +187,10 @@ impl Pictures<'_> {
                 Rect::from_min_size(pos2(rect.left(), top), vec2(rect.width(), half)).shrink(4.0);
             let range = range_of(values.iter().chain(other.into_iter().flatten()));
             let up = Scale::new(range, [area.bottom(), area.top()]);
-            let last = values.len().saturating_sub(1).max(1) as f32;
+            let step = detail.step(values.len(), rect.width());
+            let thin =
+                |values: &[f32]| -> Vec<f32> { values.iter().step_by(step).copied().collect() };
+            let last = (values.len().saturating_sub(1) / step).max(1) as f32;
             let across = Scale::new([0.0, last], [area.left(), area.right()]);
             if detail == Detail::Large {
                 self.level(painter, area, &up, range[0], &format!("{:.2}", range[0]));
@@ -176,9 +198,9 @@ impl Pictures<'_> {
             }
             if let Some(other) = other {
                 let stroke = Stroke::new(1.0, self.theme.reference_series);
-                painter.line(curve(other, &across, &up), stroke);
+                painter.line(curve(&thin(other), &across, &up), stroke);
             }
-            painter.line(curve(values, &across, &up), Stroke::new(1.6, colour));
+            painter.line(curve(&thin(values), &across, &up), Stroke::new(1.6, colour));
             if detail == Detail::Large {
                 let at = area.left_center();
                 painter.text(at, Align2::LEFT_CENTER, name, font::body_strong(), colour);
@@ -374,4 +396,17 @@ fn range_of<'a>(values: impl Iterator<Item = &'a f32>) -> [f32; 2] {
     values.fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], value| {
         [low.min(*value), high.max(*value)]
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Detail;
+
+    #[test]
+    fn a_small_picture_draws_no_more_strokes_than_show() {
+        assert_eq!(Detail::Large.step(512, 146.0), 1);
+        assert_eq!(Detail::Small.step(512, 146.0), 8);
+        assert_eq!(Detail::Small.step(40, 146.0), 1);
+        assert_eq!(Detail::Small.step(0, 0.0), 1);
+    }
 }
