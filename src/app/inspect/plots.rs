@@ -133,7 +133,7 @@ impl Pictures<'_> {
             border.iter().step_by(step).chain(last).map(at).collect()
         };
         let ray = Stroke::new(1.0, self.theme.weak_text.gamma_multiply(0.45));
-        let step = detail.step(figure.ray_ends.len(), rect.width() / 2.0);
+        let step = detail.step(figure.ray_ends.len(), rect.width());
         for end in figure.ray_ends.iter().step_by(step) {
             painter.line_segment([centroid, at(end)], ray);
         }
@@ -209,6 +209,8 @@ impl Pictures<'_> {
         let (low, high) = (low.min(GOAL).floor(), high.max(GOAL + 1.0).ceil());
         let mut area = rect;
         area.min.x += if detail == Detail::Large { 44.0 } else { 26.0 };
+        // Room for a line of text over the curve.
+        area.min.y += if detail == Detail::Large { 22.0 } else { 0.0 };
         let up = Scale::new([low, high], [area.bottom() - 4.0, area.top() + 6.0]);
         let last = (log_e.len() - 1).max(1) as f32;
         let across = Scale::new([0.0, last], [area.left() + 4.0, area.right() - 6.0]);
@@ -236,7 +238,7 @@ impl Pictures<'_> {
         if detail == Detail::Large {
             let rms = self.state.units.length(rms_m);
             let text = format!("{} ended at rms {rms}", candidate.title);
-            let at = area.right_top() + vec2(0.0, 10.0);
+            let at = rect.right_top();
             painter.text(at, Align2::RIGHT_TOP, text, font::body(), self.theme.text);
             let at = pos2(area.right(), y - 4.0);
             let text = "the paper's goal, 1e\u{2212}6 m²";
