@@ -214,6 +214,7 @@ impl HeadlessWindow {
             renderer,
             ..
         } = self;
+        #[expect(clippy::iter_over_hash_type, reason = "each texture is on its own")]
         for (id, images) in output.textures_delta.set.drain() {
             for image in images {
                 renderer.update_texture(device, queue, id, &image);
@@ -237,6 +238,7 @@ impl HeadlessWindow {
         renderer.render(&mut pass, &triangles, &screen);
         drop(pass);
         queue.submit(before.into_iter().chain([encoder.finish()]));
+        #[expect(clippy::iter_over_hash_type, reason = "each texture is on its own")]
         for id in output.textures_delta.free.drain() {
             renderer.free_texture(&id);
         }

@@ -39,7 +39,7 @@ pub struct StandOffParams {
     pub nearest: Metres,
     /// Farthest distance that still coats well, metres.
     pub farthest: Metres,
-    /// Rays of the taught path, 10..10 000. Raising it costs about 2 µs each and finds a smaller worst spot.
+    /// Rays of the taught path, 10..10 000. Raising it costs about 1 µs each and finds a smaller worst spot.
     pub num_rays: usize,
 }
 

@@ -238,6 +238,11 @@ fn pictures_of_the_workspace() {
         keep(&mut harness, &format!("{name}_dark"));
         harness.key_press(Key::T);
         keep(&mut harness, &format!("{name}_light"));
+        if let Some(side) = harness.query_by_role_and_label(Role::Button, "Side") {
+            side.click();
+            harness.key_press(Key::N);
+            keep(&mut harness, &format!("{name}_side"));
+        }
         harness.get_by_label("Show ▼").click();
         harness.run_steps(2);
         keep(&mut harness, &format!("{name}_menu"));

@@ -4,7 +4,6 @@ use egui::{Key, Modifiers, PointerButton, Pos2};
 
 use super::*;
 
-#[expect(clippy::print_stderr, reason = "a test that skips must say why")]
 fn open() -> Option<HeadlessWindow> {
     match HeadlessWindow::open([1440, 900], WindowOptions::default()) {
         Ok(mut window) => {

@@ -3,6 +3,7 @@
 mod card;
 mod controls;
 mod plots;
+mod ranking;
 pub mod scene;
 mod stand_off;
 pub mod state;

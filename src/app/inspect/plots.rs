@@ -1,23 +1,16 @@
 //! The stage pictures: textures made once, curves and outlines drawn from prepared numbers.
 
-use std::sync::Arc;
-
 use egui::{
-    Align, Align2, Color32, FontId, Galley, Painter, Pos2, Rect, Shape, Stroke, TextureHandle,
-    pos2,
-    text::{LayoutJob, TextWrapping},
-    vec2,
+    Align, Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, TextureHandle, pos2,
+    text::LayoutJob, vec2,
 };
 
-use crate::{
-    app::{
-        figures::{Alignment, Candidate, ContourFigure, Curves},
-        inspect::work::Inspected,
-        state::{StagePanel, State},
-        theme::{ROUNDING, Theme, font},
-        widgets::{Scale, caption, curve, fitted},
-    },
-    pipeline::Verdict,
+use crate::app::{
+    figures::{Alignment, Candidate, ContourFigure, Curves, PlaneLine},
+    inspect::work::Inspected,
+    state::{StagePanel, State},
+    theme::{ROUNDING, Theme, font},
+    widgets::{Scale, caption, curve, fitted},
 };
 
 /// What the pictures are drawn from.
@@ -38,8 +31,19 @@ pub(super) enum Detail {
     Large,
 }
 
-/// A ranking narrower than this has its names over the bars, logical pixels.
-const STACKED: f32 = 125.0;
+impl Detail {
+    /// Of so many corners drawn over so many logical pixels, every how-manieth is worth drawing: a stroke costs the
+    /// same however short, and a small picture shows none shorter than two pixels.
+    fn step(self, num_corners: usize, pixels: f32) -> usize {
+        match self {
+            Self::Large => 1,
+            Self::Small => num_corners
+                .div_ceil((pixels / 2.0).max(8.0) as usize)
+                .max(1),
+        }
+    }
+}
+
 /// The paper's goal for E, 1e-6 m², as a power of ten.
 const GOAL: f32 = -6.0;
 
@@ -55,7 +59,7 @@ impl Pictures<'_> {
             StagePanel::Contour => figures
                 .contour
                 .as_ref()
-                .map(|contour| self.contour(contour, painter, inner)),
+                .map(|contour| self.contour(contour, painter, inner, detail)),
             StagePanel::Signature => figures
                 .signature
                 .as_ref()
@@ -113,7 +117,7 @@ impl Pictures<'_> {
         Some(())
     }
 
-    fn contour(&self, figure: &ContourFigure, painter: &Painter, rect: Rect) {
+    fn contour(&self, figure: &ContourFigure, painter: &Painter, rect: Rect, detail: Detail) {
         let [low, high] = figure.bounds;
         let (wide, tall) = ((high[0] - low[0]).max(1e-3), (high[1] - low[1]).max(1e-3));
         let place = fitted(rect, wide / tall);
@@ -123,8 +127,14 @@ impl Pictures<'_> {
         );
         let at = |p: &[f32; 2]| pos2(across.at(p[0]), up.at(p[1]));
         let centroid = at(&figure.centroid);
+        let corners = |border: &PlaneLine| -> Vec<Pos2> {
+            let step = detail.step(border.len(), rect.width());
+            let last = border.last().into_iter();
+            border.iter().step_by(step).chain(last).map(at).collect()
+        };
         let ray = Stroke::new(1.0, self.theme.weak_text.gamma_multiply(0.45));
-        for end in &figure.ray_ends {
+        let step = detail.step(figure.ray_ends.len(), rect.width());
+        for end in figure.ray_ends.iter().step_by(step) {
             painter.line_segment([centroid, at(end)], ray);
         }
         for (place, border) in figure.borders.iter().enumerate() {
@@ -133,10 +143,10 @@ impl Pictures<'_> {
             } else {
                 self.theme.second_series
             };
-            painter.line(border.iter().map(at).collect(), Stroke::new(1.6, colour));
+            painter.line(corners(border), Stroke::new(1.6, colour));
         }
         if let Some(candidate) = self.candidate() {
-            let outline: Vec<Pos2> = candidate.outline.iter().map(at).collect();
+            let outline = corners(&candidate.outline);
             let stroke = Stroke::new(1.2, self.theme.reference_series);
             painter.extend(Shape::dashed_line(&outline, stroke, 5.0, 4.0));
         }
@@ -168,7 +178,10 @@ impl Pictures<'_> {
                 Rect::from_min_size(pos2(rect.left(), top), vec2(rect.width(), half)).shrink(4.0);
             let range = range_of(values.iter().chain(other.into_iter().flatten()));
             let up = Scale::new(range, [area.bottom(), area.top()]);
-            let last = values.len().saturating_sub(1).max(1) as f32;
+            let step = detail.step(values.len(), rect.width());
+            let thin =
+                |values: &[f32]| -> Vec<f32> { values.iter().step_by(step).copied().collect() };
+            let last = (values.len().saturating_sub(1) / step).max(1) as f32;
             let across = Scale::new([0.0, last], [area.left(), area.right()]);
             if detail == Detail::Large {
                 self.level(painter, area, &up, range[0], &format!("{:.2}", range[0]));
@@ -176,123 +189,13 @@ impl Pictures<'_> {
             }
             if let Some(other) = other {
                 let stroke = Stroke::new(1.0, self.theme.reference_series);
-                painter.line(curve(other, &across, &up), stroke);
+                painter.line(curve(&thin(other), &across, &up), stroke);
             }
-            painter.line(curve(values, &across, &up), Stroke::new(1.6, colour));
+            painter.line(curve(&thin(values), &across, &up), Stroke::new(1.6, colour));
             if detail == Detail::Large {
                 let at = area.left_center();
                 painter.text(at, Align2::LEFT_CENTER, name, font::body_strong(), colour);
             }
-        }
-    }
-
-    fn ranking(&self, candidates: &[Candidate], painter: &Painter, rect: Rect, detail: Detail) {
-        let theme = self.theme;
-        if rect.width() < STACKED {
-            self.stacked_ranking(candidates, painter, rect);
-            return;
-        }
-        let num_rows = candidates.len().min(match detail {
-            Detail::Small => 6,
-            Detail::Large => 16,
-        });
-        let row = (rect.height() / num_rows.max(1) as f32).min(40.0);
-        let is_large = detail == Detail::Large;
-        let titles: Vec<_> = candidates
-            .iter()
-            .take(num_rows)
-            .enumerate()
-            .map(|(place, candidate)| {
-                let colour = if place == self.state.candidate {
-                    theme.text
-                } else {
-                    theme.weak_text
-                };
-                let name = if is_large {
-                    &candidate.title
-                } else {
-                    &candidate.short_title
-                };
-                let font = if is_large {
-                    font::body()
-                } else {
-                    font::scale()
-                };
-                // A long name still leaves the bars their share.
-                elided(painter, name, font, colour, rect.width() * 0.56)
-            })
-            .collect();
-        let widest = titles.iter().map(|title| title.size().x);
-        let names = widest.fold(0.0, f32::max) + if is_large { 16.0 } else { 6.0 };
-        let values = if is_large { 60.0 } else { 0.0 };
-        let bars = Scale::new([0.0, 1.0], [rect.left() + names, rect.right() - values]);
-        for ((place, candidate), title) in candidates.iter().enumerate().zip(titles) {
-            let middle = rect.top() + row * (place as f32 + 0.5);
-            let is_chosen = place == self.state.candidate;
-            let colour = if is_chosen {
-                theme.text
-            } else {
-                theme.weak_text
-            };
-            let top = pos2(rect.left(), middle - title.size().y / 2.0);
-            painter.galley(top, title, colour);
-            let y = [middle - row * 0.3, middle + row * 0.3];
-            let bar =
-                |to: f32| Rect::from_min_max(pos2(bars.at(0.0), y[0]), pos2(bars.at(to), y[1]));
-            painter.rect_filled(bar(1.0), 2.0, theme.track);
-            painter.rect_filled(
-                bar(candidate.score.clamp(0.0, 1.0)),
-                2.0,
-                self.bar_fill(place),
-            );
-            if is_large {
-                let at = pos2(rect.right(), middle);
-                let score = format!("{:.2}", candidate.score);
-                painter.text(at, Align2::RIGHT_CENTER, score, font::body(), colour);
-            }
-        }
-        let threshold = bars.at(self.inspected.recipe.accept.min_score as f32);
-        let bottom = rect.top() + row * num_rows as f32;
-        painter.vline(threshold, rect.top()..=bottom, Stroke::new(1.0, theme.text));
-    }
-
-    /// As [`Self::ranking`], in little room: each name over its bar, the first few alone.
-    fn stacked_ranking(&self, candidates: &[Candidate], painter: &Painter, rect: Rect) {
-        const ROW: f32 = 22.0;
-        const BAR: f32 = 6.0;
-        let theme = self.theme;
-        let num_rows = ((rect.height() / ROW) as usize).clamp(1, candidates.len());
-        let row = rect.height() / num_rows as f32;
-        let across = Scale::new([0.0, 1.0], [rect.left(), rect.right()]);
-        for (place, candidate) in candidates.iter().take(num_rows).enumerate() {
-            let colour = if place == self.state.candidate {
-                theme.text
-            } else {
-                theme.weak_text
-            };
-            let at = pos2(rect.left(), rect.top() + row * place as f32);
-            let name = &candidate.short_title;
-            let title = elided(painter, name, font::scale(), colour, rect.width());
-            let y = at.y + title.size().y + 1.0;
-            painter.galley(at, title, colour);
-            let bar =
-                |to: f32| Rect::from_min_max(pos2(rect.left(), y), pos2(across.at(to), y + BAR));
-            painter.rect_filled(bar(1.0), 2.0, theme.track);
-            let score = candidate.score.clamp(0.0, 1.0);
-            painter.rect_filled(bar(score), 2.0, self.bar_fill(place));
-            let threshold = across.at(self.inspected.recipe.accept.min_score as f32);
-            painter.vline(threshold, y..=y + BAR, Stroke::new(1.0, theme.text));
-        }
-    }
-
-    /// Of the bar at this place of the ranking: only an accepted part's is that of acceptance.
-    fn bar_fill(&self, place: usize) -> Color32 {
-        let verdict = &self.inspected.inspection.verdict;
-        let is_accepted = matches!(verdict, Verdict::Part { rejected: None, .. });
-        match (place, is_accepted) {
-            (0, true) => self.theme.accepted,
-            (0, false) => self.theme.rejected,
-            _ => self.theme.weak_text.gamma_multiply(0.6),
         }
     }
 
@@ -306,6 +209,8 @@ impl Pictures<'_> {
         let (low, high) = (low.min(GOAL).floor(), high.max(GOAL + 1.0).ceil());
         let mut area = rect;
         area.min.x += if detail == Detail::Large { 44.0 } else { 26.0 };
+        // Room for a line of text over the curve.
+        area.min.y += if detail == Detail::Large { 22.0 } else { 0.0 };
         let up = Scale::new([low, high], [area.bottom() - 4.0, area.top() + 6.0]);
         let last = (log_e.len() - 1).max(1) as f32;
         let across = Scale::new([0.0, last], [area.left() + 4.0, area.right() - 6.0]);
@@ -333,7 +238,7 @@ impl Pictures<'_> {
         if detail == Detail::Large {
             let rms = self.state.units.length(rms_m);
             let text = format!("{} ended at rms {rms}", candidate.title);
-            let at = area.right_top() + vec2(0.0, 10.0);
+            let at = rect.right_top();
             painter.text(at, Align2::RIGHT_TOP, text, font::body(), self.theme.text);
             let at = pos2(area.right(), y - 4.0);
             let text = "the paper's goal, 1e\u{2212}6 m²";
@@ -362,16 +267,22 @@ impl Pictures<'_> {
     }
 }
 
-/// One line of text, its end left out where it is too long.
-fn elided(painter: &Painter, text: &str, font: FontId, colour: Color32, width: f32) -> Arc<Galley> {
-    let mut job = LayoutJob::simple_singleline(text.to_owned(), font, colour);
-    job.wrap = TextWrapping::truncate_at_width(width);
-    painter.layout_job(job)
-}
-
 /// Smallest and largest.
 fn range_of<'a>(values: impl Iterator<Item = &'a f32>) -> [f32; 2] {
     values.fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], value| {
         [low.min(*value), high.max(*value)]
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Detail;
+
+    #[test]
+    fn a_small_picture_draws_no_more_strokes_than_show() {
+        assert_eq!(Detail::Large.step(512, 146.0), 1);
+        assert_eq!(Detail::Small.step(512, 146.0), 8);
+        assert_eq!(Detail::Small.step(40, 146.0), 1);
+        assert_eq!(Detail::Small.step(0, 0.0), 1);
+    }
 }
