@@ -46,6 +46,18 @@ impl Dialog {
                     .add_filter("All files", &["*"])
                     .pick_file(),
             ),
+            Ask::Part => Box::pin(
+                dialog
+                    .set_title("Open a scene, a cloud or a mesh to enrol")
+                    .add_filter(
+                        "Scenes, clouds and meshes",
+                        &[
+                            "pcd", "ply", "xyz", "txt", "csv", "png", "stl", "obj", "gltf", "glb",
+                        ],
+                    )
+                    .add_filter("All files", &["*"])
+                    .pick_file(),
+            ),
         };
         Self {
             ask,

@@ -94,7 +94,7 @@ pub(super) fn run(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Out
     Ok(Outcome::Accepted)
 }
 
-fn parse_title(text: &str) -> Result<String, String> {
+pub(super) fn parse_title(text: &str) -> Result<String, String> {
     match text.chars().count() {
         0..=MAX_TITLE => Ok(text.to_owned()),
         found => Err(format!(

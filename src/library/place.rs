@@ -88,12 +88,11 @@ impl LibraryPlace {
 
     /// The small picture of a part, if it is there and can be read.
     pub fn thumbnail(&self, name: &str) -> Option<RgbaImage> {
-        let picture = match self.folder() {
-            Some(folder) => image::open(folder.thumbnail(name)?),
-            None => {
-                let entry = shipped_entries().into_iter().find(|e| e.name == name)?;
-                image::load_from_memory(entry.shipped_file(THUMBNAIL)?)
-            }
+        let picture = if let Some(folder) = self.folder() {
+            image::open(folder.thumbnail(name)?)
+        } else {
+            let entry = shipped_entries().into_iter().find(|e| e.name == name)?;
+            image::load_from_memory(entry.shipped_file(THUMBNAIL)?)
         };
         Some(picture.ok()?.into_rgba8())
     }

@@ -208,6 +208,13 @@ impl LibraryFolder {
         })
     }
 
+    /// What a part is called.
+    pub fn words(&self, name: &PartName) -> Result<PartWords, LibraryError> {
+        let meta = meta_of(&self.entry(name.as_str())?);
+        meta.map(|meta| meta.words())
+            .map_err(|problem| LibraryError::Damaged(Box::new(problem)))
+    }
+
     /// Calls a part otherwise. Under another name it is a part built anew of the same files, and the former one goes to
     /// the trash once the new one is in place; otherwise only its description is written anew.
     pub fn rename(&self, name: &PartName, words: &PartWords) -> Result<Renamed, LibraryError> {

@@ -11,6 +11,7 @@ use std::sync::Arc;
 use egui::{Align2, ColorImage, Frame, Margin, Panel, TextureHandle, TextureOptions, Ui};
 use image::RgbImage;
 
+pub(super) use self::view::grouped;
 use self::{view::SceneView, work::Inspected};
 use super::{
     action::Action,
