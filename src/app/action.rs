@@ -92,6 +92,8 @@ pub enum Ask {
     CasesFolder,
     /// Something of the Align workspace.
     Align(AlignAsk),
+    /// A scene, a whole cloud or a mesh to enrol.
+    Part,
 }
 
 /// What is to be done outside the state.
@@ -110,6 +112,8 @@ pub enum Effect {
     ShowDialog(Ask),
     /// Put this on the clipboard.
     CopyText(String),
+    /// All of this.
+    Several(Vec<Effect>),
 }
 
 /// More notices than this push the oldest out.
@@ -123,11 +127,14 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
             state.source = Source::Cell(choice);
             return Some(capture(state));
         }
+        Action::Ask(Ask::Scene) if state.workspace == Workspace::Enrol => {
+            return Some(Effect::ShowDialog(Ask::Part));
+        }
         Action::Ask(ask) => return Some(Effect::ShowDialog(ask)),
         Action::Chosen(Ask::CasesFolder, path) => {
             return compare::apply(state, CompareAction::Folder(path));
         }
-        Action::Chosen(Ask::Scene, path) | Action::Open(path) => {
+        Action::Chosen(Ask::Scene | Ask::Part, path) | Action::Open(path) => {
             state.source = Source::File(path);
             return Some(capture(state));
         }
@@ -184,7 +191,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
     None
 }
 
-/// Asks for a scene from the source.
+/// Asks for a scene from the source: to be inspected, or to be enrolled while that is in front.
 fn capture(state: &mut State) -> Effect {
     let (source, what) = match &state.source {
         Source::Cell(choice) => {
@@ -200,6 +207,9 @@ fn capture(state: &mut State) -> Effect {
             format!("Opening {}", file_name(path)),
         ),
     };
+    if state.workspace == Workspace::Enrol {
+        return enrol::take(state, source, what);
+    }
     let recipe = Arc::clone(&state.recipe);
     state.begin(what, Request::Inspect(InspectRequest { source, recipe }))
 }
@@ -278,7 +288,7 @@ fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> 
         Err(trouble) => {
             notify(state, trouble.clone().into());
             match lane {
-                Lane::Enrol => return enrol::hear(state, Err(trouble)),
+                Lane::Enrol | Lane::Library => return enrol::hear(state, Err(trouble)),
                 Lane::Compare => return compare::hear(state, Err(trouble)),
                 Lane::Align => return align::hear(state, Err(trouble)),
                 Lane::Inspect => return without_scene(state),

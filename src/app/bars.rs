@@ -7,6 +7,7 @@ use egui::{
 
 use super::{
     action::{Action, Ask},
+    enrol::EnrolAction,
     shelf::LibraryShown,
     source::{CellChoice, file_name},
     state::{NoticeKind, Source, StagePanel, State},
@@ -217,12 +218,16 @@ pub(super) fn notices(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut V
                     let (rect, _) = ui.allocate_exact_size(Vec2::splat(20.0), Sense::hover());
                     let sign = match notice.kind {
                         NoticeKind::Look => Mark::Look,
-                        NoticeKind::Done => Mark::Good,
+                        NoticeKind::Done | NoticeKind::Undoable => Mark::Good,
                     };
                     mark(ui.painter(), rect.center(), 9.0, sign, theme);
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                         if labelled(ui, Button::new("Dismiss"), "Dismiss").clicked() {
                             actions.push(Action::Dismiss(place));
+                        }
+                        let is_undoable = notice.kind == NoticeKind::Undoable;
+                        if is_undoable && labelled(ui, Button::new("Undo"), "Undo").clicked() {
+                            actions.push(Action::Enrol(EnrolAction::Undo));
                         }
                         ui.with_layout(
                             Layout::left_to_right(Align::Center).with_main_wrap(true),

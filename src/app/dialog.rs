@@ -76,15 +76,13 @@ impl Dialog {
                     .save_file(),
             ),
             Ask::Align(AlignAsk::Source | AlignAsk::Target) => Box::pin(
-                dialog
+                anything_with_points(dialog)
                     .set_title("Open a cloud or a mesh")
-                    .add_filter(
-                        "Clouds and meshes",
-                        &[
-                            "pcd", "ply", "xyz", "txt", "csv", "png", "stl", "obj", "gltf", "glb",
-                        ],
-                    )
-                    .add_filter("All files", &["*"])
+                    .pick_file(),
+            ),
+            Ask::Part => Box::pin(
+                anything_with_points(dialog)
+                    .set_title("Open a scene, a cloud or a mesh to enrol")
                     .pick_file(),
             ),
         };
@@ -107,6 +105,15 @@ impl Dialog {
                 None => None,
             })
     }
+}
+
+fn anything_with_points(dialog: rfd::AsyncFileDialog) -> rfd::AsyncFileDialog {
+    let endings = [
+        "pcd", "ply", "xyz", "txt", "csv", "png", "stl", "obj", "gltf", "glb",
+    ];
+    dialog
+        .add_filter("Scenes, clouds and meshes", &endings)
+        .add_filter("All files", &["*"])
 }
 
 fn never_opened() -> Notice {

@@ -36,7 +36,7 @@ impl Request {
     pub fn lane(&self) -> Lane {
         match self {
             Self::Inspect(_) | Self::Library(_) => Lane::Inspect,
-            Self::Enrol(_) => Lane::Enrol,
+            Self::Enrol(request) => request.lane(),
             Self::Compare(_) => Lane::Compare,
             Self::Align(_) => Lane::Align,
             Self::Write(_) => Lane::Write,

@@ -1,12 +1,14 @@
 //! Shortcuts, and the list of them.
 
-use egui::{Button, Frame, Id, Key, KeyboardShortcut, Margin, Modal, Modifiers, RichText, vec2};
+use egui::{
+    Button, Frame, Id, Key, KeyboardShortcut, Margin, Modal, Modifiers, RichText, ScrollArea, vec2,
+};
 
 use super::{
     action::{Action, Ask},
     align,
     bars::labelled,
-    compare, history, inspect,
+    compare, enrol, history, inspect,
     state::{HelpPage, State, Workspace},
     theme::{Theme, font, space},
 };
@@ -26,7 +28,7 @@ const SHORTCUTS: [Shortcut; 7] = [
         modifiers: Modifiers::NONE,
         key: Key::Space,
         keys: "Space",
-        does: "Capture and inspect",
+        does: "Capture, and inspect or enrol it",
         action: || Action::Capture,
     },
     Shortcut {
@@ -84,6 +86,12 @@ const OTHER_KEYS: [(&str, &str); 7] = [
     ("M", "Measure between two clicked points"),
 ];
 
+/// Keys of the picture in which a part is corrected, for the list alone.
+const PICTURE_KEYS: [(&str, &str); 2] = [
+    ("Arrow keys, Enter", "Move a box in the picture, apply it"),
+    ("Shift + arrow keys", "Make that box larger or smaller"),
+];
+
 /// The keys of the rail, in its order.
 const RAIL_KEYS: [(Key, &str); 5] = [
     (Key::Num1, "1"),
@@ -93,14 +101,17 @@ const RAIL_KEYS: [(Key, &str); 5] = [
     (Key::Num5, "5"),
 ];
 
+/// What of the window's height the list leaves free, for its heading, its button and the edges.
+const HELP_MARGIN: f32 = 190.0;
+
 /// The shortcuts of a workspace alone; they come before the window's.
 fn of_workspace(workspace: Workspace) -> &'static [Shortcut] {
     match workspace {
         Workspace::Inspect => &inspect::SHORTCUTS,
+        Workspace::Enrol => &enrol::SHORTCUTS,
         Workspace::Compare => &compare::SHORTCUTS,
         Workspace::Align => &align::SHORTCUTS,
         Workspace::History => &history::SHORTCUTS,
-        Workspace::Enrol => &[],
     }
 }
 
@@ -118,8 +129,10 @@ pub(super) fn shortcuts(
     let is_writing = ctx.text_edit_focused();
     for shortcut in of_workspace(state.workspace).iter().chain(&SHORTCUTS) {
         let is_plain = shortcut.modifiers.is_none();
-        if matches!(shortcut.key, Key::Space | Key::Enter) && is_pressing || is_plain && is_writing
-        {
+        // In a text that is being written, Ctrl Z takes back what was written.
+        let is_of_text = is_plain || shortcut.key == Key::Z;
+        let presses = matches!(shortcut.key, Key::Space | Key::Enter);
+        if presses && is_pressing || is_of_text && is_writing {
             continue;
         }
         let keys = KeyboardShortcut::new(shortcut.modifiers, shortcut.key);
@@ -154,20 +167,28 @@ pub(super) fn help(ctx: &egui::Context, state: &State, theme: &Theme, actions: &
                     .color(theme.text),
             );
             ui.add_space(space::SMALL);
-            egui::Grid::new("shortcuts")
+            let room = ctx.content_rect().height() - HELP_MARGIN;
+            let list = egui::Grid::new("shortcuts")
                 .num_columns(2)
-                .spacing(vec2(24.0, 6.0))
-                .show(ui, |ui| {
+                .spacing(vec2(24.0, 6.0));
+            ScrollArea::vertical().max_height(room).show(ui, |ui| {
+                list.show(ui, |ui| {
                     let own = of_workspace(state.workspace).iter();
                     let named = own.chain(&SHORTCUTS).map(|s| (s.keys, s.does));
                     let of_rail = RAIL_KEYS.into_iter().zip(Workspace::ALL);
                     let of_rail = of_rail.map(|((_, keys), workspace)| (keys, workspace.title()));
-                    for (keys, does) in named.chain(of_rail).chain(OTHER_KEYS) {
+                    let of_picture = match state.workspace {
+                        Workspace::Enrol => &PICTURE_KEYS[..],
+                        _ => &[],
+                    };
+                    let others = of_picture.iter().copied().chain(OTHER_KEYS);
+                    for (keys, does) in named.chain(of_rail).chain(others) {
                         ui.label(RichText::new(keys).font(font::body_strong()));
                         ui.label(RichText::new(does).color(theme.weak_text));
                         ui.end_row();
                     }
                 });
+            });
             ui.spacing_mut().interact_size.y = height;
             ui.add_space(space::MEDIUM);
             labelled(ui, Button::new("Close"), "Close").clicked()

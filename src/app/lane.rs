@@ -5,7 +5,7 @@
 pub enum Lane {
     /// Captures, opens and inspects scenes.
     Inspect,
-    /// Prepares a part to be enrolled, and changes the library.
+    /// Prepares a part to be enrolled.
     Enrol,
     /// Inspects again with other parameters, and runs kept cases.
     Compare,
@@ -13,16 +13,19 @@ pub enum Lane {
     Align,
     /// Writes files that a person asked for.
     Write,
+    /// Changes the library: what it began it finishes.
+    Library,
 }
 
 impl Lane {
     /// Every lane.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 6] = [
         Self::Inspect,
         Self::Enrol,
         Self::Compare,
         Self::Align,
         Self::Write,
+        Self::Library,
     ];
 
     /// The name of its thread.
@@ -33,6 +36,7 @@ impl Lane {
             Self::Compare => "compare",
             Self::Align => "align",
             Self::Write => "write",
+            Self::Library => "library",
         }
     }
 }

@@ -5,8 +5,11 @@ use std::{
     sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
 
+use image::RgbaImage;
+
 use super::{fitted::FittedCache, job::Trouble};
 use crate::{
+    error::Advice as _,
     library::{Library, LibraryError, LibraryLoad, LibraryPlace, PartMeta, open_library},
     stages::reference::ReferenceParams,
 };
@@ -42,8 +45,23 @@ pub struct LibraryShown {
     pub path: PathBuf,
     /// What is written down of every part, in the library's order.
     pub parts: Vec<PartMeta>,
+    /// The small pictures of the parts, in the same order, where there is one.
+    pub thumbnails: Vec<Option<RgbaImage>>,
+    /// The parts that could not be loaded.
+    pub damaged: Vec<Damaged>,
+    /// Why it cannot be changed at all, if so.
+    pub is_fixed: Option<Trouble>,
     /// What had to be set aside, and what is odd.
     pub troubles: Vec<Trouble>,
+}
+
+/// A part that could not be loaded.
+#[derive(Clone, Debug)]
+pub struct Damaged {
+    /// The name of its folder.
+    pub entry: String,
+    /// Why, and what to do.
+    pub trouble: Trouble,
 }
 
 impl LibraryShown {
@@ -117,8 +135,23 @@ fn load(given: Option<&Path>) -> Result<Shelved, LibraryError> {
     } = place.load(&ReferenceParams::default())?;
     let troubles = problems.iter().map(Trouble::of);
     let troubles = troubles.chain(warnings.iter().map(Trouble::of)).collect();
+    let thumbnails = parts.iter().map(|part| place.thumbnail(part.name.as_str()));
+    let damaged = problems.iter().map(|problem| Damaged {
+        entry: problem.entry.clone(),
+        trouble: Trouble::of(problem),
+    });
+    let is_fixed = match &place {
+        LibraryPlace::Program(reason) => Some(Trouble {
+            what: format!("The library lies inside the program and cannot be changed ({reason})"),
+            advice: reason.advice(),
+        }),
+        _ => None,
+    };
     let shown = Arc::new(LibraryShown {
         path: place.location().into(),
+        thumbnails: thumbnails.collect(),
+        damaged: damaged.collect(),
+        is_fixed,
         parts,
         troubles,
     });

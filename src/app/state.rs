@@ -73,7 +73,8 @@ impl State {
     pub fn work(&self) -> Option<(Lane, &Work)> {
         let own = self.workspace.lane();
         let all = self.works.iter().map(|(lane, work)| (*lane, work));
-        let mut all = all.filter(|(lane, _)| *lane != Lane::Write);
+        // Quickly done, and not to be given up half-way.
+        let mut all = all.filter(|(lane, _)| !matches!(lane, Lane::Write | Lane::Library));
         let own = own.and_then(|own| self.works.get_key_value(&own).map(|(l, w)| (*l, w)));
         own.or_else(|| all.next())
     }
@@ -153,7 +154,13 @@ pub enum Workspace {
 
 impl Workspace {
     /// Every workspace, in the order of the rail and of the number keys.
-    pub const ALL: [Self; 4] = [Self::Inspect, Self::Compare, Self::Align, Self::History];
+    pub const ALL: [Self; 5] = [
+        Self::Inspect,
+        Self::Enrol,
+        Self::Compare,
+        Self::Align,
+        Self::History,
+    ];
 
     /// What a person calls it.
     pub fn title(self) -> &'static str {
@@ -306,6 +313,8 @@ pub enum NoticeKind {
     Look,
     /// Something was done.
     Done,
+    /// Something was done that can be taken back.
+    Undoable,
 }
 
 /// Something that a person should know.
@@ -326,6 +335,14 @@ impl Notice {
             kind: NoticeKind::Done,
             what: what.into(),
             advice: String::new(),
+        }
+    }
+
+    /// Something was done that can be taken back.
+    pub fn undoable(what: impl Into<String>) -> Self {
+        Self {
+            kind: NoticeKind::Undoable,
+            ..Self::done(what)
         }
     }
 }

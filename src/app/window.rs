@@ -115,26 +115,36 @@ impl Window {
 
     /// Does what a person could cause.
     pub fn act(&mut self, action: Action, ctx: &egui::Context) {
-        match apply(&mut self.state, action) {
-            None => {}
-            Some(Effect::Post {
+        if let Some(effect) = apply(&mut self.state, action) {
+            self.make(effect, ctx);
+        }
+    }
+
+    fn make(&mut self, effect: Effect, ctx: &egui::Context) {
+        match effect {
+            Effect::Post {
                 generation,
                 request,
-            }) => {
+            } => {
                 if let Some(worker) = self.workers.get(&request.lane()) {
                     worker.request(generation, request);
                 }
             }
-            Some(Effect::CancelWork(lane)) => {
+            Effect::CancelWork(lane) => {
                 if let Some(worker) = self.workers.get(&lane) {
                     worker.cancel();
                 }
             }
-            Some(Effect::ShowDialog(ask)) => {
+            Effect::ShowDialog(ask) => {
                 // One at a time: a second would hide behind the first.
                 self.dialog.get_or_insert_with(|| Dialog::open(ask, ctx));
             }
-            Some(Effect::CopyText(text)) => ctx.copy_text(text),
+            Effect::CopyText(text) => ctx.copy_text(text),
+            Effect::Several(effects) => {
+                for effect in effects {
+                    self.make(effect, ctx);
+                }
+            }
         }
     }
 

@@ -3,6 +3,7 @@
 
 mod align;
 mod compare;
+mod enrol;
 mod history;
 mod inspect;
 mod set_up;

@@ -16,6 +16,7 @@ use egui::{
 };
 use image::RgbImage;
 
+pub(super) use self::view::grouped;
 use self::{
     state::{InspectAction, ViewPart},
     view::SceneView,

@@ -263,7 +263,7 @@ fn plate(
 }
 
 /// A whole number in groups of three digits.
-fn grouped(number: usize) -> String {
+pub(in crate::app) fn grouped(number: usize) -> String {
     let digits = number.to_string();
     let mut text = String::new();
     for (i, digit) in digits.chars().enumerate() {
