@@ -229,15 +229,14 @@ fn paint_row(painter: &Painter, rect: Rect, row: &TableRow, theme: &Theme) {
         font::body(),
         theme.weak_text,
     );
-    let best = row.best();
     for ((place, x), cell) in columns(rect).zip(&row.cells) {
-        let (text, font, colour) = match (&cell.figures, best == Some(place)) {
+        let (text, font, colour) = match (&cell.figures, row.is_best(place)) {
             (Ok(figures), true) => (short(figures.e_m2), font::body_strong(), theme.accepted),
             (Ok(figures), false) => (short(figures.e_m2), font::body(), theme.text),
             (Err(_), _) => ("none".into(), font::body(), theme.rejected),
         };
         let written = painter.text(pos2(x, y), Align2::RIGHT_CENTER, text, font, colour);
-        if best == Some(place) {
+        if row.is_best(place) {
             tick(
                 painter,
                 written.left_center() - vec2(9.0, 0.0),
@@ -264,11 +263,7 @@ fn spoken(row: &TableRow) -> String {
     let mut text = format!("{}, {}", row.title, Start::Paper(row.start).title());
     for (place, cell) in row.cells.iter().enumerate() {
         let name = series::title(cell.method);
-        let best = if row.best() == Some(place) {
-            ", best"
-        } else {
-            ""
-        };
+        let best = if row.is_best(place) { ", best" } else { "" };
         let _ = match &cell.figures {
             Ok(figures) => write!(text, "; {name} {}{best}", short(figures.e_m2)),
             Err(_) => write!(text, "; {name} no pose"),

@@ -94,13 +94,16 @@ impl TableCell {
     }
 }
 
+/// E below this is the rounding of the coordinates, square metres: 1 µm.
+const ROUNDING: f64 = 1e-12;
+
 impl TableRow {
-    /// The place of the cell with the smallest E.
-    pub fn best(&self) -> Option<usize> {
+    /// True if no other cell has a smaller E, rounding left aside: several may be best.
+    pub fn is_best(&self, place: usize) -> bool {
         let e = |cell: &TableCell| cell.figures.as_ref().map_or(f64::INFINITY, |f| f.e_m2);
-        let cells = self.cells.iter().map(e).enumerate();
-        let best = cells.min_by(|a, b| a.1.total_cmp(&b.1))?;
-        best.1.is_finite().then_some(best.0)
+        let least = self.cells.iter().map(e).fold(f64::INFINITY, f64::min);
+        let own = self.cells.get(place).map_or(f64::INFINITY, e);
+        own.is_finite() && own <= least.max(ROUNDING)
     }
 }
 
@@ -205,12 +208,19 @@ mod tests {
     }
 
     #[test]
-    fn the_best_cell_has_the_smallest_e_and_a_row_without_poses_has_none() {
+    fn the_best_cells_have_the_smallest_e_and_a_row_without_poses_has_none() {
+        let best = |row: &TableRow| -> Vec<usize> {
+            (0..PoseMethod::ALL.len())
+                .filter(|place| row.is_best(*place))
+                .collect()
+        };
+        let last = PoseMethod::ALL.len() - 1;
+        assert_eq!(best(&row(0, |i| Some(1.0 / (i + 1) as f64))), [last]);
+        assert_eq!(best(&row(0, |i| (i == 0).then_some(1.0))), [0]);
         assert_eq!(
-            row(0, |i| Some(1.0 / (i + 1) as f64)).best(),
-            Some(PoseMethod::ALL.len() - 1)
+            best(&row(0, |i| Some(1e-14 / (i + 1) as f64))).len(),
+            last + 1
         );
-        assert_eq!(row(0, |i| (i == 0).then_some(1.0)).best(), Some(0));
-        assert_eq!(row(0, |_| None).best(), None);
+        assert!(best(&row(0, |_| None)).is_empty());
     }
 }
