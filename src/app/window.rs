@@ -222,8 +222,13 @@ impl Window {
         bars::top_bar(ui, &self.state, theme, &mut actions);
         bars::notices(ui, &self.state, theme, &mut actions);
         rail::ui(ui, &self.state, theme, &mut actions);
+        let canvas = match self.state.workspace {
+            // Its view covers everything: a software driver paints what is beneath all the same.
+            Workspace::Inspect => Frame::new(),
+            _ => Frame::new().fill(theme.canvas),
+        };
         CentralPanel::default()
-            .frame(Frame::new().fill(theme.canvas))
+            .frame(canvas)
             .show(ui, |ui| match self.state.workspace {
                 Workspace::Inspect => self.inspect.ui(ui, &self.state, theme, &mut actions),
                 Workspace::Enrol => self.enrol.ui(ui, &self.state, theme, &mut actions),

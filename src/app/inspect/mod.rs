@@ -109,6 +109,7 @@ impl InspectPanel {
         actions: &mut Vec<Action>,
     ) {
         let Some(shown) = &state.shown else {
+            ui.painter().rect_filled(ui.max_rect(), 0.0, theme.canvas);
             empty(ui, state, theme);
             return;
         };
@@ -131,6 +132,8 @@ impl InspectPanel {
                 strip::ui(ui, &pictures, actions);
             });
         if state.enlarged.is_some() {
+            let rest = ui.available_rect_before_wrap();
+            ui.painter().rect_filled(rest, 0.0, theme.canvas);
             let pictures = self.pictures(inspected, state, theme);
             strip::enlarged_ui(ui, &pictures, actions);
         } else {
