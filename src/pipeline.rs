@@ -14,6 +14,7 @@ use crate::{
         pose::{
             PoseError, PoseEstimate, PoseMethod,
             icp::{IcpParams, locate_by_icp},
+            icp_ga::{IcpGaParams, locate_by_icp_ga},
         },
         project::{PlaneImage, ProjectParams, project},
         rank::{MatchRanking, Matcher, Query, RankParams, place, rank},
@@ -47,6 +48,8 @@ pub struct Recipe {
     pub confirm: ConfirmParams,
     /// ICP.
     pub icp: IcpParams,
+    /// ICP-GA.
+    pub icp_ga: IcpGaParams,
     /// Acceptance.
     pub accept: AcceptParams,
     /// The nozzle's stand-off, worked out from the pose where it is shown.
@@ -158,10 +161,18 @@ fn recognise(
     };
     match recipe.pose {
         PoseChoice::Skip => {}
-        PoseChoice::By(PoseMethod::Icp) => {
+        PoseChoice::By(method @ (PoseMethod::Icp | PoseMethod::IcpGa)) => {
             let reference = &references[first.reference];
-            let locate = || locate_by_icp(part, reference, scene, &recipe.icp);
-            let pose = clock.time(Stage::Pose, locate)?;
+            let is_cancelled = || clock.is_cancelled();
+            let pose = clock.time(Stage::Pose, || match method {
+                PoseMethod::IcpGa => {
+                    locate_by_icp_ga(part, reference, scene, &recipe.icp_ga, &is_cancelled)
+                }
+                _ => locate_by_icp(part, reference, scene, &recipe.icp, &is_cancelled),
+            })?;
+            if pose == Err(PoseError::Cancelled) {
+                return Err(Cancelled);
+            }
             // The order is the matcher's; what the first is worth shows at its pose.
             for entry in &mut inspection.ranking.entries {
                 entry.score *= UNCONFIRMED;

@@ -157,6 +157,7 @@ fn nothing_to_see_is_no_part_whatever_the_recipe() {
             PoseChoice::Skip,
             PoseChoice::By(PoseMethod::Global),
             PoseChoice::By(PoseMethod::Icp),
+            PoseChoice::By(PoseMethod::IcpGa),
         ] {
             let mut recipe = Recipe {
                 pose,

@@ -28,6 +28,7 @@ use crate::{
 Examples:
   partsight align scan.ply reference.ply
   partsight align scan.ply reference.ply --pose icp --initial \"0 0 30deg 100mm 0 0\"
+  partsight align scan.ply reference.ply --pose icp-ga
   partsight align scan.ply door.stl --json
 
 Both in metres. A mesh is sampled evenly. The answer maps points of SOURCE onto TARGET.

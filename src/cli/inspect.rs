@@ -26,7 +26,7 @@ Examples:
   partsight inspect captures/*.png --library /media/stick/reference_parts
   partsight inspect door.pcd --json | jq .part
   partsight inspect misread.pcd --report why/
-  partsight inspect door.pcd --matcher paper --pose icp
+  partsight inspect door.pcd --matcher paper --pose icp-ga
 
 Files: PCD, PLY, XYZ or CSV text, or a 16-bit depth PNG with its intrinsics in a JSON beside it; metres.
 Exit codes: 0 every input accepted, 1 something was not accepted, 2 something could not be read.
@@ -66,6 +66,8 @@ enum PoseArg {
     Global,
     /// The paper's iterative closest point, from the standard position
     Icp,
+    /// The paper's ICP-GA: ICP and a genetic algorithm in turns, from the standard position
+    IcpGa,
     /// No pose: the verdict rests on the outline alone
     None,
 }
@@ -80,6 +82,7 @@ impl InspectArgs {
         recipe.pose = match self.pose {
             PoseArg::Global => PoseChoice::By(PoseMethod::Global),
             PoseArg::Icp => PoseChoice::By(PoseMethod::Icp),
+            PoseArg::IcpGa => PoseChoice::By(PoseMethod::IcpGa),
             PoseArg::None => PoseChoice::Skip,
         };
         recipe

@@ -230,6 +230,8 @@ enum MethodChoice {
     Global,
     /// The paper's iterative closest point, from one start
     Icp,
+    /// The paper's ICP-GA: ICP and a genetic algorithm in turns, from one start
+    IcpGa,
 }
 
 impl From<MethodChoice> for PoseMethod {
@@ -237,6 +239,7 @@ impl From<MethodChoice> for PoseMethod {
         match choice {
             MethodChoice::Global => Self::Global,
             MethodChoice::Icp => Self::Icp,
+            MethodChoice::IcpGa => Self::IcpGa,
         }
     }
 }

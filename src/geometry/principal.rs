@@ -1,6 +1,10 @@
 //! Principal axes of a point set: mean, covariance (eq. 4 and 5) and its eigenvectors in descending order (eq. 6).
 
-use nalgebra::{Matrix3, Point3, SymmetricEigen, Vector3};
+use nalgebra::{
+    Isometry3, Matrix3, Point3, Rotation3, SymmetricEigen, Translation3, UnitQuaternion, Vector3,
+};
+
+use super::rigid::RigidTransform;
 
 /// Mean and principal axes of weighted points.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -11,6 +15,18 @@ pub struct PrincipalAxes {
     pub axes: Matrix3<f64>,
     /// Variances along the axes, square metres, descending, never negative.
     pub variances: [f64; 3],
+}
+
+impl PrincipalAxes {
+    /// Takes the space of the axes into that of the points: origin at their mean, right-handed, so that the third axis
+    /// may point the other way.
+    pub fn frame(&self) -> RigidTransform {
+        let first: Vector3<f64> = self.axes.column(0).into_owned();
+        let second: Vector3<f64> = self.axes.column(1).into_owned();
+        let matrix = Matrix3::from_columns(&[first, second, first.cross(&second)]);
+        let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix));
+        Isometry3::from_parts(Translation3::from(self.mean.coords), turn)
+    }
 }
 
 /// The principal axes of points with weights above zero; `None` without at least three points.

@@ -77,6 +77,10 @@ impl<'a> StageClock<'a> {
         }
     }
 
+    pub(super) fn is_cancelled(&self) -> bool {
+        self.watch.is_cancelled()
+    }
+
     pub(super) fn time<T>(&self, stage: Stage, work: impl FnOnce() -> T) -> Result<T, Cancelled> {
         if self.watch.is_cancelled() {
             return Err(Cancelled);

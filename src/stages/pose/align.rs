@@ -6,26 +6,58 @@ use super::{
     MIN_POINTS, PoseError, PoseEstimate, PoseMethod,
     global::{PreparedTarget, starts},
     icp::{IcpParams, icp},
+    icp_ga::{IcpGaParams, icp_ga},
     refine::Refined,
+    spanned::spanned_axes,
 };
 use crate::{
     geometry::{
-        cloud::PointCloud,
-        nearest::KdTree,
-        principal::{PrincipalAxes, principal_axes},
-        rigid::RigidTransform,
+        cloud::PointCloud, nearest::KdTree, principal::PrincipalAxes, rigid::RigidTransform,
     },
     units::Metres,
 };
 
-/// Aligns the source to the target: `target_from_source`.
-///
-/// `initial` is a start; without one the global method searches everywhere and ICP begins with no displacement.
+/// Parameters of [`align_with`].
+#[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
+pub struct AlignParams {
+    /// How the pose is estimated.
+    pub method: PoseMethod,
+    /// ICP alone.
+    pub icp: IcpParams,
+    /// ICP-GA.
+    pub icp_ga: IcpGaParams,
+}
+
+impl From<PoseMethod> for AlignParams {
+    fn from(method: PoseMethod) -> Self {
+        Self {
+            method,
+            ..Self::default()
+        }
+    }
+}
+
+/// As [`align_with`] with the method's default parameters, to the end.
 pub fn align(
     source: &PointCloud,
     target: &PointCloud,
     method: PoseMethod,
     initial: Option<RigidTransform>,
+) -> Result<PoseEstimate, PoseError> {
+    align_with(source, target, &method.into(), initial, &|| false)
+}
+
+/// Aligns the source to the target: `target_from_source`.
+///
+/// `initial` is a start; without one the global method searches everywhere, and ICP and ICP-GA begin with no
+/// displacement. `is_cancelled` is asked every few milliseconds once both clouds are prepared.
+pub fn align_with(
+    source: &PointCloud,
+    target: &PointCloud,
+    params: &AlignParams,
+    initial: Option<RigidTransform>,
+    is_cancelled: &dyn Fn() -> bool,
 ) -> Result<PoseEstimate, PoseError> {
     let source = Centred::new("source", source)?;
     let target = Centred::new("target", target)?;
@@ -40,19 +72,21 @@ pub fn align(
     }
     let from_origin =
         |start: RigidTransform| target.centring() * start * source.centring().inverse();
+    let no_turn = from_origin(RigidTransform::identity());
+    let start = initial.map_or(no_turn, from_origin);
     let prepared = PreparedTarget::new(&target.points);
-    let mut estimate = match method {
+    let mut estimate = match params.method {
         PoseMethod::Icp => {
-            let params = IcpParams::default();
-            let step = source
-                .points
-                .len()
-                .div_ceil(params.max_source_points)
-                .max(1);
-            let thinned: Vec<Point3<f32>> = source.points.iter().step_by(step).copied().collect();
-            let start = from_origin(initial.unwrap_or_else(RigidTransform::identity));
+            let thinned = thinned(&source.points, params.icp.max_source_points);
             let tree = KdTree::new(&target.points);
-            let run = icp(&thinned, &target.points, &tree, &start, &params)?;
+            let run = icp(
+                &thinned,
+                &target.points,
+                &tree,
+                &start,
+                &params.icp,
+                is_cancelled,
+            )?;
             let refined = Refined {
                 target_from_source: run.target_from_source,
                 iterations: run.iterations,
@@ -60,18 +94,38 @@ pub fn align(
             };
             prepared.estimate(&source.points, refined, PoseMethod::Icp, None)
         }
+        PoseMethod::IcpGa => {
+            let run = icp_ga(
+                &source.points,
+                &prepared.target(),
+                &start,
+                &params.icp_ga,
+                is_cancelled,
+            )?;
+            let refined = Refined {
+                target_from_source: run.target_from_source,
+                iterations: run.iterations,
+                stopped: run.stopped,
+            };
+            prepared.estimate(&source.points, refined, PoseMethod::IcpGa, run.runner_up)
+        }
         PoseMethod::Global => {
-            let no_turn = from_origin(RigidTransform::identity());
             let starts = match initial {
-                Some(start) => vec![from_origin(start)],
+                Some(_) => vec![start],
                 None => starts(no_turn, &source.axes, &target.axes),
             };
-            prepared.search(&source.points, &starts)?
+            prepared.search(&source.points, &starts, is_cancelled)?
         }
     };
     let (back, there) = (target.centring().inverse(), source.centring());
     estimate.in_other_spaces(|pose| back * pose * there);
     Ok(estimate)
+}
+
+/// At most so many of the points, evenly spread over their order.
+fn thinned(points: &[Point3<f32>], most: usize) -> Vec<Point3<f32>> {
+    let step = points.len().div_ceil(most.max(1)).max(1);
+    points.iter().step_by(step).copied().collect()
 }
 
 /// A cloud whose size is another one's times this is of another thing, or in other units.
@@ -124,18 +178,6 @@ impl Centred {
     /// Takes the cloud's space into that about its middle.
     fn centring(&self) -> RigidTransform {
         RigidTransform::translation(-self.middle.x, -self.middle.y, -self.middle.z)
-    }
-}
-
-/// The principal axes of points that lie on more than a line.
-fn spanned_axes(which: &'static str, points: &[Point3<f32>]) -> Result<PrincipalAxes, PoseError> {
-    let axes = principal_axes(points.iter().map(|p| (p.cast(), 1.0)));
-    match axes {
-        Some(axes) if axes.variances[1] > 1e-6 * axes.variances[0] => Ok(axes),
-        other => Err(PoseError::Degenerate {
-            which,
-            width: other.map_or(0.0, |axes| axes.variances[1].sqrt()),
-        }),
     }
 }
 
@@ -214,7 +256,7 @@ mod tests {
             }
         }
         let lost = moved(&target, &RigidTransform::translation(1e6, 0.0, 0.0));
-        for method in [PoseMethod::Global, PoseMethod::Icp] {
+        for method in [PoseMethod::Global, PoseMethod::Icp, PoseMethod::IcpGa] {
             let found = align(&target, &lost, method, None);
             assert!(
                 matches!(
@@ -263,7 +305,7 @@ mod tests {
         let few =
             PointCloud::from_points((0..3).map(|i| Point3::new(i as f32, (i * i) as f32, 0.0)));
         let empty = PointCloud::default();
-        for method in [PoseMethod::Global, PoseMethod::Icp] {
+        for method in [PoseMethod::Global, PoseMethod::Icp, PoseMethod::IcpGa] {
             for bad in [&line, &spot] {
                 assert!(matches!(
                     align(bad, &sheet, method, None),

@@ -8,9 +8,7 @@
 //! Known limits: a shift between clouds that share less than about half of their surface is only found if it is small
 //! against their size, since starts put centre on centre.
 
-use nalgebra::{
-    Isometry3, Matrix3, Point3, Quaternion, Rotation3, Translation3, UnitQuaternion, Vector3,
-};
+use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
 use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
@@ -57,13 +55,7 @@ pub(super) fn starts(
         let shift = target.mean - turn * source.mean;
         Isometry3::from_parts(Translation3::from(shift), turn)
     };
-    let frame = |axes: &PrincipalAxes| {
-        let first: Vector3<f64> = axes.axes.column(0).into_owned();
-        let second: Vector3<f64> = axes.axes.column(1).into_owned();
-        let matrix = Matrix3::from_columns(&[first, second, first.cross(&second)]);
-        UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(matrix))
-    };
-    let (of_source, of_target) = (frame(source), frame(target));
+    let (of_source, of_target) = (source.frame().rotation, target.frame().rotation);
     let half_turns = [
         UnitQuaternion::identity(),
         UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI),
@@ -159,7 +151,7 @@ impl PreparedTarget {
         }
     }
 
-    fn target(&self) -> Target<'_> {
+    pub(super) fn target(&self) -> Target<'_> {
         let Self {
             cloud,
             tree,
@@ -181,6 +173,7 @@ impl PreparedTarget {
         &self,
         source: &[Point3<f32>],
         starts: &[RigidTransform],
+        is_cancelled: &dyn Fn() -> bool,
     ) -> Result<PoseEstimate, PoseError> {
         let step = (source.len() / NUM_SOURCE_POINTS).max(1);
         let mut surface: Vec<Point3<f32>> = source.iter().step_by(step).copied().collect();
@@ -193,12 +186,30 @@ impl PreparedTarget {
             .map_or(Point3::origin(), |axes| axes.mean);
 
         let from_starts = starts.iter().map(|start| (start, [].as_slice()));
-        let mut trials = self.trials(&source, from_starts, &self.coarse(), COST_LIMIT);
+        let mut trials = self.trials(
+            &source,
+            from_starts,
+            &self.coarse(),
+            COST_LIMIT,
+            is_cancelled,
+        )?;
         trials.truncate(NUM_KEPT);
-        let mut trials = self.further(&source, &trials, &self.middle(), COST_LIMIT / 2.0);
+        let mut trials = self.further(
+            &source,
+            &trials,
+            &self.middle(),
+            COST_LIMIT / 2.0,
+            is_cancelled,
+        )?;
         trials = self.distinct(trials, &centre);
         trials.truncate(NUM_FINISHED);
-        let trials = self.further(&source, &trials, &self.fine(), COST_LIMIT / 4.0);
+        let trials = self.further(
+            &source,
+            &trials,
+            &self.fine(),
+            COST_LIMIT / 4.0,
+            is_cancelled,
+        )?;
 
         let mut trials = self.distinct(trials, &centre).into_iter();
         let best = trials.next().ok_or_else(|| self.no_overlap(0))?;
@@ -247,20 +258,24 @@ impl PreparedTarget {
         poses: impl Iterator<Item = (&'a RigidTransform, &'a [Iteration])>,
         levels: &[Level],
         cost_limit: f64,
-    ) -> Vec<Trial> {
+        is_cancelled: &dyn Fn() -> bool,
+    ) -> Result<Vec<Trial>, PoseError> {
         let target = self.target();
         let mut trials: Vec<Trial> = poses
             .map(|(pose, before)| {
+                if is_cancelled() {
+                    return Err(PoseError::Cancelled);
+                }
                 let mut refined = refine(source, &target, pose, levels);
                 refined.iterations.splice(0..0, before.iter().copied());
                 let level = &levels[levels.len() - 1];
                 let limit = cost_limit * self.extent;
                 let cost = cost(source, &target, &refined.target_from_source, level, limit);
-                Trial { cost, refined }
+                Ok(Trial { cost, refined })
             })
-            .collect();
+            .collect::<Result<_, _>>()?;
         trials.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-        trials
+        Ok(trials)
     }
 
     fn further(
@@ -269,14 +284,15 @@ impl PreparedTarget {
         trials: &[Trial],
         levels: &[Level],
         cost_limit: f64,
-    ) -> Vec<Trial> {
+        is_cancelled: &dyn Fn() -> bool,
+    ) -> Result<Vec<Trial>, PoseError> {
         let poses = trials.iter().map(|t| {
             (
                 &t.refined.target_from_source,
                 t.refined.iterations.as_slice(),
             )
         });
-        self.trials(source, poses, levels, cost_limit)
+        self.trials(source, poses, levels, cost_limit, is_cancelled)
     }
 
     fn no_overlap(&self, found: usize) -> PoseError {

@@ -7,7 +7,7 @@
 use nalgebra::Point3;
 
 use super::{
-    Iteration, PoseError, PoseEstimate, PoseMethod, Stopped,
+    Iteration, Phase, PoseError, PoseEstimate, PoseMethod, Stopped,
     quality::{Fit, Tolerance, look_for, measure_fit},
     refine::Search,
 };
@@ -67,12 +67,16 @@ pub fn icp(
     target_tree: &KdTree,
     start: &RigidTransform,
     params: &IcpParams,
+    is_cancelled: &dyn Fn() -> bool,
 ) -> Result<IcpRun, PoseError> {
     let mut pose = *start;
     let mut iterations = Vec::new();
     let mut stopped = Stopped::IterationLimit;
     let mut pairs: Vec<(Point3<f64>, Point3<f64>)> = Vec::with_capacity(source.len());
     for _ in 0..params.max_iterations {
+        if is_cancelled() {
+            return Err(PoseError::Cancelled);
+        }
         let moved = pose.cast::<f32>();
         pairs.clear();
         let mut sum_sq = 0.0;
@@ -85,6 +89,7 @@ pub fn icp(
         // Eq. (12)
         let e_m2 = sum_sq / pairs.len().max(1) as f64;
         iterations.push(Iteration {
+            phase: Phase::Icp,
             e_m2,
             target_from_source: pose,
             num_pairs: pairs.len(),
@@ -120,6 +125,7 @@ pub fn locate_by_icp(
     reference: &Reference,
     scene: &SceneCloud,
     params: &IcpParams,
+    is_cancelled: &dyn Fn() -> bool,
 ) -> Result<PoseEstimate, PoseError> {
     let points = &part.cloud.points;
     let source: Vec<Point3<f32>> = points
@@ -134,6 +140,7 @@ pub fn locate_by_icp(
         &reference.tree,
         &RigidTransform::identity(),
         params,
+        is_cancelled,
     )?;
     let tolerance = Tolerance {
         base: Metres::from_mm(10.0),
@@ -192,6 +199,7 @@ mod tests {
                 &tree,
                 &RigidTransform::identity(),
                 &params,
+                &|| false,
             )
             .expect("a pose");
             let error = pose_error(&run.target_from_source, &truth, &Point3::new(0.5, 0.3, 0.1));
@@ -215,6 +223,7 @@ mod tests {
             &tree,
             &RigidTransform::identity(),
             &IcpParams::default(),
+            &|| false,
         );
         assert!(matches!(found, Err(PoseError::OneSidedPairs { .. })));
     }

@@ -1,4 +1,4 @@
-//! Pose: where the reference is in the scene, by ICP as the paper has it or by our global search.
+//! Pose: where the reference is in the scene, by ICP or ICP-GA as the paper has them, or by our global search.
 //!
 //! Every method aligns a *source* (the scene's part) to a *target* (a reference) and answers with the same
 //! [`PoseEstimate`]. The paper minimises eq. 12, E(R, t) = mean ‖qᵢ - R pᵢ - t‖² over closest points; E is reported for
@@ -7,15 +7,18 @@
 mod align;
 pub mod edge_points;
 mod equations;
+pub mod genetic;
 mod global;
 pub mod icp;
+pub mod icp_ga;
 pub mod quality;
 pub mod refine;
+mod spanned;
 
 use crate::{geometry::rigid::RigidTransform, units::Metres};
 
 pub use self::{
-    align::align,
+    align::{AlignParams, align, align_with},
     quality::{Fit, Sight},
 };
 
@@ -31,6 +34,8 @@ pub enum PoseMethod {
     Global,
     /// Iterative closest point from one start (eq. 12), the paper's.
     Icp,
+    /// ICP and a genetic algorithm in turns (Algorithm 3), the paper's.
+    IcpGa,
 }
 
 impl PoseMethod {
@@ -42,6 +47,7 @@ impl PoseMethod {
         match self {
             Self::Global => "global",
             Self::Icp => "icp",
+            Self::IcpGa => "icp-ga",
         }
     }
 }
@@ -56,6 +62,8 @@ pub enum Stopped {
     BelowTarget,
     /// The allowed iterations were used up.
     IterationLimit,
+    /// Some rounds of Algorithm 3 in a row found nothing better.
+    NoProgress,
 }
 
 impl Stopped {
@@ -65,16 +73,31 @@ impl Stopped {
             Self::Converged => "converged",
             Self::BelowTarget => "below_target",
             Self::IterationLimit => "iteration_limit",
+            Self::NoProgress => "no_progress",
         }
     }
+}
+
+/// What a step of an estimation is a step of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Phase {
+    /// An iteration of ICP.
+    Icp,
+    /// A generation of the genetic algorithm.
+    Genetic,
+    /// A step of our robust refinement.
+    Refinement,
 }
 
 /// One step of an estimation.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct Iteration {
+    /// What it is a step of.
+    pub phase: Phase,
     /// E(R, t) of eq. 12 over this step's pairs, square metres.
     pub e_m2: f64,
-    /// The pose before the step's update.
+    /// The pose that E was taken at: before the step's update, and for a generation the best so far.
     pub target_from_source: RigidTransform,
     /// Pairs of closest points used.
     pub num_pairs: usize,
@@ -257,6 +280,9 @@ pub enum PoseError {
     /// The reference has no cloud.
     #[error("the reference is a flat shape without a cloud")]
     NoReferenceCloud,
+    /// The caller cancelled.
+    #[error("the estimation was cancelled")]
+    Cancelled,
 }
 
 impl crate::error::Advice for PoseError {
@@ -270,6 +296,7 @@ impl crate::error::Advice for PoseError {
             Self::SizesDiffer { .. } => "Export both in metres: one of them looks like millimetres".into(),
             Self::TooFarOut { .. } => "Subtract a common offset from both clouds before exporting them".into(),
             Self::NoReferenceCloud => "Enrol the part from a capture, a cloud or a mesh".into(),
+            Self::Cancelled => "Start it again".into(),
         }
     }
 }

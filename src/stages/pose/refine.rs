@@ -9,7 +9,7 @@
 
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3, Vector6};
 
-use super::{Iteration, Stopped, edge_points::EdgePoints, equations::Equations};
+use super::{Iteration, Phase, Stopped, edge_points::EdgePoints, equations::Equations};
 use crate::geometry::{
     cloud::PointCloud,
     nearest::{KdTree, Neighbour},
@@ -103,6 +103,7 @@ pub fn refine(
         for _ in 0..level.max_steps {
             let equations = Equations::at(source, target, &pose, level);
             iterations.push(Iteration {
+                phase: Phase::Refinement,
                 e_m2: equations.e_m2(),
                 target_from_source: pose,
                 num_pairs: equations.num_pairs,
