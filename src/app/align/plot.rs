@@ -1,10 +1,14 @@
-//! E per iteration on a logarithmic scale: one curve per method, the goal of Algorithm 3.
+//! E per iteration on a logarithmic scale: one curve per method, the goal of Algorithm 3, the genetic searches.
 
 use std::ops::RangeInclusive;
 
 use egui::{Align2, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
 
-use super::{playback::Comparison, series, track::MethodRun};
+use super::{
+    playback::Comparison,
+    series,
+    track::{MethodRun, Track},
+};
 use crate::app::{
     theme::{Theme, font},
     widgets::{Scale, curve},
@@ -61,11 +65,14 @@ impl Axes {
     }
 }
 
-/// Draws scale, goal, curves and the scrubber at `place`.
+/// Draws scale, goal, searches, curves and the scrubber at `place`.
 pub(super) fn paint(painter: &Painter, axes: &Axes, shown: &Comparison, place: f32, theme: &Theme) {
     let Axes {
         area, across, up, ..
     } = *axes;
+    for (_, track) in shown.tracks() {
+        shade(painter, axes, track, theme);
+    }
     let is_tall = axes.powers[1] - axes.powers[0] <= MANY_POWERS;
     for power in axes.powers().filter(|power| is_tall || power % 2 == 0) {
         let y = up.at(power as f32);
@@ -96,6 +103,7 @@ pub(super) fn paint(painter: &Painter, axes: &Axes, shown: &Comparison, place: f
     let ends = [pos2(area.left(), goal), pos2(area.right(), goal)];
     let stroke = Stroke::new(1.4, theme.accepted);
     painter.extend(Shape::dashed_line(&ends, stroke, 6.0, 5.0));
+    let searches = name_the_searches(painter, axes, shown, theme);
     let curves: Vec<Vec<Pos2>> = shown
         .tracks()
         .map(|(_, track)| curve(&track.log_e, &across, &up))
@@ -109,6 +117,7 @@ pub(super) fn paint(painter: &Painter, axes: &Axes, shown: &Comparison, place: f
         }
     }
     let mut taken = vec![name_the_goal(painter, area, goal, &curves, theme)];
+    taken.extend(searches);
     for ((run, _), points) in shown.tracks().zip(&curves) {
         if let Some(end) = points.last() {
             painter.circle_filled(*end, 3.5, series::colour(run.method, theme));
@@ -120,6 +129,34 @@ pub(super) fn paint(painter: &Painter, axes: &Axes, shown: &Comparison, place: f
     let stroke = Stroke::new(1.5, theme.text);
     painter.vline(x, area.top()..=area.bottom() + 6.0, stroke);
     painter.circle_filled(pos2(x, area.bottom() + 6.0), 5.0, theme.text);
+}
+
+/// The stretches in which the genetic algorithm searched.
+fn shade(painter: &Painter, axes: &Axes, track: &Track, theme: &Theme) {
+    for search in &track.searches {
+        let x = [search.start, search.end].map(|place| axes.across.at(place as f32));
+        let stretch = Rect::from_x_y_ranges(x[0]..=x[1], axes.area.y_range());
+        painter.rect_filled(stretch, 0.0, theme.control);
+    }
+}
+
+/// What the shaded stretches are, once, in the first of them, on a plate over the grid.
+fn name_the_searches(
+    painter: &Painter,
+    axes: &Axes,
+    shown: &Comparison,
+    theme: &Theme,
+) -> Option<Rect> {
+    let mut searches = shown.tracks().flat_map(|(_, track)| &track.searches);
+    let first = searches.next()?;
+    let middle = (first.start + first.end) as f32 / 2.0;
+    let text = "genetic search".to_owned();
+    let galley = painter.layout_no_wrap(text, font::small(), theme.weak_text);
+    let top = pos2(axes.across.at(middle), axes.area.top() + 2.0);
+    let rect = Align2::CENTER_TOP.anchor_size(top, galley.size());
+    painter.rect_filled(rect.expand(2.0), 0.0, theme.control);
+    painter.galley(rect.min, galley, theme.weak_text);
+    Some(rect)
 }
 
 /// The goal's name above its line, where no curve runs through it: at the right end, in the middle or at the left.

@@ -8,6 +8,7 @@ use crate::{app::theme::Theme, stages::pose::PoseMethod};
 pub(super) fn title(method: PoseMethod) -> &'static str {
     match method {
         PoseMethod::Icp => "ICP",
+        PoseMethod::IcpGa => "ICP-GA",
         PoseMethod::Global => "Global",
     }
 }
@@ -16,6 +17,7 @@ pub(super) fn title(method: PoseMethod) -> &'static str {
 pub(super) fn colour(method: PoseMethod, theme: &Theme) -> Color32 {
     match method {
         PoseMethod::Icp => theme.second_series,
+        PoseMethod::IcpGa => theme.first_series,
         PoseMethod::Global => theme.reference_series,
     }
 }
@@ -25,6 +27,7 @@ pub(super) fn line(method: PoseMethod, points: &[Pos2], theme: &Theme) -> Vec<Sh
     let stroke = Stroke::new(2.0, colour(method, theme));
     match method {
         PoseMethod::Icp => vec![Shape::line(points.to_vec(), stroke)],
+        PoseMethod::IcpGa => Shape::dashed_line(points, stroke, 9.0, 4.0),
         PoseMethod::Global => Shape::dashed_line(points, stroke, 2.5, 3.5),
     }
 }

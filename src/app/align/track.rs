@@ -1,13 +1,18 @@
 //! The way of one method from its start to its end, with E at every pose: ready to be drawn and scrubbed.
 
-use std::time::{Duration, Instant};
+use std::{
+    ops::Range,
+    time::{Duration, Instant},
+};
 
 use super::pair::Pair;
 use crate::{
     app::{job::Trouble, widgets::sentence},
     error::Advice as _,
     geometry::rigid::{self, RigidTransform},
-    stages::pose::{Doubt, Fit, PoseError, PoseEstimate, PoseMethod, Stopped, align},
+    stages::pose::{
+        Doubt, Fit, Iteration, Phase, PoseError, PoseEstimate, PoseMethod, Stopped, align_with,
+    },
 };
 
 /// What one method made of a pair.
@@ -32,6 +37,8 @@ pub struct Track {
     pub log_e: Vec<f32>,
     /// Smallest and largest of them.
     pub log_range: [f32; 2],
+    /// The iterations in which the genetic algorithm searched.
+    pub searches: Vec<Range<usize>>,
     /// Why it ended.
     pub stopped: Stopped,
     /// How well the end fits.
@@ -52,16 +59,23 @@ const MOST_SEARCHES: usize = 1_000_000;
 pub(super) fn estimated(
     method: PoseMethod,
     pair: &Pair,
+    is_cancelled: &dyn Fn() -> bool,
 ) -> (Result<PoseEstimate, PoseError>, Duration) {
     let clock = Instant::now();
-    let aligned = align(&pair.source, &pair.target, method, None);
+    let aligned = align_with(
+        &pair.source,
+        &pair.target,
+        &method.into(),
+        None,
+        is_cancelled,
+    );
     (aligned, clock.elapsed())
 }
 
 impl MethodRun {
     /// Runs the method on the pair, and follows its way.
-    pub fn of(method: PoseMethod, pair: &Pair) -> Self {
-        let (aligned, time) = estimated(method, pair);
+    pub fn of(method: PoseMethod, pair: &Pair, is_cancelled: &dyn Fn() -> bool) -> Self {
+        let (aligned, time) = estimated(method, pair, is_cancelled);
         let track = match aligned {
             Ok(estimate) => Ok(Track::of(&estimate, pair)),
             Err(error) => Err(in_the_window(&error)),
@@ -88,6 +102,7 @@ impl Track {
                 .iter()
                 .fold(range, |[low, high], e| [low.min(*e), high.max(*e)]),
             log_e,
+            searches: searches(&estimate.iterations),
             stopped: estimate.stopped,
             fit: estimate.fit,
             true_error: pair.true_error(&end),
@@ -125,6 +140,9 @@ impl Track {
                 format!("Stuck: settled elsewhere after {num} iterations")
             }
             (Stopped::Converged, None) => format!("Settled after {num} iterations"),
+            (Stopped::NoProgress, _) => {
+                format!("Gave up: nothing better found in {num} iterations")
+            }
             (Stopped::IterationLimit, _) => format!("Still moving after {num} iterations"),
         }
     }
@@ -144,6 +162,19 @@ fn e_along(poses: &[RigidTransform], pair: &Pair) -> Vec<f64> {
         all.push(before.unwrap_or_else(|| pair.e_m2_over(pose, step)));
     }
     all
+}
+
+/// The stretches in which the genetic algorithm searched.
+fn searches(iterations: &[Iteration]) -> Vec<Range<usize>> {
+    let mut place = 0;
+    let stretches = iterations.chunk_by(|a, b| a.phase == b.phase);
+    let stretches = stretches.map(|stretch| {
+        let first = place;
+        place += stretch.len();
+        (stretch[0].phase, first..place)
+    });
+    let genetic = stretches.filter(|(phase, _)| *phase == Phase::Genetic);
+    genetic.map(|(_, stretch)| stretch).collect()
 }
 
 /// The error with advice that can be followed in the window.

@@ -78,7 +78,10 @@ fn pair(
         if desk.is_cancelled() {
             return Ok(None);
         }
-        let run = MethodRun::of(method, &pair);
+        let run = MethodRun::of(method, &pair, &|| desk.is_cancelled());
+        if desk.is_cancelled() {
+            return Ok(None);
+        }
         hand_over(desk, AlignAnswer::Ran(Arc::new(run)));
     }
     Ok(Some(AlignAnswer::Finished))
@@ -108,7 +111,10 @@ fn table(
                 if desk.is_cancelled() {
                     return Ok(None);
                 }
-                cells.push(TableCell::of(method, &pair));
+                cells.push(TableCell::of(method, &pair, &|| desk.is_cancelled()));
+            }
+            if desk.is_cancelled() {
+                return Ok(None);
             }
             let row = TableRow {
                 part: reference.name.clone(),

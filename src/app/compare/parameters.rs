@@ -16,6 +16,8 @@ pub enum Group {
     Match,
     /// The best few put in their place.
     Pose,
+    /// ICP with a genetic algorithm, Algorithm 3.
+    IcpGa,
     /// When a verdict counts.
     Acceptance,
     /// How far the taught path would be off.
@@ -24,12 +26,13 @@ pub enum Group {
 
 impl Group {
     /// Every group, in the order of the flow.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Segmentation,
         Self::BinaryImage,
         Self::Contour,
         Self::Match,
         Self::Pose,
+        Self::IcpGa,
         Self::Acceptance,
         Self::StandOff,
     ];
@@ -42,6 +45,7 @@ impl Group {
             Self::Contour => "Contour and rays",
             Self::Match => "Match",
             Self::Pose => "Pose",
+            Self::IcpGa => "ICP-GA",
             Self::Acceptance => "Acceptance",
             Self::StandOff => "Stand-off",
         }

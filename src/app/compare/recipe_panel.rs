@@ -263,7 +263,7 @@ fn choice_ui(
 ) {
     let chosen = parameter.value(recipe) as usize;
     let each = width / choice.options.len() as f32 - space::SMALL;
-    if each < 52.0 {
+    if each < 64.0 {
         let now = choice.options.get(chosen).copied().unwrap_or_default();
         ui.menu_button(format!("{now} ▼"), |ui| {
             for (place, option) in choice.options.iter().enumerate() {

@@ -40,7 +40,7 @@ pub enum PoseMethod {
 
 impl PoseMethod {
     /// Every method, the paper's first.
-    pub const ALL: [Self; 2] = [Self::Icp, Self::Global];
+    pub const ALL: [Self; 3] = [Self::Icp, Self::IcpGa, Self::Global];
 
     /// The name used on the command line and in reports.
     pub fn name(self) -> &'static str {
