@@ -6,5 +6,6 @@ mod compare;
 mod enrol;
 mod history;
 mod inspect;
+mod pictures;
 mod set_up;
 mod view;

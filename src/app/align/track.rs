@@ -16,7 +16,7 @@ use crate::{
 };
 
 /// What one method made of a pair.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct MethodRun {
     /// The method.
     pub method: PoseMethod,
@@ -27,7 +27,7 @@ pub struct MethodRun {
 }
 
 /// A method's way.
-#[derive(Debug)]
+#[derive(Clone, Debug)]
 pub struct Track {
     /// The pose of every iteration, and last the one it ended at.
     pub poses: Vec<RigidTransform>,

@@ -1,0 +1,197 @@
+//! Strict pictures of the window: what is drawn has not changed unless somebody meant it to.
+//!
+//! They hold for software rendering alone, which draws the same everywhere; on another device, or without one, these
+//! tests say that they were skipped. `UPDATE_SNAPSHOTS=1` draws the pictures anew, to be looked at before they are kept.
+
+use std::{sync::Arc, time::Duration};
+
+use eframe::{egui_wgpu::RendererOptions, wgpu::DeviceType};
+use egui::Vec2;
+use egui_kittest::{
+    Harness, SnapshotOptions,
+    kittest::{NodeT as _, Queryable as _},
+    wgpu::{create_render_state, default_wgpu_setup},
+};
+use image::{Rgba, RgbaImage};
+use partsight::{
+    app::{
+        Window, WindowOptions,
+        action::Action,
+        align::{AlignAction, AlignAnswer, MethodRun},
+        inspect::work::{InspectRequest, Inspected, inspect},
+        job::Answer,
+        lane::Lane,
+        shelf::Shelf,
+        source::{CellChoice, SceneSource},
+        state::Workspace,
+        worker::News,
+    },
+    pipeline::{Timings, Unwatched},
+};
+
+use super::set_up::{SMALL, USUAL, WindowHarness, act, press, settle};
+
+/// Pixels that may differ: processors round a point's edge differently, nobody sees it.
+const MAX_DIFFERENT: usize = 400;
+
+/// True where pictures can be held against the kept ones; says so where they cannot.
+#[expect(clippy::print_stderr, reason = "a test that skips must say why")]
+fn draws_in_software() -> bool {
+    let is_required = std::env::var_os("PARTSIGHT_REQUIRE_GPU").is_some();
+    if let Err(error) = partsight::app::viewport::ViewportGpu::headless() {
+        assert!(!is_required, "{error}");
+        eprintln!("skipped: {error}");
+        return false;
+    }
+    let state = create_render_state(default_wgpu_setup(), RendererOptions::PREDICTABLE);
+    let adapter = state.adapter.get_info();
+    if adapter.device_type == DeviceType::Cpu {
+        return true;
+    }
+    eprintln!("skipped: {} is no software renderer", adapter.name);
+    false
+}
+
+/// The first frame of the cell, as if every inspection took the same time at the same moment.
+fn inspected() -> Inspected {
+    let choice = CellChoice::InTurn;
+    let request = InspectRequest {
+        source: SceneSource::Cell { choice, number: 1 },
+        recipe: Arc::default(),
+    };
+    let found = inspect(&request, &Shelf::default(), &Unwatched).expect("inspected");
+    let mut found = found.expect("not cancelled");
+    let ms = Duration::from_millis;
+    found.inspection.timings = Timings {
+        segment: ms(3),
+        project: ms(1),
+        contour: ms(1),
+        signature: ms(1),
+        rank: ms(1),
+        pose: ms(9),
+        total: ms(16),
+    };
+    found.at = jiff::Timestamp::UNIX_EPOCH;
+    found
+}
+
+fn open_drawn(size: Vec2) -> WindowHarness {
+    let inspected = Arc::new(inspected());
+    let mut harness = Harness::builder()
+        .with_size(size)
+        .wgpu()
+        .build_eframe(move |cc| {
+            let options = WindowOptions {
+                // Of no machine: its name is in the picture.
+                cases: Some("cases of the pictures".into()),
+                ..WindowOptions::default()
+            };
+            let mut window =
+                Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), options).expect("threads");
+            // Before the thread's own answer, which nobody waits for any more.
+            let generation = window.state().generation;
+            let outcome = Ok(Answer::Inspected(Arc::clone(&inspected)));
+            let done = News::Done {
+                generation,
+                outcome,
+            };
+            window.act(Action::Hear(Lane::Inspect, done), &cc.egui_ctx);
+            window
+        });
+    settle(&mut harness);
+    harness
+}
+
+/// The same alignments once more, as if every method took the same time.
+fn run_again_in_no_time(harness: &mut WindowHarness) {
+    let shown = harness.state().state().align.shown.as_ref();
+    let shown = shown.expect("aligned");
+    let (pair, runs) = (Arc::clone(&shown.pair), shown.runs.clone());
+    let mut answers = vec![AlignAnswer::Prepared(pair)];
+    answers.extend(runs.iter().map(|run| {
+        let mut run = MethodRun::clone(run);
+        run.time = Duration::from_millis(100);
+        AlignAnswer::Ran(Arc::new(run))
+    }));
+    let context = harness.ctx.clone();
+    let window = harness.state_mut();
+    window.act(Action::Align(AlignAction::Run), &context);
+    let generation = window.state().generation;
+    let told = |outcome| News::Partly {
+        generation,
+        outcome: Ok(Answer::Align(outcome)),
+    };
+    for answer in answers {
+        window.act(Action::Hear(Lane::Align, told(answer)), &context);
+    }
+    // The thread's own answers are wanted by nobody any more.
+    let finished = News::Done {
+        generation,
+        outcome: Ok(Answer::Align(AlignAnswer::Finished)),
+    };
+    window.act(Action::Hear(Lane::Align, finished), &context);
+    settle(harness);
+}
+
+/// Holds the window against the kept picture; what took so many milliseconds today is painted over.
+fn compare(harness: &mut WindowHarness, name: &str) {
+    // The pointer is no part of the picture.
+    harness.remove_cursor();
+    settle(harness);
+    let mut picture = harness.render().expect("drawn");
+    let timed: Vec<egui::Rect> = harness
+        .query_all_by_label_contains(" ms")
+        .map(|node| node.rect())
+        .collect();
+    for rect in timed {
+        paint_over(&mut picture, rect);
+    }
+    let options = SnapshotOptions::new().max_failed_pixels(MAX_DIFFERENT);
+    egui_kittest::image_snapshot_options(&picture, name, &options);
+}
+
+fn paint_over(picture: &mut RgbaImage, rect: egui::Rect) {
+    let (width, height) = picture.dimensions();
+    // As wide however many digits there are.
+    let right = rect.right().max(rect.left() + 200.0).ceil() as u32;
+    let columns = rect.left().floor() as u32..right.min(width);
+    for x in columns {
+        for y in rect.top().floor() as u32..(rect.bottom().ceil() as u32).min(height) {
+            picture.put_pixel(x, y, Rgba([128, 128, 128, 255]));
+        }
+    }
+}
+
+#[test]
+fn inspect_looks_as_it_did() {
+    if !draws_in_software() {
+        return;
+    }
+    compare(&mut open_drawn(USUAL), "inspect");
+    let mut harness = open_drawn(SMALL);
+    act(&mut harness, Action::SwitchTheme);
+    compare(&mut harness, "inspect_small_light");
+}
+
+#[test]
+fn the_other_workspaces_look_as_they_did() {
+    if !draws_in_software() {
+        return;
+    }
+    let mut harness = open_drawn(SMALL);
+    act(&mut harness, Action::GoTo(Workspace::Enrol));
+    compare(&mut harness, "enrol");
+    act(&mut harness, Action::GoTo(Workspace::Compare));
+    compare(&mut harness, "compare");
+    act(&mut harness, Action::GoTo(Workspace::Align));
+    press(&mut harness, "T4");
+    press(&mut harness, "Run");
+    run_again_in_no_time(&mut harness);
+    compare(&mut harness, "align");
+    // The time of day is that of where the machine stands.
+    if jiff::tz::TimeZone::system().to_offset(jiff::Timestamp::UNIX_EPOCH) == jiff::tz::Offset::UTC
+    {
+        act(&mut harness, Action::GoTo(Workspace::History));
+        compare(&mut harness, "history");
+    }
+}
