@@ -1,7 +1,7 @@
 //! The right half of the paper's Table I: what is left of E after ICP and after ICP-GA, from T1..T5 (eq. 15).
 //!
-//! For each part and each T_k the source is T_k applied to the part's own points, and the target is the part. So the true
-//! pose is the inverse of T_k, and E can reach zero. The paper captured its parts anew; what that changes is noise,
+//! For each part and each `T_k` the source is `T_k` applied to the part's own points, and the target is the part. So the true
+//! pose is the inverse of `T_k`, and E can reach zero. The paper captured its parts anew; what that changes is noise,
 //! which is measured elsewhere. Our global method stands beside the paper's two.
 
 use std::{

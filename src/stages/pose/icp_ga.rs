@@ -27,7 +27,7 @@ use rand_pcg::Pcg64;
 
 use super::{
     Iteration, MIN_POINTS, Phase, PoseError, RunnerUp, Stopped,
-    genetic::{Genes, GeneticParams, minimise},
+    genetic::{Genes, minimise},
     icp::icp,
     refine::Target,
     spanned::spanned_axes,
