@@ -3,6 +3,7 @@
 pub mod app;
 pub mod bench;
 pub mod capture;
+pub mod cases;
 pub mod cli;
 pub mod error;
 pub mod files;

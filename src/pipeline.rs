@@ -7,6 +7,7 @@ mod watch;
 
 use crate::{
     library::Library,
+    report::stand_off::StandOffParams,
     stages::{
         confirm::{ConfirmParams, Scene, UNCONFIRMED, confirm},
         contour::{Contour, ContourParams, find_contour},
@@ -51,6 +52,8 @@ pub struct Recipe {
     pub icp_ga: IcpGaParams,
     /// Acceptance.
     pub accept: AcceptParams,
+    /// The nozzle's stand-off, worked out from the pose where it is shown.
+    pub stand_off: StandOffParams,
     /// How the pose is estimated.
     pub pose: PoseChoice,
 }
@@ -175,6 +178,7 @@ fn recognise(
                 entry.score *= UNCONFIRMED;
             }
             inspection.ranking.entries[0].score = pose.as_ref().map_or(0.0, |p| p.fit.score());
+            inspection.ranking.entries[0].pose = pose.as_ref().ok().cloned();
             inspection.pose = Some(pose);
         }
         PoseChoice::By(PoseMethod::Global) => {

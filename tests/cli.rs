@@ -365,6 +365,20 @@ fn a_library_is_listed_shown_verified_and_cleared() {
     let again = library(&["remove", "fender"]);
     assert_eq!(again.code, 2);
     assert!(again.err.contains("no part named fender"), "{}", again.err);
+
+    assert_eq!(library(&["restore", "fender"]).code, 0);
+    assert!(place.path("parts/fender/cloud.ply").exists());
+    let nothing = library(&["restore", "hood"]);
+    assert_eq!(nothing.code, 2);
+    assert!(nothing.err.contains(".trash"), "{}", nothing.err);
+    let to = ["--to", "spare_grille", "--title", "Grille, spare"];
+    let renamed = library(&[&["rename", "grille"][..], &to].concat());
+    assert_eq!(renamed.code, 0, "{}", renamed.err);
+    let shown = library(&["show", "spare_grille"]);
+    assert!(shown.out.contains("Grille, spare"), "{}", shown.out);
+    let taken = library(&["rename", "spare_grille", "--to", "fender"]);
+    assert_eq!(taken.code, 2);
+    assert!(taken.err.contains("already"), "{}", taken.err);
 }
 
 #[test]

@@ -1,11 +1,27 @@
-//! Everything a person or the worker can cause, and the one function that makes it so.
+//! Everything a person or a thread can cause, and the one function that makes it so.
 
-use std::{path::PathBuf, sync::Arc};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use super::{
-    state::{HelpPage, Notice, Shown, Source, StagePanel, State, Work, Workspace},
-    work::{CellChoice, Inspected, Request, Trouble, file_name},
+    align::{self, AlignAction, AlignAsk},
+    compare::{self, CompareAction},
+    enrol::{self, EnrolAction},
+    history::{self, HistoryAction},
+    inspect::{
+        self,
+        state::InspectAction,
+        work::{InspectRequest, Inspected},
+    },
+    job::{Answer, Outcome, Request, Trouble},
+    lane::Lane,
+    shelf::LibraryShown,
+    source::{CellChoice, Origin, SceneSource, file_name},
+    state::{HelpPage, Notice, NoticeKind, Shown, Source, StagePanel, State, Workspace},
     worker::News,
+    writing::WriteRequest,
 };
 
 /// Something that happened.
@@ -15,18 +31,22 @@ pub enum Action {
     Capture,
     /// Capture from the simulated cell, with this in it.
     UseCell(CellChoice),
-    /// Ask for a file.
-    ChooseFile,
+    /// Have a person choose a file or folder.
+    Ask(Ask),
+    /// A person chose it.
+    Chosen(Ask, PathBuf),
     /// Open this file and inspect it.
     Open(PathBuf),
-    /// Give up what is at work.
-    Cancel,
+    /// Use the library that is found without choosing one.
+    UseFoundLibrary,
+    /// Give up what this lane is at.
+    Cancel(Lane),
     /// Bring a workspace to the front.
     GoTo(Workspace),
     /// Fill the middle with a stage.
     Enlarge(StagePanel),
     /// Compare contour and signature with the part at this place of the ranking.
-    Compare(usize),
+    Candidate(usize),
     /// Close what lies on top: the shortcuts, then an enlarged stage.
     CloseTop,
     /// Change the units.
@@ -41,26 +61,59 @@ pub enum Action {
     Notify(Notice),
     /// Put the pose on the clipboard, row after row.
     CopyPose,
-    /// The worker has news.
-    Hear(News<Result<Arc<Inspected>, Trouble>>),
+    /// Of the Inspect workspace.
+    Inspect(InspectAction),
+    /// Of the Enrol workspace.
+    Enrol(EnrolAction),
+    /// Of the Compare workspace.
+    Compare(CompareAction),
+    /// Of the Align workspace.
+    Align(AlignAction),
+    /// Of the History workspace.
+    History(HistoryAction),
+    /// A thread has news.
+    Hear(Lane, News<Outcome>),
+}
+
+/// What a person is asked to choose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Ask {
+    /// A captured scene to open.
+    Scene,
+    /// The folder of another library.
+    Library,
+    /// The folder that the report of the inspection in front goes to.
+    ReportFolder,
+    /// The file that the listed history goes to.
+    HistoryCsv,
+    /// Where a picture of the 3-D view is to go.
+    Picture,
+    /// A folder of kept cases.
+    CasesFolder,
+    /// Something of the Align workspace.
+    Align(AlignAsk),
+    /// A scene, a whole cloud or a mesh to enrol.
+    Part,
 }
 
 /// What is to be done outside the state.
 #[derive(Clone, Debug)]
 pub enum Effect {
-    /// Post this request to the worker.
+    /// Have this done, on the lane of the request.
     Post {
         /// Its generation.
         generation: u64,
         /// The request.
         request: Request,
     },
-    /// Have the worker give up.
-    CancelWork,
-    /// Show the file dialog.
-    ShowFileDialog,
+    /// Have this lane give up.
+    CancelWork(Lane),
+    /// Show the system's dialog.
+    ShowDialog(Ask),
     /// Put this on the clipboard.
     CopyText(String),
+    /// All of this.
+    Several(Vec<Effect>),
 }
 
 /// More notices than this push the oldest out.
@@ -74,18 +127,38 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
             state.source = Source::Cell(choice);
             return Some(capture(state));
         }
-        Action::ChooseFile => return Some(Effect::ShowFileDialog),
-        Action::Open(path) => {
+        Action::Ask(Ask::Scene) if state.workspace == Workspace::Enrol => {
+            return Some(Effect::ShowDialog(Ask::Part));
+        }
+        Action::Ask(ask) => return Some(Effect::ShowDialog(ask)),
+        Action::Chosen(Ask::CasesFolder, path) => {
+            return compare::apply(state, CompareAction::Folder(path));
+        }
+        Action::Chosen(Ask::Scene | Ask::Part, path) | Action::Open(path) => {
             state.source = Source::File(path);
             return Some(capture(state));
         }
-        Action::Cancel => {
-            state.work = None;
-            return Some(Effect::CancelWork);
+        Action::Chosen(Ask::Library, path) => {
+            state.chosen_library = Some(path);
+            return Some(open_library(state));
+        }
+        Action::Chosen(Ask::ReportFolder, folder) => return export(state, folder),
+        Action::Chosen(Ask::HistoryCsv, path) => return Some(history::export(state, path)),
+        Action::UseFoundLibrary => {
+            state.chosen_library = None;
+            return Some(open_library(state));
+        }
+        Action::Chosen(Ask::Picture, path) => state.inspect.picture_to = Some(path),
+        Action::Chosen(Ask::Align(ask), path) => {
+            return align::apply(state, AlignAction::Chosen(ask, path));
+        }
+        Action::Cancel(lane) => {
+            state.works.remove(&lane);
+            return Some(Effect::CancelWork(lane));
         }
         Action::GoTo(workspace) => state.workspace = workspace,
         Action::Enlarge(panel) => state.enlarged = Some(panel),
-        Action::Compare(place) => state.candidate = place,
+        Action::Candidate(place) => state.candidate = place,
         Action::CloseTop => {
             if state.help == HelpPage::Open {
                 state.help = HelpPage::Closed;
@@ -108,92 +181,167 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         }
         Action::Notify(notice) => notify(state, notice),
         Action::CopyPose => return pose_text(state).map(Effect::CopyText),
-        Action::Hear(news) => hear(state, news),
+        Action::Inspect(action) => return inspect::state::apply(state, action),
+        Action::Enrol(action) => return enrol::apply(state, action),
+        Action::Compare(action) => return compare::apply(state, action),
+        Action::Align(action) => return align::apply(state, action),
+        Action::History(action) => return history::apply(state, action),
+        Action::Hear(lane, news) => return hear(state, lane, news),
     }
     None
 }
 
-/// Asks for a scene from the source.
+/// Asks for a scene from the source: to be inspected, or to be enrolled while that is in front.
 fn capture(state: &mut State) -> Effect {
-    let (request, what) = match &state.source {
+    let (source, what) = match &state.source {
         Source::Cell(choice) => {
             state.num_captures += 1;
-            let request = Request::Capture {
+            let source = SceneSource::Cell {
                 choice: *choice,
                 number: state.num_captures,
             };
-            (request, "Capturing".to_owned())
+            (source, "Capturing".to_owned())
         }
         Source::File(path) => (
-            Request::Open(path.clone()),
+            SceneSource::File(path.clone()),
             format!("Opening {}", file_name(path)),
         ),
     };
-    state.generation += 1;
-    state.work = Some(Work {
-        generation: state.generation,
-        what,
-        stage: None,
-    });
-    Effect::Post {
-        generation: state.generation,
-        request,
+    if state.workspace == Workspace::Enrol {
+        return enrol::take(state, source, what);
     }
+    let recipe = Arc::clone(&state.recipe);
+    state.begin(what, Request::Inspect(InspectRequest { source, recipe }))
 }
 
-/// Takes in what the worker tells, unless it is about something that nobody waits for any more.
-fn hear(state: &mut State, news: News<Result<Arc<Inspected>, Trouble>>) {
-    let of = match &news {
-        News::Begins { generation, .. }
-        | News::Done { generation, .. }
-        | News::Panicked { generation, .. } => *generation,
+/// More files than this nobody looks through.
+const MAX_RECENT: usize = 8;
+
+/// Puts a file first among the recent ones.
+fn remember(recent: &mut Vec<PathBuf>, path: &Path) {
+    recent.retain(|known| known != path);
+    recent.insert(0, path.to_owned());
+    recent.truncate(MAX_RECENT);
+}
+
+/// Asks for the library that was chosen.
+fn open_library(state: &mut State) -> Effect {
+    let chosen = state.chosen_library.clone();
+    state.begin("Opening the library", Request::Library(chosen))
+}
+
+/// Writes the report of the inspection in front.
+fn export(state: &mut State, folder: PathBuf) -> Option<Effect> {
+    let inspected = Arc::clone(&state.shown.as_ref()?.inspected);
+    let request = WriteRequest::Report { folder, inspected };
+    Some(state.begin("Writing the report", Request::Write(request)))
+}
+
+/// Inspects the scene in front again: something that its result rests on has changed.
+pub(super) fn inspect_again(state: &mut State) -> Option<Effect> {
+    let shown = &state.shown.as_ref()?.inspected;
+    let request = InspectRequest {
+        source: SceneSource::AtHand(Arc::clone(&shown.scene), shown.origin.clone()),
+        recipe: Arc::clone(&state.recipe),
     };
-    let Some(work) = state.work.as_mut().filter(|work| work.generation == of) else {
-        return;
-    };
+    Some(state.begin("Inspecting again", Request::Inspect(request)))
+}
+
+/// Takes in what a thread tells, unless it is about something that nobody waits for any more.
+fn hear(state: &mut State, lane: Lane, news: News<Outcome>) -> Option<Effect> {
+    let of = news.generation();
+    let work = state.works.get_mut(&lane);
+    let work = work.filter(|work| work.generation == of)?;
     match news {
         News::Begins { stage, .. } => work.stage = Some(stage),
+        News::Progress { done, total, .. } => work.progress = Some((done, total)),
+        News::Partly { outcome, .. } => return take_in(state, lane, of, outcome),
         News::Done { outcome, .. } => {
-            state.work = None;
-            match outcome {
-                Ok(inspected) => show(state, of, inspected),
-                Err(Trouble { what, advice }) => notify(state, Notice { what, advice }),
-            }
+            state.works.remove(&lane);
+            return take_in(state, lane, of, outcome);
         }
         News::Panicked { message, .. } => {
-            state.work = None;
-            notify(
-                state,
-                Notice {
-                    what: format!("The inspection broke off inside the program: {message}"),
-                    advice: "Capture again; if it happens again, keep the file and report it"
-                        .into(),
-                },
-            );
+            state.works.remove(&lane);
+            let broke_off = Notice {
+                kind: NoticeKind::Look,
+                what: format!("The work broke off inside the program: {message}"),
+                advice: "Try again; if it happens again, keep the file and report it".into(),
+            };
+            notify(state, broke_off);
         }
     }
+    None
+}
+
+/// What came out goes to where it belongs.
+fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> Option<Effect> {
+    match outcome {
+        Ok(Answer::Inspected(inspected)) => show(state, generation, inspected),
+        Ok(Answer::Enrol(answer)) => return enrol::hear(state, Ok(answer)),
+        Ok(Answer::Compare(answer)) => return compare::hear(state, Ok(answer)),
+        Ok(Answer::Align(answer)) => return align::hear(state, Ok(answer)),
+        Ok(Answer::Library(library)) => {
+            use_library(state, &library);
+            return inspect_again(state);
+        }
+        Ok(Answer::Written(written)) => notify(state, Notice::done(written.what)),
+        Err(trouble) => {
+            notify(state, trouble.clone().into());
+            match lane {
+                Lane::Enrol | Lane::Library => return enrol::hear(state, Err(trouble)),
+                Lane::Compare => return compare::hear(state, Err(trouble)),
+                Lane::Align => return align::hear(state, Err(trouble)),
+                Lane::Inspect => return without_scene(state),
+                Lane::Write => {}
+            }
+        }
+    }
+    None
+}
+
+/// A file that could not be inspected is no recent one; at the start the simulated cell takes its place.
+fn without_scene(state: &mut State) -> Option<Effect> {
+    let Source::File(path) = &state.source else {
+        return None;
+    };
+    state.recent.retain(|known| known != path);
+    if state.shown.is_some() {
+        return None;
+    }
+    state.source = Source::default();
+    Some(capture(state))
 }
 
 fn show(state: &mut State, generation: u64, inspected: Arc<Inspected>) {
     for warning in &inspected.warnings {
-        let Trouble { what, advice } = Trouble::of(warning);
-        notify(state, Notice { what, advice });
+        notify(state, Trouble::of(warning).into());
     }
-    let is_other = |known: &Arc<_>| !Arc::ptr_eq(known, &inspected.library);
-    if state.library.as_ref().is_none_or(is_other) {
-        for Trouble { what, advice } in inspected.library.troubles.clone() {
-            notify(state, Notice { what, advice });
-        }
-        state.library = Some(Arc::clone(&inspected.library));
+    use_library(state, &inspected.library);
+    if let Origin::File(path) = &inspected.origin {
+        remember(&mut state.recent, path);
     }
+    let is_past = history::take_in(state, generation, &inspected);
     state.candidate = 0;
     state.shown = Some(Shown {
         generation,
         inspected,
+        is_past,
     });
 }
 
-fn notify(state: &mut State, notice: Notice) {
+/// From now on this library is shown; what had to be set aside in it is said once.
+pub(super) fn use_library(state: &mut State, library: &Arc<LibraryShown>) {
+    let is_other = |known: &Arc<_>| !Arc::ptr_eq(known, library);
+    if state.library.as_ref().is_none_or(is_other) {
+        for trouble in library.troubles.clone() {
+            notify(state, trouble.into());
+        }
+        state.library = Some(Arc::clone(library));
+    }
+}
+
+/// Shows a notice.
+pub(super) fn notify(state: &mut State, notice: Notice) {
     // The same again says nothing new.
     state.notices.retain(|known| *known != notice);
     state.notices.push(notice);
@@ -217,8 +365,8 @@ fn pose_text(state: &State) -> Option<String> {
 mod tests {
     use super::*;
     use crate::{
-        app::work::Inspector,
-        pipeline::{Stage, Unwatched},
+        app::{job::answer, shelf::Shelf, worker::Desk},
+        pipeline::{Stage, Watch},
     };
 
     fn posted(effect: Option<Effect>) -> (u64, Request) {
@@ -231,11 +379,21 @@ mod tests {
         }
     }
 
-    fn done(generation: u64, outcome: Result<Arc<Inspected>, Trouble>) -> Action {
-        Action::Hear(News::Done {
+    struct NobodysDesk;
+
+    impl Watch for NobodysDesk {}
+
+    impl Desk<Outcome> for NobodysDesk {
+        fn progress(&self, _done: usize, _total: usize) {}
+        fn partly(&self, _outcome: Outcome) {}
+    }
+
+    fn done(generation: u64, outcome: Outcome) -> Action {
+        let news = News::Done {
             generation,
             outcome,
-        })
+        };
+        Action::Hear(Lane::Inspect, news)
     }
 
     fn trouble() -> Trouble {
@@ -248,12 +406,11 @@ mod tests {
     #[test]
     fn a_result_stays_and_is_old_until_the_next_is_there() {
         let mut state = State::default();
-        let mut inspector = Inspector::new(None);
         let (generation, request) = posted(apply(&mut state, Action::Capture));
-        assert!(!state.is_old() && state.work.is_some());
-        let first = inspector.answer(request, &Unwatched).expect("answered");
+        assert!(!state.is_old() && state.works.contains_key(&Lane::Inspect));
+        let first = answer(request, &Shelf::default(), &NobodysDesk).expect("answered");
         apply(&mut state, done(generation, first));
-        assert!(state.shown.is_some() && state.work.is_none());
+        assert!(state.shown.is_some() && state.works.is_empty());
         assert!(matches!(
             apply(&mut state, Action::CopyPose),
             Some(Effect::CopyText(_))
@@ -262,8 +419,8 @@ mod tests {
         apply(&mut state, Action::Capture);
         assert!(state.is_old());
         assert!(matches!(
-            apply(&mut state, Action::Cancel),
-            Some(Effect::CancelWork)
+            apply(&mut state, Action::Cancel(Lane::Inspect)),
+            Some(Effect::CancelWork(Lane::Inspect))
         ));
         assert!(!state.is_old() && state.shown.is_some());
     }
@@ -274,19 +431,21 @@ mod tests {
         let (older, _) = posted(apply(&mut state, Action::Capture));
         let (newer, _) = posted(apply(&mut state, Action::Open("b.pcd".into())));
         apply(&mut state, done(older, Err(trouble())));
-        assert!(state.notices.is_empty() && state.work.is_some());
+        assert!(state.notices.is_empty() && state.works.contains_key(&Lane::Inspect));
         let begins = News::Begins {
             generation: newer,
             stage: Stage::Contour,
         };
-        apply(&mut state, Action::Hear(begins));
+        apply(&mut state, Action::Hear(Lane::Inspect, begins));
         assert_eq!(
-            state.work.as_ref().and_then(|w| w.stage),
+            state.work().and_then(|(_, work)| work.stage),
             Some(Stage::Contour)
         );
         apply(&mut state, done(newer, Err(trouble())));
         assert_eq!(state.notices.len(), 1);
-        assert!(state.work.is_none());
+        // With nothing to show yet, the simulated cell takes the file's place.
+        assert_eq!(state.source, Source::default());
+        assert!(state.generation > newer && state.works.contains_key(&Lane::Inspect));
     }
 
     #[test]
@@ -307,11 +466,7 @@ mod tests {
     fn only_the_latest_notices_stay_and_none_twice() {
         let mut state = State::default();
         for number in [0, 1, 2, 3, 4, 5, 5] {
-            let notice = Notice {
-                what: number.to_string(),
-                advice: String::new(),
-            };
-            apply(&mut state, Action::Notify(notice));
+            apply(&mut state, Action::Notify(Notice::done(number.to_string())));
         }
         let what: Vec<_> = state.notices.iter().map(|n| n.what.as_str()).collect();
         assert_eq!(what, ["2", "3", "4", "5"]);

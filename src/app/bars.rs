@@ -1,152 +1,19 @@
-//! Around the workspaces: the rail, the top bar, notices and the list of shortcuts.
+//! Above the workspaces: the top bar and the notices.
 
 use egui::{
-    Align, Button, Frame, Id, Key, KeyboardShortcut, Layout, Margin, Modal, Modifiers, Panel, Rect,
-    RichText, Sense, Stroke, StrokeKind, Ui, Vec2, vec2,
+    Align, Button, Frame, Layout, Margin, Panel, Rect, RichText, Sense, Stroke, StrokeKind, Ui,
+    Vec2,
 };
 
 use super::{
-    action::Action,
-    state::{HelpPage, Source, StagePanel, State, Workspace},
+    action::{Action, Ask},
+    enrol::EnrolAction,
+    shelf::LibraryShown,
+    source::{CellChoice, file_name},
+    state::{NoticeKind, Source, StagePanel, State},
     theme::{ROUNDING, Theme, font, space},
     widgets::{Mark, mark},
-    work::{CellChoice, file_name},
 };
-
-/// A shortcut, what it causes, and how the list names both.
-struct Shortcut {
-    modifiers: Modifiers,
-    key: Key,
-    keys: &'static str,
-    does: &'static str,
-    action: fn() -> Action,
-}
-
-/// The shortcuts of the whole window.
-const SHORTCUTS: [Shortcut; 7] = [
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::Space,
-        keys: "Space",
-        does: "Capture and inspect",
-        action: || Action::Capture,
-    },
-    Shortcut {
-        modifiers: Modifiers::COMMAND,
-        key: Key::O,
-        keys: "Ctrl O",
-        does: "Open a captured scene",
-        action: || Action::ChooseFile,
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::Num1,
-        keys: "1",
-        does: "Inspect",
-        action: || Action::GoTo(Workspace::Inspect),
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::U,
-        keys: "U",
-        does: "Millimetres and degrees, or metres and radians",
-        action: || Action::SwitchUnits,
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::T,
-        keys: "T",
-        does: "Dark or light",
-        action: || Action::SwitchTheme,
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::F1,
-        keys: "F1",
-        does: "This list",
-        action: || Action::ToggleHelp,
-    },
-    Shortcut {
-        modifiers: Modifiers::NONE,
-        key: Key::Escape,
-        keys: "Esc",
-        does: "Close the enlarged stage",
-        action: || Action::CloseTop,
-    },
-];
-
-/// Keys of the 3-D view and of the focus, for the list alone.
-const OTHER_KEYS: [(&str, &str); 7] = [
-    ("Tab, Enter", "Go to the next control, press it"),
-    ("Arrow keys, left drag", "Turn the 3-D view"),
-    ("Shift + those, right drag", "Shift it"),
-    ("+ \u{2212}, wheel", "Zoom it"),
-    ("F, Shift F", "Fit the part, fit everything"),
-    ("Z, Y, X", "Look from the front, the top, the side"),
-    ("M", "Measure between two clicked points"),
-];
-
-/// What the keys cause. Called after the panels, so that a focused control has its keys first.
-///
-/// The space bar presses a focused control; `space_is_free` says that what has the focus does not use it.
-pub(super) fn shortcuts(ctx: &egui::Context, space_is_free: bool, actions: &mut Vec<Action>) {
-    let is_pressing = !space_is_free && ctx.memory(|memory| memory.focused().is_some());
-    for shortcut in &SHORTCUTS {
-        // Space presses a focused control.
-        if shortcut.key == Key::Space && is_pressing {
-            continue;
-        }
-        let keys = KeyboardShortcut::new(shortcut.modifiers, shortcut.key);
-        if ctx.input_mut(|input| input.consume_shortcut(&keys)) {
-            actions.push((shortcut.action)());
-        }
-    }
-}
-
-/// The rail on the left.
-pub(super) fn rail(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
-    let frame = Frame::new().fill(theme.panel);
-    Panel::left("rail")
-        .exact_size(space::RAIL)
-        .resizable(false)
-        .frame(frame)
-        .show(ui, |ui| {
-            for workspace in Workspace::ALL {
-                let is_front = state.workspace == workspace;
-                let size = vec2(ui.available_width(), space::RAIL);
-                let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-                let painter = ui.painter();
-                if is_front {
-                    painter.rect_filled(rect, 0.0, theme.control);
-                    let bar = Rect::from_min_size(rect.min, vec2(3.0, rect.height()));
-                    painter.rect_filled(bar, 0.0, theme.accent);
-                }
-                let colour = if is_front {
-                    theme.text
-                } else {
-                    theme.weak_text
-                };
-                let icon = rect.center() - vec2(0.0, 9.0);
-                painter.circle_stroke(icon, 8.0, Stroke::new(1.6, colour));
-                painter.circle_filled(icon, 2.4, colour);
-                painter.text(
-                    rect.center() + vec2(0.0, 14.0),
-                    egui::Align2::CENTER_CENTER,
-                    workspace.title(),
-                    font::small(),
-                    colour,
-                );
-                focus_ring(ui, rect, &response, theme);
-                response.widget_info(|| {
-                    let label = workspace.title();
-                    egui::WidgetInfo::selected(egui::Role::Tab, true, is_front, label)
-                });
-                if response.clicked() {
-                    actions.push(Action::GoTo(workspace));
-                }
-            }
-        });
-}
 
 /// Shows which hand-drawn control has the focus.
 pub(super) fn focus_ring(ui: &Ui, rect: Rect, response: &egui::Response, theme: &Theme) {
@@ -183,7 +50,7 @@ pub(super) fn top_bar(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut V
                 let key = RichText::new("Ctrl O").font(font::small());
                 let open = Button::new("Open…").shortcut_text(key.color(theme.weak_text));
                 if labelled(ui, open, "Open…").clicked() {
-                    actions.push(Action::ChooseFile);
+                    actions.push(Action::Ask(Ask::Scene));
                 }
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                     settings(ui, state, theme, actions);
@@ -196,7 +63,7 @@ pub(super) fn top_bar(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut V
 }
 
 /// A button that is called by its text alone, whatever shortcut it shows.
-fn labelled(ui: &mut Ui, button: Button<'_>, label: &str) -> egui::Response {
+pub(super) fn labelled(ui: &mut Ui, button: Button<'_>, label: &str) -> egui::Response {
     let response = ui.add(button.min_size(Vec2::splat(space::TARGET)));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, label));
     response
@@ -220,8 +87,20 @@ fn source_menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
         }
         ui.separator();
         if ui.button("Open a file…").clicked() {
-            actions.push(Action::ChooseFile);
+            actions.push(Action::Ask(Ask::Scene));
             ui.close();
+        }
+        if !state.recent.is_empty() {
+            ui.label(RichText::new("Recent files").font(font::heading()));
+        }
+        for path in &state.recent {
+            let is_chosen = matches!(&state.source, Source::File(file) if file == path);
+            let name = shortened(&file_name(path), 34);
+            let entry = ui.selectable_label(is_chosen, name);
+            if entry.on_hover_text(path.display().to_string()).clicked() {
+                actions.push(Action::Open(path.clone()));
+                ui.close();
+            }
         }
     })
     .response
@@ -229,7 +108,7 @@ fn source_menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
 }
 
 /// The text, its middle left out where it is too long.
-fn shortened(text: &str, most: usize) -> String {
+pub(super) fn shortened(text: &str, most: usize) -> String {
     let letters: Vec<char> = text.chars().collect();
     if letters.len() <= most {
         return text.to_owned();
@@ -269,25 +148,46 @@ fn settings(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>
     if let Some(library) = &state.library
         && ui.available_width() > 300.0
     {
-        let num = library.titles.len();
-        let text = format!("{num} parts · {}", shortened(&file_name(&library.path), 20));
-        ui.label(RichText::new(text).color(theme.weak_text))
-            .on_hover_text(library.path.display().to_string());
+        library_menu(ui, state, library, actions);
     }
+}
+
+/// Which library is in use, and others to use.
+fn library_menu(ui: &mut Ui, state: &State, library: &LibraryShown, actions: &mut Vec<Action>) {
+    let num = library.parts.len();
+    let text = format!(
+        "{num} parts · {} ▼",
+        shortened(&file_name(&library.path), 20)
+    );
+    ui.menu_button(text, |ui| {
+        ui.set_min_width(260.0);
+        ui.label(RichText::new("Library in use").font(font::heading()));
+        ui.label(library.path.display().to_string());
+        ui.separator();
+        if ui.button("Use another library…").clicked() {
+            actions.push(Action::Ask(Ask::Library));
+            ui.close();
+        }
+        if state.chosen_library.is_some() && ui.button("Use the usual library").clicked() {
+            actions.push(Action::UseFoundLibrary);
+            ui.close();
+        }
+    });
 }
 
 /// What is being worked on, and the way out.
 fn progress(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
-    let Some(work) = &state.work else {
+    let Some((lane, work)) = state.work() else {
         return;
     };
     ui.add_space(space::SMALL);
     if labelled(ui, Button::new("Cancel"), "Cancel").clicked() {
-        actions.push(Action::Cancel);
+        actions.push(Action::Cancel(lane));
     }
     ui.add(egui::Spinner::new().size(18.0).color(theme.accent));
-    let text = match work.stage.map(StagePanel::of) {
-        Some(panel) => {
+    let text = match (work.progress, work.stage.map(StagePanel::of)) {
+        (Some((done, total)), _) => format!("{} · {done} of {total}", shortened(&work.what, 28)),
+        (None, Some(panel)) => {
             let place = StagePanel::ALL
                 .iter()
                 .position(|p| *p == panel)
@@ -295,7 +195,7 @@ fn progress(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>
                 + 1;
             format!("{} · {place} of {}", panel.title(), StagePanel::ALL.len())
         }
-        None => shortened(&work.what, 28),
+        (None, None) => shortened(&work.what, 28),
     };
     ui.label(RichText::new(text).color(theme.weak_text));
 }
@@ -316,10 +216,18 @@ pub(super) fn notices(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut V
                 ui.horizontal(|ui| {
                     ui.set_min_height(space::TARGET);
                     let (rect, _) = ui.allocate_exact_size(Vec2::splat(20.0), Sense::hover());
-                    mark(ui.painter(), rect.center(), 9.0, Mark::Look, theme);
+                    let sign = match notice.kind {
+                        NoticeKind::Look => Mark::Look,
+                        NoticeKind::Done | NoticeKind::Undoable => Mark::Good,
+                    };
+                    mark(ui.painter(), rect.center(), 9.0, sign, theme);
                     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                         if labelled(ui, Button::new("Dismiss"), "Dismiss").clicked() {
                             actions.push(Action::Dismiss(place));
+                        }
+                        let is_undoable = notice.kind == NoticeKind::Undoable;
+                        if is_undoable && labelled(ui, Button::new("Undo"), "Undo").clicked() {
+                            actions.push(Action::Enrol(EnrolAction::Undo));
                         }
                         ui.with_layout(
                             Layout::left_to_right(Align::Center).with_main_wrap(true),
@@ -332,41 +240,4 @@ pub(super) fn notices(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut V
                 });
             }
         });
-}
-
-/// The list of shortcuts.
-pub(super) fn help(ctx: &egui::Context, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
-    if state.help == HelpPage::Closed {
-        return;
-    }
-    let modal = Modal::new(Id::unique("help"))
-        .frame(Frame::window(&ctx.global_style()).inner_margin(Margin::same(18)))
-        .show(ctx, |ui| {
-            ui.set_max_width(520.0);
-            let height = ui.spacing().interact_size.y;
-            ui.spacing_mut().interact_size.y = 24.0;
-            ui.label(
-                RichText::new("Shortcuts")
-                    .font(font::verdict())
-                    .color(theme.text),
-            );
-            ui.add_space(space::SMALL);
-            egui::Grid::new("shortcuts")
-                .num_columns(2)
-                .spacing(vec2(24.0, 6.0))
-                .show(ui, |ui| {
-                    let of_window = SHORTCUTS.iter().map(|s| (s.keys, s.does));
-                    for (keys, does) in of_window.chain(OTHER_KEYS) {
-                        ui.label(RichText::new(keys).font(font::body_strong()));
-                        ui.label(RichText::new(does).color(theme.weak_text));
-                        ui.end_row();
-                    }
-                });
-            ui.spacing_mut().interact_size.y = height;
-            ui.add_space(space::MEDIUM);
-            labelled(ui, Button::new("Close"), "Close").clicked()
-        });
-    if modal.inner || modal.backdrop_response.clicked() {
-        actions.push(Action::ToggleHelp);
-    }
 }

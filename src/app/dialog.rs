@@ -1,4 +1,4 @@
-//! The system's file dialog, asked without waiting for it.
+//! The system's file dialogs, asked without waiting for them.
 
 use std::{
     path::PathBuf,
@@ -8,10 +8,15 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::{action::Action, state::Notice};
+use super::{
+    action::{Action, Ask},
+    align::AlignAsk,
+    state::{Notice, NoticeKind},
+};
 
 /// A dialog that is open.
-pub(super) struct FileDialog {
+pub(super) struct Dialog {
+    ask: Ask,
     answer: Pin<Box<dyn Future<Output = Option<PathBuf>>>>,
     waker: Waker,
     opened: Instant,
@@ -28,18 +33,62 @@ impl Wake for Repaint {
     }
 }
 
-impl FileDialog {
-    pub(super) fn open(ctx: &egui::Context) -> Self {
-        let dialog = rfd::AsyncFileDialog::new()
-            .set_title("Open a captured scene")
-            .add_filter(
-                "Captured scenes",
-                &["pcd", "ply", "xyz", "txt", "csv", "png"],
-            )
-            .add_filter("All files", &["*"])
-            .pick_file();
+impl Dialog {
+    pub(super) fn open(ask: Ask, ctx: &egui::Context) -> Self {
+        let dialog = rfd::AsyncFileDialog::new();
+        let answer: Pin<Box<dyn Future<Output = Option<rfd::FileHandle>>>> = match ask {
+            Ask::Scene => Box::pin(
+                dialog
+                    .set_title("Open a captured scene")
+                    .add_filter(
+                        "Captured scenes",
+                        &["pcd", "ply", "xyz", "txt", "csv", "png"],
+                    )
+                    .add_filter("All files", &["*"])
+                    .pick_file(),
+            ),
+            Ask::ReportFolder => Box::pin(
+                dialog
+                    .set_title("Folder for the report of this inspection")
+                    .pick_folder(),
+            ),
+            Ask::HistoryCsv => Box::pin(
+                dialog
+                    .set_title("Export the listed inspections")
+                    .set_file_name("inspections.csv")
+                    .add_filter("Comma-separated values", &["csv"])
+                    .save_file(),
+            ),
+            Ask::Library => Box::pin(dialog.set_title("Use another library").pick_folder()),
+            Ask::Picture => Box::pin(
+                dialog
+                    .set_title("Save a picture of the view")
+                    .set_file_name("view.png")
+                    .add_filter("Pictures", &["png"])
+                    .save_file(),
+            ),
+            Ask::CasesFolder => Box::pin(dialog.set_title("Folder of kept cases").pick_folder()),
+            Ask::Align(AlignAsk::TableFile) => Box::pin(
+                dialog
+                    .set_title("Export Table I")
+                    .set_file_name("table1.csv")
+                    .add_filter("Comma-separated values", &["csv"])
+                    .save_file(),
+            ),
+            Ask::Align(AlignAsk::Source | AlignAsk::Target) => Box::pin(
+                anything_with_points(dialog)
+                    .set_title("Open a cloud or a mesh")
+                    .pick_file(),
+            ),
+            Ask::Part => Box::pin(
+                anything_with_points(dialog)
+                    .set_title("Open a scene, a cloud or a mesh to enrol")
+                    .pick_file(),
+            ),
+        };
         Self {
-            answer: Box::pin(async move { Some(dialog.await?.path().to_owned()) }),
+            ask,
+            answer: Box::pin(async move { Some(answer.await?.path().to_owned()) }),
             waker: Arc::new(Repaint(ctx.clone())).into(),
             opened: Instant::now(),
         }
@@ -51,15 +100,25 @@ impl FileDialog {
         answer
             .poll(&mut Context::from_waker(&self.waker))
             .map(|path| match path {
-                Some(path) => Some(Action::Open(path)),
+                Some(path) => Some(Action::Chosen(self.ask, path)),
                 None if self.opened.elapsed() < TOO_QUICK => Some(Action::Notify(never_opened())),
                 None => None,
             })
     }
 }
 
+fn anything_with_points(dialog: rfd::AsyncFileDialog) -> rfd::AsyncFileDialog {
+    let endings = [
+        "pcd", "ply", "xyz", "txt", "csv", "png", "stl", "obj", "gltf", "glb",
+    ];
+    dialog
+        .add_filter("Scenes, clouds and meshes", &endings)
+        .add_filter("All files", &["*"])
+}
+
 fn never_opened() -> Notice {
     Notice {
+        kind: NoticeKind::Look,
         what: "The desktop offers no file dialog".into(),
         advice:
             "Drop the file onto the window, or install the package xdg-desktop-portal-gtk or zenity"

@@ -3,6 +3,7 @@
 use image::RgbImage;
 use nalgebra::{Isometry2, Point2};
 
+use super::shelf::LibraryShown;
 use crate::{
     library::Library,
     pipeline::Inspection,
@@ -32,8 +33,6 @@ pub struct Figures {
     pub signature: Option<Curves>,
     /// One per entry of the ranking, in its order.
     pub candidates: Vec<Candidate>,
-    /// Base-10 logarithm of E, square metres, per iteration.
-    pub log_e: Vec<f32>,
     /// Points of the part.
     pub num_part: usize,
     /// Points of the scene with a reading.
@@ -67,24 +66,65 @@ pub struct Curves {
 pub struct Candidate {
     /// Its name for people.
     pub title: String,
+    /// The same for a small picture: a side as its first letter.
+    pub short_title: String,
     /// Its score, 0..1.
     pub score: f32,
     /// Its outline laid over the scene's, closed; empty if the matcher places nothing.
     pub outline: PlaneLine,
     /// Its signature at the best lag.
     pub curves: Option<Curves>,
+    /// What became of putting it in its place.
+    pub alignment: Alignment,
+}
+
+/// What became of putting an enrolled part in its place in the scene.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Alignment {
+    /// It was aligned.
+    Done {
+        /// Base-10 logarithm of E, square metres, per iteration.
+        log_e: Vec<f32>,
+        /// Root mean square distance at the end, metres.
+        rms_m: f64,
+    },
+    /// It was not; why, for a person.
+    None(&'static str),
+}
+
+impl Alignment {
+    fn of(entry: &MatchEntry, inspection: &Inspection, library: &Library) -> Self {
+        let reference = library.references.get(entry.reference);
+        let is_flat = reference.is_none_or(|reference| reference.cloud.points.is_empty());
+        match (&entry.pose, &inspection.pose) {
+            (Some(pose), _) => Self::Done {
+                log_e: pose
+                    .iterations
+                    .iter()
+                    .map(|step| step.e_m2)
+                    .filter(|e| *e > 0.0 && e.is_finite())
+                    .map(|e| e.log10() as f32)
+                    .collect(),
+                rms_m: pose.fit.rms_m,
+            },
+            (None, None) => Self::None("not aligned: no pose was asked for"),
+            (None, Some(_)) if is_flat => Self::None("not aligned: it is enrolled as a flat shape"),
+            (None, Some(Err(_))) => Self::None("not aligned: no pose was found"),
+            (None, Some(Ok(_))) => Self::None("not aligned: its score was too low to be tried"),
+        }
+    }
 }
 
 /// More corners than this are finer than any picture shows.
 const MAX_CORNERS: usize = 400;
 
 impl Figures {
-    /// Prepares them; `titles` are the references' names for people.
+    /// Prepares them; `shown` knows the references' names for people.
     pub fn of(
         scene: &SceneCloud,
         inspection: &Inspection,
         library: &Library,
-        titles: &[String],
+        shown: &LibraryShown,
     ) -> Self {
         let mut figures = Self {
             num_points: scene.cloud.num_finite(),
@@ -105,14 +145,7 @@ impl Figures {
             figures.signature = Some(Curves::of(&signature.lengths, &signature.angles));
             let entries = inspection.ranking.entries.iter();
             figures.candidates = entries
-                .map(|entry| Candidate::of(entry, signature, library, titles))
-                .collect();
-        }
-        if let Some(Ok(pose)) = &inspection.pose {
-            let e = pose.iterations.iter().map(|step| step.e_m2);
-            figures.log_e = e
-                .filter(|e| *e > 0.0 && e.is_finite())
-                .map(|e| e.log10() as f32)
+                .map(|entry| Candidate::of(entry, inspection, signature, library, shown))
                 .collect();
         }
         figures
@@ -140,7 +173,7 @@ impl ContourFigure {
 }
 
 impl Curves {
-    fn of(lengths: &[f64], angles: &[f64]) -> Self {
+    pub(super) fn of(lengths: &[f64], angles: &[f64]) -> Self {
         let narrow = |values: &[f64]| values.iter().map(|value| *value as f32).collect();
         Self {
             lengths: narrow(lengths),
@@ -149,7 +182,11 @@ impl Curves {
     }
 
     /// A view's signature, shifted by the lag and turned, beside the scene's.
-    fn placed(view: &ReferenceView, placement: &Placement, scene: &FanSignature) -> Option<Self> {
+    pub(super) fn placed(
+        view: &ReferenceView,
+        placement: &Placement,
+        scene: &FanSignature,
+    ) -> Option<Self> {
         let (lengths, angles) = (&view.signature.lengths, &view.signature.angles);
         let num = lengths.len();
         if num == 0 || num != scene.lengths.len() {
@@ -174,8 +211,14 @@ impl Curves {
 }
 
 impl Candidate {
-    fn of(entry: &MatchEntry, scene: &FanSignature, library: &Library, titles: &[String]) -> Self {
-        let title = titles.get(entry.reference).unwrap_or(&entry.part).clone();
+    fn of(
+        entry: &MatchEntry,
+        inspection: &Inspection,
+        scene: &FanSignature,
+        library: &Library,
+        shown: &LibraryShown,
+    ) -> Self {
+        let title = shown.title(entry.reference).to_owned();
         let placed = entry.placements.first().and_then(|placement| {
             let reference = library.references.get(entry.reference)?;
             Some((placement, reference.views.get(placement.view)?))
@@ -185,40 +228,58 @@ impl Candidate {
             closed(&view.contour.outline, &moved)
         });
         Self {
+            short_title: shortened(&title),
             title,
             score: entry.score as f32,
             outline,
             curves: placed.and_then(|(placement, view)| Curves::placed(view, placement, scene)),
+            alignment: Alignment::of(entry, inspection, library),
         }
     }
 }
 
+/// "Front door, left" as "Front door L".
+fn shortened(title: &str) -> String {
+    let sides = [(", left", " L"), (", right", " R")];
+    let short = sides
+        .iter()
+        .find_map(|(long, short)| Some(format!("{}{short}", title.strip_suffix(long)?)));
+    short.unwrap_or_else(|| title.to_owned())
+}
+
 /// The border moved and thinned, its first corner repeated at the end.
-fn closed(border: &[Point2<f64>], moved: &Isometry2<f64>) -> PlaneLine {
+pub(super) fn closed(border: &[Point2<f64>], moved: &Isometry2<f64>) -> PlaneLine {
     let step = border.len().div_ceil(MAX_CORNERS).max(1);
     let corners = border.iter().step_by(step).chain(border.first());
     corners.map(|corner| plain(&(moved * corner))).collect()
 }
 
-fn plain(point: &Point2<f64>) -> [f32; 2] {
+/// The point as it is drawn.
+pub(super) fn plain(point: &Point2<f64>) -> [f32; 2] {
     [point.x as f32, point.y as f32]
 }
 
 #[cfg(test)]
 mod tests {
+    use super::Alignment;
     use crate::{
-        app::work::{CellChoice, Inspector, Request},
-        pipeline::Unwatched,
+        app::{
+            inspect::work::{InspectRequest, inspect},
+            shelf::Shelf,
+            source::{CellChoice, SceneSource},
+        },
+        pipeline::{Recipe, Unwatched},
     };
 
     #[test]
     fn the_best_parts_outline_and_signature_lie_on_the_scenes() {
-        let request = Request::Capture {
-            choice: CellChoice::InTurn,
-            number: 1,
+        let choice = CellChoice::InTurn;
+        let request = InspectRequest {
+            source: SceneSource::Cell { choice, number: 1 },
+            recipe: std::sync::Arc::default(),
         };
-        let answer = Inspector::new(None).answer(request, &Unwatched);
-        let inspected = answer.expect("not cancelled").expect("inspected");
+        let inspected = inspect(&request, &Shelf::default(), &Unwatched).expect("inspected");
+        let inspected = inspected.expect("not cancelled");
         let figures = &inspected.figures;
         let (contour, scene) = (
             figures.contour.as_ref().expect("a contour"),
@@ -237,6 +298,47 @@ mod tests {
             assert!(*y > low[1] - 0.1 && *y < high[1] + 0.1);
         }
         assert!(figures.segmentation.is_some() && figures.binary.is_some());
-        assert!(figures.log_e.len() > 1);
+        let Alignment::Done { log_e, rms_m } = &best.alignment else {
+            panic!("{:?}", best.alignment);
+        };
+        assert!(log_e.len() > 1 && *rms_m < 0.005);
+    }
+
+    #[test]
+    fn a_short_name_keeps_its_side() {
+        assert_eq!(super::shortened("Front door, left"), "Front door L");
+        assert_eq!(super::shortened("Fender, right"), "Fender R");
+        assert_eq!(super::shortened("Grille"), "Grille");
+    }
+
+    #[test]
+    fn every_part_that_was_tried_shows_its_own_alignment_and_the_others_say_why_not() {
+        let choice = CellChoice::InTurn;
+        let recipe = Recipe::default();
+        let num_tried = recipe.confirm.num_references;
+        let request = InspectRequest {
+            source: SceneSource::Cell { choice, number: 1 },
+            recipe: std::sync::Arc::new(recipe),
+        };
+        let inspected = inspect(&request, &Shelf::default(), &Unwatched).expect("inspected");
+        let inspected = inspected.expect("not cancelled");
+        let candidates = &inspected.figures.candidates;
+        let curves: Vec<&Vec<f32>> = candidates
+            .iter()
+            .filter_map(|candidate| match &candidate.alignment {
+                Alignment::Done { log_e, .. } => Some(log_e),
+                Alignment::None(_) => None,
+            })
+            .collect();
+        assert_eq!(curves.len(), num_tried);
+        assert!(curves.iter().all(|curve| curve.len() > 1));
+        assert!(curves.windows(2).all(|pair| pair[0] != pair[1]));
+        let why = Alignment::None("not aligned: its score was too low to be tried");
+        assert!(candidates.len() > num_tried);
+        assert!(candidates[num_tried..].iter().all(|c| c.alignment == why));
+        // The best one's is the pose that is reported.
+        let entry = &inspected.inspection.ranking.entries[0];
+        let pose = inspected.inspection.pose.as_ref().expect("a pose");
+        assert_eq!(entry.pose.as_ref(), pose.as_ref().ok());
     }
 }

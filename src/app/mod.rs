@@ -1,28 +1,43 @@
 //! The window: five-second answers for the operator, every step for the engineer.
 //!
 //! ```text
-//! panels ─► Action ─► apply(State) ─► Effect ─► Worker (one thread) ─► News ─► Action ...
+//! panels ─► Action ─► apply(State) ─► Effect ─► Request ─► a thread per lane ─► Answer ─► Action ...
 //! ```
 //!
-//! [`state`] is plain data, [`action`] the only thing that changes it, [`worker`] the thread and [`work`] what it does;
+//! [`state`] is plain data, [`action`] the only thing that changes it. [`job`] says what can be asked for; [`worker`] is
+//! a thread, [`lane`] which one. Each workspace is a folder: its panel, its part of the state, and what its thread does.
 //! [`theme`] holds every colour, distance and type size. Panels draw the last result, always, and never compute.
 
 pub mod action;
+pub mod align;
 mod bars;
+pub mod compare;
 mod deviation;
 mod dialog;
+pub mod enrol;
 pub mod figures;
-mod inspect;
+pub mod fitted;
+pub mod headless;
+pub mod history;
+pub mod inspect;
+pub mod job;
+mod keys;
+pub mod lane;
+mod memory;
+mod rail;
+pub mod settings;
+pub mod shelf;
+pub mod source;
 mod start;
 pub mod state;
 pub mod theme;
 pub mod viewport;
 mod widgets;
 mod window;
-pub mod work;
 pub mod worker;
+pub mod writing;
 
 pub use self::{
     start::{WindowError, run},
-    window::Window,
+    window::{Window, WindowOptions},
 };

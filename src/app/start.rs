@@ -1,10 +1,14 @@
 //! Opening the window, or saying in words why it cannot be opened.
 
-use std::{env, path::PathBuf};
+use std::{cell::OnceCell, env, rc::Rc};
 
 use eframe::NativeOptions;
 
-use super::window::Window;
+use super::{
+    settings,
+    viewport::{ViewError, ViewportGpu},
+    window::{Window, WindowOptions},
+};
 use crate::error::Advice;
 
 /// Why there is no window.
@@ -16,6 +20,12 @@ pub enum WindowError {
     /// The desktop refused.
     #[error("the window could not be opened ({reason})")]
     Refused {
+        /// What the system said.
+        reason: String,
+    },
+    /// The device went away while the window was open, and with it all that draws.
+    #[error("the graphics device was lost while the window was open ({reason})")]
+    DeviceLost {
         /// What the system said.
         reason: String,
     },
@@ -38,6 +48,9 @@ impl Advice for WindowError {
                 "Check that DISPLAY or WAYLAND_DISPLAY names a running desktop, and that the package libxkbcommon-x11-0 is installed"
                     .into()
             }
+            Self::DeviceLost { .. } => {
+                "Start Partsight again; every part that was enrolled and every file that was written is there".into()
+            }
             Self::NoAdapter { .. } => {
                 "Install a Vulkan driver: on Debian and Ubuntu the package mesa-vulkan-drivers".into()
             }
@@ -50,29 +63,37 @@ const SIZE: [f32; 2] = [1440.0, 900.0];
 /// Below this something would be cut off.
 const MIN_SIZE: [f32; 2] = [960.0, 640.0];
 
-/// Opens the window with the library of this folder, else the one found as on the command line, and returns when it is
-/// closed.
-pub fn run(library: Option<PathBuf>) -> Result<(), WindowError> {
+/// Opens the window and returns when it is closed.
+pub fn run(given: WindowOptions) -> Result<(), WindowError> {
     // Without either nobody would see the window; asking the system only costs a wait.
     if cfg!(all(unix, not(target_os = "macos"))) && !is_set("DISPLAY") && !is_set("WAYLAND_DISPLAY")
     {
         return Err(WindowError::NoDisplay);
     }
+    let size = given.settings.as_deref().and_then(settings::window_size);
     let options = NativeOptions {
         viewport: egui::ViewportBuilder::default()
             .with_title("Partsight")
             .with_app_id("partsight")
-            .with_inner_size(SIZE)
+            .with_inner_size(size.unwrap_or(SIZE))
             .with_min_inner_size(MIN_SIZE),
         renderer: eframe::Renderer::Wgpu,
         ..NativeOptions::default()
     };
+    let gpu = Rc::new(OnceCell::new());
+    let of_window = Rc::clone(&gpu);
     let opened = eframe::run_native(
         "partsight",
         options,
         Box::new(|cc| {
-            Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), library)
-                .map(|window| Box::new(window) as Box<dyn eframe::App>)
+            Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), given)
+                .map(|window| {
+                    if let Ok(gpu) = window.gpu() {
+                        // Opened once: the cell is empty.
+                        let _ = of_window.set(gpu.clone());
+                    }
+                    Box::new(window) as Box<dyn eframe::App>
+                })
                 .map_err(Into::into)
         }),
     );
@@ -87,7 +108,11 @@ pub fn run(library: Option<PathBuf>) -> Result<(), WindowError> {
         error => WindowError::Refused {
             reason: error.to_string(),
         },
-    })
+    })?;
+    match gpu.get().and_then(ViewportGpu::trouble) {
+        Some(ViewError::DeviceLost { reason }) => Err(WindowError::DeviceLost { reason }),
+        _ => Ok(()),
+    }
 }
 
 fn is_set(variable: &str) -> bool {

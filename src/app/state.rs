@@ -1,9 +1,20 @@
 //! What the window knows: plain data, without any type of the user interface.
 
-use std::{path::PathBuf, sync::Arc};
+use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
 
-use super::work::{CellChoice, Inspected, LibraryShown};
-use crate::pipeline::Stage;
+use super::{
+    action::Effect,
+    align::AlignState,
+    compare::CompareState,
+    enrol::EnrolState,
+    history::HistoryState,
+    inspect::{state::InspectState, work::Inspected},
+    job::{Request, Trouble},
+    lane::Lane,
+    shelf::LibraryShown,
+    source::CellChoice,
+};
+use crate::pipeline::{Recipe, Stage};
 
 /// Everything that the panels read. Only [`apply`](super::action::apply) changes it.
 #[derive(Debug, Default)]
@@ -12,8 +23,8 @@ pub struct State {
     pub source: Source,
     /// The last result.
     pub shown: Option<Shown>,
-    /// What is being worked on; the result shown is old meanwhile.
-    pub work: Option<Work>,
+    /// What is being worked on, by whom; while a scene is, the result shown is old.
+    pub works: BTreeMap<Lane, Work>,
     /// The workspace in front.
     pub workspace: Workspace,
     /// Units that lengths and angles are shown in.
@@ -28,18 +39,60 @@ pub struct State {
     pub candidate: usize,
     /// Whether the list of shortcuts is open.
     pub help: HelpPage,
+    /// Scenes opened last, the newest first.
+    pub recent: Vec<PathBuf>,
+    /// The library's folder that a person chose in the window.
+    pub chosen_library: Option<PathBuf>,
     /// The library in use, once loaded.
     pub library: Option<Arc<LibraryShown>>,
+    /// The parameters that scenes are inspected with.
+    pub recipe: Arc<Recipe>,
     /// How many frames of the simulated cell were asked for.
     pub num_captures: u64,
     /// The generation of the newest request.
     pub generation: u64,
+    /// Of the Inspect workspace.
+    pub inspect: InspectState,
+    /// Of the Enrol workspace.
+    pub enrol: EnrolState,
+    /// Of the Compare workspace.
+    pub compare: CompareState,
+    /// Of the Align workspace.
+    pub align: AlignState,
+    /// Of the History workspace.
+    pub history: HistoryState,
 }
 
 impl State {
     /// True while the result shown is not what was asked for last.
     pub fn is_old(&self) -> bool {
-        self.work.is_some() && self.shown.is_some()
+        self.works.contains_key(&Lane::Inspect) && self.shown.is_some()
+    }
+
+    /// The work that the window tells of: the front workspace's own, else any.
+    pub fn work(&self) -> Option<(Lane, &Work)> {
+        let own = self.workspace.lane();
+        let all = self.works.iter().map(|(lane, work)| (*lane, work));
+        // Quickly done, and not to be given up half-way.
+        let mut all = all.filter(|(lane, _)| !matches!(lane, Lane::Write | Lane::Library));
+        let own = own.and_then(|own| self.works.get_key_value(&own).map(|(l, w)| (*l, w)));
+        own.or_else(|| all.next())
+    }
+
+    /// Writes down that the work has begun, and has it done; whatever its lane was at is given up.
+    pub(super) fn begin(&mut self, what: impl Into<String>, request: Request) -> Effect {
+        self.generation += 1;
+        let work = Work {
+            generation: self.generation,
+            what: what.into(),
+            stage: None,
+            progress: None,
+        };
+        self.works.insert(request.lane(), work);
+        Effect::Post {
+            generation: self.generation,
+            request,
+        }
     }
 }
 
@@ -65,6 +118,8 @@ pub struct Shown {
     pub generation: u64,
     /// The result.
     pub inspected: Arc<Inspected>,
+    /// True if it was taken out of the history.
+    pub is_past: bool,
 }
 
 /// A request at work.
@@ -76,30 +131,63 @@ pub struct Work {
     pub what: String,
     /// The stage begun last.
     pub stage: Option<Stage>,
+    /// How many of how many are done.
+    pub progress: Option<(usize, usize)>,
 }
 
 /// The workspaces.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Workspace {
     /// The operator's: which part is it, and is it accepted?
     #[default]
     Inspect,
+    /// New parts.
+    Enrol,
+    /// The engineer's: why was this taken for that?
+    Compare,
+    /// Methods of pose estimation side by side.
+    Align,
+    /// What was inspected before.
+    History,
 }
 
 impl Workspace {
     /// Every workspace, in the order of the rail and of the number keys.
-    pub const ALL: [Self; 1] = [Self::Inspect];
+    pub const ALL: [Self; 5] = [
+        Self::Inspect,
+        Self::Enrol,
+        Self::Compare,
+        Self::Align,
+        Self::History,
+    ];
 
     /// What a person calls it.
     pub fn title(self) -> &'static str {
         match self {
             Self::Inspect => "Inspect",
+            Self::Enrol => "Enrol",
+            Self::Compare => "Compare",
+            Self::Align => "Align",
+            Self::History => "History",
+        }
+    }
+
+    /// Who works for it.
+    pub fn lane(self) -> Option<Lane> {
+        match self {
+            Self::Inspect => Some(Lane::Inspect),
+            Self::Enrol => Some(Lane::Enrol),
+            Self::Compare => Some(Lane::Compare),
+            Self::Align => Some(Lane::Align),
+            Self::History => None,
         }
     }
 }
 
 /// Units for people.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum UnitSystem {
     /// Millimetres and degrees.
     #[default]
@@ -129,8 +217,8 @@ impl UnitSystem {
     /// A length in metres, for a person.
     pub fn length(self, metres: f64) -> String {
         match self {
-            Self::MillimetresDegrees => format!("{:.1} mm", metres * 1000.0),
-            Self::MetresRadians => format!("{metres:.4} m"),
+            Self::MillimetresDegrees => format!("{} mm", minus(metres * 1000.0, 1)),
+            Self::MetresRadians => format!("{} m", minus(metres, 4)),
         }
     }
 
@@ -142,6 +230,14 @@ impl UnitSystem {
         }
     }
 
+    /// The size of an angle in radians, for a person.
+    pub fn angle(self, radians: f64) -> String {
+        match self {
+            Self::MillimetresDegrees => format!("{:.2}°", radians.to_degrees()),
+            Self::MetresRadians => format!("{radians:.4} rad"),
+        }
+    }
+
     /// An angle in radians, with its sign.
     pub fn signed_angle(self, radians: f64) -> String {
         match self {
@@ -149,6 +245,12 @@ impl UnitSystem {
             Self::MetresRadians => format!("{} rad", signed(radians, 4)),
         }
     }
+}
+
+/// A number with a true minus where it is below 0.
+fn minus(value: f64, decimals: usize) -> String {
+    let text = signed(value, decimals);
+    text.strip_prefix('+').map(str::to_owned).unwrap_or(text)
 }
 
 /// A number with its sign, a true minus; what rounds to nothing has none.
@@ -164,7 +266,8 @@ fn signed(value: f64, decimals: usize) -> String {
 }
 
 /// Colours.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum ThemeChoice {
     /// Light on dark.
     #[default]
@@ -202,13 +305,56 @@ pub enum HelpPage {
     Open,
 }
 
+/// What a notice is about.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum NoticeKind {
+    /// Something deserves a look.
+    #[default]
+    Look,
+    /// Something was done.
+    Done,
+    /// Something was done that can be taken back.
+    Undoable,
+}
+
 /// Something that a person should know.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Notice {
+    /// What it is about.
+    pub kind: NoticeKind,
     /// What happened.
     pub what: String,
-    /// What to do about it.
+    /// What to do about it; may be empty.
     pub advice: String,
+}
+
+impl Notice {
+    /// Something was done.
+    pub fn done(what: impl Into<String>) -> Self {
+        Self {
+            kind: NoticeKind::Done,
+            what: what.into(),
+            advice: String::new(),
+        }
+    }
+
+    /// Something was done that can be taken back.
+    pub fn undoable(what: impl Into<String>) -> Self {
+        Self {
+            kind: NoticeKind::Undoable,
+            ..Self::done(what)
+        }
+    }
+}
+
+impl From<Trouble> for Notice {
+    fn from(Trouble { what, advice }: Trouble) -> Self {
+        Self {
+            kind: NoticeKind::Look,
+            what,
+            advice,
+        }
+    }
 }
 
 /// The pictures of the stage strip, in order.
@@ -276,6 +422,9 @@ mod tests {
         assert_eq!(mm.signed_length(-0.000_01), "0.0 mm");
         assert_eq!(mm.signed_angle(std::f64::consts::FRAC_PI_2), "+90.00°");
         assert_eq!(UnitSystem::MetresRadians.signed_length(0.0423), "+0.0423 m");
+        assert_eq!(mm.length(-0.0481), "\u{2212}48.1 mm");
+        assert_eq!(mm.length(0.15), "150.0 mm");
+        assert_eq!(mm.angle(0.1), "5.73°");
         assert_eq!(mm.other().other(), mm);
     }
 }

@@ -65,6 +65,14 @@ pub(super) fn heading(ui: &mut Ui, theme: &Theme, text: &str) {
     );
 }
 
+/// The text with a capital letter first.
+pub(super) fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| {
+        first.to_uppercase().collect::<String>() + letters.as_str()
+    })
+}
+
 /// Text on a picture.
 pub(super) fn caption(painter: &Painter, at: Pos2, anchor: Align2, text: &str, colour: Color32) {
     painter.text(at, anchor, text, font::scale(), colour);

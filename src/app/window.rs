@@ -1,58 +1,110 @@
 //! The window as eframe drives it: fetch news, draw the last result, apply what was done.
 
-use std::{io, path::PathBuf, sync::Arc, task::Poll};
+use std::{collections::BTreeMap, io, path::PathBuf, task::Poll};
 
 use eframe::egui_wgpu::RenderState;
 use egui::{CentralPanel, Frame, Ui};
 
 use super::{
     action::{Action, Effect, apply},
+    align::AlignPanel,
     bars,
-    dialog::FileDialog,
+    compare::{self, CompareState},
+    dialog::Dialog,
+    enrol::EnrolPanel,
+    headless::WorkCounts,
+    history::HistoryPanel,
     inspect::InspectPanel,
-    state::{State, ThemeChoice, Workspace},
+    job::{Outcome, Request, answer},
+    keys,
+    lane::Lane,
+    memory::Memory,
+    rail, settings,
+    shelf::Shelf,
+    state::{Notice, State, ThemeChoice, Workspace},
     theme::Theme,
     viewport::{ViewError, ViewportGpu},
-    work::{Inspected, Inspector, Request, Trouble},
     worker::Worker,
 };
+
+/// What the window is opened with.
+#[derive(Clone, Debug, Default)]
+pub struct WindowOptions {
+    /// The library's folder; without it the one chosen last, else the one found as on the command line.
+    pub library: Option<PathBuf>,
+    /// The captured scene that is opened first; without it Capture takes one from the source.
+    pub scene: Option<PathBuf>,
+    /// Where the settings are kept; without it nothing is remembered.
+    pub settings: Option<PathBuf>,
+    /// The folder of kept cases; without it the user's own.
+    pub cases: Option<PathBuf>,
+}
 
 /// The window.
 pub struct Window {
     state: State,
-    worker: Worker<Request, Result<Arc<Inspected>, Trouble>>,
-    dialog: Option<FileDialog>,
+    workers: BTreeMap<Lane, Worker<Request, Outcome>>,
+    memory: Memory,
+    dialog: Option<Dialog>,
     installed: Option<ThemeChoice>,
+    gpu: Result<ViewportGpu, ViewError>,
     inspect: InspectPanel,
+    enrol: EnrolPanel,
+    align: AlignPanel,
+    history: HistoryPanel,
 }
 
 impl Window {
-    /// Starts the thread and asks for the first frame. Without a `render_state` the 3-D view says so in words.
+    /// Starts the threads and asks for the first frame. Without a `render_state` the 3-D view says so in words.
     pub fn new(
         ctx: &egui::Context,
         render_state: Option<&RenderState>,
-        library: Option<PathBuf>,
+        options: WindowOptions,
     ) -> io::Result<Self> {
         Theme::install_fonts(ctx);
-        let mut inspector = Inspector::new(library);
-        let repaint = ctx.clone();
-        let worker = Worker::start(
-            move |request, watch| inspector.answer(request, watch),
-            move || repaint.request_repaint(),
-        )?;
+        let WindowOptions {
+            library,
+            scene,
+            settings,
+            cases,
+        } = options;
+        let (remembered, trouble) = settings.as_deref().map(settings::load).unwrap_or_default();
+        let shelf = Shelf::new(library.or_else(|| remembered.library.clone()));
+        let start = |lane: Lane| {
+            let (shelf, repaint) = (shelf.clone(), ctx.clone());
+            let worker = Worker::start(
+                lane.name(),
+                move |request, desk| answer(request, &shelf, desk),
+                move || repaint.request_repaint(),
+            );
+            worker.map(|worker| (lane, worker))
+        };
+        let workers = Lane::ALL
+            .into_iter()
+            .map(start)
+            .collect::<io::Result<_>>()?;
         let gpu = render_state
             .map(ViewportGpu::of_window)
             .ok_or_else(|| ViewError::NoDevice {
                 reason: "the window draws without one".into(),
             });
         let mut window = Self {
-            state: State::default(),
-            worker,
+            memory: Memory::start(settings, remembered.clone())?,
+            state: State {
+                compare: CompareState::with_folder(cases),
+                ..remembered.into_state()
+            },
+            workers,
             dialog: None,
             installed: None,
-            inspect: InspectPanel::new(gpu),
+            gpu: gpu.clone(),
+            inspect: InspectPanel::new(gpu.clone()),
+            enrol: EnrolPanel::new(gpu.clone()),
+            align: AlignPanel::new(&gpu),
+            history: HistoryPanel::new(),
         };
-        window.act(Action::Capture, ctx);
+        window.state.notices.extend(trouble.map(Notice::from));
+        window.act(scene.map_or(Action::Capture, Action::Open), ctx);
         Ok(window)
     }
 
@@ -63,19 +115,58 @@ impl Window {
 
     /// Does what a person could cause.
     pub fn act(&mut self, action: Action, ctx: &egui::Context) {
-        match apply(&mut self.state, action) {
-            None => {}
-            Some(Effect::Post {
+        if let Some(effect) = apply(&mut self.state, action) {
+            self.make(effect, ctx);
+        }
+    }
+
+    fn make(&mut self, effect: Effect, ctx: &egui::Context) {
+        match effect {
+            Effect::Post {
                 generation,
                 request,
-            }) => self.worker.request(generation, request),
-            Some(Effect::CancelWork) => self.worker.cancel(),
-            Some(Effect::ShowFileDialog) => {
-                // One at a time: a second would hide behind the first.
-                self.dialog.get_or_insert_with(|| FileDialog::open(ctx));
+            } => {
+                if let Some(worker) = self.workers.get(&request.lane()) {
+                    worker.request(generation, request);
+                }
             }
-            Some(Effect::CopyText(text)) => ctx.copy_text(text),
+            Effect::CancelWork(lane) => {
+                if let Some(worker) = self.workers.get(&lane) {
+                    worker.cancel();
+                }
+            }
+            Effect::ShowDialog(ask) => {
+                // One at a time: a second would hide behind the first.
+                self.dialog.get_or_insert_with(|| Dialog::open(ask, ctx));
+            }
+            Effect::CopyText(text) => ctx.copy_text(text),
+            Effect::Several(effects) => {
+                for effect in effects {
+                    self.make(effect, ctx);
+                }
+            }
         }
+    }
+
+    /// What the views draw with; the window itself draws with the same device.
+    pub(super) fn gpu(&self) -> &Result<ViewportGpu, ViewError> {
+        &self.gpu
+    }
+
+    /// True when nothing can be drawn any more, not even words.
+    fn is_lost(&self) -> bool {
+        let trouble = self.gpu.as_ref().ok().and_then(ViewportGpu::trouble);
+        matches!(trouble, Some(ViewError::DeviceLost { .. }))
+    }
+
+    /// What the frames of the Inspect workspace have done so far.
+    pub fn counts(&self) -> WorkCounts {
+        self.inspect.counts()
+    }
+
+    /// Share of the points that the Inspect workspace's view drew in the last frame, 0..1.
+    pub fn detail_of_view(&self) -> f32 {
+        self.inspect.detail()
     }
 
     fn install_theme(&mut self, ctx: &egui::Context) {
@@ -95,39 +186,80 @@ impl Window {
             self.act(Action::Open(path), ctx);
         }
     }
-}
 
-impl eframe::App for Window {
-    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+    /// Takes in what the threads, the dialog and the desktop have to tell.
+    pub(super) fn fetch(&mut self, ctx: &egui::Context) {
         self.install_theme(ctx);
-        while let Some(news) = self.worker.try_next() {
-            self.act(Action::Hear(news), ctx);
+        if self.is_lost() {
+            ctx.send_viewport_cmd(egui::ViewportCommand::Close);
         }
-        if let Some(Poll::Ready(closed)) = self.dialog.as_mut().map(FileDialog::poll) {
+        for lane in Lane::ALL {
+            while let Some(news) = self.workers.get(&lane).and_then(Worker::try_next) {
+                self.act(Action::Hear(lane, news), ctx);
+            }
+        }
+        if let Some(Poll::Ready(closed)) = self.dialog.as_mut().map(Dialog::poll) {
             self.dialog = None;
             if let Some(action) = closed {
                 self.act(action, ctx);
             }
         }
         self.take_drops(ctx);
+        if let Some(notice) = self.memory.keep(&self.state, ctx) {
+            self.act(Action::Notify(notice), ctx);
+        }
     }
 
-    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+    /// Draws everything, and does what a person caused.
+    pub(super) fn show(&mut self, ui: &mut Ui) {
+        // egui breaks off on a device that is gone, unless there is nothing to draw.
+        if self.is_lost() {
+            return;
+        }
         let ctx = ui.ctx().clone();
         let theme = Theme::of(self.state.theme);
         let mut actions = Vec::new();
         bars::top_bar(ui, &self.state, theme, &mut actions);
         bars::notices(ui, &self.state, theme, &mut actions);
-        bars::rail(ui, &self.state, theme, &mut actions);
+        rail::ui(ui, &self.state, theme, &mut actions);
+        let canvas = match self.state.workspace {
+            // Its view covers everything: a software driver paints what is beneath all the same.
+            Workspace::Inspect => Frame::new(),
+            _ => Frame::new().fill(theme.canvas),
+        };
         CentralPanel::default()
-            .frame(Frame::new().fill(theme.canvas))
+            .frame(canvas)
             .show(ui, |ui| match self.state.workspace {
                 Workspace::Inspect => self.inspect.ui(ui, &self.state, theme, &mut actions),
+                Workspace::Enrol => self.enrol.ui(ui, &self.state, theme, &mut actions),
+                Workspace::Compare => compare::ui(ui, &self.state, theme, &mut actions),
+                Workspace::Align => self.align.ui(ui, &self.state, theme, &mut actions),
+                Workspace::History => self.history.ui(ui, &self.state, theme, &mut actions),
             });
-        bars::help(&ctx, &self.state, theme, &mut actions);
-        bars::shortcuts(&ctx, self.inspect.view_has_focus(), &mut actions);
+        let view_has_focus = match self.state.workspace {
+            Workspace::Inspect => self.inspect.view_has_focus(),
+            Workspace::Enrol => self.enrol.view_has_focus(),
+            Workspace::Align => self.align.view_has_focus(),
+            Workspace::Compare | Workspace::History => false,
+        };
+        keys::help(&ctx, &self.state, theme, &mut actions);
+        keys::shortcuts(&ctx, &self.state, view_has_focus, &mut actions);
         for action in actions {
             self.act(action, &ctx);
         }
+    }
+}
+
+impl eframe::App for Window {
+    fn logic(&mut self, ctx: &egui::Context, _frame: &mut eframe::Frame) {
+        self.fetch(ctx);
+    }
+
+    fn ui(&mut self, ui: &mut Ui, _frame: &mut eframe::Frame) {
+        self.show(ui);
+    }
+
+    fn on_exit(&mut self) {
+        self.memory.finish();
     }
 }

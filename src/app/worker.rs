@@ -16,6 +16,14 @@ use std::{
 
 use crate::pipeline::{Stage, Watch};
 
+/// Where the work looks whether it is still wanted, and tells how far it is.
+pub trait Desk<T>: Watch {
+    /// So many of so many are done.
+    fn progress(&self, done: usize, total: usize);
+    /// Hands over what there is so far; the outcome still follows.
+    fn partly(&self, outcome: T);
+}
+
 /// What the thread tells the window.
 #[derive(Debug)]
 pub enum News<T> {
@@ -25,6 +33,22 @@ pub enum News<T> {
         generation: u64,
         /// The stage.
         stage: Stage,
+    },
+    /// So many of so many are done.
+    Progress {
+        /// Of which request.
+        generation: u64,
+        /// Done.
+        done: usize,
+        /// In all.
+        total: usize,
+    },
+    /// What there is so far; the work goes on.
+    Partly {
+        /// Of which request.
+        generation: u64,
+        /// What there is.
+        outcome: T,
     },
     /// The work is done.
     Done {
@@ -40,6 +64,19 @@ pub enum News<T> {
         /// What the panic said.
         message: String,
     },
+}
+
+impl<T> News<T> {
+    /// Which request it is about.
+    pub fn generation(&self) -> u64 {
+        match self {
+            Self::Begins { generation, .. }
+            | Self::Progress { generation, .. }
+            | Self::Partly { generation, .. }
+            | Self::Done { generation, .. }
+            | Self::Panicked { generation, .. } => *generation,
+        }
+    }
 }
 
 /// News that the window has not fetched yet; beyond this many a stage's beginning is not told.
@@ -68,7 +105,8 @@ impl<R: Send + 'static, T: Send + 'static> Worker<R, T> {
     /// Starts the thread. `work` answers a request, or `None` when it was cancelled; `on_news` is called from the
     /// thread whenever there is something to fetch.
     pub fn start(
-        mut work: impl FnMut(R, &dyn Watch) -> Option<T> + Send + 'static,
+        name: &str,
+        mut work: impl FnMut(R, &dyn Desk<T>) -> Option<T> + Send + 'static,
         on_news: impl Fn() + Send + 'static,
     ) -> std::io::Result<Self> {
         let shared = Arc::new(Shared {
@@ -81,35 +119,33 @@ impl<R: Send + 'static, T: Send + 'static> Worker<R, T> {
         });
         let (sender, news) = sync_channel(MAX_NEWS);
         let of_thread = Arc::clone(&shared);
-        let thread = thread::Builder::new()
-            .name("inspection".into())
-            .spawn(move || {
-                while let Some((generation, request)) = of_thread.next() {
-                    let watch = WorkWatch {
+        let thread = thread::Builder::new().name(name.into()).spawn(move || {
+            while let Some((generation, request)) = of_thread.next() {
+                let desk = Following {
+                    generation,
+                    newest: &of_thread.newest,
+                    news: &sender,
+                    on_news: &on_news,
+                };
+                // What `work` holds (a loaded library) is only ever replaced whole.
+                let answer = catch_unwind(AssertUnwindSafe(|| work(request, &desk)));
+                let told = match answer {
+                    Ok(Some(outcome)) => News::Done {
                         generation,
-                        newest: &of_thread.newest,
-                        news: &sender,
-                        on_news: &on_news,
-                    };
-                    // What `work` holds (a loaded library) is only ever replaced whole.
-                    let answer = catch_unwind(AssertUnwindSafe(|| work(request, &watch)));
-                    let told = match answer {
-                        Ok(Some(outcome)) => News::Done {
-                            generation,
-                            outcome,
-                        },
-                        Ok(None) => continue,
-                        Err(panic) => News::Panicked {
-                            generation,
-                            message: message_of(panic.as_ref()),
-                        },
-                    };
-                    if sender.send(told).is_err() {
-                        return;
-                    }
-                    on_news();
+                        outcome,
+                    },
+                    Ok(None) => continue,
+                    Err(panic) => News::Panicked {
+                        generation,
+                        message: message_of(panic.as_ref()),
+                    },
+                };
+                if sender.send(told).is_err() {
+                    return;
                 }
-            })?;
+                on_news();
+            }
+        })?;
         Ok(Self {
             shared,
             news: Some(news),
@@ -174,28 +210,50 @@ impl<R> Shared<R> {
 }
 
 /// Follows one request.
-struct WorkWatch<'a, T> {
+struct Following<'a, T> {
     generation: u64,
     newest: &'a AtomicU64,
     news: &'a SyncSender<News<T>>,
     on_news: &'a dyn Fn(),
 }
 
-impl<T> Watch for WorkWatch<'_, T> {
-    fn begins(&self, stage: Stage) {
-        let generation = self.generation;
-        // A window that is behind misses a stage, not a result.
-        if self
-            .news
-            .try_send(News::Begins { generation, stage })
-            .is_ok()
-        {
+impl<T> Following<'_, T> {
+    /// A window that is behind misses how far the work is, not what came out.
+    fn tell_if_there_is_room(&self, news: News<T>) {
+        if self.news.try_send(news).is_ok() {
             (self.on_news)();
         }
+    }
+}
+
+impl<T> Watch for Following<'_, T> {
+    fn begins(&self, stage: Stage) {
+        let generation = self.generation;
+        self.tell_if_there_is_room(News::Begins { generation, stage });
     }
 
     fn is_cancelled(&self) -> bool {
         self.newest.load(Ordering::Relaxed) != self.generation
+    }
+}
+
+impl<T> Desk<T> for Following<'_, T> {
+    fn progress(&self, done: usize, total: usize) {
+        self.tell_if_there_is_room(News::Progress {
+            generation: self.generation,
+            done,
+            total,
+        });
+    }
+
+    fn partly(&self, outcome: T) {
+        let generation = self.generation;
+        // Without a reader the window is closing.
+        let _ = self.news.send(News::Partly {
+            generation,
+            outcome,
+        });
+        (self.on_news)();
     }
 }
 
@@ -224,17 +282,17 @@ mod tests {
 
     #[test]
     fn a_newer_request_cancels_the_one_at_work() {
-        let work = |seconds: u64, watch: &dyn Watch| {
+        let work = |seconds: u64, desk: &dyn Desk<_>| {
             let until = Instant::now() + Duration::from_secs(seconds);
             while Instant::now() < until {
-                if watch.is_cancelled() {
+                if desk.is_cancelled() {
                     return None;
                 }
                 thread::sleep(Duration::from_millis(1));
             }
             Some(seconds)
         };
-        let worker = Worker::start(work, || {}).expect("started");
+        let worker = Worker::start("test", work, || {}).expect("started");
         worker.request(1, 60);
         thread::sleep(Duration::from_millis(20));
         worker.request(2, 60);
@@ -250,13 +308,13 @@ mod tests {
 
     #[test]
     fn a_cancelled_request_says_nothing_and_closing_does_not_wait_for_it() {
-        let work = |(), watch: &dyn Watch| {
-            while !watch.is_cancelled() {
+        let work = |(), desk: &dyn Desk<_>| {
+            while !desk.is_cancelled() {
                 thread::sleep(Duration::from_millis(1));
             }
             None::<()>
         };
-        let worker = Worker::start(work, || {}).expect("started");
+        let worker = Worker::start("test", work, || {}).expect("started");
         worker.request(1, ());
         thread::sleep(Duration::from_millis(20));
         worker.cancel();
@@ -268,12 +326,12 @@ mod tests {
 
     #[test]
     fn a_panic_is_told_and_the_next_request_is_answered() {
-        let work = |number: u32, watch: &dyn Watch| {
-            watch.begins(Stage::Segment);
+        let work = |number: u32, desk: &dyn Desk<_>| {
+            desk.begins(Stage::Segment);
             assert!(number != 7, "seven is too much");
             Some(number)
         };
-        let worker = Worker::start(work, || {}).expect("started");
+        let worker = Worker::start("test", work, || {}).expect("started");
         worker.request(1, 7);
         assert!(matches!(
             wait_for(&worker),

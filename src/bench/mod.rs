@@ -6,10 +6,12 @@
 mod recognition;
 mod speed;
 pub mod table1;
+mod window;
 
 pub use self::{
     recognition::{
         Case, EnrolledStandard, Recognition, RecognitionSetup, enrol_standard_parts, recognise_all,
     },
     speed::{StageTimes, quantile, stage_times},
+    window::{FrameCost, WindowCost, window_cost},
 };

@@ -8,12 +8,16 @@ use serde::Serialize;
 use super::{
     MethodChoice, Outcome,
     console::{Advised as _, Console, Table, advised_error},
-    input::{GivenPose, open_cloud, parse_pose},
-    verdict::SCHEMA,
+    input::open_cloud,
 };
 use crate::{
     error::Advice as _,
-    geometry::{cloud::PointCloud, rigid::row_major},
+    geometry::{
+        cloud::PointCloud,
+        rigid::row_major,
+        written_pose::{GivenPose, parse_pose},
+    },
+    report::SCHEMA,
     stages::pose::{PoseError, PoseEstimate, PoseMethod, align},
     units::Metres,
 };

@@ -2,7 +2,7 @@
 
 mod table1;
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
 use clap::{Args, ValueEnum};
@@ -13,8 +13,10 @@ use super::{
     console::{Advised as _, Console, Table, advised_error},
 };
 use crate::{
+    app::WindowOptions,
     bench::{
-        Recognition, RecognitionSetup, StageTimes, enrol_standard_parts, recognise_all, stage_times,
+        Recognition, RecognitionSetup, StageTimes, WindowCost, enrol_standard_parts, recognise_all,
+        stage_times, window_cost,
     },
     files::write_atomically,
     library::EnrolParams,
@@ -32,6 +34,7 @@ Examples:
   partsight bench recognition --placement hard --json hard.json
   partsight bench table1 --csv table1.csv
   partsight bench table1 --part fender --part grille
+  partsight bench window
 
 Each part is enrolled from one frontal capture of the standard car, then seen at drawn poses. Without a name: a few
 frames of each part, to time the stages. table1 needs no frames: each part of the library is put where T1..T5 of the
@@ -73,6 +76,19 @@ enum Bench {
     Recognition,
     /// The paper's Table I: what is left of E from T1..T5, by ICP, ICP-GA and the global method
     Table1,
+    /// Processor time of a frame of the window, at rest and turning; needs no display
+    Window,
+}
+
+/// Frames of each kind that are measured.
+const NUM_FRAMES: usize = 120;
+
+/// What `--json` writes of the window.
+#[derive(Debug, Serialize)]
+struct WindowFile {
+    schema: u32,
+    simulated: bool,
+    window: WindowCost,
 }
 
 /// What `--json` writes.
@@ -108,8 +124,11 @@ struct CaseLine<'a> {
 }
 
 pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    if args.bench == Bench::Window {
+        return frames(args, console);
+    }
     let matchers: &[Matcher] = match args.bench {
-        Bench::Speed => &[Matcher::Default],
+        Bench::Speed | Bench::Window => &[Matcher::Default],
         Bench::Recognition => &[Matcher::Default, Matcher::Paper],
         Bench::Table1 => return table1::run(args, console),
     };
@@ -163,12 +182,59 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
                 .map(|(matcher, recognition)| run_line(*matcher, recognition))
                 .collect(),
         };
-        write_atomically(path, |writer| {
-            serde_json::to_writer_pretty(&mut *writer, &file)?;
-            writeln!(writer)
-        })
-        .advised()
-        .with_context(|| format!("{} was not written", path.display()))?;
+        write_json(path, &file)?;
+    }
+    Ok(Outcome::Accepted)
+}
+
+fn write_json(path: &Path, file: &impl Serialize) -> anyhow::Result<()> {
+    write_atomically(path, |writer| {
+        serde_json::to_writer_pretty(&mut *writer, file)?;
+        writeln!(writer)
+    })
+    .advised()
+    .with_context(|| format!("{} was not written", path.display()))
+}
+
+/// Frames of the window's first result, without a display.
+fn frames(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let cost = window_cost(NUM_FRAMES, WindowOptions::default()).advised()?;
+    let [width, height] = cost.size;
+    console.line(&format_args!(
+        "A window of {width} × {height} with a scene of {} points; processor time of the window's own thread, without \
+         the drawing itself; a software driver's drawing is in that of all threads.",
+        cost.num_points
+    ));
+    console.line(&"");
+    let mut table = Table::new(&[
+        "a frame",
+        "median",
+        "95 %",
+        "budget",
+        "all threads",
+        "from frame to frame",
+        "points drawn",
+    ]);
+    for frame in &cost.frames {
+        let known = |ms: Option<f64>| ms.map_or_else(|| "-".to_owned(), |ms| format!("{ms:.0} ms"));
+        table.row([
+            frame.what.to_owned(),
+            format!("{:.2} ms", frame.busy_p50_ms),
+            format!("{:.2} ms", frame.busy_p95_ms),
+            "4.0 ms".to_owned(),
+            known(frame.all_threads_mean_ms),
+            known(frame.paced_p50_ms),
+            format!("{:.0} %", frame.detail * 100.0),
+        ]);
+    }
+    table.show(console);
+    if let Some(path) = &args.json {
+        let file = WindowFile {
+            schema: 1,
+            simulated: true,
+            window: cost,
+        };
+        write_json(path, &file)?;
     }
     Ok(Outcome::Accepted)
 }

@@ -12,8 +12,8 @@ use crate::{
     error::Advice as _,
     files::{self, Opened},
     library::{
-        About, EnrolParams, Enrolled, LibraryFolder, PartName, enrol_captured, enrol_mesh,
-        enrol_whole, most_alike,
+        About, EnrolParams, Enrolled, LibraryFolder, MAX_TITLE, PartName, enrol_captured,
+        enrol_mesh, enrol_whole, most_alike,
     },
     stages::{
         reference::{Coverage, ReferenceParams},
@@ -94,10 +94,7 @@ pub(super) fn run(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Out
     Ok(Outcome::Accepted)
 }
 
-/// The longest title, in characters: one line of `library list`.
-const MAX_TITLE: usize = 80;
-
-fn parse_title(text: &str) -> Result<String, String> {
+pub(super) fn parse_title(text: &str) -> Result<String, String> {
     match text.chars().count() {
         0..=MAX_TITLE => Ok(text.to_owned()),
         found => Err(format!(

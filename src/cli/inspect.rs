@@ -6,16 +6,15 @@ use clap::{Args, ValueEnum};
 
 use super::{
     LibraryChoice, Outcome,
-    console::Console,
+    console::{Advised as _, Console},
     input::open_scene,
-    report_folder::ReportFolder,
-    verdict::{InspectLine, complaint, outcome_of, place_of, show_card},
+    verdict::{complaint, outcome_of, place_of, show_card},
 };
 use crate::{
     error::Advice as _,
     library::Library,
     pipeline::{self, Inspection, PoseChoice, Recipe, Unwatched, Verdict},
-    report::stage_pictures,
+    report::{InspectionLine, ReportFolder, stage_pictures},
     stages::{pose::PoseMethod, rank::Matcher},
 };
 
@@ -98,7 +97,8 @@ pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<O
         (false, [_]) => Telling::Card,
         (false, files) => Telling::Rows(Columns::for_files(files, &library)),
     };
-    let report = args.report.as_deref().map(ReportFolder::make).transpose()?;
+    let report = args.report.as_deref().map(ReportFolder::make);
+    let report = report.transpose().advised()?;
     telling.head(console);
     console.start_progress(args.files.len());
     let mut one = Inspector {
@@ -136,13 +136,13 @@ impl Inspector {
         let (scene, warnings) = match open_scene(path) {
             Ok(opened) => opened,
             Err(error) => {
-                let line = serde_json::to_string(&InspectLine::unreadable(&name, &error))?;
+                let line = InspectionLine::unreadable(&name, &error).to_json();
                 telling.unreadable(&name, &line, console);
                 // The message names the file.
                 console.note(&format_args!("error: {error}"));
                 console.note(&format_args!("  to do: {}", error.advice()));
                 if let Some(report) = report {
-                    report.write(path, &line, &[])?;
+                    report.write(path, &line, &[]).advised()?;
                 }
                 return Ok(Outcome::CouldNotRun);
             }
@@ -151,10 +151,11 @@ impl Inspector {
             console.warn(&format_args!("{name}: {warning}"), warning);
         }
         let inspection = pipeline::run(&scene, library, recipe, &Unwatched)?;
-        let line = serde_json::to_string(&InspectLine::of(&name, &inspection))?;
+        let line = InspectionLine::of(&name, &inspection).to_json();
         telling.inspected(&name, &line, &inspection, library, console);
         if let Some(report) = report {
-            report.write(path, &line, &stage_pictures(&scene, &inspection))?;
+            let pictures = stage_pictures(&scene, &inspection);
+            report.write(path, &line, &pictures).advised()?;
         }
         Ok(outcome_of(&inspection))
     }

@@ -7,19 +7,21 @@ use super::{
     console::{Advised as _, Console, Table},
 };
 use crate::{
-    library::{EntryError, LibraryFolder, PartName, StoredPart},
+    library::{EntryError, LibraryError, LibraryFolder, PartName, PartWords, StoredPart},
     stages::reference::{Coverage, Reference, ReferenceParams},
     units::Metres,
 };
 
-/// List, show, check and remove enrolled parts
+/// List, show, check, rename, remove and restore enrolled parts
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
   partsight library list
   partsight library show front_door --library /media/stick/parts
   partsight library verify
+  partsight library rename front_door --title \"Front door, left\"
   partsight library remove front_door
+  partsight library restore front_door
 
 A library is a folder with one folder per part. Copy it to take it along.")]
 pub(super) struct LibraryArgs {
@@ -40,11 +42,33 @@ enum LibraryCommand {
     },
     /// Check every file of every part; exit code 1 if something is damaged
     Verify,
+    /// Call a part otherwise; what is not given stays
+    Rename(RenameArgs),
     /// Move a part to the library's .trash folder
     Remove {
         /// Name of the part
         name: PartName,
     },
+    /// Bring back what was removed or replaced last under this name
+    Restore {
+        /// Name of the part
+        name: PartName,
+    },
+}
+
+#[derive(Debug, Args)]
+struct RenameArgs {
+    /// Name of the part
+    name: PartName,
+    /// Its new name: lowercase letters, digits, _ and -
+    #[arg(long, value_name = "NAME")]
+    to: Option<PartName>,
+    /// Name for people; at most 80 characters
+    #[arg(long, value_name = "TEXT", value_parser = super::enrol::parse_title)]
+    title: Option<String>,
+    /// Anything worth remembering
+    #[arg(long, value_name = "TEXT")]
+    notes: Option<String>,
 }
 
 pub(super) fn run(args: &LibraryArgs, console: &mut Console) -> anyhow::Result<Outcome> {
@@ -52,7 +76,9 @@ pub(super) fn run(args: &LibraryArgs, console: &mut Console) -> anyhow::Result<O
         LibraryCommand::List => list(&args.library, console),
         LibraryCommand::Show { name } => show(&args.library, name, console),
         LibraryCommand::Verify => verify(&args.library, console),
+        LibraryCommand::Rename(asked) => rename(&args.library, asked, console),
         LibraryCommand::Remove { name } => remove(&args.library, name, console),
+        LibraryCommand::Restore { name } => restore(&args.library, name, console),
     }
 }
 
@@ -218,9 +244,60 @@ fn remove(
         trash.display()
     ));
     console.line(&format_args!(
-        "To enrol it again, move that folder back to {}",
+        "To enrol it again: partsight library restore {name}, or move that folder back to {}",
         folder.path().join(name.as_str()).display()
     ));
+    Ok(Outcome::Accepted)
+}
+
+fn rename(
+    choice: &LibraryChoice,
+    asked: &RenameArgs,
+    console: &mut Console,
+) -> anyhow::Result<Outcome> {
+    let RenameArgs {
+        name,
+        to,
+        title,
+        notes,
+    } = asked;
+    let folder = choice.open_to_change()?;
+    let before = folder.words(name).advised()?;
+    let words = PartWords {
+        name: to.clone().unwrap_or(before.name),
+        title: title.clone().unwrap_or(before.title),
+        notes: notes.clone().unwrap_or(before.notes),
+    };
+    let renamed = folder.rename(name, &words).advised()?;
+    console.line(&format_args!("Renamed {name}: it is {} now", words.name));
+    if let Some(former) = renamed.former {
+        console.line(&format_args!(
+            "  as it was it is kept in {}",
+            former.display()
+        ));
+    }
+    Ok(Outcome::Accepted)
+}
+
+fn restore(
+    choice: &LibraryChoice,
+    name: &PartName,
+    console: &mut Console,
+) -> anyhow::Result<Outcome> {
+    let folder = choice.open_to_change()?;
+    let trashed = folder.trashed().advised()?;
+    let Some(newest) = trashed.iter().find(|trashed| trashed.name == *name) else {
+        let kept = folder.path().join(".trash").join(name.as_str());
+        return Err(LibraryError::NotInTrash { kept }).advised();
+    };
+    let restored = folder.restore(&newest.kept).advised()?;
+    console.line(&format_args!("Restored {name}"));
+    if let Some(former) = restored.replaced {
+        console.line(&format_args!(
+            "  the one that it replaced is kept in {}",
+            former.display()
+        ));
+    }
     Ok(Outcome::Accepted)
 }
 

@@ -11,7 +11,6 @@ mod first_look;
 mod input;
 mod inspect;
 mod library;
-mod report_folder;
 mod simulate;
 mod verdict;
 
@@ -39,6 +38,7 @@ Without a command: opens the window. Without a display: inspects one frame of a 
 Examples:
   partsight simulate --part fender --out fender.pcd
   partsight inspect fender.pcd
+  partsight --open fender.pcd
   partsight inspect captures/*.pcd --json > verdicts.jsonl
   partsight enrol door.pcd --name front_door
 
@@ -51,6 +51,9 @@ pub struct Cli {
     // Named apart from the commands' own: that one is global to them, and would come up here.
     #[arg(id = "bare_library", long = "library", value_name = "DIR")]
     library: Option<PathBuf>,
+    /// Without a command: open this captured scene in the window
+    #[arg(long, value_name = "FILE")]
+    open: Option<PathBuf>,
 }
 
 #[derive(Debug, Subcommand)]
@@ -92,12 +95,14 @@ pub fn run(cli: Cli) -> Outcome {
             "--library stands before the command",
             "Put it behind the command, for example partsight inspect FILE --library DIR",
         )),
-        None => window(
-            &LibraryChoice {
-                library: cli.library,
-            },
-            &mut console,
-        ),
+        Some(_) if cli.open.is_some() => Err(advised_error(
+            "--open is for the window, not for a command",
+            "Leave the command out to open the window, or --open to run the command",
+        )),
+        None => {
+            let library = cli.library;
+            window(&LibraryChoice { library }, cli.open, &mut console)
+        }
         Some(Command::Inspect(args)) => inspect::run(&args, &mut console),
         Some(Command::Enrol(args)) => enrol::run(&args, &mut console),
         Some(Command::Library(args)) => library::run(&args, &mut console),
@@ -119,8 +124,18 @@ pub fn run(cli: Cli) -> Outcome {
 }
 
 /// Opens the window; where there can be none, says why and takes the first look in the terminal instead.
-fn window(library: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome> {
-    match app::run(library.library.clone()) {
+fn window(
+    library: &LibraryChoice,
+    scene: Option<PathBuf>,
+    console: &mut Console,
+) -> anyhow::Result<Outcome> {
+    let options = app::WindowOptions {
+        library: library.library.clone(),
+        settings: app::settings::users_file(),
+        scene,
+        ..app::WindowOptions::default()
+    };
+    match app::run(options) {
         Ok(()) => Ok(Outcome::Accepted),
         Err(error) => {
             console.warn(&format_args!("no window: {error}"), &error);

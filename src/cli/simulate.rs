@@ -7,11 +7,11 @@ use clap::{Args, ValueEnum, builder::PossibleValuesParser};
 use super::{
     Outcome,
     console::{Advised as _, Console, advised_error},
-    input::{GivenPose, parse_pose},
 };
 use crate::{
     error::Advice,
     files::{depth_png::intrinsics_path, save_cloud, write_atomically, write_depth_png},
+    geometry::written_pose::{GivenPose, parse_pose},
     simulate::{CellSetup, PartKind, PartPose, Placement, Side, SimulatedFrame, frame},
     stages::scene::scene_from_frame,
 };

@@ -11,3 +11,4 @@ pub mod principal;
 pub mod raster;
 pub mod rigid;
 pub mod voxel;
+pub mod written_pose;

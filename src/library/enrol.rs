@@ -22,7 +22,7 @@ use crate::{
     stages::{
         reference::{Coverage, Reference, ReferenceError, ReferenceParams},
         scene::SceneCloud,
-        segment::{NoPart, SegmentParams, segment},
+        segment::{NoPart, SegmentParams, SegmentedPart, segment},
     },
     units::Metres,
 };
@@ -142,6 +142,33 @@ pub fn enrol_captured(
     params: &EnrolParams,
 ) -> Result<Enrolled, EnrolError> {
     let found = segment(scene, &params.segment).part?;
+    enrol_one_side(&found, about, params)
+}
+
+/// Enrols those points of a captured scene, by their places in it, ascending: what a person took for the part.
+pub fn enrol_selected(
+    scene: &SceneCloud,
+    indices: &[u32],
+    about: &About,
+    params: &EnrolParams,
+) -> Result<Enrolled, EnrolError> {
+    let found = SegmentedPart::selected(scene, indices, params.segment.noise_at_1m);
+    let num_points = found.cloud.points.len();
+    if num_points < MIN_POINTS {
+        return Err(EnrolError::TooFewPoints {
+            found: num_points,
+            needed: MIN_POINTS,
+        });
+    }
+    enrol_one_side(&found, about, params)
+}
+
+/// Enrols what was found in a scene, as a camera at the origin saw it.
+fn enrol_one_side(
+    found: &SegmentedPart,
+    about: &About,
+    params: &EnrolParams,
+) -> Result<Enrolled, EnrolError> {
     let (mut cloud, voxel) = thinned(&found.cloud, params);
     cloud.normals = Some(normals_towards(&cloud, voxel, &Point3::origin()));
     let source = Source {

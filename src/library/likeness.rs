@@ -2,6 +2,7 @@
 //!
 //! The standard view of the part is ranked like a scene, and the best few are then looked for in it: a door and the
 //! same door enrolled again under another name score nearly 1, and every inspection of either is a near tie.
+//! The score of a pair is the one that an inspection confirms, held down to that of the outlines where those differ.
 
 use super::Library;
 use crate::{
@@ -44,6 +45,13 @@ impl Advice for Likeness {
     }
 }
 
+impl Likeness {
+    /// True if inspections tell the two apart.
+    pub fn can_be_told_apart(&self) -> bool {
+        self.score < LEAST_SCORE
+    }
+}
+
 /// The part of the library that `reference` cannot be told from; `None` if it can from all. A part of the same name, which
 /// it replaces, does not count.
 pub fn most_alike(
@@ -51,10 +59,19 @@ pub fn most_alike(
     coverage: Coverage,
     library: &Library,
 ) -> Option<Likeness> {
+    let mut all = likenesses(reference, coverage, library).into_iter();
+    all.next().filter(|first| !first.can_be_told_apart())
+}
+
+/// How like every part of the library `reference` is, the one that it is hardest to tell from first. A part of the same
+/// name, which it replaces, does not count.
+pub fn likenesses(reference: &Reference, coverage: Coverage, library: &Library) -> Vec<Likeness> {
     let name = reference.name.as_str();
     let others = library.references.iter().filter(|r| r.name != name);
     let others: Vec<Reference> = others.cloned().collect();
-    let view = reference.views.first()?;
+    let Some(view) = reference.views.first() else {
+        return Vec::new();
+    };
     let query = Query {
         plane: &view.plane,
         contour: &view.contour,
@@ -78,15 +95,20 @@ pub fn most_alike(
         // Not what a camera sees at once: judged by its outline.
         Coverage::AllAround => ranking,
     };
-    // Surfaces alone are blind one way: a small part lies well on any large one.
-    let entries = confirmed.entries.iter();
-    let (other, score) = entries
-        .filter(|e| outline_score(&e.part) >= LEAST_OUTLINE_SCORE)
-        .map(|e| (&e.part, e.score))
-        .max_by(|a, b| a.1.total_cmp(&b.1))?;
-    (score >= LEAST_SCORE).then(|| Likeness {
-        name: name.to_owned(),
-        other: other.clone(),
-        score,
-    })
+    let figure = |part: &str, score: f64| match outline_score(part) {
+        // Surfaces alone are blind one way: a small part lies well on any large one.
+        outline if outline < LEAST_OUTLINE_SCORE => score.min(outline),
+        _ => score,
+    };
+    let mut all: Vec<Likeness> = confirmed
+        .entries
+        .iter()
+        .map(|entry| Likeness {
+            name: name.to_owned(),
+            other: entry.part.clone(),
+            score: figure(&entry.part, entry.score),
+        })
+        .collect();
+    all.sort_by(|a, b| b.score.total_cmp(&a.score));
+    all
 }

@@ -13,10 +13,12 @@ use serde::Deserialize;
 
 use super::{
     Library,
+    entry::{CLOUD, Entry, META, SIGNATURE, THUMBNAIL},
+    error::LibraryError,
     part::{CloudCheck, PartMeta, SCHEMA_VERSION, StoredSignature},
     problem::{EntryError, EntryProblem, EntryWarning, MAX_POINTS, Trouble},
     shipped::shipped_entries,
-    store::{CLOUD, Entry, LibraryError, LibraryFolder, META, SIGNATURE, THUMBNAIL},
+    store::LibraryFolder,
 };
 use crate::{
     files::{FileError, Opened, open_bytes, read_bytes},
@@ -182,6 +184,15 @@ fn read_entry(
         })
     };
     read().map_err(|reason| EntryProblem {
+        entry: entry.name.clone(),
+        path: entry.path.clone(),
+        reason,
+    })
+}
+
+/// The description of a stored part.
+pub(super) fn meta_of(entry: &Entry) -> Result<PartMeta, EntryProblem> {
+    read_meta(entry).map_err(|reason| EntryProblem {
         entry: entry.name.clone(),
         path: entry.path.clone(),
         reason,

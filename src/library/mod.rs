@@ -9,12 +9,14 @@
 //!     cloud.ply       the reference cloud with normals: binary, metres, part space
 //!     signature.json  outline and fan signature of the standard view
 //!     thumbnail.png   for people
-//!   .trash/           what was removed or replaced; moved back by hand it is enrolled again
+//!   .trash/           what was removed or replaced; restored, or moved back by hand, it is enrolled again
 //! ```
 //!
 //! Cloud and `part.toml` are all that an inspection needs; the other two can be made again from them.
 
 mod enrol;
+mod entry;
+mod error;
 mod likeness;
 mod load;
 mod name;
@@ -24,23 +26,27 @@ mod problem;
 mod shipped;
 mod store;
 mod thumbnail;
+mod trash;
 
 use crate::stages::reference::Reference;
 
 pub use self::{
     enrol::{
         About, EnrolError, EnrolParams, EnrolWarning, Enrolled, enrol_captured, enrol_mesh,
-        enrol_whole,
+        enrol_selected, enrol_whole,
     },
-    likeness::{Likeness, most_alike},
+    error::LibraryError,
+    likeness::{Likeness, likenesses, most_alike},
     load::{LibraryLoad, StoredPart},
     name::{BadName, PartName},
     part::{
-        CloudCheck, Enrolment, How, Part, PartMeta, SCHEMA_VERSION, StoredLiteral, StoredSignature,
+        CloudCheck, Enrolment, How, MAX_TITLE, Part, PartMeta, PartWords, SCHEMA_VERSION,
+        StoredLiteral, StoredSignature,
     },
     place::{LibraryPlace, open_library},
     problem::{EntryError, EntryProblem, EntryWarning, Trouble},
-    store::{LibraryError, LibraryFolder, Saved},
+    store::{LibraryFolder, Renamed, Restored, Saved},
+    trash::Trashed,
 };
 
 /// The enrolled parts, prepared for ranking and pose.

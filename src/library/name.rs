@@ -55,7 +55,7 @@ pub enum BadName {
 impl Advice for BadName {
     fn advice(&self) -> String {
         let suggestion = match self {
-            Self::BadCharacter { name, .. } => suggested(name),
+            Self::BadCharacter { name, .. } => PartName::proposed(name).map(String::from),
             Self::Reserved { name } => Some(format!("{name}_part")),
             Self::Empty | Self::TooLong { .. } => None,
         };
@@ -64,19 +64,6 @@ impl Advice for BadName {
             suggestion.as_deref().unwrap_or("front_door")
         )
     }
-}
-
-/// The nearest allowed name, if anything is left of it.
-fn suggested(name: &str) -> Option<String> {
-    let kept: String = name
-        .to_lowercase()
-        .chars()
-        .map(|c| if is_allowed(c) { c } else { '_' })
-        .take(MAX_LENGTH)
-        .collect();
-    PartName::new(kept.trim_matches(['_', '-']))
-        .ok()
-        .map(|n| n.0)
 }
 
 fn is_allowed(character: char) -> bool {
@@ -109,6 +96,25 @@ impl PartName {
             });
         }
         Ok(Self(name.to_owned()))
+    }
+
+    /// The nearest name to a text such as a title, if anything is left of it.
+    pub fn proposed(text: &str) -> Option<Self> {
+        let mut kept = String::new();
+        for c in text.to_lowercase().chars() {
+            match c {
+                c if is_allowed(c) => kept.push(c),
+                // One for all that is left out in one place.
+                _ if !kept.ends_with('_') => kept.push('_'),
+                _ => {}
+            }
+        }
+        let kept: String = kept
+            .trim_matches(['_', '-'])
+            .chars()
+            .take(MAX_LENGTH)
+            .collect();
+        Self::new(kept.trim_end_matches(['_', '-'])).ok()
     }
 
     /// The name as text.
@@ -183,6 +189,22 @@ mod tests {
         ] {
             assert!(PartName::new(name).is_err(), "{name:?}");
         }
+    }
+
+    #[test]
+    fn a_title_proposes_a_name() {
+        let proposed = |title| PartName::proposed(title).map(String::from);
+        for (title, name) in [
+            ("Front door, left", "front_door_left"),
+            ("  Grille (2024) ", "grille_2024"),
+            ("Tür", "t_r"),
+            ("fender-2_b", "fender-2_b"),
+        ] {
+            assert_eq!(proposed(title).as_deref(), Some(name));
+        }
+        assert_eq!((proposed(", !"), proposed("")), (None, None));
+        let long = proposed(&"door ".repeat(30)).expect("a name");
+        assert!(long.len() <= MAX_LENGTH && long.ends_with("door"), "{long}");
     }
 
     #[test]

@@ -57,6 +57,40 @@ pub struct PartMeta {
     pub enrolled: Enrolment,
 }
 
+impl PartMeta {
+    /// What it is called.
+    pub fn words(&self) -> PartWords {
+        PartWords {
+            name: self.name.clone(),
+            title: self.title.clone(),
+            notes: self.notes.clone(),
+        }
+    }
+
+    /// Its title, or its name where it has none.
+    pub fn shown_title(&self) -> &str {
+        if self.title.is_empty() {
+            self.name.as_str()
+        } else {
+            &self.title
+        }
+    }
+}
+
+/// What a person calls a part, and may call otherwise later.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PartWords {
+    /// Its name.
+    pub name: PartName,
+    /// Its name for people; may be empty. At most [`MAX_TITLE`] characters.
+    pub title: String,
+    /// Notes; may be empty.
+    pub notes: String,
+}
+
+/// The longest title, in characters: one line of a list.
+pub const MAX_TITLE: usize = 80;
+
 /// By what `cloud.ply` is known to be the one that was enrolled, every byte of it.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
 pub struct CloudCheck {

@@ -5,11 +5,15 @@ use std::{
     path::{Path, PathBuf},
 };
 
+use image::RgbaImage;
+
 use super::{
+    entry::{THUMBNAIL, new_folder, sync_folder},
+    error::LibraryError,
     load::{LibraryLoad, StoredPart, load_shipped, read_shipped},
     problem::EntryProblem,
     shipped::{shipped_entries, write_shipped},
-    store::{LibraryError, LibraryFolder, new_folder, sync_folder},
+    store::LibraryFolder,
 };
 use crate::stages::reference::ReferenceParams;
 
@@ -80,6 +84,17 @@ impl LibraryPlace {
                 available: shipped_entries().into_iter().map(|e| e.name).collect(),
             }),
         }
+    }
+
+    /// The small picture of a part, if it is there and can be read.
+    pub fn thumbnail(&self, name: &str) -> Option<RgbaImage> {
+        let picture = if let Some(folder) = self.folder() {
+            image::open(folder.thumbnail(name)?)
+        } else {
+            let entry = shipped_entries().into_iter().find(|e| e.name == name)?;
+            image::load_from_memory(entry.shipped_file(THUMBNAIL)?)
+        };
+        Some(picture.ok()?.into_rgba8())
     }
 
     /// Why it is this one, in words.

@@ -3,9 +3,9 @@
 use std::{io, path::PathBuf};
 
 use super::{
+    entry::{CLOUD, META},
     name::PartName,
     part::CloudCheck,
-    store::{CLOUD, META},
 };
 use crate::{error::Advice, files::FileError, stages::reference::ReferenceError};
 

@@ -5,7 +5,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::store::{
+use super::entry::{
     CLOUD, Entry, META, SIGNATURE, ShippedFiles, THUMBNAIL, sync_folder, write_file,
 };
 

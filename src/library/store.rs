@@ -1,4 +1,4 @@
-//! The folder of a library: listing, saving and removing parts such that nothing enrolled is ever lost.
+//! The folder of a library: listing and changing its parts such that nothing enrolled is ever lost.
 //!
 //! A part is written into a hidden folder beside the others, synced, and renamed into place. One that is there
 //! already is first renamed aside, and moved to the trash once the new one is in place. Whatever moment the power
@@ -8,70 +8,38 @@
 //! .new-door-x7/                 half written: ignored, cleared away by the next save
 //! .old-door/ without door/      stopped between the two renames: .old-door is read, the next save puts it back
 //! .old-door/ beside door/       stopped before the trash: the next save moves it there
+//! .old-door+gate/               the same for a door that becomes a gate: its successor is gate/
 //! ```
+//!
+//! What was removed or replaced lies whole in `.trash` and can be restored from there.
 //!
 //! Looking never writes: a library can lie on a medium that is write-protected. Writers take turns by a lock.
 
 use std::{
     fs::{self, File},
-    io::{self, Write as _},
+    io,
     path::{Path, PathBuf},
 };
 
 use super::{
+    entry::{
+        Entry, META, NEW_PREFIX, copy_files, is_entry, meta_text, new_folder, rewrite_meta,
+        sync_folder, write_file, write_part,
+    },
+    error::LibraryError,
+    load::meta_of,
     name::PartName,
-    part::{Part, PartMeta, cloud_bytes},
-};
-use crate::{
-    error::Advice,
-    files::{advice_on, words_of},
+    part::{Part, PartMeta, PartWords},
+    trash,
 };
 
-/// File names within a part's folder.
-pub(super) const META: &str = "part.toml";
-pub(super) const CLOUD: &str = "cloud.ply";
-pub(super) const SIGNATURE: &str = "signature.json";
-pub(super) const THUMBNAIL: &str = "thumbnail.png";
-
-const NEW_PREFIX: &str = ".new-";
 const OLD_PREFIX: &str = ".old-";
-const TRASH: &str = ".trash";
 const LOCK: &str = ".lock";
 
 /// A library's folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct LibraryFolder {
     path: PathBuf,
-}
-
-/// One part's folder in a library, whatever is in it.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub(super) struct Entry {
-    /// The name of the part that the folder stands for.
-    pub(super) name: String,
-    /// The folder.
-    pub(super) path: PathBuf,
-    /// Its files, if it lies inside the program.
-    pub(super) shipped: Option<&'static ShippedFiles>,
-}
-
-/// Names and contents of the files of a part inside the program.
-pub(super) type ShippedFiles = [(&'static str, &'static [u8]); 4];
-
-impl Entry {
-    /// A file of a part inside the program.
-    pub(super) fn shipped_file(&self, name: &str) -> Option<&'static [u8]> {
-        let mut files = self.shipped?.iter();
-        files.find(|(n, _)| *n == name).map(|(_, bytes)| *bytes)
-    }
-
-    fn in_folder(name: String, path: PathBuf) -> Self {
-        Self {
-            name,
-            path,
-            shipped: None,
-        }
-    }
 }
 
 /// Where a part was saved.
@@ -83,76 +51,22 @@ pub struct Saved {
     pub replaced: Option<PathBuf>,
 }
 
-/// Why a library cannot be used.
-#[derive(Debug, thiserror::Error)]
-pub enum LibraryError {
-    /// No such folder.
-    #[error("{}: no such library folder", path.display())]
-    NotFound {
-        /// The folder.
-        path: PathBuf,
-    },
-    /// Something else than a folder.
-    #[error("{}: not a folder", path.display())]
-    NotAFolder {
-        /// The path.
-        path: PathBuf,
-    },
-    /// The system could not read.
-    #[error("{}: cannot read the library: {}", path.display(), words_of(source))]
-    Unreadable {
-        /// The folder.
-        path: PathBuf,
-        /// What the system says.
-        source: io::Error,
-    },
-    /// The system could not write; what was enrolled before still is.
-    #[error("{}: cannot write to the library: {}", path.display(), words_of(source))]
-    Unwritable {
-        /// The folder.
-        path: PathBuf,
-        /// What the system says.
-        source: io::Error,
-    },
-    /// No part of that name.
-    #[error("{}: no part named {name}{}", path.display(), listed(available))]
-    NoSuchPart {
-        /// The library's folder.
-        path: PathBuf,
-        /// The name asked for.
-        name: String,
-        /// The names there are.
-        available: Vec<String>,
-    },
-    /// The system does not say where a user's data belong.
-    #[error("this system names no folder for a user's data")]
-    NoUserFolder,
+/// What became of a part that was renamed.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Renamed {
+    /// What it was called before.
+    pub before: PartWords,
+    /// Where it lies as it was before, if its name is another one now.
+    pub former: Option<PathBuf>,
 }
 
-fn listed(names: &[String]) -> String {
-    match names {
-        [] => ", the library is empty".into(),
-        names => format!("; it has {}", names.join(", ")),
-    }
-}
-
-impl Advice for LibraryError {
-    fn advice(&self) -> String {
-        match self {
-            Self::NotFound { .. } => {
-                "Check the path and that the drive or stick is connected".into()
-            }
-            Self::NotAFolder { .. } => "Give the folder that holds the parts' folders".into(),
-            Self::Unreadable { .. } => "Ask for access to this folder, or copy it elsewhere".into(),
-            Self::Unwritable { source, .. } => {
-                format!("{}, or name another with --library", advice_on(source))
-            }
-            Self::NoSuchPart { .. } => {
-                "Use one of the names that `partsight library list` shows".into()
-            }
-            Self::NoUserFolder => "Name a folder with --library".into(),
-        }
-    }
+/// What came back from the trash.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Restored {
+    /// The part.
+    pub name: PartName,
+    /// Where the part of the same name that it replaced lies now, if there was one.
+    pub replaced: Option<PathBuf>,
 }
 
 impl LibraryFolder {
@@ -229,9 +143,10 @@ impl LibraryFolder {
                 else {
                     continue;
                 };
-                if let Some(name) = file_name.strip_prefix(OLD_PREFIX) {
-                    let name = name.to_owned();
-                    aside.push(Entry::in_folder(name, path));
+                if let Some(Aside { name, successor }) = Aside::of(&file_name) {
+                    if !self.path.join(successor).exists() {
+                        aside.push(Entry::in_folder(name.to_owned(), path));
+                    }
                 } else if !file_name.starts_with('.') && is_entry(&file_name, &path) {
                     entries.push(Entry::in_folder(file_name, path));
                 }
@@ -272,25 +187,13 @@ impl LibraryFolder {
             let name = part.meta.name.as_str();
             let building = new_folder(&self.path, name)?;
             write_part(building.path(), part)?;
-            let folder = self.path.join(name);
-            let aside = self.path.join(format!("{OLD_PREFIX}{name}"));
-            let is_replacing = folder.exists();
-            if is_replacing {
-                fs::rename(&folder, &aside)?;
-            }
-            if let Err(error) = fs::rename(building.path(), &folder) {
-                if is_replacing {
-                    fs::rename(&aside, &folder)?;
-                }
-                return Err(error);
-            }
+            let replaced = self.put_in_place(building.path(), name, name)?;
             // Renamed away: nothing is left to be cleared up.
             let _ = building.keep();
-            sync_folder(&self.path)?;
-            let replaced = is_replacing
-                .then(|| self.move_to_trash(&aside, name))
-                .transpose()?;
-            Ok(Saved { folder, replaced })
+            Ok(Saved {
+                folder: self.path.join(name),
+                replaced,
+            })
         })
     }
 
@@ -299,10 +202,99 @@ impl LibraryFolder {
         self.entry(name.as_str())?;
         self.writing(|| {
             self.tidy_up()?;
-            let trash = self.move_to_trash(&self.path.join(name.as_str()), name.as_str())?;
+            let trash = trash::take_in(&self.path, &self.path.join(name.as_str()), name.as_str())?;
             sync_folder(&self.path)?;
             Ok(trash)
         })
+    }
+
+    /// What a part is called.
+    pub fn words(&self, name: &PartName) -> Result<PartWords, LibraryError> {
+        let meta = meta_of(&self.entry(name.as_str())?);
+        meta.map(|meta| meta.words())
+            .map_err(|problem| LibraryError::Damaged(Box::new(problem)))
+    }
+
+    /// Calls a part otherwise. Under another name it is a part built anew of the same files, and the former one goes to
+    /// the trash once the new one is in place; otherwise only its description is written anew.
+    pub fn rename(&self, name: &PartName, words: &PartWords) -> Result<Renamed, LibraryError> {
+        self.entry(name.as_str())?;
+        self.writing(|| {
+            self.tidy_up()?;
+            let meta = match self.meta_to_rename(name, &words.name) {
+                Ok(meta) => meta,
+                Err(error) => return Ok(Err(error)),
+            };
+            let before = meta.words();
+            let folder = self.path.join(name.as_str());
+            let meta = PartMeta {
+                name: words.name.clone(),
+                title: words.title.clone(),
+                notes: words.notes.clone(),
+                ..meta
+            };
+            let former = if words.name == *name {
+                rewrite_meta(&folder, &meta)?;
+                None
+            } else {
+                let building = new_folder(&self.path, words.name.as_str())?;
+                copy_files(&folder, building.path())?;
+                write_file(&building.path().join(META), meta_text(&meta)?.as_bytes())?;
+                sync_folder(building.path())?;
+                let to = words.name.as_str();
+                let former = self.put_in_place(building.path(), to, name.as_str())?;
+                // Renamed away: nothing is left to be cleared up.
+                let _ = building.keep();
+                former
+            };
+            Ok(Ok(Renamed { before, former }))
+        })?
+    }
+
+    /// Brings back what lies in the trash; a part of the same name goes there once the former one is in place.
+    pub fn restore(&self, kept: &Path) -> Result<Restored, LibraryError> {
+        let not_there = || LibraryError::NotInTrash {
+            kept: kept.to_owned(),
+        };
+        let name = trash::name_of(&self.path, kept).ok_or_else(not_there)?;
+        self.writing(|| {
+            self.tidy_up()?;
+            let replaced = self.put_in_place(kept, name.as_str(), name.as_str())?;
+            Ok(Restored { name, replaced })
+        })
+    }
+
+    /// The description of a part that is to be renamed to `to`.
+    fn meta_to_rename(&self, name: &PartName, to: &PartName) -> Result<PartMeta, LibraryError> {
+        if to != name && self.path.join(to.as_str()).exists() {
+            return Err(LibraryError::NameTaken {
+                path: self.path.clone(),
+                name: to.clone(),
+            });
+        }
+        let entry = self.entry(name.as_str())?;
+        meta_of(&entry).map_err(|problem| LibraryError::Damaged(Box::new(problem)))
+    }
+
+    /// Puts a folder in place as the part `name`, which succeeds `former`: that one goes to the trash once the new one
+    /// is in place. Says where it lies then.
+    fn put_in_place(&self, coming: &Path, name: &str, former: &str) -> io::Result<Option<PathBuf>> {
+        let leaving = self.path.join(former);
+        let aside = self.path.join(Aside::file_name(former, name));
+        let is_succeeding = leaving.exists();
+        if is_succeeding {
+            fs::rename(&leaving, &aside)?;
+        }
+        if let Err(error) = fs::rename(coming, self.path.join(name)) {
+            if is_succeeding {
+                fs::rename(&aside, &leaving)?;
+            }
+            return Err(error);
+        }
+        sync_folder(&self.path)?;
+        is_succeeding
+            .then(|| trash::take_in(&self.path, &aside, former))
+            .transpose()
     }
 
     /// Runs one change while no other writer is at work.
@@ -329,12 +321,11 @@ impl LibraryFolder {
             let Some(file_name) = path.file_name().and_then(|n| n.to_str()) else {
                 continue;
             };
-            if let Some(name) = file_name.strip_prefix(OLD_PREFIX) {
-                let folder = self.path.join(name);
-                if folder.exists() {
-                    self.move_to_trash(&path, name)?;
+            if let Some(Aside { name, successor }) = Aside::of(file_name) {
+                if self.path.join(successor).exists() {
+                    trash::take_in(&self.path, &path, name)?;
                 } else {
-                    fs::rename(&path, &folder)?;
+                    fs::rename(&path, self.path.join(name))?;
                 }
             } else if file_name.starts_with(NEW_PREFIX) {
                 fs::remove_dir_all(&path)?;
@@ -342,76 +333,33 @@ impl LibraryFolder {
         }
         Ok(())
     }
+}
 
-    fn move_to_trash(&self, folder: &Path, name: &str) -> io::Result<PathBuf> {
-        let trash = self.path.join(TRASH);
-        fs::create_dir_all(&trash)?;
-        let now = jiff::Timestamp::now().strftime("%Y%m%dT%H%M%SZ");
-        let place = (1..=9999)
-            .map(|n| match n {
-                1 => trash.join(format!("{name}-{now}")),
-                n => trash.join(format!("{name}-{now}-{n}")),
-            })
-            .find(|place| !place.exists())
-            .ok_or(io::ErrorKind::AlreadyExists)?;
-        fs::rename(folder, &place)?;
-        Ok(place)
+/// A part that was renamed aside, by its folder's name.
+struct Aside<'a> {
+    /// The part.
+    name: &'a str,
+    /// The part that takes its place; as a rule of the same name.
+    successor: &'a str,
+}
+
+impl<'a> Aside<'a> {
+    /// Between the two names: cannot stand in one.
+    const SEPARATOR: char = '+';
+
+    fn of(file_name: &'a str) -> Option<Self> {
+        let name = file_name.strip_prefix(OLD_PREFIX)?;
+        let (name, successor) = name.split_once(Self::SEPARATOR).unwrap_or((name, name));
+        Some(Self { name, successor })
     }
-}
 
-/// A folder counts if it could be a part's or says that it is one; what else lies on a stick does not.
-fn is_entry(file_name: &str, path: &Path) -> bool {
-    path.is_dir() && (PartName::new(file_name).is_ok() || path.join(META).exists())
-}
-
-/// A hidden folder to build a part in; gone when dropped.
-pub(super) fn new_folder(parent: &Path, name: &str) -> io::Result<tempfile::TempDir> {
-    let mut builder = tempfile::Builder::new();
-    let prefix = format!("{NEW_PREFIX}{name}-");
-    builder.prefix(&prefix);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt as _;
-        // What an ordinary new folder has, less the user's mask: others on the machine may read the library.
-        builder.permissions(fs::Permissions::from_mode(0o777));
+    fn file_name(name: &str, successor: &str) -> String {
+        if name == successor {
+            format!("{OLD_PREFIX}{name}")
+        } else {
+            format!("{OLD_PREFIX}{name}{}{successor}", Self::SEPARATOR)
+        }
     }
-    builder.tempdir_in(parent)
-}
-
-fn write_part(folder: &Path, part: &Part) -> io::Result<()> {
-    let Part {
-        meta,
-        cloud,
-        signature,
-        thumbnail,
-    } = part;
-    write_file(&folder.join(META), meta_text(meta)?.as_bytes())?;
-    write_file(&folder.join(CLOUD), &cloud_bytes(cloud))?;
-    write_file(&folder.join(SIGNATURE), &serde_json::to_vec(signature)?)?;
-    let mut png = io::Cursor::new(Vec::new());
-    thumbnail
-        .write_to(&mut png, image::ImageFormat::Png)
-        .map_err(io::Error::other)?;
-    write_file(&folder.join(THUMBNAIL), png.get_ref())?;
-    sync_folder(folder)
-}
-
-fn meta_text(meta: &PartMeta) -> io::Result<String> {
-    toml::to_string(meta).map_err(io::Error::other)
-}
-
-pub(super) fn write_file(path: &Path, content: &[u8]) -> io::Result<()> {
-    let mut file = File::create(path)?;
-    file.write_all(content)?;
-    file.sync_all()
-}
-
-/// Makes renames last. Only Unix lets a folder be opened for that; elsewhere the file system sees to it.
-pub(super) fn sync_folder(folder: &Path) -> io::Result<()> {
-    if cfg!(unix) {
-        File::open(folder)?.sync_all()?;
-    }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -109,7 +109,7 @@ const HOPELESS: f64 = 2.5;
 /// Scene points on which the figures of a fit are taken.
 const NUM_MEASURED: usize = 1000;
 
-/// Re-orders the ranking by the confirmed scores, and gives the pose of the first.
+/// Re-orders the ranking by the confirmed scores, and gives the pose of the first. Each entry keeps its own pose.
 pub fn confirm(
     scene: &Scene<'_>,
     references: &[Reference],
@@ -161,9 +161,10 @@ pub fn confirm(
                 best_candidate(scene, &source, reference, &trials, levels, tolerance)
             });
             entry.score = match &candidate {
-                Some(candidate) => candidate.score,
+                Some(candidate) => candidate.fit.score(),
                 None => entry.score * UNCONFIRMED,
             };
+            entry.pose = candidate.as_ref().map(Candidate::estimate);
             (entry, candidate)
         })
         .collect();
@@ -176,7 +177,10 @@ pub fn confirm(
             .ok_or(PoseError::NoReferenceCloud),
         _ => Err(PoseError::NoReferenceCloud),
     };
-    let entries = confirmed.into_iter().map(|c| c.0).collect();
+    let mut entries: Vec<MatchEntry> = confirmed.into_iter().map(|c| c.0).collect();
+    if let (Some(first), Ok(pose)) = (entries.first_mut(), &pose) {
+        first.pose = Some(pose.clone());
+    }
     (MatchRanking { entries }, pose)
 }
 

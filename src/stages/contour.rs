@@ -130,16 +130,18 @@ impl Contour {
     /// Outline and openings as space points in plane space (z = height of the surface), where the surface is known
     /// within two pixels.
     pub fn lifted(&self, plane: &PlaneImage) -> Vec<Point3<f64>> {
-        self.openings
-            .iter()
-            .fold(self.outline.clone(), |mut all, opening| {
-                all.extend(opening);
-                all
-            })
-            .into_iter()
-            .filter_map(|p| height_near(plane, &p).map(|z| Point3::new(p.x, p.y, z)))
+        std::iter::once(&self.outline)
+            .chain(&self.openings)
+            .flat_map(|border| lift_border(border, plane))
             .collect()
     }
+}
+
+/// The points of one border, on the surface: plane space, with the height of the nearest reading. Points without a
+/// reading close by are left out.
+pub fn lift_border(border: &[Point2<f64>], plane: &PlaneImage) -> Vec<Point3<f64>> {
+    let lifted = |p: &Point2<f64>| height_near(plane, p).map(|z| Point3::new(p.x, p.y, z));
+    border.iter().filter_map(lifted).collect()
 }
 
 /// The height of the surface at the reading nearest to a plane point, at most two pixels away.

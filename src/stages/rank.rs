@@ -14,6 +14,7 @@ use crate::{
     stages::{
         contour::Contour,
         correlation::{CircularCorrelator, spectrum},
+        pose::PoseEstimate,
         project::PlaneImage,
         reference::{Reference, ReferenceView},
         signature::FanSignature,
@@ -94,6 +95,9 @@ pub struct MatchEntry {
     pub distance: f64,
     /// Placements, best first; the paper's matcher finds none.
     pub placements: Vec<Placement>,
+    /// Where the confirmation put it; `None` if it ranked too low to be tried, or has no cloud. The first's is refined
+    /// to the end, the others' as far as it took to see that they are not the first.
+    pub pose: Option<PoseEstimate>,
 }
 
 /// All references, best first.
@@ -133,6 +137,7 @@ fn rank_literally(query: &Query<'_>, references: &[Reference]) -> Vec<MatchEntry
                 + 0.5 * (least / distance.max(f64::MIN_POSITIVE)).min(1.0),
             distance,
             placements: Vec::new(),
+            pose: None,
         })
         .collect()
 }
@@ -156,6 +161,7 @@ fn rank_by_overlap(
                     .first()
                     .map_or(f64::INFINITY, |p| p.outline_distance.0),
                 placements,
+                pose: None,
             }
         })
         .collect()

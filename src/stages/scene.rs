@@ -9,6 +9,7 @@ use nalgebra::Point3;
 
 use crate::{
     capture::frame::{DepthFrame, Intrinsics},
+    files::Opened,
     geometry::cloud::{Grid, PointCloud, is_finite},
 };
 
@@ -31,6 +32,18 @@ pub enum PictureEdge {
     View,
     /// The points end there: the picture was put around them.
     Points,
+}
+
+/// Points sampled of a mesh to align it.
+const MESH_POINTS: usize = 16_000;
+
+/// Every point of what a file holds; a mesh is sampled evenly, and gives `None` if it has no area.
+pub fn cloud_of(opened: Opened) -> Option<PointCloud> {
+    match opened {
+        Opened::Cloud(cloud) => Some(cloud),
+        Opened::Depth(frame) => Some(scene_from_frame(&frame).cloud),
+        Opened::Mesh(mesh) => mesh.sample_evenly(MESH_POINTS, 1),
+    }
 }
 
 /// The points of a depth frame; pixels without a reading become NaN.

@@ -1,21 +1,29 @@
 //! The verdict card: which part, accepted or not, where, how sure, and what to do next.
 
-use egui::{Align, Button, Layout, Rect, RichText, ScrollArea, Sense, Ui, Vec2, pos2, vec2};
+use egui::{
+    Align, Button, Frame, Layout, Panel, Rect, RichText, ScrollArea, Sense, Ui, Vec2, pos2,
+    style::ScrollStyle, vec2,
+};
 
+use super::stand_off;
 use crate::{
     app::{
-        action::Action,
+        action::{Action, Ask},
         bars::focus_ring,
-        state::{State, UnitSystem},
+        inspect::work::Inspected,
+        source::Origin,
+        state::{State, UnitSystem, Workspace},
         theme::{ROUNDING, Theme, font, space},
-        widgets::{Mark, heading, mark, row},
-        work::{Inspected, Origin},
+        widgets::{Mark, heading, mark, row, sentence},
     },
     error::Advice as _,
     geometry::rigid::RigidTransform,
     pipeline::Verdict,
     stages::pose::PoseEstimate,
 };
+
+/// A window lower than this has the offsets beside each other, logical pixels.
+const LOW: f32 = 800.0;
 
 /// What the card says first.
 struct Headline {
@@ -61,35 +69,68 @@ pub(super) fn ui(
         );
         ui.multiply_opacity(0.55);
     }
+    if state.shown.as_ref().is_some_and(|shown| shown.is_past) {
+        let text = "From the history: not what hangs there now";
+        let text = RichText::new(text).font(font::body_strong());
+        ui.label(text.color(theme.warning));
+    }
+    let inspection = &inspected.inspection;
+    let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+    // What is pressed stays in sight, however low the window.
+    Panel::bottom("ways on")
+        .exact_size(space::TARGET + space::MEDIUM)
+        .resizable(false)
+        .show_separator_line(false)
+        .frame(Frame::new())
+        .show(ui, |ui| ways_on(ui, pose, theme, actions));
     // Text lies closer than controls do.
-    ui.spacing_mut().interact_size.y = 22.0;
+    ui.spacing_mut().interact_size.y = 20.0;
+    ui.spacing_mut().item_spacing.y = 3.0;
+    ui.spacing_mut().scroll = ScrollStyle::thin();
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let headline = Headline::of(inspected);
         verdict(ui, &headline, theme);
         score(ui, inspected, &headline, theme);
-        let pose = inspected
-            .inspection
-            .pose
-            .as_ref()
-            .and_then(|pose| pose.as_ref().ok());
         if let Some(pose) = pose {
             offset(ui, inspected, pose, state.units, theme);
             fit(ui, pose, state.units, theme);
+            stand_off::ui(ui, inspected, state.units, theme);
         }
         footer(ui, inspected, theme);
-        if pose.is_some() {
-            ui.add_space(space::MEDIUM);
-            let width = ui.available_width();
-            let copy = Button::new("Copy pose").min_size(vec2(width, space::TARGET));
-            let copied = ui.add(copy);
-            focus_ring(ui, copied.rect, &copied, theme);
-            if copied
-                .on_hover_text("camera_from_part, four rows, metres")
-                .clicked()
-            {
-                actions.push(Action::CopyPose);
+    });
+}
+
+/// What can be done with the result.
+fn ways_on(ui: &mut Ui, pose: Option<&PoseEstimate>, theme: &Theme, actions: &mut Vec<Action>) {
+    let ways = [
+        (
+            "Export…",
+            "A report: a line of JSON and the pictures of all stages (Ctrl E)",
+            (|| Action::Ask(Ask::ReportFolder)) as fn() -> Action,
+        ),
+        (
+            "Wrong part?",
+            "See in Compare why it was taken for this",
+            || Action::GoTo(Workspace::Compare),
+        ),
+        ("Copy pose", "camera_from_part, four rows, metres", || {
+            Action::CopyPose
+        }),
+    ];
+    let num = if pose.is_some() { 3 } else { 2 };
+    ui.with_layout(Layout::bottom_up(Align::Min), |ui| {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().button_padding.x = 4.0;
+            let gaps = ui.spacing().item_spacing.x * (num - 1) as f32;
+            let size = vec2((ui.available_width() - gaps) / num as f32, space::TARGET);
+            for (label, says, action) in ways.into_iter().take(num) {
+                let button = ui.add(Button::new(label).min_size(size));
+                focus_ring(ui, button.rect, &button, theme);
+                if button.on_hover_text(says).clicked() {
+                    actions.push(action());
+                }
             }
-        }
+        });
     });
 }
 
@@ -120,14 +161,6 @@ fn verdict(ui: &mut Ui, headline: &Headline, theme: &Theme) {
     }
 }
 
-/// The text with a capital letter first.
-fn sentence(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| {
-        first.to_uppercase().collect::<String>() + letters.as_str()
-    })
-}
-
 /// The score as a bar against the threshold, and the lead over the next part.
 fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline, theme: &Theme) {
     let Verdict::Part { score, margin, .. } = inspected.inspection.verdict else {
@@ -150,7 +183,7 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline, theme: &Theme)
         ROUNDING,
         fill,
     );
-    let tick = bar.left() + bar.width() * inspected.min_score as f32;
+    let tick = bar.left() + bar.width() * inspected.recipe.accept.min_score as f32;
     let tick = Rect::from_min_max(
         pos2(tick - 1.0, rect.top()),
         pos2(tick + 1.0, rect.bottom()),
@@ -166,7 +199,10 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline, theme: &Theme)
             ui.label(caption(format!("Next: {} {:.2}", next.title, next.score)));
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            ui.label(caption(format!("threshold {:.2}", inspected.min_score)));
+            ui.label(caption(format!(
+                "threshold {:.2}",
+                inspected.recipe.accept.min_score
+            )));
         });
     });
     if inspected.figures.candidates.len() > 1 {
@@ -186,13 +222,29 @@ fn offset(
     heading(ui, theme, "Offset from standard position");
     let middle = inspected.middle;
     let shift = middle.map(|middle| camera_from_part * middle - middle);
-    if let Some(shift) = shift {
-        for (axis, metres) in [("x", shift.x), ("y", shift.y), ("z", shift.z)] {
-            row(ui, theme, axis, &units.signed_length(metres));
+    let shifts = shift.map_or_else(Vec::new, |shift| {
+        [("x", shift.x), ("y", shift.y), ("z", shift.z)]
+            .map(|(axis, metres)| (axis, units.signed_length(metres)))
+            .into()
+    });
+    let turns = turns(&camera_from_part).map(|(axis, angle)| (axis, units.signed_angle(angle)));
+    let rows = |ui: &mut Ui, rows: &[(&str, String)]| {
+        for (axis, value) in rows {
+            row(ui, theme, axis, value);
         }
-    }
-    for (axis, angle) in turns(&camera_from_part) {
-        row(ui, theme, axis, &units.signed_angle(angle));
+    };
+    if ui.ctx().content_rect().height() < LOW && !shifts.is_empty() {
+        ui.spacing_mut().item_spacing.x = space::LARGE;
+        ui.columns(2, |columns| {
+            if let [left, right] = columns {
+                rows(left, &shifts);
+                rows(right, &turns);
+            }
+        });
+        ui.spacing_mut().item_spacing.x = space::SMALL;
+    } else {
+        rows(ui, &shifts);
+        rows(ui, &turns);
     }
     let note = "Part's middle, camera axes · R = Rz·Ry·Rx";
     ui.label(

@@ -1,22 +1,34 @@
 //! Inspect, the operator's workspace: the view, the verdict and the stages.
 
 mod card;
+mod controls;
 mod plots;
+mod ranking;
+pub mod scene;
+mod stand_off;
+pub mod state;
 mod strip;
 mod view;
+pub mod work;
 
-use std::sync::Arc;
-
-use egui::{Align2, ColorImage, Frame, Margin, Panel, TextureHandle, TextureOptions, Ui};
+use egui::{
+    Align2, ColorImage, Frame, Key, Margin, Modifiers, Panel, TextureHandle, TextureOptions, Ui,
+};
 use image::RgbImage;
 
-use self::view::SceneView;
+pub(super) use self::view::grouped;
+use self::{
+    state::{InspectAction, ViewPart},
+    view::SceneView,
+    work::Inspected,
+};
 use super::{
-    action::Action,
+    action::{Action, Ask},
+    headless::WorkCounts,
+    keys::Shortcut,
     state::{Shown, State},
     theme::{Theme, font},
     viewport::{ViewError, ViewportGpu},
-    work::Inspected,
 };
 
 /// Width of the verdict card, logical pixels, and in a narrow window.
@@ -24,10 +36,36 @@ const CARD: [f32; 2] = [340.0, 300.0];
 /// Height of the stage strip, logical pixels, and in a low window.
 const STRIP: [f32; 2] = [196.0, 164.0];
 
+/// The workspace's own shortcuts.
+pub(in crate::app) const SHORTCUTS: [Shortcut; 3] = [
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::P,
+        keys: "P",
+        does: "Save a picture of the 3-D view",
+        action: || Action::Ask(Ask::Picture),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::C,
+        keys: "C",
+        does: "Show or hide the enrolled contour",
+        action: || Action::Inspect(InspectAction::Toggle(ViewPart::Outline)),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::N,
+        keys: "N",
+        does: "Show or hide the nozzle at the worst spot",
+        action: || Action::Inspect(InspectAction::Toggle(ViewPart::NozzleWorst)),
+    },
+];
+
 /// What the workspace keeps between frames: nothing but what was made of the last result.
 pub(super) struct InspectPanel {
     view: SceneView,
     made: Option<Made>,
+    num_made: u64,
 }
 
 /// Textures of one result.
@@ -42,12 +80,25 @@ impl InspectPanel {
         Self {
             view: SceneView::new(gpu),
             made: None,
+            num_made: 0,
         }
     }
 
     /// True while keys go to the 3-D view.
     pub(super) fn view_has_focus(&self) -> bool {
         self.view.has_focus()
+    }
+
+    /// What its frames have done so far.
+    pub(super) fn counts(&self) -> WorkCounts {
+        let mut counts = self.view.counts();
+        counts.made += self.num_made;
+        counts
+    }
+
+    /// Share of the points that the view drew last, 0..1.
+    pub(super) fn detail(&self) -> f32 {
+        self.view.viewport.detail()
     }
 
     pub(super) fn ui(
@@ -58,6 +109,7 @@ impl InspectPanel {
         actions: &mut Vec<Action>,
     ) {
         let Some(shown) = &state.shown else {
+            ui.painter().rect_filled(ui.max_rect(), 0.0, theme.canvas);
             empty(ui, state, theme);
             return;
         };
@@ -80,11 +132,14 @@ impl InspectPanel {
                 strip::ui(ui, &pictures, actions);
             });
         if state.enlarged.is_some() {
+            let rest = ui.available_rect_before_wrap();
+            ui.painter().rect_filled(rest, 0.0, theme.canvas);
             let pictures = self.pictures(inspected, state, theme);
             strip::enlarged_ui(ui, &pictures, actions);
         } else {
-            self.view.ui(ui, state, inspected);
+            self.view.ui(ui, state, inspected, actions);
         }
+        self.view.picture(ui, state, actions);
     }
 
     fn pictures<'a>(
@@ -112,17 +167,23 @@ impl InspectPanel {
         {
             return;
         }
+        self.num_made += 1;
         let figures = &shown.inspected.figures;
         self.made = Some(Made {
             generation: shown.generation,
             segmentation: texture(ctx, "segmentation", figures.segmentation.as_ref()),
             binary: texture(ctx, "binary image", figures.binary.as_ref()),
         });
-        self.view.show(&Arc::clone(&shown.inspected));
+        self.view.show(&shown.inspected);
     }
 }
 
-fn texture(ctx: &egui::Context, name: &str, image: Option<&RgbImage>) -> Option<TextureHandle> {
+/// Uploads a picture.
+pub(in crate::app) fn texture(
+    ctx: &egui::Context,
+    name: &str,
+    image: Option<&RgbImage>,
+) -> Option<TextureHandle> {
     let image = image?;
     let size = [image.width() as usize, image.height() as usize];
     let options = TextureOptions {
@@ -134,8 +195,8 @@ fn texture(ctx: &egui::Context, name: &str, image: Option<&RgbImage>) -> Option<
 
 /// Before the first result.
 fn empty(ui: &Ui, state: &State, theme: &Theme) {
-    let text = match &state.work {
-        Some(work) => format!("{}…", work.what),
+    let text = match state.work() {
+        Some((_, work)) => format!("{}…", work.what),
         None => "Nothing inspected yet\nPress Capture for a frame of the simulated cell, or drop a captured scene here"
             .into(),
     };

@@ -1,13 +1,16 @@
 //! The stage pictures: textures made once, curves and outlines drawn from prepared numbers.
 
-use egui::{Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, TextureHandle, pos2, vec2};
+use egui::{
+    Align, Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, TextureHandle, pos2,
+    text::LayoutJob, vec2,
+};
 
 use crate::app::{
-    figures::{Candidate, ContourFigure, Curves},
+    figures::{Alignment, Candidate, ContourFigure, Curves, PlaneLine},
+    inspect::work::Inspected,
     state::{StagePanel, State},
     theme::{ROUNDING, Theme, font},
     widgets::{Scale, caption, curve, fitted},
-    work::Inspected,
 };
 
 /// What the pictures are drawn from.
@@ -28,6 +31,19 @@ pub(super) enum Detail {
     Large,
 }
 
+impl Detail {
+    /// Of so many corners drawn over so many logical pixels, every how-manieth is worth drawing: a stroke costs the
+    /// same however short, and a small picture shows none shorter than two pixels.
+    fn step(self, num_corners: usize, pixels: f32) -> usize {
+        match self {
+            Self::Large => 1,
+            Self::Small => num_corners
+                .div_ceil((pixels / 2.0).max(8.0) as usize)
+                .max(1),
+        }
+    }
+}
+
 /// The paper's goal for E, 1e-6 m², as a power of ten.
 const GOAL: f32 = -6.0;
 
@@ -43,30 +59,46 @@ impl Pictures<'_> {
             StagePanel::Contour => figures
                 .contour
                 .as_ref()
-                .map(|contour| self.contour(contour, painter, inner)),
+                .map(|contour| self.contour(contour, painter, inner, detail)),
             StagePanel::Signature => figures
                 .signature
                 .as_ref()
                 .map(|curves| self.signature(curves, painter, inner, detail)),
             StagePanel::Ranking => (!figures.candidates.is_empty())
                 .then(|| self.ranking(&figures.candidates, painter, inner, detail)),
-            StagePanel::Alignment => (!figures.log_e.is_empty())
-                .then(|| self.alignment(&figures.log_e, painter, inner, detail)),
+            StagePanel::Alignment => self
+                .candidate()
+                .map(|candidate| self.alignment(candidate, painter, inner, detail)),
         };
         if is_there.is_none() {
-            let font = font::small();
-            painter.text(
-                rect.center(),
-                Align2::CENTER_CENTER,
-                "not reached",
-                font,
-                self.theme.weak_text,
-            );
+            self.says(painter, inner, "not reached");
         }
+    }
+
+    /// Words in place of a picture.
+    fn says(&self, painter: &Painter, rect: Rect, text: &str) {
+        let mut job = LayoutJob::simple(
+            text.to_owned(),
+            font::small(),
+            self.theme.weak_text,
+            rect.width() - 8.0,
+        );
+        job.halign = Align::Center;
+        let galley = painter.layout_job(job);
+        let top = rect.center() - vec2(0.0, galley.size().y / 2.0);
+        painter.galley(top, galley, self.theme.weak_text);
     }
 
     fn candidate(&self) -> Option<&Candidate> {
         self.inspected.figures.candidates.get(self.state.candidate)
+    }
+
+    /// Why the chosen candidate was not aligned, where it was not.
+    pub(super) fn not_aligned(&self) -> Option<&'static str> {
+        match self.candidate()?.alignment {
+            Alignment::Done { .. } => None,
+            Alignment::None(why) => Some(why),
+        }
     }
 
     fn texture(
@@ -85,7 +117,7 @@ impl Pictures<'_> {
         Some(())
     }
 
-    fn contour(&self, figure: &ContourFigure, painter: &Painter, rect: Rect) {
+    fn contour(&self, figure: &ContourFigure, painter: &Painter, rect: Rect, detail: Detail) {
         let [low, high] = figure.bounds;
         let (wide, tall) = ((high[0] - low[0]).max(1e-3), (high[1] - low[1]).max(1e-3));
         let place = fitted(rect, wide / tall);
@@ -95,8 +127,14 @@ impl Pictures<'_> {
         );
         let at = |p: &[f32; 2]| pos2(across.at(p[0]), up.at(p[1]));
         let centroid = at(&figure.centroid);
+        let corners = |border: &PlaneLine| -> Vec<Pos2> {
+            let step = detail.step(border.len(), rect.width());
+            let last = border.last().into_iter();
+            border.iter().step_by(step).chain(last).map(at).collect()
+        };
         let ray = Stroke::new(1.0, self.theme.weak_text.gamma_multiply(0.45));
-        for end in &figure.ray_ends {
+        let step = detail.step(figure.ray_ends.len(), rect.width());
+        for end in figure.ray_ends.iter().step_by(step) {
             painter.line_segment([centroid, at(end)], ray);
         }
         for (place, border) in figure.borders.iter().enumerate() {
@@ -105,10 +143,10 @@ impl Pictures<'_> {
             } else {
                 self.theme.second_series
             };
-            painter.line(border.iter().map(at).collect(), Stroke::new(1.6, colour));
+            painter.line(corners(border), Stroke::new(1.6, colour));
         }
         if let Some(candidate) = self.candidate() {
-            let outline: Vec<Pos2> = candidate.outline.iter().map(at).collect();
+            let outline = corners(&candidate.outline);
             let stroke = Stroke::new(1.2, self.theme.reference_series);
             painter.extend(Shape::dashed_line(&outline, stroke, 5.0, 4.0));
         }
@@ -140,7 +178,10 @@ impl Pictures<'_> {
                 Rect::from_min_size(pos2(rect.left(), top), vec2(rect.width(), half)).shrink(4.0);
             let range = range_of(values.iter().chain(other.into_iter().flatten()));
             let up = Scale::new(range, [area.bottom(), area.top()]);
-            let last = values.len().saturating_sub(1).max(1) as f32;
+            let step = detail.step(values.len(), rect.width());
+            let thin =
+                |values: &[f32]| -> Vec<f32> { values.iter().step_by(step).copied().collect() };
+            let last = (values.len().saturating_sub(1) / step).max(1) as f32;
             let across = Scale::new([0.0, last], [area.left(), area.right()]);
             if detail == Detail::Large {
                 self.level(painter, area, &up, range[0], &format!("{:.2}", range[0]));
@@ -148,9 +189,9 @@ impl Pictures<'_> {
             }
             if let Some(other) = other {
                 let stroke = Stroke::new(1.0, self.theme.reference_series);
-                painter.line(curve(other, &across, &up), stroke);
+                painter.line(curve(&thin(other), &across, &up), stroke);
             }
-            painter.line(curve(values, &across, &up), Stroke::new(1.6, colour));
+            painter.line(curve(&thin(values), &across, &up), Stroke::new(1.6, colour));
             if detail == Detail::Large {
                 let at = area.left_center();
                 painter.text(at, Align2::LEFT_CENTER, name, font::body_strong(), colour);
@@ -158,72 +199,18 @@ impl Pictures<'_> {
         }
     }
 
-    fn ranking(&self, candidates: &[Candidate], painter: &Painter, rect: Rect, detail: Detail) {
-        let theme = self.theme;
-        let num_rows = candidates.len().min(match detail {
-            Detail::Small => 6,
-            Detail::Large => 16,
-        });
-        let row = (rect.height() / num_rows.max(1) as f32).min(40.0);
-        let is_large = detail == Detail::Large;
-        let names = if is_large {
-            210.0
-        } else {
-            (rect.width() * 0.48).min(92.0)
+    fn alignment(&self, candidate: &Candidate, painter: &Painter, rect: Rect, detail: Detail) {
+        let (log_e, rms_m) = match &candidate.alignment {
+            Alignment::Done { log_e, rms_m } if !log_e.is_empty() => (log_e, *rms_m),
+            Alignment::Done { .. } => return self.says(painter, rect, "E stayed at 0"),
+            Alignment::None(why) => return self.says(painter, rect, why),
         };
-        let values = if is_large { 60.0 } else { 0.0 };
-        let bars = Scale::new([0.0, 1.0], [rect.left() + names, rect.right() - values]);
-        let font = if is_large {
-            font::body()
-        } else {
-            font::scale()
-        };
-        for (place, candidate) in candidates.iter().take(num_rows).enumerate() {
-            let middle = rect.top() + row * (place as f32 + 0.5);
-            let is_chosen = place == self.state.candidate;
-            let colour = if is_chosen {
-                theme.text
-            } else {
-                theme.weak_text
-            };
-            let clip = Rect::from_min_max(rect.min, pos2(rect.left() + names - 4.0, rect.bottom()));
-            painter
-                .with_clip_rect(clip.intersect(painter.clip_rect()))
-                .text(
-                    pos2(rect.left(), middle),
-                    Align2::LEFT_CENTER,
-                    &candidate.title,
-                    font.clone(),
-                    colour,
-                );
-            let y = [middle - row * 0.3, middle + row * 0.3];
-            let bar =
-                |to: f32| Rect::from_min_max(pos2(bars.at(0.0), y[0]), pos2(bars.at(to), y[1]));
-            painter.rect_filled(bar(1.0), 2.0, theme.track);
-            let fill = match (
-                place,
-                f64::from(candidate.score) >= self.inspected.min_score,
-            ) {
-                (0, true) => theme.accepted,
-                _ => theme.weak_text.gamma_multiply(0.6),
-            };
-            painter.rect_filled(bar(candidate.score.clamp(0.0, 1.0)), 2.0, fill);
-            if is_large {
-                let at = pos2(rect.right(), middle);
-                let score = format!("{:.2}", candidate.score);
-                painter.text(at, Align2::RIGHT_CENTER, score, font::body(), colour);
-            }
-        }
-        let threshold = bars.at(self.inspected.min_score as f32);
-        let bottom = rect.top() + row * num_rows as f32;
-        painter.vline(threshold, rect.top()..=bottom, Stroke::new(1.0, theme.text));
-    }
-
-    fn alignment(&self, log_e: &[f32], painter: &Painter, rect: Rect, detail: Detail) {
         let [low, high] = range_of(log_e.iter());
         let (low, high) = (low.min(GOAL).floor(), high.max(GOAL + 1.0).ceil());
         let mut area = rect;
         area.min.x += if detail == Detail::Large { 44.0 } else { 26.0 };
+        // Room for a line of text over the curve.
+        area.min.y += if detail == Detail::Large { 22.0 } else { 0.0 };
         let up = Scale::new([low, high], [area.bottom() - 4.0, area.top() + 6.0]);
         let last = (log_e.len() - 1).max(1) as f32;
         let across = Scale::new([0.0, last], [area.left() + 4.0, area.right() - 6.0]);
@@ -249,6 +236,10 @@ impl Pictures<'_> {
         }
         painter.line(points, Stroke::new(1.8, self.theme.first_series));
         if detail == Detail::Large {
+            let rms = self.state.units.length(rms_m);
+            let text = format!("{} ended at rms {rms}", candidate.title);
+            let at = rect.right_top();
+            painter.text(at, Align2::RIGHT_TOP, text, font::body(), self.theme.text);
             let at = pos2(area.right(), y - 4.0);
             let text = "the paper's goal, 1e\u{2212}6 m²";
             painter.text(
@@ -281,4 +272,17 @@ fn range_of<'a>(values: impl Iterator<Item = &'a f32>) -> [f32; 2] {
     values.fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], value| {
         [low.min(*value), high.max(*value)]
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::Detail;
+
+    #[test]
+    fn a_small_picture_draws_no_more_strokes_than_show() {
+        assert_eq!(Detail::Large.step(512, 146.0), 1);
+        assert_eq!(Detail::Small.step(512, 146.0), 8);
+        assert_eq!(Detail::Small.step(40, 146.0), 1);
+        assert_eq!(Detail::Small.step(0, 0.0), 1);
+    }
 }

@@ -1,6 +1,8 @@
 //! The stage strip: a live picture per stage, any of which can fill the middle.
 
-use egui::{Align, Button, Frame, Layout, Margin, Rect, RichText, Sense, Ui, Vec2, pos2, vec2};
+use egui::{
+    Align, Button, Frame, Label, Layout, Margin, Rect, RichText, Sense, Ui, Vec2, pos2, vec2,
+};
 
 use super::plots::{Detail, Pictures};
 use crate::{
@@ -101,7 +103,6 @@ pub(super) fn enlarged_ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Ve
                     .font(font::verdict())
                     .color(theme.text),
             );
-            ui.label(RichText::new(explanation(panel)).color(theme.weak_text));
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                 let close =
                     Button::new("Close").shortcut_text(RichText::new("Esc").font(font::small()));
@@ -110,11 +111,18 @@ pub(super) fn enlarged_ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Ve
                 if close.clicked() {
                     actions.push(Action::CloseTop);
                 }
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                    let text = RichText::new(explanation(panel)).color(theme.weak_text);
+                    ui.add(Label::new(text).truncate());
+                });
             });
         });
         let compares = matches!(
             panel,
-            StagePanel::Contour | StagePanel::Signature | StagePanel::Ranking
+            StagePanel::Contour
+                | StagePanel::Signature
+                | StagePanel::Ranking
+                | StagePanel::Alignment
         );
         if compares {
             candidates(ui, pictures, actions);
@@ -123,11 +131,11 @@ pub(super) fn enlarged_ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Ve
         let rect = ui.available_rect_before_wrap();
         let response = ui.allocate_rect(rect, Sense::hover());
         response.widget_info(|| {
-            egui::WidgetInfo::labeled(
-                egui::Role::Image,
-                true,
-                format!("{}, enlarged", panel.title()),
-            )
+            let mut label = format!("{}, enlarged", panel.title());
+            if let (StagePanel::Alignment, Some(why)) = (panel, pictures.not_aligned()) {
+                label = format!("{label}: {why}");
+            }
+            egui::WidgetInfo::labeled(egui::Role::Image, true, label)
         });
         pictures.paint(panel, ui.painter(), rect, Detail::Large);
     });
@@ -143,7 +151,7 @@ fn candidates(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<Action>) {
                 .add(button.min_size(Vec2::splat(space::TARGET)))
                 .clicked()
             {
-                actions.push(Action::Compare(place));
+                actions.push(Action::Candidate(place));
             }
         }
     });

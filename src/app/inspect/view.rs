@@ -1,41 +1,52 @@
 //! The scene in three dimensions, the part coloured by its deviation from the enrolled one.
 
-use std::sync::Arc;
+use std::collections::BTreeSet;
 
-use egui::{Button, Rect, RichText, Ui, UiBuilder, Vec2, pos2, vec2};
+use egui::{Painter, Rect, Ui, UiBuilder, Vec2, pos2, vec2};
 
+use super::{
+    controls,
+    scene::SceneFigure,
+    state::{InspectAction, ViewPart},
+};
 use crate::{
     app::{
-        state::{State, ThemeChoice},
-        theme::{Theme, font, space},
+        action::Action,
+        headless::WorkCounts,
+        inspect::work::Inspected,
+        job::Trouble,
+        source::Origin,
+        state::{State, ThemeChoice, UnitSystem},
+        theme::{ROUNDING, Theme, font, space},
         viewport::{
-            Colouring, FitRequest, LineSet, PointSet, StandardView, ViewCamera, ViewColours,
-            ViewError, ViewScene, ViewStyle, ViewTool, Viewport, ViewportGpu, furniture,
+            Colouring, FitRequest, Legend, TextLabel, ViewCamera, ViewColours, ViewError,
+            ViewScene, ViewShot, ViewStyle, Viewport, ViewportGpu,
         },
-        work::Inspected,
     },
     units::Metres,
 };
 
 /// Ends of the scale of deviations: a few times a depth camera's noise, so that a dent shows and noise does not.
 const DEVIATION_RANGE: Metres = Metres(0.01);
+/// A view narrower than this has no room for the colour scale beside the controls.
+const NARROW: f32 = 655.0;
 
 /// The view of the last result.
 pub(super) struct SceneView {
-    viewport: Viewport,
-    camera: ViewCamera,
+    pub(super) viewport: Viewport,
+    pub(super) camera: ViewCamera,
     scene: ViewScene,
-    style: ViewStyle,
+    pub(super) style: ViewStyle,
     styled: ThemeChoice,
-    /// What a person chose to colour by; until then the deviation where there is one, else the segments.
-    chosen: Option<Colouring>,
-    /// The axes of the part's middle, where it was found.
-    axes: Vec<LineSet>,
-    frustum: Vec<LineSet>,
-    shows_camera: bool,
+    /// What the lines and words of the scene were chosen by.
+    placed: Option<(BTreeSet<ViewPart>, UnitSystem)>,
+    num_placed: u64,
     has_deviations: bool,
     has_focus: bool,
     caption: String,
+    origin: Option<String>,
+    /// Of the view in the last frame, logical pixels.
+    size: Vec2,
 }
 
 impl SceneView {
@@ -46,75 +57,59 @@ impl SceneView {
             viewport: Viewport::new(gpu),
             camera,
             scene: ViewScene::default(),
-            style: ViewStyle {
-                deviation_range: DEVIATION_RANGE,
-                ..ViewStyle::new(ViewColours::dark())
-            },
+            style: style(ThemeChoice::Dark),
             styled: ThemeChoice::Dark,
-            chosen: None,
-            axes: Vec::new(),
-            frustum: Vec::new(),
-            shows_camera: false,
+            placed: None,
+            num_placed: 0,
             has_deviations: false,
             has_focus: false,
             caption: String::new(),
+            origin: None,
+            size: Vec2::splat(1.0),
         }
     }
 
-    /// Takes in a new result: the only place where its points are gone through.
-    pub(super) fn show(&mut self, inspected: &Arc<Inspected>) {
-        let Inspected {
-            scene,
-            inspection,
-            figures,
-            ..
-        } = &**inspected;
-        let points: Vec<[f32; 3]> = scene.cloud.points.iter().map(|p| [p.x, p.y, p.z]).collect();
-        let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
-        let axes = pose.zip(inspected.middle).map(|(pose, middle)| {
-            let camera_from_middle =
-                pose.camera_from_part() * nalgebra::Translation3::from(middle.coords);
-            furniture::axes(Metres(0.15)).at(&camera_from_middle)
-        });
-        self.axes = axes.into_iter().collect();
-        let frustum = scene.intrinsics.as_ref();
-        self.frustum = frustum
-            .map(|camera| furniture::frustum(camera, Metres(0.25)))
-            .into_iter()
-            .collect();
-        let mut set = PointSet::segmented(points, &inspection.segmentation.labels);
-        self.has_deviations = !inspected.deviations.is_empty();
-        if self.has_deviations {
-            set = set.with_deviations(inspected.deviations.clone());
-        }
-        self.scene = ViewScene {
-            points: vec![set],
-            lines: self.axes.clone(),
-            labels: Vec::new(),
-        };
-        self.place_lines();
+    /// Takes in a new result: what the worker made of it, and no point of it is gone through.
+    pub(super) fn show(&mut self, inspected: &Inspected) {
+        let figures = &inspected.figures;
+        self.has_deviations = inspected.view.has_deviations;
+        self.scene.points = vec![inspected.view.points.clone()];
+        self.placed = None;
         self.camera.request_fit(FitRequest::Focus);
-        let num_planes = inspection.segmentation.planes.len();
+        let num_planes = inspected.inspection.segmentation.planes.len();
         self.caption = format!(
             "{} points · part {} · {num_planes} background {} removed",
             grouped(figures.num_points),
             grouped(figures.num_part),
             if num_planes == 1 { "plane" } else { "planes" },
         );
+        let is_simulated = matches!(inspected.origin, Origin::Simulated { .. });
+        let title = inspected.origin.title();
+        self.origin = is_simulated.then(|| format!("{title} · no camera was read"));
     }
 
-    pub(super) fn ui(&mut self, ui: &mut Ui, state: &State, inspected: &Inspected) {
+    pub(super) fn ui(
+        &mut self,
+        ui: &mut Ui,
+        state: &State,
+        inspected: &Inspected,
+        actions: &mut Vec<Action>,
+    ) {
         if self.styled != state.theme {
-            self.style = ViewStyle::new(match state.theme {
-                ThemeChoice::Dark => ViewColours::dark(),
-                ThemeChoice::Light => ViewColours::light(),
-            });
-            self.style.deviation_range = DEVIATION_RANGE;
+            self.style = style(state.theme);
             self.styled = state.theme;
         }
-        self.style.colouring = self.colouring();
+        self.place(state, &inspected.view);
+        self.style.colouring = self.colouring(state);
         let theme = Theme::of(state.theme);
         let rect = ui.available_rect_before_wrap();
+        self.size = rect.size();
+        let is_narrow = rect.width() < NARROW;
+        self.style.legend = if is_narrow {
+            Legend::BelowControls
+        } else {
+            Legend::Shown
+        };
         let label = "3-D view of the scene";
         let seen = self
             .viewport
@@ -122,31 +117,12 @@ impl SceneView {
         self.has_focus = seen.response.has_focus();
         let bar = Rect::from_min_size(
             rect.min + Vec2::splat(space::MEDIUM),
-            vec2(rect.width() - 20.0, space::TARGET),
+            vec2(rect.width() - 2.0 * space::MEDIUM, space::TARGET),
         );
         ui.scope_builder(UiBuilder::new().max_rect(bar), |ui| {
-            ui.horizontal_wrapped(|ui| self.controls(ui));
+            ui.horizontal(|ui| controls::ui(ui, self, state, &inspected.view, actions));
         });
-        let painter = ui.painter();
-        let bottom = pos2(rect.left() + 14.0, rect.bottom() - 12.0);
-        painter.text(
-            bottom,
-            egui::Align2::LEFT_BOTTOM,
-            &self.caption,
-            font::small(),
-            theme.weak_text,
-        );
-        if matches!(inspected.origin, crate::app::work::Origin::Simulated { .. }) {
-            let corner = pos2(rect.right() - 14.0, rect.bottom() - 12.0);
-            let text = format!("{} · no camera was read", inspected.origin.title());
-            painter.text(
-                corner,
-                egui::Align2::RIGHT_BOTTOM,
-                text,
-                font::small(),
-                theme.weak_text,
-            );
-        }
+        self.captions(&ui.painter_at(rect), rect, theme);
     }
 
     /// True while keys go to the view; the space bar then still captures.
@@ -154,85 +130,140 @@ impl SceneView {
         self.has_focus
     }
 
-    fn place_lines(&mut self) {
-        self.scene.lines.clone_from(&self.axes);
-        if self.shows_camera {
-            self.scene.lines.extend_from_slice(&self.frustum);
+    /// What its frames have done so far.
+    pub(super) fn counts(&self) -> WorkCounts {
+        WorkCounts {
+            uploads: self.viewport.num_uploads(),
+            pictures: self.viewport.num_pictures(),
+            made: self.num_placed,
         }
     }
 
-    fn colouring(&self) -> Colouring {
-        match (self.chosen, self.has_deviations) {
+    /// The view as it is now, or why there is none.
+    fn shot(&self, pixels_per_point: f32) -> Result<ViewShot, Trouble> {
+        self.viewport
+            .shot(
+                &self.camera,
+                &self.scene,
+                &self.style,
+                self.size,
+                pixels_per_point,
+            )
+            .map_err(|error| Trouble::of(&error))
+    }
+
+    /// Hands over the picture that was asked for.
+    pub(super) fn picture(&self, ui: &Ui, state: &State, actions: &mut Vec<Action>) {
+        if state.inspect.picture_to.is_some() {
+            let shot = self.shot(ui.pixels_per_point()).map(Box::new);
+            actions.push(Action::Inspect(InspectAction::Picture(shot)));
+        }
+    }
+
+    /// Chooses the lines and words, if what they are chosen by is not what it was.
+    fn place(&mut self, state: &State, figure: &SceneFigure) {
+        let by = (&state.inspect.parts, state.units);
+        if self
+            .placed
+            .as_ref()
+            .is_some_and(|(parts, units)| (parts, *units) == by)
+        {
+            return;
+        }
+        let (parts, units) = by;
+        let mut lines = Vec::new();
+        let mut labels = Vec::new();
+        let nozzles = figure.nozzles.as_ref();
+        for part in parts {
+            match part {
+                ViewPart::Axes => lines.extend(figure.axes.clone()),
+                ViewPart::Camera => lines.extend(figure.camera.clone()),
+                ViewPart::Outline => lines.extend(figure.outline.clone()),
+                ViewPart::NozzleMiddle | ViewPart::NozzleWorst => {
+                    let (place, name) = match part {
+                        ViewPart::NozzleMiddle => (0, "Taught nozzle"),
+                        _ => (1, "Worst"),
+                    };
+                    if let Some(nozzle) = nozzles.and_then(|nozzles| nozzles.get(place)) {
+                        lines.push(nozzle.lines.clone());
+                        labels.push(TextLabel {
+                            at: nozzle.mouth,
+                            text: format!("{name} · {}", units.length(nozzle.distance.0)),
+                        });
+                    }
+                }
+            }
+        }
+        self.scene.lines = lines;
+        self.scene.labels = labels;
+        self.placed = Some((parts.clone(), units));
+        self.num_placed += 1;
+    }
+
+    fn colouring(&self, state: &State) -> Colouring {
+        match (state.inspect.colouring, self.has_deviations) {
             (Some(Colouring::Deviation) | None, false) => Colouring::Segment,
             (Some(chosen), _) => chosen,
             (None, true) => Colouring::Deviation,
         }
     }
 
-    fn controls(&mut self, ui: &mut Ui) {
-        let button = |ui: &mut Ui, text: &str| {
-            let text = RichText::new(text).font(font::small());
-            ui.add(Button::new(text).min_size(Vec2::splat(space::TARGET)))
+    /// What is shown, and that no camera was read, at the bottom; one above the other where both do not fit.
+    fn captions(&self, painter: &Painter, rect: Rect, theme: &Theme) {
+        let mut corner = pos2(rect.left() + space::MEDIUM, rect.bottom() - space::MEDIUM);
+        let first = plate(
+            painter,
+            corner,
+            egui::Align2::LEFT_BOTTOM,
+            &self.caption,
+            theme,
+        );
+        let Some(origin) = &self.origin else {
+            return;
         };
-        if button(ui, "Fit")
-            .on_hover_text("Fit the part (F)")
-            .clicked()
-        {
-            self.camera.request_fit(FitRequest::Focus);
-        }
-        for (text, view) in [
-            ("Front", StandardView::Front),
-            ("Top", StandardView::Top),
-            ("Side", StandardView::Side),
-        ] {
-            if button(ui, text).clicked() {
-                self.camera.look(view);
-                self.camera.request_fit(FitRequest::Focus);
-            }
-        }
-        let now = RichText::new(format!("Colour · {} ▼", self.style.colouring.title()))
-            .font(font::small());
-        ui.menu_button(now, |ui| {
-            for colouring in Colouring::ALL {
-                let is_chosen = self.style.colouring == colouring;
-                if ui.selectable_label(is_chosen, colouring.title()).clicked() {
-                    ui.close();
-                }
-            }
-        });
-        let text = RichText::new("Camera").font(font::small());
-        let camera = Button::new(text)
-            .selected(self.shows_camera)
-            .min_size(Vec2::splat(space::TARGET));
-        if ui
-            .add(camera)
-            .on_hover_text("Show where the camera is")
-            .clicked()
-        {
-            self.shows_camera = !self.shows_camera;
-            self.place_lines();
-        }
-        let is_measuring = self.viewport.tool == ViewTool::Measure;
-        let text = RichText::new("Measure").font(font::small());
-        let measure = Button::new(text)
-            .selected(is_measuring)
-            .min_size(Vec2::splat(space::TARGET));
-        if ui
-            .add(measure)
-            .on_hover_text("Click two points (M)")
-            .clicked()
-        {
-            self.viewport.tool = if is_measuring {
-                ViewTool::Look
-            } else {
-                ViewTool::Measure
-            };
+        let width = painter
+            .layout_no_wrap(origin.clone(), font::small(), theme.text)
+            .size()
+            .x;
+        if first.right() + width + 4.0 * space::MEDIUM < rect.right() {
+            corner.x = rect.right() - space::MEDIUM;
+            plate(painter, corner, egui::Align2::RIGHT_BOTTOM, origin, theme);
+        } else {
+            corner.y = first.top() - 4.0;
+            plate(painter, corner, egui::Align2::LEFT_BOTTOM, origin, theme);
         }
     }
 }
 
+fn style(theme: ThemeChoice) -> ViewStyle {
+    let colours = match theme {
+        ThemeChoice::Dark => ViewColours::dark(),
+        ThemeChoice::Light => ViewColours::light(),
+    };
+    ViewStyle {
+        deviation_range: DEVIATION_RANGE,
+        ..ViewStyle::new(colours)
+    }
+}
+
+/// Words on a backing, so that they can be read on any points.
+fn plate(
+    painter: &Painter,
+    corner: egui::Pos2,
+    anchor: egui::Align2,
+    text: &str,
+    theme: &Theme,
+) -> Rect {
+    let galley = painter.layout_no_wrap(text.to_owned(), font::small(), theme.text);
+    let margin = vec2(8.0, 4.0);
+    let rect = anchor.anchor_size(corner, galley.size() + 2.0 * margin);
+    painter.rect_filled(rect, ROUNDING, theme.canvas.gamma_multiply(0.82));
+    painter.galley(rect.min + margin, galley, theme.text);
+    rect
+}
+
 /// A whole number in groups of three digits.
-fn grouped(number: usize) -> String {
+pub(in crate::app) fn grouped(number: usize) -> String {
     let digits = number.to_string();
     let mut text = String::new();
     for (i, digit) in digits.chars().enumerate() {

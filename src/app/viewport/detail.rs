@@ -1,7 +1,8 @@
 //! How much of a cloud is drawn while the eye moves: all of it on a device that keeps up, a share on one that does not.
 //!
-//! The time between two frames of a moving view tells whether the device keeps up. The picture of a view at rest is
-//! always drawn in full.
+//! While the view moves, every frame is followed by another at once, so that the time from a picture to the next frame
+//! is what the picture took, however long that is; a hand that pauses is not taken for a slow device. The picture of a
+//! view at rest is always drawn in full.
 
 use super::points::NUM_SAMPLES;
 
@@ -12,6 +13,17 @@ const QUICK: f32 = 1.0 / 40.0;
 /// A view that has not moved for this long, seconds, is at rest.
 const REST: f64 = 0.2;
 
+/// When the frame after this one is needed.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub(super) enum Next {
+    /// At once: the view moves, and what this frame costs shows in when the next begins.
+    AtOnce,
+    /// In so many seconds the view is at rest, if nothing more happens.
+    Within(f64),
+    /// When something happens.
+    Whenever,
+}
+
 /// Watches one view.
 #[derive(Clone, Copy, Debug)]
 pub(super) struct MovingDetail {
@@ -19,6 +31,10 @@ pub(super) struct MovingDetail {
     num_samples: usize,
     /// When the view last moved, seconds of egui's clock.
     last_move: Option<f64>,
+    /// When a picture of the moving view was drawn, if that was in the last frame.
+    drawn: Option<f64>,
+    /// Samples drawn in the last frame.
+    shown: usize,
     /// Quick frames in a row.
     num_quick: u32,
 }
@@ -28,37 +44,45 @@ impl Default for MovingDetail {
         Self {
             num_samples: NUM_SAMPLES,
             last_move: None,
+            drawn: None,
+            shown: NUM_SAMPLES,
             num_quick: 0,
         }
     }
 }
 
 impl MovingDetail {
-    /// The samples to draw in a frame at `now`, and for how long, seconds, the view stays in motion if nothing more
-    /// happens: `None` if it is at rest.
-    pub(super) fn frame(&mut self, has_moved: bool, now: f64) -> (usize, Option<f64>) {
+    /// The samples to draw in a frame at `now`, and what is to follow it.
+    pub(super) fn frame(&mut self, has_moved: bool, now: f64) -> (usize, Next) {
+        if let Some(drawn) = self.drawn.take() {
+            self.learn((now - drawn) as f32);
+        }
         if has_moved {
-            if let Some(last) = self.last_move {
-                self.learn((now - last) as f32);
-            }
             self.last_move = Some(now);
+            self.drawn = Some(now);
         }
         let since = self.last_move.map_or(f64::INFINITY, |last| now - last);
-        if since >= REST {
+        let next = if has_moved {
+            Next::AtOnce
+        } else if since >= REST || self.num_samples == NUM_SAMPLES {
             self.last_move = None;
-            return (NUM_SAMPLES, None);
-        }
-        if self.num_samples == NUM_SAMPLES {
-            return (NUM_SAMPLES, None);
-        }
-        (self.num_samples, Some(REST - since))
+            Next::Whenever
+        } else {
+            Next::Within(REST - since)
+        };
+        self.shown = match next {
+            Next::Whenever => NUM_SAMPLES,
+            Next::AtOnce | Next::Within(_) => self.num_samples,
+        };
+        (self.shown, next)
+    }
+
+    /// Share of the points drawn in the last frame, 0..1.
+    pub(super) fn share(&self) -> f32 {
+        self.shown as f32 / NUM_SAMPLES as f32
     }
 
     fn learn(&mut self, seconds: f32) {
-        // A pause in the hand's motion is not a slow device.
-        if f64::from(seconds) >= REST {
-            return;
-        }
         if seconds > SLOW {
             self.num_samples = (self.num_samples * 2 / 3).max(1);
             self.num_quick = 0;
@@ -79,25 +103,45 @@ mod tests {
 
     #[test]
     fn a_slow_device_draws_less_while_moving_and_all_at_rest() {
-        let mut detail = MovingDetail::default();
-        let mut now = 0.0;
-        let mut drawn = NUM_SAMPLES;
-        for _ in 0..6 {
-            now += 0.1;
-            drawn = detail.frame(true, now).0;
+        // However slow: a frame that takes longer than a pause of the hand is a slow frame all the same.
+        for seconds in [0.1, 0.265, 1.0] {
+            let mut detail = MovingDetail::default();
+            let mut now = 0.0;
+            let mut drawn = NUM_SAMPLES;
+            for _ in 0..6 {
+                now += seconds;
+                let next;
+                (drawn, next) = detail.frame(true, now);
+                assert_eq!(next, Next::AtOnce);
+            }
+            assert!(drawn < NUM_SAMPLES / 2, "{seconds}: {drawn}");
+            let (still, next) = detail.frame(false, now + 0.05);
+            assert!(still <= drawn && still < NUM_SAMPLES, "not yet at rest");
+            assert!(matches!(next, Next::Within(seconds) if (0.1..=REST).contains(&seconds)));
+            assert_eq!(
+                detail.frame(false, now + 0.3),
+                (NUM_SAMPLES, Next::Whenever)
+            );
+            assert!((detail.share() - 1.0).abs() < 1e-6);
         }
-        assert!(drawn < NUM_SAMPLES / 2, "{drawn}");
-        let (still, rest_in) = detail.frame(false, now + 0.05);
-        assert_eq!(still, drawn, "not yet at rest");
-        assert!(rest_in.is_some());
-        assert_eq!(detail.frame(false, now + 0.3), (NUM_SAMPLES, None));
     }
 
     #[test]
     fn a_quick_device_always_draws_everything() {
         let mut detail = MovingDetail::default();
         for i in 0..100 {
-            assert_eq!(detail.frame(true, f64::from(i) / 60.0), (NUM_SAMPLES, None));
+            assert_eq!(detail.frame(true, f64::from(i) / 60.0).0, NUM_SAMPLES);
+        }
+    }
+
+    #[test]
+    fn a_hand_that_pauses_is_no_slow_device() {
+        let mut detail = MovingDetail::default();
+        for i in 0..30 {
+            let now = f64::from(i) * 0.15;
+            assert_eq!(detail.frame(true, now).0, NUM_SAMPLES);
+            // The frame that was asked for at once comes at once.
+            detail.frame(false, now + 0.016);
         }
     }
 }

@@ -2,7 +2,10 @@
 
 use std::{
     collections::HashMap,
-    sync::{Arc, Mutex, MutexGuard, PoisonError, Weak},
+    sync::{
+        Arc, Mutex, MutexGuard, PoisonError, Weak,
+        atomic::{AtomicU64, Ordering},
+    },
 };
 
 use eframe::{egui_wgpu::RenderState, wgpu};
@@ -82,6 +85,7 @@ struct Shared {
     trouble: Arc<Mutex<Option<ViewError>>>,
     points: Mutex<HashMap<u64, Weak<GpuPoints>>>,
     lines: Mutex<HashMap<u64, Weak<GpuLines>>>,
+    num_uploads: AtomicU64,
 }
 
 /// The passes, made once per device.
@@ -131,12 +135,18 @@ impl ViewportGpu {
             trouble,
             points: Mutex::default(),
             lines: Mutex::default(),
+            num_uploads: AtomicU64::new(0),
         }))
     }
 
     /// The first thing that went wrong with the device, if anything did. Views then show it in words.
     pub fn trouble(&self) -> Option<ViewError> {
         lock(&self.0.trouble).clone()
+    }
+
+    /// How often a set was uploaded so far.
+    pub fn num_uploads(&self) -> u64 {
+        self.0.num_uploads.load(Ordering::Relaxed)
     }
 
     pub(super) fn device(&self) -> &wgpu::Device {
@@ -160,6 +170,7 @@ impl ViewportGpu {
                 pipelines,
                 ..
             } = &*self.0;
+            self.0.num_uploads.fetch_add(1, Ordering::Relaxed);
             GpuPoints::upload(device, queue, &pipelines.point_table, set)
         })
     }
@@ -167,6 +178,7 @@ impl ViewportGpu {
     /// As [`Self::points`].
     pub(super) fn lines(&self, set: &LineSet) -> Arc<GpuLines> {
         held(&self.0.lines, set.generation(), || {
+            self.0.num_uploads.fetch_add(1, Ordering::Relaxed);
             GpuLines::upload(&self.0.device, set)
         })
     }
@@ -191,24 +203,16 @@ impl Pipelines {
 
 /// Keeps the first trouble. Without this wgpu panics on any error of the device.
 fn listen(device: &wgpu::Device, trouble: &Arc<Mutex<Option<ViewError>>>) {
-    let keep = |error: ViewError, trouble: &Mutex<Option<ViewError>>| {
-        lock(trouble).get_or_insert(error);
-    };
     let on_lost = Arc::clone(trouble);
-    device.set_device_lost_callback(move |reason, message| {
-        // A device that was let go of on purpose is no trouble.
-        if reason != wgpu::DeviceLostReason::Destroyed {
-            keep(ViewError::DeviceLost { reason: message }, &on_lost);
-        }
+    device.set_device_lost_callback(move |_, reason| {
+        // Whatever else was wrong follows from this. Nobody asks about a device that was let go of on purpose.
+        *lock(&on_lost) = Some(ViewError::DeviceLost { reason });
     });
     let on_error = Arc::clone(trouble);
     device.on_uncaptured_error(Arc::new(move |error: wgpu::Error| {
-        keep(
-            ViewError::DeviceError {
-                reason: error.to_string(),
-            },
-            &on_error,
-        );
+        lock(&on_error).get_or_insert(ViewError::DeviceError {
+            reason: error.to_string(),
+        });
     }));
 }
 

@@ -11,6 +11,8 @@ use crate::units::Metres;
 
 const BAR: Vec2 = Vec2::new(168.0, 8.0);
 const MARGIN: f32 = 14.0;
+/// Room for a row of controls at the top.
+const CONTROLS: f32 = 48.0;
 
 /// Draws the scale that the view's points are coloured by, if it is one.
 pub(super) fn ui(painter: &Painter, rect: Rect, scene: &ViewScene, style: &ViewStyle) {
@@ -18,6 +20,10 @@ pub(super) fn ui(painter: &Painter, rect: Rect, scene: &ViewScene, style: &ViewS
     if style.legend == Legend::Hidden || !fits {
         return;
     }
+    let rect = match style.legend {
+        Legend::BelowControls => rect.with_min_y(rect.top() + CONTROLS),
+        Legend::Shown | Legend::Hidden => rect,
+    };
     let colours = &style.colours;
     match style.colouring {
         Colouring::Height => {

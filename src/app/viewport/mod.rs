@@ -54,8 +54,8 @@ pub use self::{
     measure::Measure,
     picking::PickedPoint,
     scene::{Line, LineSet, PointSet, TextLabel, ViewScene},
-    screenshot::screenshot,
-    style::{Colouring, PointSize, Role, ViewColours, ViewStyle},
+    screenshot::{ViewShot, screenshot},
+    style::{Colouring, Legend, PointSize, Role, RoleColour, ViewColours, ViewStyle},
     widget::{ViewTool, Viewport, ViewportResponse},
 };
 

@@ -1,6 +1,6 @@
 //! A picture of a scene, drawn off screen and read back. Works without a window.
 
-use std::sync::mpsc;
+use std::{fmt, sync::mpsc};
 
 use eframe::wgpu;
 use image::RgbaImage;
@@ -13,6 +13,47 @@ use super::{
     scene::ViewScene,
     style::ViewStyle,
 };
+
+/// A view as it was at one moment, to be drawn later and on any thread. Cheap to clone.
+#[derive(Clone)]
+pub struct ViewShot {
+    /// What draws it.
+    pub gpu: ViewportGpu,
+    /// From where.
+    pub camera: ViewCamera,
+    /// What.
+    pub scene: ViewScene,
+    /// How.
+    pub style: ViewStyle,
+    /// Width and height, physical pixels.
+    pub size: [u32; 2],
+    /// Scales widths and point sizes.
+    pub pixels_per_point: f32,
+}
+
+impl ViewShot {
+    /// Draws it, as [`screenshot`] does.
+    pub fn take(&self) -> Result<RgbaImage, ViewError> {
+        let Self {
+            gpu,
+            camera,
+            scene,
+            style,
+            size,
+            pixels_per_point,
+        } = self;
+        screenshot(gpu, camera, scene, style, *size, *pixels_per_point)
+    }
+}
+
+impl fmt::Debug for ViewShot {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_struct("ViewShot")
+            .field("camera", &self.camera)
+            .field("size", &self.size)
+            .finish_non_exhaustive()
+    }
+}
 
 /// Draws points and lines of a scene; labels and the colour scale belong to the window and are not in it.
 ///

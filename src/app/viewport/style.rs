@@ -142,6 +142,8 @@ pub enum Legend {
     /// While points are coloured by a scale.
     #[default]
     Shown,
+    /// As above, but further down: a row of controls stands at the top.
+    BelowControls,
     /// Never, for views too small for it.
     Hidden,
 }

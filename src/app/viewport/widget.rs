@@ -13,7 +13,7 @@ use egui::{
 
 use super::{
     camera::ViewCamera,
-    detail::MovingDetail,
+    detail::{MovingDetail, Next},
     gpu::{ViewError, ViewportGpu, lock},
     legend,
     measure::{self, Anchor, Measure},
@@ -21,6 +21,7 @@ use super::{
     picking::{self, PickedPoint},
     renderer::{Frame, ViewRenderer},
     scene::ViewScene,
+    screenshot::ViewShot,
     style::ViewStyle,
 };
 use crate::{error::Advice, units::Metres};
@@ -133,6 +134,37 @@ impl Viewport {
         lock(&self.renderer).num_pictures()
     }
 
+    /// How often a set was copied to the device, for any of the views that share it.
+    pub fn num_uploads(&self) -> u64 {
+        self.gpu.as_ref().map_or(0, ViewportGpu::num_uploads)
+    }
+
+    /// Share of the points that was drawn in the last frame, 0..1: less than all only while a slow device follows a
+    /// moving eye.
+    pub fn detail(&self) -> f32 {
+        self.detail.share()
+    }
+
+    /// The view as it is with these, to be drawn anywhere else; `size` in logical pixels.
+    pub fn shot(
+        &self,
+        camera: &ViewCamera,
+        scene: &ViewScene,
+        style: &ViewStyle,
+        size: egui::Vec2,
+        pixels_per_point: f32,
+    ) -> Result<ViewShot, ViewError> {
+        let pixels = |points: f32| (points * pixels_per_point).round().max(1.0) as u32;
+        Ok(ViewShot {
+            gpu: self.drawable()?.clone(),
+            camera: *camera,
+            scene: scene.clone(),
+            style: style.clone(),
+            size: [pixels(size.x), pixels(size.y)],
+            pixels_per_point,
+        })
+    }
+
     fn drawable(&self) -> Result<&ViewportGpu, ViewError> {
         let gpu = self.gpu.as_ref().map_err(Clone::clone)?;
         gpu.trouble().map_or(Ok(gpu), Err)
@@ -187,9 +219,11 @@ impl Viewport {
         let now = ui.input(|input| input.time);
         let has_moved = self.shown_camera.is_some_and(|shown| shown != *camera);
         self.shown_camera = Some(*camera);
-        let (num_samples, rests_in) = self.detail.frame(has_moved, now);
-        if let Some(seconds) = rests_in {
-            ui.request_repaint_after_secs(seconds as f32);
+        let (num_samples, next) = self.detail.frame(has_moved, now);
+        match next {
+            Next::AtOnce => ui.request_repaint(),
+            Next::Within(seconds) => ui.request_repaint_after_secs(seconds as f32),
+            Next::Whenever => {}
         }
         let callback = PaintView {
             gpu: gpu.clone(),

@@ -129,3 +129,24 @@ fn too_few_points_and_lines_are_refused_by_name() {
         Err(EnrolError::NoPart(NoPart::TooFewPoints { .. }))
     ));
 }
+
+#[test]
+fn a_part_from_all_that_segmentation_found_is_the_captured_one_and_less_makes_it_smaller() {
+    let scene = captured(3);
+    let params = EnrolParams::default();
+    let found = segment(&scene, &params.segment).part.expect("a part");
+    let whole = enrol_captured(&scene, &about("fender"), &params).expect("a part");
+    let same = enrol_selected(&scene, &found.indices, &about("fender"), &params).expect("a part");
+    assert_eq!(same.part, whole.part);
+    assert_eq!(same.warnings, whole.warnings);
+
+    let half: Vec<u32> = found.indices[..found.indices.len() / 2].to_vec();
+    let half = enrol_selected(&scene, &half, &about("fender"), &params).expect("a part");
+    assert_eq!(half.part.meta.enrolled.how, How::Segmented);
+    assert!(half.part.signature.area_m2 < 0.8 * whole.part.signature.area_m2);
+    let few = enrol_selected(&scene, &found.indices[..20], &about("x"), &params);
+    assert!(matches!(
+        few,
+        Err(EnrolError::TooFewPoints { found: 20, .. })
+    ));
+}

@@ -1,8 +1,15 @@
 use jiff::Timestamp;
 use nalgebra::Point3;
 
-use super::*;
+use super::{
+    super::{
+        entry::{CLOUD, SIGNATURE, THUMBNAIL},
+        trash::TRASH,
+    },
+    *,
+};
 use crate::{
+    error::Advice as _,
     geometry::cloud::PointCloud,
     library::{About, EnrolParams, EntryError, LibraryLoad, Trouble, enrol_whole},
     stages::reference::ReferenceParams,
@@ -364,4 +371,140 @@ fn two_writers_at_once_both_succeed() {
     });
     assert_eq!(library.names().expect("listed"), ["a", "b"]);
     assert!(load(&library).problems.is_empty());
+}
+
+fn words(name: &str, title: &str) -> PartWords {
+    PartWords {
+        name: PartName::new(name).expect("a name"),
+        title: title.into(),
+        notes: "seen again".into(),
+    }
+}
+
+#[test]
+fn a_part_with_another_title_is_otherwise_the_same() {
+    let (_guard, library) = library();
+    let folder = library.save(&part("plate", 0.4)).expect("saved").folder;
+    let before = load(&library).parts[0].words();
+    let renamed = library.rename(&before.name, &words("plate", "Sheet"));
+    let expected = Renamed {
+        before: before.clone(),
+        former: None,
+    };
+    assert_eq!(renamed.expect("renamed"), expected);
+    let loaded = load(&library);
+    assert_eq!(loaded.parts[0].words(), words("plate", "Sheet"));
+    assert!(loaded.problems.is_empty() && loaded.warnings.is_empty());
+    assert_eq!(fs::read_dir(&folder).expect("listed").count(), 4);
+    library.rename(&before.name, &before).expect("renamed back");
+    assert_eq!(load(&library).parts[0], part("plate", 0.4).meta);
+}
+
+#[test]
+fn a_part_with_another_name_keeps_every_file_and_the_former_one_lies_in_the_trash() {
+    let (_guard, library) = library();
+    let folder = library.save(&part("plate", 0.4)).expect("saved").folder;
+    fs::write(folder.join("drawing.txt"), "no. 7").expect("written");
+    let name = PartName::new("plate").expect("a name");
+    let renamed = library.rename(&name, &words("sheet", "Sheet"));
+    let former = renamed.expect("renamed").former.expect("kept");
+    let loaded = load(&library);
+    assert_eq!(loaded.parts[0].words(), words("sheet", "Sheet"));
+    assert_eq!(loaded.library.references[0].cloud, part("plate", 0.4).cloud);
+    assert!(loaded.warnings.is_empty());
+    let drawing = library.path().join("sheet").join("drawing.txt");
+    assert_eq!(fs::read_to_string(drawing).expect("copied"), "no. 7");
+    let trashed = library.trashed().expect("listed");
+    assert_eq!(
+        (trashed[0].name.as_str(), &trashed[0].kept),
+        ("plate", &former)
+    );
+}
+
+#[test]
+fn a_name_that_is_taken_a_damaged_description_and_a_missing_part_are_refused() {
+    let (_guard, library, damaged) = two_parts();
+    let name = |name| PartName::new(name).expect("a name");
+    let taken = library.rename(&name("sound"), &words("damaged", ""));
+    assert!(
+        matches!(taken, Err(LibraryError::NameTaken { .. })),
+        "{taken:?}"
+    );
+    fs::write(damaged.join(META), "schema_version = 1").expect("written");
+    for to in ["damaged", "other"] {
+        let refused = library
+            .rename(&name("damaged"), &words(to, ""))
+            .expect_err("refused");
+        assert!(matches!(refused, LibraryError::Damaged(_)) && !refused.advice().is_empty());
+    }
+    let missing = library.rename(&name("door"), &words("gate", ""));
+    assert!(matches!(missing, Err(LibraryError::NoSuchPart { .. })));
+    assert_eq!(library.names().expect("listed"), ["damaged", "sound"]);
+}
+
+#[test]
+fn a_writer_killed_while_it_renames_leaves_one_of_the_two_names() {
+    let (_guard, library) = library();
+    let folder = library.save(&part("plate", 0.4)).expect("saved").folder;
+    let aside = library.path().join(".old-plate+sheet");
+    fs::rename(&folder, &aside).expect("aside");
+    assert_eq!(library.names().expect("listed"), ["plate"]);
+    assert_eq!(load(&library).warnings[0].trouble, Trouble::LeftAside);
+    library.save(&part("other", 0.5)).expect("saved");
+    assert_eq!(library.names().expect("listed"), ["other", "plate"]);
+    fs::rename(&folder, &aside).expect("aside");
+    fs::rename(library.path().join("other"), library.path().join("sheet")).expect("in place");
+    assert_eq!(library.names().expect("listed"), ["sheet"]);
+    library.save(&part("third", 0.6)).expect("saved");
+    assert_eq!(library.trashed().expect("listed")[0].name.as_str(), "plate");
+}
+
+#[test]
+fn what_was_removed_or_replaced_is_restored_and_nothing_is_lost_by_it() {
+    let (_guard, library) = library();
+    library.save(&part("plate-2", 0.4)).expect("saved");
+    let replaced = library.save(&part("plate-2", 0.5)).expect("saved").replaced;
+    let restored = library.restore(&replaced.expect("kept")).expect("restored");
+    assert_eq!(restored.name.as_str(), "plate-2");
+    let width = |library: &LibraryFolder| load(library).library.references[0].cloud.clone();
+    assert_eq!(width(&library), part("plate-2", 0.4).cloud);
+    library
+        .restore(&restored.replaced.expect("kept"))
+        .expect("and back");
+    assert_eq!(width(&library), part("plate-2", 0.5).cloud);
+    let removed = library.remove(&restored.name).expect("removed");
+    assert_eq!(library.restore(&removed).expect("restored").replaced, None);
+    assert_eq!(width(&library), part("plate-2", 0.5).cloud);
+}
+
+#[test]
+fn a_damaged_part_comes_back_as_it_was() {
+    let (_guard, library, damaged) = two_parts();
+    fs::write(damaged.join(META), "schema_version = ").expect("written");
+    let kept = library.remove(&PartName::new("damaged").expect("a name"));
+    library.restore(&kept.expect("removed")).expect("restored");
+    assert!(matches!(
+        problem(&load(&library)),
+        EntryError::BadMeta { .. }
+    ));
+}
+
+#[test]
+fn only_what_lies_in_the_trash_is_restored() {
+    let (_guard, library) = library();
+    let folder = library.save(&part("plate", 0.4)).expect("saved").folder;
+    let trash = library.path().join(TRASH);
+    fs::create_dir_all(trash.join("notes")).expect("made");
+    let outside = tempfile::tempdir().expect("a folder");
+    let elsewhere = outside.path().join("plate-20260102T030405Z");
+    fs::create_dir(&elsewhere).expect("made");
+    let missing = trash.join("plate-20260102T030405Z");
+    for kept in [&folder, &trash.join("notes"), &elsewhere, &missing] {
+        let refused = library.restore(kept).expect_err("refused");
+        assert!(
+            matches!(refused, LibraryError::NotInTrash { .. }),
+            "{kept:?}: {refused}"
+        );
+    }
+    assert!(library.trashed().expect("listed").is_empty() && folder.exists());
 }

@@ -7,8 +7,8 @@ use crate::{
     geometry::rigid::{RigidTransform, pose_error},
     stages::{
         pose::{
-            RunnerUp,
-            quality::Tolerance,
+            PoseEstimate, PoseMethod, RunnerUp,
+            quality::{Fit, Tolerance},
             refine::{Level, Refined, Search, Source, cost, refine},
         },
         rank::Placement,
@@ -21,8 +21,28 @@ pub(super) struct Candidate {
     pub(super) refined: Refined,
     /// The view whose edges it was refined to.
     pub(super) view: usize,
-    pub(super) score: f64,
+    pub(super) fit: Fit,
     pub(super) runner_up: Option<RunnerUp>,
+}
+
+impl Candidate {
+    /// Everything known about it so far.
+    pub(super) fn estimate(&self) -> PoseEstimate {
+        let Self {
+            refined,
+            fit,
+            runner_up,
+            ..
+        } = self;
+        PoseEstimate {
+            target_from_source: refined.target_from_source,
+            method: PoseMethod::Global,
+            stopped: refined.stopped,
+            iterations: refined.iterations.clone(),
+            fit: *fit,
+            runner_up: *runner_up,
+        }
+    }
 }
 
 /// A pose of one reference on its way from coarse to fine.
@@ -119,9 +139,9 @@ pub(super) fn best_candidate(
         Search::Field,
     );
     Some(Candidate {
-        score: fit.score(),
         refined,
         view,
+        fit,
         runner_up,
     })
 }

@@ -39,6 +39,9 @@ pub enum PoseMethod {
 }
 
 impl PoseMethod {
+    /// Every method, the paper's first.
+    pub const ALL: [Self; 3] = [Self::Icp, Self::IcpGa, Self::Global];
+
     /// The name used on the command line and in reports.
     pub fn name(self) -> &'static str {
         match self {

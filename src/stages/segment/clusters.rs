@@ -225,8 +225,17 @@ fn describe(scene: &SceneCloud, indices: &[u32], link: Link) -> Cluster {
         voxels.dedup();
         voxels.len() as f64 * f64::from(size).powi(2)
     };
+    Cluster {
+        num_points: indices.len(),
+        area,
+        touches_edge: touches_edge(scene, indices),
+    }
+}
+
+/// True if these points reach the edge of what the camera sees.
+pub(super) fn touches_edge(scene: &SceneCloud, indices: &[u32]) -> bool {
     let view = scene.cloud.grid.filter(|_| scene.edge == PictureEdge::View);
-    let touches_edge = view.is_some_and(|Grid { width, height }| {
+    view.is_some_and(|Grid { width, height }| {
         // Sensors lose a few pixels along the edge; a handful of stray pixels there does not count.
         const MARGIN: usize = 3;
         let at_edge = |i: &&u32| {
@@ -234,10 +243,5 @@ fn describe(scene: &SceneCloud, indices: &[u32], link: Link) -> Cluster {
             u < MARGIN || v < MARGIN || u + MARGIN >= width || v + MARGIN >= height
         };
         indices.iter().filter(at_edge).count() >= 10
-    });
-    Cluster {
-        num_points: indices.len(),
-        area,
-        touches_edge,
-    }
+    })
 }

@@ -107,6 +107,17 @@ impl SegmentedPart {
         Self::of(cloud, indices, SegmentParams::default().noise_at_1m, false)
     }
 
+    /// The readings of a scene at these places, ascending.
+    pub fn selected(scene: &SceneCloud, indices: &[u32], noise_at_1m: Metres) -> Self {
+        let is_reading = |i: &u32| {
+            let point = scene.cloud.points.get(*i as usize);
+            point.is_some_and(crate::geometry::cloud::is_finite)
+        };
+        let indices: Vec<u32> = indices.iter().copied().filter(is_reading).collect();
+        let touches_edge = clusters::touches_edge(scene, &indices);
+        Self::of(&scene.cloud, indices, noise_at_1m, touches_edge)
+    }
+
     fn of(scene: &PointCloud, indices: Vec<u32>, noise_at_1m: Metres, touches_edge: bool) -> Self {
         let pick = |i: &u32| *i as usize;
         Self {
@@ -208,6 +219,37 @@ pub fn segment(scene: &SceneCloud, params: &SegmentParams) -> Segmentation {
         noise_at_1m,
         part,
     }
+}
+
+/// The places in the scene of the points of every connected surface, ascending; in the order of
+/// [`Segmentation::clusters`].
+pub fn surfaces(
+    scene: &SceneCloud,
+    segmentation: &Segmentation,
+    params: &SegmentParams,
+) -> Vec<Vec<u32>> {
+    let before = |label: &PointLabel| match label {
+        PointLabel::Part => PointLabel::Rest,
+        label => *label,
+    };
+    let labels: Vec<PointLabel> = segmentation.labels.iter().map(before).collect();
+    connected(scene, &labels, segmentation.noise_at_1m, params)
+}
+
+/// The places of the points of every connected surface of a scene that is all part, largest first.
+pub fn pieces(scene: &SceneCloud, params: &SegmentParams) -> Vec<Vec<u32>> {
+    let labels = label_readings(&scene.cloud.points);
+    connected(scene, &labels, params.noise_at_1m, params)
+}
+
+fn connected(
+    scene: &SceneCloud,
+    labels: &[PointLabel],
+    noise_at_1m: Metres,
+    params: &SegmentParams,
+) -> Vec<Vec<u32>> {
+    let found = clusters::connect(scene, labels, noise_at_1m, params);
+    found.into_iter().map(|members| members.indices).collect()
 }
 
 /// A scene wider than this is no cell: a file in millimetres reads as a thousand times as wide, metres.

@@ -1,20 +1,12 @@
-//! The window, by what a person reads and presses. No graphics adapter is needed: the 3-D view then says so in words.
+//! Inspect, and what lies around every workspace.
 
-use std::{
-    path::{Path, PathBuf},
-    sync::Arc,
-    thread,
-    time::{Duration, Instant},
-};
+use std::{thread, time::Duration};
 
-use egui::{Key, Modifiers, Role, Vec2};
-use egui_kittest::{
-    Harness,
-    kittest::{NodeT as _, Queryable as _},
-};
+use egui::{Key, Modifiers, Role};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use partsight::{
     app::{
-        Window,
+        WindowOptions,
         state::{StagePanel, ThemeChoice, UnitSystem},
     },
     files::save_cloud,
@@ -22,54 +14,11 @@ use partsight::{
     stages::scene::scene_from_frame,
 };
 
-type WindowHarness = Harness<'static, Window>;
-
-fn open_at(size: Vec2) -> WindowHarness {
-    let mut harness = Harness::builder().with_size(size).build_eframe(|cc| {
-        Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), None).expect("a thread")
-    });
-    settle(&mut harness);
-    harness
-}
-
-fn open() -> WindowHarness {
-    open_at(Vec2::new(1440.0, 900.0))
-}
-
-/// Draws until nothing is at work any more.
-fn settle(harness: &mut WindowHarness) {
-    let until = Instant::now() + Duration::from_mins(1);
-    harness.step();
-    while harness.state().state().work.is_some() {
-        assert!(Instant::now() < until, "still working after a minute");
-        thread::sleep(Duration::from_millis(5));
-        harness.step();
-    }
-    harness.run_steps(3);
-}
+use super::set_up::{SMALL, WindowHarness, drop_file, open, open_with, settle};
 
 fn generation(harness: &WindowHarness) -> u64 {
     let shown = harness.state().state().shown.as_ref();
     shown.expect("a result").generation
-}
-
-#[derive(Debug)]
-struct Dropped(PathBuf);
-
-impl egui::DroppedFile for Dropped {
-    fn path(&self) -> &Path {
-        &self.0
-    }
-
-    fn bytes(&self) -> Result<Vec<u8>, String> {
-        Err("the window opens files itself".into())
-    }
-}
-
-fn drop_file(harness: &mut WindowHarness, path: &Path) {
-    let dropped = Arc::new(Dropped(path.to_owned()));
-    harness.input_mut().dropped_files.push(dropped);
-    settle(harness);
 }
 
 #[test]
@@ -142,7 +91,7 @@ fn cancel_gives_up_at_once_and_keeps_the_last_result() {
         harness.run_steps(2);
         assert_eq!(generation(&harness), before);
     }
-    assert!(harness.state().state().work.is_none());
+    assert!(harness.state().state().works.is_empty());
     thread::sleep(Duration::from_millis(300));
     harness.run_steps(2);
     assert!(!harness.state().state().is_old());
@@ -189,8 +138,8 @@ fn units_colours_and_shortcuts_have_their_keys() {
 
 #[test]
 fn every_control_is_large_enough_labelled_and_inside_a_small_window() {
-    let size = Vec2::new(1024.0, 768.0);
-    let mut harness = open_at(size);
+    let size = SMALL;
+    let mut harness = open_with(size, WindowOptions::default());
     for panel in [None, Some("Enlarge ranking")] {
         if let Some(label) = panel {
             harness.get_by_label(label).click();

@@ -1,36 +1,59 @@
-//! The folder of `inspect --report`.
+//! A folder of reports: what `inspect --report` and the window's export write.
 
 use std::{
     collections::BTreeSet,
-    fs,
+    fs, io,
     path::{Path, PathBuf},
 };
 
-use super::console::{Advised as _, advised_error};
+use super::pictures::{Picture, strip};
 use crate::{
-    files::{advice_on, words_of, write_atomically},
-    report::{Picture, strip},
+    error::Advice,
+    files::{FileError, advice_on, words_of, write_atomically},
 };
+
+/// Why a report could not be written.
+#[derive(Debug, thiserror::Error)]
+pub enum ReportError {
+    /// The folder cannot be made.
+    #[error("{}: cannot make the report's folder: {}", path.display(), words_of(source))]
+    Folder {
+        /// The folder.
+        path: PathBuf,
+        /// Why.
+        source: io::Error,
+    },
+    /// A file cannot be written.
+    #[error(transparent)]
+    File(#[from] FileError),
+}
+
+impl Advice for ReportError {
+    fn advice(&self) -> String {
+        match self {
+            Self::Folder { source, .. } => advice_on(source).into(),
+            Self::File(error) => error.advice(),
+        }
+    }
+}
 
 /// The results of an inspection, beside the captures or anywhere else.
 ///
 /// Per inspected file `STEM.report.json`, a `STEM.STAGE.png` for each stage, and `STEM.stages.png` with all of them. What an
 /// earlier report left under these names is replaced; a depth image and its camera never are.
-pub(super) struct ReportFolder {
+#[derive(Debug)]
+pub struct ReportFolder {
     path: PathBuf,
     /// Stems that are taken, so that two files of one name in different folders do not overwrite each other.
     taken: BTreeSet<String>,
 }
 
 impl ReportFolder {
-    pub(super) fn make(path: &Path) -> anyhow::Result<Self> {
-        fs::create_dir_all(path).map_err(|error| {
-            let folder = path.display();
-            let cause = words_of(&error);
-            advised_error(
-                format!("{folder}: cannot make the report's folder: {cause}"),
-                advice_on(&error),
-            )
+    /// Makes the folder where it is missing.
+    pub fn make(path: &Path) -> Result<Self, ReportError> {
+        fs::create_dir_all(path).map_err(|source| ReportError::Folder {
+            path: path.to_owned(),
+            source,
         })?;
         Ok(Self {
             path: path.to_owned(),
@@ -38,12 +61,14 @@ impl ReportFolder {
         })
     }
 
-    pub(super) fn write(
+    /// Writes the report of a scene and answers with its JSON; `line` is an
+    /// [`InspectionLine`](super::InspectionLine).
+    pub fn write(
         &mut self,
         scene: &Path,
         line: &str,
         pictures: &[Picture],
-    ) -> anyhow::Result<()> {
+    ) -> Result<PathBuf, ReportError> {
         let strip = Picture {
             stage: "stages",
             image: strip(pictures),
@@ -52,14 +77,19 @@ impl ReportFolder {
         let pictures: Vec<&Picture> = pictures.iter().chain(shown).collect();
         let stem = self.free_stem(scene, &pictures);
         let json = self.json(&stem);
-        write_atomically(&json, |writer| writeln!(writer, "{line}")).advised()?;
+        write_atomically(&json, |writer| writeln!(writer, "{line}"))?;
         for picture in pictures {
-            let mut png = std::io::Cursor::new(Vec::new());
-            picture.image.write_to(&mut png, image::ImageFormat::Png)?;
-            let path = self.picture(&stem, picture);
-            write_atomically(&path, |writer| writer.write_all(png.get_ref())).advised()?;
+            write_atomically(&self.picture(&stem, picture), |writer| {
+                let mut png = io::Cursor::new(Vec::new());
+                let format = image::ImageFormat::Png;
+                picture
+                    .image
+                    .write_to(&mut png, format)
+                    .map_err(io::Error::other)?;
+                writer.write_all(png.get_ref())
+            })?;
         }
-        Ok(())
+        Ok(json)
     }
 
     fn json(&self, stem: &str) -> PathBuf {

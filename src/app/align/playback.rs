@@ -1,0 +1,101 @@
+//! What is shown of a comparison: which iteration, and whether it moves on.
+
+use std::sync::Arc;
+
+use super::{
+    AlignState,
+    pair::Pair,
+    track::{MethodRun, Track},
+};
+
+/// A pair and what the methods made of it.
+#[derive(Debug)]
+pub struct Comparison {
+    /// The pair.
+    pub pair: Arc<Pair>,
+    /// One per method that has run, in their order.
+    pub runs: Vec<Arc<MethodRun>>,
+}
+
+impl Comparison {
+    /// The longest way's last place.
+    pub fn last_place(&self) -> usize {
+        let tracks = self.tracks().map(|(_, track)| track.poses.len());
+        tracks.max().unwrap_or(1).saturating_sub(1)
+    }
+
+    /// The ways of the methods that found a pose.
+    pub fn tracks(&self) -> impl Iterator<Item = (&MethodRun, &Track)> {
+        let found = |run: &'_ MethodRun| run.track.is_ok();
+        let runs = self.runs.iter().map(Arc::as_ref);
+        runs.filter(move |run| found(run))
+            .filter_map(|run| Some((run, run.track.as_ref().ok()?)))
+    }
+}
+
+/// Whether the scrubber moves by itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Playback {
+    /// It stands.
+    #[default]
+    Paused,
+    /// It moves on.
+    Playing,
+}
+
+/// The scrubber plays a whole way in so many seconds, short ones more quickly.
+const PLAY_SECONDS: f32 = 6.0;
+/// Slowest pace, iterations per second.
+const LEAST_PACE: f32 = 10.0;
+
+impl AlignState {
+    /// The last place of the scrubber.
+    pub fn last_place(&self) -> usize {
+        self.shown.as_ref().map_or(0, Comparison::last_place)
+    }
+
+    pub(super) fn go_to(&mut self, place: f32) {
+        self.place = place.clamp(0.0, self.last_place() as f32);
+    }
+
+    pub(super) fn toggle_play(&mut self) {
+        self.playback = match self.playback {
+            Playback::Playing => Playback::Paused,
+            Playback::Paused if self.last_place() == 0 => Playback::Paused,
+            Playback::Paused => {
+                if self.place >= self.last_place() as f32 {
+                    self.place = 0.0;
+                }
+                Playback::Playing
+            }
+        };
+    }
+
+    pub(super) fn advance(&mut self, seconds: f32) {
+        if self.playback == Playback::Paused {
+            return;
+        }
+        let last = self.last_place() as f32;
+        self.go_to(self.place + seconds * (last / PLAY_SECONDS).max(LEAST_PACE));
+        if self.place >= last {
+            self.playback = Playback::Paused;
+        }
+    }
+
+    /// A method has run: the first of a pair brings the pair to the front.
+    pub(super) fn take_in(&mut self, run: Arc<MethodRun>) {
+        match (self.coming.take(), &mut self.shown) {
+            (Some(pair), shown) => {
+                let runs = vec![run];
+                *shown = Some(Comparison { pair, runs });
+                self.playback = Playback::Paused;
+            }
+            (None, Some(shown)) => shown.runs.push(run),
+            (None, None) => return,
+        }
+        // The end is what a person wants to see first.
+        if self.playback == Playback::Paused {
+            self.place = self.last_place() as f32;
+        }
+    }
+}

@@ -1,0 +1,95 @@
+//! How far off the source begins: the paper's five transforms, one that a person writes, one drawn at random.
+
+use std::f64::consts::PI;
+
+use rand::{RngExt as _, SeedableRng as _};
+use rand_pcg::Pcg64;
+
+use crate::geometry::rigid::{RigidTransform, from_euler_zyx};
+
+/// T1..T5 of eq. 15: three angles, radians, and a shift, metres.
+const TRANSFORMS: [[f64; 6]; 5] = [
+    [0.5 * PI, 0.0, 0.0, 0.8, 0.0, 0.5],
+    [0.5 * PI, 0.0, 0.1 * PI, 0.8, 0.1, 0.5],
+    [0.5 * PI, 0.2 * PI, 0.3 * PI, 0.1, 0.3, 0.1],
+    [0.6 * PI, 0.3 * PI, 0.4 * PI, 0.3, 0.2, 0.4],
+    [0.3 * PI, 0.1 * PI, 0.6 * PI, 0.4, 0.6, 0.3],
+];
+
+/// Largest shift along each axis of a random start, metres: that of T1.
+const RANDOM_SHIFT: f64 = 0.8;
+
+/// The transform that the points are moved by before they are aligned to where they were.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Start {
+    /// One of T1..T5 (eq. 15), counted from 0.
+    Paper(usize),
+    /// One that a person wrote.
+    Custom(RigidTransform),
+    /// The one that this seed draws: angles up to half a turn, shifts as large as T1's.
+    Random(u64),
+}
+
+impl Default for Start {
+    fn default() -> Self {
+        Self::Paper(0)
+    }
+}
+
+impl Start {
+    /// How many the paper has.
+    pub const NUM_PAPER: usize = TRANSFORMS.len();
+
+    /// What a person calls it.
+    pub fn title(self) -> String {
+        match self {
+            Self::Paper(place) => format!("T{}", place + 1),
+            Self::Custom(_) => "custom start".into(),
+            Self::Random(seed) => format!("random start {seed}"),
+        }
+    }
+
+    /// The transform.
+    pub fn transform(self) -> RigidTransform {
+        match self {
+            Self::Paper(place) => {
+                let numbers = TRANSFORMS.get(place).copied().unwrap_or_default();
+                from_euler_zyx(numbers)
+            }
+            Self::Custom(transform) => transform,
+            Self::Random(seed) => {
+                let mut rng = Pcg64::seed_from_u64(seed);
+                let angle = [(); 3].map(|()| rng.random_range(-PI..PI));
+                let shift = [(); 3].map(|()| rng.random_range(-RANDOM_SHIFT..RANDOM_SHIFT));
+                // Half the range: beyond it the same turns come again.
+                from_euler_zyx([
+                    angle[0],
+                    0.5 * angle[1],
+                    angle[2],
+                    shift[0],
+                    shift[1],
+                    shift[2],
+                ])
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_transform_of_the_paper_is_a_quarter_turn_about_x_and_a_shift() {
+        let moved = Start::Paper(0).transform() * nalgebra::Point3::new(0.0, 1.0, 0.0);
+        assert!((moved - nalgebra::Point3::new(0.8, 0.0, 1.5)).norm() < 1e-12);
+    }
+
+    #[test]
+    fn a_seed_draws_the_same_start_again_and_another_seed_another() {
+        assert_eq!(Start::Random(7).transform(), Start::Random(7).transform());
+        assert_ne!(Start::Random(7).transform(), Start::Random(8).transform());
+        let shift = Start::Random(7).transform().translation.vector;
+        assert!(shift.amax() <= RANDOM_SHIFT);
+    }
+}

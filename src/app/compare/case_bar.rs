@@ -1,0 +1,260 @@
+//! The case in front: what it was taken for, what it truly is, and what it is compared with.
+
+use egui::{Button, RichText, ScrollArea, Sense, TextEdit, Ui, Vec2, WidgetInfo};
+
+use super::{CompareAction, Front, matrix::truth_title};
+use crate::{
+    app::{
+        bars::{labelled, shortened},
+        state::State,
+        theme::{Theme, font, space},
+        widgets::{Mark, mark},
+    },
+    cases::{Answered, Judgement, Truth},
+};
+
+/// A bar wider than this has room for a long remark.
+const WIDE: f32 = 800.0;
+
+/// Draws the bar.
+pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<CompareAction>) {
+    let remark = if ui.available_width() > WIDE {
+        220.0
+    } else {
+        140.0
+    };
+    ui.horizontal_wrapped(|ui| {
+        case_menu(ui, state, acts);
+        verdict(ui, state, theme);
+        truth_menu(ui, state, acts);
+    });
+    ui.horizontal_wrapped(|ui| {
+        ui.label(RichText::new("against").color(theme.weak_text));
+        against_menu(ui, state, acts);
+        ui.add_space(space::MEDIUM);
+        deeds(ui, state, remark, theme, acts);
+    });
+}
+
+fn menu(ui: &mut Ui, title: &str, hover: &str, content: &mut dyn FnMut(&mut Ui)) {
+    ui.menu_button(title, |ui| {
+        ui.set_min_width(220.0);
+        ScrollArea::vertical().max_height(420.0).show(ui, content);
+    })
+    .response
+    .on_hover_text(hover);
+}
+
+fn case_menu(ui: &mut Ui, state: &State, acts: &mut Vec<CompareAction>) {
+    let compare = &state.compare;
+    let is_scene = matches!(compare.front, Front::Scene);
+    let title = match (&compare.front, &state.shown) {
+        (Front::Kept(case), _) => case.name.clone(),
+        (Front::Scene, Some(shown)) => shown.inspected.origin.title(),
+        (Front::Scene, None) => "none".into(),
+    };
+    let title = format!("Case · {} ▼", shortened(&title, 24));
+    menu(ui, &title, "Which scene is looked at", &mut |ui| {
+        if let Some(shown) = &state.shown {
+            let title = format!("{} (in front)", shown.inspected.origin.title());
+            if ui.selectable_label(is_scene, title).clicked() {
+                acts.push(CompareAction::FrontScene);
+                ui.close();
+            }
+        }
+        ui.label(RichText::new("Kept cases").font(font::heading()));
+        let cases = compare.cases.as_ref().map(|cases| &*cases.list);
+        for case in cases.unwrap_or_default() {
+            let is_front = matches!(&compare.front, Front::Kept(front) if front.name == case.name);
+            if ui.selectable_label(is_front, &case.name).clicked() {
+                acts.push(CompareAction::OpenCase(case.name.clone()));
+                ui.close();
+            }
+        }
+        if cases.is_none_or(<[_]>::is_empty) {
+            ui.label("None yet");
+        }
+    });
+}
+
+/// "taken for Front door, left, accepted, and is": a sentence that the menu beside it ends.
+fn verdict(ui: &mut Ui, state: &State, theme: &Theme) {
+    let weak = |text: &str| RichText::new(text).color(theme.weak_text);
+    let Some(study) = &state.compare.study else {
+        ui.label(weak("is"));
+        return;
+    };
+    let found = &study.found;
+    let strong = |text: &str| {
+        RichText::new(text)
+            .font(font::body_strong())
+            .color(theme.text)
+    };
+    ui.label(weak("taken for"));
+    ui.label(strong(match found.part {
+        Some(_) => &study.found_title,
+        None => "nothing",
+    }));
+    let judgement = judged(state);
+    let sign = match judgement {
+        Some(Judgement::WrongAccepted) => Mark::Bad,
+        Some(Judgement::Right) => Mark::Good,
+        None if found.accepted => Mark::Good,
+        Some(Judgement::Refused) | None => Mark::Look,
+    };
+    let (rect, _) = ui.allocate_exact_size(Vec2::splat(18.0), Sense::hover());
+    mark(ui.painter(), rect.center(), 8.0, sign, theme);
+    let word = if found.accepted {
+        "accepted,"
+    } else {
+        "not accepted,"
+    };
+    let word = ui.label(weak(word));
+    if let Some(reason) = &found.reason {
+        word.on_hover_text(format!("{reason}\n{}", study.advice));
+    }
+    let is_same = match (&state.compare.truth, &found.part) {
+        (Some(Truth::Part(truth)), Some(part)) => truth == part,
+        (Some(Truth::Nothing), None) => true,
+        _ => false,
+    };
+    ui.label(weak(if is_same { "and is" } else { "but is" }));
+}
+
+/// Whether the verdict of the case in front is right, once its truth is known.
+pub(super) fn judged(state: &State) -> Option<Judgement> {
+    let truth = state.compare.truth.as_ref()?;
+    let found = &state.compare.study.as_ref()?.found;
+    let answered: Answered = found.answered();
+    Some(Judgement::of(truth, &answered))
+}
+
+fn truth_menu(ui: &mut Ui, state: &State, acts: &mut Vec<CompareAction>) {
+    let Some(library) = &state.library else {
+        return;
+    };
+    let chosen = state.compare.truth.as_ref();
+    let title = chosen.map_or_else(
+        || "Choose… ▼".to_owned(),
+        |truth| format!("{} ▼", truth_title(truth, library)),
+    );
+    menu(ui, &title, "What truly hung before the camera", &mut |ui| {
+        let parts = library.parts.iter();
+        let parts = parts.map(|part| Truth::Part(part.name.as_str().to_owned()));
+        for truth in parts.chain([Truth::NotEnrolled, Truth::Nothing]) {
+            let title = truth_title(&truth, library);
+            let response = ui.selectable_label(chosen == Some(&truth), &title);
+            // Other lists name the same parts.
+            response.widget_info(|| {
+                let label = format!("It is: {title}");
+                WidgetInfo::labeled(egui::Role::Button, true, label)
+            });
+            if response.clicked() {
+                acts.push(CompareAction::SetTruth(truth));
+                ui.close();
+            }
+        }
+    });
+}
+
+fn against_menu(ui: &mut Ui, state: &State, acts: &mut Vec<CompareAction>) {
+    let Some(library) = &state.library else {
+        return;
+    };
+    let study = state.compare.study.as_ref();
+    let shown = study.and_then(|study| study.against.as_deref());
+    let now = shown.and_then(|part| library.place_of(part));
+    let now = now.map_or("no part", |place| library.title(place));
+    let chosen = state.compare.against.as_deref();
+    let hover = "The enrolled part that the case is compared with";
+    menu(ui, &format!("{now} ▼"), hover, &mut |ui| {
+        let follows = ui.selectable_label(chosen.is_none(), "What it is, else the best");
+        if follows.clicked() {
+            acts.push(CompareAction::Against(None));
+            ui.close();
+        }
+        for part in &library.parts {
+            let name = part.name.as_str();
+            let title = part.shown_title();
+            let response = ui.selectable_label(chosen == Some(name), title);
+            response.widget_info(|| {
+                let label = format!("Against: {title}");
+                WidgetInfo::labeled(egui::Role::Button, true, label)
+            });
+            if response.clicked() {
+                acts.push(CompareAction::Against(Some(name.to_owned())));
+                ui.close();
+            }
+        }
+    });
+}
+
+/// What can be done with the case, and with all of them.
+fn deeds(
+    ui: &mut Ui,
+    state: &State,
+    remark_width: f32,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+) {
+    let compare = &state.compare;
+    let key = |text: &str| RichText::new(text).font(font::small());
+    match &compare.front {
+        Front::Scene => {
+            let mut remark = compare.remark.clone();
+            let edit = TextEdit::singleline(&mut remark)
+                .hint_text("Remark")
+                .desired_width(remark_width)
+                .align(egui::Align2::LEFT_CENTER)
+                .min_size(Vec2::new(0.0, space::TARGET));
+            let response = ui.add(edit);
+            response.widget_info(|| {
+                let mut info = WidgetInfo::text_edit(true, &compare.remark, &remark, "Remark");
+                info.label = Some("Remark".into());
+                info
+            });
+            if response.changed() {
+                acts.push(CompareAction::Remark(remark));
+            }
+            let keep = Button::new("Keep case").shortcut_text(key("K").color(theme.weak_text));
+            let hover = if compare.truth.is_some() {
+                "Keep this scene with what it truly is"
+            } else {
+                "Choose first what it is"
+            };
+            if labelled(ui, keep, "Keep case")
+                .on_hover_text(hover)
+                .clicked()
+            {
+                acts.push(CompareAction::Keep);
+            }
+        }
+        Front::Kept(case) => {
+            let remark = match case.meta.about.remark.as_str() {
+                "" => "Kept case".to_owned(),
+                remark => shortened(remark, 40),
+            };
+            ui.label(RichText::new(remark).color(theme.weak_text));
+            if labelled(ui, Button::new("Remove case"), "Remove case").clicked() {
+                acts.push(CompareAction::Remove(case.name.clone()));
+            }
+        }
+    }
+    let run = RichText::new("Run all cases").font(font::body_strong());
+    let run = Button::new(run.color(theme.on_accent))
+        .shortcut_text(key("Ctrl R").color(theme.on_accent))
+        .fill(theme.accent);
+    let run = labelled(ui, run, "Run all cases");
+    if run
+        .on_hover_text("Inspect every kept case with the recipe on the right")
+        .clicked()
+    {
+        acts.push(CompareAction::RunAll);
+    }
+    if let Some(undo) = &compare.undo {
+        let button = Button::new(undo.title()).shortcut_text(key("Ctrl Z").color(theme.weak_text));
+        if labelled(ui, button, undo.title()).clicked() {
+            acts.push(CompareAction::Undo);
+        }
+    }
+}

@@ -1,0 +1,141 @@
+//! How far every enrolled part is off, by both matchers; a row compares with its part.
+
+use egui::{Align2, Label, Rect, RichText, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
+
+use super::{
+    CompareAction,
+    study::{PartDistance, Study},
+};
+use crate::{
+    app::{
+        bars::focus_ring,
+        state::{State, UnitSystem},
+        theme::{ROUNDING, Theme, font, space},
+    },
+    stages::rank::Matcher,
+};
+
+/// Height of a row.
+const ROW: f32 = 40.0;
+/// A row wider than this has room for both figures.
+const WIDE: f32 = 270.0;
+
+/// Draws the list.
+pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<CompareAction>) {
+    if state.is_study_old() {
+        ui.multiply_opacity(0.55);
+    }
+    ui.spacing_mut().item_spacing.y = 2.0;
+    ui.label(
+        RichText::new("Distance per part")
+            .font(font::body_strong())
+            .color(theme.text),
+    );
+    let Some(study) = state
+        .compare
+        .study
+        .as_ref()
+        .filter(|study| !study.distances.is_empty())
+    else {
+        ui.label(RichText::new("Needs an outline").color(theme.weak_text));
+        return;
+    };
+    ui.spacing_mut().interact_size.y = 0.0;
+    ui.horizontal_wrapped(|ui| {
+        let chosen = study.recipe.rank.matcher;
+        let small = |text: &str, colour| RichText::new(text).font(font::small()).color(colour);
+        let with_sign = |name: &str, matcher| {
+            if matcher == chosen {
+                format!("{name} (in use)")
+            } else {
+                name.to_owned()
+            }
+        };
+        let default = with_sign("default: outlines apart", Matcher::Default);
+        ui.add(Label::new(small(&default, theme.first_series)).extend());
+        let paper = with_sign("paper: ‖A − C‖₁", Matcher::Paper);
+        ui.add(Label::new(small(&paper, theme.second_series)).extend());
+    });
+    ScrollArea::vertical()
+        .id_salt("distances")
+        .auto_shrink(false)
+        .show(ui, |ui| {
+            for distance in &study.distances {
+                if row(ui, study, distance, state.units, theme) {
+                    acts.push(CompareAction::Against(Some(distance.part.clone())));
+                }
+            }
+        });
+}
+
+/// True when it was pressed.
+fn row(
+    ui: &mut Ui,
+    study: &Study,
+    distance: &PartDistance,
+    units: UnitSystem,
+    theme: &Theme,
+) -> bool {
+    let is_against = study.against.as_deref() == Some(&distance.part);
+    let size = vec2(ui.available_width() - space::MEDIUM, ROW);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let outline = distance
+        .outline
+        .map_or("–".to_owned(), |metres| units.length(metres));
+    let figures = format!("{outline} · {:.2e}", distance.paper);
+    response.widget_info(|| {
+        let label = format!("Compare with {}: {figures}", distance.title);
+        WidgetInfo::selected(egui::Role::Button, true, is_against, label)
+    });
+    // Where there is little room the other matcher's figure is on the bar and in the hover text alone.
+    let written = match study.recipe.rank.matcher {
+        _ if rect.width() > WIDE => figures.clone(),
+        Matcher::Default => outline.clone(),
+        Matcher::Paper => format!("{:.2e}", distance.paper),
+    };
+    let painter = ui.painter_at(rect);
+    if is_against || response.hovered() {
+        painter.rect_filled(rect, ROUNDING, theme.control);
+    }
+    if is_against {
+        let bar = Rect::from_min_size(rect.min, vec2(3.0, rect.height()));
+        painter.rect_filled(bar, 0.0, theme.accent);
+    }
+    let inner = rect.shrink2(vec2(8.0, 3.0));
+    let value = painter.text(
+        inner.right_top(),
+        Align2::RIGHT_TOP,
+        &written,
+        font::small(),
+        theme.text,
+    );
+    let name = if is_against {
+        font::body_strong()
+    } else {
+        font::body()
+    };
+    let room = Rect::from_min_max(rect.min, pos2(value.left() - 4.0, rect.bottom()));
+    painter
+        .with_clip_rect(room.intersect(painter.clip_rect()))
+        .text(
+            inner.left_top(),
+            Align2::LEFT_TOP,
+            &distance.title,
+            name,
+            theme.text,
+        );
+    let colours = [theme.first_series, theme.second_series];
+    for (place, (share, colour)) in distance.shares.iter().zip(colours).enumerate() {
+        let top = inner.top() + 20.0 + 7.0 * place as f32;
+        let track = Rect::from_min_size(pos2(inner.left(), top), vec2(inner.width(), 5.0));
+        painter.rect_filled(track, 2.0, theme.track);
+        let filled = vec2(inner.width() * share.clamp(0.0, 1.0), 5.0);
+        painter.rect_filled(Rect::from_min_size(track.min, filled), 2.0, colour);
+    }
+    focus_ring(ui, rect, &response, theme);
+    let hover = format!(
+        "Outlines apart {outline} (default) · ‖A − C‖₁ {:.4e} (paper) · score in the end {:.2}",
+        distance.paper, distance.score
+    );
+    response.on_hover_text(hover).clicked()
+}

@@ -1,0 +1,318 @@
+//! The kept cases: all of them, what they were taken for as a matrix, and the cases of one of its cells.
+
+use std::f32::consts::FRAC_PI_2;
+
+use egui::{
+    Align, Align2, Button, Layout, Rect, RichText, ScrollArea, Sense, Shape, Stroke, StrokeKind,
+    Ui, Vec2, WidgetInfo, epaint::TextShape, pos2, vec2,
+};
+
+use super::{
+    CaseRun, CompareAction,
+    matrix::{Matrix, MatrixCell, part_title, truth_title},
+};
+use crate::{
+    app::{
+        action::{Action, Ask},
+        bars::{focus_ring, labelled, shortened},
+        state::State,
+        theme::{ROUNDING, Theme, font, space},
+    },
+    cases::{Answered, Judgement, KeptCase},
+};
+
+/// Width of the rows' names.
+const NAMES: f32 = 118.0;
+/// Height of the columns' names where the columns are narrow.
+const UPRIGHT: f32 = 104.0;
+/// A column wider than this has its name written across.
+const WIDE: f32 = 110.0;
+
+/// Draws what there is of them.
+pub(super) fn ui(
+    ui: &mut Ui,
+    state: &State,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+    actions: &mut Vec<Action>,
+) {
+    header(ui, state, theme, acts, actions);
+    let compare = &state.compare;
+    let cases = compare.cases.as_ref().map(|cases| &*cases.list);
+    let Some(cases) = cases.filter(|cases| !cases.is_empty()) else {
+        let text = match (cases, state.compare.folder.as_deref()) {
+            (None, _) => "Looking for kept cases".to_owned(),
+            (Some(_), Some(folder)) => format!("No kept cases in {}", folder.display()),
+            (Some(_), None) => "No kept cases yet".into(),
+        };
+        ui.label(
+            RichText::new(text)
+                .font(font::verdict())
+                .color(theme.weak_text),
+        );
+        let what = "Capture a scene, choose what it is and press Keep case; kept cases show what another recipe gains and what it breaks";
+        ui.label(RichText::new(what).color(theme.weak_text));
+        return;
+    };
+    let cell = compare.cell.as_ref();
+    let Some(run) = &compare.run else {
+        list(ui, state, cases, theme, acts);
+        return;
+    };
+    ScrollArea::both()
+        .id_salt("cases")
+        .auto_shrink(false)
+        .show(ui, |ui| match cell.and_then(|cell| run.matrix.cell(cell)) {
+            Some(cell) => of_cell(ui, state, run, cell, theme, acts),
+            None => matrix(ui, &run.matrix, theme, acts),
+        });
+}
+
+fn header(
+    ui: &mut Ui,
+    state: &State,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+    actions: &mut Vec<Action>,
+) {
+    let compare = &state.compare;
+    ui.horizontal(|ui| {
+        ui.label(
+            RichText::new("All kept cases")
+                .font(font::body_strong())
+                .color(theme.text),
+        );
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let folder = compare.cases.as_ref().map(|cases| cases.folder.path());
+            let hover = folder.map_or_else(String::new, |path| path.display().to_string());
+            let button = labelled(ui, Button::new("Folder…"), "Folder of cases…");
+            if button.on_hover_text(hover).clicked() {
+                actions.push(Action::Ask(Ask::CasesFolder));
+            }
+            if compare.cell.is_some()
+                && labelled(ui, Button::new("Back to matrix"), "Back to matrix").clicked()
+            {
+                acts.push(CompareAction::ShowCell(None));
+            }
+            if let Some(run) = &compare.run
+                && let Some(ended) = run.ended
+                && compare.cell.is_none()
+            {
+                let at = ended.to_zoned(jiff::tz::TimeZone::system());
+                let at = format!("ran at {}", at.strftime("%H:%M"));
+                ui.label(RichText::new(at).font(font::small()).color(theme.weak_text));
+            }
+        });
+    });
+    let Some(run) = &compare.run else {
+        return;
+    };
+    let height = std::mem::take(&mut ui.spacing_mut().interact_size.y);
+    ui.horizontal_wrapped(|ui| {
+        let tally = &run.matrix.tally;
+        // The worst is said first.
+        let wrong = match tally.wrong_accepted {
+            0 => RichText::new("none wrong and accepted").color(theme.accepted),
+            num => RichText::new(format!("{num} wrong and accepted")).color(theme.rejected),
+        };
+        ui.label(wrong.font(font::body_strong()));
+        let rest = format!(
+            "· {} of {} right · {} refused",
+            tally.right, tally.total, tally.refused
+        );
+        let mut rest = vec![rest];
+        if !run.troubles.is_empty() {
+            rest.push(format!("{} damaged", run.troubles.len()));
+        }
+        let done = run.results.len() + run.troubles.len();
+        if run.ended.is_none() {
+            let verb = if state.is_running_cases() {
+                "running"
+            } else {
+                "stopped"
+            };
+            rest.push(format!("{verb}, {done} of {} done", run.total));
+        }
+        ui.label(RichText::new(rest.join(" · ")).color(theme.text));
+        if *run.recipe != **state.tried_recipe() {
+            let text = "· with another recipe";
+            ui.label(RichText::new(text).color(theme.warning));
+        }
+    });
+    ui.spacing_mut().interact_size.y = height;
+}
+
+/// All cases, before any run.
+fn list(
+    ui: &mut Ui,
+    state: &State,
+    cases: &[KeptCase],
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+) {
+    let hint = if state.is_running_cases() {
+        "Running"
+    } else {
+        "Run all cases (Ctrl R) shows what each is taken for now"
+    };
+    ui.label(RichText::new(hint).color(theme.weak_text));
+    let height = space::TARGET;
+    ScrollArea::vertical()
+        .id_salt("list of cases")
+        .auto_shrink(false)
+        .show_rows(ui, height, cases.len(), |ui, rows| {
+            for case in cases.get(rows).unwrap_or_default() {
+                let truth = state.library.as_ref().map_or_else(String::new, |shown| {
+                    truth_title(&case.meta.about.truth, shown)
+                });
+                case_row(ui, &case.name, &format!("is {truth}"), theme, acts);
+            }
+        });
+}
+
+/// The cases of one cell.
+fn of_cell(
+    ui: &mut Ui,
+    state: &State,
+    run: &CaseRun,
+    cell: &MatrixCell,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+) {
+    let Some(shown) = &state.library else {
+        return;
+    };
+    let (truth, answer) = &cell.cell;
+    let (truth, num) = (truth_title(truth, shown), cell.results.len());
+    let text = match answer {
+        Answered::Part(part) => format!("{truth} taken for {}: {num}", part_title(part, shown)),
+        Answered::NotAccepted => format!("{truth} not accepted: {num}"),
+    };
+    ui.label(RichText::new(text).color(theme.weak_text));
+    for result in cell
+        .results
+        .iter()
+        .filter_map(|place| run.results.get(*place))
+    {
+        let found = &result.found;
+        let what = match (&found.part, found.score) {
+            (Some(part), Some(score)) => format!("{} {score:.2}", part_title(part, shown)),
+            _ => found.reason.clone().unwrap_or_default(),
+        };
+        case_row(ui, &result.name, &what, theme, acts);
+    }
+}
+
+fn case_row(ui: &mut Ui, name: &str, what: &str, theme: &Theme, acts: &mut Vec<CompareAction>) {
+    ui.horizontal(|ui| {
+        let text = RichText::new(shortened(name, 34)).font(font::body_strong());
+        let size = vec2(190.0, space::TARGET);
+        let open = ui.add(Button::new(text).min_size(size));
+        open.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, format!("Open {name}")));
+        if open.on_hover_text("Bring this case to the front").clicked() {
+            acts.push(CompareAction::OpenCase(name.to_owned()));
+        }
+        let remove = labelled(ui, Button::new("Remove"), &format!("Remove {name}"));
+        if remove.clicked() {
+            acts.push(CompareAction::Remove(name.to_owned()));
+        }
+        ui.label(RichText::new(shortened(what, 60)).color(theme.weak_text))
+            .on_hover_text(what);
+    });
+}
+
+/// What it truly was from top to bottom, what it was taken for from left to right.
+fn matrix(ui: &mut Ui, matrix: &Matrix, theme: &Theme, acts: &mut Vec<CompareAction>) {
+    let num_columns = matrix.columns.len().max(1);
+    let room = ui.available_width() - NAMES - 16.0;
+    let width = (room / num_columns as f32).clamp(space::TARGET + 2.0, 140.0);
+    let height = space::TARGET + 2.0;
+    let head = if width > WIDE { 22.0 } else { UPRIGHT };
+    let size = vec2(
+        NAMES + width * num_columns as f32,
+        head + height * matrix.rows.len() as f32,
+    );
+    let (all, _) = ui.allocate_exact_size(size, Sense::hover());
+    let painter = ui.painter().clone();
+    let origin = all.min + vec2(NAMES, head);
+    for (column, name) in matrix.columns.iter().enumerate() {
+        let middle = origin.x + width * (column as f32 + 0.5);
+        let colour = theme.weak_text;
+        if width > WIDE {
+            let at = pos2(middle, origin.y - 6.0);
+            let name = shortened(name, (width / 6.5) as usize);
+            painter.text(at, Align2::CENTER_BOTTOM, name, font::small(), colour);
+        } else {
+            let galley = painter.layout_no_wrap(shortened(name, 18), font::small(), colour);
+            let at = pos2(middle - galley.size().y / 2.0, origin.y - 4.0);
+            let upright = TextShape::new(at, galley, colour).with_angle(-FRAC_PI_2);
+            painter.add(Shape::Text(upright));
+        }
+    }
+    for (row, name) in matrix.rows.iter().enumerate() {
+        let at = pos2(origin.x - 8.0, origin.y + height * (row as f32 + 0.5));
+        painter.text(
+            at,
+            Align2::RIGHT_CENTER,
+            shortened(name, 17),
+            font::small(),
+            theme.text,
+        );
+        for column in 0..num_columns {
+            let rect = rect_of(origin, [row, column], vec2(width, height));
+            painter.rect_filled(rect, ROUNDING, theme.canvas);
+        }
+    }
+    for cell in &matrix.cells {
+        let rect = rect_of(origin, cell.place, vec2(width, height));
+        let id = ui.scope_id().with(("cell", cell.place));
+        let response = ui.interact(rect, id, Sense::click());
+        let [row, column] = cell.place;
+        let name = |names: &[String], place: usize| names.get(place).cloned().unwrap_or_default();
+        let (truth, answer) = (name(&matrix.rows, row), name(&matrix.columns, column));
+        let num = cell.results.len();
+        let (colour, word) = match cell.judgement {
+            Judgement::Right => (theme.accepted, "right"),
+            Judgement::WrongAccepted => (theme.rejected, "wrong and accepted"),
+            Judgement::Refused => (theme.warning, "refused"),
+        };
+        let label = match &cell.cell.1 {
+            Answered::Part(_) => format!("{truth} taken for {answer}: {num}, {word}"),
+            Answered::NotAccepted => format!("{truth} not accepted: {num}, {word}"),
+        };
+        response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &label));
+        painter.rect_filled(rect, ROUNDING, colour.gamma_multiply(0.28));
+        let stroke = Stroke::new(if response.hovered() { 2.0 } else { 1.0 }, colour);
+        painter.rect_stroke(rect, ROUNDING, stroke, StrokeKind::Inside);
+        let sign = match cell.judgement {
+            Judgement::Right => "",
+            Judgement::WrongAccepted => " ×",
+            Judgement::Refused => " !",
+        };
+        let text = format!("{num}{sign}");
+        let at = rect.center();
+        painter.text(
+            at,
+            Align2::CENTER_CENTER,
+            text,
+            font::body_strong(),
+            theme.text,
+        );
+        focus_ring(ui, rect, &response, theme);
+        if response.on_hover_text(label).clicked() {
+            acts.push(CompareAction::ShowCell(Some(cell.cell.clone())));
+        }
+    }
+    let text = "Rows: what it is · columns: what it was accepted as · a cell opens its cases";
+    ui.add_space(space::SMALL);
+    ui.label(
+        RichText::new(text)
+            .font(font::small())
+            .color(theme.weak_text),
+    );
+}
+
+fn rect_of(origin: egui::Pos2, [row, column]: [usize; 2], size: Vec2) -> Rect {
+    let min = origin + vec2(size.x * column as f32, size.y * row as f32);
+    Rect::from_min_size(min, size).shrink(1.0)
+}

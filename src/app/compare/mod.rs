@@ -1,0 +1,129 @@
+//! Compare, the process engineer's workspace: why was this taken for that?
+//!
+//! A case, the scene inspected last or a kept one, is inspected with the recipe on trial and laid against one enrolled
+//! part; all kept cases can be run, and their confusion matrix leads back to each of them.
+
+mod case_bar;
+pub mod comparison;
+mod distances;
+mod errands;
+mod keeping;
+mod kept_cases;
+pub mod matrix;
+mod parameter_table;
+pub mod parameters;
+mod pictures;
+mod recipe_panel;
+mod state;
+pub mod study;
+mod trial;
+mod work;
+
+use egui::{Frame, Key, Margin, Modifiers, Panel, Rect, Ui, UiBuilder, pos2, vec2};
+
+pub(super) use self::work::answer;
+pub use self::{
+    state::{Cases, CompareAction, CompareState, Front, Undo, apply, hear},
+    work::{CaseChange, CaseDone, CaseRun, CompareAnswer, CompareRequest},
+};
+use super::{
+    action::Action,
+    keys::Shortcut,
+    state::State,
+    theme::{Theme, space},
+};
+
+/// The shortcuts of the workspace.
+pub(in crate::app) const SHORTCUTS: [Shortcut; 3] = [
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::K,
+        keys: "K",
+        does: "Keep the case in front",
+        action: || Action::Compare(CompareAction::Keep),
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::R,
+        keys: "Ctrl R",
+        does: "Run all kept cases",
+        action: || Action::Compare(CompareAction::RunAll),
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::Z,
+        keys: "Ctrl Z",
+        does: "Take back the removal of a case or the use of a recipe",
+        action: || Action::Compare(CompareAction::Undo),
+    },
+];
+
+/// Width of the recipe, logical pixels, and in a narrow window.
+const RECIPE: [f32; 2] = [310.0, 284.0];
+
+/// Draws the workspace. Nothing is kept between frames: everything it shows is in the state.
+pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+    let mut acts = Vec::new();
+    if state.is_compare_behind() {
+        acts.push(CompareAction::Follow);
+    }
+    let width = ui.available_width();
+    let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
+    Panel::right("recipe")
+        .exact_size(if width > 1100.0 { RECIPE[0] } else { RECIPE[1] })
+        .resizable(false)
+        .frame(panel(Margin::ZERO))
+        .show(ui, |ui| recipe_panel::ui(ui, state, theme, &mut acts));
+    Panel::top("case")
+        .resizable(false)
+        .frame(panel(Margin::symmetric(12, 8)))
+        .show(ui, |ui| {
+            case_bar::ui(ui, state, theme, &mut acts);
+        });
+    body(ui, state, theme, &mut acts, actions);
+    actions.extend(acts.into_iter().map(Action::Compare));
+}
+
+/// Three pictures above; the distances and the kept cases below.
+fn body(
+    ui: &mut Ui,
+    state: &State,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+    actions: &mut Vec<Action>,
+) {
+    let all = ui.available_rect_before_wrap();
+    ui.painter().rect_filled(all, 0.0, theme.panel);
+    let middle = all.top() + (all.height() * 0.46).round();
+    let third = |part: f32| (all.left() + all.width() * part).round();
+    let left = third(0.32);
+    let cell = |from: [f32; 2], to: [f32; 2]| {
+        Rect::from_min_max(pos2(from[0], from[1]), pos2(to[0], to[1])).shrink(space::MEDIUM)
+    };
+    let above = [
+        cell([all.left(), all.top()], [left, middle]),
+        cell([left, all.top()], [third(0.66), middle]),
+        cell([third(0.66), all.top()], [all.right(), middle]),
+    ];
+    pictures::ui(ui, above, state, theme);
+    let below = [
+        cell([all.left(), middle], [left, all.bottom()]),
+        cell([left, middle], [all.right(), all.bottom()]),
+    ];
+    let within = |ui: &mut Ui, rect: Rect, draw: &mut dyn FnMut(&mut Ui)| {
+        ui.scope_builder(UiBuilder::new().max_rect(rect), |ui| {
+            ui.set_clip_rect(rect.expand2(vec2(4.0, 4.0)));
+            draw(ui);
+        });
+    };
+    within(ui, below[0], &mut |ui| {
+        distances::ui(ui, state, theme, acts);
+    });
+    within(ui, below[1], &mut |ui| {
+        kept_cases::ui(ui, state, theme, acts, actions);
+    });
+    let painter = ui.painter();
+    painter.hline(all.x_range(), middle, theme.edge_stroke());
+    painter.vline(left, all.y_range(), theme.edge_stroke());
+    painter.vline(third(0.66), all.top()..=middle, theme.edge_stroke());
+}

@@ -1,0 +1,147 @@
+//! The enrolled parts side by side; a press opens one.
+
+use egui::{Align2, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
+
+use super::{EnrolAction, thumbnails::Thumbnails};
+use crate::{
+    app::{
+        action::Action,
+        bars::{focus_ring, shortened},
+        state::State,
+        theme::{ROUNDING, Theme, font, space},
+        widgets::{Mark, fitted, mark},
+    },
+    library::{PartMeta, PartName},
+};
+
+/// Size of a part's card, logical pixels.
+const CARD: [f32; 2] = [236.0, 84.0];
+/// Letters that fit beside the picture.
+const LETTERS: usize = 18;
+
+/// What a card shows.
+struct Shown<'a> {
+    name: &'a str,
+    title: &'a str,
+    below: [String; 2],
+    texture: Option<&'a egui::TextureHandle>,
+    is_damaged: bool,
+}
+
+/// Draws the strip.
+pub(super) fn ui(
+    ui: &mut Ui,
+    state: &State,
+    thumbnails: &Thumbnails,
+    theme: &Theme,
+    actions: &mut Vec<Action>,
+) {
+    let Some(library) = &state.library else {
+        ui.label(RichText::new("The library is being loaded…").color(theme.weak_text));
+        return;
+    };
+    let num = library.parts.len();
+    let word = if num == 1 { "part" } else { "parts" };
+    let text = match num {
+        0 => "No part is enrolled yet: the first one that is saved appears here".to_owned(),
+        _ => format!("{num} enrolled {word}"),
+    };
+    ui.label(
+        RichText::new(text)
+            .font(font::heading())
+            .color(theme.weak_text),
+    );
+    // A wheel turns it as well.
+    ui.style_mut().always_scroll_the_only_direction = true;
+    ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
+        ui.horizontal(|ui| {
+            for damaged in &library.damaged {
+                let shown = Shown {
+                    name: &damaged.entry,
+                    title: &damaged.entry,
+                    below: ["Damaged".into(), String::new()],
+                    texture: None,
+                    is_damaged: true,
+                };
+                card(ui, &shown, state, theme, actions);
+            }
+            for (place, part) in library.parts.iter().enumerate() {
+                let shown = Shown {
+                    name: part.name.as_str(),
+                    title: part.shown_title(),
+                    below: when(part),
+                    texture: thumbnails.of_part(place),
+                    is_damaged: false,
+                };
+                card(ui, &shown, state, theme, actions);
+            }
+        });
+    });
+}
+
+/// When it was enrolled, and from what; that of a simulated one matters less than that no camera saw it.
+fn when(part: &PartMeta) -> [String; 2] {
+    let at = part.enrolled.at.to_zoned(jiff::tz::TimeZone::system());
+    let seen = if part.simulated {
+        "Simulated"
+    } else {
+        &part.enrolled.from
+    };
+    [at.strftime("%Y-%m-%d").to_string(), seen.to_owned()]
+}
+
+fn card(ui: &mut Ui, shown: &Shown<'_>, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+    let (rect, response) = ui.allocate_exact_size(CARD.into(), Sense::click());
+    let open = state.enrol.open.as_ref();
+    let is_open = open.is_some_and(|open| open.name.as_str() == shown.name);
+    let painter = ui.painter_at(rect);
+    let fill = if response.hovered() {
+        theme.control_hovered
+    } else {
+        theme.control
+    };
+    let edge = if is_open { theme.accent } else { theme.edge };
+    painter.rect(
+        rect,
+        ROUNDING,
+        fill,
+        Stroke::new(1.0, edge),
+        StrokeKind::Inside,
+    );
+    let picture = Rect::from_min_size(rect.min + vec2(6.0, 6.0), vec2(92.0, rect.height() - 12.0));
+    if let Some(texture) = shown.texture {
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        let at = fitted(picture, texture.aspect_ratio());
+        painter.image(texture.id(), at, whole, egui::Color32::WHITE);
+    } else if shown.is_damaged {
+        mark(&painter, picture.center(), 14.0, Mark::Look, theme);
+    }
+    let mut at = pos2(picture.right() + space::SMALL, rect.top() + 9.0);
+    for (text, font, colour) in [
+        (shown.title, font::body_strong(), theme.text),
+        (shown.name, font::small(), theme.weak_text),
+        (&shown.below[0], font::small(), theme.weak_text),
+        (&shown.below[1], font::small(), theme.weak_text),
+    ] {
+        let text = shortened(text, LETTERS);
+        let drawn = painter.text(at, Align2::LEFT_TOP, text, font, colour);
+        at.y = drawn.bottom() + 2.0;
+    }
+    focus_ring(ui, rect, &response, theme);
+    response.widget_info(|| {
+        let label = format!("Enrolled: {}", shown.title);
+        egui::WidgetInfo::selected(egui::Role::Button, true, is_open, label)
+    });
+    if response.gained_focus() {
+        response.scroll_to_me(None);
+    }
+    if response.clicked()
+        && let Ok(name) = PartName::new(shown.name)
+    {
+        actions.push(Action::Enrol(if is_open {
+            EnrolAction::Close
+        } else {
+            EnrolAction::Open(name)
+        }));
+    }
+}

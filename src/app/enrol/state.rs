@@ -1,0 +1,335 @@
+//! What the workspace knows, and what changes it.
+
+use std::sync::Arc;
+
+use super::{
+    change::LibraryChange,
+    draft::{Draft, Field, Form},
+    selection::{BoxMode, Corrections, Edit, Selection},
+    subject::{Subject, Taking},
+    undo::{DraftThen, LibraryStep, Step, Steps, Way, change, changed_library, did, make_step},
+    work::{EnrolAnswer, EnrolRequest},
+};
+use crate::{
+    app::{
+        action::{Effect, notify},
+        job::{Request, Trouble},
+        lane::Lane,
+        source::SceneSource,
+        state::{Notice, NoticeKind, State},
+    },
+    library::{PartName, PartWords},
+};
+
+/// What the workspace knows.
+#[derive(Debug, Default)]
+pub struct EnrolState {
+    /// The part that is about to be enrolled.
+    pub draft: Option<Draft>,
+    /// How many drafts there were.
+    pub num_drafts: u64,
+    /// The enrolled part that the draft, or the next one, replaces.
+    pub replacing: Option<PartName>,
+    /// The enrolled part that is looked at.
+    pub open: Option<OpenPart>,
+    /// What a box in the picture does.
+    pub box_mode: BoxMode,
+    /// What is shown of the draft.
+    pub panes: Panes,
+    /// What can be taken back and done again.
+    pub steps: Steps,
+    /// The generation of the request for another draft, until that is there.
+    taking: Option<u64>,
+    /// The change of the library that is being made.
+    pub(super) pending: Option<(Way, LibraryStep)>,
+}
+
+/// An enrolled part that is looked at.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OpenPart {
+    /// The part.
+    pub name: PartName,
+    /// What it is called, as a person writes it.
+    pub form: Form,
+}
+
+/// What is shown of the draft.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Panes {
+    /// The picture and the 3-D view.
+    #[default]
+    Both,
+    /// The picture alone.
+    Picture,
+    /// The 3-D view alone.
+    View,
+}
+
+impl Panes {
+    /// Every choice.
+    pub const ALL: [Self; 3] = [Self::Both, Self::Picture, Self::View];
+
+    /// What a person calls it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Both => "Both",
+            Self::Picture => "Picture",
+            Self::View => "3-D",
+        }
+    }
+}
+
+/// Something that happened in the workspace.
+#[derive(Debug)]
+pub enum EnrolAction {
+    /// Take the scene in front as the draft.
+    TakeShown,
+    /// Correct what is kept.
+    Correct(Edit),
+    /// Start from other points.
+    TakeAs(Taking),
+    /// Take all corrections away.
+    Reset,
+    /// Have a box do something else.
+    BoxMode(BoxMode),
+    /// Show other panes.
+    Panes(Panes),
+    /// Write a line about the draft.
+    Write(Field),
+    /// Look at the draft again, after it was cancelled.
+    LookAgain,
+    /// Save the draft.
+    Save,
+    /// Put the draft away.
+    Discard,
+    /// Take the last step back.
+    Undo,
+    /// Do again what was taken back last.
+    Redo,
+    /// Look at an enrolled part.
+    Open(PartName),
+    /// Look at the draft again.
+    Close,
+    /// Write a line about the enrolled part that is looked at.
+    WriteOpen(Field),
+    /// Call it so.
+    Rename,
+    /// Move a part to the trash.
+    Remove(PartName),
+    /// Enrol this part anew: the draft, or the next one, replaces it.
+    Replace(PartName),
+    /// Replace none: the draft becomes a new part.
+    ReplaceNone,
+}
+
+impl State {
+    /// True while the draft is not the one that was asked for last.
+    pub fn is_taking_another(&self) -> bool {
+        let work = self.works.get(&Lane::Enrol);
+        work.is_some_and(|work| self.enrol.taking == Some(work.generation))
+    }
+
+    /// True while the library is being changed.
+    pub fn is_changing_library(&self) -> bool {
+        self.works.contains_key(&Lane::Library)
+    }
+}
+
+/// Makes it so.
+pub fn apply(state: &mut State, action: EnrolAction) -> Option<Effect> {
+    match action {
+        EnrolAction::TakeShown => return take_shown(state),
+        EnrolAction::Correct(edit) => {
+            return correct(state, |corrections| corrections.edits.push(edit));
+        }
+        EnrolAction::TakeAs(taking) => {
+            let subject = &state.enrol.draft.as_ref()?.subject;
+            if subject.allows(taking) {
+                return correct(state, |corrections| {
+                    *corrections = Corrections::none(taking);
+                });
+            }
+        }
+        EnrolAction::Reset => return correct(state, |corrections| corrections.edits.clear()),
+        EnrolAction::BoxMode(mode) => state.enrol.box_mode = mode,
+        EnrolAction::Panes(panes) => state.enrol.panes = panes,
+        EnrolAction::Write(field) => state.enrol.draft.as_mut()?.form.write(field),
+        EnrolAction::LookAgain => return select(state),
+        EnrolAction::Save => return save(state),
+        EnrolAction::Discard => {
+            let former = state.enrol.draft.take()?;
+            did(state, Step::Draft(Some(Box::new(former))));
+        }
+        EnrolAction::Undo => return make_step(state, Way::Back),
+        EnrolAction::Redo => return make_step(state, Way::Again),
+        EnrolAction::Open(name) => open(state, name),
+        EnrolAction::Close => state.enrol.open = None,
+        EnrolAction::WriteOpen(field) => state.enrol.open.as_mut()?.form.write(field),
+        EnrolAction::Rename => return rename(state),
+        EnrolAction::Remove(name) => {
+            return change(state, LibraryChange::Remove(name), DraftThen::Stays);
+        }
+        EnrolAction::Replace(name) => {
+            let words = words_of(state, &name)?;
+            if let Some(draft) = &mut state.enrol.draft {
+                draft.form = Form::of(words);
+            }
+            state.enrol.replacing = Some(name);
+            state.enrol.open = None;
+        }
+        EnrolAction::ReplaceNone => {
+            state.enrol.replacing = None;
+            if let Some(draft) = &mut state.enrol.draft {
+                draft.form = Form::default();
+            }
+        }
+    }
+    None
+}
+
+/// Takes in what the threads answer.
+pub fn hear(state: &mut State, outcome: Result<EnrolAnswer, Trouble>) -> Option<Effect> {
+    match outcome {
+        Ok(EnrolAnswer::Taken(subject, selection)) => taken(state, subject, selection),
+        Ok(EnrolAnswer::Selected(selection)) => {
+            state.enrol.draft.as_mut()?.selection = selection;
+        }
+        Ok(EnrolAnswer::Checked(checked)) => {
+            state.enrol.draft.as_mut()?.checked = Some(checked);
+        }
+        Ok(EnrolAnswer::Changed(changed)) => return changed_library(state, *changed),
+        Err(_) => {
+            if !state.is_changing_library()
+                && let Some((way, step)) = state.enrol.pending.take()
+                && way != Way::First
+            {
+                // It still can be taken back or done again.
+                state.enrol.steps.from(way).push(Step::Library(step));
+            }
+        }
+    }
+    None
+}
+
+/// Gets something to enrol.
+pub(in crate::app) fn take(state: &mut State, source: SceneSource, what: String) -> Effect {
+    state.enrol.open = None;
+    let recipe = Arc::clone(&state.recipe);
+    let effect = state.begin(what, Request::Enrol(EnrolRequest::Take { source, recipe }));
+    state.enrol.taking = Some(state.generation);
+    effect
+}
+
+fn take_shown(state: &mut State) -> Option<Effect> {
+    let inspected = &state.shown.as_ref()?.inspected;
+    let source = SceneSource::AtHand(Arc::clone(&inspected.scene), inspected.origin.clone());
+    Some(take(state, source, "Taking the scene in front".into()))
+}
+
+/// The former draft can be brought back; what was written about it is kept, for it may be the same part again.
+fn taken(state: &mut State, subject: Arc<Subject>, selection: Arc<Selection>) {
+    for warning in &subject.warnings {
+        notify(state, Trouble::of(warning).into());
+    }
+    let former = state.enrol.draft.take();
+    let replaced = state.enrol.replacing.clone();
+    let replaced = replaced.and_then(|name| words_of(state, &name));
+    let form = match (replaced, &former) {
+        (Some(words), _) => Form::of(words),
+        (None, Some(former)) => former.form.clone(),
+        (None, None) => Form::default(),
+    };
+    if let Some(former) = former {
+        did(state, Step::Draft(Some(Box::new(former))));
+    }
+    state.enrol.taking = None;
+    state.enrol.num_drafts += 1;
+    state.enrol.draft = Some(Draft {
+        number: state.enrol.num_drafts,
+        corrections: Corrections::none(subject.usual),
+        subject,
+        selection,
+        checked: None,
+        form,
+    });
+}
+
+/// Changes the corrections, if that changes anything, and has them gone through.
+fn correct(state: &mut State, change: impl FnOnce(&mut Corrections)) -> Option<Effect> {
+    let draft = state.enrol.draft.as_mut()?;
+    if !draft.subject.can_be_corrected() {
+        return None;
+    }
+    let before = draft.corrections.clone();
+    change(&mut draft.corrections);
+    if draft.corrections == before {
+        return None;
+    }
+    let step = Step::Corrections(draft.number, before);
+    did(state, step);
+    select(state)
+}
+
+/// Has the corrections gone through.
+pub(super) fn select(state: &mut State) -> Option<Effect> {
+    let draft = state.enrol.draft.as_mut()?;
+    draft.checked = None;
+    let request = EnrolRequest::Select {
+        subject: Arc::clone(&draft.subject),
+        corrections: draft.corrections.clone(),
+        recipe: Arc::clone(&state.recipe),
+    };
+    Some(state.begin("Looking at the part", Request::Enrol(request)))
+}
+
+fn save(state: &mut State) -> Option<Effect> {
+    let draft = state.enrol.draft.as_ref()?;
+    let words = match draft.form.words() {
+        Ok(words) => words,
+        Err(error) => {
+            notify(state, Trouble::of(&error).into());
+            return None;
+        }
+    };
+    let Some(checked) = draft.ready() else {
+        let notice = Notice {
+            kind: NoticeKind::Look,
+            what: "There is nothing to save yet".into(),
+            advice: "Save once the picture of what will be stored is there".into(),
+        };
+        notify(state, notice);
+        return None;
+    };
+    let save = LibraryChange::Save(Arc::clone(&checked.enrolled), words);
+    change(state, save, DraftThen::MakesWay(None))
+}
+
+fn rename(state: &mut State) -> Option<Effect> {
+    let open = state.enrol.open.as_ref()?;
+    match open.form.words() {
+        Ok(words) => {
+            let rename = LibraryChange::Rename(open.name.clone(), words);
+            change(state, rename, DraftThen::Stays)
+        }
+        Err(error) => {
+            notify(state, Trouble::of(&error).into());
+            None
+        }
+    }
+}
+
+pub(super) fn open(state: &mut State, name: PartName) {
+    let words = words_of(state, &name);
+    // A damaged one cannot be described; it can be removed.
+    let form = words.map_or_else(Form::default, Form::of);
+    state.enrol.open = Some(OpenPart { name, form });
+}
+
+pub(super) fn words_of(state: &State, name: &PartName) -> Option<PartWords> {
+    let library = state.library.as_ref()?;
+    let part = library.parts.get(library.place_of(name.as_str())?)?;
+    Some(part.words())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,232 @@
+//! What was done, to be taken back and done again, in its order; and the changes of the library among it.
+
+use std::{mem, sync::Arc};
+
+use super::{
+    change::{Changed, LibraryChange},
+    draft::Draft,
+    selection::Corrections,
+    state::{open, select},
+    work::EnrolRequest,
+};
+use crate::app::{
+    action::{Effect, notify, use_library},
+    inspect::work::InspectRequest,
+    job::Request,
+    lane::Lane,
+    source::SceneSource,
+    state::{Notice, NoticeKind, State},
+};
+
+/// What can be taken back, and what was taken back and can be done again; the latest last.
+#[derive(Debug, Default)]
+pub struct Steps {
+    /// What was done.
+    pub done: Vec<Step>,
+    /// What was taken back.
+    pub undone: Vec<Step>,
+}
+
+/// How to get from here to what was before, or back again.
+#[derive(Clone, Debug)]
+pub enum Step {
+    /// The corrections of the draft of this number as they were.
+    Corrections(u64, Corrections),
+    /// The draft as it was.
+    Draft(Option<Box<Draft>>),
+    /// A change of the library.
+    Library(LibraryStep),
+}
+
+/// A change of the library.
+#[derive(Clone, Debug)]
+pub struct LibraryStep {
+    /// The change to be made.
+    pub change: LibraryChange,
+    /// What was done first, in words.
+    pub what: String,
+    /// What becomes of the draft by it.
+    pub draft: DraftThen,
+}
+
+/// What becomes of the draft when a step is made.
+#[derive(Clone, Debug)]
+pub enum DraftThen {
+    /// It stays.
+    Stays,
+    /// It makes way for this one: a saved draft goes, and comes back when the saving is taken back.
+    MakesWay(Option<Box<Draft>>),
+}
+
+/// Which way a step is made.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Way {
+    /// For the first time.
+    First,
+    /// Taken back.
+    Back,
+    /// Done again.
+    Again,
+}
+
+/// More steps than this are forgotten, the oldest first.
+const MAX_STEPS: usize = 100;
+
+impl Steps {
+    /// Something was done for the first time: what was taken back before can no longer be done again.
+    pub fn push(&mut self, back: Step) {
+        self.undone.clear();
+        self.done.push(back);
+        if self.done.len() > MAX_STEPS {
+            self.done.remove(0);
+        }
+    }
+
+    /// The list that the next step that way is taken from.
+    pub fn from(&mut self, way: Way) -> &mut Vec<Step> {
+        match way {
+            Way::First | Way::Back => &mut self.done,
+            Way::Again => &mut self.undone,
+        }
+    }
+
+    /// The list that the way back is put into.
+    pub fn to(&mut self, way: Way) -> &mut Vec<Step> {
+        match way {
+            Way::Back => &mut self.undone,
+            Way::First | Way::Again => &mut self.done,
+        }
+    }
+}
+
+/// Has the library changed for the first time; one change at a time.
+pub(super) fn change(state: &mut State, change: LibraryChange, draft: DraftThen) -> Option<Effect> {
+    let step = LibraryStep {
+        change,
+        what: String::new(),
+        draft,
+    };
+    begin_change(state, Way::First, step)
+}
+
+fn begin_change(state: &mut State, way: Way, step: LibraryStep) -> Option<Effect> {
+    if state.is_changing_library() {
+        return None;
+    }
+    let request = EnrolRequest::Change(step.change.clone());
+    state.enrol.pending = Some((way, step));
+    Some(state.begin("Changing the library", Request::Enrol(request)))
+}
+
+/// The library is another one now: what was made by it shows it.
+pub(super) fn changed_library(state: &mut State, changed: Changed) -> Option<Effect> {
+    let Changed {
+        what,
+        back,
+        name,
+        library,
+    } = changed;
+    let (way, mut step) = state.enrol.pending.take()?;
+    use_library(state, &library);
+    withdraw_offers(state);
+    step.change = back;
+    let notice = match way {
+        Way::First => {
+            step.what.clone_from(&what);
+            state.enrol.steps.undone.clear();
+            Notice::undoable(what)
+        }
+        Way::Back => Notice::done(format!("Undone: {}", lower_first(&step.what))),
+        Way::Again => Notice::undoable(step.what.clone()),
+    };
+    notify(state, notice);
+    let mut saved = None;
+    if let DraftThen::MakesWay(other) = &mut step.draft {
+        let coming = other.take();
+        let going = state.enrol.draft.take().map(Box::new);
+        if way != Way::Back {
+            saved.clone_from(&going);
+        }
+        state.enrol.draft = coming.map(|draft| *draft);
+        *other = going;
+        state.enrol.replacing = None;
+    }
+    state.enrol.steps.to(way).push(Step::Library(step));
+    match (&state.enrol.open, name) {
+        (Some(_), Some(name)) => open(state, name),
+        (Some(_), None) => state.enrol.open = None,
+        (None, _) => {}
+    }
+    let again = inspect_again(state, saved.as_deref());
+    let select = select(state);
+    Some(Effect::Several(again.into_iter().chain(select).collect()))
+}
+
+/// Inspects what was saved, else the scene in front, by the library as it is now.
+fn inspect_again(state: &mut State, saved: Option<&Draft>) -> Option<Effect> {
+    let of_saved = saved.and_then(|draft| {
+        let scene = Arc::clone(draft.subject.scene()?);
+        Some(SceneSource::AtHand(scene, draft.subject.origin.clone()))
+    });
+    let is_busy = state.works.contains_key(&Lane::Inspect);
+    let of_shown = state.shown.as_ref().filter(|_| !is_busy).map(|shown| {
+        let inspected = &shown.inspected;
+        SceneSource::AtHand(Arc::clone(&inspected.scene), inspected.origin.clone())
+    });
+    let source = of_saved.or(of_shown)?;
+    let recipe = Arc::clone(&state.recipe);
+    let request = Request::Inspect(InspectRequest { source, recipe });
+    Some(state.begin("Inspecting again", request))
+}
+
+/// Takes the last step back, or does it again.
+pub(super) fn make_step(state: &mut State, way: Way) -> Option<Effect> {
+    if state.is_changing_library() {
+        return None;
+    }
+    loop {
+        let step = state.enrol.steps.from(way).pop()?;
+        withdraw_offers(state);
+        match step {
+            Step::Library(step) => return begin_change(state, way, step),
+            Step::Draft(other) => {
+                let current = state.enrol.draft.take().map(Box::new);
+                state.enrol.draft = other.map(|draft| *draft);
+                state.enrol.steps.to(way).push(Step::Draft(current));
+                return select(state);
+            }
+            Step::Corrections(number, before) => {
+                let draft = state.enrol.draft.as_mut();
+                // Of a draft that is no longer there: the step before it counts.
+                if let Some(draft) = draft.filter(|draft| draft.number == number) {
+                    let now = mem::replace(&mut draft.corrections, before);
+                    let back = Step::Corrections(number, now);
+                    state.enrol.steps.to(way).push(back);
+                    return select(state);
+                }
+            }
+        }
+    }
+}
+
+/// Something else was done: it is what Undo takes back now.
+pub(super) fn did(state: &mut State, back: Step) {
+    state.enrol.steps.push(back);
+    withdraw_offers(state);
+}
+
+/// Notices no longer offer to take back what they tell of.
+fn withdraw_offers(state: &mut State) {
+    for notice in &mut state.notices {
+        if notice.kind == NoticeKind::Undoable {
+            notice.kind = NoticeKind::Done;
+        }
+    }
+}
+
+fn lower_first(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| {
+        first.to_lowercase().chain(letters).collect()
+    })
+}

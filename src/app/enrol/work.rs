@@ -1,0 +1,209 @@
+//! What the workspace's threads do: prepare a part, and change the library.
+
+use std::sync::Arc;
+
+use jiff::Timestamp;
+
+use super::{
+    change::{Changed, LibraryChange, change},
+    selection::{Corrections, Selection},
+    subject::{Matter, Subject, Taking},
+};
+use crate::{
+    app::{
+        job::{Answer, Outcome, Trouble},
+        lane::Lane,
+        shelf::Shelf,
+        source::{Origin, SceneSource},
+        worker::Desk,
+    },
+    library::{
+        About, EnrolError, EnrolParams, Enrolled, Likeness, PartName, enrol_mesh, enrol_selected,
+        enrol_whole, likenesses,
+    },
+    pipeline::Recipe,
+    stages::segment::SegmentedPart,
+};
+
+/// What the workspace asks for.
+#[derive(Clone, Debug)]
+pub enum EnrolRequest {
+    /// Get something to enrol, and see what of it is the part.
+    Take {
+        /// From where.
+        source: SceneSource,
+        /// All parameters.
+        recipe: Arc<Recipe>,
+    },
+    /// Go through the corrections, and see what would be stored.
+    Select {
+        /// Of what.
+        subject: Arc<Subject>,
+        /// All of them.
+        corrections: Corrections,
+        /// All parameters.
+        recipe: Arc<Recipe>,
+    },
+    /// Change the library.
+    Change(LibraryChange),
+}
+
+impl EnrolRequest {
+    /// Whose work it is: a change of the library is never given up for a newer correction.
+    pub fn lane(&self) -> Lane {
+        match self {
+            Self::Take { .. } | Self::Select { .. } => Lane::Enrol,
+            Self::Change(_) => Lane::Library,
+        }
+    }
+}
+
+/// What comes back.
+#[derive(Clone, Debug)]
+pub enum EnrolAnswer {
+    /// Something to enrol, and what of it is kept. What would be stored follows.
+    Taken(Arc<Subject>, Arc<Selection>),
+    /// What is kept after the corrections. What would be stored follows.
+    Selected(Arc<Selection>),
+    /// What would be stored, or why nothing can be.
+    Checked(Result<Arc<Checked>, Trouble>),
+    /// The library was changed.
+    Changed(Box<Changed>),
+}
+
+/// What would be stored.
+#[derive(Debug)]
+pub struct Checked {
+    /// The part, but for its name.
+    pub enrolled: Arc<Enrolled>,
+    /// What is odd about it.
+    pub warnings: Vec<Trouble>,
+    /// How like every enrolled part it is, the one that it is hardest to tell from first.
+    pub likenesses: Vec<Likeness>,
+}
+
+/// Does what is asked.
+pub(in crate::app) fn answer(
+    request: EnrolRequest,
+    shelf: &Shelf,
+    desk: &dyn Desk<Outcome>,
+) -> Option<Outcome> {
+    let said = |answer| Some(Ok(Answer::Enrol(answer)));
+    match request {
+        EnrolRequest::Take { source, recipe } => {
+            let params = params_of(&recipe);
+            let subject = match Subject::read(&source, &params) {
+                Ok(Ok(subject)) => Arc::new(subject),
+                Ok(Err(error)) => return Some(Err(Trouble::of(&error))),
+                Err(error) => return Some(Err(Trouble::of(&error))),
+            };
+            let corrections = Corrections::none(subject.usual);
+            let selection = Arc::new(Selection::of(&subject, &corrections));
+            if desk.is_cancelled() {
+                return None;
+            }
+            let taken = EnrolAnswer::Taken(Arc::clone(&subject), Arc::clone(&selection));
+            desk.partly(Ok(Answer::Enrol(taken)));
+            said(check(
+                &subject,
+                &corrections,
+                &selection,
+                &params,
+                shelf,
+                desk,
+            )?)
+        }
+        EnrolRequest::Select {
+            subject,
+            corrections,
+            recipe,
+        } => {
+            let params = params_of(&recipe);
+            let selection = Arc::new(Selection::of(&subject, &corrections));
+            if desk.is_cancelled() {
+                return None;
+            }
+            let selected = EnrolAnswer::Selected(Arc::clone(&selection));
+            desk.partly(Ok(Answer::Enrol(selected)));
+            said(check(
+                &subject,
+                &corrections,
+                &selection,
+                &params,
+                shelf,
+                desk,
+            )?)
+        }
+        EnrolRequest::Change(asked) => Some(
+            change(&asked, shelf).map(|done| Answer::Enrol(EnrolAnswer::Changed(Box::new(done)))),
+        ),
+    }
+}
+
+/// Segments as scenes are inspected; all else as usual.
+fn params_of(recipe: &Recipe) -> EnrolParams {
+    EnrolParams {
+        segment: recipe.segment.clone(),
+        ..EnrolParams::default()
+    }
+}
+
+/// Makes the part and holds it against every enrolled one; `None` when cancelled.
+fn check(
+    subject: &Subject,
+    corrections: &Corrections,
+    selection: &Selection,
+    params: &EnrolParams,
+    shelf: &Shelf,
+    desk: &dyn Desk<Outcome>,
+) -> Option<EnrolAnswer> {
+    let mut enrolled = match enrol(subject, corrections.taking, selection, params) {
+        Ok(enrolled) => enrolled,
+        Err(error) => return Some(EnrolAnswer::Checked(Err(Trouble::of(&error)))),
+    };
+    if desk.is_cancelled() {
+        return None;
+    }
+    // It has no name yet: none of the enrolled ones is left out for bearing the same.
+    enrolled.reference.name.clear();
+    let shelved = match shelf.get() {
+        Ok(shelved) => shelved,
+        Err(error) => return Some(EnrolAnswer::Checked(Err(Trouble::of(&error)))),
+    };
+    let coverage = enrolled.part.meta.coverage;
+    let likenesses = likenesses(&enrolled.reference, coverage, &shelved.library);
+    Some(EnrolAnswer::Checked(Ok(Arc::new(Checked {
+        warnings: enrolled.warnings.iter().map(Trouble::of).collect(),
+        enrolled: Arc::new(enrolled),
+        likenesses,
+    }))))
+}
+
+fn enrol(
+    subject: &Subject,
+    taking: Taking,
+    selection: &Selection,
+    params: &EnrolParams,
+) -> Result<Enrolled, EnrolError> {
+    let now = Timestamp::now();
+    let about = About {
+        name: PartName::new("part").expect("a name"),
+        title: String::new(),
+        notes: String::new(),
+        from: subject.origin.title(),
+        // Whole seconds are enough for people.
+        at: Timestamp::from_second(now.as_second()).unwrap_or(now),
+        simulated: matches!(subject.origin, Origin::Simulated { .. }),
+    };
+    match (&subject.matter, taking) {
+        (Matter::Mesh(mesh, _), _) => enrol_mesh(mesh, &about, params),
+        (Matter::Scene(scene), Taking::Segmented) => {
+            enrol_selected(scene, &selection.indices, &about, params)
+        }
+        (Matter::Scene(scene), Taking::Whole) => {
+            let noise = params.segment.noise_at_1m;
+            let kept = SegmentedPart::selected(scene, &selection.indices, noise);
+            enrol_whole(&kept.cloud, &about, params)
+        }
+    }
+}

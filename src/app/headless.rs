@@ -1,0 +1,272 @@
+//! The window without a display: drawn frame by frame into a picture of its own, as a desktop would have it drawn.
+//!
+//! A frame goes the way that it goes on a desktop: the panels run, their shapes become triangles, buffers are filled,
+//! the passes are recorded and submitted. Only the last step, showing the picture, is left out. It serves to measure
+//! what a frame costs and to prove what it does not do.
+
+use std::{fs, thread, time::Instant};
+
+use eframe::{
+    egui_wgpu::{
+        Renderer, RendererOptions, ScreenDescriptor, WgpuConfiguration, WgpuSetup,
+        WgpuSetupCreateNew,
+    },
+    wgpu,
+};
+use egui::{Event, FullOutput, RawInput, Rect, Vec2};
+
+use super::{
+    viewport::ViewError,
+    window::{Window, WindowOptions},
+};
+
+/// What the picture is drawn in.
+const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
+
+/// Whether the next frame may begin while the device still draws this one.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Pace {
+    /// It may: what the processor does is told apart from what the device does.
+    Ahead,
+    /// It waits, as behind a display that takes one picture after the other.
+    InStep,
+}
+
+/// How long a frame took.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FrameTime {
+    /// Processor time of the window's thread, seconds; the clock's where the system does not tell.
+    pub busy: f64,
+    /// From its beginning until the next may begin, seconds.
+    pub whole: f64,
+}
+
+/// Counts since the window was opened: what stands still in a frame cost nothing in it.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct WorkCounts {
+    /// Point and line sets copied to the device.
+    pub uploads: u64,
+    /// Times that the 3-D view was drawn anew.
+    pub pictures: u64,
+    /// Times that something was made of a result: textures, or a choice of lines.
+    pub made: u64,
+}
+
+/// A window that nobody sees.
+pub struct HeadlessWindow {
+    ctx: egui::Context,
+    window: Window,
+    device: wgpu::Device,
+    queue: wgpu::Queue,
+    renderer: Renderer,
+    target: wgpu::TextureView,
+    size: [u32; 2],
+    began: Instant,
+    closes: bool,
+    #[cfg(test)]
+    says: Vec<String>,
+}
+
+impl HeadlessWindow {
+    /// Opens it, `size` in logical pixels, on whatever device there is.
+    pub fn open(size: [u32; 2], options: WindowOptions) -> Result<Self, ViewError> {
+        let no_device = |reason: String| ViewError::NoDevice { reason };
+        let setup = WgpuSetup::CreateNew(WgpuSetupCreateNew::without_display_handle());
+        let instance = pollster::block_on(setup.new_instance());
+        let configuration = WgpuConfiguration {
+            wgpu_setup: setup,
+            ..WgpuConfiguration::default()
+        };
+        let made = eframe::egui_wgpu::RenderState::create(
+            &configuration,
+            &instance,
+            None,
+            RendererOptions::default(),
+        );
+        let mut render_state =
+            pollster::block_on(made).map_err(|error| no_device(error.to_string()))?;
+        render_state.target_format = FORMAT;
+        let ctx = egui::Context::default();
+        let window = Window::new(&ctx, Some(&render_state), options)
+            .map_err(|error| no_device(error.to_string()))?;
+        let (device, queue) = (render_state.device.clone(), render_state.queue.clone());
+        let texture = device.create_texture(&wgpu::TextureDescriptor {
+            label: Some("window"),
+            size: wgpu::Extent3d {
+                width: size[0],
+                height: size[1],
+                depth_or_array_layers: 1,
+            },
+            mip_level_count: 1,
+            sample_count: 1,
+            dimension: wgpu::TextureDimension::D2,
+            format: FORMAT,
+            usage: wgpu::TextureUsages::RENDER_ATTACHMENT,
+            view_formats: &[],
+        });
+        Ok(Self {
+            renderer: Renderer::new(&device, FORMAT, RendererOptions::default()),
+            target: texture.create_view(&wgpu::TextureViewDescriptor::default()),
+            ctx,
+            window,
+            device,
+            queue,
+            size,
+            began: Instant::now(),
+            closes: false,
+            #[cfg(test)]
+            says: Vec::new(),
+        })
+    }
+
+    /// The window.
+    pub fn window(&self) -> &Window {
+        &self.window
+    }
+
+    /// True once the window asked to be closed.
+    pub fn closes(&self) -> bool {
+        self.closes
+    }
+
+    /// What its frames have done so far.
+    pub fn counts(&self) -> WorkCounts {
+        self.window.counts()
+    }
+
+    /// Draws frames until nothing is at work any more; false if that took more than a minute.
+    pub fn settle(&mut self) -> bool {
+        let begun = Instant::now();
+        loop {
+            self.frame(Vec::new(), Pace::InStep);
+            if self.window.state().works.is_empty() {
+                break;
+            }
+            if begun.elapsed().as_secs() > 60 {
+                return false;
+            }
+            thread::sleep(std::time::Duration::from_millis(5));
+        }
+        for _ in 0..3 {
+            self.frame(Vec::new(), Pace::InStep);
+        }
+        true
+    }
+
+    /// Draws one frame in which this happens.
+    pub fn frame(&mut self, events: Vec<Event>, pace: Pace) -> FrameTime {
+        let begun = Instant::now();
+        let busy_before = thread_seconds();
+        self.draw(events);
+        let busy = match (busy_before, thread_seconds()) {
+            (Some(before), Some(after)) => after - before,
+            _ => begun.elapsed().as_secs_f64(),
+        };
+        if pace == Pace::InStep {
+            // A device that is gone draws nothing to wait for.
+            let _ = self.device.poll(wgpu::PollType::wait_indefinitely());
+        }
+        FrameTime {
+            busy,
+            whole: begun.elapsed().as_secs_f64(),
+        }
+    }
+
+    /// Waits until the device has drawn everything.
+    pub fn wait(&self) {
+        let _ = self.device.poll(wgpu::PollType::wait_indefinitely());
+    }
+
+    fn draw(&mut self, events: Vec<Event>) {
+        let [width, height] = self.size;
+        let input = RawInput {
+            screen_rect: Some(Rect::from_min_size(
+                egui::Pos2::ZERO,
+                Vec2::new(width as f32, height as f32),
+            )),
+            time: Some(self.began.elapsed().as_secs_f64()),
+            events,
+            ..RawInput::default()
+        };
+        let Self { ctx, window, .. } = self;
+        let output = ctx.run_ui(input, |ui| {
+            let ctx = ui.ctx().clone();
+            window.fetch(&ctx);
+            window.show(ui);
+        });
+        let commands = output.viewport_output.values().flat_map(|v| &v.commands);
+        self.closes |= commands
+            .into_iter()
+            .any(|command| *command == egui::ViewportCommand::Close);
+        #[cfg(test)]
+        tests::take_words(&output, &mut self.says);
+        self.submit(output);
+    }
+
+    fn submit(&mut self, mut output: FullOutput) {
+        let screen = ScreenDescriptor {
+            size_in_pixels: self.size,
+            pixels_per_point: output.pixels_per_point,
+        };
+        let Self {
+            device,
+            queue,
+            renderer,
+            ..
+        } = self;
+        #[expect(clippy::iter_over_hash_type, reason = "each texture is on its own")]
+        for (id, images) in output.textures_delta.set.drain() {
+            for image in images {
+                renderer.update_texture(device, queue, id, &image);
+            }
+        }
+        let triangles = self.ctx.tessellate(output.shapes, output.pixels_per_point);
+        let mut encoder = device.create_command_encoder(&wgpu::CommandEncoderDescriptor::default());
+        let before = renderer.update_buffers(device, queue, &mut encoder, &triangles, &screen);
+        let mut pass = encoder
+            .begin_render_pass(&wgpu::RenderPassDescriptor {
+                label: Some("window"),
+                color_attachments: &[Some(wgpu::RenderPassColorAttachment {
+                    view: &self.target,
+                    depth_slice: None,
+                    resolve_target: None,
+                    ops: wgpu::Operations::default(),
+                })],
+                ..wgpu::RenderPassDescriptor::default()
+            })
+            .forget_lifetime();
+        renderer.render(&mut pass, &triangles, &screen);
+        drop(pass);
+        queue.submit(before.into_iter().chain([encoder.finish()]));
+        #[expect(clippy::iter_over_hash_type, reason = "each texture is on its own")]
+        for id in output.textures_delta.free.drain() {
+            renderer.free_texture(&id);
+        }
+    }
+}
+
+/// Processor time of this thread so far, seconds; `None` where there is no /proc.
+fn thread_seconds() -> Option<f64> {
+    // Linux brings the figure up to date when the thread gives way.
+    thread::yield_now();
+    let text = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    let nanoseconds: f64 = text.split_whitespace().next()?.parse().ok()?;
+    Some(nanoseconds / 1e9)
+}
+
+/// Processor time of all threads of this process so far, seconds, in steps of ten milliseconds: with a software driver
+/// the drawing is in it. `None` where there is no /proc.
+pub fn process_seconds() -> Option<f64> {
+    const TICKS_PER_SECOND: f64 = 100.0;
+    let stat = fs::read_to_string("/proc/self/stat").ok()?;
+    // The name, in brackets, may hold spaces; user and system time are the 12th and 13th fields after it.
+    let fields = stat.rsplit(')').next()?.split_whitespace();
+    let ticks = fields
+        .skip(11)
+        .take(2)
+        .filter_map(|ticks| ticks.parse::<f64>().ok());
+    Some(ticks.sum::<f64>() / TICKS_PER_SECOND)
+}
+
+#[cfg(test)]
+mod tests;

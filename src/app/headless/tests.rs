@@ -1,0 +1,150 @@
+//! Frames drawn for real. Without any graphics device these say so and pass, unless `PARTSIGHT_REQUIRE_GPU` is set.
+
+use egui::{Key, Modifiers, PointerButton, Pos2};
+
+use super::*;
+
+fn open() -> Option<HeadlessWindow> {
+    match HeadlessWindow::open([1440, 900], WindowOptions::default()) {
+        Ok(mut window) => {
+            assert!(window.settle(), "still working after a minute");
+            Some(window)
+        }
+        Err(ViewError::NoDevice { reason })
+            if std::env::var_os("PARTSIGHT_REQUIRE_GPU").is_none() =>
+        {
+            eprintln!("skipped, for want of a graphics device: {reason}");
+            None
+        }
+        Err(error) => panic!("{error}"),
+    }
+}
+
+fn press(key: Key) -> Vec<Event> {
+    [true, false]
+        .map(|pressed| Event::Key {
+            key,
+            physical_key: None,
+            pressed,
+            repeat: false,
+            modifiers: Modifiers::NONE,
+        })
+        .into()
+}
+
+#[test]
+fn a_frame_in_which_nothing_changed_uploads_prepares_and_draws_nothing() {
+    let Some(mut window) = open() else { return };
+    let before = window.counts();
+    assert!(before.uploads > 0 && before.pictures > 0 && before.made > 0);
+    for _ in 0..20 {
+        window.frame(Vec::new(), Pace::InStep);
+    }
+    assert_eq!(window.counts(), before);
+
+    // Over the view: it hears the key.
+    let over = Pos2::new(500.0, 400.0);
+    window.frame(vec![Event::PointerMoved(over)], Pace::InStep);
+    window.frame(press(Key::ArrowLeft), Pace::InStep);
+    window.frame(Vec::new(), Pace::InStep);
+    let turned = window.counts();
+    assert!(turned.pictures > before.pictures, "the view did not turn");
+    // Turning draws anew, but from what is there.
+    assert_eq!((turned.uploads, turned.made), (before.uploads, before.made));
+}
+
+#[test]
+fn another_choice_of_lines_uploads_lines_alone_and_once() {
+    let Some(mut window) = open() else { return };
+    let before = window.counts();
+    window.frame(press(Key::N), Pace::InStep);
+    window.frame(Vec::new(), Pace::InStep);
+    let after = window.counts();
+    assert_eq!(after.made, before.made + 1);
+    assert_eq!(after.uploads, before.uploads + 1, "the nozzle alone");
+    for _ in 0..5 {
+        window.frame(Vec::new(), Pace::InStep);
+    }
+    assert_eq!(window.counts(), after);
+}
+
+/// Notes what a screen reader is told to read.
+pub(super) fn take_words(output: &FullOutput, says: &mut Vec<String>) {
+    let Some(update) = &output.platform_output.accesskit_update else {
+        return;
+    };
+    says.clear();
+    for (_, node) in &update.nodes {
+        says.extend(
+            [node.value(), node.label()]
+                .into_iter()
+                .flatten()
+                .map(str::to_owned),
+        );
+    }
+}
+
+fn says(window: &HeadlessWindow, text: &str) -> bool {
+    window.says.iter().any(|said| said.contains(text))
+}
+
+#[test]
+fn a_device_that_refuses_something_is_said_in_words_and_the_rest_works() {
+    let Some(mut window) = open() else { return };
+    window.ctx.enable_accesskit();
+    window.frame(Vec::new(), Pace::InStep);
+    assert!(!says(&window, "No 3-D view") && says(&window, "Front door, left"));
+    // More than any device has.
+    let _refused = window.device.create_buffer(&wgpu::BufferDescriptor {
+        label: Some("too large"),
+        size: 1 << 60,
+        usage: wgpu::BufferUsages::STORAGE,
+        mapped_at_creation: false,
+    });
+    window.frame(Vec::new(), Pace::InStep);
+    assert!(says(&window, "No 3-D view") && says(&window, "reported an error"));
+    assert!(says(&window, "Front door, left") && !window.closes());
+    // The next part is captured and inspected all the same.
+    window.frame(press(Key::Space), Pace::InStep);
+    assert!(window.settle());
+    assert!(says(&window, "Simulated frame 2"), "{:?}", window.says);
+}
+
+#[test]
+fn a_window_whose_device_is_gone_closes_instead_of_breaking_off() {
+    let Some(mut window) = open() else { return };
+    window.device.destroy();
+    window.wait();
+    for _ in 0..3 {
+        window.frame(Vec::new(), Pace::InStep);
+    }
+    assert!(window.closes());
+    let gpu = window.window().gpu().as_ref().expect("a device once");
+    assert!(matches!(gpu.trouble(), Some(ViewError::DeviceLost { .. })));
+}
+
+#[test]
+fn turning_draws_less_on_a_slow_device_and_everything_at_rest() {
+    let Some(mut window) = open() else { return };
+    let from = Pos2::new(500.0, 400.0);
+    let button = |pressed| Event::PointerButton {
+        pos: from,
+        button: PointerButton::Primary,
+        pressed,
+        modifiers: Modifiers::NONE,
+    };
+    window.frame(vec![Event::PointerMoved(from), button(true)], Pace::InStep);
+    for i in 1..=12 {
+        let to = from + Vec2::new(8.0 * i as f32, 0.0);
+        window.frame(vec![Event::PointerMoved(to)], Pace::InStep);
+        // As slow as a device can be: no figure of this machine decides.
+        thread::sleep(std::time::Duration::from_millis(70));
+    }
+    assert!(window.window().detail_of_view() < 1.0, "all of it is drawn");
+    window.frame(vec![button(false)], Pace::InStep);
+    thread::sleep(std::time::Duration::from_millis(300));
+    let before = window.counts().pictures;
+    window.frame(Vec::new(), Pace::InStep);
+    assert!((window.window().detail_of_view() - 1.0).abs() < 1e-6);
+    assert_eq!(window.counts().pictures, before + 1, "drawn in full");
+}

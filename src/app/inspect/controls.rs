@@ -1,0 +1,109 @@
+//! The row of controls over the 3-D view: from where, coloured by what, what else is shown.
+
+use egui::{Button, Response, RichText, Ui, Vec2};
+
+use super::{
+    scene::SceneFigure,
+    state::{InspectAction, ViewPart},
+    view::SceneView,
+};
+use crate::app::{
+    action::{Action, Ask},
+    state::State,
+    theme::{font, space},
+    viewport::{Colouring, FitRequest, StandardView, ViewTool},
+};
+
+/// A view narrower than this has the sides to look from in a menu.
+const NARROW: f32 = 800.0;
+
+/// Draws the row.
+pub(super) fn ui(
+    ui: &mut Ui,
+    view: &mut SceneView,
+    state: &State,
+    figure: &SceneFigure,
+    actions: &mut Vec<Action>,
+) {
+    if ui.available_width() < NARROW {
+        ui.menu_button(small("View ▼"), |ui| sides(ui, view));
+    } else {
+        sides(ui, view);
+    }
+    let now = format!("Colour · {} ▼", view.style.colouring.title());
+    ui.menu_button(small(now), |ui| {
+        for colouring in Colouring::ALL {
+            let is_chosen = view.style.colouring == colouring;
+            let is_there = colouring != Colouring::Deviation || figure.has_deviations;
+            let choice = Button::selectable(is_chosen, colouring.title());
+            if ui.add_enabled(is_there, choice).clicked() {
+                actions.push(Action::Inspect(InspectAction::Colour(colouring)));
+                ui.close();
+            }
+        }
+    });
+    ui.menu_button(small("Show ▼"), |ui| {
+        for part in ViewPart::ALL {
+            let mut is_shown = state.inspect.parts.contains(&part);
+            let choice = egui::Checkbox::new(&mut is_shown, part.title());
+            if ui.add_enabled(is_there(figure, part), choice).clicked() {
+                actions.push(Action::Inspect(InspectAction::Toggle(part)));
+            }
+        }
+    });
+    let is_measuring = view.viewport.tool == ViewTool::Measure;
+    let measure = Button::new(small("Measure")).selected(is_measuring);
+    if press(ui, measure)
+        .on_hover_text("Click two points (M)")
+        .clicked()
+    {
+        view.viewport.tool = if is_measuring {
+            ViewTool::Look
+        } else {
+            ViewTool::Measure
+        };
+    }
+    if press(ui, Button::new(small("Picture…")))
+        .on_hover_text("Save a picture of the view (P)")
+        .clicked()
+    {
+        actions.push(Action::Ask(Ask::Picture));
+    }
+}
+
+fn sides(ui: &mut Ui, view: &mut SceneView) {
+    if press(ui, Button::new(small("Fit")))
+        .on_hover_text("Fit the part (F)")
+        .clicked()
+    {
+        view.camera.request_fit(FitRequest::Focus);
+    }
+    for (text, side) in [
+        ("Front", StandardView::Front),
+        ("Top", StandardView::Top),
+        ("Side", StandardView::Side),
+    ] {
+        if press(ui, Button::new(small(text))).clicked() {
+            view.camera.look(side);
+            view.camera.request_fit(FitRequest::Focus);
+        }
+    }
+}
+
+/// True where the result has this to show.
+fn is_there(figure: &SceneFigure, part: ViewPart) -> bool {
+    match part {
+        ViewPart::Axes => figure.axes.is_some(),
+        ViewPart::Camera => figure.camera.is_some(),
+        ViewPart::Outline => figure.outline.is_some(),
+        ViewPart::NozzleMiddle | ViewPart::NozzleWorst => figure.nozzles.is_some(),
+    }
+}
+
+fn small(text: impl Into<String>) -> RichText {
+    RichText::new(text).font(font::small())
+}
+
+fn press(ui: &mut Ui, button: Button<'_>) -> Response {
+    ui.add(button.min_size(Vec2::splat(space::TARGET)))
+}

@@ -1,0 +1,200 @@
+//! What the 3-D view shows of a result, made once on the worker: points, and the lines that stand for things.
+
+use glam::Vec3;
+use nalgebra::{Isometry3, Point3};
+
+use crate::{
+    app::viewport::{Line, LineSet, PointSet, Role, furniture},
+    geometry::rigid::RigidTransform,
+    pipeline::Inspection,
+    report::stand_off::{NozzleRay, StandOff},
+    stages::{
+        contour::lift_border,
+        pose::PoseEstimate,
+        reference::{Reference, ReferenceView},
+        scene::SceneCloud,
+    },
+    units::Metres,
+};
+
+/// Points and lines of one result, camera space. What the result does not have is not there.
+#[derive(Debug)]
+pub struct SceneFigure {
+    /// The scene, with what each point was taken for and how far it is off.
+    pub points: PointSet,
+    /// True when at least one point knows its deviation.
+    pub has_deviations: bool,
+    /// The axes of the part's middle, where it was found.
+    pub axes: Option<LineSet>,
+    /// The depth camera and what it sees.
+    pub camera: Option<LineSet>,
+    /// Outline and openings of the enrolled part at the found pose.
+    pub outline: Option<LineSet>,
+    /// The taught nozzle over the part's middle, and the one furthest off.
+    pub nozzles: Option<[NozzleFigure; 2]>,
+}
+
+/// A nozzle before the part.
+#[derive(Debug)]
+pub struct NozzleFigure {
+    /// Nozzle and ray.
+    pub lines: LineSet,
+    /// Its mouth, metres.
+    pub mouth: Vec3,
+    /// From there to the part; below 0 with the nozzle in or behind it.
+    pub distance: Metres,
+}
+
+/// What a [`SceneFigure`] is made of.
+pub(super) struct Ingredients<'a> {
+    pub(super) scene: &'a SceneCloud,
+    pub(super) inspection: &'a Inspection,
+    /// The best reference.
+    pub(super) reference: Option<&'a Reference>,
+    /// Middle of its extent, part space.
+    pub(super) middle: Option<Point3<f64>>,
+    pub(super) deviations: &'a [f32],
+    pub(super) stand_off: Option<&'a StandOff>,
+}
+
+impl SceneFigure {
+    /// Makes it: goes through every point.
+    pub(super) fn of(given: &Ingredients<'_>) -> Self {
+        let Ingredients {
+            scene,
+            inspection,
+            reference,
+            middle,
+            deviations,
+            stand_off,
+        } = given;
+        let positions: Vec<[f32; 3]> = scene.cloud.points.iter().map(|p| [p.x, p.y, p.z]).collect();
+        let mut points = PointSet::segmented(positions, &inspection.segmentation.labels);
+        let has_deviations = !deviations.is_empty();
+        if has_deviations {
+            points = points.with_deviations(*deviations);
+        }
+        let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+        let camera_from_part = pose.map(PoseEstimate::camera_from_part);
+        let axes = camera_from_part.zip(*middle).map(|(pose, middle)| {
+            let shift = nalgebra::Translation3::from(middle.coords);
+            furniture::axes(Metres(0.15)).at(&(pose * shift))
+        });
+        let camera = scene.intrinsics.as_ref();
+        let placed = inspection.ranking.entries.first();
+        let view = placed.and_then(|entry| entry.placements.first());
+        let view = reference.and_then(|reference| reference.views.get(view?.view));
+        Self {
+            has_deviations,
+            axes,
+            camera: camera.map(|camera| furniture::frustum(camera, Metres(0.25))),
+            outline: view
+                .zip(camera_from_part)
+                .and_then(|(view, pose)| outline(view, &pose)),
+            nozzles: stand_off.map(|found| [&found.middle, &found.worst].map(NozzleFigure::of)),
+            points,
+        }
+    }
+}
+
+impl NozzleFigure {
+    fn of(ray: &NozzleRay) -> Self {
+        let at = |p: &Point3<f64>| Vec3::new(p.x as f32, p.y as f32, p.z as f32);
+        let mouth = at(&ray.mouth);
+        let direction = at(&Point3::from(ray.direction));
+        Self {
+            lines: furniture::nozzle(mouth, direction, at(&ray.surface)),
+            mouth,
+            distance: ray.distance,
+        }
+    }
+}
+
+/// Neighbours on a border that lie further apart on the surface than this, metres, are not joined.
+const GAP: f32 = 0.06;
+/// How far before the surface the outline is drawn, metres: noise must not hide it.
+const BEFORE: f32 = 0.004;
+
+/// The borders of a view of the reference on its surface, at the pose; `None` for a flat shape.
+fn outline(view: &ReferenceView, camera_from_part: &RigidTransform) -> Option<LineSet> {
+    let camera_from_plane: Isometry3<f32> =
+        (camera_from_part * view.plane_from_part.inverse()).cast();
+    let borders = std::iter::once(&view.contour.outline).chain(&view.contour.openings);
+    let mut lines = Vec::new();
+    for border in borders {
+        let lifted = lift_border(border, &view.plane);
+        let corners = lifted.iter().map(|p| {
+            let p = camera_from_plane * p.cast::<f32>();
+            let p = Vec3::new(p.x, p.y, p.z);
+            p - p.normalize_or_zero() * BEFORE
+        });
+        let corners = smoothed(&corners.collect::<Vec<_>>());
+        let runs = corners.chunk_by(|a, b| a.distance(*b) < GAP);
+        let runs = runs.filter(|run| run.len() > 1);
+        lines.extend(runs.map(|run| Line::new(run, Role::Contour).with_width(1.8)));
+    }
+    (!lines.is_empty()).then(|| LineSet::new(lines))
+}
+
+/// A closed line whose corners are means over their neighbours, without the steps of the image's pixels; its first
+/// corner is repeated at the end.
+fn smoothed(corners: &[Vec3]) -> Vec<Vec3> {
+    /// Neighbours to either side.
+    const REACH: usize = 2;
+    let num = corners.len();
+    let mean = |i: usize| {
+        let around = (0..=2 * REACH).map(|k| corners[(i + num * REACH + k - REACH) % num]);
+        // A neighbour beyond a gap is on another part of the surface.
+        let near = around.filter(|p| p.distance(corners[i]) < GAP);
+        let (sum, count) = near.fold((Vec3::ZERO, 0.0), |(sum, n), p| (sum + p, n + 1.0));
+        sum / count
+    };
+    let smooth: Vec<Vec3> = (0..num).map(mean).collect();
+    let first = smooth.first().copied();
+    smooth.into_iter().chain(first).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use crate::{
+        app::{
+            inspect::work::{InspectRequest, inspect},
+            shelf::Shelf,
+            source::{CellChoice, SceneSource},
+        },
+        geometry::nearest::KdTree,
+        pipeline::Unwatched,
+    };
+
+    #[test]
+    fn the_enrolled_outline_lies_on_the_rim_of_the_part() {
+        let request = InspectRequest {
+            source: SceneSource::Cell {
+                choice: CellChoice::InTurn,
+                number: 1,
+            },
+            recipe: std::sync::Arc::default(),
+        };
+        let inspected = inspect(&request, &Shelf::default(), &Unwatched).expect("inspected");
+        let inspected = inspected.expect("not cancelled");
+        let part = &inspected.inspection.segmentation.part;
+        let part = &part.as_ref().expect("a part").cloud.points;
+        let tree = KdTree::new(part);
+        let outline = inspected.view.outline.as_ref().expect("an outline");
+        let corners: Vec<_> = outline.lines().iter().flat_map(|l| &l.points).collect();
+        // The door's outline and its window.
+        assert!(outline.lines().len() >= 2 && corners.len() > 200);
+        let near = corners.iter().filter(|p| {
+            let p = nalgebra::Point3::new(p.x, p.y, p.z);
+            tree.nearest(&p, 0.02 * 0.02).is_some()
+        });
+        let share = near.count() as f32 / corners.len() as f32;
+        assert!(share > 0.9, "{share}");
+        assert!(inspected.view.has_deviations && inspected.view.axes.is_some());
+        let [middle, _] = inspected.view.nozzles.as_ref().expect("nozzles");
+        let found = inspected.stand_off.as_ref().expect("found").as_ref();
+        let found = found.expect("a stand-off");
+        assert_eq!(middle.distance, found.middle.distance);
+        assert!(found.met() > 0.5);
+    }
+}

@@ -1,0 +1,138 @@
+//! What the workspace knows besides the result: what its view shows, and where a picture of it is to go.
+
+use std::{collections::BTreeSet, path::PathBuf};
+
+use crate::app::{
+    action::{Effect, notify},
+    job::{Request, Trouble},
+    state::State,
+    viewport::{Colouring, ViewShot},
+    writing::WriteRequest,
+};
+
+/// What the view can show besides the points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ViewPart {
+    /// The axes of the part's middle.
+    Axes,
+    /// The depth camera and what it sees.
+    Camera,
+    /// The enrolled part's outline at the found pose.
+    Outline,
+    /// The taught nozzle over the middle of the part.
+    NozzleMiddle,
+    /// The taught nozzle that is furthest off its distance.
+    NozzleWorst,
+}
+
+impl ViewPart {
+    /// All of them, in the order of the menu.
+    pub const ALL: [Self; 5] = [
+        Self::Outline,
+        Self::NozzleMiddle,
+        Self::NozzleWorst,
+        Self::Axes,
+        Self::Camera,
+    ];
+
+    /// What a person calls it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Axes => "Axes of the part",
+            Self::Camera => "Depth camera",
+            Self::Outline => "Enrolled contour",
+            Self::NozzleMiddle => "Nozzle over the middle",
+            Self::NozzleWorst => "Nozzle at the worst spot",
+        }
+    }
+}
+
+/// The workspace's own part of the state.
+#[derive(Clone, Debug)]
+pub struct InspectState {
+    /// What the view shows besides the points.
+    pub parts: BTreeSet<ViewPart>,
+    /// What a person chose to colour by; until then the deviation where there is one, else the segments.
+    pub colouring: Option<Colouring>,
+    /// Where a picture of the view is to go, until it is taken.
+    pub picture_to: Option<PathBuf>,
+}
+
+impl Default for InspectState {
+    fn default() -> Self {
+        Self {
+            parts: [ViewPart::Axes, ViewPart::Outline, ViewPart::NozzleMiddle].into(),
+            colouring: None,
+            picture_to: None,
+        }
+    }
+}
+
+/// What can happen in the workspace.
+#[derive(Clone, Debug)]
+pub enum InspectAction {
+    /// Show this in the view, or no longer.
+    Toggle(ViewPart),
+    /// Colour the points by this.
+    Colour(Colouring),
+    /// The view that [`InspectState::picture_to`] waits for, or why there is none.
+    Picture(Result<Box<ViewShot>, Trouble>),
+}
+
+/// Makes it so.
+pub(in crate::app) fn apply(state: &mut State, action: InspectAction) -> Option<Effect> {
+    let own = &mut state.inspect;
+    match action {
+        InspectAction::Toggle(part) => {
+            if !own.parts.remove(&part) {
+                own.parts.insert(part);
+            }
+        }
+        InspectAction::Colour(colouring) => own.colouring = Some(colouring),
+        InspectAction::Picture(shot) => {
+            let mut path = own.picture_to.take()?;
+            match shot {
+                Ok(shot) => {
+                    if path.extension().is_none() {
+                        path.set_extension("png");
+                    }
+                    let request = Request::Write(WriteRequest::Picture { path, shot });
+                    return Some(state.begin("Saving the picture", request));
+                }
+                Err(trouble) => notify(state, trouble.into()),
+            }
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::action::{Action, Ask, apply as apply_any};
+
+    #[test]
+    fn what_is_shown_is_hidden_and_shown_again() {
+        let mut state = State::default();
+        for is_shown in [false, true] {
+            apply(&mut state, InspectAction::Toggle(ViewPart::Axes));
+            assert_eq!(state.inspect.parts.contains(&ViewPart::Axes), is_shown);
+        }
+    }
+
+    #[test]
+    fn a_picture_waits_for_its_place_and_a_view_that_is_not_there_is_said_once() {
+        let mut state = State::default();
+        let trouble = || Trouble {
+            what: "no view".into(),
+            advice: "mend it".into(),
+        };
+        let none = || InspectAction::Picture(Err(trouble()));
+        // Nobody asked.
+        assert!(apply(&mut state, none()).is_none() && state.notices.is_empty());
+        apply_any(&mut state, Action::Chosen(Ask::Picture, "view".into()));
+        assert_eq!(state.inspect.picture_to, Some("view".into()));
+        assert!(apply(&mut state, none()).is_none());
+        assert_eq!((state.notices.len(), &state.inspect.picture_to), (1, &None));
+    }
+}

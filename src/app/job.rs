@@ -1,0 +1,102 @@
+//! What the window asks its threads for, what they answer, and who does it.
+
+use std::{path::PathBuf, sync::Arc};
+
+use super::{
+    align::{AlignAnswer, AlignRequest},
+    compare::{CompareAnswer, CompareRequest},
+    enrol::{EnrolAnswer, EnrolRequest},
+    inspect::work::{InspectRequest, Inspected, inspect},
+    lane::Lane,
+    shelf::{LibraryShown, Shelf},
+    worker::Desk,
+    writing::{WriteRequest, Written},
+};
+use crate::error::Advice;
+
+/// What the window asks for.
+#[derive(Clone, Debug)]
+pub enum Request {
+    /// Get a scene and inspect it.
+    Inspect(InspectRequest),
+    /// Use another library: the one of this folder, else the one that is found without.
+    Library(Option<PathBuf>),
+    /// Something of the Enrol workspace.
+    Enrol(EnrolRequest),
+    /// Something of the Compare workspace.
+    Compare(CompareRequest),
+    /// Something of the Align workspace.
+    Align(AlignRequest),
+    /// Write a file.
+    Write(WriteRequest),
+}
+
+impl Request {
+    /// Whose work it is.
+    pub fn lane(&self) -> Lane {
+        match self {
+            Self::Inspect(_) | Self::Library(_) => Lane::Inspect,
+            Self::Enrol(request) => request.lane(),
+            Self::Compare(_) => Lane::Compare,
+            Self::Align(_) => Lane::Align,
+            Self::Write(_) => Lane::Write,
+        }
+    }
+}
+
+/// What comes back.
+#[derive(Clone, Debug)]
+pub enum Answer {
+    /// A scene with everything that was found in it.
+    Inspected(Arc<Inspected>),
+    /// The library that is in use now.
+    Library(Arc<LibraryShown>),
+    /// Something of the Enrol workspace.
+    Enrol(EnrolAnswer),
+    /// Something of the Compare workspace.
+    Compare(CompareAnswer),
+    /// Something of the Align workspace.
+    Align(AlignAnswer),
+    /// What was written.
+    Written(Written),
+}
+
+/// An answer, or what went wrong.
+pub type Outcome = Result<Answer, Trouble>;
+
+/// Something that went wrong, and what to do about it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Trouble {
+    /// What went wrong.
+    pub what: String,
+    /// What to do.
+    pub advice: String,
+}
+
+impl Trouble {
+    /// From an error that brings its advice.
+    pub fn of<E: std::fmt::Display + Advice>(error: &E) -> Self {
+        Self {
+            what: error.to_string(),
+            advice: error.advice(),
+        }
+    }
+}
+
+/// Does what is asked; `None` when it was cancelled. Called from the thread of the request's lane.
+pub fn answer(request: Request, shelf: &Shelf, desk: &dyn Desk<Outcome>) -> Option<Outcome> {
+    match request {
+        Request::Inspect(request) => match inspect(&request, shelf, desk) {
+            Ok(inspected) => inspected.map(|found| Ok(Answer::Inspected(Arc::new(found)))),
+            Err(error) => Some(Err(Trouble::of(&error))),
+        },
+        Request::Library(given) => Some(match shelf.choose(given) {
+            Ok(shelved) => Ok(Answer::Library(Arc::clone(&shelved.shown))),
+            Err(error) => Err(Trouble::of(&error)),
+        }),
+        Request::Enrol(request) => super::enrol::answer(request, shelf, desk),
+        Request::Compare(request) => super::compare::answer(request, shelf, desk),
+        Request::Align(request) => super::align::answer(request, shelf, desk),
+        Request::Write(request) => Some(super::writing::answer(&request).map(Answer::Written)),
+    }
+}

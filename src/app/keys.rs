@@ -1,0 +1,199 @@
+//! Shortcuts, and the list of them.
+
+use egui::{
+    Button, Frame, Id, Key, KeyboardShortcut, Margin, Modal, Modifiers, RichText, ScrollArea, vec2,
+};
+
+use super::{
+    action::{Action, Ask},
+    align,
+    bars::labelled,
+    compare, enrol, history, inspect,
+    state::{HelpPage, State, Workspace},
+    theme::{Theme, font, space},
+};
+
+/// A shortcut, what it causes, and how the list names both.
+pub(in crate::app) struct Shortcut {
+    pub(in crate::app) modifiers: Modifiers,
+    pub(in crate::app) key: Key,
+    pub(in crate::app) keys: &'static str,
+    pub(in crate::app) does: &'static str,
+    pub(in crate::app) action: fn() -> Action,
+}
+
+/// The shortcuts of the whole window.
+const SHORTCUTS: [Shortcut; 7] = [
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::Space,
+        keys: "Space",
+        does: "Capture, and inspect or enrol it",
+        action: || Action::Capture,
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::O,
+        keys: "Ctrl O",
+        does: "Open a captured scene",
+        action: || Action::Ask(Ask::Scene),
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::E,
+        keys: "Ctrl E",
+        does: "Export the inspection in front",
+        action: || Action::Ask(Ask::ReportFolder),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::U,
+        keys: "U",
+        does: "Millimetres and degrees, or metres and radians",
+        action: || Action::SwitchUnits,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::T,
+        keys: "T",
+        does: "Dark or light",
+        action: || Action::SwitchTheme,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::F1,
+        keys: "F1",
+        does: "This list",
+        action: || Action::ToggleHelp,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::Escape,
+        keys: "Esc",
+        does: "Close the enlarged stage",
+        action: || Action::CloseTop,
+    },
+];
+
+/// Keys of the 3-D view and of the focus, for the list alone.
+const OTHER_KEYS: [(&str, &str); 7] = [
+    ("Tab, Enter", "Go to the next control, press it"),
+    ("Arrow keys, left drag", "Turn the 3-D view"),
+    ("Shift + those, right drag", "Shift it"),
+    ("+ \u{2212}, wheel", "Zoom it"),
+    ("F, Shift F", "Fit the part, fit everything"),
+    ("Z, Y, X", "Look from the front, the top, the side"),
+    ("M", "Measure between two clicked points"),
+];
+
+/// Keys of the picture in which a part is corrected, for the list alone.
+const PICTURE_KEYS: [(&str, &str); 2] = [
+    ("Arrow keys, Enter", "Move a box in the picture, apply it"),
+    ("Shift + arrow keys", "Make that box larger or smaller"),
+];
+
+/// The keys of the rail, in its order.
+const RAIL_KEYS: [(Key, &str); 5] = [
+    (Key::Num1, "1"),
+    (Key::Num2, "2"),
+    (Key::Num3, "3"),
+    (Key::Num4, "4"),
+    (Key::Num5, "5"),
+];
+
+/// What of the window's height the list leaves free, for its heading, its button and the edges.
+const HELP_MARGIN: f32 = 190.0;
+
+/// The shortcuts of a workspace alone; they come before the window's.
+fn of_workspace(workspace: Workspace) -> &'static [Shortcut] {
+    match workspace {
+        Workspace::Inspect => &inspect::SHORTCUTS,
+        Workspace::Enrol => &enrol::SHORTCUTS,
+        Workspace::Compare => &compare::SHORTCUTS,
+        Workspace::Align => &align::SHORTCUTS,
+        Workspace::History => &history::SHORTCUTS,
+    }
+}
+
+/// What the keys cause. Called after the panels, so that a focused control has its keys first.
+///
+/// The space bar presses a focused control; `space_is_free` says that what has the focus does not use it. While a
+/// person writes, only keys with Ctrl are shortcuts.
+pub(super) fn shortcuts(
+    ctx: &egui::Context,
+    state: &State,
+    space_is_free: bool,
+    actions: &mut Vec<Action>,
+) {
+    let is_pressing = !space_is_free && ctx.memory(|memory| memory.focused().is_some());
+    let is_writing = ctx.text_edit_focused();
+    for shortcut in of_workspace(state.workspace).iter().chain(&SHORTCUTS) {
+        let is_plain = shortcut.modifiers.is_none();
+        // In a text that is being written, Ctrl Z takes back what was written.
+        let is_of_text = is_plain || shortcut.key == Key::Z;
+        let presses = matches!(shortcut.key, Key::Space | Key::Enter);
+        if presses && is_pressing || is_of_text && is_writing {
+            continue;
+        }
+        let keys = KeyboardShortcut::new(shortcut.modifiers, shortcut.key);
+        if ctx.input_mut(|input| input.consume_shortcut(&keys)) {
+            actions.push((shortcut.action)());
+        }
+    }
+    if is_writing {
+        return;
+    }
+    for ((key, _), workspace) in RAIL_KEYS.into_iter().zip(Workspace::ALL) {
+        if ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key)) {
+            actions.push(Action::GoTo(workspace));
+        }
+    }
+}
+
+/// The list of shortcuts.
+pub(super) fn help(ctx: &egui::Context, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+    if state.help == HelpPage::Closed {
+        return;
+    }
+    let modal = Modal::new(Id::unique("help"))
+        .frame(Frame::window(&ctx.global_style()).inner_margin(Margin::same(18)))
+        .show(ctx, |ui| {
+            ui.set_max_width(520.0);
+            let height = ui.spacing().interact_size.y;
+            ui.spacing_mut().interact_size.y = 24.0;
+            ui.label(
+                RichText::new("Shortcuts")
+                    .font(font::verdict())
+                    .color(theme.text),
+            );
+            ui.add_space(space::SMALL);
+            let room = ctx.content_rect().height() - HELP_MARGIN;
+            let list = egui::Grid::new("shortcuts")
+                .num_columns(2)
+                .spacing(vec2(24.0, 6.0));
+            ScrollArea::vertical().max_height(room).show(ui, |ui| {
+                list.show(ui, |ui| {
+                    let own = of_workspace(state.workspace).iter();
+                    let named = own.chain(&SHORTCUTS).map(|s| (s.keys, s.does));
+                    let of_rail = RAIL_KEYS.into_iter().zip(Workspace::ALL);
+                    let of_rail = of_rail.map(|((_, keys), workspace)| (keys, workspace.title()));
+                    let of_picture = match state.workspace {
+                        Workspace::Enrol => &PICTURE_KEYS[..],
+                        _ => &[],
+                    };
+                    let others = of_picture.iter().copied().chain(OTHER_KEYS);
+                    for (keys, does) in named.chain(of_rail).chain(others) {
+                        ui.label(RichText::new(keys).font(font::body_strong()));
+                        ui.label(RichText::new(does).color(theme.weak_text));
+                        ui.end_row();
+                    }
+                });
+            });
+            ui.spacing_mut().interact_size.y = height;
+            ui.add_space(space::MEDIUM);
+            labelled(ui, Button::new("Close"), "Close").clicked()
+        });
+    if modal.inner || modal.backdrop_response.clicked() {
+        actions.push(Action::ToggleHelp);
+    }
+}

@@ -1,0 +1,184 @@
+//! The library in use, shared by the threads: loaded when first needed, replaced whole when it was changed.
+
+use std::{
+    path::{Path, PathBuf},
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+};
+
+use image::RgbaImage;
+
+use super::{fitted::FittedCache, job::Trouble};
+use crate::{
+    error::Advice as _,
+    library::{Library, LibraryError, LibraryLoad, LibraryPlace, PartMeta, open_library},
+    stages::reference::ReferenceParams,
+};
+
+/// A handle to the library in use; clones share it.
+#[derive(Clone, Debug, Default)]
+pub struct Shelf(Arc<Mutex<Choice>>);
+
+#[derive(Debug, Default)]
+struct Choice {
+    /// The folder that was asked for; without one [`open_library`] finds it.
+    given: Option<PathBuf>,
+    loaded: Option<Arc<Shelved>>,
+}
+
+/// A loaded library.
+#[derive(Debug)]
+pub struct Shelved {
+    /// Where it lies.
+    pub place: LibraryPlace,
+    /// The references, prepared.
+    pub library: Library,
+    /// What the window shows of it.
+    pub shown: Arc<LibraryShown>,
+    /// The references as another recipe wants them.
+    pub(super) fitted: FittedCache,
+}
+
+/// What the window shows of a library.
+#[derive(Debug, Default)]
+pub struct LibraryShown {
+    /// Its folder.
+    pub path: PathBuf,
+    /// What is written down of every part, in the library's order.
+    pub parts: Vec<PartMeta>,
+    /// The small pictures of the parts, in the same order, where there is one.
+    pub thumbnails: Vec<Option<RgbaImage>>,
+    /// The parts that could not be loaded.
+    pub damaged: Vec<Damaged>,
+    /// Why it cannot be changed at all, if so.
+    pub is_fixed: Option<Trouble>,
+    /// What had to be set aside, and what is odd.
+    pub troubles: Vec<Trouble>,
+}
+
+/// A part that could not be loaded.
+#[derive(Clone, Debug)]
+pub struct Damaged {
+    /// The name of its folder.
+    pub entry: String,
+    /// Why, and what to do.
+    pub trouble: Trouble,
+}
+
+impl LibraryShown {
+    /// Name for people of the part at this place.
+    pub fn title(&self, place: usize) -> &str {
+        self.parts.get(place).map_or("", PartMeta::shown_title)
+    }
+
+    /// The place of a part.
+    pub fn place_of(&self, name: &str) -> Option<usize> {
+        self.parts
+            .iter()
+            .position(|part| part.name.as_str() == name)
+    }
+}
+
+impl Shelf {
+    /// The library of this folder, else the one that [`open_library`] finds.
+    pub fn new(given: Option<PathBuf>) -> Self {
+        let loaded = None;
+        Self(Arc::new(Mutex::new(Choice { given, loaded })))
+    }
+
+    /// The library; loads it if nobody has yet.
+    pub fn get(&self) -> Result<Arc<Shelved>, LibraryError> {
+        let mut choice = self.lock();
+        if let Some(shelved) = &choice.loaded {
+            return Ok(Arc::clone(shelved));
+        }
+        choice.load()
+    }
+
+    /// Loads it anew, after it was changed.
+    pub fn reload(&self) -> Result<Arc<Shelved>, LibraryError> {
+        self.lock().load()
+    }
+
+    /// Uses another library from now on: the one of this folder, else the one that [`open_library`] finds. One that
+    /// cannot be loaded leaves the old one in use.
+    pub fn choose(&self, given: Option<PathBuf>) -> Result<Arc<Shelved>, LibraryError> {
+        let mut other = Choice {
+            given,
+            loaded: None,
+        };
+        let shelved = other.load()?;
+        *self.lock() = other;
+        Ok(shelved)
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Choice> {
+        // What it holds is only ever replaced whole.
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Choice {
+    fn load(&mut self) -> Result<Arc<Shelved>, LibraryError> {
+        let shelved = Arc::new(load(self.given.as_deref())?);
+        self.loaded = Some(Arc::clone(&shelved));
+        Ok(shelved)
+    }
+}
+
+fn load(given: Option<&Path>) -> Result<Shelved, LibraryError> {
+    let place = open_library(given)?;
+    let LibraryLoad {
+        library,
+        parts,
+        problems,
+        warnings,
+    } = place.load(&ReferenceParams::default())?;
+    let troubles = problems.iter().map(Trouble::of);
+    let troubles = troubles.chain(warnings.iter().map(Trouble::of)).collect();
+    let thumbnails = parts.iter().map(|part| place.thumbnail(part.name.as_str()));
+    let damaged = problems.iter().map(|problem| Damaged {
+        entry: problem.entry.clone(),
+        trouble: Trouble::of(problem),
+    });
+    let is_fixed = match &place {
+        LibraryPlace::Program(reason) => Some(Trouble {
+            what: format!("The library lies inside the program and cannot be changed ({reason})"),
+            advice: reason.advice(),
+        }),
+        _ => None,
+    };
+    let shown = Arc::new(LibraryShown {
+        path: place.location().into(),
+        thumbnails: thumbnails.collect(),
+        damaged: damaged.collect(),
+        is_fixed,
+        parts,
+        troubles,
+    });
+    Ok(Shelved {
+        place,
+        library,
+        shown,
+        fitted: FittedCache::default(),
+    })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_library_that_cannot_be_loaded_leaves_the_old_one_in_use() {
+        let shelf = Shelf::default();
+        let before = shelf.get().expect("the shipped parts");
+        assert_eq!(before.shown.place_of("fender"), Some(2));
+        assert_eq!(before.shown.title(2), "Fender, left");
+        shelf
+            .choose(Some("no/such/library".into()))
+            .expect_err("refused");
+        let after = shelf.get().expect("still there");
+        assert!(Arc::ptr_eq(&before, &after));
+        let anew = shelf.reload().expect("loaded again");
+        assert!(!Arc::ptr_eq(&before, &anew));
+    }
+}

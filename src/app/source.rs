@@ -1,0 +1,246 @@
+//! Where scenes come from: the simulated cell, and files.
+
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use crate::{
+    error::Advice,
+    files::{self, FileError, FileWarning, Opened},
+    simulate::{CellSetup, ObjectKind, PartKind, PartPose, Placement, Side, Subject, frame},
+    stages::scene::{SceneCloud, scene_from_cloud, scene_from_frame},
+};
+
+/// What hangs in the simulated cell when a frame is captured.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CellChoice {
+    /// The eight parts one after the other.
+    #[default]
+    InTurn,
+    /// Always this part.
+    Part(PartKind, Side),
+    /// Always this thing, which is no enrolled part.
+    Foreign(ObjectKind),
+    /// Nothing.
+    Empty,
+}
+
+impl CellChoice {
+    /// Every choice, as the source menu lists them.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let sides = |kind: PartKind| {
+            let sides = if kind.is_sided() {
+                &Side::ALL[..]
+            } else {
+                &[Side::Left]
+            };
+            sides.iter().map(move |side| Self::Part(kind, *side))
+        };
+        std::iter::once(Self::InTurn)
+            .chain(PartKind::ALL.into_iter().flat_map(sides))
+            .chain([
+                Self::Foreign(ObjectKind::Hood),
+                Self::Foreign(ObjectKind::Wheel),
+            ])
+            .chain([Self::Empty])
+    }
+
+    /// What a person calls it.
+    pub fn title(self) -> String {
+        match self {
+            Self::InTurn => "Every part in turn".into(),
+            Self::Part(kind, side) if kind.is_sided() => {
+                format!("{}, {}", kind.title(), side.name())
+            }
+            Self::Part(kind, _) => kind.title().into(),
+            Self::Foreign(kind) => format!("Not enrolled: {}", kind.name()),
+            Self::Empty => "Empty cell".into(),
+        }
+    }
+
+    /// What hangs there for the frame of this number, counted from 1.
+    pub(super) fn subject(self, number: u64) -> Subject {
+        /// The first frame shows a front door, as the first look in a terminal does.
+        const FIRST: u64 = 3;
+        let part = |kind, side| Subject::Part {
+            kind,
+            side,
+            model_seed: 0,
+        };
+        match self {
+            Self::InTurn => {
+                let num_kinds = PartKind::ALL.len() as u64;
+                part(
+                    PartKind::ALL[((number + FIRST) % num_kinds) as usize],
+                    Side::Left,
+                )
+            }
+            Self::Part(kind, side) => part(kind, side),
+            Self::Foreign(kind) => Subject::Object(kind),
+            Self::Empty => Subject::Nothing,
+        }
+    }
+}
+
+/// Where a scene came from.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum Origin {
+    /// A frame of the simulated cell.
+    Simulated {
+        /// What hung there.
+        choice: CellChoice,
+        /// Its number, which is also its seed.
+        number: u64,
+    },
+    /// A file.
+    File(PathBuf),
+}
+
+impl Origin {
+    /// What a person calls it.
+    pub fn title(&self) -> String {
+        match self {
+            Self::Simulated { number, .. } => format!("Simulated frame {number}"),
+            Self::File(path) => file_name(path),
+        }
+    }
+}
+
+impl Origin {
+    /// The same scene again: the frame is simulated as before, the file is read once more.
+    pub fn source(&self) -> SceneSource {
+        match self {
+            Self::Simulated { choice, number } => SceneSource::Cell {
+                choice: *choice,
+                number: *number,
+            },
+            Self::File(path) => SceneSource::File(path.clone()),
+        }
+    }
+}
+
+/// The last part of a path, or all of it where there is none.
+pub fn file_name(path: &Path) -> String {
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    name.to_string_lossy().into_owned()
+}
+
+/// A scene to be had.
+#[derive(Clone, Debug)]
+pub enum SceneSource {
+    /// A frame of the simulated cell.
+    Cell {
+        /// What hangs there.
+        choice: CellChoice,
+        /// Number and seed of the frame.
+        number: u64,
+    },
+    /// A file.
+    File(PathBuf),
+    /// A scene that is at hand.
+    AtHand(Arc<SceneCloud>, Origin),
+}
+
+/// A scene and where it came from.
+#[derive(Clone, Debug)]
+pub struct Captured {
+    /// The scene.
+    pub scene: Arc<SceneCloud>,
+    /// Where it came from.
+    pub origin: Origin,
+    /// What was odd about the file.
+    pub warnings: Vec<FileWarning>,
+}
+
+/// Why there is no scene.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneError {
+    /// The file cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// A mesh is nothing that a camera saw.
+    #[error("{}: a mesh, expected what a depth camera saw", path.display())]
+    MeshIsNoScene {
+        /// The file.
+        path: PathBuf,
+    },
+}
+
+impl Advice for SceneError {
+    fn advice(&self) -> String {
+        match self {
+            Self::File(error) => error.advice(),
+            Self::MeshIsNoScene { .. } => {
+                "Open it in the Enrol workspace (2) to enrol it as a reference".into()
+            }
+        }
+    }
+}
+
+impl SceneSource {
+    /// Captures, reads or hands over the scene.
+    pub fn read(&self) -> Result<Captured, SceneError> {
+        match self {
+            Self::Cell { choice, number } => {
+                let mut setup = CellSetup::new(choice.subject(*number), *number);
+                setup.pose = PartPose::Drawn(Placement::facing());
+                Ok(Captured {
+                    scene: Arc::new(scene_from_frame(&frame(&setup).frame)),
+                    origin: Origin::Simulated {
+                        choice: *choice,
+                        number: *number,
+                    },
+                    warnings: Vec::new(),
+                })
+            }
+            Self::File(path) => {
+                let opened = files::open(path)?;
+                let warnings = opened.warnings();
+                let scene = match opened {
+                    Opened::Cloud(cloud) => scene_from_cloud(cloud),
+                    Opened::Depth(frame) => scene_from_frame(&frame),
+                    Opened::Mesh(_) => {
+                        return Err(SceneError::MeshIsNoScene { path: path.clone() });
+                    }
+                };
+                Ok(Captured {
+                    scene: Arc::new(scene),
+                    origin: Origin::File(path.clone()),
+                    warnings,
+                })
+            }
+            Self::AtHand(scene, origin) => Ok(Captured {
+                scene: Arc::clone(scene),
+                origin: origin.clone(),
+                warnings: Vec::new(),
+            }),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_frame_is_a_front_door_and_all_eight_parts_come_in_turn() {
+        let kind = |number| match CellChoice::InTurn.subject(number) {
+            Subject::Part { kind, .. } => kind,
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(kind(1), PartKind::FrontDoor);
+        let seen: std::collections::BTreeSet<_> = (1..=8).map(kind).collect();
+        assert_eq!(seen.len(), 8);
+    }
+
+    #[test]
+    fn a_mesh_is_refused_in_words() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("part.obj");
+        std::fs::write(&path, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("written");
+        let refused = SceneSource::File(path).read().expect_err("refused");
+        assert!(refused.to_string().contains("a mesh") && refused.advice().contains("Enrol"));
+    }
+}

@@ -1,0 +1,133 @@
+//! The confusion matrix: what it truly was, against what it was taken for.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::judge::{Answered, CaseResult, Judgement, Truth};
+
+/// A cell of the matrix.
+pub type Cell = (Truth, Answered);
+
+/// How many came out how.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// Cases counted.
+    pub total: usize,
+    /// Right.
+    pub right: usize,
+    /// Accepted as something else: the worst.
+    pub wrong_accepted: usize,
+    /// Enrolled parts that were refused.
+    pub refused: usize,
+}
+
+/// The results, sorted into cells.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Confusion {
+    /// What there truly was: parts in the library's order, then those no longer enrolled, then the rest.
+    pub rows: Vec<Truth>,
+    /// What they may be taken for: every part among the rows or the answers, last the refusal.
+    pub columns: Vec<Answered>,
+    /// Places in the list of results, per cell that has any.
+    pub cells: BTreeMap<Cell, Vec<usize>>,
+    /// The sums.
+    pub tally: Tally,
+}
+
+impl Confusion {
+    /// Sorts the results; `order` names the library's parts.
+    pub fn of(results: &[CaseResult], order: &[String]) -> Self {
+        let mut confusion = Self::default();
+        let mut truths = BTreeSet::new();
+        let mut parts = BTreeSet::new();
+        for (place, result) in results.iter().enumerate() {
+            let answered = result.found.answered();
+            let tally = &mut confusion.tally;
+            tally.total += 1;
+            match Judgement::of(&result.truth, &answered) {
+                Judgement::Right => tally.right += 1,
+                Judgement::WrongAccepted => tally.wrong_accepted += 1,
+                Judgement::Refused => tally.refused += 1,
+            }
+            truths.insert(result.truth.clone());
+            parts.extend(result.truth.part().map(str::to_owned));
+            if let Answered::Part(part) = &answered {
+                parts.insert(part.clone());
+            }
+            let cell = (result.truth.clone(), answered);
+            confusion.cells.entry(cell).or_default().push(place);
+        }
+        let place_of = |part: &str| order.iter().position(|name| name == part);
+        let rank = |part: &str| place_of(part).unwrap_or(order.len());
+        confusion.rows = truths.into_iter().collect();
+        // Stable: within the same rank the order of the names stays, and parts stand before the rest.
+        confusion
+            .rows
+            .sort_by_key(|truth| truth.part().map_or(usize::MAX, rank));
+        let mut parts: Vec<String> = parts.into_iter().collect();
+        parts.sort_by_key(|part| rank(part));
+        let parts = parts.into_iter().map(Answered::Part);
+        confusion.columns = parts.chain([Answered::NotAccepted]).collect();
+        confusion
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::cases::Found;
+
+    fn result(truth: Truth, found: Option<&str>) -> CaseResult {
+        CaseResult {
+            name: "case".into(),
+            truth,
+            found: Found {
+                part: found.map(Into::into),
+                accepted: found.is_some(),
+                ..Found::default()
+            },
+        }
+    }
+
+    #[test]
+    fn every_result_is_in_exactly_one_cell_and_counted_once() {
+        let part = |name: &str| Truth::Part(name.into());
+        let results = [
+            result(Truth::NotEnrolled, Some("trunk")),
+            result(part("door"), Some("door")),
+            result(part("door"), None),
+            result(part("sold_off"), Some("trunk")),
+            result(Truth::Nothing, None),
+        ];
+        let order = ["trunk".to_owned(), "door".to_owned()];
+        let confusion = Confusion::of(&results, &order);
+        assert_eq!(
+            confusion.tally,
+            Tally {
+                total: 5,
+                right: 2,
+                wrong_accepted: 2,
+                refused: 1
+            }
+        );
+        assert_eq!(
+            confusion.rows,
+            [
+                part("door"),
+                part("sold_off"),
+                Truth::NotEnrolled,
+                Truth::Nothing
+            ]
+        );
+        let columns: Vec<_> = ["trunk", "door", "sold_off"]
+            .map(|name| Answered::Part(name.into()))
+            .into_iter()
+            .chain([Answered::NotAccepted])
+            .collect();
+        assert_eq!(confusion.columns, columns);
+        let mut places: Vec<usize> = confusion.cells.values().flatten().copied().collect();
+        places.sort_unstable();
+        assert_eq!(places, [0, 1, 2, 3, 4]);
+        let cell = (Truth::NotEnrolled, Answered::Part("trunk".into()));
+        assert_eq!(confusion.cells[&cell], [0]);
+    }
+}

@@ -1,0 +1,75 @@
+//! Why a case or a folder of cases cannot be used.
+
+use std::{io, path::PathBuf};
+
+use crate::{
+    error::Advice,
+    files::{advice_on, words_of},
+};
+
+/// Why a case or a folder of cases cannot be used.
+#[derive(Debug, thiserror::Error)]
+pub enum CaseError {
+    /// The system could not read.
+    #[error("{}: cannot read the kept cases: {}", path.display(), words_of(source))]
+    Unreadable {
+        /// The folder.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// The system could not write; what was kept before still is.
+    #[error("{}: cannot write to the kept cases: {}", path.display(), words_of(source))]
+    Unwritable {
+        /// The folder.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// A case is not as it was written.
+    #[error("the kept case {name} is damaged and set aside: {what}")]
+    Damaged {
+        /// Its folder.
+        name: String,
+        /// What is wrong.
+        what: String,
+    },
+    /// Written by a newer program.
+    #[error(
+        "the kept case {name} was made by a newer version (format {found}, known up to {known})"
+    )]
+    Newer {
+        /// Its folder.
+        name: String,
+        /// Its version.
+        found: u32,
+        /// The newest known.
+        known: u32,
+    },
+    /// No case of that name.
+    #[error("{}: no kept case named {name}", path.display())]
+    NoSuchCase {
+        /// The folder.
+        path: PathBuf,
+        /// The name asked for.
+        name: String,
+    },
+    /// The system does not say where a user's data belong.
+    #[error("this system names no folder for a user's data")]
+    NoUserFolder,
+}
+
+impl Advice for CaseError {
+    fn advice(&self) -> String {
+        match self {
+            Self::Unreadable { .. } => "Ask for access to this folder, or choose another".into(),
+            Self::Unwritable { source, .. } => {
+                format!("{}, or choose another folder of cases", advice_on(source))
+            }
+            Self::Damaged { .. } => "Copy it again from where it came, or delete its folder".into(),
+            Self::Newer { .. } => "Update Partsight on this computer".into(),
+            Self::NoSuchCase { .. } => "Look whether the folder was moved or renamed".into(),
+            Self::NoUserFolder => "Choose a folder of cases".into(),
+        }
+    }
+}

@@ -1,0 +1,62 @@
+//! Kept cases: captured scenes with what truly hung there, to find out why one was taken for another.
+//!
+//! A folder of cases can be copied on a stick and read by a person, one folder per case:
+//!
+//! ```text
+//! cases/
+//!   simulated_frame_7/
+//!     case.toml     what it truly is, what was found, where it came from (see CaseMeta)
+//!     scene.pcd     the scene in full: binary PCD, metres, camera space, rows and columns kept
+//!   .trash/         what was removed; moved back by hand it is a case again
+//! ```
+//!
+//! ```toml
+//! schema_version = 1
+//! origin = "Simulated frame 7"      # for people
+//! simulated = true                  # no camera was read
+//! kept_at = "2026-11-20T14:07:31Z"
+//! remark = ""
+//!
+//! [truth]
+//! is = "part"                       # part, not_enrolled or nothing
+//! part = "back_door"                # the enrolled name, only with is = "part"
+//!
+//! [found]                           # by the recipe in use when the case was kept
+//! part = "front_door"               # absent if nothing could be recognised
+//! score = 0.91
+//! margin = 0.2
+//! accepted = true
+//! reason = "..."                    # only if not accepted
+//!
+//! [scene]
+//! bytes = 3686600                   # size and CRC-32 of scene.pcd
+//! crc32 = 305419896
+//! picture_edge = "view"             # view or points, see PictureEdge
+//!
+//! [scene.camera]                    # pixels; absent if no pinhole camera explains the scene
+//! width = 640
+//! height = 480
+//! fx = 525.0
+//! fy = 525.0
+//! cx = 319.5
+//! cy = 239.5
+//! ```
+//!
+//! The scene opens again bit for bit, camera included, so that the same recipe gives the same verdict. A case is
+//! written whole or not at all: built in a hidden folder (`.new-…`), synced, renamed. A damaged case is named and set
+//! aside, the others load; a newer schema is refused in words. The size is held against `case.toml` when a folder is
+//! listed, the checksum when a scene is read.
+
+mod confusion;
+mod error;
+mod judge;
+mod meta;
+mod store;
+
+pub use self::{
+    confusion::{Cell, Confusion, Tally},
+    error::CaseError,
+    judge::{Answered, CaseResult, Found, Judgement, Truth, found_in},
+    meta::{CaseAbout, CaseMeta, Edge, SCHEMA_VERSION, SceneRecord},
+    store::{CaseFolder, CaseList, KeptCase},
+};

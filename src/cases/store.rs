@@ -1,0 +1,387 @@
+//! The folder of the kept cases: listing, keeping, reading, removing and putting back.
+//!
+//! Looking never writes: cases can lie on a medium that is write-protected. Writers take turns by a lock.
+
+use std::{
+    fs::{self, File},
+    io::{self, Write as _},
+    path::{Path, PathBuf},
+};
+
+use super::{
+    error::CaseError,
+    meta::{CaseAbout, CaseMeta, SCHEMA_VERSION, SceneRecord},
+};
+use crate::{
+    files::{FileError, Opened, crc32, open_bytes, read_bytes, words_of, write_pcd},
+    stages::scene::SceneCloud,
+};
+
+const META: &str = "case.toml";
+const SCENE: &str = "scene.pcd";
+const NEW_PREFIX: &str = ".new-";
+const TRASH: &str = ".trash";
+const LOCK: &str = ".lock";
+/// A `case.toml` larger than this is none.
+const MAX_META_BYTES: u64 = 1 << 20;
+/// Most letters of a case's folder name, its number left out.
+const MAX_NAME: usize = 48;
+
+/// A folder of cases; it need not be there until the first is kept.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct CaseFolder {
+    path: PathBuf,
+}
+
+/// A case that is there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct KeptCase {
+    /// Name of its folder.
+    pub name: String,
+    /// What is written down of it.
+    pub meta: CaseMeta,
+}
+
+/// What lies in a folder of cases.
+#[derive(Debug, Default)]
+pub struct CaseList {
+    /// The cases, in the order of their names.
+    pub cases: Vec<KeptCase>,
+    /// What had to be set aside.
+    pub problems: Vec<CaseError>,
+}
+
+impl CaseFolder {
+    /// The folder at this path.
+    pub fn at(path: impl Into<PathBuf>) -> Self {
+        Self { path: path.into() }
+    }
+
+    /// The user's own, in the folder that the system keeps for a user's data.
+    pub fn of_user() -> Result<Self, CaseError> {
+        let folders =
+            directories::ProjectDirs::from("", "", "partsight").ok_or(CaseError::NoUserFolder)?;
+        Ok(Self::at(folders.data_dir().join("cases")))
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// The cases; what is damaged is named, the others are there. A folder that is not there holds none.
+    pub fn list(&self) -> Result<CaseList, CaseError> {
+        let mut list = CaseList::default();
+        for name in self.names()? {
+            match self.read_meta(&name) {
+                Ok(Some(meta)) => list.cases.push(KeptCase { name, meta }),
+                Ok(None) => {}
+                Err(problem) => list.problems.push(problem),
+            }
+        }
+        Ok(list)
+    }
+
+    /// Keeps a scene, whole or not at all; the name follows from its origin.
+    pub fn keep(&self, scene: &SceneCloud, about: CaseAbout) -> Result<KeptCase, CaseError> {
+        let kept = || -> io::Result<KeptCase> {
+            fs::create_dir_all(&self.path)?;
+            self.writing(|| {
+                self.clear_leftovers()?;
+                let (name, place) = self.free_name(&plain_name(&about.origin))?;
+                let mut cloud = Vec::new();
+                write_pcd(&mut cloud, &scene.cloud)?;
+                let meta = CaseMeta {
+                    schema_version: SCHEMA_VERSION,
+                    about,
+                    scene: SceneRecord {
+                        bytes: cloud.len() as u64,
+                        crc32: crc32(&cloud),
+                        picture_edge: scene.edge.into(),
+                        camera: scene.intrinsics,
+                    },
+                };
+                let building = new_folder(&self.path)?;
+                write_file(&building.path().join(SCENE), &cloud)?;
+                let text = toml::to_string(&meta).map_err(io::Error::other)?;
+                write_file(&building.path().join(META), text.as_bytes())?;
+                sync_folder(building.path())?;
+                fs::rename(building.path(), place)?;
+                // Renamed away: nothing is left to be cleared up.
+                let _ = building.keep();
+                sync_folder(&self.path)?;
+                Ok(KeptCase { name, meta })
+            })
+        };
+        kept().map_err(|source| self.unwritable(source))
+    }
+
+    /// The scene of a case, as it was.
+    pub fn read_scene(&self, case: &KeptCase) -> Result<SceneCloud, CaseError> {
+        let path = self.path.join(&case.name).join(SCENE);
+        let damaged = |what: String| CaseError::Damaged {
+            name: case.name.clone(),
+            what,
+        };
+        let of_file = |error: FileError| damaged(error.to_string());
+        let bytes = read_bytes(&path).map_err(of_file)?;
+        if crc32(&bytes) != case.meta.scene.crc32 {
+            return Err(damaged(format!("{SCENE} does not have its checksum")));
+        }
+        let Opened::Cloud(cloud) = open_bytes(&path, &bytes).map_err(of_file)? else {
+            return Err(damaged(format!("{SCENE} holds no cloud")));
+        };
+        let camera = case.meta.scene.camera;
+        let cells = cloud.grid.map(|grid| (grid.width, grid.height));
+        if camera.is_some_and(|camera| cells != Some((camera.width, camera.height))) {
+            return Err(damaged("the camera's picture is not the scene's".into()));
+        }
+        Ok(SceneCloud {
+            cloud,
+            intrinsics: camera,
+            edge: case.meta.scene.picture_edge.into(),
+        })
+    }
+
+    /// Moves a case, damaged or not, to the trash and says where it lies there.
+    pub fn remove(&self, name: &str) -> Result<PathBuf, CaseError> {
+        let folder = self.path.join(name);
+        if !is_plain(name) || !folder.is_dir() {
+            return Err(self.no_such_case(name));
+        }
+        let trash = self.path.join(TRASH);
+        let moved = || -> io::Result<PathBuf> {
+            self.writing(|| {
+                fs::create_dir_all(&trash)?;
+                let place = numbered(name)
+                    .map(|name| trash.join(name))
+                    .find(|place| !place.exists())
+                    .ok_or(io::ErrorKind::AlreadyExists)?;
+                fs::rename(&folder, &place)?;
+                sync_folder(&self.path)?;
+                Ok(place)
+            })
+        };
+        moved().map_err(|source| self.unwritable(source))
+    }
+
+    /// Puts a removed case back under its name.
+    pub fn restore(&self, name: &str, from: &Path) -> Result<(), CaseError> {
+        let place = self.path.join(name);
+        if !is_plain(name) || !from.is_dir() {
+            return Err(self.no_such_case(name));
+        }
+        let moved = || -> io::Result<()> {
+            self.writing(|| {
+                if place.exists() {
+                    return Err(io::ErrorKind::AlreadyExists.into());
+                }
+                fs::rename(from, &place)?;
+                sync_folder(&self.path)
+            })
+        };
+        moved().map_err(|source| self.unwritable(source))
+    }
+
+    fn no_such_case(&self, name: &str) -> CaseError {
+        CaseError::NoSuchCase {
+            path: self.path.clone(),
+            name: name.to_owned(),
+        }
+    }
+
+    fn unwritable(&self, source: io::Error) -> CaseError {
+        CaseError::Unwritable {
+            path: self.path.clone(),
+            source,
+        }
+    }
+
+    /// Folders that are not hidden, in order.
+    fn names(&self) -> Result<Vec<String>, CaseError> {
+        let listed = || -> io::Result<Vec<String>> {
+            let found = match fs::read_dir(&self.path) {
+                Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
+                found => found?,
+            };
+            let mut names = Vec::new();
+            for entry in found {
+                let entry = entry?;
+                let name = entry.file_name().to_string_lossy().into_owned();
+                if !name.starts_with('.') && entry.path().is_dir() {
+                    names.push(name);
+                }
+            }
+            names.sort_by_key(|name| in_counting_order(name));
+            Ok(names)
+        };
+        listed().map_err(|source| CaseError::Unreadable {
+            path: self.path.clone(),
+            source,
+        })
+    }
+
+    /// `None` for a folder that is no case at all.
+    fn read_meta(&self, name: &str) -> Result<Option<CaseMeta>, CaseError> {
+        #[derive(serde::Deserialize)]
+        struct Versioned {
+            schema_version: u32,
+        }
+        let folder = self.path.join(name);
+        let damaged = |what: String| CaseError::Damaged {
+            name: name.to_owned(),
+            what,
+        };
+        let (meta, scene) = (folder.join(META), folder.join(SCENE));
+        if !meta.exists() {
+            // Somebody's folder, unless the scene says that it was a case.
+            let what = format!("{META} is missing");
+            return if scene.exists() {
+                Err(damaged(what))
+            } else {
+                Ok(None)
+            };
+        }
+        let unreadable = |error: io::Error| damaged(format!("{META}: {}", words_of(&error)));
+        let size = fs::metadata(&meta).map_err(unreadable)?.len();
+        if size > MAX_META_BYTES {
+            return Err(damaged(format!("{META} has {size} bytes")));
+        }
+        let text = fs::read_to_string(&meta).map_err(unreadable)?;
+        let bad = |error: toml::de::Error| damaged(format!("{META}: {}", error.message()));
+        let Versioned { schema_version } = toml::from_str(&text).map_err(bad)?;
+        if schema_version > SCHEMA_VERSION {
+            return Err(CaseError::Newer {
+                name: name.to_owned(),
+                found: schema_version,
+                known: SCHEMA_VERSION,
+            });
+        }
+        let meta: CaseMeta = toml::from_str(&text).map_err(bad)?;
+        let found = fs::metadata(&scene).map(|scene| scene.len());
+        match found {
+            Ok(found) if found == meta.scene.bytes => Ok(Some(meta)),
+            Ok(found) => Err(damaged(format!(
+                "{SCENE} has {found} bytes, expected {}",
+                meta.scene.bytes
+            ))),
+            Err(error) => Err(damaged(format!("{SCENE}: {}", words_of(&error)))),
+        }
+    }
+
+    /// The first name of this kind that is free, and its folder.
+    fn free_name(&self, plain: &str) -> io::Result<(String, PathBuf)> {
+        numbered(plain)
+            .map(|name| (self.path.join(&name), name))
+            .find(|(place, _)| !place.exists())
+            .map(|(place, name)| (name, place))
+            .ok_or_else(|| io::ErrorKind::AlreadyExists.into())
+    }
+
+    /// What an interrupted writer left. Only under the lock: another writer's folders are not leftovers.
+    fn clear_leftovers(&self) -> io::Result<()> {
+        for entry in fs::read_dir(&self.path)? {
+            let entry = entry?;
+            if entry.file_name().to_string_lossy().starts_with(NEW_PREFIX) {
+                fs::remove_dir_all(entry.path())?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Runs one change while no other writer is at work.
+    fn writing<T>(&self, change: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
+        let lock = File::create(self.path.join(LOCK))?;
+        match lock.lock() {
+            // Some network file systems have no locks; a shop with one writer needs none.
+            Err(error) if error.kind() == io::ErrorKind::Unsupported => {}
+            taken => taken?,
+        }
+        change()
+    }
+}
+
+/// The name, then the name with 2, 3 and so on.
+fn numbered(name: &str) -> impl Iterator<Item = String> {
+    (1..=99_999).map(move |n| match n {
+        1 => name.to_owned(),
+        n => format!("{name}_{n}"),
+    })
+}
+
+/// True for the name of a folder right here.
+fn is_plain(name: &str) -> bool {
+    !name.is_empty() && !name.starts_with('.') && !name.contains(['/', '\\'])
+}
+
+/// Small letters, digits and single underscores: a folder name on every system.
+fn plain_name(origin: &str) -> String {
+    let stem = Path::new(origin).file_stem().unwrap_or_default();
+    let mut name = String::new();
+    for letter in stem.to_string_lossy().to_lowercase().chars() {
+        if letter.is_ascii_alphanumeric() {
+            name.push(letter);
+        } else if !name.is_empty() && !name.ends_with('_') {
+            name.push('_');
+        }
+    }
+    name.truncate(MAX_NAME);
+    let name = name.trim_end_matches('_');
+    if name.is_empty() {
+        "case".into()
+    } else {
+        name.into()
+    }
+}
+
+/// So that frame 10 comes after frame 9: every run of digits by its value.
+fn in_counting_order(name: &str) -> Vec<(String, u64)> {
+    let mut pieces = vec![(String::new(), 0_u64)];
+    for letter in name.chars() {
+        let Some((_, number)) = pieces.last_mut() else {
+            break;
+        };
+        match letter.to_digit(10) {
+            Some(digit) => {
+                *number = number.saturating_mul(10).saturating_add(u64::from(digit));
+            }
+            None if *number > 0 => pieces.push((letter.to_string(), 0)),
+            None => {
+                if let Some((text, _)) = pieces.last_mut() {
+                    text.push(letter);
+                }
+            }
+        }
+    }
+    pieces
+}
+
+/// A hidden folder to build a case in; gone when dropped.
+fn new_folder(parent: &Path) -> io::Result<tempfile::TempDir> {
+    let mut builder = tempfile::Builder::new();
+    builder.prefix(NEW_PREFIX);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt as _;
+        // What an ordinary new folder has, less the user's mask: others on the machine may read the cases.
+        builder.permissions(fs::Permissions::from_mode(0o777));
+    }
+    builder.tempdir_in(parent)
+}
+
+fn write_file(path: &Path, content: &[u8]) -> io::Result<()> {
+    let mut file = File::create(path)?;
+    file.write_all(content)?;
+    file.sync_all()
+}
+
+/// Makes renames last. Only Unix lets a folder be opened for that; elsewhere the file system sees to it.
+fn sync_folder(folder: &Path) -> io::Result<()> {
+    if cfg!(unix) {
+        File::open(folder)?.sync_all()?;
+    }
+    Ok(())
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,171 @@
+use super::*;
+use crate::{
+    cases::{Found, Truth, found_in},
+    error::Advice as _,
+    pipeline::{Recipe, Unwatched},
+    simulate::{CellSetup, PartKind, PartPose, Placement, Side, frame},
+    stages::scene::{PictureEdge, scene_from_cloud, scene_from_frame},
+};
+
+fn door() -> SceneCloud {
+    let mut setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 0, 4);
+    setup.pose = PartPose::Drawn(Placement::facing());
+    scene_from_frame(&frame(&setup).frame)
+}
+
+/// A scene small enough to be written many times.
+fn crumb() -> SceneCloud {
+    let points = (0..12).map(|i| nalgebra::Point3::new(i as f32 * 0.1, 0.2, 1.0));
+    scene_from_cloud(crate::geometry::cloud::PointCloud::from_points(points))
+}
+
+fn about(origin: &str) -> CaseAbout {
+    CaseAbout {
+        origin: origin.into(),
+        simulated: true,
+        kept_at: "2026-11-20T14:07:31Z".parse().expect("a time"),
+        remark: "after lunch".into(),
+        truth: Truth::Part("front_door".into()),
+        found: Found::default(),
+    }
+}
+
+fn bits(scene: &SceneCloud) -> Vec<[u32; 3]> {
+    let points = scene.cloud.points.iter();
+    let bits = points.map(|p| [p.x, p.y, p.z].map(f32::to_bits));
+    // One NaN is as good as another.
+    bits.map(|cell| cell.map(|x| if f32::from_bits(x).is_nan() { 1 } else { x }))
+        .collect()
+}
+
+#[test]
+fn a_kept_scene_opens_again_bit_for_bit_with_the_same_verdict() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let cases = CaseFolder::at(folder.path().join("cases"));
+    let mut scene = door();
+    scene.edge = PictureEdge::Points;
+    let library = crate::library::open_library(Some(Path::new("reference_parts")))
+        .and_then(|place| place.load(&crate::stages::reference::ReferenceParams::default()))
+        .expect("the shipped parts")
+        .library;
+    let recipe = Recipe::default();
+    let before = found_in(&scene, &library, &recipe, &Unwatched).expect("not cancelled");
+    assert!(before.accepted);
+    let mut said = about("Simulated frame 4");
+    said.found = before.clone();
+    let kept = cases.keep(&scene, said).expect("kept");
+    assert_eq!(kept.name, "simulated_frame_4");
+
+    let list = cases.list().expect("listed");
+    assert!(list.problems.is_empty());
+    assert_eq!(list.cases, [kept]);
+    let again = cases.read_scene(&list.cases[0]).expect("read");
+    assert_eq!(bits(&again), bits(&scene));
+    assert_eq!(
+        (again.intrinsics, again.edge, again.cloud.grid),
+        (scene.intrinsics, scene.edge, scene.cloud.grid)
+    );
+    let after = found_in(&again, &library, &recipe, &Unwatched).expect("not cancelled");
+    assert_eq!(after, before);
+    assert_eq!(list.cases[0].meta.about.found, before);
+}
+
+#[test]
+fn a_damaged_case_is_named_and_the_others_load() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let cases = CaseFolder::at(folder.path());
+    let names = ["cut", "garbled", "gone", "newer", "sound", "swapped"];
+    for name in names {
+        cases.keep(&crumb(), about(name)).expect("kept");
+    }
+    let at = |name: &str, file: &str| folder.path().join(name).join(file);
+    let scene = fs::read(at("cut", SCENE)).expect("read");
+    fs::write(at("cut", SCENE), &scene[..scene.len() - 5]).expect("cut");
+    fs::write(at("garbled", META), "schema_version = 1\ntruth = 7\n").expect("garbled");
+    fs::remove_file(at("gone", META)).expect("removed");
+    let text = fs::read_to_string(at("newer", META)).expect("read");
+    let newer = text.replace("schema_version = 1", "schema_version = 2");
+    fs::write(at("newer", META), newer).expect("written");
+    let mut other = scene.clone();
+    *other.last_mut().expect("bytes") ^= 1;
+    fs::write(at("swapped", SCENE), other).expect("written");
+    fs::create_dir(folder.path().join("holiday pictures")).expect("made");
+
+    let list = cases.list().expect("listed");
+    let sound: Vec<_> = list.cases.iter().map(|case| case.name.as_str()).collect();
+    assert_eq!(sound, ["sound", "swapped"]);
+    let said: Vec<String> = list.problems.iter().map(ToString::to_string).collect();
+    for (said, name) in said.iter().zip(names) {
+        assert!(said.contains(name), "{said}");
+    }
+    assert_eq!(said.len(), 4);
+    assert!(
+        list.problems
+            .iter()
+            .all(|problem| !problem.advice().is_empty())
+    );
+    cases.read_scene(&list.cases[0]).expect("sound");
+    let refused = cases.read_scene(&list.cases[1]).expect_err("refused");
+    assert!(refused.to_string().contains("checksum"));
+}
+
+#[test]
+fn writing_that_stops_half_way_leaves_no_case_and_is_cleared_up() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let cases = CaseFolder::at(folder.path());
+    cases.keep(&crumb(), about("whole")).expect("kept");
+    // Wherever it stops before the rename, all there is lies in the hidden folder.
+    let whole = folder.path().join("whole");
+    for (place, files) in [&[][..], &[SCENE], &[SCENE, META]].into_iter().enumerate() {
+        let half = folder.path().join(format!("{NEW_PREFIX}{place}"));
+        fs::create_dir(&half).expect("made");
+        for file in files {
+            fs::copy(whole.join(file), half.join(file)).expect("copied");
+        }
+    }
+    let list = cases.list().expect("listed");
+    assert_eq!((list.cases.len(), list.problems.len()), (1, 0));
+    cases.keep(&crumb(), about("whole")).expect("kept");
+    let names = cases.names().expect("listed");
+    assert_eq!(names, ["whole", "whole_2"]);
+    let hidden = fs::read_dir(folder.path()).expect("listed").count();
+    // The two cases and the lock.
+    assert_eq!(hidden, 3);
+}
+
+#[test]
+fn a_write_that_fails_leaves_what_was_kept() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("cases");
+    fs::write(&path, "not a folder").expect("written");
+    let cases = CaseFolder::at(&path);
+    let failed = cases.keep(&crumb(), about("x")).expect_err("refused");
+    assert!(matches!(failed, CaseError::Unwritable { .. }) && !failed.advice().is_empty());
+    assert!(matches!(cases.list(), Err(CaseError::Unreadable { .. })));
+    assert_eq!(fs::read(&path).expect("read"), b"not a folder");
+}
+
+#[test]
+fn a_removed_case_can_be_put_back() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let cases = CaseFolder::at(folder.path());
+    let kept = cases.keep(&crumb(), about("frame 1")).expect("kept");
+    let trash = cases.remove(&kept.name).expect("removed");
+    assert!(cases.list().expect("listed").cases.is_empty());
+    cases.restore(&kept.name, &trash).expect("put back");
+    assert_eq!(cases.list().expect("listed").cases, [kept]);
+    for name in ["", "..", "../cases", ".trash", "missing"] {
+        let refused = cases.remove(name).expect_err("refused");
+        assert!(matches!(refused, CaseError::NoSuchCase { .. }), "{name}");
+    }
+}
+
+#[test]
+fn names_follow_from_the_origin_and_count_on() {
+    assert_eq!(plain_name("Simulated frame 7"), "simulated_frame_7");
+    assert_eq!(plain_name("Türe (2).pcd"), "t_re_2");
+    assert_eq!(plain_name("…"), "case");
+    let mut names = ["frame_10", "frame_9", "door", "frame_9_2"].map(str::to_owned);
+    names.sort_by_key(|name| in_counting_order(name));
+    assert_eq!(names, ["door", "frame_9", "frame_9_2", "frame_10"]);
+}

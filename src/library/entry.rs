@@ -1,0 +1,128 @@
+//! One part's folder: its files, and how they are written.
+
+use std::{
+    fs::{self, File},
+    io::{self, Write as _},
+    path::{Path, PathBuf},
+};
+
+use super::{
+    name::PartName,
+    part::{Part, PartMeta, cloud_bytes},
+};
+
+/// File names within a part's folder.
+pub(super) const META: &str = "part.toml";
+pub(super) const CLOUD: &str = "cloud.ply";
+pub(super) const SIGNATURE: &str = "signature.json";
+pub(super) const THUMBNAIL: &str = "thumbnail.png";
+
+/// How the folder of a part begins that is being written.
+pub(super) const NEW_PREFIX: &str = ".new-";
+
+/// One part's folder in a library, whatever is in it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub(super) struct Entry {
+    /// The name of the part that the folder stands for.
+    pub(super) name: String,
+    /// The folder.
+    pub(super) path: PathBuf,
+    /// Its files, if it lies inside the program.
+    pub(super) shipped: Option<&'static ShippedFiles>,
+}
+
+/// Names and contents of the files of a part inside the program.
+pub(super) type ShippedFiles = [(&'static str, &'static [u8]); 4];
+
+impl Entry {
+    /// A file of a part inside the program.
+    pub(super) fn shipped_file(&self, name: &str) -> Option<&'static [u8]> {
+        let mut files = self.shipped?.iter();
+        files.find(|(n, _)| *n == name).map(|(_, bytes)| *bytes)
+    }
+
+    pub(super) fn in_folder(name: String, path: PathBuf) -> Self {
+        Self {
+            name,
+            path,
+            shipped: None,
+        }
+    }
+}
+
+/// A folder counts as a part's if it could be a part's or says that it is one; what else lies on a stick does not.
+pub(super) fn is_entry(file_name: &str, path: &Path) -> bool {
+    path.is_dir() && (PartName::new(file_name).is_ok() || path.join(META).exists())
+}
+
+/// A hidden folder to build a part in; gone when dropped.
+pub(super) fn new_folder(parent: &Path, name: &str) -> io::Result<tempfile::TempDir> {
+    let mut builder = tempfile::Builder::new();
+    let prefix = format!("{NEW_PREFIX}{name}-");
+    builder.prefix(&prefix);
+    #[cfg(unix)]
+    {
+        use std::os::unix::fs::PermissionsExt as _;
+        // What an ordinary new folder has, less the user's mask: others on the machine may read the library.
+        builder.permissions(fs::Permissions::from_mode(0o777));
+    }
+    builder.tempdir_in(parent)
+}
+
+pub(super) fn write_part(folder: &Path, part: &Part) -> io::Result<()> {
+    let Part {
+        meta,
+        cloud,
+        signature,
+        thumbnail,
+    } = part;
+    write_file(&folder.join(META), meta_text(meta)?.as_bytes())?;
+    write_file(&folder.join(CLOUD), &cloud_bytes(cloud))?;
+    write_file(&folder.join(SIGNATURE), &serde_json::to_vec(signature)?)?;
+    let mut png = io::Cursor::new(Vec::new());
+    thumbnail
+        .write_to(&mut png, image::ImageFormat::Png)
+        .map_err(io::Error::other)?;
+    write_file(&folder.join(THUMBNAIL), png.get_ref())?;
+    sync_folder(folder)
+}
+
+pub(super) fn meta_text(meta: &PartMeta) -> io::Result<String> {
+    toml::to_string(meta).map_err(io::Error::other)
+}
+
+/// Copies the plain files of a folder, all but its description.
+pub(super) fn copy_files(from: &Path, to: &Path) -> io::Result<()> {
+    for found in fs::read_dir(from)? {
+        let path = found?.path();
+        match path.file_name() {
+            Some(name) if name != META && path.is_file() => {
+                write_file(&to.join(name), &fs::read(&path)?)?;
+            }
+            _ => {}
+        }
+    }
+    Ok(())
+}
+
+/// Writes another description over the one that is there: at any moment the old one or the new one.
+pub(super) fn rewrite_meta(folder: &Path, meta: &PartMeta) -> io::Result<()> {
+    let beside = folder.join(format!(".{META}.new"));
+    write_file(&beside, meta_text(meta)?.as_bytes())?;
+    fs::rename(&beside, folder.join(META))?;
+    sync_folder(folder)
+}
+
+pub(super) fn write_file(path: &Path, content: &[u8]) -> io::Result<()> {
+    let mut file = File::create(path)?;
+    file.write_all(content)?;
+    file.sync_all()
+}
+
+/// Makes renames last. Only Unix lets a folder be opened for that; elsewhere the file system sees to it.
+pub(super) fn sync_folder(folder: &Path) -> io::Result<()> {
+    if cfg!(unix) {
+        File::open(folder)?.sync_all()?;
+    }
+    Ok(())
+}

@@ -1,0 +1,90 @@
+//! The trash of a library: what was removed or replaced, each in a folder named after the part and the moment.
+
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+};
+
+use super::{error::LibraryError, name::PartName, store::LibraryFolder};
+
+/// Its folder within the library.
+pub(super) const TRASH: &str = ".trash";
+
+/// Something that lies in the trash.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Trashed {
+    /// The part's name.
+    pub name: PartName,
+    /// Where it lies; [`LibraryFolder::restore`] brings it back.
+    pub kept: PathBuf,
+    /// When it came here, to the second, and which of that second.
+    order: (String, u32),
+}
+
+impl LibraryFolder {
+    /// Everything in the trash that can be restored, newest first. Without a trash there is nothing in it.
+    pub fn trashed(&self) -> Result<Vec<Trashed>, LibraryError> {
+        let list = || -> io::Result<Vec<Trashed>> {
+            let found = match fs::read_dir(self.path().join(TRASH)) {
+                Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
+                found => found?,
+            };
+            let mut all = Vec::new();
+            for found in found {
+                all.extend(trashed(found?.path()));
+            }
+            all.sort_by(|a, b| b.order.cmp(&a.order).then_with(|| a.name.cmp(&b.name)));
+            Ok(all)
+        };
+        list().map_err(|source| LibraryError::Unreadable {
+            path: self.path().to_owned(),
+            source,
+        })
+    }
+}
+
+/// Moves a folder of the library into the trash and says where it lies there.
+pub(super) fn take_in(library: &Path, folder: &Path, name: &str) -> io::Result<PathBuf> {
+    let trash = library.join(TRASH);
+    fs::create_dir_all(&trash)?;
+    let now = jiff::Timestamp::now().strftime("%Y%m%dT%H%M%SZ");
+    let place = (1..=9999)
+        .map(|n| match n {
+            1 => trash.join(format!("{name}-{now}")),
+            n => trash.join(format!("{name}-{now}-{n}")),
+        })
+        .find(|place| !place.exists())
+        .ok_or(io::ErrorKind::AlreadyExists)?;
+    fs::rename(folder, &place)?;
+    Ok(place)
+}
+
+/// The name of the part that lies in the trash there; `None` if none does.
+pub(super) fn name_of(library: &Path, kept: &Path) -> Option<PartName> {
+    let is_inside = kept.parent() == Some(library.join(TRASH).as_path());
+    let found = trashed(kept.to_owned()).filter(|_| is_inside)?;
+    Some(found.name)
+}
+
+fn trashed(kept: PathBuf) -> Option<Trashed> {
+    let file_name = kept.file_name()?.to_str()?;
+    // No name of a part holds the capitals of a moment.
+    let (name, stamp, count) = file_name.match_indices('-').find_map(|(at, _)| {
+        let mut rest = file_name[at + 1..].splitn(2, '-');
+        let stamp = rest.next().filter(|stamp| is_stamp(stamp))?;
+        let count = rest.next().map_or(Some(1), |n| n.parse().ok())?;
+        Some((&file_name[..at], stamp, count))
+    })?;
+    let (name, order) = (PartName::new(name).ok()?, (stamp.to_owned(), count));
+    kept.is_dir().then_some(Trashed { name, kept, order })
+}
+
+/// True for a moment such as `20260102T030405Z`.
+fn is_stamp(text: &str) -> bool {
+    text.len() == 16
+        && text.bytes().enumerate().all(|(i, byte)| match i {
+            8 => byte == b'T',
+            15 => byte == b'Z',
+            _ => byte.is_ascii_digit(),
+        })
+}

@@ -1,0 +1,146 @@
+//! The inspection as one line of JSON.
+
+use serde::Serialize;
+
+use crate::{
+    geometry::rigid::row_major,
+    pipeline::{Inspection, Timings, Verdict},
+};
+
+/// The version of the JSON lines.
+pub const SCHEMA: u32 = 1;
+
+/// An inspection as one line of JSON, as `inspect --json` writes it. Fields are only ever added.
+#[derive(Debug, Serialize)]
+pub struct InspectionLine<'a> {
+    schema: u32,
+    scene: &'a str,
+    status: &'static str,
+    part: Option<&'a str>,
+    accepted: bool,
+    score: Option<f64>,
+    margin: Option<f64>,
+    reason: Option<String>,
+    pose: Option<PoseLine>,
+    ranking: Vec<RankLine<'a>>,
+    timings_ms: Option<TimingsLine>,
+}
+
+#[derive(Debug, Serialize)]
+struct PoseLine {
+    camera_from_part: [f64; 16],
+    method: &'static str,
+    rms_m: f64,
+    overlap: f64,
+    stopped: &'static str,
+    ambiguous: bool,
+}
+
+#[derive(Debug, Serialize)]
+struct RankLine<'a> {
+    part: &'a str,
+    score: f64,
+    distance: f64,
+}
+
+#[derive(Debug, Serialize)]
+struct TimingsLine {
+    segment: f64,
+    project: f64,
+    contour: f64,
+    signature: f64,
+    rank: f64,
+    pose: f64,
+    total: f64,
+}
+
+impl<'a> InspectionLine<'a> {
+    /// Of a scene that could not be read, and why.
+    pub fn unreadable(scene: &'a str, reason: &dyn std::fmt::Display) -> Self {
+        Self {
+            schema: SCHEMA,
+            scene,
+            status: "unreadable",
+            part: None,
+            accepted: false,
+            score: None,
+            margin: None,
+            reason: Some(reason.to_string()),
+            pose: None,
+            ranking: Vec::new(),
+            timings_ms: None,
+        }
+    }
+
+    /// Of a scene by this name.
+    pub fn of(scene: &'a str, inspection: &'a Inspection) -> Self {
+        let ranking = inspection.ranking.entries.iter().map(|entry| RankLine {
+            part: &entry.part,
+            score: entry.score,
+            distance: entry.distance,
+        });
+        let pose = inspection
+            .pose
+            .as_ref()
+            .and_then(|pose| pose.as_ref().ok())
+            .map(|pose| PoseLine {
+                camera_from_part: row_major(&pose.camera_from_part()),
+                method: pose.method.name(),
+                rms_m: pose.fit.rms_m,
+                overlap: pose.fit.overlap,
+                stopped: pose.stopped.name(),
+                ambiguous: pose.is_ambiguous(),
+            });
+        let line = Self {
+            pose,
+            ranking: ranking.collect(),
+            timings_ms: Some(TimingsLine::of(&inspection.timings)),
+            reason: None,
+            ..Self::unreadable(scene, &"")
+        };
+        match &inspection.verdict {
+            Verdict::Part {
+                part,
+                score,
+                margin,
+                rejected,
+            } => Self {
+                status: "ok",
+                part: Some(part),
+                accepted: rejected.is_none(),
+                score: Some(*score),
+                margin: Some(*margin),
+                reason: rejected.as_ref().map(ToString::to_string),
+                ..line
+            },
+            Verdict::NoPart(reason) => Self {
+                status: "no_part",
+                reason: Some(reason.to_string()),
+                ..line
+            },
+        }
+    }
+}
+
+impl InspectionLine<'_> {
+    /// The line itself, without its end.
+    pub fn to_json(&self) -> String {
+        serde_json::to_string(self).expect("numbers and text have a JSON form")
+    }
+}
+
+impl TimingsLine {
+    fn of(timings: &Timings) -> Self {
+        // Whole microseconds: more digits are noise.
+        let ms = |d: std::time::Duration| d.as_micros() as f64 / 1000.0;
+        Self {
+            segment: ms(timings.segment),
+            project: ms(timings.project),
+            contour: ms(timings.contour),
+            signature: ms(timings.signature),
+            rank: ms(timings.rank),
+            pose: ms(timings.pose),
+            total: ms(timings.total),
+        }
+    }
+}

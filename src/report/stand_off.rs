@@ -1,0 +1,396 @@
+//! Stand-off: how far the spray nozzle would be from the part, and how square on, if its path ran as it was taught.
+//!
+//! The paper keeps the directed distance d = ‖pₑ - pᵢ‖ (eq. 14) between the nozzle pₑ and the surface point pᵢ before
+//! it within 10 to 20 cm, with the surface's normal pointing at the nozzle. It names no path. Ours is the one that
+//! belongs to the enrolled part: taught over its *standard position*, with the nozzle at the distance d₀ before every
+//! surface point sᵢ, on the normal nᵢ. The part now hangs at the pose T = `camera_from_part` = (R, t) instead. Carried
+//! into part space, the nozzle and the way it points are
+//!
+//! ```text
+//! eᵢ = T⁻¹ (sᵢ + d₀ nᵢ)        aᵢ = -R⁻¹ nᵢ
+//! dᵢ = the t nearest to d₀ for which eᵢ + t aᵢ lies on the enrolled surface, at pᵢ
+//! φᵢ = the angle between -aᵢ and the normal at pᵢ
+//! ```
+//!
+//! so that at the standard position dᵢ = d₀ and φᵢ = 0 everywhere, and a part that came 30 mm nearer has every dᵢ
+//! 30 mm shorter. A dᵢ below 0 means that the nozzle would stand in or behind the part. Rays are taught over what the
+//! camera sees of the part. A ray that meets nothing sprays past the part, and counts as outside the band.
+//!
+//! Source: the paper's section V-B, eq. 14 and Fig. 7(d).
+//!
+//! Known limits: the surface is the reference cloud's, locally flat between its points; a surface that lies further
+//! than 0.4 m from where it was taught is not looked for; flatter than 80° to the ray counts as not met.
+
+use nalgebra::{Isometry3, Point3, Vector3};
+
+use crate::{
+    geometry::rigid::RigidTransform,
+    stages::reference::{Reference, SPACING},
+    units::{Metres, Radians},
+};
+
+/// Parameters of [`stand_off`].
+#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
+pub struct StandOffParams {
+    /// d₀, the distance at which the path was taught, 0.02..1 m.
+    pub taught: Metres,
+    /// Nearest distance that still coats well, above 0 and below `farthest`.
+    pub nearest: Metres,
+    /// Farthest distance that still coats well, metres.
+    pub farthest: Metres,
+    /// Rays of the taught path, 10..10 000. Raising it costs about 1 µs each and finds a smaller worst spot.
+    pub num_rays: usize,
+}
+
+impl Default for StandOffParams {
+    /// The paper's band, and its middle.
+    fn default() -> Self {
+        Self {
+            taught: Metres(0.15),
+            nearest: Metres(0.10),
+            farthest: Metres(0.20),
+            num_rays: 600,
+        }
+    }
+}
+
+/// A taught nozzle before the part as it hangs now; camera space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct NozzleRay {
+    /// The nozzle pₑ, metres.
+    pub mouth: Point3<f64>,
+    /// The way it points, unit length.
+    pub direction: Vector3<f64>,
+    /// Where its ray meets the part, pᵢ.
+    pub surface: Point3<f64>,
+    /// dᵢ; below 0 with the nozzle in or behind the part.
+    pub distance: Metres,
+    /// φᵢ, 0..80°.
+    pub angle: Radians,
+}
+
+/// The stand-off over a part.
+#[derive(Clone, Debug, PartialEq)]
+pub struct StandOff {
+    /// Every ray that meets the part.
+    pub rays: Vec<NozzleRay>,
+    /// Rays taught, met or not.
+    pub num_taught: usize,
+    /// Mean of dᵢ.
+    pub mean: Metres,
+    /// The ray whose dᵢ is furthest from d₀.
+    pub worst: NozzleRay,
+    /// The ray that was taught nearest to the middle of the part.
+    pub middle: NozzleRay,
+    /// Share of the rays taught with dᵢ inside the band, 0..1.
+    pub in_band: f64,
+    /// Mean of φᵢ.
+    pub mean_angle: Radians,
+    /// Largest φᵢ.
+    pub worst_angle: Radians,
+}
+
+/// With less than this share inside the band a coat is not even: the twentieth part is what meets rims and openings.
+const LEAST_IN_BAND: f64 = 0.95;
+
+impl StandOff {
+    /// True when the path can run as it was taught.
+    pub fn keeps_the_band(&self) -> bool {
+        self.in_band >= LEAST_IN_BAND
+    }
+
+    /// Share of the rays taught that meet the part, 0..1.
+    pub fn met(&self) -> f64 {
+        self.rays.len() as f64 / self.num_taught.max(1) as f64
+    }
+}
+
+/// Why there is no stand-off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum StandOffError {
+    /// A flat shape, or a cloud without normals.
+    #[error("the enrolled part has no surface with normals")]
+    NoSurface,
+    /// The part is nowhere near where the path was taught.
+    #[error("none of {num_taught} taught nozzle positions points at the part")]
+    NoneMeets {
+        /// Rays taught.
+        num_taught: usize,
+    },
+}
+
+/// How far to either side of d₀ the surface is looked for, metres.
+const REACH: f32 = 0.4;
+/// Steps along a ray, metres: the side of a cell of the field.
+const STEP: f32 = 0.02;
+/// Cosine of the flattest angle at which a ray meets a surface: 80°.
+const LEAST_FACING: f32 = 0.17;
+/// A camera sees a surface well above this cosine; flatter ones are not painted from its side.
+const LEAST_SEEN: f64 = 0.3;
+/// How far beside a point of the cloud the surface still is, metres.
+const BESIDE: f32 = 1.5 * SPACING as f32;
+
+/// The stand-off of the path taught over `reference`, with the part at `camera_from_part`.
+pub fn stand_off(
+    reference: &Reference,
+    camera_from_part: &RigidTransform,
+    params: &StandOffParams,
+) -> Result<StandOff, StandOffError> {
+    let cloud = &reference.cloud;
+    let (Some(normals), Some((low, high))) = (&cloud.normals, cloud.bounds()) else {
+        return Err(StandOffError::NoSurface);
+    };
+    let middle = nalgebra::center(&low, &high);
+    let sees = |p: &Point3<f32>, normal: &Vector3<f32>| {
+        let at = camera_from_part * p.cast::<f64>();
+        let facing = -(camera_from_part * normal.cast::<f64>()).dot(&at.coords);
+        facing > LEAST_SEEN * at.coords.norm()
+    };
+    let seen: Vec<(&Point3<f32>, &Vector3<f32>)> = cloud
+        .points
+        .iter()
+        .zip(normals)
+        .filter(|(p, normal)| sees(p, normal))
+        .collect();
+    let step = seen.len().div_ceil(params.num_rays.max(1)).max(1);
+    let taught = seen.iter().step_by(step);
+    let num_taught = taught.len();
+    let part_from_camera: Isometry3<f32> = camera_from_part.inverse().cast();
+    let met: Vec<(f32, NozzleRay)> = taught
+        .filter_map(|(s, n)| {
+            // Micrometres are left of a metre in f32, far below what a nozzle notices.
+            let d0 = params.taught.0 as f32;
+            let ray = Ray {
+                mouth: part_from_camera * (*s + *n * d0),
+                direction: -(part_from_camera * *n),
+            };
+            let (distance, normal) = ray.meets(reference, d0)?;
+            let mouth = (**s + *n * d0).cast::<f64>();
+            let direction = -n.cast::<f64>();
+            let cosine = f64::from(-ray.direction.dot(&normal));
+            let found = NozzleRay {
+                mouth,
+                direction,
+                surface: mouth + direction * f64::from(distance),
+                distance: Metres(f64::from(distance)),
+                angle: Radians(cosine.clamp(-1.0, 1.0).acos()),
+            };
+            Some(((*s - middle).norm_squared(), found))
+        })
+        .collect();
+    summary(&met, num_taught, params).ok_or(StandOffError::NoneMeets { num_taught })
+}
+
+/// `None` without a ray; each comes with how far from the part's middle it was taught.
+fn summary(
+    met: &[(f32, NozzleRay)],
+    num_taught: usize,
+    params: &StandOffParams,
+) -> Option<StandOff> {
+    let off = |ray: &NozzleRay| (ray.distance.0 - params.taught.0).abs();
+    let (_, worst) = met.iter().max_by(|a, b| off(&a.1).total_cmp(&off(&b.1)))?;
+    let (_, middle) = met.iter().min_by(|a, b| a.0.total_cmp(&b.0))?;
+    let rays: Vec<NozzleRay> = met.iter().map(|met| met.1).collect();
+    let num = rays.len() as f64;
+    let band = params.nearest..=params.farthest;
+    let num_inside = rays
+        .iter()
+        .filter(|ray| band.contains(&ray.distance))
+        .count();
+    let angles = rays.iter().map(|ray| ray.angle.0);
+    Some(StandOff {
+        mean: Metres(rays.iter().map(|ray| ray.distance.0).sum::<f64>() / num),
+        worst: *worst,
+        middle: *middle,
+        in_band: num_inside as f64 / num_taught as f64,
+        mean_angle: Radians(angles.clone().sum::<f64>() / num),
+        worst_angle: Radians(angles.fold(0.0, f64::max)),
+        num_taught,
+        rays,
+    })
+}
+
+/// A nozzle and the way it points, part space.
+struct Ray {
+    mouth: Point3<f32>,
+    direction: Vector3<f32>,
+}
+
+impl Ray {
+    fn at(&self, t: f32) -> Point3<f32> {
+        self.mouth + self.direction * t
+    }
+
+    /// Where the ray goes through the face of the surface, nearest to `expected`: how far along, and the normal there.
+    fn meets(&self, reference: &Reference, expected: f32) -> Option<(f32, Vector3<f32>)> {
+        let num_steps = (2.0 * REACH / STEP) as usize;
+        let mut before: Option<f32> = None;
+        let mut best: Option<(f32, Vector3<f32>)> = None;
+        for i in 0..=num_steps {
+            let t = expected - REACH + i as f32 * STEP;
+            let height = self.height(reference, t);
+            if let (Some(above), Some(below)) = (before, height)
+                && above > 0.0
+                && below <= 0.0
+            {
+                let t = t - STEP * below / (below - above);
+                let found = self.settled(reference, t);
+                best = [best, found]
+                    .into_iter()
+                    .flatten()
+                    .min_by(|a, b| (a.0 - expected).abs().total_cmp(&(b.0 - expected).abs()));
+            }
+            before = height;
+        }
+        best
+    }
+
+    /// Height above the surface near the point at `t`, if that surface faces the nozzle.
+    fn height(&self, reference: &Reference, t: f32) -> Option<f32> {
+        let at = self.at(t);
+        let nearest = reference.field.nearest(&at)?;
+        let normal = reference.cloud.normals.as_ref()?.get(nearest.index)?;
+        let faces = -normal.dot(&self.direction) > LEAST_FACING;
+        faces.then(|| normal.dot(&(at - reference.cloud.points[nearest.index])))
+    }
+
+    /// The crossing about `t` by the points that are truly nearest; `None` where the surface ends before it.
+    fn settled(&self, reference: &Reference, mut t: f32) -> Option<(f32, Vector3<f32>)> {
+        let mut normal = Vector3::zeros();
+        // The first step reaches the plane of the nearest point, the second that of the point nearest to there.
+        for _ in 0..2 {
+            let nearest = reference.tree.nearest(&self.at(t), f32::INFINITY)?;
+            normal = *reference.cloud.normals.as_ref()?.get(nearest.index)?;
+            let slope = normal.dot(&self.direction);
+            if -slope <= LEAST_FACING {
+                return None;
+            }
+            t = normal.dot(&(reference.cloud.points[nearest.index] - self.mouth)) / slope;
+        }
+        let beside = reference.tree.nearest(&self.at(t), BESIDE * BESIDE);
+        beside.map(|_| (t, normal))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Translation3, UnitQuaternion};
+
+    use super::*;
+    use crate::{
+        geometry::cloud::PointCloud,
+        stages::reference::{Coverage, ReferenceParams},
+    };
+
+    /// A plate of 0.8 by 0.48 m, square on, 1.2 m before the camera.
+    fn plate() -> Reference {
+        let points: Vec<Point3<f32>> = (0..101 * 61)
+            .map(|i| {
+                let (column, row) = ((i % 101) as f32, (i / 101) as f32);
+                Point3::new(column * 0.008 - 0.4, row * 0.008 - 0.24, 1.2)
+            })
+            .collect();
+        let cloud = PointCloud {
+            normals: Some(vec![-Vector3::z(); points.len()]),
+            points,
+            ..PointCloud::default()
+        };
+        Reference::prepare(
+            "plate",
+            cloud,
+            Coverage::OneSide,
+            &ReferenceParams::default(),
+        )
+        .expect("an outline")
+    }
+
+    fn at(pose: &RigidTransform) -> StandOff {
+        stand_off(&plate(), pose, &StandOffParams::default()).expect("a stand-off")
+    }
+
+    fn shifted(x: f64, y: f64, z: f64) -> RigidTransform {
+        RigidTransform::from_parts(Translation3::new(x, y, z), UnitQuaternion::identity())
+    }
+
+    /// About the vertical through the plate's middle.
+    fn turned(angle: f64) -> RigidTransform {
+        let middle = Translation3::new(0.0, 0.0, 1.2);
+        middle * UnitQuaternion::from_axis_angle(&Vector3::y_axis(), angle) * middle.inverse()
+    }
+
+    #[test]
+    fn at_the_standard_position_every_distance_is_the_taught_one() {
+        let found = at(&RigidTransform::identity());
+        assert_eq!(found.rays.len(), found.num_taught);
+        assert!((found.mean.mm() - 150.0).abs() < 0.01, "{}", found.mean);
+        assert!((found.worst.distance.mm() - 150.0).abs() < 0.01);
+        assert!(found.worst_angle.degrees() < 0.1);
+        assert!(found.keeps_the_band() && (found.in_band - 1.0).abs() < 1e-12);
+        // The middle ray stands before the plate's middle.
+        assert!(found.middle.surface.coords.xy().norm() < 0.03);
+        assert!((found.middle.mouth.z - 1.05).abs() < 1e-4);
+    }
+
+    #[test]
+    fn a_shift_along_the_normal_changes_every_distance_by_as_much() {
+        for (z, expected) in [(0.03, 180.0), (-0.03, 120.0), (-0.16, -10.0)] {
+            let found = at(&shifted(0.0, 0.0, z));
+            assert!((found.mean.mm() - expected).abs() < 0.05, "{}", found.mean);
+            assert!((found.worst.distance.mm() - expected).abs() < 0.05);
+            // Camera space: the nozzle stays, the surface moved.
+            assert!((found.worst.mouth.z - 1.05).abs() < 1e-4);
+            assert!((found.worst.surface.z - 1.2 - z).abs() < 1e-4);
+        }
+    }
+
+    #[test]
+    fn the_band_decides_what_is_inside() {
+        assert!((at(&shifted(0.0, 0.0, 0.049)).in_band - 1.0).abs() < 1e-12);
+        let outside = at(&shifted(0.0, 0.0, 0.051));
+        assert!(outside.in_band < 1e-12 && !outside.keeps_the_band());
+        let wider = StandOffParams {
+            farthest: Metres(0.21),
+            ..StandOffParams::default()
+        };
+        let found = stand_off(&plate(), &shifted(0.0, 0.0, 0.051), &wider).expect("a stand-off");
+        assert!(found.keeps_the_band());
+    }
+
+    #[test]
+    fn a_turn_about_the_middle_keeps_the_mean_and_tilts_every_normal() {
+        let angle = 6.0_f64.to_radians();
+        let found = at(&turned(angle));
+        assert!((found.mean.mm() - 150.0).abs() < 2.0, "{}", found.mean);
+        assert!((found.mean_angle.degrees() - 6.0).abs() < 0.05);
+        assert!((found.worst_angle.degrees() - 6.0).abs() < 0.05);
+        for ray in &found.rays {
+            // The turned plane through the middle, at the nozzle's x.
+            let expected = 0.15 - ray.mouth.x * angle.tan();
+            assert!((ray.distance.0 - expected).abs() < 2e-4);
+        }
+        let most = 0.4 * angle.tan();
+        assert!((found.worst.distance.0 - 0.15).abs() > 0.95 * most);
+    }
+
+    #[test]
+    fn a_ray_past_the_part_is_outside_the_band() {
+        // A quarter of the plate's width to the side: as many rays meet nothing.
+        let found = at(&shifted(0.2, 0.0, 0.0));
+        assert!((found.met() - 0.75).abs() < 0.03, "{}", found.met());
+        assert!((found.in_band - found.met()).abs() < 1e-12);
+        assert!(!found.keeps_the_band());
+        let pose = shifted(2.0, 0.0, 0.0);
+        let error = stand_off(&plate(), &pose, &StandOffParams::default());
+        assert!(matches!(error, Err(StandOffError::NoneMeets { num_taught }) if num_taught > 0));
+    }
+
+    #[test]
+    fn a_flat_shape_has_no_stand_off() {
+        let mut flat = plate();
+        flat.cloud.normals = None;
+        let pose = RigidTransform::identity();
+        let found = stand_off(&flat, &pose, &StandOffParams::default());
+        assert_eq!(found, Err(StandOffError::NoSurface));
+    }
+}

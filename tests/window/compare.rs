@@ -1,0 +1,311 @@
+//! The Compare workspace, by what a person reads and presses. No graphics adapter is needed.
+
+use std::path::Path;
+
+use egui::{Key, Modifiers, Role, Vec2};
+use egui_kittest::{
+    Node,
+    kittest::{NodeT as _, Queryable as _},
+};
+use partsight::{
+    app::{WindowOptions, action::Action, compare::Front, source::CellChoice},
+    cases::{CaseFolder, Truth},
+    pipeline::Recipe,
+    simulate::{ObjectKind, PartKind, Side},
+};
+
+use super::set_up::{SMALL, USUAL, WindowHarness, act, open_with, press, settle};
+
+fn open_at(size: Vec2, cases: &Path) -> WindowHarness {
+    let options = WindowOptions {
+        cases: Some(cases.to_owned()),
+        ..WindowOptions::default()
+    };
+    open_with(size, options)
+}
+
+fn open(cases: &Path) -> WindowHarness {
+    open_at(USUAL, cases)
+}
+
+/// A scene of the cell, in front of the workspace.
+fn show(harness: &mut WindowHarness, choice: CellChoice) {
+    act(harness, Action::UseCell(choice));
+}
+
+fn keep(harness: &mut WindowHarness, choice: CellChoice, truth: &str) {
+    show(harness, choice);
+    press(harness, "Choose… ▼");
+    press(harness, &format!("It is: {truth}"));
+    press(harness, "Keep case");
+}
+
+fn found(harness: &WindowHarness) -> Option<String> {
+    let study = harness.state().state().compare.study.as_ref();
+    study.expect("a study").found.part.clone()
+}
+
+const FENDER: CellChoice = CellChoice::Part(PartKind::Fender, Side::Left);
+const DOOR: CellChoice = CellChoice::Part(PartKind::FrontDoor, Side::Left);
+
+#[test]
+fn a_case_is_kept_run_and_opened_again_from_its_cell() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open(folder.path());
+    press(&mut harness, "Compare");
+    harness.get_by_label_contains("Contours at the best lag");
+    harness.get_by_label_contains("No kept cases in");
+    assert!(harness.state().state().compare.study.is_some());
+
+    // Without a truth nothing is kept.
+    harness.key_press(Key::K);
+    settle(&mut harness);
+    harness.get_by_label("Choose first what it is");
+    assert!(
+        CaseFolder::at(folder.path())
+            .list()
+            .expect("listed")
+            .cases
+            .is_empty()
+    );
+
+    keep(
+        &mut harness,
+        CellChoice::Foreign(ObjectKind::Hood),
+        "Not enrolled",
+    );
+    keep(&mut harness, DOOR, "Front door, left");
+    // Said to be another part: accepted as what it is not.
+    show(&mut harness, FENDER);
+    press(&mut harness, "Choose… ▼");
+    press(&mut harness, "It is: Back door, left");
+    harness.key_press(Key::K);
+    settle(&mut harness);
+    let list = CaseFolder::at(folder.path()).list().expect("listed");
+    let truths: Vec<_> = list
+        .cases
+        .iter()
+        .map(|case| &case.meta.about.truth)
+        .collect();
+    assert_eq!(
+        truths,
+        [
+            &Truth::NotEnrolled,
+            &Truth::Part("front_door".into()),
+            &Truth::Part("back_door".into())
+        ]
+    );
+    assert!(list.cases.iter().all(|case| case.meta.about.simulated));
+
+    harness.key_press_modifiers(Modifiers::COMMAND, Key::R);
+    settle(&mut harness);
+    let run = harness.state().state().compare.run.clone().expect("run");
+    assert!(run.ended.is_some() && run.results.len() == 3);
+    harness.get_by_label("1 wrong and accepted");
+    harness.get_by_label_contains("of 3 right");
+    // The same recipe gives what was found when the case was kept, to the last bit.
+    for (result, case) in run.results.iter().zip(&list.cases) {
+        assert_eq!(result.found, case.meta.about.found);
+    }
+
+    let cell = "Back door, left taken for Fender, left: 1, wrong and accepted";
+    harness.get_by_label(cell).focus();
+    harness.run_steps(1);
+    harness.key_press(Key::Enter);
+    settle(&mut harness);
+    let name = list.cases[2].name.clone();
+    press(&mut harness, &format!("Open {name}"));
+    let compare = &harness.state().state().compare;
+    assert!(matches!(&compare.front, Front::Kept(case) if case.name == name));
+    let study = compare.study.as_ref().expect("a study");
+    assert_eq!(study.found, list.cases[2].meta.about.found);
+    // It is compared with what it was said to be.
+    assert_eq!(study.against.as_deref(), Some("back_door"));
+    press(&mut harness, "Back to matrix");
+    harness.get_by_label(cell);
+
+    press(&mut harness, "Remove case");
+    let num = || {
+        CaseFolder::at(folder.path())
+            .list()
+            .expect("listed")
+            .cases
+            .len()
+    };
+    assert_eq!(num(), 2);
+    press(&mut harness, "Put case back");
+    assert_eq!(num(), 3);
+    // Capture brings the scene to the front again.
+    show(&mut harness, DOOR);
+    assert!(matches!(
+        harness.state().state().compare.front,
+        Front::Scene
+    ));
+    assert_eq!(found(&harness).as_deref(), Some("front_door"));
+}
+
+#[test]
+fn a_changed_parameter_shows_at_once_and_can_be_used_undone_and_reset() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open(folder.path());
+    press(&mut harness, "Compare");
+    harness.get_by_label("0 changed from default");
+    let study = |harness: &WindowHarness| {
+        let study = harness.state().state().compare.study.clone();
+        study.expect("a study")
+    };
+    assert!(study(&harness).found.accepted);
+
+    // Written into the field as a person would.
+    let accept_from = |harness: &mut WindowHarness, text: &str| {
+        let field = |harness: &mut WindowHarness, act: &dyn Fn(&Node<'_>)| {
+            act(&harness.get_by_role_and_label(Role::SpinButton, "Accept from"));
+            harness.run_steps(30);
+        };
+        field(harness, &|node| node.scroll_to_me());
+        field(harness, &|node| node.click());
+        field(harness, &|node| node.type_text(text));
+        harness.key_press(Key::Enter);
+        settle(harness);
+    };
+    accept_from(&mut harness, "1");
+    harness.get_by_label("1 changed from default");
+    assert!(!study(&harness).found.accepted);
+    assert!((study(&harness).recipe.accept.min_score - 1.0).abs() < 1e-9);
+    harness.get_by_label_contains("Not accepted · ");
+    // The scene in front of Inspect is as it was.
+    assert_eq!(*harness.state().state().recipe, Recipe::default());
+
+    press(&mut harness, "Use this recipe");
+    let state = harness.state().state();
+    assert!((state.recipe.accept.min_score - 1.0).abs() < 1e-9);
+    let shown = state.shown.as_ref().expect("a result");
+    assert!((shown.inspected.recipe.accept.min_score - 1.0).abs() < 1e-9);
+    press(&mut harness, "Undo use");
+    assert_eq!(*harness.state().state().recipe, Recipe::default());
+
+    press(&mut harness, "Reset accept from");
+    harness.get_by_label("0 changed from default");
+    assert!(study(&harness).found.accepted);
+
+    // What is out of range is refused in words and changes nothing.
+    accept_from(&mut harness, "1.5");
+    harness.get_by_label_contains("Accept from cannot be 1.5");
+    harness.get_by_label("0 changed from default");
+
+    press(&mut harness, "Matcher: Paper");
+    harness.get_by_label_contains("Auto- and cross-correlation: paper:");
+    press(&mut harness, "Reset all");
+    harness.get_by_label_contains("Auto- and cross-correlation: default:");
+}
+
+#[test]
+fn another_part_can_be_compared_from_the_list_of_distances() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open(folder.path());
+    press(&mut harness, "Compare");
+    let against = |harness: &WindowHarness| {
+        let study = harness.state().state().compare.study.clone();
+        study.expect("a study").against.clone()
+    };
+    assert_eq!(against(&harness).as_deref(), Some("front_door"));
+    harness
+        .get_by_label_contains("Compare with Fender, left")
+        .click();
+    settle(&mut harness);
+    assert_eq!(against(&harness).as_deref(), Some("fender"));
+    press(&mut harness, "Fender, left ▼");
+    press(&mut harness, "What it is, else the best");
+    assert_eq!(against(&harness).as_deref(), Some("front_door"));
+}
+
+#[test]
+fn every_control_is_large_enough_labelled_and_inside_a_small_window() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let size = SMALL;
+    let mut harness = open_at(size, folder.path());
+    press(&mut harness, "Compare");
+    keep(&mut harness, DOOR, "Front door, left");
+    press(&mut harness, "Run all cases");
+    let mut num_controls = 0;
+    for role in [Role::Button, Role::Tab, Role::SpinButton, Role::TextInput] {
+        for node in harness.query_all_by_role(role) {
+            let label = node.accesskit_node().label().unwrap_or_default();
+            let rect = node.rect();
+            assert!(!label.is_empty(), "a control at {rect:?} has no label");
+            assert!(
+                rect.width() >= 35.9 && rect.height() >= 35.9,
+                "{label}: {rect:?}"
+            );
+            assert!(
+                rect.min.x >= 0.0 && rect.max.x <= size.x,
+                "{label}: {rect:?}"
+            );
+            num_controls += 1;
+        }
+    }
+    assert!(num_controls >= 30, "{num_controls} controls");
+    harness.key_press(Key::F1);
+    harness.run_steps(2);
+    harness.get_by_label("Keep the case in front");
+    harness.get_by_label("Run all kept cases");
+}
+
+/// With `PARTSIGHT_VIEW_PICTURES=DIR` it leaves what it drew in that folder.
+#[test]
+fn it_is_drawn_in_both_sizes_and_colours() {
+    let Some(pictures) = std::env::var_os("PARTSIGHT_VIEW_PICTURES") else {
+        return;
+    };
+    let folder = tempfile::tempdir().expect("a folder");
+    for (width, height) in [(1440, 900), (1024, 768)] {
+        let size = Vec2::new(width as f32, height as f32);
+        let mut harness = open_at(size, folder.path());
+        let shot = |harness: &mut WindowHarness, name: &str| {
+            harness.run_steps(2);
+            let path = Path::new(&pictures).join(format!("compare_{name}_{width}.png"));
+            harness.render().expect("drawn").save(path).expect("saved");
+        };
+        press(&mut harness, "Compare");
+        shot(&mut harness, "empty");
+        if width == 1440 {
+            let mut choices = CellChoice::all().skip(1);
+            let titles = [
+                "Front bumper",
+                "Trunk lid",
+                "Back bumper",
+                "Back door, left",
+            ];
+            for title in titles {
+                let choice = choices.find(|c| c.title().starts_with(title));
+                if let Some(choice) = choice {
+                    keep(&mut harness, choice, title);
+                }
+            }
+            keep(
+                &mut harness,
+                CellChoice::Foreign(ObjectKind::Hood),
+                "Not enrolled",
+            );
+            keep(
+                &mut harness,
+                CellChoice::Part(PartKind::FrontDoor, Side::Right),
+                "Not enrolled",
+            );
+            keep(&mut harness, DOOR, "Front door, left");
+            keep(&mut harness, FENDER, "Back door, left");
+        }
+        shot(&mut harness, "case");
+        press(&mut harness, "Run all cases");
+        shot(&mut harness, "run");
+        let cell = "Back door, left taken for Fender, left: 1, wrong and accepted";
+        press(&mut harness, cell);
+        harness.get_by_label_contains("Open simulated").click();
+        settle(&mut harness);
+        shot(&mut harness, "cell");
+        press(&mut harness, "Matcher: Paper");
+        press(&mut harness, "Back to matrix");
+        act(&mut harness, Action::SwitchTheme);
+        shot(&mut harness, "light");
+    }
+}

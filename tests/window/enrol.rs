@@ -1,0 +1,382 @@
+//! The Enrol workspace, by what a person reads and presses. No graphics adapter is needed.
+
+use std::path::Path;
+
+use egui::{Key, Modifiers, Pos2, Role, Vec2};
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use partsight::{
+    app::{
+        WindowOptions,
+        action::Action,
+        source::CellChoice,
+        state::{State, Workspace},
+    },
+    library::{LibraryFolder, PartName},
+    simulate::{PartKind, PartModel, Side},
+};
+
+use super::set_up::{SMALL, USUAL, WindowHarness, act, drop_file, open_with, press, settle};
+
+fn open_at(library: &Path, size: Vec2) -> WindowHarness {
+    let options = WindowOptions {
+        library: Some(library.to_owned()),
+        ..WindowOptions::default()
+    };
+    open_with(size, options)
+}
+
+/// A window with the Enrol workspace in front, the simulated right-hand front door before the camera.
+fn open(library: &Path) -> WindowHarness {
+    let mut harness = open_at(library, USUAL);
+    harness.get_by_label("Enrol").click();
+    settle(&mut harness);
+    harness
+}
+
+fn state(harness: &WindowHarness) -> &State {
+    harness.state().state()
+}
+
+fn capture(harness: &mut WindowHarness, kind: PartKind, side: Side) {
+    act(harness, Action::UseCell(CellChoice::Part(kind, side)));
+}
+
+fn press_keys(harness: &mut WindowHarness, modifiers: Modifiers, key: Key) {
+    harness.key_press_modifiers(modifiers, key);
+    settle(harness);
+}
+
+fn write(harness: &mut WindowHarness, label: &str, text: &str) {
+    let field = harness.get_by_role_and_label(Role::TextInput, label);
+    field.focus();
+    harness.run_steps(2);
+    press_keys(harness, Modifiers::COMMAND, Key::A);
+    harness
+        .get_by_role_and_label(Role::TextInput, label)
+        .type_text(text);
+    harness.run_steps(3);
+    // Elsewhere, so that keys are shortcuts again.
+    let field = harness.ctx.memory(egui::Memory::focused);
+    let context = harness.ctx.clone();
+    context.memory_mut(|memory| field.into_iter().for_each(|id| memory.surrender_focus(id)));
+    harness.run_steps(2);
+}
+
+fn drag(harness: &mut WindowHarness, from: Pos2, to: Pos2) {
+    harness.hover_at(from);
+    harness.run_steps(2);
+    harness.drag_at(from);
+    harness.run_steps(2);
+    for share in [0.3, 0.7, 1.0] {
+        harness.hover_at(from + (to - from) * share);
+        harness.run_steps(1);
+    }
+    harness.drop_at(to);
+    settle(harness);
+}
+
+fn num_kept(harness: &WindowHarness) -> usize {
+    let draft = state(harness).enrol.draft.as_ref().expect("a draft");
+    draft.selection.indices.len()
+}
+
+fn notices(harness: &WindowHarness) -> Vec<String> {
+    let notices = state(harness).notices.iter();
+    notices.map(|notice| notice.what.clone()).collect()
+}
+
+/// An empty library of its own.
+fn library() -> tempfile::TempDir {
+    tempfile::tempdir().expect("a folder")
+}
+
+fn names(library: &Path) -> Vec<String> {
+    let folder = LibraryFolder::open(library).expect("there");
+    folder.names().expect("listed")
+}
+
+/// Enrols what stands before the camera under this title.
+fn enrol(harness: &mut WindowHarness, kind: PartKind, title: &str) {
+    capture(harness, kind, Side::Right);
+    write(harness, "Title", title);
+    press(harness, "Save");
+}
+
+fn write_mesh(path: &Path, kind: PartKind) {
+    use std::fmt::Write as _;
+    let model = PartModel::new(kind, Side::Left, 0);
+    let mesh = model.mesh();
+    let mut text = String::new();
+    for vertex in &mesh.vertices {
+        writeln!(text, "v {} {} {}", vertex.x, vertex.y, vertex.z).expect("written");
+    }
+    for [a, b, c] in &mesh.triangles {
+        writeln!(text, "f {} {} {}", a + 1, b + 1, c + 1).expect("written");
+    }
+    std::fs::write(path, text).expect("written");
+}
+
+#[test]
+fn a_captured_part_is_corrected_named_saved_and_recognised_by_its_new_name() {
+    let library = library();
+    let mut harness = open(library.path());
+    harness.get_by_label("Show the part to enrol");
+    capture(&mut harness, PartKind::FrontDoor, Side::Right);
+    assert!(harness.query_by_label("New part").is_some());
+    let before = num_kept(&harness);
+
+    // A strip at the right of the picture is cut off by a box, and comes back.
+    let picture = harness.get_by_label("Picture of what is kept").rect();
+    press(&mut harness, "Keep box");
+    let from = picture.min + Vec2::new(2.0, 2.0);
+    let to = picture.center() + Vec2::new(0.0, picture.height() / 2.0 - 2.0);
+    drag(&mut harness, from, to);
+    let cut = num_kept(&harness);
+    assert!(0 < cut && cut < before, "{cut} of {before}");
+    press_keys(&mut harness, Modifiers::COMMAND, Key::Z);
+    assert_eq!(num_kept(&harness), before);
+    press_keys(&mut harness, Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    assert_eq!(num_kept(&harness), cut);
+    press(&mut harness, "Reset all corrections");
+    assert_eq!(num_kept(&harness), before);
+    // The wall is taken by mistake, and dropped again.
+    press(&mut harness, "Background 1, dropped");
+    assert!(num_kept(&harness) > before);
+    press(&mut harness, "Background 1, kept");
+    assert_eq!(num_kept(&harness), before);
+
+    write(&mut harness, "Title", "Front door, right");
+    press_keys(&mut harness, Modifiers::COMMAND, Key::S);
+    assert_eq!(names(library.path()), ["front_door_right"]);
+    harness.get_by_label_contains("Saved Front door, right");
+    harness.get_by_label("Enrolled: Front door, right");
+    harness.get_by_label("Show the part to enrol");
+
+    press(&mut harness, "Inspect");
+    harness.get_by_label("Front door, right");
+    harness.get_by_label("Accepted");
+}
+
+#[test]
+fn a_saved_part_goes_again_by_undo_and_the_draft_comes_back() {
+    let library = library();
+    let mut harness = open(library.path());
+    enrol(&mut harness, PartKind::Fender, "Fender, right");
+    assert_eq!(names(library.path()), ["fender_right"]);
+    press(&mut harness, "Undo");
+    assert!(names(library.path()).is_empty());
+    let draft = state(&harness).enrol.draft.as_ref().expect("back");
+    assert_eq!(draft.form.title, "Fender, right");
+    press_keys(&mut harness, Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
+    assert_eq!(names(library.path()), ["fender_right"]);
+    assert!(state(&harness).enrol.draft.is_none());
+}
+
+#[test]
+fn a_removed_part_comes_back_by_undo() {
+    let library = library();
+    let mut harness = open(library.path());
+    enrol(&mut harness, PartKind::Grille, "Grille");
+    press(&mut harness, "Enrolled: Grille");
+    press(&mut harness, "Remove");
+    assert!(names(library.path()).is_empty());
+    assert!(harness.query_by_label("Enrolled: Grille").is_none());
+    press(&mut harness, "Undo");
+    assert_eq!(names(library.path()), ["grille"]);
+    harness.get_by_label("Enrolled: Grille");
+}
+
+#[test]
+fn a_part_is_renamed_and_gets_its_old_name_back() {
+    let library = library();
+    let mut harness = open(library.path());
+    enrol(&mut harness, PartKind::Grille, "Grille");
+    press(&mut harness, "Enrolled: Grille");
+    write(&mut harness, "Title", "Radiator grille");
+    write(&mut harness, "Name", "radiator_grille");
+    press(&mut harness, "Rename");
+    assert_eq!(names(library.path()), ["radiator_grille"]);
+    harness.get_by_label("Enrolled: Radiator grille");
+    press(&mut harness, "Undo");
+    assert_eq!(names(library.path()), ["grille"]);
+    harness.get_by_label("Enrolled: Grille");
+}
+
+#[test]
+fn a_part_enrolled_anew_replaces_the_former_one_and_undo_brings_that_back() {
+    let library = library();
+    let mut harness = open(library.path());
+    enrol(&mut harness, PartKind::TrunkLid, "Trunk lid");
+    let folder = LibraryFolder::open(library.path()).expect("there");
+    let from = |harness: &WindowHarness| {
+        let library = state(harness).library.as_ref().expect("loaded");
+        library.parts[0].enrolled.from.clone()
+    };
+    let first = from(&harness);
+    press(&mut harness, "Enrolled: Trunk lid");
+    press(&mut harness, "Enrol anew");
+    harness.get_by_label("Show what shall replace Trunk lid");
+    press_keys(&mut harness, Modifiers::NONE, Key::Space);
+    harness.get_by_label("Replaces Trunk lid");
+    press(&mut harness, "Save and replace");
+    assert_ne!(from(&harness), first);
+    assert_eq!(folder.trashed().expect("listed").len(), 1);
+    press(&mut harness, "Undo");
+    assert_eq!(from(&harness), first);
+    assert_eq!(names(library.path()), ["trunk_lid"]);
+}
+
+#[test]
+fn a_part_that_is_enrolled_already_is_named_as_hard_to_tell_from() {
+    let library = library();
+    let mut harness = open(library.path());
+    enrol(&mut harness, PartKind::FrontDoor, "Door");
+    capture(&mut harness, PartKind::FrontDoor, Side::Right);
+    harness.get_by_label("The two cannot be told apart");
+    harness.get_by_label("Replace Door");
+    capture(&mut harness, PartKind::Fender, Side::Right);
+    harness.get_by_label("The two can be told apart");
+}
+
+#[test]
+fn a_bad_name_is_said_while_typing_and_when_saving() {
+    let library = library();
+    let mut harness = open(library.path());
+    capture(&mut harness, PartKind::Grille, Side::Left);
+    write(&mut harness, "Name", "Grille 7");
+    harness.get_by_label_contains("is no name for a part");
+    harness.get_by_label_contains("for example grille_7");
+    press_keys(&mut harness, Modifiers::COMMAND, Key::S);
+    assert!(names(library.path()).is_empty());
+    assert!(notices(&harness)[0].contains("is no name for a part"));
+    press(&mut harness, "Dismiss");
+    write(&mut harness, "Name", "grille_7");
+    assert!(harness.query_by_label_contains("for example").is_none());
+    press_keys(&mut harness, Modifiers::COMMAND, Key::S);
+    assert_eq!(names(library.path()), ["grille_7"]);
+}
+
+#[test]
+fn a_dropped_mesh_is_enrolled_whole() {
+    let library = library();
+    let files = tempfile::tempdir().expect("a folder");
+    let path = files.path().join("grille.obj");
+    write_mesh(&path, PartKind::Grille);
+    let mut harness = open(library.path());
+    drop_file(&mut harness, &path);
+    harness.get_by_label("A mesh is enrolled whole: cut it where it was made");
+    harness.get_by_label("Seen from all around");
+    write(&mut harness, "Title", "Grille of the maker");
+    press(&mut harness, "Save");
+    assert_eq!(names(library.path()), ["grille_of_the_maker"]);
+    let saved = state(&harness).library.as_ref().expect("loaded");
+    assert_eq!(saved.parts[0].enrolled.from, "grille.obj");
+    assert!(!saved.parts[0].simulated);
+}
+
+#[cfg(target_os = "linux")]
+#[test]
+fn a_library_that_cannot_be_written_is_a_notice_and_the_window_goes_on() {
+    // Nobody, not even root, makes files there.
+    let mut harness = open(Path::new("/proc/self/fdinfo"));
+    capture(&mut harness, PartKind::Grille, Side::Left);
+    write(&mut harness, "Title", "Grille");
+    press(&mut harness, "Save");
+    assert!(notices(&harness)[0].contains("cannot write to the library"));
+    assert!(!state(&harness).notices[0].advice.is_empty());
+    assert!(state(&harness).enrol.draft.is_some());
+    press_keys(&mut harness, Modifiers::NONE, Key::Space);
+    assert_eq!(state(&harness).enrol.num_drafts, 2);
+}
+
+#[test]
+fn a_box_is_drawn_by_keys_alone() {
+    let library = library();
+    let mut harness = open(library.path());
+    capture(&mut harness, PartKind::BackDoor, Side::Right);
+    let before = num_kept(&harness);
+    harness.get_by_label("Drop box").click();
+    harness.get_by_label("Picture of what is kept").focus();
+    harness.run_steps(2);
+    for _ in 0..4 {
+        harness.key_press(Key::ArrowRight);
+        harness.run_steps(2);
+    }
+    harness.key_press_modifiers(Modifiers::SHIFT, Key::ArrowDown);
+    harness.run_steps(2);
+    press_keys(&mut harness, Modifiers::NONE, Key::Enter);
+    let dropped = num_kept(&harness);
+    assert!(dropped < before, "{dropped} of {before}");
+}
+
+#[test]
+fn the_inspected_scene_is_taken_at_one_press_and_captures_stay_with_the_workspace() {
+    let library = library();
+    let mut harness = open(library.path());
+    let shown = state(&harness).shown.as_ref().expect("a result").generation;
+    press(&mut harness, "Take the inspected scene");
+    assert!(num_kept(&harness) > 1000);
+    press_keys(&mut harness, Modifiers::NONE, Key::Space);
+    assert_eq!(state(&harness).enrol.num_drafts, 2);
+    let still = state(&harness).shown.as_ref().expect("a result").generation;
+    assert_eq!(
+        (still, state(&harness).workspace),
+        (shown, Workspace::Enrol)
+    );
+    press(&mut harness, "Everything");
+    assert!(num_kept(&harness) > 200_000);
+    press(&mut harness, "Undo the last step");
+    assert!(num_kept(&harness) < 200_000);
+}
+
+#[test]
+fn a_damaged_part_is_shown_and_can_be_removed() {
+    let library = library();
+    let mut harness = open(library.path());
+    enrol(&mut harness, PartKind::Grille, "Grille");
+    std::fs::write(library.path().join("grille").join("part.toml"), "x").expect("written");
+    enrol(&mut harness, PartKind::Fender, "Fender");
+    press(&mut harness, "Enrolled: grille");
+    press(&mut harness, "Remove");
+    assert_eq!(names(library.path()), ["fender"]);
+    let folder = LibraryFolder::open(library.path()).expect("there");
+    let grille = PartName::new("grille").expect("a name");
+    assert_eq!(folder.trashed().expect("listed")[0].name, grille);
+}
+
+#[test]
+fn every_control_is_large_enough_labelled_and_inside_a_small_window() {
+    let size = SMALL;
+    let library = library();
+    let mut harness = open_at(library.path(), size);
+    press(&mut harness, "Enrol");
+    enrol(&mut harness, PartKind::Grille, "Grille");
+    for step in ["empty", "open", "draft"] {
+        match step {
+            "open" => press(&mut harness, "Enrolled: Grille"),
+            "draft" => capture(&mut harness, PartKind::FrontDoor, Side::Right),
+            _ => {}
+        }
+        let mut num_controls = 0;
+        for role in [Role::Button, Role::Tab, Role::TextInput] {
+            for node in harness.query_all_by_role(role) {
+                let label = node.accesskit_node().label().unwrap_or_default();
+                let rect = node.rect();
+                assert!(
+                    !label.is_empty(),
+                    "{step}: a control at {rect:?} has no label"
+                );
+                assert!(
+                    rect.width() >= 35.9 && rect.height() >= 35.9,
+                    "{step}: {label}: {rect:?}"
+                );
+                // Long lists are scrolled: their controls may lie further to the right or below.
+                assert!(rect.min.x >= 0.0 && rect.min.y >= 0.0, "{label}: {rect:?}");
+                num_controls += 1;
+            }
+        }
+        assert!(num_controls >= 10, "{step}: {num_controls} controls");
+        let save = harness.query_by_label("Save");
+        assert!(save.is_none_or(|save| save.rect().max.y <= size.y));
+    }
+}

@@ -1,0 +1,10 @@
+//! The window, by what a person reads and presses. No graphics adapter is needed, but for the pictures: the 3-D view
+//! says in words that there is none.
+
+mod align;
+mod compare;
+mod enrol;
+mod history;
+mod inspect;
+mod set_up;
+mod view;

@@ -1,0 +1,95 @@
+//! A window to be pressed and read.
+
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+    thread,
+    time::{Duration, Instant},
+};
+
+use egui::Vec2;
+use egui_kittest::{Harness, kittest::Queryable as _};
+use partsight::app::{
+    Window, WindowOptions,
+    action::Action,
+    state::{State, Workspace},
+};
+
+/// A window without a screen.
+pub(crate) type WindowHarness = Harness<'static, Window>;
+
+/// The size of the sketches.
+pub(crate) const USUAL: Vec2 = Vec2::new(1440.0, 900.0);
+/// The smallest screen that nothing may be cut off on.
+pub(crate) const SMALL: Vec2 = Vec2::new(1024.0, 768.0);
+
+/// Opens a window and waits for its first result.
+pub(crate) fn open_with(size: Vec2, options: WindowOptions) -> WindowHarness {
+    let mut harness = Harness::builder().with_size(size).build_eframe(|cc| {
+        Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), options).expect("threads")
+    });
+    settle(&mut harness);
+    harness
+}
+
+/// As a newcomer's window opens, remembering nothing.
+pub(crate) fn open() -> WindowHarness {
+    open_with(USUAL, WindowOptions::default())
+}
+
+/// Draws until nothing is at work any more.
+pub(crate) fn settle(harness: &mut WindowHarness) {
+    wait_until(harness, |state| {
+        let is_behind = state.workspace == Workspace::Compare && state.is_compare_behind();
+        state.works.is_empty() && !is_behind
+    });
+    harness.run_steps(3);
+    // Wherever a test comes by: nothing to be pressed or filled in without a name.
+    harness.check_accessibility();
+}
+
+/// Draws until the state is so.
+pub(crate) fn wait_until(harness: &mut WindowHarness, is_so: impl Fn(&State) -> bool) {
+    let until = Instant::now() + Duration::from_mins(3);
+    harness.step();
+    while !is_so(harness.state().state()) {
+        assert!(Instant::now() < until, "still working after three minutes");
+        thread::sleep(Duration::from_millis(5));
+        harness.step();
+    }
+}
+
+/// Presses what has this label, once it is in sight, and waits for what comes of it.
+pub(crate) fn press(harness: &mut WindowHarness, label: &str) {
+    harness.get_by_label(label).scroll_to_me();
+    harness.run_steps(30);
+    harness.get_by_label(label).click();
+    settle(harness);
+}
+
+/// Does what a person could cause, and waits for what comes of it.
+pub(crate) fn act(harness: &mut WindowHarness, action: Action) {
+    let context = harness.ctx.clone();
+    harness.state_mut().act(action, &context);
+    settle(harness);
+}
+
+#[derive(Debug)]
+struct Dropped(PathBuf);
+
+impl egui::DroppedFile for Dropped {
+    fn path(&self) -> &Path {
+        &self.0
+    }
+
+    fn bytes(&self) -> Result<Vec<u8>, String> {
+        Err("the window opens files itself".into())
+    }
+}
+
+/// Drops a file onto the window.
+pub(crate) fn drop_file(harness: &mut WindowHarness, path: &Path) {
+    let dropped = Arc::new(Dropped(path.to_owned()));
+    harness.input_mut().dropped_files.push(dropped);
+    settle(harness);
+}
