@@ -439,6 +439,38 @@ fn a_cloud_is_aligned_with_itself_moved() {
         "5deg -11deg 22deg 50mm 20mm -100mm",
     ];
     assert!(place.accepted(&started).out.contains("mm rms"));
+    let by_icp_ga = ["align", "moved.ply", &target, "--pose", "icp-ga", "--json"];
+    let line = &place.accepted(&by_icp_ga).lines()[0];
+    assert_eq!(
+        (&line["method"], &line["stopped"]),
+        (&"icp-ga".into(), &"below_target".into())
+    );
+    assert!(line["e_m2"].as_f64().expect("a number") < 1e-6, "{line}");
+}
+
+#[test]
+fn table_1_is_shown_and_written_for_the_parts_asked_for() {
+    let place = Workplace::new();
+    let ran = place.accepted(&[
+        "bench", "table1", "--part", "grille", "--json", "t.json", "--csv", "t.csv",
+    ]);
+    assert!(ran.out.contains("icp-ga  5/5"), "{}", ran.out);
+    let text = fs::read_to_string(place.path("t.json")).expect("written");
+    let file: Value = serde_json::from_str(&text).expect("JSON");
+    let attempts = file["attempts"].as_array().expect("a list");
+    assert_eq!(attempts.len(), 15);
+    for attempt in attempts.iter().filter(|a| a["method"] != "icp") {
+        assert!(
+            attempt["e_m2"].as_f64().expect("a number") < 1e-6,
+            "{attempt}"
+        );
+        assert_eq!(attempt["part"], "grille");
+    }
+    let rows = fs::read_to_string(place.path("t.csv")).expect("written");
+    assert_eq!(rows.lines().count(), 16);
+    let unknown = place.run(&["bench", "table1", "--part", "wing"]);
+    assert_eq!(unknown.code, 2);
+    assert!(unknown.err.contains("no part wing"), "{}", unknown.err);
 }
 
 #[test]
@@ -533,7 +565,7 @@ fn help_shows_examples_and_exit_codes() {
     }
     let help = place.accepted(&["inspect", "--help"]).out;
     assert!(
-        help.contains("Exit codes") && !help.contains("icp-ga"),
+        help.contains("Exit codes") && help.contains("icp-ga"),
         "{help}"
     );
 }

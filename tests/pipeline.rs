@@ -255,6 +255,43 @@ fn a_cancelled_inspection_stops_before_the_next_stage() {
     }
 }
 
+/// Cancels when asked more than ten times since the pose began.
+#[derive(Default)]
+struct Midway {
+    is_posing: Cell<bool>,
+    num_asked: Cell<usize>,
+}
+impl Watch for Midway {
+    fn begins(&self, stage: Stage) {
+        self.is_posing.set(stage == Stage::Pose);
+    }
+    fn is_cancelled(&self) -> bool {
+        let more = usize::from(self.is_posing.get());
+        self.num_asked.set(self.num_asked.get() + more);
+        self.num_asked.get() > 10
+    }
+}
+
+#[test]
+fn icp_ga_finds_a_door_turned_too_far_for_icp_and_can_be_cancelled_midway() {
+    let EnrolledStandard { library, .. } = standard();
+    let scene = door(2.0, [0.02, 0.01]);
+    let by = |method| Recipe {
+        pose: PoseChoice::By(method),
+        ..Recipe::default()
+    };
+    let accepted = |recipe: &Recipe| {
+        let verdict = inspected(&scene, &library, recipe).verdict;
+        matches!(verdict, Verdict::Part { part, rejected: None, .. } if part == "front_door")
+    };
+    assert!(!accepted(&by(PoseMethod::Icp)));
+    assert!(accepted(&by(PoseMethod::IcpGa)));
+
+    let watch = Midway::default();
+    let ended = run(&scene, &library, &by(PoseMethod::IcpGa), &watch);
+    assert!(matches!(ended, Err(Cancelled)));
+}
+
 #[test]
 fn a_capture_saved_as_bare_points_is_recognised_as_well() {
     let EnrolledStandard { library, .. } = standard();

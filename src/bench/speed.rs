@@ -46,7 +46,7 @@ pub fn stage_times(timings: &[Timings]) -> Vec<StageTimes> {
 }
 
 /// The value below which a share (0..1) of the values lies; `None` without values.
-pub(super) fn quantile(values: impl Iterator<Item = f64>, share: f64) -> Option<f64> {
+pub fn quantile(values: impl Iterator<Item = f64>, share: f64) -> Option<f64> {
     let mut values: Vec<f64> = values.collect();
     if values.is_empty() {
         return None;

@@ -1,5 +1,7 @@
 //! `partsight bench`: how often right, how far off, how long, on simulated frames.
 
+mod table1;
+
 use std::path::{Path, PathBuf};
 
 use anyhow::Context as _;
@@ -7,8 +9,8 @@ use clap::{Args, ValueEnum};
 use serde::Serialize;
 
 use super::{
-    Outcome,
-    console::{Advised as _, Console, Table},
+    LibraryChoice, Outcome,
+    console::{Advised as _, Console, Table, advised_error},
 };
 use crate::{
     app::WindowOptions,
@@ -30,10 +32,13 @@ Examples:
   partsight bench
   partsight bench recognition --poses 50 --model 3
   partsight bench recognition --placement hard --json hard.json
+  partsight bench table1 --csv table1.csv
+  partsight bench table1 --part fender --part grille
   partsight bench window
 
 Each part is enrolled from one frontal capture of the standard car, then seen at drawn poses. Without a name: a few
-frames of each part, to time the stages. Times are those of this machine, at what else it is doing now.")]
+frames of each part, to time the stages. table1 needs no frames: each part of the library is put where T1..T5 of the
+paper put it, and found again by ICP, ICP-GA and the global method. Times are those of this machine, at what else it is doing now.")]
 pub(super) struct BenchArgs {
     /// What to measure
     #[arg(value_enum, default_value_t = Bench::Speed)]
@@ -53,6 +58,14 @@ pub(super) struct BenchArgs {
     /// Write every case to this file as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
+    /// Of table1: write every attempt to this file as comma-separated values
+    #[arg(long, value_name = "FILE")]
+    csv: Option<PathBuf>,
+    /// Of table1: only this part; may be given several times
+    #[arg(long, value_name = "NAME")]
+    part: Vec<String>,
+    #[command(flatten)]
+    library: LibraryChoice,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -61,6 +74,8 @@ enum Bench {
     Speed,
     /// Right, accepted and well placed, by the default matcher and by the paper's
     Recognition,
+    /// The paper's Table I: what is left of E from T1..T5, by ICP, ICP-GA and the global method
+    Table1,
     /// Processor time of a frame of the window, at rest and turning; needs no display
     Window,
 }
@@ -112,11 +127,18 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     if args.bench == Bench::Window {
         return frames(args, console);
     }
-    let enrolled = enrol_standard_parts(&EnrolParams::default()).advised()?;
     let matchers: &[Matcher] = match args.bench {
         Bench::Speed | Bench::Window => &[Matcher::Default],
         Bench::Recognition => &[Matcher::Default, Matcher::Paper],
+        Bench::Table1 => return table1::run(args, console),
     };
+    if args.csv.is_some() || !args.part.is_empty() {
+        return Err(advised_error(
+            "--csv and --part go with table1",
+            "Ask for it: partsight bench table1 --csv FILE",
+        ));
+    }
+    let enrolled = enrol_standard_parts(&EnrolParams::default()).advised()?;
     let setup = RecognitionSetup {
         num_poses: args.poses,
         first_seed: args.seed,

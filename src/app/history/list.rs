@@ -66,7 +66,7 @@ fn bar(ui: &mut Ui, history: &HistoryState, actions: &mut Vec<Action>) {
         } else {
             let now = filter.verdict.map_or("All", PastVerdict::title);
             ui.menu_button(format!("Verdict · {now} ▼"), |ui| {
-                verdicts(ui, filter, actions)
+                verdicts(ui, filter, actions);
             });
         }
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {

@@ -14,6 +14,11 @@
 //!   it is over all points of the source.
 //! - ICP goes on below 1e-6 m² until it settles: that takes a step or two, and stopping there may leave 0.3°.
 
+mod locate;
+mod params;
+#[cfg(test)]
+mod tests;
+
 use std::ops::ControlFlow;
 
 use nalgebra::{Isometry3, Point3, Translation3};
@@ -21,91 +26,18 @@ use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
 use super::{
-    Iteration, MIN_POINTS, Phase, PoseError, PoseEstimate, PoseMethod, RunnerUp, Stopped,
-    genetic::{Genes, GeneticParams, minimise},
-    icp::{IcpParams, icp},
-    quality::{Fit, Tolerance, look_for, measure_fit},
-    refine::{Search as SearchBy, Target},
+    Iteration, MIN_POINTS, Phase, PoseError, RunnerUp, Stopped,
+    genetic::{Genes, minimise},
+    icp::icp,
+    refine::Target,
     spanned::spanned_axes,
 };
-use crate::{
-    geometry::{
-        nearest_field::NearestField,
-        principal::PrincipalAxes,
-        rigid::{RigidTransform, from_euler_zyx, pose_error},
-    },
-    stages::{reference::Reference, scene::SceneCloud, segment::SegmentedPart},
-    units::{Metres, Radians},
+use crate::geometry::{
+    principal::PrincipalAxes,
+    rigid::{RigidTransform, from_euler_zyx, pose_error},
 };
 
-/// Parameters of [`icp_ga`].
-#[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-#[serde(default)]
-pub struct IcpGaParams {
-    /// E at which Algorithm 3 is content, square metres, 0..1e-4; the paper's 1e-6 is 1 mm rms. Lowering it costs
-    /// rounds, and below the noise of the clouds all of them.
-    pub target_e_m2: f64,
-    /// Each round's ICP. Raising its points or iterations slows every round: by experiment 400 points and 30 iterations
-    /// are enough, as what they miss the next search finds. Its own target is 0, so that it settles.
-    pub icp: IcpParams,
-    /// The search around the best pose.
-    pub vicinity: GeneticParams,
-    /// Range of the search around the best pose, in rms distances of that pose, 1..10; as a turn, that length at the
-    /// part's extent. Raising it finds what ICP left further off, and settles more coarsely.
-    pub vicinity_range: f64,
-    /// The search elsewhere.
-    pub elsewhere: GeneticParams,
-    /// Range of the angles elsewhere, 0..π. Less than π leaves out poses that a person knows to be impossible.
-    pub turn_range: Radians,
-    /// Range of the shifts elsewhere, as a share of the target's extent (its standard deviation along its longest axis),
-    /// 0..2. Raising it finds smaller overlaps, and needs a larger population.
-    pub shift_range: f64,
-    /// Points of the source that a pose is tried on where it is to be told by millimetres, 20..1000. Raising it costs
-    /// time in proportion.
-    pub num_fine_points: usize,
-    /// Points of the source that a pose is tried on elsewhere, 20..1000. Raising it costs time in proportion.
-    pub num_coarse_points: usize,
-    /// Most rounds of Algorithm 3, 1..1000. Each costs 5 to 40 ms.
-    pub max_rounds: usize,
-    /// Rounds in a row without progress after which there is none to be had, 1..100. Raising it finds hidden poses, and
-    /// costs about 8 ms each where the target cannot be reached.
-    pub patience: usize,
-    /// Share by which E must fall for a round to count as progress, 0..1. Raising it gives up sooner.
-    pub least_progress: f64,
-    /// Seed of all that is drawn.
-    pub seed: u64,
-}
-
-impl Default for IcpGaParams {
-    fn default() -> Self {
-        Self {
-            target_e_m2: 1e-6,
-            icp: IcpParams {
-                max_iterations: 30,
-                target_e_m2: 0.0,
-                max_source_points: 400,
-                ..IcpParams::default()
-            },
-            vicinity: GeneticParams {
-                population: 60,
-                tournament: 3,
-                crossover_rate: 0.9,
-                half_turn_rate: 0.0,
-                ..GeneticParams::default()
-            },
-            vicinity_range: 4.0,
-            elsewhere: GeneticParams::default(),
-            turn_range: Radians(std::f64::consts::PI),
-            shift_range: 0.5,
-            num_fine_points: 60,
-            num_coarse_points: 100,
-            max_rounds: 40,
-            patience: 8,
-            least_progress: 0.02,
-            seed: 1,
-        }
-    }
-}
+pub use self::{locate::locate_by_icp_ga, params::IcpGaParams};
 
 /// Points on which a round's E is taken.
 const NUM_CHECKED: usize = 1000;
@@ -430,56 +362,3 @@ fn half_turns(turn_range: f64) -> Vec<Genes> {
         (0..3).map(about).collect()
     }
 }
-
-/// The pose of a scene's part by Algorithm 3, from the standard position, that is from no displacement.
-pub fn locate_by_icp_ga(
-    part: &SegmentedPart,
-    reference: &Reference,
-    scene: &SceneCloud,
-    params: &IcpGaParams,
-    is_cancelled: &dyn Fn() -> bool,
-) -> Result<PoseEstimate, PoseError> {
-    let target = reference.target(0).ok_or(PoseError::NoReferenceCloud)?;
-    // The reference's own field answers near its surface only: the confirmation starts from placements.
-    let points = &target.cloud.points;
-    let extent = spanned_axes("target", points)?.variances[0].sqrt();
-    let cell = (2.0 * target.spacing).max(extent / 60.0) as f32;
-    let field = NearestField::new(points, cell, (FAR_OFF * extent) as f32);
-    let target = Target {
-        field: &field,
-        ..target
-    };
-    let source = &part.cloud.points;
-    let run = icp_ga(
-        source,
-        &target,
-        &RigidTransform::identity(),
-        params,
-        is_cancelled,
-    )?;
-    let tolerance = Tolerance {
-        base: Metres::from_mm(10.0),
-        noise_at_1m: part.noise_at_1m,
-    };
-    let measured: Vec<Point3<f32>> = source
-        .iter()
-        .step_by(source.len().div_ceil(NUM_MEASURED).max(1))
-        .copied()
-        .collect();
-    let pose = run.target_from_source;
-    let fit = Fit {
-        sight: look_for(&target, &pose.inverse(), scene, tolerance),
-        ..measure_fit(&measured, &target, &pose, tolerance, SearchBy::Tree)
-    };
-    Ok(PoseEstimate {
-        target_from_source: pose,
-        method: PoseMethod::IcpGa,
-        stopped: run.stopped,
-        iterations: run.iterations,
-        fit,
-        runner_up: run.runner_up,
-    })
-}
-
-/// Points on which the figures of a fit are taken.
-const NUM_MEASURED: usize = 5000;

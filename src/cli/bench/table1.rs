@@ -1,0 +1,217 @@
+//! `partsight bench table1`: the right half of the paper's Table I.
+
+use std::fmt::Write as _;
+
+use anyhow::Context as _;
+use serde::Serialize;
+
+use super::BenchArgs;
+use crate::{
+    bench::table1::{Attempt, METHODS, Row, TRANSFORMS, table1},
+    cli::{
+        Outcome,
+        console::{Advised as _, Console, Table, advised_error},
+    },
+    files::write_atomically,
+    library::Library,
+    stages::pose::AlignParams,
+};
+
+/// What `--json` writes.
+#[derive(Debug, Serialize)]
+struct Table1File {
+    schema: u32,
+    /// T1..T5, `[θx θy θz x y z]`, radians and metres.
+    transforms: [[f64; 6]; 5],
+    euler_order: &'static str,
+    attempts: Vec<AttemptLine>,
+}
+
+/// A line of `--csv`, an entry of `--json`.
+#[derive(Debug, Serialize)]
+struct AttemptLine {
+    part: String,
+    num_points: usize,
+    transform: String,
+    method: &'static str,
+    e_m2: Option<f64>,
+    rotation_error_deg: Option<f64>,
+    shift_error_mm: Option<f64>,
+    time_ms: f64,
+    iterations: Option<usize>,
+    stopped: Option<&'static str>,
+    reason: Option<String>,
+}
+
+pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let mut library = args.library.load_some(console)?.library;
+    keep_asked_for(&mut library, &args.part)?;
+    console.start_progress(library.references.len() * TRANSFORMS.len());
+    let mut after_row = |_: &Row| console.done();
+    let rows = table1(&library, &AlignParams::default(), &mut after_row, &|| false)?;
+    console.end_progress();
+    show(&rows, console);
+    let lines = || rows.iter().flat_map(attempt_lines);
+    if let Some(path) = &args.json {
+        let file = Table1File {
+            schema: 1,
+            transforms: TRANSFORMS,
+            euler_order: "Rz·Ry·Rx",
+            attempts: lines().collect(),
+        };
+        write_atomically(path, |writer| {
+            serde_json::to_writer_pretty(&mut *writer, &file)?;
+            writeln!(writer)
+        })
+        .advised()
+        .with_context(|| format!("{} was not written", path.display()))?;
+    }
+    if let Some(path) = &args.csv {
+        let text = csv(lines());
+        write_atomically(path, |writer| writer.write_all(text.as_bytes()))
+            .advised()
+            .with_context(|| format!("{} was not written", path.display()))?;
+    }
+    Ok(Outcome::Accepted)
+}
+
+fn keep_asked_for(library: &mut Library, names: &[String]) -> anyhow::Result<()> {
+    let missing = names
+        .iter()
+        .find(|name| library.references.iter().all(|r| r.name != **name));
+    if let Some(name) = missing {
+        let known: Vec<&str> = library.references.iter().map(|r| r.name.as_str()).collect();
+        return Err(advised_error(
+            format!("the library has no part {name}"),
+            format!("Choose from: {}", known.join(", ")),
+        ));
+    }
+    if !names.is_empty() {
+        library.references.retain(|r| names.contains(&r.name));
+    }
+    Ok(())
+}
+
+fn show(rows: &[Row], console: &mut Console) {
+    console.line(
+        &"E in m² (eq. 12) and the true error, from T1..T5 (eq. 15) as R = Rz·Ry·Rx applied to the same points.",
+    );
+    console.line(&"");
+    let mut table = Table::new(&[
+        "part",
+        "T",
+        "ICP: E",
+        "error",
+        "time",
+        "ICP-GA: E",
+        "error",
+        "time",
+        "ended",
+        "global: E",
+        "error",
+        "time",
+    ]);
+    for row in rows {
+        let mut cells = vec![row.part.clone(), format!("T{}", row.transform)];
+        for attempt in &row.attempts {
+            let (e, error, stopped) = match &attempt.found {
+                Ok(found) => (
+                    format!("{:.1e}", found.e_m2),
+                    format!(
+                        "{:.3}° {:.3} mm",
+                        found.error.rotation.degrees(),
+                        found.error.shift.mm()
+                    ),
+                    found.stopped.name().replace('_', " "),
+                ),
+                Err(_) => ("no pose".into(), String::new(), String::new()),
+            };
+            cells.extend([e, error, format!("{:.0} ms", time_ms(attempt))]);
+            if attempt.method == METHODS[1] {
+                cells.push(stopped);
+            }
+        }
+        table.row(cells);
+    }
+    table.show(console);
+    console.line(&"");
+    let mut table = Table::new(&[
+        "method",
+        "E < 1e-6 m²",
+        "within 0.01° and 0.1 mm",
+        "median time",
+        "95 %",
+    ]);
+    for (i, method) in METHODS.iter().enumerate() {
+        let attempts = || rows.iter().map(|row| &row.attempts[i]);
+        let count = |is: fn(&Attempt) -> bool| {
+            format!("{}/{}", attempts().filter(|a| is(a)).count(), rows.len())
+        };
+        let time = |share| {
+            let time = crate::bench::quantile(attempts().map(time_ms), share);
+            time.map_or_else(String::new, |ms| format!("{ms:.0} ms"))
+        };
+        table.row([
+            method.name().to_owned(),
+            count(Attempt::is_below_target),
+            count(Attempt::is_exact),
+            time(0.5),
+            time(0.95),
+        ]);
+    }
+    table.show(console);
+}
+
+fn time_ms(attempt: &Attempt) -> f64 {
+    attempt.time.as_secs_f64() * 1e3
+}
+
+fn attempt_lines(row: &Row) -> impl Iterator<Item = AttemptLine> {
+    row.attempts.iter().map(|attempt| {
+        let found = attempt.found.as_ref().ok();
+        AttemptLine {
+            part: row.part.clone(),
+            num_points: row.num_points,
+            transform: format!("T{}", row.transform),
+            method: attempt.method.name(),
+            e_m2: found.map(|f| f.e_m2),
+            rotation_error_deg: found.map(|f| f.error.rotation.degrees()),
+            shift_error_mm: found.map(|f| f.error.shift.mm()),
+            time_ms: time_ms(attempt),
+            iterations: found.map(|f| f.num_iterations),
+            stopped: found.map(|f| f.stopped.name()),
+            reason: attempt.found.as_ref().err().map(ToString::to_string),
+        }
+    })
+}
+
+fn csv(lines: impl Iterator<Item = AttemptLine>) -> String {
+    let mut text = String::from(
+        "part,num_points,transform,method,e_m2,rotation_error_deg,shift_error_mm,time_ms,iterations,stopped,reason\n",
+    );
+    let number = |x: Option<f64>| x.map_or_else(String::new, |x| format!("{x:e}"));
+    for line in lines {
+        let iterations = line.iterations.map_or_else(String::new, |n| n.to_string());
+        let stopped = line.stopped.unwrap_or_default();
+        // The one cell that may hold a comma; quotes within are doubled.
+        let reason = line
+            .reason
+            .map_or_else(String::new, |r| format!("\"{}\"", r.replace('"', "\"\"")));
+        let AttemptLine {
+            part,
+            num_points,
+            transform,
+            method,
+            time_ms,
+            ..
+        } = line;
+        let [e, rotation, shift] =
+            [line.e_m2, line.rotation_error_deg, line.shift_error_mm].map(number);
+        // Writing to a string cannot fail.
+        let _ = writeln!(
+            text,
+            "{part},{num_points},{transform},{method},{e},{rotation},{shift},{time_ms:.3},{iterations},{stopped},{reason}"
+        );
+    }
+    text
+}
