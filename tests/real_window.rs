@@ -221,7 +221,7 @@ fn the_program_opens_a_file_shows_every_workspace_and_closes_with_code_0() {
     // The same result as at first; the pointer may have moved, times have not.
     assert!(num_different(&again, &first) < 20_000);
 
-    xdotool(&display, &["windowquit", &window]);
+    xdotool(&display, &["key", "ctrl+q"]);
     let until = Instant::now() + PATIENCE;
     let status = loop {
         if let Some(status) = program.0.try_wait().expect("asked") {

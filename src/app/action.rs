@@ -59,6 +59,8 @@ pub enum Action {
     Dismiss(usize),
     /// Show a notice.
     Notify(Notice),
+    /// Close the window.
+    Quit,
     /// Put the pose on the clipboard, row after row.
     CopyPose,
     /// Of the Inspect workspace.
@@ -112,6 +114,8 @@ pub enum Effect {
     ShowDialog(Ask),
     /// Put this on the clipboard.
     CopyText(String),
+    /// Close the window.
+    Close,
     /// All of this.
     Several(Vec<Effect>),
 }
@@ -180,6 +184,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
             }
         }
         Action::Notify(notice) => notify(state, notice),
+        Action::Quit => return Some(Effect::Close),
         Action::CopyPose => return pose_text(state).map(Effect::CopyText),
         Action::Inspect(action) => return inspect::state::apply(state, action),
         Action::Enrol(action) => return enrol::apply(state, action),

@@ -23,7 +23,7 @@ pub(in crate::app) struct Shortcut {
 }
 
 /// The shortcuts of the whole window.
-const SHORTCUTS: [Shortcut; 7] = [
+const SHORTCUTS: [Shortcut; 8] = [
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::Space,
@@ -58,6 +58,13 @@ const SHORTCUTS: [Shortcut; 7] = [
         keys: "T",
         does: "Dark or light",
         action: || Action::SwitchTheme,
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::Q,
+        keys: "Ctrl Q",
+        does: "Close the window",
+        action: || Action::Quit,
     },
     Shortcut {
         modifiers: Modifiers::NONE,

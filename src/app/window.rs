@@ -140,6 +140,7 @@ impl Window {
                 self.dialog.get_or_insert_with(|| Dialog::open(ask, ctx));
             }
             Effect::CopyText(text) => ctx.copy_text(text),
+            Effect::Close => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
             Effect::Several(effects) => {
                 for effect in effects {
                     self.make(effect, ctx);

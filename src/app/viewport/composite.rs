@@ -14,7 +14,7 @@ pub(super) const SHADER: &str = include_str!("composite.wgsl");
 struct Placement {
     origin: [i32; 2],
     is_linear: u32,
-    padding: u32,
+    pixel_side: u32,
 }
 
 /// Bytes of the placement, to be compared with the shader.
@@ -75,12 +75,19 @@ impl Composite {
         }
     }
 
-    /// Says where in the window the picture's top left corner is, physical pixels.
-    pub(super) fn place(&self, queue: &wgpu::Queue, picture: &mut BoundPicture, origin: [i32; 2]) {
+    /// Says where in the window the picture's top left corner is, physical pixels, and how many of them one of the
+    /// picture's is wide and high.
+    pub(super) fn place(
+        &self,
+        queue: &wgpu::Queue,
+        picture: &mut BoundPicture,
+        origin: [i32; 2],
+        pixel_side: u32,
+    ) {
         let placement = Placement {
             origin,
             is_linear: u32::from(self.is_linear),
-            padding: 0,
+            pixel_side,
         };
         if picture.written != Some(placement) {
             queue.write_buffer(&picture.placement, 0, bytemuck::bytes_of(&placement));

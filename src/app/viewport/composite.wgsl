@@ -1,4 +1,4 @@
-// Copies the finished picture into the window, pixel for pixel.
+// Copies the finished picture into the window, pixel for pixel; a coarse one pixel for square.
 
 @group(0) @binding(0) var picture: texture_2d<f32>;
 // The Rust side is `Placement` in composite.rs.
@@ -7,7 +7,8 @@ struct Placement {
     origin: vec2<i32>,
     // 1 if the window wants linear values: the picture holds sRGB ones.
     is_linear: u32,
-    padding: u32,
+    // Pixels of the window along the side of a pixel of the picture.
+    pixel_side: i32,
 }
 @group(0) @binding(1) var<uniform> placement: Placement;
 
@@ -19,7 +20,8 @@ fn vertex_main(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32
 @fragment
 fn fragment_main(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
     let last = vec2<i32>(textureDimensions(picture)) - 1;
-    let pixel = clamp(vec2<i32>(floor(at.xy)) - placement.origin, vec2(0), last);
+    let inside = vec2<i32>(floor(at.xy)) - placement.origin;
+    let pixel = clamp(inside / max(placement.pixel_side, 1), vec2(0), last);
     let colour = textureLoad(picture, pixel, 0);
     if placement.is_linear == 1u {
         let low = colour.rgb / 12.92;

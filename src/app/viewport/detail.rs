@@ -1,4 +1,5 @@
-//! How much of a cloud is drawn while the eye moves: all of it on a device that keeps up, a share on one that does not.
+//! How much is drawn while the eye moves: all points and all pixels on a device that keeps up, a share of them on one
+//! that does not.
 //!
 //! While the view moves, every frame is followed by another at once, so that the time from a picture to the next frame
 //! is what the picture took, however long that is; a hand that pauses is not taken for a slow device. The picture of a
@@ -12,6 +13,12 @@ const SLOW: f32 = 1.0 / 22.0;
 const QUICK: f32 = 1.0 / 40.0;
 /// A view that has not moved for this long, seconds, is at rest.
 const REST: f64 = 0.2;
+
+/// Pixels of the window along the side of a pixel of the picture: where points are left out the device is slow, and a
+/// coarser picture costs a quarter.
+pub(super) fn pixel_side(num_samples: usize) -> u32 {
+    if num_samples < NUM_SAMPLES { 2 } else { 1 }
+}
 
 /// When the frame after this one is needed.
 #[derive(Clone, Copy, Debug, PartialEq)]

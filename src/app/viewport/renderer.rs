@@ -31,7 +31,7 @@ pub(super) struct Frame {
     pub(super) style: ViewStyle,
     /// Logical pixels.
     pub(super) size: ViewSize,
-    /// Physical pixels.
+    /// Of the picture, pixels.
     pub(super) target: [u32; 2],
     /// How many of the [`NUM_SAMPLES`] random samples of each point set are drawn.
     pub(super) num_samples: usize,
@@ -86,12 +86,12 @@ impl ViewRenderer {
         true
     }
 
-    /// Says where in the window the picture goes.
-    pub(super) fn place(&mut self, gpu: &ViewportGpu, origin: [i32; 2]) {
+    /// Says where in the window the picture goes, and how many of its pixels one of the picture is wide.
+    pub(super) fn place(&mut self, gpu: &ViewportGpu, origin: [i32; 2], pixel_side: u32) {
         if let Some(held) = &mut self.held {
             gpu.pipelines()
                 .composite
-                .place(gpu.queue(), &mut held.bound, origin);
+                .place(gpu.queue(), &mut held.bound, origin, pixel_side);
         }
     }
 

@@ -13,7 +13,7 @@ use egui::{
 
 use super::{
     camera::ViewCamera,
-    detail::{MovingDetail, Next},
+    detail::{MovingDetail, Next, pixel_side},
     gpu::{ViewError, ViewportGpu, lock},
     legend,
     measure::{self, Anchor, Measure},
@@ -312,14 +312,18 @@ impl CallbackTrait for PaintView {
         let origin = [pixel(self.rect.min.x), pixel(self.rect.min.y)];
         let end = [pixel(self.rect.max.x), pixel(self.rect.max.y)];
         let most = device.limits().max_texture_dimension_2d as i32;
-        let target = [0, 1].map(|axis| (end[axis] - origin[axis]).clamp(1, most) as u32);
+        let side = pixel_side(self.frame.num_samples);
+        let target = [0, 1].map(|axis| {
+            let pixels = (end[axis] - origin[axis]).clamp(1, most) as u32;
+            pixels.div_ceil(side)
+        });
         let frame = Frame {
             target,
             ..self.frame.clone()
         };
         let mut renderer = lock(&self.renderer);
         renderer.draw(&self.gpu, &frame, encoder);
-        renderer.place(&self.gpu, origin);
+        renderer.place(&self.gpu, origin, side);
         Vec::new()
     }
 
