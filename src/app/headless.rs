@@ -16,6 +16,7 @@ use eframe::{
 use egui::{Event, FullOutput, RawInput, Rect, Vec2};
 
 use super::{
+    action::Action,
     viewport::ViewError,
     window::{Window, WindowOptions},
 };
@@ -151,6 +152,11 @@ impl HeadlessWindow {
             self.frame(Vec::new(), Pace::InStep);
         }
         true
+    }
+
+    /// Does what a person could cause.
+    pub fn act(&mut self, action: Action) {
+        self.window.act(action, &self.ctx);
     }
 
     /// Draws one frame in which this happens.

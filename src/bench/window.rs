@@ -6,7 +6,11 @@ use serde::Serialize;
 use super::speed::quantile;
 use crate::app::{
     WindowOptions,
+    action::Action,
+    align::AlignAction,
+    enrol::EnrolAction,
     headless::{FrameTime, HeadlessWindow, Pace, process_seconds},
+    state::Workspace,
     viewport::ViewError,
 };
 
@@ -26,8 +30,8 @@ pub struct FrameCost {
     pub all_threads_mean_ms: Option<f64>,
     /// From frame to frame with the device waited for, median; `None` where it is not.
     pub paced_p50_ms: Option<f64>,
-    /// Share of the points that was drawn in the last frame, 0..1.
-    pub detail: f64,
+    /// Share of the points that Inspect's view drew in the last frame, 0..1; `None` where it is not in front.
+    pub detail: Option<f64>,
 }
 
 /// What the frames cost, and of what window.
@@ -37,21 +41,22 @@ pub struct WindowCost {
     pub num_points: usize,
     /// Logical pixels.
     pub size: [u32; 2],
-    /// At rest, turning, and turning behind a display.
+    /// Of each kind.
     pub frames: Vec<FrameCost>,
 }
 
 /// The window's size, logical pixels.
 const SIZE: [u32; 2] = [1440, 900];
 
-/// Opens the Inspect workspace without a display and measures `num_frames` frames of each kind.
+/// Opens the window without a display and measures `num_frames` frames of each kind: Inspect at rest and while its view
+/// is turned, then every other workspace with that scene in it while the pointer moves over it.
 pub fn window_cost(num_frames: usize, options: WindowOptions) -> Result<WindowCost, ViewError> {
     let mut window = HeadlessWindow::open(SIZE, options)?;
     window.settle();
     let shown = window.window().state().shown.as_ref();
     let num_points = shown.map_or(0, |shown| shown.inspected.figures.num_points);
     let mut costs = vec![frames(
-        "at rest",
+        "Inspect, at rest",
         &mut window,
         num_frames,
         Pace::Ahead,
@@ -66,8 +71,8 @@ pub fn window_cost(num_frames: usize, options: WindowOptions) -> Result<WindowCo
         modifiers: Modifiers::NONE,
     };
     for (what, pace) in [
-        ("turning", Pace::Ahead),
-        ("turning, each frame waited for", Pace::InStep),
+        ("Inspect, turning", Pace::Ahead),
+        ("Inspect, turning, each frame waited for", Pace::InStep),
     ] {
         window.frame(
             vec![Event::PointerMoved(middle), button(true)],
@@ -81,11 +86,46 @@ pub fn window_cost(num_frames: usize, options: WindowOptions) -> Result<WindowCo
         costs.push(frames(what, &mut window, num_frames, pace, hand));
         window.frame(vec![button(false)], Pace::InStep);
     }
+    costs.extend(other_workspaces(&mut window, num_frames));
     Ok(WindowCost {
         num_points,
         size: SIZE,
         frames: costs,
     })
+}
+
+/// Each as full as a person would have it: a part to enrol, a case under the glass, every method run.
+fn other_workspaces(window: &mut HeadlessWindow, num_frames: usize) -> Vec<FrameCost> {
+    let prepared = [
+        (
+            "Enrol, pointer moving",
+            Workspace::Enrol,
+            Some(Action::Enrol(EnrolAction::TakeShown)),
+        ),
+        ("Compare, pointer moving", Workspace::Compare, None),
+        (
+            "Align, pointer moving",
+            Workspace::Align,
+            Some(Action::Align(AlignAction::Run)),
+        ),
+        ("History, pointer moving", Workspace::History, None),
+    ];
+    let over = |i: usize| {
+        let across = (i as f32 * 0.07).sin() * 0.4 + 0.5;
+        let down = (i as f32 * 0.11).cos() * 0.4 + 0.5;
+        let at = Pos2::new(SIZE[0] as f32 * across, SIZE[1] as f32 * down);
+        vec![Event::PointerMoved(at)]
+    };
+    let measured = prepared.into_iter().map(|(what, workspace, action)| {
+        window.act(Action::GoTo(workspace));
+        window.settle();
+        if let Some(action) = action {
+            window.act(action);
+            window.settle();
+        }
+        frames(what, window, num_frames, Pace::Ahead, over)
+    });
+    measured.collect()
 }
 
 fn frames(
@@ -118,6 +158,7 @@ fn frames(
         busy_p95_ms: busy(0.95),
         all_threads_mean_ms: spent.map(|s| s * 1e3 / num_frames.max(1) as f64),
         paced_p50_ms: whole.filter(|_| pace == Pace::InStep),
-        detail: f64::from(window.window().detail_of_view()),
+        detail: (window.window().state().workspace == Workspace::Inspect)
+            .then(|| f64::from(window.window().detail_of_view())),
     }
 }

@@ -224,7 +224,9 @@ fn frames(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
             "4.0 ms".to_owned(),
             known(frame.all_threads_mean_ms),
             known(frame.paced_p50_ms),
-            format!("{:.0} %", frame.detail * 100.0),
+            frame
+                .detail
+                .map_or_else(|| "-".to_owned(), |share| format!("{:.0} %", share * 100.0)),
         ]);
     }
     table.show(console);

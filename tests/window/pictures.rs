@@ -9,7 +9,7 @@ use eframe::{egui_wgpu::RendererOptions, wgpu::DeviceType};
 use egui::Vec2;
 use egui_kittest::{
     Harness, SnapshotOptions,
-    kittest::{NodeT as _, Queryable as _},
+    kittest::Queryable as _,
     wgpu::{create_render_state, default_wgpu_setup},
 };
 use image::{Rgba, RgbaImage};
