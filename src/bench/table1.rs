@@ -4,10 +4,7 @@
 //! pose is the inverse of `T_k`, and E can reach zero. The paper captured its parts anew; what that changes is noise,
 //! which is measured elsewhere. Our global method stands beside the paper's two.
 
-use std::{
-    f64::consts::PI,
-    time::{Duration, Instant},
-};
+use std::time::{Duration, Instant};
 
 use nalgebra::Point3;
 
@@ -15,32 +12,17 @@ use crate::{
     geometry::{
         cloud::PointCloud,
         principal::principal_axes,
-        rigid::{self, RigidTransform, from_euler_zyx, pose_error},
+        rigid::{self, RigidTransform, pose_error},
     },
     library::Library,
     simulate::PartKind,
     stages::{
-        pose::{AlignParams, PoseError, PoseMethod, Stopped, align_with},
+        pose::{
+            AlignParams, PoseError, PoseMethod, Stopped, align_with, displacements::displacements,
+        },
         reference::Reference,
     },
 };
-
-/// T1..T5 of eq. 15 as `[θx θy θz x y z]`, radians and metres; the angles are read as R = Rz·Ry·Rx.
-pub const TRANSFORMS: [[f64; 6]; 5] = [
-    [0.5 * PI, 0.0, 0.0, 0.8, 0.0, 0.5],
-    [0.5 * PI, 0.0, 0.1 * PI, 0.8, 0.1, 0.5],
-    [0.5 * PI, 0.2 * PI, 0.3 * PI, 0.1, 0.3, 0.1],
-    [0.6 * PI, 0.3 * PI, 0.4 * PI, 0.3, 0.2, 0.4],
-    [0.3 * PI, 0.1 * PI, 0.6 * PI, 0.4, 0.6, 0.3],
-];
-
-/// T1..T5 of eq. 15.
-pub fn transforms() -> [RigidTransform; 5] {
-    TRANSFORMS.map(from_euler_zyx)
-}
-
-/// The methods in the order of the columns: the paper's two, then ours.
-pub const METHODS: [PoseMethod; 3] = [PoseMethod::Icp, PoseMethod::IcpGa, PoseMethod::Global];
 
 /// One part from one of T1..T5.
 #[derive(Clone, Debug, PartialEq)]
@@ -51,7 +33,7 @@ pub struct Row {
     pub transform: usize,
     /// Points of the part, source and target alike.
     pub num_points: usize,
-    /// What each of [`METHODS`] came to.
+    /// What each of [`PoseMethod::ALL`] came to.
     pub attempts: [Attempt; 3],
 }
 
@@ -125,7 +107,7 @@ pub fn table1(
 ) -> Result<Vec<Row>, Cancelled> {
     let mut rows = Vec::new();
     for reference in parts(library) {
-        for (k, transform) in transforms().iter().enumerate() {
+        for (k, transform) in displacements().iter().enumerate() {
             let row = Row {
                 part: reference.name.clone(),
                 transform: k + 1,
@@ -154,7 +136,7 @@ fn attempts(
     let truth = source_from_target.inverse();
     let middle = principal_axes(source.points.iter().map(|p| (p.cast(), 1.0)))
         .map_or(Point3::origin(), |axes| axes.mean);
-    let attempts = METHODS.map(|method| {
+    let attempts = PoseMethod::ALL.map(|method| {
         let params = AlignParams {
             method,
             ..params.clone()
@@ -245,12 +227,12 @@ mod tests {
 
     #[test]
     fn the_transforms_are_those_of_the_paper_in_the_order_zyx() {
-        let [t1, .., t5] = transforms();
+        let [t1, .., t5] = displacements();
         let down = t1 * Point3::new(0.0, 1.0, 0.0);
         assert!((down - Point3::new(0.8, 0.0, 1.5)).norm() < 1e-12, "{down}");
         let (rx, ry, rz) = t5.rotation.euler_angles();
         for (found, expected) in [rx, ry, rz].iter().zip([0.3, 0.1, 0.6]) {
-            assert!((found - expected * PI).abs() < 1e-12);
+            assert!((found - expected * std::f64::consts::PI).abs() < 1e-12);
         }
     }
 }

@@ -5,16 +5,10 @@ use std::f64::consts::PI;
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
-use crate::geometry::rigid::{RigidTransform, from_euler_zyx};
-
-/// T1..T5 of eq. 15: three angles, radians, and a shift, metres.
-const TRANSFORMS: [[f64; 6]; 5] = [
-    [0.5 * PI, 0.0, 0.0, 0.8, 0.0, 0.5],
-    [0.5 * PI, 0.0, 0.1 * PI, 0.8, 0.1, 0.5],
-    [0.5 * PI, 0.2 * PI, 0.3 * PI, 0.1, 0.3, 0.1],
-    [0.6 * PI, 0.3 * PI, 0.4 * PI, 0.3, 0.2, 0.4],
-    [0.3 * PI, 0.1 * PI, 0.6 * PI, 0.4, 0.6, 0.3],
-];
+use crate::{
+    geometry::rigid::{RigidTransform, from_euler_zyx},
+    stages::pose::displacements::DISPLACEMENTS,
+};
 
 /// Largest shift along each axis of a random start, metres: that of T1.
 const RANDOM_SHIFT: f64 = 0.8;
@@ -38,7 +32,7 @@ impl Default for Start {
 
 impl Start {
     /// How many the paper has.
-    pub const NUM_PAPER: usize = TRANSFORMS.len();
+    pub const NUM_PAPER: usize = DISPLACEMENTS.len();
 
     /// What a person calls it.
     pub fn title(self) -> String {
@@ -53,7 +47,7 @@ impl Start {
     pub fn transform(self) -> RigidTransform {
         match self {
             Self::Paper(place) => {
-                let numbers = TRANSFORMS.get(place).copied().unwrap_or_default();
+                let numbers = DISPLACEMENTS.get(place).copied().unwrap_or_default();
                 from_euler_zyx(numbers)
             }
             Self::Custom(transform) => transform,

@@ -7,14 +7,14 @@ use serde::Serialize;
 
 use super::BenchArgs;
 use crate::{
-    bench::table1::{Attempt, METHODS, Row, TRANSFORMS, table1},
+    bench::table1::{Attempt, Row, table1},
     cli::{
         Outcome,
         console::{Advised as _, Console, Table, advised_error},
     },
     files::write_atomically,
     library::Library,
-    stages::pose::AlignParams,
+    stages::pose::{AlignParams, PoseMethod, displacements::DISPLACEMENTS},
 };
 
 /// What `--json` writes.
@@ -46,7 +46,7 @@ struct AttemptLine {
 pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let mut library = args.library.load_some(console)?.library;
     keep_asked_for(&mut library, &args.part)?;
-    console.start_progress(library.references.len() * TRANSFORMS.len());
+    console.start_progress(library.references.len() * DISPLACEMENTS.len());
     let mut after_row = |_: &Row| console.done();
     let rows = table1(&library, &AlignParams::default(), &mut after_row, &|| false)?;
     console.end_progress();
@@ -55,7 +55,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     if let Some(path) = &args.json {
         let file = Table1File {
             schema: 1,
-            transforms: TRANSFORMS,
+            transforms: DISPLACEMENTS,
             euler_order: "Rz·Ry·Rx",
             attempts: lines().collect(),
         };
@@ -127,7 +127,7 @@ fn show(rows: &[Row], console: &mut Console) {
                 Err(_) => ("no pose".into(), String::new(), String::new()),
             };
             cells.extend([e, error, format!("{:.0} ms", time_ms(attempt))]);
-            if attempt.method == METHODS[1] {
+            if attempt.method == PoseMethod::IcpGa {
                 cells.push(stopped);
             }
         }
@@ -142,7 +142,7 @@ fn show(rows: &[Row], console: &mut Console) {
         "median time",
         "95 %",
     ]);
-    for (i, method) in METHODS.iter().enumerate() {
+    for (i, method) in PoseMethod::ALL.iter().enumerate() {
         let attempts = || rows.iter().map(|row| &row.attempts[i]);
         let count = |is: fn(&Attempt) -> bool| {
             format!("{}/{}", attempts().filter(|a| is(a)).count(), rows.len())

@@ -5,6 +5,7 @@
 //! every method.
 
 mod align;
+pub mod displacements;
 pub mod edge_points;
 mod equations;
 pub mod genetic;
