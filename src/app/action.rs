@@ -185,7 +185,14 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         }
         Action::Notify(notice) => notify(state, notice),
         Action::Quit => return Some(Effect::Close),
-        Action::CopyPose => return pose_text(state).map(Effect::CopyText),
+        Action::CopyPose => {
+            let text = pose_text(state)?;
+            notify(
+                state,
+                Notice::done("Copied camera_from_part: four rows of four numbers, metres"),
+            );
+            return Some(Effect::CopyText(text));
+        }
         Action::Inspect(action) => return inspect::state::apply(state, action),
         Action::Enrol(action) => return enrol::apply(state, action),
         Action::Compare(action) => return compare::apply(state, action),
@@ -249,7 +256,9 @@ pub(super) fn inspect_again(state: &mut State) -> Option<Effect> {
         source: SceneSource::AtHand(Arc::clone(&shown.scene), shown.origin.clone()),
         recipe: Arc::clone(&state.recipe),
     };
-    Some(state.begin("Inspecting again", Request::Inspect(request)))
+    let effect = state.begin("Inspecting again", Request::Inspect(request));
+    state.history.repeated = Some(state.generation);
+    Some(effect)
 }
 
 /// Takes in what a thread tells, unless it is about something that nobody waits for any more.
@@ -296,7 +305,7 @@ fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> 
                 Lane::Enrol | Lane::Library => return enrol::hear(state, Err(trouble)),
                 Lane::Compare => return compare::hear(state, Err(trouble)),
                 Lane::Align => return align::hear(state, Err(trouble)),
-                Lane::Inspect => return without_scene(state),
+                Lane::Inspect => without_scene(state),
                 Lane::Write => {}
             }
         }
@@ -304,17 +313,11 @@ fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> 
     None
 }
 
-/// A file that could not be inspected is no recent one; at the start the simulated cell takes its place.
-fn without_scene(state: &mut State) -> Option<Effect> {
-    let Source::File(path) = &state.source else {
-        return None;
-    };
-    state.recent.retain(|known| known != path);
-    if state.shown.is_some() {
-        return None;
+/// A file that could not be inspected is no recent one.
+fn without_scene(state: &mut State) {
+    if let Source::File(path) = &state.source {
+        state.recent.retain(|known| known != path);
     }
-    state.source = Source::default();
-    Some(capture(state))
 }
 
 fn show(state: &mut State, generation: u64, inspected: Arc<Inspected>) {
@@ -448,9 +451,7 @@ mod tests {
         );
         apply(&mut state, done(newer, Err(trouble())));
         assert_eq!(state.notices.len(), 1);
-        // With nothing to show yet, the simulated cell takes the file's place.
-        assert_eq!(state.source, Source::default());
-        assert!(state.generation > newer && state.works.contains_key(&Lane::Inspect));
+        assert!(state.works.is_empty() && state.shown.is_none());
     }
 
     #[test]

@@ -1,18 +1,15 @@
-//! Above the workspaces: the top bar and the notices.
+//! Above the workspaces: the top bar.
 
 use egui::{
-    Align, Button, Frame, Layout, Margin, Panel, Rect, RichText, Sense, Stroke, StrokeKind, Ui,
-    Vec2,
+    Align, Button, Frame, Layout, Margin, Panel, Rect, RichText, Stroke, StrokeKind, Ui, Vec2,
 };
 
 use super::{
     action::{Action, Ask},
-    enrol::EnrolAction,
     shelf::LibraryShown,
     source::{CellChoice, file_name},
-    state::{NoticeKind, Source, StagePanel, State},
+    state::{Source, StagePanel, State},
     theme::{ROUNDING, Theme, font, space},
-    widgets::{Mark, mark},
 };
 
 /// Shows which hand-drawn control has the focus.
@@ -145,20 +142,26 @@ fn settings(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>
     {
         actions.push(Action::SwitchUnits);
     }
-    if let Some(library) = &state.library
-        && ui.available_width() > 300.0
-    {
+    // What is at work, and the way out of it, come first.
+    let has_room = state.work().is_none() || ui.available_width() > 480.0;
+    if let Some(library) = state.library.as_ref().filter(|_| has_room) {
         library_menu(ui, state, library, actions);
     }
+}
+
+fn parts_word(num: usize) -> &'static str {
+    if num == 1 { "part" } else { "parts" }
 }
 
 /// Which library is in use, and others to use.
 fn library_menu(ui: &mut Ui, state: &State, library: &LibraryShown, actions: &mut Vec<Action>) {
     let num = library.parts.len();
-    let text = format!(
-        "{num} parts · {} ▼",
-        shortened(&file_name(&library.path), 20)
-    );
+    let text = if ui.available_width() > 300.0 {
+        let name = shortened(&file_name(&library.path), 20);
+        format!("{num} {} · {name} ▼", parts_word(num))
+    } else {
+        format!("{num} {} ▼", parts_word(num))
+    };
     ui.menu_button(text, |ui| {
         ui.set_min_width(260.0);
         ui.label(RichText::new("Library in use").font(font::heading()));
@@ -197,47 +200,5 @@ fn progress(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>
         }
         (None, None) => shortened(&work.what, 28),
     };
-    ui.label(RichText::new(text).color(theme.weak_text));
-}
-
-/// What a person should know, one line each.
-pub(super) fn notices(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
-    if state.notices.is_empty() {
-        return;
-    }
-    let frame = Frame::new()
-        .fill(theme.control)
-        .inner_margin(Margin::symmetric(14, 4));
-    Panel::top("notices")
-        .resizable(false)
-        .frame(frame)
-        .show(ui, |ui| {
-            for (place, notice) in state.notices.iter().enumerate() {
-                ui.horizontal(|ui| {
-                    ui.set_min_height(space::TARGET);
-                    let (rect, _) = ui.allocate_exact_size(Vec2::splat(20.0), Sense::hover());
-                    let sign = match notice.kind {
-                        NoticeKind::Look => Mark::Look,
-                        NoticeKind::Done | NoticeKind::Undoable => Mark::Good,
-                    };
-                    mark(ui.painter(), rect.center(), 9.0, sign, theme);
-                    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                        if labelled(ui, Button::new("Dismiss"), "Dismiss").clicked() {
-                            actions.push(Action::Dismiss(place));
-                        }
-                        let is_undoable = notice.kind == NoticeKind::Undoable;
-                        if is_undoable && labelled(ui, Button::new("Undo"), "Undo").clicked() {
-                            actions.push(Action::Enrol(EnrolAction::Undo));
-                        }
-                        ui.with_layout(
-                            Layout::left_to_right(Align::Center).with_main_wrap(true),
-                            |ui| {
-                                ui.label(RichText::new(&notice.what).color(theme.text));
-                                ui.label(RichText::new(&notice.advice).color(theme.warning));
-                            },
-                        );
-                    });
-                });
-            }
-        });
+    ui.add(egui::Label::new(RichText::new(text).color(theme.weak_text)).truncate());
 }

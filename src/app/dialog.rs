@@ -1,7 +1,7 @@
 //! The system's file dialogs, asked without waiting for them.
 
 use std::{
-    path::PathBuf,
+    path::{Path, PathBuf},
     pin::Pin,
     sync::Arc,
     task::{Context, Poll, Wake, Waker},
@@ -101,7 +101,7 @@ impl Dialog {
             .poll(&mut Context::from_waker(&self.waker))
             .map(|path| match path {
                 Some(path) => Some(Action::Chosen(self.ask, path)),
-                None if self.opened.elapsed() < TOO_QUICK => Some(Action::Notify(never_opened())),
+                None if self.opened.elapsed() < TOO_QUICK => Some(without_dialog(self.ask)),
                 None => None,
             })
     }
@@ -114,6 +114,42 @@ fn anything_with_points(dialog: rfd::AsyncFileDialog) -> rfd::AsyncFileDialog {
     dialog
         .add_filter("Scenes, clouds and meshes", &endings)
         .add_filter("All files", &["*"])
+}
+
+/// Where nothing can be asked: files to write go to a folder of their own, files to open can be dropped.
+fn without_dialog(ask: Ask) -> Action {
+    let name = match ask {
+        Ask::ReportFolder => "",
+        Ask::HistoryCsv => "inspections.csv",
+        Ask::Picture => "view.png",
+        Ask::Align(AlignAsk::TableFile) => "table1.csv",
+        Ask::Scene
+        | Ask::Library
+        | Ask::CasesFolder
+        | Ask::Part
+        | Ask::Align(AlignAsk::Source | AlignAsk::Target) => return Action::Notify(never_opened()),
+    };
+    let folders = directories::UserDirs::new();
+    let folder = folders.as_ref().map(|folders| {
+        let documents = folders.document_dir();
+        documents.unwrap_or(folders.home_dir()).join("Partsight")
+    });
+    // The folder is made here: what writes a file does not.
+    match folder.map(|folder| std::fs::create_dir_all(&folder).map(|()| folder)) {
+        Some(Ok(folder)) if name.is_empty() => Action::Chosen(ask, folder),
+        Some(Ok(folder)) => Action::Chosen(ask, free(&folder, name)),
+        Some(Err(_)) | None => Action::Notify(never_opened()),
+    }
+}
+
+/// A path of this name in the folder that nothing has yet.
+fn free(folder: &Path, name: &str) -> PathBuf {
+    let (stem, ending) = name.rsplit_once('.').unwrap_or((name, ""));
+    let numbered = (2..1000).map(|number| folder.join(format!("{stem}-{number}.{ending}")));
+    std::iter::once(folder.join(name))
+        .chain(numbered)
+        .find(|path| !path.exists())
+        .unwrap_or_else(|| folder.join(name))
 }
 
 fn never_opened() -> Notice {

@@ -181,7 +181,7 @@ pub(super) fn help(ctx: &egui::Context, state: &State, theme: &Theme, actions: &
             ScrollArea::vertical().max_height(room).show(ui, |ui| {
                 list.show(ui, |ui| {
                     let own = of_workspace(state.workspace).iter();
-                    let named = own.chain(&SHORTCUTS).map(|s| (s.keys, s.does));
+                    let named = SHORTCUTS.iter().chain(own).map(|s| (s.keys, s.does));
                     let of_rail = RAIL_KEYS.into_iter().zip(Workspace::ALL);
                     let of_rail = of_rail.map(|((_, keys), workspace)| (keys, workspace.title()));
                     let of_picture = match state.workspace {

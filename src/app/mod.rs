@@ -24,6 +24,7 @@ pub mod job;
 mod keys;
 pub mod lane;
 mod memory;
+mod notices;
 mod rail;
 pub mod settings;
 pub mod shelf;

@@ -15,13 +15,13 @@ use super::{
     headless::WorkCounts,
     history::HistoryPanel,
     inspect::InspectPanel,
-    job::{Outcome, Request, answer},
+    job::{Outcome, Request, Trouble, answer},
     keys,
     lane::Lane,
     memory::Memory,
-    rail, settings,
+    notices, rail, settings,
     shelf::Shelf,
-    state::{Notice, State, ThemeChoice, Workspace},
+    state::{Notice, Source, State, ThemeChoice, Workspace},
     theme::Theme,
     viewport::{ViewError, ViewportGpu},
     worker::Worker,
@@ -104,6 +104,7 @@ impl Window {
             history: HistoryPanel::new(),
         };
         window.state.notices.extend(trouble.map(Notice::from));
+        window.forget_a_vanished_file();
         window.act(scene.map_or(Action::Capture, Action::Open), ctx);
         Ok(window)
     }
@@ -170,6 +171,21 @@ impl Window {
         self.inspect.detail()
     }
 
+    /// A source that is not there any more gives way to the simulated cell.
+    fn forget_a_vanished_file(&mut self) {
+        if let Source::File(path) = &self.state.source
+            && !path.exists()
+        {
+            let gone = Trouble {
+                what: format!("{} is not there any more", path.display()),
+                advice: "The simulated cell takes its place".into(),
+            };
+            self.state.recent.retain(|known| known != path);
+            self.state.source = Source::default();
+            self.state.notices.push(gone.into());
+        }
+    }
+
     fn install_theme(&mut self, ctx: &egui::Context) {
         if self.installed != Some(self.state.theme) {
             Theme::install(self.state.theme, ctx);
@@ -221,7 +237,6 @@ impl Window {
         let theme = Theme::of(self.state.theme);
         let mut actions = Vec::new();
         bars::top_bar(ui, &self.state, theme, &mut actions);
-        bars::notices(ui, &self.state, theme, &mut actions);
         rail::ui(ui, &self.state, theme, &mut actions);
         let canvas = match self.state.workspace {
             // Its view covers everything: a software driver paints what is beneath all the same.
@@ -243,6 +258,7 @@ impl Window {
             Workspace::Align => self.align.view_has_focus(),
             Workspace::Compare | Workspace::History => false,
         };
+        notices::ui(&ctx, &self.state, theme, &mut actions);
         keys::help(&ctx, &self.state, theme, &mut actions);
         keys::shortcuts(&ctx, &self.state, view_has_focus, &mut actions);
         for action in actions {

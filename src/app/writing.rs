@@ -61,7 +61,7 @@ pub(super) fn answer(request: &WriteRequest) -> Result<Written, Trouble> {
             write_atomically(path, |writer| writer.write_all(text.as_bytes()))
                 .map_err(|error| Trouble::of(&error))?;
             Ok(Written {
-                what: format!("Wrote {}", file_name(path)),
+                what: format!("Wrote {}", path.display()),
                 path: path.clone(),
             })
         }
@@ -118,7 +118,8 @@ mod tests {
             path: path.clone(),
             text: text.clone(),
         });
-        assert_eq!(written.expect("written").what, "Wrote table.csv");
+        let what = written.expect("written").what;
+        assert_eq!(what, format!("Wrote {}", path.display()));
         assert_eq!(std::fs::read_to_string(&path).expect("read"), text);
         let path = folder.path().join("missing").join("table.csv");
         let trouble = answer(&WriteRequest::Text { path, text }).expect_err("refused");

@@ -143,7 +143,7 @@ fn a_cancelled_table_keeps_its_rows_and_a_row_opens() {
     settle(&mut harness);
     let text = std::fs::read_to_string(&path).expect("written");
     assert_eq!(text.lines().count(), 1 + num);
-    harness.get_by_label("Wrote table1.csv");
+    harness.get_by_label(&format!("Wrote {}", path.display()));
 }
 
 #[test]

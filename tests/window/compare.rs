@@ -145,6 +145,45 @@ fn a_case_is_kept_run_and_opened_again_from_its_cell() {
 }
 
 #[test]
+fn what_is_refused_is_said_to_be_so_and_why_and_only_the_judgement_is_good() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_at(SMALL, folder.path());
+    press(&mut harness, "Compare");
+    show(&mut harness, DOOR);
+    harness.get_by_label("accepted · what is it truly?");
+    show(&mut harness, CellChoice::Foreign(ObjectKind::Hood));
+    harness.get_by_label("not accepted · what is it truly?");
+    harness.get_by_label_contains("Not accepted · nearest ");
+    harness.get_by_label_contains("Whether rightly is not known · ");
+    harness.get_by_label_contains("Refused: score 0.");
+    harness.get_by_label_contains(" is below 0.85; the outlines lie ");
+    // Of both matchers, in the smallest window too.
+    harness.get_by_label("paper: ‖A − C‖₁, px² + rad²");
+
+    press(&mut harness, "Choose… ▼");
+    let top_of = |label: &str| harness.get_by_label(label).rect().min.y;
+    let none = ["It is: Not enrolled", "It is: Nothing (empty cell)"].map(top_of);
+    assert!(none[0] < none[1] && none[1] < top_of("It is: Front bumper"));
+    press(&mut harness, "It is: Not enrolled");
+    harness.get_by_label("not accepted, and it is");
+    harness.get_by_label_contains("Not accepted · nearest ");
+    harness.get_by_label_contains("Rightly refused · ");
+    press(&mut harness, "Keep case");
+    keep(&mut harness, CellChoice::Empty, "Nothing (empty cell)");
+    press(&mut harness, "Run all cases");
+    harness.get_by_label("none wrong and accepted");
+    harness.get_by_label("· 2 of 2 right · none wrongly refused");
+    harness.get_by_label("Not enrolled, not accepted: 1, right");
+    press(&mut harness, "Empty cell, not accepted: 1, right");
+    harness.get_by_label("Empty cell, not accepted: 1");
+
+    show(&mut harness, DOOR);
+    press(&mut harness, "Choose… ▼");
+    press(&mut harness, "It is: Fender, left");
+    harness.get_by_label("accepted, but it is");
+}
+
+#[test]
 fn a_changed_parameter_shows_at_once_and_can_be_used_undone_and_reset() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = open(folder.path());

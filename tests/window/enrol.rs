@@ -227,6 +227,96 @@ fn a_part_enrolled_anew_replaces_the_former_one_and_undo_brings_that_back() {
 }
 
 #[test]
+fn what_shall_be_replaced_is_followed_when_renamed_and_forgotten_when_removed() {
+    let library = library();
+    let mut harness = open(library.path());
+    enrol(&mut harness, PartKind::Grille, "Grille");
+    press(&mut harness, "Enrolled: Grille");
+    press(&mut harness, "Enrol anew");
+    harness.get_by_label("Show what shall replace Grille");
+    harness.get_by_label("Replaces Grille");
+    press(&mut harness, "Enrolled: Grille");
+    write(&mut harness, "Title", "Radiator grille");
+    write(&mut harness, "Name", "radiator_grille");
+    press(&mut harness, "Rename");
+    press(&mut harness, "Close");
+    harness.get_by_label("Show what shall replace Radiator grille");
+    press(&mut harness, "Enrolled: Radiator grille");
+    press(&mut harness, "Remove");
+    harness.get_by_label("Show the part to enrol");
+    harness.get_by_label("New part");
+    assert!(state(&harness).enrol.replacing.is_none());
+    press(&mut harness, "Undo");
+    press(&mut harness, "Enrolled: Radiator grille");
+    press(&mut harness, "Enrol anew");
+    press(&mut harness, "Enrol as a new part instead");
+    harness.get_by_label("Show the part to enrol");
+    harness.get_by_label("New part");
+}
+
+#[test]
+fn why_a_part_cannot_be_saved_yet_is_said_beside_the_button() {
+    let library = library();
+    let mut harness = open(library.path());
+    capture(&mut harness, PartKind::Grille, Side::Left);
+    harness.get_by_label("Give it a title first");
+    assert!(harness.get_by_label("Save").accesskit_node().is_disabled());
+    write(&mut harness, "Title", "Grille");
+    assert!(harness.query_by_label("Give it a title first").is_none());
+    assert!(!harness.get_by_label("Save").accesskit_node().is_disabled());
+    write(&mut harness, "Name", "Grille 7");
+    harness.get_by_label("Mend the name first");
+}
+
+#[test]
+fn a_saved_part_is_brought_into_sight_and_marked_among_the_others_by_title() {
+    let library = library();
+    let mut harness = open_at(library.path(), SMALL);
+    press(&mut harness, "Enrol");
+    // By name the first would be the last.
+    let parts = [
+        (PartKind::Grille, "Zed"),
+        (PartKind::Fender, "Bend"),
+        (PartKind::TrunkLid, "Cover"),
+        (PartKind::FrontDoor, "Door"),
+        (PartKind::BackDoor, "Entry"),
+        (PartKind::RadiatorSupport, "Yard"),
+    ];
+    for (kind, title) in parts {
+        enrol(&mut harness, kind, title);
+    }
+    capture(&mut harness, PartKind::FrontBumper, Side::Left);
+    write(&mut harness, "Title", "apron");
+    write(&mut harness, "Name", "zzz_apron");
+    press(&mut harness, "Save");
+    harness.run_steps(60);
+    let left_of = |title: &str| {
+        let label = format!("Enrolled: {title}");
+        harness.get_by_label(&label).rect().min.x
+    };
+    let sorted = ["apron", "Bend", "Cover", "Door", "Entry", "Yard", "Zed"].map(left_of);
+    assert!(sorted.is_sorted(), "{sorted:?}");
+    assert!(sorted[0] >= 0.0, "out of sight: {sorted:?}");
+    let marked = harness.get_by_label("Enrolled: apron");
+    assert_eq!(
+        marked.accesskit_node().value().as_deref(),
+        Some("Just saved")
+    );
+    let other = harness.get_by_label("Enrolled: Zed");
+    assert_eq!(other.accesskit_node().value(), None);
+    press(&mut harness, "Enrolled: Zed");
+    write(&mut harness, "Title", "Zebra");
+    press(&mut harness, "Rename");
+    harness.run_steps(60);
+    let marked = harness.get_by_label("Enrolled: Zebra");
+    assert_eq!(
+        marked.accesskit_node().value().as_deref(),
+        Some("Just renamed")
+    );
+    assert!(marked.rect().max.x <= SMALL.x);
+}
+
+#[test]
 fn a_part_that_is_enrolled_already_is_named_as_hard_to_tell_from() {
     let library = library();
     let mut harness = open(library.path());
@@ -236,6 +326,8 @@ fn a_part_that_is_enrolled_already_is_named_as_hard_to_tell_from() {
     harness.get_by_label("Replace Door");
     capture(&mut harness, PartKind::Fender, Side::Right);
     harness.get_by_label("The two can be told apart");
+    harness.get_by_label_contains("Hardest to tell from Door: 0.");
+    harness.get_by_label_contains(" alike (1 is the same)");
 }
 
 #[test]
@@ -336,6 +428,10 @@ fn a_damaged_part_is_shown_and_can_be_removed() {
     enrol(&mut harness, PartKind::Grille, "Grille");
     std::fs::write(library.path().join("grille").join("part.toml"), "x").expect("written");
     enrol(&mut harness, PartKind::Fender, "Fender");
+    // The notices that lie over the strip, the one about the damaged part among them.
+    while !state(&harness).notices.is_empty() {
+        act(&mut harness, Action::Dismiss(0));
+    }
     press(&mut harness, "Enrolled: grille");
     press(&mut harness, "Remove");
     assert_eq!(names(library.path()), ["fender"]);

@@ -6,6 +6,7 @@ use super::{CompareAction, Front, matrix::truth_title};
 use crate::{
     app::{
         bars::{labelled, shortened},
+        shelf::LibraryShown,
         state::State,
         theme::{Theme, font, space},
         widgets::{Mark, mark},
@@ -15,6 +16,9 @@ use crate::{
 
 /// A bar wider than this has room for a long remark.
 const WIDE: f32 = 800.0;
+
+/// What is asked while nobody said what the case is.
+const ASKED: &str = "what is it truly?";
 
 /// Draws the bar.
 pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<CompareAction>) {
@@ -77,11 +81,11 @@ fn case_menu(ui: &mut Ui, state: &State, acts: &mut Vec<CompareAction>) {
     });
 }
 
-/// "taken for Front door, left, accepted, and is": a sentence that the menu beside it ends.
+/// "taken for Front door, left, accepted, and it is": a sentence that the menu beside it ends, or answers.
 fn verdict(ui: &mut Ui, state: &State, theme: &Theme) {
     let weak = |text: &str| RichText::new(text).color(theme.weak_text);
     let Some(study) = &state.compare.study else {
-        ui.label(weak("is"));
+        ui.label(weak(ASKED));
         return;
     };
     let found = &study.found;
@@ -90,35 +94,36 @@ fn verdict(ui: &mut Ui, state: &State, theme: &Theme) {
             .font(font::body_strong())
             .color(theme.text)
     };
-    ui.label(weak("taken for"));
-    ui.label(strong(match found.part {
-        Some(_) => &study.found_title,
-        None => "nothing",
-    }));
+    let (verb, part) = match (&found.part, found.accepted) {
+        (Some(_), true) => ("taken for", study.found_title.as_str()),
+        (Some(_), false) => ("nearest to", study.found_title.as_str()),
+        (None, _) => ("taken for", "nothing"),
+    };
+    ui.label(weak(verb));
+    ui.label(strong(part));
     let judgement = judged(state);
-    let sign = match judgement {
-        Some(Judgement::WrongAccepted) => Mark::Bad,
-        Some(Judgement::Right) => Mark::Good,
-        None if found.accepted => Mark::Good,
-        Some(Judgement::Refused) | None => Mark::Look,
+    // What was refused, rightly or not, does not look accepted.
+    let sign = if found.accepted && judgement != Some(Judgement::WrongAccepted) {
+        Mark::Good
+    } else {
+        Mark::Bad
     };
     let (rect, _) = ui.allocate_exact_size(Vec2::splat(18.0), Sense::hover());
     mark(ui.painter(), rect.center(), 8.0, sign, theme);
     let word = if found.accepted {
-        "accepted,"
+        "accepted"
     } else {
-        "not accepted,"
+        "not accepted"
     };
-    let word = ui.label(weak(word));
-    if let Some(reason) = &found.reason {
-        word.on_hover_text(format!("{reason}\n{}", study.advice));
+    let asked = match judgement {
+        None => format!("{word} · {ASKED}"),
+        Some(Judgement::Right) => format!("{word}, and it is"),
+        Some(Judgement::WrongAccepted | Judgement::Refused) => format!("{word}, but it is"),
+    };
+    let word = ui.label(weak(&asked));
+    if let Some(refusal) = study.refusal(state.units) {
+        word.on_hover_text(format!("{refusal}\n{}", study.advice));
     }
-    let is_same = match (&state.compare.truth, &found.part) {
-        (Some(Truth::Part(truth)), Some(part)) => truth == part,
-        (Some(Truth::Nothing), None) => true,
-        _ => false,
-    };
-    ui.label(weak(if is_same { "and is" } else { "but is" }));
 }
 
 /// Whether the verdict of the case in front is right, once its truth is known.
@@ -129,6 +134,14 @@ pub(super) fn judged(state: &State) -> Option<Judgement> {
     Some(Judgement::of(truth, &answered))
 }
 
+/// What a truth is called where it is chosen.
+fn chosen_title(truth: &Truth, library: &LibraryShown) -> String {
+    match truth {
+        Truth::Nothing => "Nothing (empty cell)".into(),
+        Truth::Part(_) | Truth::NotEnrolled => truth_title(truth, library),
+    }
+}
+
 fn truth_menu(ui: &mut Ui, state: &State, acts: &mut Vec<CompareAction>) {
     let Some(library) = &state.library else {
         return;
@@ -136,13 +149,19 @@ fn truth_menu(ui: &mut Ui, state: &State, acts: &mut Vec<CompareAction>) {
     let chosen = state.compare.truth.as_ref();
     let title = chosen.map_or_else(
         || "Choose… ▼".to_owned(),
-        |truth| format!("{} ▼", truth_title(truth, library)),
+        |truth| format!("{} ▼", chosen_title(truth, library)),
     );
     menu(ui, &title, "What truly hung before the camera", &mut |ui| {
         let parts = library.parts.iter();
         let parts = parts.map(|part| Truth::Part(part.name.as_str().to_owned()));
-        for truth in parts.chain([Truth::NotEnrolled, Truth::Nothing]) {
-            let title = truth_title(&truth, library);
+        // However many parts there are, what is none of them comes in sight first.
+        let others = [Truth::NotEnrolled, Truth::Nothing];
+        let num_others = others.len();
+        for (place, truth) in others.into_iter().chain(parts).enumerate() {
+            if place == num_others {
+                ui.separator();
+            }
+            let title = chosen_title(&truth, library);
             let response = ui.selectable_label(chosen == Some(&truth), &title);
             // Other lists name the same parts.
             response.widget_info(|| {

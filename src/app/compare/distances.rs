@@ -1,6 +1,6 @@
 //! How far every enrolled part is off, by both matchers; a row compares with its part.
 
-use egui::{Align2, Label, Rect, RichText, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, Rect, RichText, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::{
     CompareAction,
@@ -17,7 +17,9 @@ use crate::{
 
 /// Height of a row.
 const ROW: f32 = 40.0;
-/// A row wider than this has room for both figures.
+/// Height of the line of figures below a name.
+const FIGURES: f32 = 16.0;
+/// A row wider than this has room for the figures beside the name.
 const WIDE: f32 = 270.0;
 
 /// Draws the list.
@@ -41,7 +43,7 @@ pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<Compa
         return;
     };
     ui.spacing_mut().interact_size.y = 0.0;
-    ui.horizontal_wrapped(|ui| {
+    ui.vertical(|ui| {
         let chosen = study.recipe.rank.matcher;
         let small = |text: &str, colour| RichText::new(text).font(font::small()).color(colour);
         let with_sign = |name: &str, matcher| {
@@ -52,9 +54,12 @@ pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<Compa
             }
         };
         let default = with_sign("default: outlines apart", Matcher::Default);
-        ui.add(Label::new(small(&default, theme.first_series)).extend());
-        let paper = with_sign("paper: ‖A − C‖₁", Matcher::Paper);
-        ui.add(Label::new(small(&paper, theme.second_series)).extend());
+        ui.label(small(&default, theme.first_series));
+        let paper = with_sign("paper: ‖A − C‖₁, px² + rad²", Matcher::Paper);
+        let paper = ui.label(small(&paper, theme.second_series));
+        paper.on_hover_text(
+            "The paper's own figure (eq. 11): the differences of the lengths' correlations, in squared pixels, and of the angles', in squared radians, added up",
+        );
     });
     ScrollArea::vertical()
         .id_salt("distances")
@@ -77,7 +82,11 @@ fn row(
     theme: &Theme,
 ) -> bool {
     let is_against = study.against.as_deref() == Some(&distance.part);
-    let size = vec2(ui.available_width() - space::MEDIUM, ROW);
+    let width = ui.available_width() - space::MEDIUM;
+    // Where there is little room the figures stand below the name.
+    let is_wide = width > WIDE;
+    let below = if is_wide { 0.0 } else { FIGURES };
+    let size = vec2(width, ROW + below);
     let (rect, response) = ui.allocate_exact_size(size, Sense::click());
     let outline = distance
         .outline
@@ -87,12 +96,6 @@ fn row(
         let label = format!("Compare with {}: {figures}", distance.title);
         WidgetInfo::selected(egui::Role::Button, true, is_against, label)
     });
-    // Where there is little room the other matcher's figure is on the bar and in the hover text alone.
-    let written = match study.recipe.rank.matcher {
-        _ if rect.width() > WIDE => figures.clone(),
-        Matcher::Default => outline.clone(),
-        Matcher::Paper => format!("{:.2e}", distance.paper),
-    };
     let painter = ui.painter_at(rect);
     if is_against || response.hovered() {
         painter.rect_filled(rect, ROUNDING, theme.control);
@@ -102,19 +105,23 @@ fn row(
         painter.rect_filled(bar, 0.0, theme.accent);
     }
     let inner = rect.shrink2(vec2(8.0, 3.0));
-    let value = painter.text(
-        inner.right_top(),
-        Align2::RIGHT_TOP,
-        &written,
-        font::small(),
-        theme.text,
-    );
+    let (at, anchor) = if is_wide {
+        (inner.right_top(), Align2::RIGHT_TOP)
+    } else {
+        (inner.left_top() + vec2(0.0, 18.0), Align2::LEFT_TOP)
+    };
+    let value = painter.text(at, anchor, &figures, font::small(), theme.text);
+    let end = if is_wide {
+        value.left() - 4.0
+    } else {
+        inner.right()
+    };
     let name = if is_against {
         font::body_strong()
     } else {
         font::body()
     };
-    let room = Rect::from_min_max(rect.min, pos2(value.left() - 4.0, rect.bottom()));
+    let room = Rect::from_min_max(rect.min, pos2(end, rect.bottom()));
     painter
         .with_clip_rect(room.intersect(painter.clip_rect()))
         .text(
@@ -126,7 +133,7 @@ fn row(
         );
     let colours = [theme.first_series, theme.second_series];
     for (place, (share, colour)) in distance.shares.iter().zip(colours).enumerate() {
-        let top = inner.top() + 20.0 + 7.0 * place as f32;
+        let top = inner.top() + 20.0 + below + 7.0 * place as f32;
         let track = Rect::from_min_size(pos2(inner.left(), top), vec2(inner.width(), 5.0));
         painter.rect_filled(track, 2.0, theme.track);
         let filled = vec2(inner.width() * share.clamp(0.0, 1.0), 5.0);
@@ -134,7 +141,7 @@ fn row(
     }
     focus_ring(ui, rect, &response, theme);
     let hover = format!(
-        "Outlines apart {outline} (default) · ‖A − C‖₁ {:.4e} (paper) · score in the end {:.2}",
+        "Outlines apart {outline} (default) · ‖A − C‖₁ {:.4e} px² + rad² (paper) · score in the end {:.2}",
         distance.paper, distance.score
     );
     response.on_hover_text(hover).clicked()

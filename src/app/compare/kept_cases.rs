@@ -116,9 +116,13 @@ fn header(
             num => RichText::new(format!("{num} wrong and accepted")).color(theme.rejected),
         };
         ui.label(wrong.font(font::body_strong()));
+        let refused = match tally.refused {
+            0 => "none".to_owned(),
+            num => num.to_string(),
+        };
         let rest = format!(
-            "· {} of {} right · {} refused",
-            tally.right, tally.total, tally.refused
+            "· {} of {} right · {refused} wrongly refused",
+            tally.right, tally.total
         );
         let mut rest = vec![rest];
         if !run.troubles.is_empty() {
@@ -165,7 +169,7 @@ fn list(
                 let truth = state.library.as_ref().map_or_else(String::new, |shown| {
                     truth_title(&case.meta.about.truth, shown)
                 });
-                case_row(ui, &case.name, &format!("is {truth}"), theme, acts);
+                case_row(ui, &case.name, &format!("it is: {truth}"), theme, acts);
             }
         });
 }
@@ -186,7 +190,7 @@ fn of_cell(
     let (truth, num) = (truth_title(truth, shown), cell.results.len());
     let text = match answer {
         Answered::Part(part) => format!("{truth} taken for {}: {num}", part_title(part, shown)),
-        Answered::NotAccepted => format!("{truth} not accepted: {num}"),
+        Answered::NotAccepted => format!("{truth}, not accepted: {num}"),
     };
     ui.label(RichText::new(text).color(theme.weak_text));
     for result in cell
@@ -274,11 +278,11 @@ fn matrix(ui: &mut Ui, matrix: &Matrix, theme: &Theme, acts: &mut Vec<CompareAct
         let (colour, word) = match cell.judgement {
             Judgement::Right => (theme.accepted, "right"),
             Judgement::WrongAccepted => (theme.rejected, "wrong and accepted"),
-            Judgement::Refused => (theme.warning, "refused"),
+            Judgement::Refused => (theme.warning, "wrongly refused"),
         };
         let label = match &cell.cell.1 {
             Answered::Part(_) => format!("{truth} taken for {answer}: {num}, {word}"),
-            Answered::NotAccepted => format!("{truth} not accepted: {num}, {word}"),
+            Answered::NotAccepted => format!("{truth}, not accepted: {num}, {word}"),
         };
         response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &label));
         painter.rect_filled(rect, ROUNDING, colour.gamma_multiply(0.28));

@@ -72,7 +72,7 @@ pub fn truth_title(truth: &Truth, shown: &LibraryShown) -> String {
     match truth {
         Truth::Part(name) => part_title(name, shown),
         Truth::NotEnrolled => "Not enrolled".into(),
-        Truth::Nothing => "Nothing".into(),
+        Truth::Nothing => "Empty cell".into(),
     }
 }
 

@@ -50,7 +50,7 @@ pub(super) fn ui(ui: &mut Ui, rects: [Rect; 3], state: &State, theme: &Theme) {
             }
             Matcher::Paper => {
                 let (l1, share) = (comparison.l1, comparison.relative_l1);
-                format!("paper: ‖A − C‖₁ {l1:.3e} · {share:.2} of ‖A‖₁")
+                format!("paper: ‖A − C‖₁ {l1:.3e} px² + rad² · {share:.2} of ‖A‖₁")
             }
         };
         Picture::new(ui, rects[2], theme, name, &caption).correlations(comparison, theme);

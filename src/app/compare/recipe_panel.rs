@@ -308,32 +308,39 @@ fn outcome(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<CompareActi
         }
         if let Some(study) = &state.compare.study {
             let found = &study.found;
-            let (title, score) = match (&found.part, found.score) {
-                (Some(_), Some(score)) => (study.found_title.as_str(), format!(" · {score:.2}")),
-                _ => ("No part", String::new()),
-            };
-            let (sign, colour, word) = match (judged(state), found.accepted) {
-                (Some(Judgement::Right), true) => {
-                    (Mark::Good, theme.accepted, "Right and accepted")
+            let title = match (&found.part, found.score) {
+                (Some(_), Some(score)) if found.accepted => {
+                    format!("{} · {score:.2}", study.found_title)
                 }
-                (Some(Judgement::Right), false) => (Mark::Good, theme.accepted, "Rightly refused"),
-                (Some(Judgement::WrongAccepted), _) => {
-                    (Mark::Bad, theme.rejected, "Wrong and accepted")
+                (Some(_), Some(score)) => {
+                    format!("Not accepted · nearest {} {score:.2}", study.found_title)
                 }
-                (Some(Judgement::Refused), _) => (Mark::Look, theme.warning, "Refused"),
-                (None, true) => (Mark::Good, theme.accepted, "Accepted"),
-                (None, false) => (Mark::Look, theme.warning, "Not accepted"),
+                _ => "Not accepted · no part found".into(),
             };
-            ui.horizontal(|ui| {
+            let judgement = judged(state);
+            let (sign, colour) = match (judgement, found.accepted) {
+                (Some(Judgement::WrongAccepted), _) | (_, false) => (Mark::Bad, theme.rejected),
+                (_, true) => (Mark::Good, theme.accepted),
+            };
+            ui.horizontal_top(|ui| {
                 let (rect, _) = ui.allocate_exact_size(Vec2::splat(20.0), Sense::hover());
                 mark(ui.painter(), rect.center(), 9.0, sign, theme);
-                let text = format!("{title}{score}");
-                ui.label(RichText::new(text).font(font::verdict()).color(colour));
+                let text = RichText::new(title).font(font::verdict()).color(colour);
+                ui.add(egui::Label::new(text).wrap());
             });
+            let (word, colour) = match (judgement, found.accepted) {
+                (Some(Judgement::Right), true) => ("Right and accepted", theme.accepted),
+                (Some(Judgement::Right), false) => ("Rightly refused", theme.accepted),
+                (Some(Judgement::WrongAccepted), _) => ("Wrong and accepted", theme.rejected),
+                (Some(Judgement::Refused), _) => ("Wrongly refused", theme.warning),
+                (None, true) => ("Accepted", theme.text),
+                (None, false) => ("Whether rightly is not known", theme.text),
+            };
             let word = format!("{word} · {:.0} ms", study.time_ms);
-            let label = ui.label(RichText::new(word).color(theme.text));
-            if let Some(reason) = &found.reason {
-                label.on_hover_text(format!("{reason}\n{}", study.advice));
+            ui.label(RichText::new(word).color(colour));
+            if let Some(refusal) = study.refusal(state.units) {
+                let text = RichText::new(refusal).font(font::small()).color(theme.text);
+                ui.label(text).on_hover_text(&study.advice);
             }
         }
     });

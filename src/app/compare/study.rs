@@ -4,11 +4,15 @@ use std::sync::Arc;
 
 use super::comparison::Comparison;
 use crate::{
-    app::{job::Trouble, shelf::LibraryShown, shelf::Shelf},
+    app::{
+        job::Trouble,
+        shelf::{LibraryShown, Shelf},
+        state::UnitSystem,
+    },
     cases::{CaseFolder, Found, KeptCase, Truth},
     error::Advice,
     library::Library,
-    pipeline::{self, Inspection, Recipe, Verdict, Watch},
+    pipeline::{self, Inspection, Recipe, Rejection, Verdict, Watch},
     stages::{
         rank::{MatchRanking, Matcher, Query, RankParams, rank},
         scene::SceneCloud,
@@ -73,6 +77,8 @@ pub struct Study {
     pub found: Found,
     /// The found part's name for people.
     pub found_title: String,
+    /// Why it was refused, in figures.
+    pub refused: Option<String>,
     /// What to do if it was not accepted.
     pub advice: String,
     /// Time of the inspection, milliseconds.
@@ -102,6 +108,23 @@ pub struct PartDistance {
     pub shares: [f32; 2],
     /// Its score in the end, 0..1.
     pub score: f64,
+}
+
+impl Study {
+    /// Why it was refused, in one sentence.
+    pub fn refusal(&self, units: UnitSystem) -> Option<String> {
+        let refused = self.refused.as_ref()?;
+        let nearest = self.distances.iter();
+        let mut nearest = nearest.filter(|d| self.found.part.as_ref() == Some(&d.part));
+        let apart = nearest.find_map(|d| d.outline);
+        Some(match apart {
+            Some(metres) => format!(
+                "Refused: {refused}; the outlines lie {} apart",
+                units.length(metres)
+            ),
+            None => format!("Refused: {refused}"),
+        })
+    }
 }
 
 /// Inspects and compares; `None` when cancelled.
@@ -137,6 +160,7 @@ pub fn study(
         camera,
         recipe: Arc::clone(&request.recipe),
         found_title: found.part.as_deref().map(title_of).unwrap_or_default(),
+        refused: refused(&inspection.verdict, &title_of),
         advice: advice(&inspection.verdict),
         time_ms: inspection.timings.total.as_secs_f64() * 1000.0,
         distances: Vec::new(),
@@ -198,6 +222,31 @@ fn against(request: &StudyRequest, found: &Found, library: &Library) -> Option<S
         .or(truth.filter(is_enrolled))
         .or(found.part.as_deref());
     part.map(str::to_owned)
+}
+
+/// The figure that decided.
+fn refused(verdict: &Verdict, title_of: &dyn Fn(&str) -> String) -> Option<String> {
+    Some(match verdict {
+        Verdict::Part { rejected, .. } => match rejected.as_ref()? {
+            Rejection::LowScore {
+                score, threshold, ..
+            } => format!("score {score:.2} is below {threshold:.2}"),
+            Rejection::SmallMargin {
+                other,
+                margin,
+                threshold,
+                ..
+            } => format!(
+                "its lead over {} is {margin:.2}, below {threshold:.2}",
+                title_of(other)
+            ),
+            Rejection::Unconfirmed { .. } => {
+                "the paper's matcher alone cannot tell it from an unknown part".into()
+            }
+            no_pose @ Rejection::NoPose(_) => no_pose.to_string(),
+        },
+        Verdict::NoPart(reason) => reason.to_string(),
+    })
 }
 
 fn advice(verdict: &Verdict) -> String {
@@ -315,6 +364,37 @@ mod tests {
         let empty = studied(&request(CellChoice::Empty));
         assert!(empty.found.part.is_none() && empty.comparison.is_none());
         assert!(empty.found.reason.is_some() && !empty.advice.is_empty());
+        let refusal = empty.refusal(UnitSystem::MillimetresDegrees);
+        assert!(refusal.expect("refused").starts_with("Refused: "));
+    }
+
+    #[test]
+    fn a_refusal_says_the_figure_that_decided_and_how_far_the_outlines_lie_apart() {
+        let door = CellChoice::Part(PartKind::FrontDoor, Side::Left);
+        let accepted = studied(&request(door));
+        assert_eq!(accepted.refusal(UnitSystem::MillimetresDegrees), None);
+        let mut request = request(door);
+        let mut recipe = Recipe::default();
+        recipe.accept.min_score = 1.0;
+        request.recipe = Arc::new(recipe.clone());
+        let study = studied(&request);
+        let apart = study.distances.iter().find(|d| d.part == "front_door");
+        let apart = apart.and_then(|d| d.outline).expect("placed");
+        let units = UnitSystem::MillimetresDegrees;
+        let score = study.found.score.expect("a part");
+        let expected = format!(
+            "Refused: score {score:.2} is below 1.00; the outlines lie {} apart",
+            units.length(apart)
+        );
+        assert_eq!(study.refusal(units), Some(expected));
+        recipe.accept.min_score = 0.0;
+        recipe.accept.min_margin = 1.0;
+        request.recipe = Arc::new(recipe);
+        let refusal = studied(&request).refusal(units).expect("refused");
+        assert!(
+            refusal.starts_with("Refused: its lead over ") && refusal.contains("below 1.00"),
+            "{refusal}"
+        );
     }
 
     #[test]

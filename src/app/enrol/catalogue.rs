@@ -1,12 +1,17 @@
 //! The enrolled parts side by side; a press opens one.
 
-use egui::{Align2, Rect, RichText, ScrollArea, Sense, Stroke, StrokeKind, Ui, pos2, vec2};
+use std::sync::Arc;
+
+use egui::{
+    Align, Align2, Rect, Response, RichText, ScrollArea, Sense, Stroke, StrokeKind, Ui, pos2, vec2,
+};
 
 use super::{EnrolAction, thumbnails::Thumbnails};
 use crate::{
     app::{
         action::Action,
         bars::{focus_ring, shortened},
+        shelf::LibraryShown,
         state::State,
         theme::{ROUNDING, Theme, font, space},
         widgets::{Mark, fitted, mark},
@@ -19,6 +24,15 @@ const CARD: [f32; 2] = [236.0, 84.0];
 /// Letters that fit beside the picture.
 const LETTERS: usize = 18;
 
+/// The strip, and what of the library was prepared for it.
+#[derive(Default)]
+pub(super) struct Catalogue {
+    /// The library, and the places of its parts in the order of their titles.
+    sorted: Option<(Arc<LibraryShown>, Vec<usize>)>,
+    /// The change of the library that was scrolled to.
+    followed: u64,
+}
+
 /// What a card shows.
 struct Shown<'a> {
     name: &'a str,
@@ -26,57 +40,86 @@ struct Shown<'a> {
     below: [String; 2],
     texture: Option<&'a egui::TextureHandle>,
     is_damaged: bool,
+    latest: Option<&'static str>,
 }
 
-/// Draws the strip.
-pub(super) fn ui(
-    ui: &mut Ui,
-    state: &State,
-    thumbnails: &Thumbnails,
-    theme: &Theme,
-    actions: &mut Vec<Action>,
-) {
-    let Some(library) = &state.library else {
-        ui.label(RichText::new("The library is being loaded…").color(theme.weak_text));
-        return;
-    };
-    let num = library.parts.len();
-    let word = if num == 1 { "part" } else { "parts" };
-    let text = match num {
-        0 => "No part is enrolled yet: the first one that is saved appears here".to_owned(),
-        _ => format!("{num} enrolled {word}"),
-    };
-    ui.label(
-        RichText::new(text)
-            .font(font::heading())
-            .color(theme.weak_text),
-    );
-    // A wheel turns it as well.
-    ui.style_mut().always_scroll_the_only_direction = true;
-    ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
-        ui.horizontal(|ui| {
-            for damaged in &library.damaged {
-                let shown = Shown {
-                    name: &damaged.entry,
-                    title: &damaged.entry,
-                    below: ["Damaged".into(), String::new()],
-                    texture: None,
-                    is_damaged: true,
-                };
-                card(ui, &shown, state, theme, actions);
-            }
-            for (place, part) in library.parts.iter().enumerate() {
-                let shown = Shown {
-                    name: part.name.as_str(),
-                    title: part.shown_title(),
-                    below: when(part),
-                    texture: thumbnails.of_part(place),
-                    is_damaged: false,
-                };
-                card(ui, &shown, state, theme, actions);
-            }
+impl Catalogue {
+    /// Sorts the parts when the library is another one.
+    fn sort(&mut self, library: &Arc<LibraryShown>) {
+        let sorted = self.sorted.as_ref();
+        if sorted.is_some_and(|(of, _)| Arc::ptr_eq(of, library)) {
+            return;
+        }
+        let mut order: Vec<usize> = (0..library.parts.len()).collect();
+        order.sort_by_cached_key(|place| library.title(*place).to_lowercase());
+        self.sorted = Some((Arc::clone(library), order));
+    }
+
+    /// Draws the strip.
+    pub(super) fn ui(
+        &mut self,
+        ui: &mut Ui,
+        state: &State,
+        thumbnails: &Thumbnails,
+        theme: &Theme,
+        actions: &mut Vec<Action>,
+    ) {
+        let Some(library) = &state.library else {
+            ui.label(RichText::new("The library is being loaded…").color(theme.weak_text));
+            return;
+        };
+        self.sort(library);
+        let num = library.parts.len();
+        let word = if num == 1 { "part" } else { "parts" };
+        let text = match num {
+            0 => "No part is enrolled yet: the first one that is saved appears here".to_owned(),
+            _ => format!("{num} enrolled {word}"),
+        };
+        ui.label(
+            RichText::new(text)
+                .font(font::heading())
+                .color(theme.weak_text),
+        );
+        let order = self.sorted.as_ref().map_or(&[][..], |(_, order)| order);
+        let is_followed = self.followed == state.enrol.num_changes;
+        // A wheel turns it as well.
+        ui.style_mut().always_scroll_the_only_direction = true;
+        ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
+            ui.horizontal(|ui| {
+                for damaged in &library.damaged {
+                    let shown = Shown {
+                        name: &damaged.entry,
+                        title: &damaged.entry,
+                        below: ["Damaged".into(), String::new()],
+                        texture: None,
+                        is_damaged: true,
+                        latest: None,
+                    };
+                    card(ui, &shown, state, theme, actions);
+                }
+                let parts = order
+                    .iter()
+                    .filter_map(|place| Some((*place, library.parts.get(*place)?)));
+                for (place, part) in parts {
+                    let latest = state.enrol.latest.as_ref();
+                    let latest = latest.filter(|latest| latest.name == part.name);
+                    let shown = Shown {
+                        name: part.name.as_str(),
+                        title: part.shown_title(),
+                        below: when(part),
+                        texture: thumbnails.of_part(place),
+                        is_damaged: false,
+                        latest: latest.map(|latest| latest.what),
+                    };
+                    let response = card(ui, &shown, state, theme, actions);
+                    if latest.is_some() && !is_followed {
+                        response.scroll_to_me(Some(Align::Center));
+                    }
+                }
+            });
         });
-    });
+        self.followed = state.enrol.num_changes;
+    }
 }
 
 /// When it was enrolled, and from what; that of a simulated one matters less than that no camera saw it.
@@ -90,7 +133,13 @@ fn when(part: &PartMeta) -> [String; 2] {
     [at.strftime("%Y-%m-%d").to_string(), seen.to_owned()]
 }
 
-fn card(ui: &mut Ui, shown: &Shown<'_>, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+fn card(
+    ui: &mut Ui,
+    shown: &Shown<'_>,
+    state: &State,
+    theme: &Theme,
+    actions: &mut Vec<Action>,
+) -> Response {
     let (rect, response) = ui.allocate_exact_size(CARD.into(), Sense::click());
     let open = state.enrol.open.as_ref();
     let is_open = open.is_some_and(|open| open.name.as_str() == shown.name);
@@ -100,14 +149,12 @@ fn card(ui: &mut Ui, shown: &Shown<'_>, state: &State, theme: &Theme, actions: &
     } else {
         theme.control
     };
-    let edge = if is_open { theme.accent } else { theme.edge };
-    painter.rect(
-        rect,
-        ROUNDING,
-        fill,
-        Stroke::new(1.0, edge),
-        StrokeKind::Inside,
-    );
+    let edge = match shown.latest {
+        _ if is_open => Stroke::new(1.0, theme.accent),
+        Some(_) => Stroke::new(2.0, theme.accepted),
+        None => Stroke::new(1.0, theme.edge),
+    };
+    painter.rect(rect, ROUNDING, fill, edge, StrokeKind::Inside);
     let picture = Rect::from_min_size(rect.min + vec2(6.0, 6.0), vec2(92.0, rect.height() - 12.0));
     if let Some(texture) = shown.texture {
         let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
@@ -117,10 +164,15 @@ fn card(ui: &mut Ui, shown: &Shown<'_>, state: &State, theme: &Theme, actions: &
         mark(&painter, picture.center(), 14.0, Mark::Look, theme);
     }
     let mut at = pos2(picture.right() + space::SMALL, rect.top() + 9.0);
+    // What became of it stands for the day it was enrolled.
+    let (day, colour) = match shown.latest {
+        Some(what) => (what, theme.accepted),
+        None => (shown.below[0].as_str(), theme.weak_text),
+    };
     for (text, font, colour) in [
         (shown.title, font::body_strong(), theme.text),
         (shown.name, font::small(), theme.weak_text),
-        (&shown.below[0], font::small(), theme.weak_text),
+        (day, font::small(), colour),
         (&shown.below[1], font::small(), theme.weak_text),
     ] {
         let text = shortened(text, LETTERS);
@@ -130,7 +182,9 @@ fn card(ui: &mut Ui, shown: &Shown<'_>, state: &State, theme: &Theme, actions: &
     focus_ring(ui, rect, &response, theme);
     response.widget_info(|| {
         let label = format!("Enrolled: {}", shown.title);
-        egui::WidgetInfo::selected(egui::Role::Button, true, is_open, label)
+        let mut info = egui::WidgetInfo::selected(egui::Role::Button, true, is_open, label);
+        info.current_text_value = shown.latest.map(str::to_owned);
+        info
     });
     if response.gained_focus() {
         response.scroll_to_me(None);
@@ -144,4 +198,5 @@ fn card(ui: &mut Ui, shown: &Shown<'_>, state: &State, theme: &Theme, actions: &
             EnrolAction::Open(name)
         }));
     }
+    response
 }

@@ -33,7 +33,7 @@ pub(super) fn ui(ui: &mut Ui, form: &Form, theme: &Theme) -> Option<Field> {
         let response = ui.add(edit).labelled_by(name.id);
         response.changed().then_some(text)
     };
-    if let Some(title) = line(ui, "Title", "Front door, left", &form.title, 1) {
+    if let Some(title) = line(ui, "Title", "Title, as people call it", &form.title, 1) {
         written = Some(Field::Title(title));
     }
     let hint = "proposed from the title";

@@ -20,7 +20,7 @@ use crate::{
         source::Origin,
         state::State,
         theme::{ROUNDING, Theme, font, space},
-        widgets::{Mark, fitted, heading, row},
+        widgets::{Mark, fitted},
     },
     library::PartName,
     stages::reference::Coverage,
@@ -35,11 +35,8 @@ pub(super) fn ui(
     actions: &mut Vec<Action>,
 ) {
     let Some(draft) = &state.enrol.draft else {
-        ui.label(
-            RichText::new("New part")
-                .font(font::title())
-                .color(theme.text),
-        );
+        let title = what_save_does(state);
+        ui.label(RichText::new(title).font(font::title()).color(theme.text));
         let steps = [
             "1  Capture the part, or open its file",
             "2  See what is kept, and correct it",
@@ -62,10 +59,7 @@ pub(super) fn ui(
         }))
         .show(ui, |ui| buttons(ui, draft, state, theme, actions));
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        let title = match &state.enrol.replacing {
-            Some(name) => format!("Replaces {}", title_of(state, name.as_str())),
-            None => "New part".into(),
-        };
+        let title = what_save_does(state);
         ui.label(RichText::new(title).font(font::verdict()).color(theme.text));
         if state.is_taking_another() {
             let text = RichText::new("Old: another one is on its way");
@@ -82,6 +76,34 @@ pub(super) fn ui(
         }
         fixed(ui, state, theme);
     });
+}
+
+/// The heading: a new part, or one that takes the place of another.
+fn what_save_does(state: &State) -> String {
+    state.replaced_title().map_or_else(
+        || "New part".to_owned(),
+        |title| format!("Replaces {title}"),
+    )
+}
+
+/// The way out of replacing a part.
+pub(super) fn as_new(ui: &mut Ui, actions: &mut Vec<Action>) {
+    let text = "Enrol as a new part instead";
+    if labelled(ui, Button::new(text), text).clicked() {
+        actions.push(Action::Enrol(EnrolAction::ReplaceNone));
+    }
+}
+
+/// Why the draft cannot be saved now, and what is to be done.
+fn unready(draft: &Draft) -> Option<&'static str> {
+    let has_no_words = draft.form.title.is_empty() && draft.form.name.is_empty();
+    match &draft.checked {
+        Some(Err(_)) => Some("Nothing can be saved yet: see above"),
+        _ if has_no_words => Some("Give it a title first"),
+        _ if draft.form.words().is_err() => Some("Mend the name first"),
+        None => Some("What will be stored is not known yet"),
+        Some(Ok(_)) => None,
+    }
 }
 
 /// The picture of what will be stored, and what it is made of.
@@ -171,12 +193,12 @@ fn likeness(ui: &mut Ui, draft: &Draft, state: &State, theme: &Theme, actions: &
         return;
     };
     let title = title_of(state, &likeness.other);
-    heading(ui, theme, "Hardest to tell from");
-    ui.scope(|ui| {
-        // Nothing here is pressed.
-        ui.spacing_mut().interact_size.y = 22.0;
-        row(ui, theme, title, &format!("{:.2}", likeness.score));
-    });
+    let text = format!(
+        "Hardest to tell from {title}: {:.2} alike (1 is the same)",
+        likeness.score
+    );
+    ui.add_space(space::MEDIUM);
+    ui.label(RichText::new(text).color(theme.text));
     if likeness.can_be_told_apart() {
         said(ui, Mark::Good, "The two can be told apart", theme);
         return;
@@ -204,26 +226,23 @@ pub(super) fn fixed(ui: &mut Ui, state: &State, theme: &Theme) {
 }
 
 fn buttons(ui: &mut Ui, draft: &Draft, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
-    if state.enrol.replacing.is_some() {
-        let keep = Button::new("Enrol as a new part instead");
-        if labelled(ui, keep, "Enrol as a new part instead").clicked() {
-            actions.push(Action::Enrol(EnrolAction::ReplaceNone));
-        }
+    let unready = unready(draft);
+    let is_replacing = state.replaced_title().is_some();
+    if is_replacing && state.enrol.replacing.is_some() {
+        as_new(ui, actions);
     }
-    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+    let size = vec2(ui.available_width(), 44.0);
+    ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
         ui.set_min_height(44.0);
         if labelled(ui, Button::new("Discard"), "Discard").clicked() {
             actions.push(Action::Enrol(EnrolAction::Discard));
         }
-        let library = state.library.as_deref();
-        let is_replacing = library.is_some_and(|library| draft.form.namesake(library).is_some());
         let text = match (state.is_changing_library(), is_replacing) {
             (true, _) => "Saving…",
             (false, true) => "Save and replace",
             (false, false) => "Save",
         };
-        let is_ready = draft.ready().is_some() && draft.form.words().is_ok();
-        ui.add_enabled_ui(is_ready && !state.is_changing_library(), |ui| {
+        ui.add_enabled_ui(unready.is_none() && !state.is_changing_library(), |ui| {
             let key = RichText::new("Ctrl S").font(font::small());
             let save = RichText::new(text).font(font::body_strong());
             let button = Button::new(save.color(theme.on_accent))
@@ -239,4 +258,7 @@ fn buttons(ui: &mut Ui, draft: &Draft, state: &State, theme: &Theme, actions: &m
             }
         });
     });
+    if let Some(reason) = unready {
+        ui.label(RichText::new(reason).color(theme.warning));
+    }
 }

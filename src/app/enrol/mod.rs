@@ -22,7 +22,8 @@ use egui::{
 };
 
 use self::{
-    draft::Draft, picture::PicturePane, state::Panes, thumbnails::Thumbnails, view::DraftView,
+    catalogue::Catalogue, draft::Draft, picture::PicturePane, state::Panes, thumbnails::Thumbnails,
+    view::DraftView,
 };
 pub(super) use self::{state::take, work::answer};
 pub use self::{
@@ -31,7 +32,6 @@ pub use self::{
 };
 use super::{
     action::Action,
-    bars::labelled,
     keys::Shortcut,
     lane::Lane,
     state::State,
@@ -74,6 +74,7 @@ pub(super) struct EnrolPanel {
     view: DraftView,
     picture: PicturePane,
     thumbnails: Thumbnails,
+    catalogue: Catalogue,
 }
 
 impl EnrolPanel {
@@ -82,6 +83,7 @@ impl EnrolPanel {
             view: DraftView::new(gpu),
             picture: PicturePane::default(),
             thumbnails: Thumbnails::default(),
+            catalogue: Catalogue::default(),
         }
     }
 
@@ -113,7 +115,8 @@ impl EnrolPanel {
             .resizable(false)
             .frame(panel(Margin::symmetric(14, 8)))
             .show(ui, |ui| {
-                catalogue::ui(ui, state, &self.thumbnails, theme, actions);
+                self.catalogue
+                    .ui(ui, state, &self.thumbnails, theme, actions);
             });
         match &state.enrol.draft {
             Some(draft) => self.draft(ui, draft, state, theme, actions),
@@ -182,9 +185,9 @@ fn empty(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
             ui.label(text.font(font::verdict()).color(theme.weak_text));
             return;
         }
-        let replaced = state.enrol.replacing.as_ref();
+        let replaced = state.replaced_title();
         let title = match replaced {
-            Some(name) => format!("Show what shall replace {}", title_of(state, name.as_str())),
+            Some(title) => format!("Show what shall replace {title}"),
             None => "Show the part to enrol".to_owned(),
         };
         ui.label(RichText::new(title).font(font::title()).color(theme.text));
@@ -206,9 +209,8 @@ fn empty(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
                 actions.push(Action::Enrol(EnrolAction::TakeShown));
             }
         }
-        if replaced.is_some() && labelled(ui, Button::new("Replace none"), "Replace none").clicked()
-        {
-            actions.push(Action::Enrol(EnrolAction::ReplaceNone));
+        if replaced.is_some() {
+            form::as_new(ui, actions);
         }
     });
 }

@@ -30,6 +30,10 @@ pub struct EnrolState {
     pub num_drafts: u64,
     /// The enrolled part that the draft, or the next one, replaces.
     pub replacing: Option<PartName>,
+    /// The part that the last change of the library left there.
+    pub latest: Option<Latest>,
+    /// How many changes of the library there were.
+    pub num_changes: u64,
     /// The enrolled part that is looked at.
     pub open: Option<OpenPart>,
     /// What a box in the picture does.
@@ -51,6 +55,15 @@ pub struct OpenPart {
     pub name: PartName,
     /// What it is called, as a person writes it.
     pub form: Form,
+}
+
+/// The part that the last change of the library left there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Latest {
+    /// The part.
+    pub name: PartName,
+    /// What became of it, in words.
+    pub what: &'static str,
 }
 
 /// What is shown of the draft.
@@ -123,6 +136,16 @@ pub enum EnrolAction {
 }
 
 impl State {
+    /// The name for people of the enrolled part that the draft, or the next one, replaces.
+    pub fn replaced_title(&self) -> Option<&str> {
+        let library = self.library.as_ref()?;
+        let name = match &self.enrol.draft {
+            Some(draft) => &draft.form.name,
+            None => self.enrol.replacing.as_ref()?.as_str(),
+        };
+        library.place_of(name).map(|place| library.title(place))
+    }
+
     /// True while the draft is not the one that was asked for last.
     pub fn is_taking_another(&self) -> bool {
         let work = self.works.get(&Lane::Enrol);
@@ -153,7 +176,15 @@ pub fn apply(state: &mut State, action: EnrolAction) -> Option<Effect> {
         EnrolAction::Reset => return correct(state, |corrections| corrections.edits.clear()),
         EnrolAction::BoxMode(mode) => state.enrol.box_mode = mode,
         EnrolAction::Panes(panes) => state.enrol.panes = panes,
-        EnrolAction::Write(field) => state.enrol.draft.as_mut()?.form.write(field),
+        EnrolAction::Write(field) => {
+            let form = &mut state.enrol.draft.as_mut()?.form;
+            form.write(field);
+            // Under another name it is another part.
+            state
+                .enrol
+                .replacing
+                .take_if(|name| name.as_str() != form.name);
+        }
         EnrolAction::LookAgain => return select(state),
         EnrolAction::Save => return save(state),
         EnrolAction::Discard => {

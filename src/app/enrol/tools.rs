@@ -147,8 +147,12 @@ pub(super) fn segments(ui: &mut Ui, draft: &Draft, actions: &mut Vec<Action>) {
                         num if num < segment.num_points => ("partly kept", Fate::Dropped),
                         _ => ("kept", Fate::Dropped),
                     };
-                    let num_points = grouped(segment.num_points);
-                    let text = format!("{} · {num_points} · {word}", segment.title);
+                    let all = grouped(segment.num_points);
+                    let text = if word == "partly kept" {
+                        format!("{} · {} of {all} kept", segment.title, grouped(num_kept))
+                    } else {
+                        format!("{} · {all} · {word}", segment.title)
+                    };
                     let label = format!("{}, {word}", segment.title);
                     let response = choice(ui, &text, &label, num_kept > 0, true);
                     if response.gained_focus() {

@@ -6,7 +6,7 @@ use super::{
     change::{Changed, LibraryChange},
     draft::Draft,
     selection::Corrections,
-    state::{open, select},
+    state::{Latest, open, select, words_of},
     work::EnrolRequest,
 };
 use crate::app::{
@@ -129,6 +129,16 @@ pub(super) fn changed_library(state: &mut State, changed: Changed) -> Option<Eff
     let (way, mut step) = state.enrol.pending.take()?;
     use_library(state, &library);
     withdraw_offers(state);
+    follow_replaced(state, &step.change);
+    state.enrol.num_changes += 1;
+    state.enrol.latest = name.clone().map(|name| Latest {
+        name,
+        what: match &step.change {
+            LibraryChange::Rename(..) => "Just renamed",
+            LibraryChange::Restore(_) => "Just brought back",
+            LibraryChange::Save(..) | LibraryChange::Remove(_) => "Just saved",
+        },
+    });
     step.change = back;
     let notice = match way {
         Way::First => {
@@ -160,6 +170,24 @@ pub(super) fn changed_library(state: &mut State, changed: Changed) -> Option<Eff
     let again = inspect_again(state, saved.as_deref());
     let select = select(state);
     Some(Effect::Several(again.into_iter().chain(select).collect()))
+}
+
+/// The part to be replaced may be called otherwise now, or be gone.
+fn follow_replaced(state: &mut State, made: &LibraryChange) {
+    let Some(replaced) = state.enrol.replacing.clone() else {
+        return;
+    };
+    if let LibraryChange::Rename(before, words) = made
+        && *before == replaced
+    {
+        state.enrol.replacing = Some(words.name.clone());
+        if let Some(draft) = &mut state.enrol.draft {
+            draft.form.name = words.name.to_string();
+            draft.form.title.clone_from(&words.title);
+        }
+    } else if words_of(state, &replaced).is_none() {
+        state.enrol.replacing = None;
+    }
 }
 
 /// Inspects what was saved, else the scene in front, by the library as it is now.

@@ -36,6 +36,8 @@ pub struct HistoryState {
     listed: Vec<u64>,
     /// Number of the row that is looked at.
     pub selected: Option<u64>,
+    /// The request whose result is no inspection of its own: the scene in front with something else changed.
+    pub(in crate::app) repeated: Option<u64>,
     /// A row that is being inspected again to be opened: generation of the request, number of the row.
     reopening: Option<(u64, u64)>,
 }
@@ -144,10 +146,13 @@ impl PastInspection {
             origin: inspected.origin.clone(),
             scene: inspected.origin.title(),
             verdict,
-            title: match (&part, best) {
-                (Some(_), Some(best)) => best.title.clone(),
-                (Some(part), None) => part.clone(),
-                (None, _) => "No part".into(),
+            title: match (verdict, best) {
+                (PastVerdict::Accepted, Some(best)) => best.title.clone(),
+                (PastVerdict::NotAccepted, Some(best)) => {
+                    format!("Not recognised · nearest {}", best.title)
+                }
+                (PastVerdict::NoPart, _) => "No part".into(),
+                (_, None) => part.clone().unwrap_or_default(),
             },
             part,
             complaint,
@@ -342,6 +347,10 @@ fn inspect_again(state: &mut State, number: u64) -> Option<Effect> {
 /// Takes in a new result; true if it is a past one that was asked for again.
 pub fn take_in(state: &mut State, generation: u64, inspected: &Arc<Inspected>) -> bool {
     let history = &mut state.history;
+    if history.repeated == Some(generation) {
+        history.repeated = None;
+        return false;
+    }
     let reopened = history.reopening.filter(|(of, _)| *of == generation);
     let Some((_, number)) = reopened else {
         history.add(inspected);

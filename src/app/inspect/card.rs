@@ -28,6 +28,8 @@ const LOW: f32 = 800.0;
 /// What the card says first.
 struct Headline {
     title: String,
+    /// The part that comes nearest, where none is accepted.
+    nearest: Option<String>,
     is_accepted: bool,
     /// Why not, and what to do.
     complaint: Option<(String, String)>,
@@ -38,14 +40,26 @@ impl Headline {
         match &inspected.inspection.verdict {
             Verdict::Part { part, rejected, .. } => {
                 let best = inspected.figures.candidates.first();
-                Self {
-                    title: best.map_or_else(|| part.clone(), |best| best.title.clone()),
-                    is_accepted: rejected.is_none(),
-                    complaint: rejected.as_ref().map(|r| (r.to_string(), r.advice())),
+                let nearest = best.map_or_else(|| part.clone(), |best| best.title.clone());
+                match rejected {
+                    None => Self {
+                        title: nearest,
+                        nearest: None,
+                        is_accepted: true,
+                        complaint: None,
+                    },
+                    // No name in large letters that is not certain.
+                    Some(reason) => Self {
+                        title: "Not recognised".into(),
+                        nearest: Some(nearest),
+                        is_accepted: false,
+                        complaint: Some((reason.to_string(), reason.advice())),
+                    },
                 }
             }
             Verdict::NoPart(reason) => Self {
                 title: "No part".into(),
+                nearest: None,
                 is_accepted: false,
                 complaint: Some((reason.to_string(), reason.advice())),
             },
@@ -124,7 +138,8 @@ fn ways_on(ui: &mut Ui, pose: Option<&PoseEstimate>, theme: &Theme, actions: &mu
             let gaps = ui.spacing().item_spacing.x * (num - 1) as f32;
             let size = vec2((ui.available_width() - gaps) / num as f32, space::TARGET);
             for (label, says, action) in ways.into_iter().take(num) {
-                let button = ui.add(Button::new(label).min_size(size));
+                let text = RichText::new(label).font(font::small());
+                let button = ui.add(Button::new(text).min_size(size));
                 focus_ring(ui, button.rect, &button, theme);
                 if button.on_hover_text(says).clicked() {
                     actions.push(action());
@@ -150,6 +165,9 @@ fn verdict(ui: &mut Ui, headline: &Headline, theme: &Theme) {
         mark(ui.painter(), rect.center(), 9.0, sign, theme);
         ui.label(RichText::new(word).font(font::verdict()).color(colour));
     });
+    if let Some(nearest) = &headline.nearest {
+        ui.label(RichText::new(format!("Nearest: {nearest}")).color(theme.weak_text));
+    }
     if let Some((reason, advice)) = &headline.complaint {
         ui.add_space(space::SMALL);
         ui.label(RichText::new(sentence(reason)).color(theme.text));

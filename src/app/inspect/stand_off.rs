@@ -52,7 +52,7 @@ fn figures(
         units.angle(found.mean_angle.0),
         units.angle(found.worst_angle.0)
     );
-    row(ui, theme, "off the normal", &pair);
+    row(ui, theme, "angle", &pair);
     let (sign, text, colour) = if found.keeps_the_band() {
         (Mark::Good, "The path can run as taught", theme.accepted)
     } else {

@@ -16,7 +16,7 @@ use crate::{
     error::Advice,
     files::FileWarning,
     library::LibraryError,
-    pipeline::{self, Inspection, Recipe, Watch},
+    pipeline::{self, Inspection, Recipe, Verdict, Watch},
     report::stand_off::{StandOff, StandOffError, stand_off},
     stages::scene::SceneCloud,
 };
@@ -54,7 +54,7 @@ pub struct Inspected {
     /// Signed distance of every point of the scene to the best reference at its pose, metres; NaN where there is
     /// none, empty without a pose.
     pub deviations: Vec<f32>,
-    /// The nozzle's stand-off over the best reference at its pose; `None` without a pose.
+    /// The nozzle's stand-off over the best reference at its pose; `None` where none is accepted.
     pub stand_off: Option<Result<StandOff, StandOffError>>,
     /// What the 3-D view shows.
     pub view: SceneFigure,
@@ -110,7 +110,10 @@ pub fn inspect(
     });
     let middle = bounds.map(|(low, high)| nalgebra::center(&low, &high).cast());
     let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
-    let stand_off = best.zip(pose).map(|(reference, pose)| {
+    let is_accepted = matches!(inspection.verdict, Verdict::Part { rejected: None, .. });
+    // Nothing is sprayed at what was not recognised.
+    let sprayed = best.zip(pose).filter(|_| is_accepted);
+    let stand_off = sprayed.map(|(reference, pose)| {
         stand_off(
             reference,
             &pose.camera_from_part(),
@@ -145,10 +148,7 @@ pub fn inspect(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        app::source::CellChoice,
-        pipeline::{Unwatched, Verdict},
-    };
+    use crate::{app::source::CellChoice, pipeline::Unwatched};
 
     #[test]
     fn a_captured_frame_comes_back_inspected() {

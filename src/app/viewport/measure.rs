@@ -33,6 +33,15 @@ impl Measure {
         Some(Metres(f64::from(a.distance(b))))
     }
 
+    /// What a person is to do next; nothing once there is a distance.
+    pub(super) fn next_step(&self) -> Option<&'static str> {
+        match self.points {
+            [None, _] => Some("Measure: click a point of the cloud"),
+            [Some(_), None] => Some("Measure: click a second point"),
+            [Some(_), Some(_)] => None,
+        }
+    }
+
     /// Draws points, line and distance over the view.
     pub(super) fn ui(&self, painter: &Painter, rect: Rect, camera: &ViewCamera, style: &ViewStyle) {
         let colours = &style.colours;
@@ -108,9 +117,15 @@ mod tests {
         let mut measure = Measure::default();
         measure.add(Vec3::ZERO);
         assert_eq!(measure.distance(), None);
+        assert!(
+            measure
+                .next_step()
+                .is_some_and(|next| next.contains("second"))
+        );
         measure.add(Vec3::new(0.3, 0.4, 0.0));
         let distance = measure.distance().expect("two points");
         assert!((distance.mm() - 500.0).abs() < 1e-3);
+        assert_eq!(measure.next_step(), None);
         measure.add(Vec3::ONE);
         assert_eq!(measure.distance(), None);
     }

@@ -258,6 +258,12 @@ impl Viewport {
             }
         }
         self.measure.ui(&painter, rect, camera, style);
+        if self.tool == ViewTool::Measure
+            && let Some(next) = self.measure.next_step()
+        {
+            let at = rect.center_bottom() - egui::vec2(0.0, 44.0);
+            measure::plate(&painter, at, next, style, Anchor::Middle);
+        }
         legend::ui(&painter, rect, scene, style);
     }
 }
