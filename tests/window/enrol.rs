@@ -247,6 +247,10 @@ fn what_shall_be_replaced_is_followed_when_renamed_and_forgotten_when_removed() 
     harness.get_by_label("New part");
     assert!(state(&harness).enrol.replacing.is_none());
     press(&mut harness, "Undo");
+    // The notices of all that lie over the parts.
+    while !state(&harness).notices.is_empty() {
+        act(&mut harness, Action::Dismiss(0));
+    }
     press(&mut harness, "Enrolled: Radiator grille");
     press(&mut harness, "Enrol anew");
     press(&mut harness, "Enrol as a new part instead");

@@ -43,26 +43,34 @@ pub(crate) fn settle(harness: &mut WindowHarness) {
         let is_behind = state.workspace == Workspace::Compare && state.is_compare_behind();
         state.works.is_empty() && !is_behind
     });
-    harness.run_steps(3);
+    harness.run_steps(8);
     // Wherever a test comes by: nothing to be pressed or filled in without a name.
     harness.check_accessibility();
 }
 
 /// Draws until the state is so.
+///
+/// The window's clock goes on for what moves on the screen, then hardly any more: how long the work takes must not
+/// decide which notices still stand.
 pub(crate) fn wait_until(harness: &mut WindowHarness, is_so: impl Fn(&State) -> bool) {
     let until = Instant::now() + Duration::from_mins(3);
+    let moving = (0..20).map(|_| 0.1);
+    let mut ticks = moving.chain(std::iter::repeat(1e-3));
     harness.step();
     while !is_so(harness.state().state()) {
         assert!(Instant::now() < until, "still working after three minutes");
         thread::sleep(Duration::from_millis(5));
+        let time = harness.ctx.input(|input| input.time) + ticks.next().unwrap_or_default();
+        harness.input_mut().time = Some(time);
         harness.step();
     }
+    harness.input_mut().time = None;
 }
 
 /// Presses what has this label, once it is in sight, and waits for what comes of it.
 pub(crate) fn press(harness: &mut WindowHarness, label: &str) {
     harness.get_by_label(label).scroll_to_me();
-    harness.run_steps(30);
+    harness.run_steps(12);
     harness.get_by_label(label).click();
     settle(harness);
 }
