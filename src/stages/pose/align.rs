@@ -3,19 +3,15 @@
 use nalgebra::Point3;
 
 use super::{
-    MIN_POINTS, PoseError, PoseEstimate, PoseMethod,
-    global::{PreparedTarget, starts},
+    PoseError, PoseEstimate, PoseMethod,
+    centred::Centred,
+    global::search,
     icp::{IcpParams, icp},
     icp_ga::{IcpGaParams, icp_ga},
-    refine::Refined,
-    spanned::spanned_axes,
+    prepared::PreparedTarget,
+    refine::{Refined, Target},
 };
-use crate::{
-    geometry::{
-        cloud::PointCloud, nearest::KdTree, principal::PrincipalAxes, rigid::RigidTransform,
-    },
-    units::Metres,
-};
+use crate::geometry::{cloud::PointCloud, rigid::RigidTransform};
 
 /// Parameters of [`align_with`].
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -51,7 +47,7 @@ pub fn align(
 /// Aligns the source to the target: `target_from_source`.
 ///
 /// `initial` is a start; without one the global method searches everywhere, and ICP and ICP-GA begin with no
-/// displacement. `is_cancelled` is asked every few milliseconds once both clouds are prepared.
+/// displacement. `is_cancelled` is asked every few milliseconds once the target is prepared.
 pub fn align_with(
     source: &PointCloud,
     target: &PointCloud,
@@ -60,7 +56,30 @@ pub fn align_with(
     is_cancelled: &dyn Fn() -> bool,
 ) -> Result<PoseEstimate, PoseError> {
     let source = Centred::new("source", source)?;
-    let target = Centred::new("target", target)?;
+    let target = PreparedTarget::new(target)?;
+    align_centred(&source, &target, params, initial, is_cancelled)
+}
+
+/// As [`align_with`], to a target that was prepared before.
+pub fn align_to(
+    source: &PointCloud,
+    target: &PreparedTarget,
+    params: &AlignParams,
+    initial: Option<RigidTransform>,
+    is_cancelled: &dyn Fn() -> bool,
+) -> Result<PoseEstimate, PoseError> {
+    let source = Centred::new("source", source)?;
+    align_centred(&source, target, params, initial, is_cancelled)
+}
+
+fn align_centred(
+    source: &Centred,
+    prepared: &PreparedTarget,
+    params: &AlignParams,
+    initial: Option<RigidTransform>,
+    is_cancelled: &dyn Fn() -> bool,
+) -> Result<PoseEstimate, PoseError> {
+    let target = &prepared.centred;
     let (small, large) = (
         source.extent.min(target.extent),
         source.extent.max(target.extent),
@@ -73,16 +92,16 @@ pub fn align_with(
     let from_origin =
         |start: RigidTransform| target.centring() * start * source.centring().inverse();
     let no_turn = from_origin(RigidTransform::identity());
-    let start = initial.map_or(no_turn, from_origin);
-    let prepared = PreparedTarget::new(&target.points);
+    let start = initial.map(from_origin);
     let mut estimate = match params.method {
         PoseMethod::Icp => {
             let thinned = thinned(&source.points, params.icp.max_source_points);
-            let tree = KdTree::new(&target.points);
+            let Target { cloud, tree, .. } = prepared.target();
+            let start = start.unwrap_or(no_turn);
             let run = icp(
                 &thinned,
-                &target.points,
-                &tree,
+                &cloud.points,
+                tree,
                 &start,
                 &params.icp,
                 is_cancelled,
@@ -98,7 +117,7 @@ pub fn align_with(
             let run = icp_ga(
                 &source.points,
                 &prepared.target(),
-                &start,
+                &start.unwrap_or(no_turn),
                 &params.icp_ga,
                 is_cancelled,
             )?;
@@ -109,13 +128,7 @@ pub fn align_with(
             };
             prepared.estimate(&source.points, refined, PoseMethod::IcpGa, run.runner_up)
         }
-        PoseMethod::Global => {
-            let starts = match initial {
-                Some(_) => vec![start],
-                None => starts(no_turn, &source.axes, &target.axes),
-            };
-            prepared.search(&source.points, &starts, is_cancelled)?
-        }
+        PoseMethod::Global => search(source, prepared, no_turn, start, is_cancelled)?,
     };
     let (back, there) = (target.centring().inverse(), source.centring());
     estimate.in_other_spaces(|pose| back * pose * there);
@@ -130,56 +143,6 @@ fn thinned(points: &[Point3<f32>], most: usize) -> Vec<Point3<f32>> {
 
 /// A cloud whose size is another one's times this is of another thing, or in other units.
 const MOST_DIFFERENT: f64 = 50.0;
-
-/// The points of a cloud about their own middle: far from the origin `f32` would not resolve them.
-struct Centred {
-    points: Vec<Point3<f32>>,
-    middle: Point3<f64>,
-    axes: PrincipalAxes,
-    /// Standard deviation along the widest axis, metres.
-    extent: f64,
-}
-
-impl Centred {
-    fn new(which: &'static str, cloud: &PointCloud) -> Result<Self, PoseError> {
-        let found = cloud.num_finite();
-        if found < MIN_POINTS {
-            return Err(PoseError::TooFewPoints {
-                which,
-                found,
-                needed: MIN_POINTS,
-            });
-        }
-        let (low, high) = cloud.bounds().unwrap_or_default();
-        let middle: Point3<f64> = nalgebra::center(&low.cast::<f64>(), &high.cast::<f64>());
-        let points: Vec<Point3<f32>> = cloud
-            .finite()
-            .map(|(_, p)| (p.cast::<f64>() - middle.coords).cast())
-            .collect();
-        let axes = spanned_axes(which, &points)?;
-        let extent = axes.variances[0].sqrt();
-        // Coordinates come with 24 binary digits: further out than this they are rounded to steps of half a per cent
-        // of the cloud's own size.
-        let farthest = low.coords.amax().max(high.coords.amax());
-        if f64::from(farthest) * f64::from(f32::EPSILON) > 5e-3 * extent {
-            return Err(PoseError::TooFarOut {
-                which,
-                distance: Metres(f64::from(farthest)),
-            });
-        }
-        Ok(Self {
-            points,
-            middle,
-            axes,
-            extent,
-        })
-    }
-
-    /// Takes the cloud's space into that about its middle.
-    fn centring(&self) -> RigidTransform {
-        RigidTransform::translation(-self.middle.x, -self.middle.y, -self.middle.z)
-    }
-}
 
 #[cfg(test)]
 mod tests {

@@ -5,6 +5,7 @@
 //! every method.
 
 mod align;
+mod centred;
 pub mod displacements;
 pub mod edge_points;
 mod equations;
@@ -12,14 +13,17 @@ pub mod genetic;
 mod global;
 pub mod icp;
 pub mod icp_ga;
+mod prepared;
 pub mod quality;
 pub mod refine;
 mod spanned;
+mod starts;
 
 use crate::{geometry::rigid::RigidTransform, units::Metres};
 
 pub use self::{
-    align::{AlignParams, align, align_with},
+    align::{AlignParams, align, align_to, align_with},
+    prepared::PreparedTarget,
     quality::{Fit, Sight},
 };
 
