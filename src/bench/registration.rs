@@ -20,7 +20,7 @@ use crate::{
     },
     simulate::{PartKind, PartModel, Side},
     stages::pose::{
-        AlignParams, Doubt, PoseError, PoseMethod, PreparedTarget, align_to,
+        AlignParams, Doubt, PoseError, PoseMethod, PreparedTarget, Uncertainty, align_to,
         displacements::displacements,
     },
     units::Metres,
@@ -110,6 +110,8 @@ pub struct Found {
     pub error: rigid::PoseError,
     /// Why the pose says that it should not be relied upon.
     pub doubt: Option<Doubt>,
+    /// How far off the pose says that it may be.
+    pub uncertainty: Option<Uncertainty>,
 }
 
 impl Attempt {
@@ -118,6 +120,14 @@ impl Attempt {
         self.found
             .as_ref()
             .is_ok_and(|f| f.error.rotation.degrees() <= 2.0 && f.error.shift.mm() <= 10.0)
+    }
+
+    /// Within the bounds that the pose names.
+    pub fn is_within_bounds(&self) -> bool {
+        self.found.as_ref().is_ok_and(|f| {
+            f.uncertainty
+                .is_some_and(|u| f.error.rotation.0 <= u.turn.0 && f.error.shift.0 <= u.shift.0)
+        })
     }
 
     /// No pose, or one with a doubt.
@@ -149,7 +159,7 @@ pub fn register_all(
     let mut registration = Registration::default();
     for (k, part) in PartKind::ALL.into_iter().enumerate() {
         let model = PartModel::new(part, Side::Left, 0);
-        let target = noisy_sample(model.mesh(), NOISE, setup.seed ^ 0x7a6e);
+        let target = noisy_target(&model, setup.seed);
         let clock = Instant::now();
         let prepared = PreparedTarget::new(&target).expect("a part spans three dimensions");
         registration.preparations.push(clock.elapsed());
@@ -173,6 +183,7 @@ pub fn register_all(
                     found: aligned.map(|pose| Found {
                         error: pose_error(&pose.target_from_source, &target_from_source, &middle),
                         doubt: pose.doubt(),
+                        uncertainty: pose.uncertainty,
                     }),
                 };
                 after_each(&attempt);
@@ -183,8 +194,13 @@ pub fn register_all(
     Ok(registration)
 }
 
+/// What the sources of a part are registered to.
+pub fn noisy_target(model: &PartModel, seed: u64) -> PointCloud {
+    noisy_sample(model.mesh(), NOISE, seed ^ 0x7a6e)
+}
+
 /// A source, and the pose that puts it back.
-fn drawn_source(
+pub fn drawn_source(
     condition: Condition,
     model: &PartModel,
     place: usize,
@@ -234,8 +250,8 @@ fn anywhere(rng: &mut Pcg64) -> RigidTransform {
 
 /// Algorithm 3 and what is left of it without each of its means: what pays?
 pub fn ablation() -> Vec<(String, AlignParams)> {
-    let full = AlignParams::from(PoseMethod::IcpGa);
     type Change = fn(&mut AlignParams);
+    let full = AlignParams::from(PoseMethod::IcpGa);
     let changes: [(&str, Change); 7] = [
         ("icp-ga", |_| {}),
         ("no crossover", |p| {

@@ -6,7 +6,11 @@ use rand_pcg::Pcg64;
 
 use super::NUM_POINTS;
 use crate::{
-    geometry::{cloud::{PointCloud, is_finite}, mesh::TriangleMesh, rigid::RigidTransform},
+    geometry::{
+        cloud::{PointCloud, is_finite},
+        mesh::TriangleMesh,
+        rigid::RigidTransform,
+    },
     simulate::{CellSetup, PartModel, PartPose, Placement, Side, SurfaceLabel, frame_of_mesh},
     stages::scene::scene_from_frame,
     units::{Metres, Radians},
@@ -39,9 +43,7 @@ pub(super) fn hide(cloud: &mut PointCloud, share: f64, seed: u64) {
     let mut rng = Pcg64::seed_from_u64(seed ^ 0x41de);
     let direction = Vector3::from([(); 3].map(|()| normal(&mut rng) as f32));
     let along = |p: &Point3<f32>| p.coords.dot(&direction);
-    cloud
-        .points
-        .sort_by(|a, b| along(a).total_cmp(&along(b)));
+    cloud.points.sort_by(|a, b| along(a).total_cmp(&along(b)));
     let num_kept = (cloud.points.len() as f64 * (1.0 - share)).round() as usize;
     cloud.points.truncate(num_kept);
     cloud.points.shuffle(&mut rng);
@@ -91,9 +93,6 @@ pub(super) fn view(model: &PartModel, seed: u64) -> (PointCloud, RigidTransform)
             .collect();
         points.shuffle(&mut rng);
         points.truncate(NUM_POINTS);
-        return (
-            PointCloud::from_points(points),
-            camera_from_part.inverse(),
-        );
+        return (PointCloud::from_points(points), camera_from_part.inverse());
     }
 }

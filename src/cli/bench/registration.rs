@@ -39,6 +39,8 @@ struct AttemptLine {
     right: bool,
     rotation_error_deg: Option<f64>,
     shift_error_mm: Option<f64>,
+    shift_bound_mm: Option<f64>,
+    turn_bound_deg: Option<f64>,
     /// Why there is no pose, or why it should not be relied upon.
     reason: Option<String>,
 }
@@ -119,6 +121,7 @@ fn show(done: &[(Study, Registration)], console: &mut Console) {
             "right",
             "right or doubted",
             "doubted though right",
+            "within its bounds",
             "median error",
             "median time",
             "95 %",
@@ -143,7 +146,14 @@ fn show(done: &[(Study, Registration)], console: &mut Console) {
                 format!("{}/{num}", count(Attempt::is_right)),
                 format!("{}/{num}", count(|a| a.is_right() || a.is_doubted())),
                 count(|a| a.is_right() && a.is_doubted()).to_string(),
-                error.map_or_else(String::new, |(turn, shift)| format!("{turn:.3}° {shift:.2} mm")),
+                format!(
+                    "{}/{}",
+                    count(|a| a.is_right() && a.is_within_bounds()),
+                    count(Attempt::is_right)
+                ),
+                error.map_or_else(String::new, |(turn, shift)| {
+                    format!("{turn:.3}° {shift:.2} mm")
+                }),
                 time(0.5),
                 time(0.95),
             ]);
@@ -152,7 +162,12 @@ fn show(done: &[(Study, Registration)], console: &mut Console) {
         for kind in PartKind::ALL {
             let wrong = |a: &&Attempt| a.part == kind && !a.is_right();
             let of_first = |a: &&Attempt| a.method == study.methods[0].0;
-            let num = registration.attempts.iter().filter(of_first).filter(wrong).count();
+            let num = registration
+                .attempts
+                .iter()
+                .filter(of_first)
+                .filter(wrong)
+                .count();
             if num > 0 && study.methods.len() == 1 {
                 console.line(&format_args!("  not right: {} {num} times", kind.name()));
             }
@@ -184,6 +199,8 @@ fn lines(study: &Study, registration: &Registration) -> Vec<AttemptLine> {
             right: attempt.is_right(),
             rotation_error_deg: found.map(|f| f.error.rotation.degrees()),
             shift_error_mm: found.map(|f| f.error.shift.mm()),
+            shift_bound_mm: found.and_then(|f| f.uncertainty).map(|u| u.shift.mm()),
+            turn_bound_deg: found.and_then(|f| f.uncertainty).map(|u| u.turn.degrees()),
             reason: failure.or_else(|| found?.doubt.map(|doubt| doubt.to_string())),
         }
     };

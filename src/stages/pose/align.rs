@@ -116,7 +116,7 @@ fn align_centred(
         PoseMethod::IcpGa => {
             let run = icp_ga(
                 &source.points,
-                &prepared.target(),
+                prepared,
                 &start.unwrap_or(no_turn),
                 &params.icp_ga,
                 is_cancelled,

@@ -10,7 +10,7 @@
 //! Known limits: a shift between clouds that share less than about half of their surface is only found if it is small
 //! against their size, since starts put centre on centre.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Translation3, Unit, UnitQuaternion};
 use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
@@ -23,7 +23,12 @@ use super::{
     starts::{all_round, along_axes},
 };
 use crate::{
-    geometry::{principal::PrincipalAxes, rigid::{RigidTransform, pose_error}},
+    geometry::{
+        cloud::PointCloud,
+        principal::{PrincipalAxes, principal_axes},
+        rigid::{RigidTransform, pose_error},
+        voxel::downsample,
+    },
     units::Metres,
 };
 
@@ -31,6 +36,13 @@ use crate::{
 const NUM_SOURCE_POINTS: usize = 2_000;
 /// Trials that are refined on the fine likeness: the best, and two to compare it with.
 const NUM_FINISHED: usize = 3;
+/// A pose is put aside so many times either way, by so many extents of the target each.
+const SLIDES: i32 = 10;
+const SLIDE: f64 = 0.06;
+/// So often at most: each time costs as much as the race.
+const MOST_ROUNDS: usize = 4;
+/// Share of the source that lies on the target where nothing is left to be found elsewhere.
+const COMPLETE: f64 = 0.98;
 /// Principal variances that differ by less than this share are those of the same whole thing.
 const ALIKE: f64 = 0.15;
 /// Principal variances that differ by less than this share leave their axes free to turn into each other.
@@ -92,7 +104,7 @@ pub(super) fn search(
     is_cancelled: &dyn Fn() -> bool,
 ) -> Result<PoseEstimate, PoseError> {
     let search = GlobalSearch::new(source, prepared, is_cancelled);
-    let axes = (&source.axes, &prepared.centred.axes);
+    let axes = (&search.axes, &prepared.axes);
     let mut finished = Vec::new();
     if let Some(start) = start {
         finished = search.finish(search.race([start])?)?;
@@ -100,13 +112,15 @@ pub(super) fn search(
         let near_at_hand = || std::iter::once(no_turn).chain(along_axes(axes.0, axes.1));
         if are_alike(axes.0, axes.1) {
             finished = search.finish(search.race(near_at_hand())?)?;
-            if !finished.first().is_some_and(|best| search.convinces(best)) {
+            let convinces = |best| search.overlap(best) >= CONVINCING;
+            if !finished.first().is_some_and(convinces) {
                 finished.clear();
             }
         }
         if finished.is_empty() {
             let starts = near_at_hand().chain(all_round(axes.0, axes.1));
             finished = search.finish(search.race(starts)?)?;
+            search.put_aside(&mut finished)?;
         }
     }
     search.conclude(finished)
@@ -122,8 +136,10 @@ fn are_alike(a: &PrincipalAxes, b: &PrincipalAxes) -> bool {
 struct GlobalSearch<'a> {
     prepared: &'a PreparedTarget,
     all_points: &'a [Point3<f32>],
+    /// Evenly dense, as the target's coarse likeness: a camera sees what is near it in more points.
+    coarse: Source,
     source: Source,
-    centre: Point3<f64>,
+    axes: PrincipalAxes,
     is_cancelled: &'a dyn Fn() -> bool,
 }
 
@@ -134,16 +150,16 @@ impl<'a> GlobalSearch<'a> {
         is_cancelled: &'a dyn Fn() -> bool,
     ) -> Self {
         let step = source.points.len().div_ceil(NUM_SOURCE_POINTS).max(1);
-        let mut surface: Vec<Point3<f32>> = source.points.iter().step_by(step).copied().collect();
-        surface.shuffle(&mut Pcg64::seed_from_u64(1));
+        let some = source.points.iter().step_by(step).copied().collect();
+        let all = PointCloud::from_points(source.points.iter().copied());
+        let even = downsample(&all, Metres(prepared.coarse_target().spacing)).points;
+        let axes = principal_axes(even.iter().map(|p| (p.cast(), 1.0))).unwrap_or(source.axes);
         Self {
             prepared,
             all_points: &source.points,
-            source: Source {
-                surface,
-                edges: Vec::new(),
-            },
-            centre: source.axes.mean,
+            coarse: shuffled(even),
+            source: shuffled(some),
+            axes,
             is_cancelled,
         }
     }
@@ -164,7 +180,7 @@ impl<'a> GlobalSearch<'a> {
                 max_steps: round.max_steps,
                 search: Search::Field,
             };
-            trials = self.further(trials, &target, &[level], 2.0 * level.scale)?;
+            trials = self.further(trials, &self.coarse, &target, &[level], 2.0 * level.scale)?;
             trials.truncate(4 * round.num_kept);
             trials = self.distinct(trials);
             trials.truncate(round.num_kept);
@@ -176,33 +192,103 @@ impl<'a> GlobalSearch<'a> {
     fn finish(&self, mut trials: Vec<Trial>) -> Result<Vec<Trial>, PoseError> {
         trials.truncate(NUM_FINISHED);
         let (extent, target) = (self.prepared.extent(), self.prepared.target());
-        let finest = self.finest();
+        let finest = self.prepared.finest().scale;
         let levels: Vec<Level> = std::iter::successors(Some(0.03 * extent), |s| Some(s / 2.0))
             .take_while(|scale| *scale > finest)
             .map(|scale| Level {
-                num_surface: 1000,
+                num_surface: 600,
                 num_edges: 0,
                 scale,
-                max_steps: 8,
+                max_steps: 7,
                 search: Search::Field,
             })
             .collect();
         let trials = if levels.is_empty() {
             trials
         } else {
-            self.further(trials, &target, &levels, 0.05 * extent)?
+            self.further(trials, &self.source, &target, &levels, 0.05 * extent)?
         };
         Ok(self.distinct(trials))
     }
 
-    fn finest(&self) -> f64 {
-        (1.5 * self.prepared.spacing()).min(0.1 * self.prepared.extent())
+    /// Tries the best elsewhere, as long as something better is found and there is something to be found.
+    ///
+    /// Half a part lies on a whole one in many places: a sheet slides along itself, the bars of a grille lie on the next
+    /// ones, and both fit nearly as well the other way round.
+    fn put_aside(&self, finished: &mut Vec<Trial>) -> Result<(), PoseError> {
+        for round in 0..MOST_ROUNDS {
+            let Some(best) = finished.first() else {
+                return Ok(());
+            };
+            let before = best.cost;
+            let mut aside = self.slid(&best.refined.target_from_source);
+            if round > 0 {
+                for axis in 0..3 {
+                    aside.extend(self.slid(&self.half_turned(best, axis)));
+                }
+            }
+            aside.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+            let mut aside = self.distinct(aside);
+            aside.truncate(NUM_FINISHED);
+            for trial in &mut aside {
+                trial
+                    .refined
+                    .iterations
+                    .clone_from(&best.refined.iterations);
+            }
+            finished.extend(self.finish(aside)?);
+            finished.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+            *finished = self.distinct(std::mem::take(finished));
+            let best = &finished[0];
+            let is_done = self.overlap(best) >= COMPLETE || (round > 0 && best.cost >= before);
+            if is_done {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// A pose put aside along the target's two longest axes: the cheapest places.
+    fn slid(&self, pose: &RigidTransform) -> Vec<Trial> {
+        let (extent, target) = (self.prepared.extent(), self.prepared.target());
+        let level = Level {
+            num_surface: 120,
+            num_edges: 0,
+            scale: 0.0,
+            max_steps: 0,
+            search: Search::Field,
+        };
+        let axes = &self.prepared.axes.axes;
+        let steps = || (-SLIDES..=SLIDES).map(|i| f64::from(i) * SLIDE * extent);
+        let mut slid: Vec<Trial> = steps()
+            .flat_map(|a| steps().map(move |b| (a, b)))
+            .map(|(a, b)| {
+                let shift = axes.column(0) * a + axes.column(1) * b;
+                let aside = Translation3::from(shift) * pose;
+                let mut trial = Trial::unrefined(aside);
+                trial.cost = cost(&self.source, &target, &aside, &level, 0.04 * extent);
+                trial
+            })
+            .collect();
+        slid.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        slid.truncate(20 * NUM_FINISHED);
+        slid
+    }
+
+    /// The source turned by half a turn about one of the target's axes, its middle where it was.
+    fn half_turned(&self, trial: &Trial, axis: usize) -> RigidTransform {
+        let pose = trial.refined.target_from_source;
+        let middle = pose * self.axes.mean;
+        let about = Unit::new_normalize(self.prepared.axes.axes.column(axis).into_owned());
+        let turn = UnitQuaternion::from_axis_angle(&about, std::f64::consts::PI);
+        Translation3::from(middle.coords) * turn * Translation3::from(-middle.coords) * pose
     }
 
     /// Takes every trial through the levels and sorts them by what they then cost, each distance cut off at `limit`.
     fn further(
         &self,
         mut trials: Vec<Trial>,
+        source: &Source,
         target: &Target<'_>,
         levels: &[Level],
         limit: f64,
@@ -211,18 +297,13 @@ impl<'a> GlobalSearch<'a> {
             if (self.is_cancelled)() {
                 return Err(PoseError::Cancelled);
             }
-            let refined = refine(
-                &self.source,
-                target,
-                &trial.refined.target_from_source,
-                levels,
-            );
+            let refined = refine(source, target, &trial.refined.target_from_source, levels);
             trial.refined.target_from_source = refined.target_from_source;
             trial.refined.stopped = refined.stopped;
             trial.refined.iterations.extend(refined.iterations);
             let level = &levels[levels.len() - 1];
             let pose = &trial.refined.target_from_source;
-            trial.cost = cost(&self.source, target, pose, level, limit);
+            trial.cost = cost(source, target, pose, level, limit);
         }
         trials.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         Ok(trials)
@@ -237,7 +318,7 @@ impl<'a> GlobalSearch<'a> {
                     &k.refined.target_from_source,
                     &trial.refined.target_from_source,
                 );
-                let apart = pose_error(a, b, &self.centre);
+                let apart = pose_error(a, b, &self.axes.mean);
                 apart.rotation.degrees() > 5.0 || apart.shift.0 > 0.1 * self.prepared.extent()
             });
             if is_new {
@@ -247,7 +328,8 @@ impl<'a> GlobalSearch<'a> {
         kept
     }
 
-    fn convinces(&self, trial: &Trial) -> bool {
+    /// Share of the source that lies on the target.
+    fn overlap(&self, trial: &Trial) -> f64 {
         let some = &self.source.surface[..self.source.surface.len().min(500)];
         let tolerance = Tolerance {
             base: Metres(3.0 * self.prepared.spacing()),
@@ -255,7 +337,7 @@ impl<'a> GlobalSearch<'a> {
         };
         let pose = &trial.refined.target_from_source;
         let target = self.prepared.target();
-        measure_fit(some, &target, pose, tolerance, Search::Field).overlap >= CONVINCING
+        measure_fit(some, &target, pose, tolerance, Search::Field).overlap
     }
 
     /// The best, refined to the end.
@@ -266,26 +348,31 @@ impl<'a> GlobalSearch<'a> {
             target_from_source: t.refined.target_from_source,
             ratio: t.cost / best.cost.max(f64::MIN_POSITIVE),
         });
-        let level = Level {
-            num_surface: NUM_SOURCE_POINTS,
-            num_edges: 0,
-            scale: self.finest(),
-            max_steps: 40,
-            search: Search::Tree,
-        };
+        let finest = self.prepared.finest();
+        // Most of the way on a third of the points.
+        let levels = [
+            Level {
+                num_surface: finest.num_surface / 3,
+                ..finest
+            },
+            finest,
+        ];
         let best = self
-            .further(vec![best], &self.prepared.target(), &[level], 1.0)?
+            .further(
+                vec![best],
+                &self.source,
+                &self.prepared.target(),
+                &levels,
+                1.0,
+            )?
             .remove(0);
         let num_pairs = best.refined.iterations.last().map_or(0, |i| i.num_pairs);
         if num_pairs < MIN_POINTS {
             return Err(self.no_overlap(num_pairs));
         }
-        Ok(self.prepared.estimate(
-            self.all_points,
-            best.refined,
-            PoseMethod::Global,
-            runner_up,
-        ))
+        Ok(self
+            .prepared
+            .estimate(self.all_points, best.refined, PoseMethod::Global, runner_up))
     }
 
     fn no_overlap(&self, found: usize) -> PoseError {
@@ -294,6 +381,15 @@ impl<'a> GlobalSearch<'a> {
             needed: MIN_POINTS,
             reach: Metres(0.5 * self.prepared.extent()),
         }
+    }
+}
+
+/// Any first n of the points are spread over the source.
+fn shuffled(mut surface: Vec<Point3<f32>>) -> Source {
+    surface.shuffle(&mut Pcg64::seed_from_u64(1));
+    Source {
+        surface,
+        edges: Vec::new(),
     }
 }
 

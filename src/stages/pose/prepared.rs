@@ -7,11 +7,16 @@ use super::{
     centred::Centred,
     edge_points::EdgePoints,
     quality::{Tolerance, measure_fit},
-    refine::{Refined, Search, Target},
+    refine::{Level, Refined, Search, Source, Target},
+    uncertainty::uncertainty,
 };
 use crate::{
     geometry::{
-        cloud::PointCloud, nearest::KdTree, nearest_field::NearestField, normals::estimate_normals,
+        cloud::PointCloud,
+        nearest::KdTree,
+        nearest_field::NearestField,
+        normals::estimate_normals,
+        principal::{PrincipalAxes, principal_axes},
         voxel::downsample,
     },
     units::Metres,
@@ -21,8 +26,10 @@ use crate::{
 const MAX_POINTS: usize = 150_000;
 /// Points of the coarse likeness, about: enough to tell within a tenth of its extent where a part is.
 const NUM_COARSE: f64 = 2_000.0;
-/// How far off a target its field answers, in extents of it: a start is off by less.
-const BAND: f64 = 0.5;
+/// How far off a target the coarse field answers, in extents of it: a start is off by less.
+const COARSE_BAND: f64 = 0.5;
+/// The same for the fine field: five times the scale at which the fine likeness takes over.
+const FINE_BAND: f64 = 0.15;
 /// Points of the source on which the figures of a fit are taken.
 const NUM_MEASURED: usize = 2_000;
 
@@ -30,6 +37,8 @@ const NUM_MEASURED: usize = 2_000;
 #[derive(Clone, Debug)]
 pub struct PreparedTarget {
     pub(super) centred: Centred,
+    /// Of the coarse likeness, which is evenly dense.
+    pub(super) axes: PrincipalAxes,
     fine: Likeness,
     coarse: Likeness,
 }
@@ -63,14 +72,17 @@ impl PreparedTarget {
         let per_point = spacing * (thinned.points.len() as f64 / NUM_COARSE).sqrt();
         let coarse = downsample(&thinned, Metres(per_point.max(spacing)));
         let tree = tree.unwrap_or_else(|| KdTree::new(&thinned.points));
-        let fine_cell = (2.0 * spacing).max(extent / 60.0);
-        let fine = Likeness::new(thinned, tree, spacing, fine_cell, BAND * extent, &centred);
+        let cell = (2.0 * spacing).max(extent / 60.0);
+        let fine = Likeness::new(thinned, tree, spacing, cell, FINE_BAND * extent, &centred);
+        let axes = principal_axes(coarse.points.iter().map(|p| (p.cast(), 1.0)));
+        let axes = axes.unwrap_or(centred.axes);
         let tree = KdTree::new(&coarse.points);
         let spacing = spacing_of(&coarse.points, &tree);
         let cell = extent / 16.0;
-        let coarse = Likeness::new(coarse, tree, spacing, cell, BAND * extent, &centred);
+        let coarse = Likeness::new(coarse, tree, spacing, cell, COARSE_BAND * extent, &centred);
         Ok(Self {
             centred,
+            axes,
             fine,
             coarse,
         })
@@ -104,13 +116,16 @@ impl PreparedTarget {
         runner_up: Option<RunnerUp>,
     ) -> PoseEstimate {
         let step = source.len().div_ceil(NUM_MEASURED).max(1);
-        let measured: Vec<Point3<f32>> = source.iter().step_by(step).copied().collect();
+        let measured = Source {
+            surface: source.iter().step_by(step).copied().collect(),
+            edges: Vec::new(),
+        };
         let tolerance = Tolerance {
             base: Metres(3.0 * self.spacing()),
             noise_at_1m: Metres(0.0),
         };
         let fit = measure_fit(
-            &measured,
+            &measured.surface,
             &self.target(),
             &refined.target_from_source,
             tolerance,
@@ -122,7 +137,24 @@ impl PreparedTarget {
             stopped: refined.stopped,
             iterations: refined.iterations,
             fit,
+            uncertainty: Some(uncertainty(
+                &measured,
+                &self.target(),
+                &refined.target_from_source,
+                &self.finest(),
+            )),
             runner_up,
+        }
+    }
+
+    /// The last level of a refinement: as fine as the spacing allows.
+    pub(super) fn finest(&self) -> Level {
+        Level {
+            num_surface: NUM_MEASURED,
+            num_edges: 0,
+            scale: (1.5 * self.spacing()).min(0.1 * self.extent()),
+            max_steps: 40,
+            search: Search::Tree,
         }
     }
 }

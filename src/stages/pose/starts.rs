@@ -19,13 +19,7 @@ pub(super) fn along_axes(source: &PrincipalAxes, target: &PrincipalAxes) -> [Rig
         UnitQuaternion::from_axis_angle(&Vector3::y_axis(), PI),
         UnitQuaternion::from_axis_angle(&Vector3::z_axis(), PI),
     ]
-    .map(|half_turn| {
-        about_centres(
-            source,
-            target,
-            of_target * half_turn * of_source.inverse(),
-        )
-    })
+    .map(|half_turn| about_centres(source, target, of_target * half_turn * of_source.inverse()))
 }
 
 /// Rotations spread evenly over SO(3).
