@@ -150,7 +150,10 @@ mod tests {
     use rand_pcg::Pcg64;
 
     use super::*;
-    use crate::geometry::rigid::{from_euler_zyx, pose_error};
+    use crate::{
+        geometry::rigid::{from_euler_zyx, pose_error},
+        stages::pose::Doubt,
+    };
 
     /// A bent sheet with a notch: nothing about it is symmetric, and its points lie on no lattice that could slide
     /// onto itself.
@@ -258,6 +261,99 @@ mod tests {
         );
         let poor = align(&cube, &target, PoseMethod::Global, None).expect("a pose");
         assert!(poor.doubt().is_some(), "{:?}", poor.fit);
+    }
+
+    /// Points drawn anew over a surface given by two numbers from 0 to 1.
+    fn surface(seed: u64, at: impl Fn(f32, f32) -> [f32; 3]) -> PointCloud {
+        let mut rng = Pcg64::seed_from_u64(seed);
+        let points = (0..4000).map(|_| Point3::from(at(rng.random(), rng.random())));
+        PointCloud::from_points(points)
+    }
+
+    #[test]
+    fn what_fits_in_many_places_is_doubted_and_never_sure() {
+        use std::f32::consts::TAU;
+        let plate = |u: f32, v: f32| [u, 0.6 * v, 0.0];
+        let square = |u: f32, v: f32| [u, v, 0.0];
+        let disc = |u: f32, v: f32| [v.sqrt() * (TAU * u).cos(), v.sqrt() * (TAU * u).sin(), 0.0];
+        let tube = |u: f32, v: f32| [2.0 * v, 0.3 * (TAU * u).cos(), 0.3 * (TAU * u).sin()];
+        let ball = |u: f32, v: f32| {
+            let (z, turn) = (2.0 * v - 1.0, TAU * u);
+            let r = (1.0 - z * z).sqrt();
+            [r * turn.cos(), r * turn.sin(), z]
+        };
+        let shapes: [(&str, &dyn Fn(f32, f32) -> [f32; 3]); 5] = [
+            ("plate", &plate),
+            ("square", &square),
+            ("disc", &disc),
+            ("tube", &tube),
+            ("ball", &ball),
+        ];
+        let displaced = from_euler_zyx([0.4, 0.3, -1.0, 0.1, 0.2, 0.3]);
+        for (name, shape) in shapes {
+            let (target, source) = (surface(1, shape), moved(&surface(2, shape), &displaced));
+            for method in [PoseMethod::Global, PoseMethod::Icp, PoseMethod::IcpGa] {
+                let pose = align(&source, &target, method, None).expect("a pose");
+                let doubt = pose.doubt();
+                assert!(doubt.is_some(), "{name} by {method:?}: {pose:?}");
+                if method == PoseMethod::Global {
+                    let fits = matches!(doubt, Some(Doubt::Ambiguous { .. } | Doubt::Loose));
+                    assert!(fits, "{name}: {doubt:?}");
+                }
+            }
+        }
+    }
+
+    #[test]
+    fn clouds_that_do_not_meet_have_no_pose() {
+        let target = sheet();
+        let far = RigidTransform::translation(40.0, 0.0, 0.0);
+        let found = align(&target, &target, PoseMethod::Global, Some(far));
+        assert!(
+            matches!(found, Err(PoseError::NoOverlap { .. })),
+            "{found:?}"
+        );
+    }
+
+    #[test]
+    fn a_prepared_target_gives_the_same_bits() {
+        let target = sheet();
+        let source = moved(&target, &from_euler_zyx([0.4, 0.3, -1.0, 0.1, 0.2, 0.3]));
+        let prepared = PreparedTarget::new(&target).expect("spans");
+        for method in PoseMethod::ALL {
+            let again = align_to(&source, &prepared, &method.into(), None, &|| false);
+            assert_eq!(again, align(&source, &target, method, None));
+        }
+    }
+
+    #[test]
+    fn bounds_hold_the_truth_and_follow_the_noise() {
+        let mut rng = Pcg64::seed_from_u64(5);
+        let mut noisy = |noise: f32| {
+            let mut cloud = sheet();
+            for p in &mut cloud.points {
+                p.z += noise * (rng.random::<f32>() + rng.random::<f32>() - 1.0);
+            }
+            cloud
+        };
+        let truth = from_euler_zyx([0.4, 0.3, -1.0, 0.1, 0.2, 0.3]);
+        let mut bound = |noise: f32| {
+            let target = noisy(noise);
+            let source = moved(&noisy(noise), &truth.inverse());
+            let pose = align(&source, &target, PoseMethod::Global, None).expect("a pose");
+            let middle = truth.inverse() * Point3::new(0.5, 0.3, 0.1);
+            let error = pose_error(&pose.target_from_source, &truth, &middle);
+            let bounds = pose.uncertainty.expect("refined to the end");
+            // The bounds hold in 95 of 100 cases: twice as far is as good as never.
+            assert!(error.shift.0 < 2.0 * bounds.shift.0, "{error:?} {bounds:?}");
+            assert!(
+                error.rotation.0 < 2.0 * bounds.turn.0,
+                "{error:?} {bounds:?}"
+            );
+            bounds.shift.0
+        };
+        let (quiet, loud) = (bound(0.001), bound(0.008));
+        assert!((3.0..30.0).contains(&(loud / quiet)), "{quiet} {loud}");
     }
 
     #[test]

@@ -42,7 +42,7 @@ const SLIDE: f64 = 0.06;
 /// So often at most: each time costs as much as the race.
 const MOST_ROUNDS: usize = 4;
 /// Share of the source that lies on the target where nothing is left to be found elsewhere.
-const COMPLETE: f64 = 0.98;
+const COMPLETE: f64 = 0.99;
 /// Principal variances that differ by less than this share are those of the same whole thing.
 const ALIKE: f64 = 0.15;
 /// Principal variances that differ by less than this share leave their axes free to turn into each other.
@@ -112,9 +112,12 @@ pub(super) fn search(
         let near_at_hand = || std::iter::once(no_turn).chain(along_axes(axes.0, axes.1));
         if are_alike(axes.0, axes.1) {
             finished = search.finish(search.race(near_at_hand())?)?;
-            let convinces = |best| search.overlap(best) >= CONVINCING;
-            if !finished.first().is_some_and(convinces) {
+            let best = finished.first();
+            let overlap = best.map_or(0.0, |best| search.overlap(best));
+            if overlap < CONVINCING {
                 finished.clear();
+            } else if overlap < COMPLETE {
+                search.put_aside(&mut finished)?;
             }
         }
         if finished.is_empty() {

@@ -49,8 +49,8 @@ impl Uncertainty {
     }
 }
 
-/// A pose that may turn by so much is not held: half a degree is what a spray path bears.
-const LOOSE: Radians = Radians(0.05);
+/// A pose that may turn by so much, some half a degree, is not held: a spray path bears no more.
+const LOOSE: Radians = Radians(0.01);
 /// 95 % of a normal distribution in three dimensions lies within this squared distance, in standard deviations.
 const WITHIN_SQ: f64 = 7.815;
 /// Side of a patch, in root mean square distances of the points from their middle: some fifty on a part.
