@@ -5,6 +5,7 @@
 
 mod recognition;
 mod speed;
+pub mod systems;
 pub mod table1;
 mod window;
 

@@ -1,5 +1,6 @@
 //! `partsight bench`: how often right, how far off, how long, on simulated frames.
 
+mod systems;
 mod table1;
 
 use std::path::{Path, PathBuf};
@@ -34,6 +35,7 @@ Examples:
   partsight bench recognition --placement hard --json hard.json
   partsight bench table1 --csv table1.csv
   partsight bench table1 --part fender --part grille
+  partsight bench systems --placement hard
   partsight bench window
 
 Each part is enrolled from one frontal capture of the standard car, then seen at drawn poses. Without a name: a few
@@ -76,6 +78,8 @@ enum Bench {
     Recognition,
     /// The paper's Table I: what is left of E from T1..T5, by ICP, ICP-GA and the global method
     Table1,
+    /// The left half of that table: time and right answers, ours beside FPFH, SHOT, spin images and VFH
+    Systems,
     /// Processor time of a frame of the window, at rest and turning; needs no display
     Window,
 }
@@ -131,6 +135,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         Bench::Speed | Bench::Window => &[Matcher::Default],
         Bench::Recognition => &[Matcher::Default, Matcher::Paper],
         Bench::Table1 => return table1::run(args, console),
+        Bench::Systems => return systems::run(args, console),
     };
     if args.csv.is_some() || !args.part.is_empty() {
         return Err(advised_error(
