@@ -20,7 +20,7 @@ use crate::{
         contour::find_contour,
         descriptors::{
             Descriptors,
-            local::{LocalParams, describe_locally},
+            local::{LocalParams, describe_reference, describe_scene},
             matching::{DescriptorBank, rank_by_rows},
             surface::{SurfaceError, SurfaceParams, take_surface},
             vfh::{ViewHistogram, describe_vfh, describe_views, nearest_reference},
@@ -333,7 +333,7 @@ fn described_locally(
 ) -> Result<DescriptorBank, SurfaceError> {
     let rows = references
         .iter()
-        .map(|r| Ok(describe_locally(&r.cloud, &Point3::origin(), params)?.rows))
+        .map(|r| Ok(describe_reference(&r.cloud, params)?.rows))
         .collect::<Result<Vec<Descriptors>, SurfaceError>>()?;
     Ok(DescriptorBank::new(&rows))
 }
@@ -389,7 +389,7 @@ fn by_rows(
     params: &LocalParams,
     bank: &DescriptorBank,
 ) -> Option<(usize, Size)> {
-    let described = describe_locally(&part.cloud, &Point3::origin(), params).ok()?;
+    let described = describe_scene(&part.cloud, params).ok()?;
     let size = Size {
         num_points: described.num_points,
         num_rows: described.rows.len(),

@@ -5,6 +5,10 @@
 //! keypoint's row is its own plus the mean of its neighbours', each divided by its distance ω:
 //! FPFH(p) = SPFH(p) + 1/k Σ SPFH(p_k)/ω_k.
 //!
+//! The square roots of the shares are kept, so that Euclid's distance of two rows compares the histograms as Hellinger's does
+//! (R. Arandjelović and A. Zisserman, "Three things everyone should know to improve object retrieval", CVPR 2012); it
+//! named more parts rightly.
+//!
 //! Our choices where the paper leaves room: ω is in radii, so that the row does not depend on the unit of length; each
 //! angle's 11 bins sum to one; of a pair, that point is the source whose normal looks more along the line to the other,
 //! so a pair has the same angles seen from both ends and is worked out once.
@@ -34,7 +38,7 @@ pub struct FpfhParams {
 impl Default for FpfhParams {
     fn default() -> Self {
         Self {
-            radius: Metres::from_mm(60.0),
+            radius: Metres::from_mm(140.0),
         }
     }
 }
@@ -135,7 +139,7 @@ fn row_at(
     });
     for angle in row.chunks_exact_mut(NUM_BINS) {
         let sum: f32 = angle.iter().sum();
-        angle.iter_mut().for_each(|bin| *bin /= sum);
+        angle.iter_mut().for_each(|bin| *bin = (*bin / sum).sqrt());
     }
     Some(row)
 }
@@ -193,7 +197,7 @@ mod tests {
         }
         for angle in row.chunks_mut(11) {
             let sum: f64 = angle.iter().sum();
-            angle.iter_mut().for_each(|b| *b /= sum);
+            angle.iter_mut().for_each(|b| *b = (*b / sum).sqrt());
         }
         row
     }
@@ -259,10 +263,10 @@ mod tests {
         let found = describe_fpfh(&surface, &[1000], &params);
         let row = found.rows().next().expect("described");
         assert!((row[5] - 1.0).abs() < 1e-6);
-        let phi: f32 = row[11 + 2..=11 + 5].iter().sum();
-        let theta: f32 = row[22 + 5..=22 + 7].iter().sum();
-        assert!((phi - 1.0).abs() < 1e-6 && (theta - 1.0).abs() < 1e-6);
-        assert!(row[11 + 3] > 0.2 && row[22 + 6] > 0.2);
+        let share = |bins: &[f32]| bins.iter().map(|root| root * root).sum::<f32>();
+        assert!((share(&row[11 + 2..=11 + 5]) - 1.0).abs() < 1e-5);
+        assert!((share(&row[22 + 5..=22 + 7]) - 1.0).abs() < 1e-5);
+        assert!(row[11 + 3] > 0.4 && row[22 + 6] > 0.4);
     }
 
     #[test]

@@ -8,7 +8,7 @@
 //! | --- | --- | --- |
 //! | `fpfh` | 33 | angles between pairs of normals, averaged over the neighbourhood |
 //! | `shot` | 352 | angles of the normals to the keypoint's axis, in 32 sectors of a sphere |
-//! | `spin_image` | 128 | points by their distance from the normal's line and from the tangent plane |
+//! | `spin_image` | 225 | points by their distance from the normal's line and from the tangent plane |
 //! | `vfh` | 308 | angles between all normals, the mean normal and the viewing direction |
 //!
 //! All four are unchanged when camera and part are moved together, and all need normals that look at the camera.

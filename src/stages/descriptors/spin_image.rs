@@ -23,7 +23,7 @@ const MIN_NEIGHBOURS: usize = 5;
 /// Parameters of [`describe_spin_images`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpinImageParams {
-    /// Side of the image: α reaches from zero to this, β half of it to either side, 60..300 mm. Time grows with its square.
+    /// Side of the image: α reaches from zero to this, β half of it to either side, 60..600 mm. Time grows with its square.
     pub reach: Metres,
     /// Normals of neighbours differ by no more than this, 30°..180°.
     pub support_angle: Radians,
@@ -32,7 +32,7 @@ pub struct SpinImageParams {
 impl Default for SpinImageParams {
     fn default() -> Self {
         Self {
-            reach: Metres::from_mm(150.0),
+            reach: Metres::from_mm(500.0),
             support_angle: Radians::from_degrees(60.0),
         }
     }
@@ -135,6 +135,14 @@ mod tests {
         tests::{bent_surface, moved, plane, some_motion, sphere, surface_of},
     };
 
+    /// Pixels of one centimetre.
+    fn small() -> SpinImageParams {
+        SpinImageParams {
+            reach: Metres(0.15),
+            ..SpinImageParams::default()
+        }
+    }
+
     /// Every point against every pixel, as counts.
     fn slow_image(surface: &Surface, keypoint: usize, params: &SpinImageParams) -> Vec<f64> {
         let n = surface.normals[keypoint].cast::<f64>();
@@ -194,11 +202,10 @@ mod tests {
 
     #[test]
     fn distance_in_descriptor_space_is_correlation() {
-        let found =
-            describe_spin_images(&bent_surface(), &[700, 1900], &SpinImageParams::default());
+        let found = describe_spin_images(&bent_surface(), &[700, 1900], &small());
         let rows: Vec<&[f32]> = found.rows().collect();
         let correlation: f32 = {
-            let raw = [700, 1900].map(|k| counts(&bent_surface(), k, &SpinImageParams::default()));
+            let raw = [700, 1900].map(|k| counts(&bent_surface(), k, &small()));
             let mean = |x: &[f32]| x.iter().sum::<f32>() / x.len() as f32;
             let (a, b) = (mean(&raw[0]), mean(&raw[1]));
             let sum = |f: &dyn Fn(f32, f32) -> f32| -> f32 {
@@ -222,7 +229,7 @@ mod tests {
     fn moving_camera_and_part_together_changes_next_to_nothing() {
         let surface = bent_surface();
         let chosen = keypoints(&surface, Metres(0.06));
-        let params = SpinImageParams::default();
+        let params = small();
         let before = describe_spin_images(&surface, &chosen, &params);
         let after = describe_spin_images(&moved(&surface, &some_motion()), &chosen, &params);
         assert_eq!(before.keypoints, after.keypoints);
@@ -234,7 +241,7 @@ mod tests {
 
     #[test]
     fn a_plane_fills_the_middle_row_in_proportion_to_the_rings_areas() {
-        let params = SpinImageParams::default();
+        let params = small();
         let image = counts(&plane(), 840, &params);
         for (i, count) in image.iter().enumerate() {
             assert!(i / SIDE == SIDE / 2 || *count < 1e-3, "pixel {i}: {count}");
@@ -254,7 +261,7 @@ mod tests {
     fn a_sphere_stays_on_its_circle() {
         let radius = 0.15_f32;
         let surface = sphere(Point3::new(0.0, 0.0, 1.0), f64::from(radius), 6000);
-        let image = counts(&surface, 2800, &SpinImageParams::default());
+        let image = counts(&surface, 2800, &small());
         // α² + (β + ρ)² = ρ² for an outward normal.
         for (i, count) in image.iter().enumerate() {
             let alpha = (i % SIDE) as f32 + 0.5;
@@ -267,7 +274,7 @@ mod tests {
 
     #[test]
     fn lonely_points_and_points_among_strangers_are_left_out() {
-        let params = SpinImageParams::default();
+        let params = small();
         let points: Vec<_> = (0..30).map(|i| Point3::new(i as f32, 0.0, 1.0)).collect();
         let apart = surface_of(points, vec![-Vector3::z(); 30]);
         assert!(describe_spin_images(&apart, &[0, 3, 29], &params).is_empty());

@@ -26,8 +26,8 @@ pub struct SurfaceParams {
 impl Default for SurfaceParams {
     fn default() -> Self {
         Self {
-            spacing: Metres::from_mm(12.0),
-            normal_radius: Metres::from_mm(36.0),
+            spacing: Metres::from_mm(20.0),
+            normal_radius: Metres::from_mm(60.0),
         }
     }
 }
