@@ -154,7 +154,8 @@ fn show(
     console.line(&format_args!(
         "Simulated: {num_frames} frames, {} of each part, car model {} against the enrolled model 0, one core. The part \
          is segmented once for all: {:.0} points (median). Every system names one of 8 references, none may refuse. \
-         The time is that of describing the part and matching it.",
+         The time is the processor's, \
+         for describing the part and matching it.",
         setup.num_poses,
         setup.model_seed,
         median_points(comparison).unwrap_or(0.0),

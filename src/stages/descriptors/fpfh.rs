@@ -3,7 +3,7 @@
 //! R. B. Rusu, N. Blodow and M. Beetz, "Fast Point Feature Histograms (FPFH) for 3D registration", ICRA 2009. Each
 //! point p gets a *simplified* histogram SPFH(p) of the three angles between it and each neighbour, 11 bins an angle; the
 //! keypoint's row is its own plus the mean of its neighbours', each divided by its distance ω:
-//! FPFH(p) = SPFH(p) + 1/k Σ SPFH(p_k)/ω_k.
+//! `FPFH(p) = SPFH(p) + 1/k Σ SPFH(p_k)/ω_k`.
 //!
 //! The square roots of the shares are kept, so that Euclid's distance of two rows compares the histograms as Hellinger's does
 //! (R. Arandjelović and A. Zisserman, "Three things everyone should know to improve object retrieval", CVPR 2012); it
@@ -52,13 +52,14 @@ struct Simplified {
 
 /// A row for each of these points (indices into the surface, ascending).
 pub fn describe_fpfh(surface: &Surface, keypoints: &[u32], params: &FpfhParams) -> Descriptors {
-    let simplified = simplified_histograms(surface, params.radius.0 as f32);
+    let radius = params.radius.0 as f32;
+    let simplified = simplified_histograms(surface, radius);
     let mut described = Descriptors {
         width: WIDTH,
         ..Descriptors::default()
     };
     for &keypoint in keypoints {
-        if let Some(row) = row_at(surface, &simplified, keypoint as usize, params) {
+        if let Some(row) = row_at(surface, &simplified, keypoint as usize, radius) {
             described.keypoints.push(keypoint);
             described.values.extend_from_slice(&row);
         }
@@ -113,13 +114,12 @@ fn row_at(
     surface: &Surface,
     simplified: &[Simplified],
     keypoint: usize,
-    params: &FpfhParams,
+    radius: f32,
 ) -> Option<[f32; WIDTH]> {
     let own = &simplified[keypoint];
     if own.num_pairs < MIN_NEIGHBOURS {
         return None;
     }
-    let radius = params.radius.0 as f32;
     let mut around = [0.0; WIDTH];
     let mut num_around = 0;
     let here = &surface.points[keypoint];
@@ -139,7 +139,9 @@ fn row_at(
     });
     for angle in row.chunks_exact_mut(NUM_BINS) {
         let sum: f32 = angle.iter().sum();
-        angle.iter_mut().for_each(|bin| *bin = (*bin / sum).sqrt());
+        for bin in angle {
+            *bin = (*bin / sum).sqrt();
+        }
     }
     Some(row)
 }
@@ -180,11 +182,13 @@ mod tests {
                 let w = u.cross(&v);
                 let theta = w.dot(&normal(t)).atan2(u.dot(&normal(t))) / std::f64::consts::PI;
                 for (k, x) in [v.dot(&normal(t)), u.dot(&d), theta].iter().enumerate() {
-                    bins[11 * k + (((x + 1.0) / 2.0 * 11.0) as usize).min(10)] += 1.0;
+                    bins[11 * k + ((x.midpoint(1.0) * 11.0) as usize).min(10)] += 1.0;
                 }
                 num += 1.0;
             }
-            bins.iter_mut().for_each(|b| *b /= num);
+            for bin in &mut bins {
+                *bin /= num;
+            }
             bins
         };
         let mut row = spfh(keypoint);
@@ -197,7 +201,9 @@ mod tests {
         }
         for angle in row.chunks_mut(11) {
             let sum: f64 = angle.iter().sum();
-            angle.iter_mut().for_each(|b| *b = (*b / sum).sqrt());
+            for bin in angle {
+                *bin = (*bin / sum).sqrt();
+            }
         }
         row
     }

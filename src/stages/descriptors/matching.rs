@@ -6,8 +6,9 @@
 //! Computer Vision 60(2), 2004, without its threshold. What all references hold, such as the middle of a panel,
 //! decides little; what none holds, such as half a hole at the edge of what is seen, cannot decide alone.
 //!
-//! On the frames that parameters were chosen on, with the part turned up to 45°, that named more parts rightly than the
-//! mean distance, the mean both ways, and counts of the rows that pass a ratio test within a reference.
+//! Chosen on 160 frames with the part turned up to 45°: with SHOT it named 158 of them rightly, the mean distance 152,
+//! the mean both ways 151, counting rows that pass a ratio test within a reference 151, and one vote per row 159; with
+//! FPFH 148, 142, 148, 118 and 145.
 //!
 //! All distances come out of one matrix product, |a - b|² = |a|² + |b|² - 2 a·b. An exact search in a k-d tree per
 //! reference was slower: 1.1 times for rows of 33 numbers, where it looked at 24 % of them, 2.9 for 352 (63 %), and 4.3
@@ -40,7 +41,7 @@ pub struct Nearness {
 }
 
 /// A reference that much further off than the nearest is out of the question for a row; more says nothing more.
-/// Between 1.2 and 1.5 the same parts were named.
+/// Between 1.15 and 1.5 nearly the same parts were named.
 pub const WORST_RATIO: f32 = 1.3;
 
 /// Rows of the scene that are compared at a time: their distances to all references then stay in the cache.
@@ -189,7 +190,8 @@ mod tests {
                 let row = rows.next().expect("as many as visited");
                 for (fast, reference) in nearest.iter().zip(&references) {
                     let slow = slow_nearest(row, reference);
-                    if f64::from(*fast) != slow && !((f64::from(*fast) - slow).abs() < 1e-3) {
+                    let is_equal = f64::from(*fast).is_infinite() && slow.is_infinite();
+                    if !is_equal && !((f64::from(*fast) - slow).abs() < 1e-3) {
                         failed = Some((*fast, slow));
                     }
                 }
@@ -207,7 +209,7 @@ mod tests {
         let ranked = rank_by_rows(&scene, &DescriptorBank::new(&references));
         assert_eq!(ranked[0].reference, 1);
         assert!((ranked[0].distance - 1.05).abs() < 1e-3, "{ranked:?}");
-        assert!((ranked[1].distance - (1.0 + WORST_RATIO) / 2.0).abs() < 1e-3);
+        assert!((ranked[1].distance - 1.0_f32.midpoint(WORST_RATIO)).abs() < 1e-3);
     }
 
     #[test]
@@ -220,7 +222,7 @@ mod tests {
         for (own, rows) in references.iter().enumerate() {
             let ranked = rank_by_rows(rows, &bank);
             assert_eq!(ranked[0].reference, own);
-            assert_eq!(ranked[0].distance, 1.0);
+            assert!((ranked[0].distance - 1.0).abs() < 1e-6);
         }
     }
 
@@ -232,6 +234,6 @@ mod tests {
         assert!(rank_by_rows(&one, &DescriptorBank::new(std::slice::from_ref(&none))).is_empty());
         let ranked = rank_by_rows(&one, &DescriptorBank::new(&[none, one.clone()]));
         assert_eq!((ranked[0].reference, ranked[1].reference), (1, 0));
-        assert_eq!(ranked[1].distance, WORST_RATIO);
+        assert!((ranked[1].distance - WORST_RATIO).abs() < 1e-6);
     }
 }

@@ -117,10 +117,14 @@ fn add(image: &mut [f32], column: f32, row: f32) {
 /// Mean zero and length one; false for an image that is the same all over.
 fn standardise(image: &mut [f32]) -> bool {
     let mean = image.iter().sum::<f32>() / image.len() as f32;
-    image.iter_mut().for_each(|x| *x -= mean);
+    for x in image.iter_mut() {
+        *x -= mean;
+    }
     let length = image.iter().map(|x| x * x).sum::<f32>().sqrt();
     if length > 0.0 {
-        image.iter_mut().for_each(|x| *x /= length);
+        for x in image {
+            *x /= length;
+        }
     }
     length > 0.0
 }

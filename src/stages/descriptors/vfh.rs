@@ -78,7 +78,9 @@ pub fn describe_vfh(surface: &Surface, viewpoint: &Point3<f64>) -> ViewHistogram
     for histogram in shape.chunks_exact_mut(NUM_SHAPE_BINS).chain([view]) {
         let sum: f32 = histogram.iter().sum();
         if sum > 0.0 {
-            histogram.iter_mut().for_each(|bin| *bin /= sum);
+            for bin in histogram {
+                *bin /= sum;
+            }
         }
     }
     ViewHistogram { row }
@@ -165,15 +167,15 @@ mod tests {
             let d = (p - centroid).normalize();
             let v = d.cross(&u).normalize();
             let w = u.cross(&v);
-            put(0, 45, (v.dot(n) + 1.0) / 2.0);
-            put(45, 45, (u.dot(&d) + 1.0) / 2.0);
+            put(0, 45, v.dot(n).midpoint(1.0));
+            put(45, 45, u.dot(&d).midpoint(1.0));
             put(
                 90,
                 45,
-                (w.dot(n).atan2(u.dot(n)) / std::f64::consts::PI + 1.0) / 2.0,
+                (w.dot(n).atan2(u.dot(n)) / std::f64::consts::PI).midpoint(1.0),
             );
             put(135, 45, (p - centroid).norm() / 1.0);
-            put(180, 128, (view.dot(n) + 1.0) / 2.0);
+            put(180, 128, view.dot(n).midpoint(1.0));
         }
         ViewHistogram { row }
     }
@@ -272,7 +274,7 @@ mod tests {
         let one_place = surface_of(vec![Point3::origin(); 30], vec![Vector3::z(); 30]);
         let found = describe_vfh(&one_place, &Point3::origin());
         assert!(found.row.iter().all(|x| x.is_finite()));
-        assert_eq!(distance(&found, &found), 0.0);
+        assert!(distance(&found, &found) < 1e-9);
         let nothing = describe_vfh(&surface_of(Vec::new(), Vec::new()), &Point3::origin());
         assert!(nothing.row.iter().all(|x| *x == 0.0));
     }
