@@ -20,6 +20,7 @@ pub(super) struct PairAngles {
 
 /// The angles with the source `u = n_s`, v = d × u (unit), w = u × v; `None` where the two points are one, or the normal
 /// runs along the line d between them, so that there is no frame.
+#[inline]
 pub(super) fn pair_angles(
     source: (&Point3<f32>, &Vector3<f32>),
     target: (&Point3<f32>, &Vector3<f32>),
@@ -49,6 +50,7 @@ pub(super) fn pair_angles(
 /// `y.atan2(x)` to within 2e-5: half the time of a pair went into the exact one, and its angle only falls into a bin.
 ///
 /// M. Abramowitz and I. A. Stegun, "Handbook of Mathematical Functions", 1964, 4.4.47, for the arc tangent up to one.
+#[inline]
 fn angle_of(y: f32, x: f32) -> f32 {
     let (short, long) = (y.abs().min(x.abs()), y.abs().max(x.abs()));
     if !(long > 0.0) {
@@ -73,6 +75,7 @@ fn angle_of(y: f32, x: f32) -> f32 {
 }
 
 /// The bin of `value` among `num` equal ones over `-limit..limit`; what lies outside belongs to the outermost.
+#[inline]
 pub(super) fn bin(value: f32, limit: f32, num: usize) -> usize {
     let position = (value / limit + 1.0) * 0.5 * num as f32;
     // Casting cuts off below zero and takes NaN for zero.
