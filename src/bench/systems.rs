@@ -1,10 +1,10 @@
 //! The left half of the paper's Table I: the time to recognise a part, ours beside other systems, and how often right.
 //!
-//! The paper compares its recogniser with four "major 3-D object detection systems" by time alone, and gives the others
-//! as numbers of its bibliography. So the other systems here are our own choice: the major descriptors of point clouds, each with
-//! a nearest-neighbour search. Every system gets the same segmented part of the same simulated frame and names one of the
-//! same references; nobody may refuse. The time is the processor's, for describing the part and matching it; segmentation, which
-//! all share, and preparing the references are left out.
+//! The paper compares its recogniser with four "major 3-D object detection systems" by time alone, and gives the
+//! others as numbers of its bibliography. So the other systems here are our own choice: the major descriptors of
+//! point clouds, each with a nearest-neighbour search. Every system gets the same segmented part of the same
+//! simulated frame and names one of the same references; nobody may refuse. The time is the processor's, for
+//! describing the part and matching it; segmentation, which all share, and preparing the references are left out.
 
 use std::time::{Duration, Instant};
 
@@ -328,8 +328,8 @@ impl Contestant {
     }
 }
 
-/// Processor time of this thread since then, which others at work do not lengthen; the clock's where the system does not
-/// tell.
+/// Processor time of this thread since then, which others at work do not lengthen; the clock's where the system does
+/// not tell.
 fn since(start: Instant, processor: Option<f64>) -> Duration {
     match (processor, thread_seconds()) {
         (Some(before), Some(now)) => Duration::from_secs_f64((now - before).max(0.0)),

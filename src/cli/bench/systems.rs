@@ -13,7 +13,7 @@ use crate::{
     },
     cli::{
         Outcome,
-        console::{Advised as _, Console, Table},
+        console::{Advised as _, Console, Table, advised_error},
     },
     library::EnrolParams,
     simulate::{PartKind, Placement},
@@ -76,6 +76,12 @@ struct AnswerLine<'a> {
 }
 
 pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    if args.csv.is_some() || !args.part.is_empty() {
+        return Err(advised_error(
+            "--csv and --part go with table1",
+            "Ask for every frame as JSON: partsight bench systems --json FILE",
+        ));
+    }
     let enrolled = enrol_standard_parts(&EnrolParams::default()).advised()?;
     let setup = RecognitionSetup {
         num_poses: args.poses,

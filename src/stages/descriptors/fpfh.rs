@@ -1,13 +1,13 @@
 //! Fast point feature histograms: how the normals around a keypoint lie to each other.
 //!
 //! R. B. Rusu, N. Blodow and M. Beetz, "Fast Point Feature Histograms (FPFH) for 3D registration", ICRA 2009. Each
-//! point p gets a *simplified* histogram SPFH(p) of the three angles between it and each neighbour, 11 bins an angle; the
-//! keypoint's row is its own plus the mean of its neighbours', each divided by its distance ω:
+//! point p gets a *simplified* histogram SPFH(p) of the three angles between it and each neighbour, 11 bins an angle;
+//! the keypoint's row is its own plus the mean of its neighbours', each divided by its distance ω:
 //! `FPFH(p) = SPFH(p) + 1/k Σ SPFH(p_k)/ω_k`.
 //!
-//! The square roots of the shares are kept, so that Euclid's distance of two rows compares the histograms as Hellinger's does
-//! (R. Arandjelović and A. Zisserman, "Three things everyone should know to improve object retrieval", CVPR 2012); it
-//! named more parts rightly.
+//! The square roots of the shares are kept, so that Euclid's distance of two rows compares the histograms as
+//! Hellinger's does (R. Arandjelović and A. Zisserman, "Three things everyone should know to improve object
+//! retrieval", CVPR 2012); it named more parts rightly.
 //!
 //! Our choices where the paper leaves room: ω is in radii, so that the row does not depend on the unit of length; each
 //! angle's 11 bins sum to one; of a pair, that point is the source whose normal looks more along the line to the other,

@@ -18,8 +18,8 @@ pub(super) struct PairAngles {
     pub(super) theta: f32,
 }
 
-/// The angles with the source `u = n_s`, v = d × u (unit), w = u × v; `None` where the two points are one, or the normal
-/// runs along the line d between them, so that there is no frame.
+/// The angles with the source `u = n_s`, v = d × u (unit), w = u × v; `None` where the two points are one, or the
+/// normal runs along the line d between them, so that there is no frame.
 #[inline]
 pub(super) fn pair_angles(
     source: (&Point3<f32>, &Vector3<f32>),

@@ -8,9 +8,10 @@
 //! a neighbour's normal and the z axis. A neighbour is shared between the adjacent bins of all four (quadrilinear), and
 //! the row has length one.
 //!
-//! Our departures: a neighbour beyond the middle of the outermost shell, elevation or cosine counts for that one wholly
-//! instead of being dropped in part. Turning z to the side that the camera saw, instead of to where most neighbours are,
-//! made no difference at our radius; at 120 mm, where noise decides on a smooth sheet, it was right 45 times instead of 42 of 48.
+//! Our departures: a neighbour beyond the middle of the outermost shell, elevation or cosine counts for that one
+//! wholly instead of being dropped in part. Turning z to the side that the camera saw, instead of to where most
+//! neighbours are, made no difference at our radius; at 120 mm, where noise decides on a smooth sheet, it was right
+//! 45 times instead of 42 of 48.
 
 use std::f32::consts::PI;
 
@@ -363,8 +364,8 @@ mod tests {
         };
         let found = describe_shot(&surface, &[1000], &params);
         let row = found.rows().next().expect("described");
-        // All neighbours lie on the inner side of the tangent plane: z looks inwards, against the normals, whose cosines are
-        // -1..-1/2.
+        // All neighbours lie on the inner side of the tangent plane: z looks inwards, against the normals, whose
+        // cosines are -1..-1/2.
         for (i, value) in row.iter().enumerate() {
             assert!(i % 11 <= 3 || *value < 1e-6, "bin {i}");
         }

@@ -1,10 +1,10 @@
 //! Spin images: where the neighbours of a keypoint lie, seen as it spins about its normal.
 //!
 //! A. E. Johnson and M. Hebert, "Using spin images for efficient object recognition in cluttered 3D scenes", IEEE
-//! Transactions on Pattern Analysis and Machine Intelligence 21(5), 1999. A neighbour x of the oriented point (p, n) has
-//! the coordinates β = n·(x - p) along the normal and α = √(|x - p|² - β²) away from it, and is shared bilinearly between the four pixels
-//! around (α, β). Neighbours whose normal differs by more than the support angle do not count: they would be hidden
-//! from other sides.
+//! Transactions on Pattern Analysis and Machine Intelligence 21(5), 1999. A neighbour x of the oriented point (p, n)
+//! has the coordinates β = n·(x - p) along the normal and α = √(|x - p|² - β²) away from it, and is shared bilinearly
+//! between the four pixels around (α, β). Neighbours whose normal differs by more than the support angle do not
+//! count: they would be hidden from other sides.
 //!
 //! Departures: the paper compares by the correlation of those pixels that both images fill. Each row is brought to mean
 //! zero and length one instead, so that |a - b|² = 2 - 2R with R the correlation over all pixels: nearest in
@@ -23,7 +23,8 @@ const MIN_NEIGHBOURS: usize = 5;
 /// Parameters of [`describe_spin_images`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SpinImageParams {
-    /// Side of the image: α reaches from zero to this, β half of it to either side, 60..600 mm. Time grows with its square.
+    /// Side of the image: α reaches from zero to this, β half of it to either side, 60..600 mm. Time grows with its
+    /// square.
     pub reach: Metres,
     /// Normals of neighbours differ by no more than this, 30°..180°.
     pub support_angle: Radians,

@@ -15,8 +15,8 @@ use crate::{
 /// Parameters of [`take_surface`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceParams {
-    /// Edge of the cubes that the cloud is thinned to, 5..30 mm. Raising it loses detail; halving it costs four times as
-    /// much.
+    /// Edge of the cubes that the cloud is thinned to, 5..30 mm. Raising it loses detail; halving it costs four times
+    /// as much.
     pub spacing: Metres,
     /// Points within this distance say what the normal is, 2..5 spacings. Raising it rounds edges, lowering it lets
     /// the sensor's noise through.

@@ -5,12 +5,12 @@
 //! with the mean normal and every point (45 bins each), the distances from the centroid (45 bins), and the cosine
 //! between every normal and the direction from the centroid to the camera (128 bins). Rows are compared by χ².
 //!
-//! Departures: distances are counted in metres, because the parts of cars come in one size and size is evidence; each of the
-//! five histograms sums to one.
+//! Departures: distances are counted in metres, because the parts of cars come in one size and size is evidence; each
+//! of the five histograms sums to one.
 //!
-//! A histogram of everything depends on what is seen. So a reference is described once per virtual view: only the points that a
-//! camera there would see count, and the row nearest to the scene's speaks for the reference. Turning the camera
-//! about its axis changes no row.
+//! A histogram of everything depends on what is seen. So a reference is described once per virtual view: only the
+//! points that a camera there would see count, and the row nearest to the scene's speaks for the reference. Turning
+//! the camera about its axis changes no row.
 
 use nalgebra::{Point3, Vector3};
 
