@@ -22,7 +22,7 @@ pub enum LocalDescriptor {
     SpinImages(SpinImageParams),
 }
 
-/// Parameters of [`describe_locally`].
+/// Parameters of [`describe_scene`] and [`describe_reference`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct LocalParams {
     /// Which descriptor.
