@@ -6,6 +6,7 @@
 mod recognition;
 pub mod registration;
 mod speed;
+pub mod systems;
 pub mod table1;
 mod window;
 

@@ -1,6 +1,7 @@
 //! `partsight bench`: how often right, how far off, how long, on simulated frames.
 
 mod registration;
+mod systems;
 mod table1;
 
 use std::path::{Path, PathBuf};
@@ -36,6 +37,7 @@ Examples:
   partsight bench table1 --csv table1.csv
   partsight bench table1 --part fender --part grille
   partsight bench registration --poses 125
+  partsight bench systems --placement hard
   partsight bench window
 
 Each part is enrolled from one frontal capture of the standard car, then seen at drawn poses. Without a name: a few
@@ -80,6 +82,8 @@ enum Bench {
     Table1,
     /// Poses of clouds that share no point: whole, single views, hidden, noisy, with stray points, and what the genetic algorithm adds
     Registration,
+    /// The left half of that table: time and right answers, ours beside FPFH, SHOT, spin images and VFH
+    Systems,
     /// Processor time of a frame of the window, at rest and turning; needs no display
     Window,
 }
@@ -136,6 +140,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         Bench::Recognition => &[Matcher::Default, Matcher::Paper],
         Bench::Table1 => return table1::run(args, console),
         Bench::Registration => return registration::run(args, console),
+        Bench::Systems => return systems::run(args, console),
     };
     if args.csv.is_some() || !args.part.is_empty() {
         return Err(advised_error(

@@ -336,6 +336,22 @@ fn viewpoints(cloud: &PointCloud, coverage: Coverage) -> Option<Vec<Point3<f64>>
     Some(fronts.iter().flat_map(around).collect())
 }
 
+/// The places that views are taken from, each with the part of the cloud that a camera sees from there.
+pub fn seen_around(cloud: &PointCloud, coverage: Coverage) -> Vec<(Point3<f64>, PointCloud)> {
+    let seen_from = |viewpoint: Point3<f64>| {
+        let visible = visible_from(cloud, &viewpoint);
+        let normals = cloud.normals.as_ref();
+        let seen = PointCloud {
+            points: visible.iter().map(|v| cloud.points[v.0]).collect(),
+            normals: normals.map(|all| visible.iter().map(|v| all[v.0]).collect()),
+            ..PointCloud::default()
+        };
+        (viewpoint, seen)
+    };
+    let places = viewpoints(cloud, coverage).unwrap_or_default();
+    places.into_iter().map(seen_from).collect()
+}
+
 /// Side of a cell of the view's depth buffer, metres: wider than the spacing of a reference cloud.
 const CELL: f64 = 0.015;
 /// How far behind the nearest surface of a cell a point may lie and still be seen, metres.
