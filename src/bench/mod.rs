@@ -4,6 +4,7 @@
 //! names, never asserted by a test.
 
 mod recognition;
+pub mod scaling;
 mod speed;
 pub mod table1;
 mod window;

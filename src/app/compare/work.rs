@@ -17,7 +17,9 @@ use crate::{
         shelf::Shelf,
         worker::Desk,
     },
-    cases::{CaseAbout, CaseError, CaseFolder, CaseResult, Confusion, KeptCase, found_in},
+    cases::{
+        Calibration, CaseAbout, CaseError, CaseFolder, CaseJudge, CaseResult, Confusion, KeptCase,
+    },
     pipeline::Recipe,
     stages::scene::SceneCloud,
 };
@@ -119,6 +121,8 @@ pub struct CaseRun {
     pub total: usize,
     /// The matrix.
     pub matrix: Matrix,
+    /// Scores against shares of right guesses.
+    pub calibration: Calibration,
     /// When the run ended; `None` while it goes on.
     pub ended: Option<Timestamp>,
 }
@@ -183,6 +187,7 @@ fn run(
     let order = library.references.iter().map(|r| r.name.clone());
     let order: Vec<String> = order.collect();
     let total = list.cases.len();
+    let judge = CaseJudge::new(&library, recipe);
     let (mut results, mut troubles) = (Vec::new(), Vec::new());
     let so_far = |results: &[CaseResult], troubles: &[Trouble], ended| {
         let confusion = Confusion::of(results, &order);
@@ -190,6 +195,7 @@ fn run(
             folder: folder.clone(),
             recipe: Arc::clone(recipe),
             matrix: Matrix::of(confusion, &shelved.shown),
+            calibration: Calibration::of(results),
             results: results.to_vec(),
             troubles: troubles.to_vec(),
             total,
@@ -202,11 +208,7 @@ fn run(
         }
         desk.progress(done, total);
         match folder.read_scene(case) {
-            Ok(scene) => results.push(CaseResult {
-                name: case.name.clone(),
-                truth: case.meta.about.truth.clone(),
-                found: found_in(&scene, &library, recipe, desk).ok()?,
-            }),
+            Ok(scene) => results.push(judge.judge(case, &scene, desk).ok()?),
             Err(error) => troubles.push(Trouble::of(&error)),
         }
         let run = so_far(&results, &troubles, None);
