@@ -29,7 +29,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     console.start_progress(matchers.len() * sizes(most).len());
     let mut scalings = Vec::new();
     for matcher in matchers {
-        scalings.push(scaling(matcher, most, &Unwatched, &mut |_| console.done())?);
+        scalings.push(scaling(matcher, most, &Unwatched, &mut |_| console.done()).advised()?);
     }
     console.end_progress();
     for scaling in &scalings {
@@ -67,15 +67,16 @@ fn show(scaling: &Scaling, console: &mut Console) {
         None => String::new(),
     };
     console.line(&format_args!(
-        "This machine has {num_cores} cores{shared}. Medians."
+        "This machine has {num_cores} cores{shared}. The quickest ranking of each, in parentheses the median."
     ));
     let mut table = Table::new(&["references", "1 worker", "2", "4", "8", "quickest"]);
     for row in &scaling.rows {
-        let times = row.median_ms.map(|ms| format!("{ms:.3} ms"));
-        let quickest = row.median_ms.iter().zip(scaling.workers);
+        let times = row.least_ms.iter().zip(row.median_ms);
+        let times = times.map(|(least, median)| format!("{least:.3} ms ({median:.3})"));
+        let quickest = row.least_ms.iter().zip(scaling.workers);
         let quickest = quickest.min_by(|a, b| a.0.total_cmp(b.0));
         let quickest = quickest.map_or_else(String::new, |(ms, workers)| {
-            let gain = row.median_ms[0] / ms;
+            let gain = row.least_ms[0] / ms;
             match workers {
                 1 => "1 worker".into(),
                 workers => format!("{workers} workers, {gain:.2}×"),
@@ -116,7 +117,7 @@ fn picture(scaling: &Scaling) -> image::RgbImage {
             points: scaling
                 .rows
                 .iter()
-                .map(|row| [row.num_references as f64, row.median_ms[place]])
+                .map(|row| [row.num_references as f64, row.least_ms[place]])
                 .collect(),
         })
         .collect();
