@@ -66,7 +66,7 @@ pub(super) struct BenchArgs {
     /// Of scaling: draw the times into this file
     #[arg(long, value_name = "PNG")]
     plot: Option<PathBuf>,
-    /// Of scaling: references at most; ten thousand take 2 GB
+    /// Of scaling: references at most; ten thousand take below 3 GB
     #[arg(long, value_name = "N", default_value_t = crate::bench::scaling::MOST as u64, value_parser = clap::value_parser!(u64).range(8..=100_000))]
     most: u64,
     /// Of table1: only this part; may be given several times

@@ -64,16 +64,21 @@ pub(super) fn ui(
         });
 }
 
+/// Short: a row has room for some sixty letters.
 fn words(word: &str, change: &CaseChange, shown: &LibraryShown) -> String {
     let found = |found: &Found| match (&found.part, found.score) {
         (Some(part), Some(score)) => format!("{} {score:.2}", part_title(part, shown)),
         _ => "nothing".into(),
     };
-    let (before, now) = (found(&change.before), found(&change.now));
+    let before = found(&change.before);
+    let now = match change.now.score {
+        Some(score) if change.before.part == change.now.part => format!("{score:.2}"),
+        _ => found(&change.now),
+    };
     let [was, is] = change.judgements.map(Judgement::words);
     if was == is {
-        format!("{word}: {before} before, {now} now")
+        format!("{word}: {before} → {now}")
     } else {
-        format!("{word}: {is} now ({now}), {was} before ({before})")
+        format!("{word}: {is}, was {was} · {before} → {now}")
     }
 }
