@@ -68,8 +68,14 @@ pub fn scaling_picture(
     if let Some((size, words)) = crossover {
         let [x, top] = chart.place([size, chart.up.range[1]]);
         canvas.line([x, top], [x, chart.corners[1][1]], DIM);
-        let at = [x + 6.0, top + 16.0];
-        small.write(&mut canvas.image, words, at, Anchor::Left, LIGHT);
+        // Curves rise from left to right: below, on the side with more room, is none.
+        let (aside, anchor) = if x < f64::midpoint(chart.corners[0][0], chart.corners[1][0]) {
+            (6.0, Anchor::Left)
+        } else {
+            (-6.0, Anchor::Right)
+        };
+        let at = [x + aside, chart.corners[1][1] - 10.0];
+        small.write(&mut canvas.image, words, at, anchor, LIGHT);
     }
     for (place, curve) in curves.iter().enumerate() {
         let colour = COLOURS[place % COLOURS.len()];

@@ -89,11 +89,9 @@ fn show(scaling: &Scaling, console: &mut Console) {
     for (workers, from) in scaling.workers.iter().zip(scaling.crossovers).skip(1) {
         let from = from.map_or_else(
             || "nowhere".into(),
-            |size| format!("from {size} references"),
+            |size| format!("from {size} references on"),
         );
-        console.line(&format_args!(
-            "{workers} workers are quicker than one {from}"
-        ));
+        console.line(&format_args!("{workers} workers pay {from}"));
     }
     let same = if scaling.is_identical {
         "Every ranking was the same to the last bit."
