@@ -13,7 +13,10 @@ use super::{
     store::{CaseFolder, CaseList, KeptCase},
 };
 use crate::{
-    geometry::{parallel::map_in_order, rigid::pose_error},
+    geometry::{
+        parallel::map_in_order,
+        rigid::{PoseError, pose_error},
+    },
     library::{CloudCheck, Library},
     pipeline::{self, Cancelled, Inspection, Recipe, Unwatched, Watch},
     stages::scene::SceneCloud,
@@ -62,11 +65,7 @@ impl<'a> CaseJudge<'a> {
         Ok(result)
     }
 
-    fn pose_error(
-        &self,
-        case: &KeptCase,
-        inspection: &Inspection,
-    ) -> Option<crate::geometry::rigid::PoseError> {
+    fn pose_error(&self, case: &KeptCase, inspection: &Inspection) -> Option<PoseError> {
         let truth = case.meta.about.pose.as_ref()?;
         let found = inspection.pose.as_ref()?.as_ref().ok()?;
         let place = inspection.ranking.entries.first()?.reference;
@@ -157,4 +156,102 @@ pub fn evaluate(
     let references = judge.library.references.iter();
     let order: Vec<String> = references.map(|r| r.name.clone()).collect();
     Evaluation::of(results, problems, &order)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        cases::{CaseAbout, TruePose},
+        library::shipped_enrolled_at,
+        simulate::{CellSetup, PartKind, Side, frame},
+        stages::scene::scene_from_frame,
+    };
+
+    fn shipped() -> Library {
+        crate::library::open_library(Some(std::path::Path::new("reference_parts")))
+            .and_then(|place| place.load(&crate::stages::reference::ReferenceParams::default()))
+            .expect("the shipped parts")
+            .library
+    }
+
+    #[test]
+    fn a_pose_is_judged_only_in_the_coordinates_of_the_cloud_that_it_is_of() {
+        let library = shipped();
+        let shot = frame(&CellSetup::with_part(PartKind::Fender, Side::Left, 0, 77));
+        let at = shipped_enrolled_at("fender").expect("shipped");
+        let camera_from_part = shot.truth.camera_from_part * at.part_from_model.inverse();
+        let folder = tempfile::tempdir().expect("a folder");
+        let cases = CaseFolder::at(folder.path());
+        for (name, cloud_crc32) in [
+            ("its_own", Some(at.cloud.crc32)),
+            ("not_said", None),
+            ("of_another", Some("00000000".into())),
+        ] {
+            let about = CaseAbout {
+                origin: name.into(),
+                simulated: true,
+                kept_at: jiff::Timestamp::UNIX_EPOCH,
+                remark: String::new(),
+                difficulty: Some("placed".into()),
+                truth: Truth::Part("fender".into()),
+                found: Found::default(),
+                pose: Some(TruePose {
+                    camera_from_part,
+                    cloud_crc32,
+                }),
+            };
+            let scene = scene_from_frame(&shot.frame);
+            cases.keep(&scene, about).expect("kept");
+        }
+        let recipe = Recipe::default();
+        let judge = CaseJudge::new(&library, &recipe);
+        let list = cases.list().expect("listed");
+        let evaluation = evaluate(&cases, list, &judge, 2, &|_| ());
+        let judged = |name: &str| {
+            let mut results = evaluation.results.iter();
+            let result = results.find(|r| r.name == name).expect("there");
+            assert_eq!(result.is_guess_right(), Some(true));
+            result.pose_error
+        };
+        let error = judged("its_own").expect("known");
+        assert!(
+            error.rotation.degrees() < 2.0 && error.shift.mm() < 10.0,
+            "{error:?}"
+        );
+        assert_eq!(judged("not_said"), Some(error));
+        assert_eq!(judged("of_another"), None);
+        assert_eq!(evaluation.by_difficulty.len(), 1);
+    }
+
+    #[test]
+    fn a_pose_that_is_no_rigid_transform_makes_a_case_damaged_and_a_missing_one_does_not() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let cases = CaseFolder::at(folder.path());
+        let points = (0..12).map(|i| nalgebra::Point3::new(i as f32 * 0.1, 0.2, 1.0));
+        let cloud = crate::geometry::cloud::PointCloud::from_points(points);
+        let about = CaseAbout {
+            origin: "stretched".into(),
+            simulated: true,
+            kept_at: jiff::Timestamp::UNIX_EPOCH,
+            remark: String::new(),
+            difficulty: None,
+            truth: Truth::Nothing,
+            found: Found::default(),
+            pose: None,
+        };
+        let scene = crate::stages::scene::scene_from_cloud(cloud);
+        let kept = cases.keep(&scene, about).expect("kept");
+        assert_eq!(cases.list().expect("listed").cases, [kept]);
+        let toml = folder.path().join("stretched").join("case.toml");
+        let text = std::fs::read_to_string(&toml).expect("read");
+        assert!(!text.contains("pose") && !text.contains("difficulty"));
+        let stretched =
+            "\n[pose]\ncamera_from_part = [2, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1]\n";
+        std::fs::write(&toml, text + stretched).expect("written");
+        let list = cases.list().expect("listed");
+        assert!(list.cases.is_empty());
+        let problem = list.problems.first().expect("named").to_string();
+        assert!(problem.contains("not a rigid transform"), "{problem}");
+    }
 }

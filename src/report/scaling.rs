@@ -68,13 +68,13 @@ pub fn scaling_picture(
     if let Some((size, words)) = crossover {
         let [x, top] = chart.place([size, chart.up.range[1]]);
         canvas.line([x, top], [x, chart.corners[1][1]], DIM);
-        // Curves rise from left to right: below, on the side with more room, is none.
-        let (aside, anchor) = if x < f64::midpoint(chart.corners[0][0], chart.corners[1][0]) {
-            (6.0, Anchor::Left)
+        // Curves rise from left to right: above the left half and below the right one is none.
+        let bottom = chart.corners[1][1];
+        let (at, anchor) = if x < f64::midpoint(chart.corners[0][0], chart.corners[1][0]) {
+            ([x + 6.0, top + 16.0], Anchor::Left)
         } else {
-            (-6.0, Anchor::Right)
+            ([x - 6.0, bottom - 10.0], Anchor::Right)
         };
-        let at = [x + aside, chart.corners[1][1] - 10.0];
         small.write(&mut canvas.image, words, at, anchor, LIGHT);
     }
     for (place, curve) in curves.iter().enumerate() {
