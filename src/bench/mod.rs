@@ -5,6 +5,7 @@
 
 mod recognition;
 pub mod registration;
+pub mod scaling;
 mod speed;
 pub mod systems;
 pub mod table1;
