@@ -250,11 +250,9 @@ fn nth_reference(originals: &[Reference], place: usize, matcher: Matcher) -> Ref
     }
     let mut random = Pcg64::seed_from_u64(place as u64);
     let swing = Swing::new(&mut random);
-    let mut copy = Reference {
-        name: format!("{}_{place}", original.name),
-        views: Vec::new(),
-        ..original.clone()
-    };
+    let mut copy = original.clone();
+    copy.name = format!("{}_{place}", original.name);
+    copy.views.clear();
     match matcher {
         Matcher::Default => {
             copy.views = original

@@ -263,8 +263,11 @@ mod tests {
         assert!(poor.doubt().is_some(), "{:?}", poor.fit);
     }
 
-    /// Points drawn anew over a surface given by two numbers from 0 to 1.
-    fn surface(seed: u64, at: impl Fn(f32, f32) -> [f32; 3]) -> PointCloud {
+    /// A surface: a point for every two numbers from 0 to 1.
+    type Shape = fn(f32, f32) -> [f32; 3];
+
+    /// Points drawn anew over a surface.
+    fn surface(seed: u64, at: Shape) -> PointCloud {
         let mut rng = Pcg64::seed_from_u64(seed);
         let points = (0..4000).map(|_| Point3::from(at(rng.random(), rng.random())));
         PointCloud::from_points(points)
@@ -273,21 +276,21 @@ mod tests {
     #[test]
     fn what_fits_in_many_places_is_doubted_and_never_sure() {
         use std::f32::consts::TAU;
-        let plate = |u: f32, v: f32| [u, 0.6 * v, 0.0];
-        let square = |u: f32, v: f32| [u, v, 0.0];
-        let disc = |u: f32, v: f32| [v.sqrt() * (TAU * u).cos(), v.sqrt() * (TAU * u).sin(), 0.0];
-        let tube = |u: f32, v: f32| [2.0 * v, 0.3 * (TAU * u).cos(), 0.3 * (TAU * u).sin()];
-        let ball = |u: f32, v: f32| {
+        let plate: Shape = |u, v| [u, 0.6 * v, 0.0];
+        let square: Shape = |u, v| [u, v, 0.0];
+        let disc: Shape = |u, v| [v.sqrt() * (TAU * u).cos(), v.sqrt() * (TAU * u).sin(), 0.0];
+        let tube: Shape = |u, v| [2.0 * v, 0.3 * (TAU * u).cos(), 0.3 * (TAU * u).sin()];
+        let ball: Shape = |u, v| {
             let (z, turn) = (2.0 * v - 1.0, TAU * u);
             let r = (1.0 - z * z).sqrt();
             [r * turn.cos(), r * turn.sin(), z]
         };
-        let shapes: [(&str, &dyn Fn(f32, f32) -> [f32; 3]); 5] = [
-            ("plate", &plate),
-            ("square", &square),
-            ("disc", &disc),
-            ("tube", &tube),
-            ("ball", &ball),
+        let shapes = [
+            ("plate", plate),
+            ("square", square),
+            ("disc", disc),
+            ("tube", tube),
+            ("ball", ball),
         ];
         let displaced = from_euler_zyx([0.4, 0.3, -1.0, 0.1, 0.2, 0.3]);
         for (name, shape) in shapes {
