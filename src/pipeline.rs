@@ -12,9 +12,8 @@ use crate::{
         confirm::{ConfirmParams, Scene, UNCONFIRMED, confirm},
         contour::{Contour, ContourParams, find_contour},
         pose::{
-            PoseError, PoseEstimate, PoseMethod,
-            icp::{IcpParams, locate_by_icp},
-            icp_ga::{IcpGaParams, locate_by_icp_ga},
+            AlignParams, PoseError, PoseEstimate, PoseMethod, icp::IcpParams, icp_ga::IcpGaParams,
+            locate,
         },
         project::{PlaneImage, ProjectParams, project},
         rank::{MatchRanking, Matcher, Query, RankParams, place, rank},
@@ -164,11 +163,13 @@ fn recognise(
         PoseChoice::By(method @ (PoseMethod::Icp | PoseMethod::IcpGa)) => {
             let reference = &references[first.reference];
             let is_cancelled = || clock.is_cancelled();
-            let pose = clock.time(Stage::Pose, || match method {
-                PoseMethod::IcpGa => {
-                    locate_by_icp_ga(part, reference, scene, &recipe.icp_ga, &is_cancelled)
-                }
-                _ => locate_by_icp(part, reference, scene, &recipe.icp, &is_cancelled),
+            let params = AlignParams {
+                method,
+                icp: recipe.icp.clone(),
+                icp_ga: recipe.icp_ga.clone(),
+            };
+            let pose = clock.time(Stage::Pose, || {
+                locate(part, reference, scene, &params, &is_cancelled)
             })?;
             if pose == Err(PoseError::Cancelled) {
                 return Err(Cancelled);

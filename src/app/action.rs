@@ -92,6 +92,8 @@ pub enum Ask {
     Picture,
     /// A folder of kept cases.
     CasesFolder,
+    /// What an earlier run of all cases has written.
+    EarlierRun,
     /// Something of the Align workspace.
     Align(AlignAsk),
     /// A scene, a whole cloud or a mesh to enrol.
@@ -137,6 +139,9 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::Ask(ask) => return Some(Effect::ShowDialog(ask)),
         Action::Chosen(Ask::CasesFolder, path) => {
             return compare::apply(state, CompareAction::Folder(path));
+        }
+        Action::Chosen(Ask::EarlierRun, path) => {
+            return compare::apply(state, CompareAction::Earlier(path));
         }
         Action::Chosen(Ask::Scene | Ask::Part, path) | Action::Open(path) => {
             state.source = Source::File(path);

@@ -68,6 +68,12 @@ impl Dialog {
                     .save_file(),
             ),
             Ask::CasesFolder => Box::pin(dialog.set_title("Folder of kept cases").pick_folder()),
+            Ask::EarlierRun => Box::pin(
+                dialog
+                    .set_title("What partsight evaluate --json has written")
+                    .add_filter("Evaluations", &["json"])
+                    .pick_file(),
+            ),
             Ask::Align(AlignAsk::TableFile) => Box::pin(
                 dialog
                     .set_title("Export Table I")
@@ -126,6 +132,7 @@ fn without_dialog(ask: Ask) -> Action {
         Ask::Scene
         | Ask::Library
         | Ask::CasesFolder
+        | Ask::EarlierRun
         | Ask::Part
         | Ask::Align(AlignAsk::Source | AlignAsk::Target) => return Action::Notify(never_opened()),
     };

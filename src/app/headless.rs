@@ -252,7 +252,7 @@ impl HeadlessWindow {
 }
 
 /// Processor time of this thread so far, seconds; `None` where there is no /proc.
-fn thread_seconds() -> Option<f64> {
+pub fn thread_seconds() -> Option<f64> {
     // Linux brings the figure up to date when the thread gives way.
     thread::yield_now();
     let text = fs::read_to_string("/proc/thread-self/schedstat").ok()?;

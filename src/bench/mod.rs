@@ -4,7 +4,10 @@
 //! names, never asserted by a test.
 
 mod recognition;
+pub mod registration;
+pub mod scaling;
 mod speed;
+pub mod systems;
 pub mod table1;
 mod window;
 

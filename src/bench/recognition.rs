@@ -7,7 +7,7 @@ use crate::{
     library::{About, EnrolError, EnrolParams, Library, PartName, enrol_captured},
     pipeline::{Cancelled, Recipe, Timings, Verdict, Watch, run},
     simulate::{CellSetup, PartKind, PartModel, PartPose, Placement, Side, frame_of_mesh},
-    stages::scene::scene_from_frame,
+    stages::{reference::Reference, scene::scene_from_frame},
     units::{Metres, Radians},
 };
 
@@ -146,26 +146,39 @@ impl Recognition {
 /// Enrols each part of the standard car from one capture, square-on, 1.3 m before the camera.
 pub fn enrol_standard_parts(params: &EnrolParams) -> Result<EnrolledStandard, EnrolError> {
     let mut library = Library::default();
-    let camera_from_model = RigidTransform::translation(0.0, 0.0, 1.3);
     for kind in PartKind::ALL {
-        let mut setup = CellSetup::with_part(kind, Side::Left, 0, 1);
-        setup.pose = PartPose::Fixed(camera_from_model);
-        let shot = crate::simulate::frame(&setup);
-        let about = About {
-            name: PartName::new(kind.name()).expect("our own names are valid"),
-            title: kind.title().to_owned(),
-            notes: String::new(),
-            from: "simulated cell".to_owned(),
-            at: jiff::Timestamp::UNIX_EPOCH,
-            simulated: true,
-        };
-        let enrolled = enrol_captured(&scene_from_frame(&shot.frame), &about, params)?;
-        library.references.push(enrolled.reference);
+        library.references.push(enrol_model(kind, 0, params)?);
     }
     Ok(EnrolledStandard {
         library,
-        camera_from_model: [camera_from_model; 8],
+        camera_from_model: [enrolled_at(); 8],
     })
+}
+
+/// Where a part hangs when it is enrolled.
+fn enrolled_at() -> RigidTransform {
+    RigidTransform::translation(0.0, 0.0, 1.3)
+}
+
+/// Enrols a part of a model of the car from one capture, square-on, 1.3 m before the camera.
+pub(super) fn enrol_model(
+    kind: PartKind,
+    model_seed: u64,
+    params: &EnrolParams,
+) -> Result<Reference, EnrolError> {
+    let mut setup = CellSetup::with_part(kind, Side::Left, model_seed, 1);
+    setup.pose = PartPose::Fixed(enrolled_at());
+    let shot = crate::simulate::frame(&setup);
+    let about = About {
+        name: PartName::new(kind.name()).expect("our own names are valid"),
+        title: kind.title().to_owned(),
+        notes: String::new(),
+        from: "simulated cell".to_owned(),
+        at: jiff::Timestamp::UNIX_EPOCH,
+        simulated: true,
+    };
+    let enrolled = enrol_captured(&scene_from_frame(&shot.frame), &about, params)?;
+    Ok(enrolled.reference)
 }
 
 /// Inspects the frames of a setup; `after_each` is told how many are done, of how many.

@@ -18,7 +18,8 @@ use crate::{
     simulate::PartKind,
     stages::{
         pose::{
-            AlignParams, PoseError, PoseMethod, Stopped, align_with, displacements::displacements,
+            AlignParams, PoseError, PoseMethod, PreparedTarget, Stopped, align_to,
+            displacements::displacements,
         },
         reference::Reference,
     },
@@ -33,6 +34,8 @@ pub struct Row {
     pub transform: usize,
     /// Points of the part, source and target alike.
     pub num_points: usize,
+    /// How long the target took to prepare, once for all rows of the part.
+    pub preparation: Duration,
     /// What each of [`PoseMethod::ALL`] came to.
     pub attempts: [Attempt; 3],
 }
@@ -42,7 +45,7 @@ pub struct Row {
 pub struct Attempt {
     /// The method.
     pub method: PoseMethod,
-    /// Time of the estimation, its preparation included.
+    /// Time of the estimation without preparing the target.
     pub time: Duration,
     /// The pose found, or why there is none.
     pub found: Result<Found, PoseError>,
@@ -107,12 +110,16 @@ pub fn table1(
 ) -> Result<Vec<Row>, Cancelled> {
     let mut rows = Vec::new();
     for reference in parts(library) {
+        let clock = Instant::now();
+        let prepared = PreparedTarget::new(&reference.cloud);
+        let preparation = clock.elapsed();
         for (k, transform) in displacements().iter().enumerate() {
             let row = Row {
                 part: reference.name.clone(),
                 transform: k + 1,
                 num_points: reference.cloud.num_finite(),
-                attempts: attempts(reference, transform, params, is_cancelled)?,
+                preparation,
+                attempts: attempts(reference, &prepared, transform, params, is_cancelled)?,
             };
             on_row(&row);
             rows.push(row);
@@ -123,12 +130,13 @@ pub fn table1(
 
 fn attempts(
     reference: &Reference,
+    prepared: &Result<PreparedTarget, PoseError>,
     source_from_target: &RigidTransform,
     params: &AlignParams,
     is_cancelled: &dyn Fn() -> bool,
 ) -> Result<[Attempt; 3], Cancelled> {
-    let target = PointCloud::from_points(reference.cloud.points.iter().copied());
-    let moved = target
+    let moved = reference
+        .cloud
         .points
         .iter()
         .map(|p| (source_from_target * p.cast::<f64>()).cast());
@@ -142,7 +150,9 @@ fn attempts(
             ..params.clone()
         };
         let clock = Instant::now();
-        let aligned = align_with(&source, &target, &params, None, is_cancelled);
+        let prepared = prepared.as_ref().map_err(|error| *error);
+        let aligned =
+            prepared.and_then(|target| align_to(&source, target, &params, None, is_cancelled));
         let time = clock.elapsed();
         let found = aligned.map(|pose| Found {
             e_m2: e_m2(&source, reference, &pose.target_from_source),

@@ -2,13 +2,15 @@
 
 use std::collections::{BTreeMap, BTreeSet};
 
+use serde::Serialize;
+
 use super::judge::{Answered, CaseResult, Judgement, Truth};
 
 /// A cell of the matrix.
 pub type Cell = (Truth, Answered);
 
 /// How many came out how.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
 pub struct Tally {
     /// Cases counted.
     pub total: usize,
@@ -18,6 +20,25 @@ pub struct Tally {
     pub wrong_accepted: usize,
     /// Enrolled parts that were refused.
     pub refused: usize,
+    /// Enrolled parts whose best guess, accepted or not, is right.
+    pub guessed_right: usize,
+}
+
+impl Tally {
+    /// Of these results.
+    pub fn of<'a>(results: impl IntoIterator<Item = &'a CaseResult>) -> Self {
+        let mut tally = Self::default();
+        for result in results {
+            tally.total += 1;
+            match result.judgement() {
+                Judgement::Right => tally.right += 1,
+                Judgement::WrongAccepted => tally.wrong_accepted += 1,
+                Judgement::Refused => tally.refused += 1,
+            }
+            tally.guessed_right += usize::from(result.is_guess_right() == Some(true));
+        }
+        tally
+    }
 }
 
 /// The results, sorted into cells.
@@ -36,18 +57,14 @@ pub struct Confusion {
 impl Confusion {
     /// Sorts the results; `order` names the library's parts.
     pub fn of(results: &[CaseResult], order: &[String]) -> Self {
-        let mut confusion = Self::default();
+        let mut confusion = Self {
+            tally: Tally::of(results),
+            ..Self::default()
+        };
         let mut truths = BTreeSet::new();
         let mut parts = BTreeSet::new();
         for (place, result) in results.iter().enumerate() {
             let answered = result.found.answered();
-            let tally = &mut confusion.tally;
-            tally.total += 1;
-            match Judgement::of(&result.truth, &answered) {
-                Judgement::Right => tally.right += 1,
-                Judgement::WrongAccepted => tally.wrong_accepted += 1,
-                Judgement::Refused => tally.refused += 1,
-            }
             truths.insert(result.truth.clone());
             parts.extend(result.truth.part().map(str::to_owned));
             if let Answered::Part(part) = &answered {
@@ -74,17 +91,20 @@ impl Confusion {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::cases::Found;
+    use crate::{cases::Found, pipeline::Timings};
 
     fn result(truth: Truth, found: Option<&str>) -> CaseResult {
         CaseResult {
             name: "case".into(),
+            difficulty: None,
             truth,
             found: Found {
                 part: found.map(Into::into),
                 accepted: found.is_some(),
                 ..Found::default()
             },
+            pose_error: None,
+            timings: Timings::default(),
         }
     }
 
@@ -106,7 +126,8 @@ mod tests {
                 total: 5,
                 right: 2,
                 wrong_accepted: 2,
-                refused: 1
+                refused: 1,
+                guessed_right: 1
             }
         );
         assert_eq!(

@@ -3,8 +3,9 @@
 use serde::{Deserialize, Serialize};
 
 use crate::{
+    geometry::rigid::PoseError,
     library::Library,
-    pipeline::{self, Cancelled, Recipe, Verdict, Watch},
+    pipeline::{self, Cancelled, Recipe, Timings, Verdict, Watch},
     stages::scene::SceneCloud,
 };
 
@@ -26,6 +27,15 @@ impl Truth {
         match self {
             Self::Part(name) => Some(name),
             Self::NotEnrolled | Self::Nothing => None,
+        }
+    }
+
+    /// As in reports: the part's name, `not_enrolled` or `nothing`.
+    pub fn name(&self) -> &str {
+        match self {
+            Self::Part(name) => name,
+            Self::NotEnrolled => "not_enrolled",
+            Self::Nothing => "nothing",
         }
     }
 }
@@ -91,15 +101,16 @@ pub enum Answered {
     NotAccepted,
 }
 
-/// Whether an answer is right.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+/// Whether an answer is right; the later, the worse.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Judgement {
     /// The part was accepted as what it is, or what is no enrolled part was refused.
     Right,
-    /// Accepted as something that it is not: the robot would paint it wrongly.
-    WrongAccepted,
     /// An enrolled part was refused.
     Refused,
+    /// Accepted as something that it is not: the robot would paint it wrongly.
+    WrongAccepted,
 }
 
 impl Judgement {
@@ -112,6 +123,15 @@ impl Judgement {
             (Truth::NotEnrolled | Truth::Nothing, Answered::NotAccepted) => Self::Right,
         }
     }
+
+    /// In words.
+    pub fn words(self) -> &'static str {
+        match self {
+            Self::Right => "right",
+            Self::Refused => "refused",
+            Self::WrongAccepted => "wrong and accepted",
+        }
+    }
 }
 
 /// What came out of one case.
@@ -119,10 +139,29 @@ impl Judgement {
 pub struct CaseResult {
     /// The case's folder name.
     pub name: String,
+    /// How hard it is, in free words.
+    pub difficulty: Option<String>,
     /// What it truly is.
     pub truth: Truth,
     /// What was found.
     pub found: Found,
+    /// How far the pose is off, the shift taken at the part's middle; only of a right guess whose true pose is known.
+    pub pose_error: Option<PoseError>,
+    /// How long the stages took.
+    pub timings: Timings,
+}
+
+impl CaseResult {
+    /// Whether the answer is right.
+    pub fn judgement(&self) -> Judgement {
+        Judgement::of(&self.truth, &self.found.answered())
+    }
+
+    /// Whether the best guess, accepted or not, is right; `None` without a guess.
+    pub fn is_guess_right(&self) -> Option<bool> {
+        let guess = self.found.part.as_deref()?;
+        Some(self.truth.part() == Some(guess))
+    }
 }
 
 /// What an inspection of the scene finds.

@@ -4,7 +4,11 @@ use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
 use super::judge::{Found, Truth};
-use crate::{capture::frame::Intrinsics, stages::scene::PictureEdge};
+use crate::{
+    capture::frame::Intrinsics,
+    geometry::{rigid::RigidTransform, sixteen_numbers},
+    stages::scene::PictureEdge,
+};
 
 /// The version of the format that is written; newer ones are refused.
 pub const SCHEMA_VERSION: u32 = 1;
@@ -21,10 +25,28 @@ pub struct CaseAbout {
     /// A remark for people; may be empty.
     #[serde(default)]
     pub remark: String,
+    /// How hard it is, in free words such as `placed` or `hard`; cases with the same words are counted together.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub difficulty: Option<String>,
     /// What it truly is.
     pub truth: Truth,
     /// What was found when it was kept.
     pub found: Found,
+    /// Where the part truly is, if it is known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub pose: Option<TruePose>,
+}
+
+/// Where the part truly is.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct TruePose {
+    /// Maps a point of the enrolled part to where it is in the scene; 16 numbers row after row, metres.
+    #[serde(with = "sixteen_numbers")]
+    pub camera_from_part: RigidTransform,
+    /// The checksum of the enrolled part's cloud, as its `part.toml` has it: enrolled from another capture it has
+    /// other coordinates, and the pose says nothing of it. Without one it is taken to be of whatever is enrolled.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub cloud_crc32: Option<String>,
 }
 
 /// `case.toml`.

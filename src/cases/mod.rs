@@ -16,6 +16,7 @@
 //! simulated = true                  # no camera was read
 //! kept_at = "2026-11-20T14:07:31Z"
 //! remark = ""
+//! difficulty = "placed"             # free words to be sorted by; may be absent
 //!
 //! [truth]
 //! is = "part"                       # part, not_enrolled or nothing
@@ -27,6 +28,10 @@
 //! margin = 0.2
 //! accepted = true
 //! reason = "..."                    # only if not accepted
+//!
+//! [pose]                            # where the part truly is; absent if nobody knows
+//! camera_from_part = [16 numbers]   # row after row, metres
+//! cloud_crc32 = "4d355f87"          # the cloud of the enrolled part whose coordinates these are
 //!
 //! [scene]
 //! bytes = 3686600                   # size and CRC-32 of scene.pcd
@@ -47,16 +52,26 @@
 //! aside, the others load; a newer schema is refused in words. The size is held against `case.toml` when a folder is
 //! listed, the checksum when a scene is read.
 
+mod calibration;
+mod changes;
 mod confusion;
 mod error;
+mod evaluation;
 mod judge;
 mod meta;
+mod record;
 mod store;
 
 pub use self::{
+    calibration::{Calibration, ScoreBin},
+    changes::{CaseChange, Changes},
     confusion::{Cell, Confusion, Tally},
     error::CaseError,
+    evaluation::{CaseJudge, Evaluation, evaluate},
     judge::{Answered, CaseResult, Found, Judgement, Truth, found_in},
-    meta::{CaseAbout, CaseMeta, Edge, SCHEMA_VERSION, SceneRecord},
+    meta::{CaseAbout, CaseMeta, Edge, SCHEMA_VERSION, SceneRecord, TruePose},
+    record::{
+        CaseRecord, EarlierRun, EvaluationRecord, PoseErrors, PoseOff, RECORD_SCHEMA, RecordError,
+    },
     store::{CaseFolder, CaseList, KeptCase},
 };

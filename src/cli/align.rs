@@ -64,6 +64,8 @@ struct AlignLine<'a> {
     e_m2: Option<f64>,
     rms_m: Option<f64>,
     overlap: Option<f64>,
+    shift_bound_m: Option<f64>,
+    turn_bound_rad: Option<f64>,
     iterations: Option<usize>,
     stopped: Option<&'static str>,
     ambiguous: bool,
@@ -99,6 +101,7 @@ pub(super) fn run(args: &AlignArgs, console: &mut Console) -> anyhow::Result<Out
         let pose = aligned.as_ref().ok();
         let failure = aligned.as_ref().err().map(ToString::to_string);
         let fit = pose.map(|pose| pose.fit);
+        let bounds = pose.and_then(|pose| pose.uncertainty);
         let line = AlignLine {
             schema: SCHEMA,
             source: &args.source.display().to_string(),
@@ -109,6 +112,8 @@ pub(super) fn run(args: &AlignArgs, console: &mut Console) -> anyhow::Result<Out
             e_m2: fit.map(|fit| fit.e_m2),
             rms_m: fit.map(|fit| fit.rms_m),
             overlap: fit.map(|fit| fit.overlap),
+            shift_bound_m: bounds.map(|u| u.shift.0),
+            turn_bound_rad: bounds.map(|u| u.turn.0),
             iterations: pose.map(|pose| pose.iterations.len()),
             stopped: pose.map(|pose| pose.stopped.name()),
             ambiguous: pose.is_some_and(PoseEstimate::is_ambiguous),
@@ -166,6 +171,15 @@ fn show(pose: &PoseEstimate, time_ms: f64, console: &mut Console) {
             pose.fit.e_m2
         ),
     );
+    if let Some(bounds) = pose.uncertainty {
+        let (shift, turn) = (bounds.shift.mm(), bounds.turn.degrees());
+        let text = if bounds.is_held() {
+            format!("off by less than {shift:.2} mm and {turn:.3} degrees in 95 of 100 cases")
+        } else {
+            "nothing holds it".to_owned()
+        };
+        row("bounds", text);
+    }
     row(
         "method",
         format!(

@@ -1,5 +1,8 @@
 //! `partsight bench`: how often right, how far off, how long, on simulated frames.
 
+mod registration;
+mod scaling;
+mod systems;
 mod table1;
 
 use std::path::{Path, PathBuf};
@@ -34,6 +37,9 @@ Examples:
   partsight bench recognition --placement hard --json hard.json
   partsight bench table1 --csv table1.csv
   partsight bench table1 --part fender --part grille
+  partsight bench registration --poses 125
+  partsight bench systems --placement hard
+  partsight bench scaling --plot scaling.png
   partsight bench window
 
 Each part is enrolled from one frontal capture of the standard car, then seen at drawn poses. Without a name: a few
@@ -61,6 +67,12 @@ pub(super) struct BenchArgs {
     /// Of table1: write every attempt to this file as comma-separated values
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
+    /// Of scaling: draw the times into this file
+    #[arg(long, value_name = "PNG")]
+    plot: Option<PathBuf>,
+    /// Of scaling: references at most; ten thousand take below 3 GB
+    #[arg(long, value_name = "N", default_value_t = crate::bench::scaling::MOST as u64, value_parser = clap::value_parser!(u64).range(8..=100_000))]
+    most: u64,
     /// Of table1: only this part; may be given several times
     #[arg(long, value_name = "NAME")]
     part: Vec<String>,
@@ -76,6 +88,12 @@ enum Bench {
     Recognition,
     /// The paper's Table I: what is left of E from T1..T5, by ICP, ICP-GA and the global method
     Table1,
+    /// Poses of clouds that share no point: whole, single views, hidden, noisy, with stray points, and what the genetic algorithm adds
+    Registration,
+    /// The left half of that table: time and right answers, ours beside FPFH, SHOT, spin images and VFH
+    Systems,
+    /// Ranking by 1, 2, 4 and 8 workers over a growing number of references: from where do several pay?
+    Scaling,
     /// Processor time of a frame of the window, at rest and turning; needs no display
     Window,
 }
@@ -128,9 +146,12 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         return frames(args, console);
     }
     let matchers: &[Matcher] = match args.bench {
+        Bench::Scaling => return scaling::run(args, console),
         Bench::Speed | Bench::Window => &[Matcher::Default],
         Bench::Recognition => &[Matcher::Default, Matcher::Paper],
         Bench::Table1 => return table1::run(args, console),
+        Bench::Registration => return registration::run(args, console),
+        Bench::Systems => return systems::run(args, console),
     };
     if args.csv.is_some() || !args.part.is_empty() {
         return Err(advised_error(

@@ -2,20 +2,20 @@
 
 use std::path::{Path, PathBuf};
 
-use clap::{Args, ValueEnum};
+use clap::Args;
 
 use super::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console},
     input::open_scene,
+    recipe::RecipeChoice,
     verdict::{complaint, outcome_of, place_of, show_card},
 };
 use crate::{
     error::Advice as _,
     library::Library,
-    pipeline::{self, Inspection, PoseChoice, Recipe, Unwatched, Verdict},
+    pipeline::{self, Inspection, Recipe, Unwatched, Verdict},
     report::{InspectionLine, ReportFolder, stage_pictures},
-    stages::{pose::PoseMethod, rank::Matcher},
 };
 
 /// Recognise the part in captured scenes and say where it is
@@ -38,12 +38,8 @@ pub(super) struct InspectArgs {
     files: Vec<PathBuf>,
     #[command(flatten)]
     library: LibraryChoice,
-    /// What ranks the enrolled parts
-    #[arg(long, value_enum, default_value_t = MatcherChoice::Default)]
-    matcher: MatcherChoice,
-    /// What finds the pose
-    #[arg(long, value_enum, default_value_t = PoseArg::Global)]
-    pose: PoseArg,
+    #[command(flatten)]
+    recipe: RecipeChoice,
     /// Write one line of JSON per file, and nothing else, to standard output
     #[arg(long)]
     json: bool,
@@ -52,46 +48,9 @@ pub(super) struct InspectArgs {
     report: Option<PathBuf>,
 }
 
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum MatcherChoice {
-    /// Circular correlation of the outlines in metres, overlap, and the fit of the pose
-    Default,
-    /// The paper's Algorithm 2, literally
-    Paper,
-}
-
-#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
-enum PoseArg {
-    /// From any start; also confirms which part it is
-    Global,
-    /// The paper's iterative closest point, from the standard position
-    Icp,
-    /// The paper's ICP-GA: ICP and a genetic algorithm in turns, from the standard position
-    IcpGa,
-    /// No pose: the verdict rests on the outline alone
-    None,
-}
-
-impl InspectArgs {
-    fn recipe(&self) -> Recipe {
-        let mut recipe = Recipe::default();
-        recipe.rank.matcher = match self.matcher {
-            MatcherChoice::Default => Matcher::Default,
-            MatcherChoice::Paper => Matcher::Paper,
-        };
-        recipe.pose = match self.pose {
-            PoseArg::Global => PoseChoice::By(PoseMethod::Global),
-            PoseArg::Icp => PoseChoice::By(PoseMethod::Icp),
-            PoseArg::IcpGa => PoseChoice::By(PoseMethod::IcpGa),
-            PoseArg::None => PoseChoice::Skip,
-        };
-        recipe
-    }
-}
-
 pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let library = args.library.load_some(console)?.library;
-    let recipe = args.recipe();
+    let recipe = args.recipe.recipe();
     let telling = match (args.json, args.files.as_slice()) {
         (true, _) => Telling::Json,
         (false, [_]) => Telling::Card,

@@ -7,10 +7,12 @@ mod align;
 mod bench;
 mod console;
 mod enrol;
+mod evaluate;
 mod first_look;
 mod input;
 mod inspect;
 mod library;
+mod recipe;
 mod simulate;
 mod verdict;
 
@@ -64,6 +66,7 @@ enum Command {
     Align(align::AlignArgs),
     Simulate(simulate::SimulateArgs),
     Bench(bench::BenchArgs),
+    Evaluate(evaluate::EvaluateArgs),
 }
 
 /// What a call came to; its exit code.
@@ -109,6 +112,7 @@ pub fn run(cli: Cli) -> Outcome {
         Some(Command::Align(args)) => align::run(&args, &mut console),
         Some(Command::Simulate(args)) => simulate::run(&args, &mut console),
         Some(Command::Bench(args)) => bench::run(&args, &mut console),
+        Some(Command::Evaluate(args)) => evaluate::run(&args, &mut console),
     };
     let outcome = ran.unwrap_or_else(|error| {
         console.error(&error);

@@ -1,4 +1,6 @@
-//! `partsight simulate`: a frame of the simulated cell, as a file.
+//! `partsight simulate`: a frame of the simulated cell as a file, or many of them as cases with their truth.
+
+mod cases;
 
 use std::path::{Path, PathBuf};
 
@@ -12,7 +14,10 @@ use crate::{
     error::Advice,
     files::{depth_png::intrinsics_path, save_cloud, write_atomically, write_depth_png},
     geometry::written_pose::{GivenPose, parse_pose},
-    simulate::{CellSetup, PartKind, PartPose, Placement, Side, SimulatedFrame, frame},
+    simulate::{
+        CellSetup, Clutter, ObjectKind, PartKind, PartPose, Placement, Side, SimulatedFrame,
+        Subject, frame,
+    },
     stages::scene::scene_from_frame,
 };
 
@@ -23,13 +28,16 @@ Examples:
   partsight simulate --part fender --out fender.pcd
   partsight simulate --part front_door --side right --seed 7 --out door.png --truth door.truth.json
   partsight simulate --part grille --pose \"0 0 15deg 0 0 1.2\" --out grille.pcd
+  partsight simulate --cases tried --num 40 --placement facing,placed,hard
+  partsight simulate --cases tried --part objects,empty --num 9 --clutter on-floor
 
-The same arguments give the same file.
+The same arguments give the same file. Cases are added to those of the folder; their truth is held against the shipped
+parts, and partsight evaluate counts how often they are recognised.
 Of the doors and the fender only the left ones are shipped: a right one is not recognised until it is enrolled.")]
 pub(super) struct SimulateArgs {
-    /// Which part
-    #[arg(long, value_name = "NAME", value_parser = PossibleValuesParser::new(PartKind::ALL.map(PartKind::name)))]
-    part: String,
+    /// Which part, or what else: objects are eight things that are no part of the eight. With --cases several, all parts without
+    #[arg(long, value_name = "NAME", value_delimiter = ',', required_unless_present = "cases", value_parser = PossibleValuesParser::new(subject_names()))]
+    part: Vec<String>,
     /// Side of the car, for doors and fenders
     #[arg(long, value_enum, default_value_t = SideChoice::Left)]
     side: SideChoice,
@@ -48,15 +56,105 @@ pub(super) struct SimulateArgs {
         conflicts_with = "placement"
     )]
     pose: Option<GivenPose>,
-    /// How far from square-on the pose is drawn
-    #[arg(long, value_enum, default_value_t = PlacementChoice::Placed)]
-    placement: PlacementChoice,
+    /// How far from square-on the pose is drawn; with --cases several
+    #[arg(long, value_enum, value_delimiter = ',', default_value = "placed")]
+    placement: Vec<PlacementChoice>,
+    /// What else is in the cell
+    #[arg(long, value_enum, default_value_t = ClutterChoice::None)]
+    clutter: ClutterChoice,
+    /// Noise of the camera: 1 is a Kinect's, 0 none, 3 a bad day
+    #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = parse_noise)]
+    noise: f64,
     /// The file: .pcd (organised), .png (16-bit depth, intrinsics in a .json beside it), .ply or .xyz (points only)
-    #[arg(long, value_name = "FILE")]
-    out: PathBuf,
+    #[arg(long, value_name = "FILE", required_unless_present = "cases")]
+    out: Option<PathBuf>,
     /// Write what is known about the frame as JSON: the part, its pose, how much of it is seen
     #[arg(long, value_name = "FILE")]
     truth: Option<PathBuf>,
+    /// Instead of one file: write cases with their truth into this folder
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["out", "truth", "pose"])]
+    cases: Option<PathBuf>,
+    /// With --cases: how many in all; the seeds follow each other
+    #[arg(long, value_name = "N", default_value_t = 40, requires = "cases", value_parser = clap::value_parser!(u64).range(1..=100_000))]
+    num: u64,
+    /// With --cases: how hard they are, in words; without it the placement
+    #[arg(long, value_name = "WORDS", requires = "cases")]
+    difficulty: Option<String>,
+}
+
+/// Names of what may hang there, then of groups of them.
+fn subject_names() -> Vec<&'static str> {
+    let parts = PartKind::ALL.map(PartKind::name);
+    let objects = ObjectKind::ALL.map(ObjectKind::name);
+    let mut names = [parts, objects].concat();
+    names.extend([EMPTY, ALL, OBJECTS]);
+    names
+}
+
+const EMPTY: &str = "empty";
+const ALL: &str = "all";
+const OBJECTS: &str = "objects";
+
+fn parse_noise(text: &str) -> Result<f64, String> {
+    let noise = text.parse::<f64>().ok();
+    noise
+        .filter(|noise| (0.0..=5.0).contains(noise))
+        .ok_or_else(|| "expected a number from 0 to 5".into())
+}
+
+impl SimulateArgs {
+    /// What hangs there.
+    fn subjects(&self) -> anyhow::Result<Vec<Subject>> {
+        let part = |kind| Subject::Part {
+            kind,
+            side: match self.side {
+                SideChoice::Left => Side::Left,
+                SideChoice::Right => Side::Right,
+            },
+            model_seed: self.model,
+        };
+        if self.part.is_empty() {
+            return Ok(PartKind::ALL.map(part).to_vec());
+        }
+        let mut subjects = Vec::new();
+        for name in &self.part {
+            match (
+                name.as_str(),
+                PartKind::from_name(name),
+                ObjectKind::from_name(name),
+            ) {
+                (EMPTY, ..) => subjects.push(Subject::Nothing),
+                (ALL, ..) => subjects.extend(PartKind::ALL.map(part)),
+                (OBJECTS, ..) => subjects.extend(ObjectKind::ALL.map(Subject::Object)),
+                (_, Some(kind), _) => subjects.push(part(kind)),
+                (_, None, Some(kind)) => subjects.push(Subject::Object(kind)),
+                (_, None, None) => anyhow::bail!("no part is called {name}"),
+            }
+        }
+        Ok(subjects)
+    }
+
+    /// The cell with this in it; the pose is drawn.
+    fn cell(&self, subject: Subject, seed: u64) -> CellSetup {
+        let mut setup = CellSetup::new(subject, seed);
+        setup.noise.multiplier = self.noise;
+        setup.clutter = match self.clutter {
+            ClutterChoice::None => Clutter::None,
+            ClutterChoice::OnFloor => Clutter::OnFloor,
+            ClutterChoice::InFront => Clutter::InFront,
+        };
+        setup
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum ClutterChoice {
+    /// Nothing
+    None,
+    /// Two or three things on the floor
+    OnFloor,
+    /// The same, and a plank that hides 10 to 25 % of the part
+    InFront,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -75,6 +173,17 @@ pub(super) enum PlacementChoice {
     Hard,
 }
 
+impl PlacementChoice {
+    /// As it is given.
+    pub(super) fn name(self) -> &'static str {
+        match self {
+            Self::Facing => "facing",
+            Self::Placed => "placed",
+            Self::Hard => "hard",
+        }
+    }
+}
+
 impl From<PlacementChoice> for Placement {
     fn from(choice: PlacementChoice) -> Self {
         match choice {
@@ -86,24 +195,27 @@ impl From<PlacementChoice> for Placement {
 }
 
 pub(super) fn run(args: &SimulateArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    let Some(kind) = PartKind::from_name(&args.part) else {
-        anyhow::bail!("no part is called {}", args.part);
+    if let Some(folder) = &args.cases {
+        return cases::run(folder, args, console);
+    }
+    let (subjects, out) = (args.subjects()?, args.out.as_deref());
+    let (&[subject], &[placement], Some(out)) = (&subjects[..], &args.placement[..], out) else {
+        return Err(advised_error(
+            "one file shows one part at one placement",
+            "Name one of each, or write cases: partsight simulate --cases DIR",
+        ));
     };
-    check_outputs_differ(args)?;
+    check_outputs_differ(args, out)?;
     for doubt in args.pose.iter().flat_map(|given| &given.doubts) {
         console.warn(doubt, doubt);
     }
-    let side = match args.side {
-        SideChoice::Left => Side::Left,
-        SideChoice::Right => Side::Right,
-    };
-    let mut setup = CellSetup::with_part(kind, side, args.model, args.seed);
-    setup.pose = match (&args.pose, args.placement) {
-        (Some(given), _) => PartPose::Fixed(given.pose),
-        (None, placement) => PartPose::Drawn(placement.into()),
+    let mut setup = args.cell(subject, args.seed);
+    setup.pose = match &args.pose {
+        Some(given) => PartPose::Fixed(given.pose),
+        None => PartPose::Drawn(placement.into()),
     };
     let simulated = frame(&setup);
-    write_frame(&args.out, &simulated)?;
+    write_frame(out, &simulated)?;
     let truth = &simulated.truth;
     if let Some(path) = &args.truth {
         write_atomically(path, |writer| {
@@ -112,11 +224,18 @@ pub(super) fn run(args: &SimulateArgs, console: &mut Console) -> anyhow::Result<
         })
         .advised()?;
     }
+    let what = match subject {
+        Subject::Part { kind, .. } => kind.title().to_lowercase(),
+        Subject::Object(kind) => kind.name().to_owned(),
+        Subject::Nothing => {
+            console.line(&format_args!("{}: a simulated empty cell", out.display()));
+            return Ok(Outcome::Accepted);
+        }
+    };
     let [x, y, z] = [0, 1, 2].map(|i| truth.camera_from_part.translation.vector[i] * 1000.0);
     console.line(&format_args!(
-        "{}: a simulated {} with its middle at x {x:.0}  y {y:.0}  z {z:.0} mm, {:.0} % of it in sight",
-        args.out.display(),
-        kind.title().to_lowercase(),
+        "{}: a simulated {what} with its middle at x {x:.0}  y {y:.0}  z {z:.0} mm, {:.0} % of it in sight",
+        out.display(),
         truth.visible_share * 100.0
     ));
     if truth.visible_share < LEAST_VISIBLE {
@@ -140,18 +259,18 @@ impl Advice for OutOfSight {
 }
 
 /// Refuses a call that would write one of its files over another.
-fn check_outputs_differ(args: &SimulateArgs) -> anyhow::Result<()> {
+fn check_outputs_differ(args: &SimulateArgs, out: &Path) -> anyhow::Result<()> {
     let Some(truth) = &args.truth else {
         return Ok(());
     };
-    if is_same_file(truth, &args.out) {
+    if is_same_file(truth, out) {
         return Err(advised_error(
             "--out and --truth are the same file",
             "Name two",
         ));
     }
-    let camera = intrinsics_path(&args.out);
-    if is_png(&args.out) && is_same_file(truth, &camera) {
+    let camera = intrinsics_path(out);
+    if is_png(out) && is_same_file(truth, &camera) {
         return Err(advised_error(
             format!(
                 "--truth would overwrite {}, where the camera of the depth image goes",
@@ -159,7 +278,7 @@ fn check_outputs_differ(args: &SimulateArgs) -> anyhow::Result<()> {
             ),
             format!(
                 "Name another file, for example --truth {}",
-                args.out.with_extension("truth.json").display()
+                out.with_extension("truth.json").display()
             ),
         ));
     }

@@ -5,6 +5,7 @@ use crate::{
     error::Advice,
     library::Library,
     pipeline::{Inspection, Verdict},
+    stages::pose::Uncertainty,
     units::Metres,
 };
 
@@ -99,6 +100,18 @@ pub(super) fn show_card(
                 pose.fit.overlap * 100.0,
                 pose.stopped.name().replace('_', " "),
                 pose.method.name(),
+            ),
+        );
+    }
+    if let Some(Ok(pose)) = &inspection.pose
+        && let Some(bounds) = pose.uncertainty.filter(Uncertainty::is_held)
+    {
+        line(
+            "bounds",
+            format!(
+                "off by less than {:.1} mm and {:.2} degrees in 95 of 100 cases",
+                bounds.shift.mm(),
+                bounds.turn.degrees()
             ),
         );
     }

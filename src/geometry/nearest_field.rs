@@ -55,7 +55,9 @@ impl NearestField {
             .product::<f64>();
         let cell = cell * (volume / MAX_CELLS).cbrt().max(1.0) as f32;
         let cell = cell.max(extent.max() / MAX_CELLS_ALONG as f32);
-        let layers = (band / cell).ceil() as usize;
+        // A cell answers up to the band from its middle: beyond that and one more there is a margin of cells without an
+        // answer.
+        let layers = (band / cell).ceil() as usize + 2;
         let low = low - Vector3::repeat((layers as f32 + 0.5) * cell);
         let size = [0, 1, 2].map(|axis| ((high[axis] - low[axis]) / cell) as usize + layers + 2);
         let mut field = Self {
@@ -65,7 +67,7 @@ impl NearestField {
             nearest: vec![NOTHING; size.iter().product()],
             points: cloud.points,
         };
-        field.grow(cell, layers);
+        field.grow(cell, band);
         field
     }
 
@@ -85,7 +87,7 @@ impl NearestField {
     }
 
     /// Seeds the occupied cells and hands each cell's point on to its neighbours, one layer at a time.
-    fn grow(&mut self, side: f32, layers: usize) {
+    fn grow(&mut self, side: f32, band: f32) {
         let [sx, sy, _] = self.size;
         let (low, points) = (self.low, std::mem::take(&mut self.points));
         let off_centre_sq = |point: u32, [x, y, z]: [u16; 3]| {
@@ -106,25 +108,37 @@ impl NearestField {
                 *holder = i;
             }
         }
-        for _ in 0..layers {
+        // Handed on from face to face, no farther than the band.
+        let farthest_sq = (band + side).powi(2);
+        let steps = [
+            1,
+            -1,
+            sx as isize,
+            -(sx as isize),
+            (sx * sy) as isize,
+            -((sx * sy) as isize),
+        ];
+        while !front.is_empty() {
             let mut next = Vec::new();
-            for &[x, y, z] in &front {
-                let candidate =
-                    self.nearest[(usize::from(z) * sy + usize::from(y)) * sx + usize::from(x)];
-                // One extra cell of margin on every side keeps all neighbours inside the grid while layers are left.
-                for (z, y) in (z - 1..=z + 1).flat_map(|z| (y - 1..=y + 1).map(move |y| (z, y))) {
-                    let row = (usize::from(z) * sy + usize::from(y)) * sx;
-                    for x in x - 1..=x + 1 {
-                        let holder = &mut self.nearest[row + usize::from(x)];
-                        if *holder == NOTHING {
-                            next.push([x, y, z]);
-                            *holder = candidate;
-                        } else if *holder != candidate
-                            && off_centre_sq(candidate, [x, y, z])
-                                < off_centre_sq(*holder, [x, y, z])
-                        {
+            for &at in &front {
+                let index =
+                    (usize::from(at[2]) * sy + usize::from(at[1])) * sx + usize::from(at[0]);
+                let candidate = self.nearest[index];
+                for (face, step) in steps.iter().enumerate() {
+                    let axis = face / 2;
+                    let mut beside = at;
+                    // The outermost cells lie beyond the band, so none of them is ever at the front.
+                    beside[axis] =
+                        beside[axis].wrapping_add_signed(if face % 2 == 0 { 1 } else { -1 });
+                    let distance_sq = off_centre_sq(candidate, beside);
+                    let holder = &mut self.nearest[index.wrapping_add_signed(*step)];
+                    if *holder == NOTHING {
+                        if distance_sq <= farthest_sq {
+                            next.push(beside);
                             *holder = candidate;
                         }
+                    } else if *holder != candidate && distance_sq < off_centre_sq(*holder, beside) {
+                        *holder = candidate;
                     }
                 }
             }

@@ -8,9 +8,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::{
     name::PartName,
-    part::{
-        CloudCheck, Enrolment, How, Part, PartMeta, SCHEMA_VERSION, StoredSignature, cloud_bytes,
-    },
+    part::{CloudCheck, Enrolment, How, Part, PartMeta, SCHEMA_VERSION, StoredSignature},
     thumbnail,
 };
 use crate::{
@@ -276,7 +274,7 @@ fn assemble(
             notes: about.notes.clone(),
             coverage: source.coverage,
             simulated: about.simulated,
-            cloud: CloudCheck::of(&cloud_bytes(&cloud), cloud.points.len()),
+            cloud: CloudCheck::of_cloud(&cloud),
             enrolled: Enrolment {
                 at: about.at,
                 from: about.from.clone(),

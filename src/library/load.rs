@@ -4,9 +4,7 @@ use std::{
     borrow::Cow,
     fs::{self, File},
     io::{self, Read as _},
-    num::NonZero,
     path::{Path, PathBuf},
-    sync::atomic::{AtomicUsize, Ordering},
 };
 
 use serde::Deserialize;
@@ -22,7 +20,12 @@ use super::{
 };
 use crate::{
     files::{FileError, Opened, open_bytes, read_bytes},
-    geometry::{cloud::PointCloud, nearest::KdTree, normals::estimate_normals},
+    geometry::{
+        cloud::PointCloud,
+        nearest::KdTree,
+        normals::estimate_normals,
+        parallel::{map_in_order, num_cores},
+    },
     stages::reference::{Reference, ReferenceParams},
     units::Metres,
 };
@@ -133,32 +136,12 @@ fn read_in_parallel(
     look: Look,
     params: &ReferenceParams,
 ) -> Vec<Result<StoredPart, EntryProblem>> {
-    let num_threads = std::thread::available_parallelism()
-        .map_or(1, NonZero::get)
-        .min(entries.len());
-    let next = AtomicUsize::new(0);
-    let work = || {
-        let mut done = Vec::new();
-        loop {
-            let i = next.fetch_add(1, Ordering::Relaxed);
-            let Some(entry) = entries.get(i) else {
-                return done;
-            };
-            done.push((i, read_entry(entry, look, params)));
-        }
-    };
-    let mut read: Vec<_> = std::thread::scope(|scope| {
-        let workers: Vec<_> = (0..num_threads).map(|_| scope.spawn(work)).collect();
-        workers
-            .into_iter()
-            .flat_map(|worker| match worker.join() {
-                Ok(done) => done,
-                Err(panic) => std::panic::resume_unwind(panic),
-            })
-            .collect()
-    });
-    read.sort_by_key(|(i, _)| *i);
-    read.into_iter().map(|(_, part)| part).collect()
+    map_in_order(
+        entries.len(),
+        num_cores(),
+        || (),
+        |(), i| read_entry(&entries[i], look, params),
+    )
 }
 
 fn read_entry(

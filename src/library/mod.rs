@@ -45,6 +45,7 @@ pub use self::{
     },
     place::{LibraryPlace, open_library},
     problem::{EntryError, EntryProblem, EntryWarning, Trouble},
+    shipped::{EnrolledAt, shipped_enrolled_at},
     store::{LibraryFolder, Renamed, Restored, Saved},
     trash::Trashed,
 };

@@ -108,6 +108,11 @@ impl CloudCheck {
             crc32: format!("{:08x}", crc32(bytes)),
         }
     }
+
+    /// Of the file that this cloud is written as.
+    pub fn of_cloud(cloud: &PointCloud) -> Self {
+        Self::of(&cloud_bytes(cloud), cloud.points.len())
+    }
 }
 
 /// How a part came into the library.

@@ -5,8 +5,13 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::entry::{
-    CLOUD, Entry, META, SIGNATURE, ShippedFiles, THUMBNAIL, sync_folder, write_file,
+use super::{
+    entry::{CLOUD, Entry, META, SIGNATURE, ShippedFiles, THUMBNAIL, sync_folder, write_file},
+    part::CloudCheck,
+};
+use crate::{
+    files::{Opened, open_bytes},
+    geometry::rigid::RigidTransform,
 };
 
 /// A part's folder.
@@ -52,6 +57,29 @@ pub(super) fn write_shipped(folder: &Path) -> io::Result<()> {
         sync_folder(&part_folder)?;
     }
     sync_folder(folder)
+}
+
+/// Where a shipped part hung when it was enrolled.
+#[derive(Clone, Debug, PartialEq)]
+pub struct EnrolledAt {
+    /// Takes the coordinates of the simulated model to the camera's, which are the part's.
+    pub part_from_model: RigidTransform,
+    /// By which its cloud is known.
+    pub cloud: CloudCheck,
+}
+
+/// Where the shipped part of this name hung; `None` if there is none.
+pub fn shipped_enrolled_at(name: &str) -> Option<EnrolledAt> {
+    let part = SHIPPED.iter().find(|part| part.name == name)?;
+    let (_, bytes) = part.files.iter().find(|(file, _)| *file == CLOUD)?;
+    let Ok(Opened::Cloud(cloud)) = open_bytes(Path::new(CLOUD), bytes) else {
+        return None;
+    };
+    Some(EnrolledAt {
+        // All of them square-on, 1.3 m before the camera: see the README of the folder.
+        part_from_model: RigidTransform::translation(0.0, 0.0, 1.3),
+        cloud: CloudCheck::of(bytes, cloud.points.len()),
+    })
 }
 
 /// The shipped parts as they lie in the program.

@@ -47,6 +47,16 @@ impl Canvas {
         }
     }
 
+    /// A filled rectangle, from corner to corner.
+    pub(super) fn block(&mut self, from: [f64; 2], to: [f64; 2], colour: Rgb<u8>) {
+        let pixel = |x: f64| x.round() as i64;
+        for v in pixel(from[1])..pixel(to[1]) {
+            for u in pixel(from[0])..pixel(to[0]) {
+                self.set(u, v, colour);
+            }
+        }
+    }
+
     fn set(&mut self, u: i64, v: i64, colour: Rgb<u8>) {
         if let (Ok(u), Ok(v)) = (u32::try_from(u), u32::try_from(v))
             && u < self.image.width()

@@ -6,7 +6,7 @@ use std::{
     path::{Path, PathBuf},
 };
 
-use super::pictures::{Picture, strip};
+use super::pictures::{Picture, strip, write_png};
 use crate::{
     error::Advice,
     files::{FileError, advice_on, words_of, write_atomically},
@@ -79,15 +79,7 @@ impl ReportFolder {
         let json = self.json(&stem);
         write_atomically(&json, |writer| writeln!(writer, "{line}"))?;
         for picture in pictures {
-            write_atomically(&self.picture(&stem, picture), |writer| {
-                let mut png = io::Cursor::new(Vec::new());
-                let format = image::ImageFormat::Png;
-                picture
-                    .image
-                    .write_to(&mut png, format)
-                    .map_err(io::Error::other)?;
-                writer.write_all(png.get_ref())
-            })?;
+            write_png(&self.picture(&stem, picture), &picture.image)?;
         }
         Ok(json)
     }

@@ -2,13 +2,19 @@
 //! people.
 
 mod canvas;
+mod chart;
+mod evaluation;
 mod folder;
+mod lettering;
 mod line;
 mod pictures;
+mod scaling;
 pub mod stand_off;
 
 pub use self::{
+    evaluation::evaluation_picture,
     folder::{ReportError, ReportFolder},
     line::{InspectionLine, SCHEMA},
-    pictures::{Picture, stage_pictures, strip},
+    pictures::{Picture, stage_pictures, strip, write_png},
+    scaling::{TimeCurve, scaling_picture, stacked},
 };

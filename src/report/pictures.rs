@@ -1,13 +1,16 @@
 //! A picture of every stage of an inspection, to see at which one it went wrong.
 
+use std::{io, path::Path};
+
 use image::{
-    Rgb, RgbImage,
+    ImageFormat, Rgb, RgbImage,
     imageops::{FilterType, replace, resize},
 };
 use nalgebra::Point2;
 
 use super::canvas::Canvas;
 use crate::{
+    files::{FileError, write_atomically},
     pipeline::Inspection,
     stages::{
         contour::Contour,
@@ -27,12 +30,12 @@ pub struct Picture {
     pub image: RgbImage,
 }
 
-const DARK: Rgb<u8> = Rgb([24, 27, 32]);
-const LIGHT: Rgb<u8> = Rgb([232, 234, 238]);
-const DIM: Rgb<u8> = Rgb([96, 104, 116]);
-const FAINT: Rgb<u8> = Rgb([52, 60, 72]);
+pub(super) const DARK: Rgb<u8> = Rgb([24, 27, 32]);
+pub(super) const LIGHT: Rgb<u8> = Rgb([232, 234, 238]);
+pub(super) const DIM: Rgb<u8> = Rgb([96, 104, 116]);
+pub(super) const FAINT: Rgb<u8> = Rgb([52, 60, 72]);
 /// Told apart by brightness as well as by hue, for those who see few colours.
-const PART: Rgb<u8> = Rgb([255, 196, 61]);
+pub(super) const PART: Rgb<u8> = Rgb([255, 196, 61]);
 const OUTLINE: Rgb<u8> = Rgb([255, 196, 61]);
 const OPENING: Rgb<u8> = Rgb([96, 176, 255]);
 const PLANES: [Rgb<u8>; 4] = [
@@ -41,6 +44,17 @@ const PLANES: [Rgb<u8>; 4] = [
     Rgb([104, 70, 120]),
     Rgb([120, 84, 60]),
 ];
+
+/// Writes a picture, all of it or nothing.
+pub fn write_png(path: &Path, picture: &RgbImage) -> Result<(), FileError> {
+    write_atomically(path, |writer| {
+        let mut png = io::Cursor::new(Vec::new());
+        picture
+            .write_to(&mut png, ImageFormat::Png)
+            .map_err(io::Error::other)?;
+        writer.write_all(png.get_ref())
+    })
+}
 
 /// Pictures of the stages that ran: segmentation (of an organised scene), binary image, contour, signature.
 pub fn stage_pictures(scene: &SceneCloud, inspection: &Inspection) -> Vec<Picture> {

@@ -1,7 +1,6 @@
 //! A simulated frame and the truth about it.
 
-use nalgebra::{Isometry3, Matrix3, Rotation3, Translation3, UnitQuaternion};
-use serde::{Deserialize, Deserializer, Serialize, Serializer};
+use serde::{Deserialize, Serialize};
 
 use super::cell::{Cell, CellSetup, Subject};
 use super::part::PartKind;
@@ -9,7 +8,8 @@ use super::rasteriser::{Rendering, SurfaceLabel};
 use super::sensor::sense;
 use crate::capture::frame::{DepthFrame, Intrinsics};
 use crate::geometry::mesh::TriangleMesh;
-use crate::geometry::rigid::{RigidTransform, row_major};
+use crate::geometry::rigid::RigidTransform;
+use crate::geometry::sixteen_numbers;
 
 /// What is known about a simulated frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -89,42 +89,6 @@ fn num_pixels_without_edges(cell: &Cell<'_>, camera: &Intrinsics) -> usize {
     });
     cell.draw_part(&mut rendering);
     rendering.num_pixels(SurfaceLabel::Part)
-}
-
-/// A rigid transform as its 4×4 matrix.
-mod sixteen_numbers {
-    use super::{
-        Deserialize, Deserializer, Isometry3, Matrix3, RigidTransform, Rotation3, Serialize,
-        Serializer, Translation3, UnitQuaternion, row_major,
-    };
-
-    pub(super) fn serialize<S: Serializer>(
-        transform: &RigidTransform,
-        serializer: S,
-    ) -> Result<S::Ok, S::Error> {
-        row_major(transform).serialize(serializer)
-    }
-
-    pub(super) fn deserialize<'de, D: Deserializer<'de>>(
-        deserializer: D,
-    ) -> Result<RigidTransform, D::Error> {
-        let m = <[f64; 16]>::deserialize(deserializer)?;
-        let rotation = Matrix3::new(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]);
-        let is_rotation = (rotation.transpose() * rotation - Matrix3::identity()).norm() < 1e-6
-            && rotation.determinant() > 0.0
-            && [m[3], m[7], m[11]].iter().all(|x| x.is_finite());
-        if !is_rotation {
-            return Err(serde::de::Error::custom(
-                "the 16 numbers are not a rigid transform",
-            ));
-        }
-        let rotation =
-            UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation));
-        Ok(Isometry3::from_parts(
-            Translation3::new(m[3], m[7], m[11]),
-            rotation,
-        ))
-    }
 }
 
 #[cfg(test)]

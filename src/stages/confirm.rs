@@ -19,6 +19,7 @@ use crate::{
             PoseError, PoseEstimate, PoseMethod,
             quality::{Fit, Tolerance, look_for, measure_fit},
             refine::{Level, Search, Source, Target, refine},
+            uncertainty::uncertainty,
         },
         rank::{MatchEntry, MatchRanking, Query},
         reference::Reference,
@@ -233,6 +234,12 @@ fn finish(
             tolerance,
             Search::Tree,
         ),
+        uncertainty: Some(uncertainty(
+            source,
+            target,
+            &last.target_from_source,
+            &THIRD[1],
+        )),
         runner_up: best.runner_up,
     }
 }

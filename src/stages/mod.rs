@@ -10,6 +10,7 @@
 pub mod confirm;
 pub mod contour;
 pub mod correlation;
+pub mod descriptors;
 pub mod pose;
 pub mod project;
 pub mod rank;

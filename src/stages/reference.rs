@@ -4,6 +4,8 @@
 //! is seen from, so we keep several *views*: the reference cloud as a camera would see it from in front and from
 //! some 20 to 25 degrees around. A view goes through the same projection, contour and signature as a scene.
 
+use std::sync::OnceLock;
+
 use nalgebra::{Isometry2, Point2, Point3, Unit, UnitQuaternion, Vector3};
 use rustfft::num_complex::Complex;
 
@@ -16,7 +18,7 @@ use crate::{
     stages::{
         contour::{Contour, ContourParams, find_contour},
         correlation::{self, LiteralReference},
-        pose::{edge_points::EdgePoints, refine::Target},
+        pose::{PoseError, PreparedTarget, edge_points::EdgePoints, refine::Target},
         project::{PlaneImage, ProjectParams, project_weighted},
         signature::{FanSignature, SignatureParams, describe},
     },
@@ -92,6 +94,8 @@ pub struct Reference {
     pub views: Vec<ReferenceView>,
     /// The paper's auto-correlation of the standard view.
     pub literal: LiteralReference,
+    /// Made when it is first asked for: the default pose begins from placements and needs none of it.
+    whole: OnceLock<Result<PreparedTarget, PoseError>>,
 }
 
 /// The reference as seen from one side.
@@ -173,6 +177,7 @@ impl Reference {
             field,
             views,
             literal,
+            whole: OnceLock::new(),
         })
     }
 
@@ -189,6 +194,12 @@ impl Reference {
             edges,
             spacing: SPACING,
         })
+    }
+
+    /// The reference as a target that is searched from anywhere.
+    pub fn whole(&self) -> Result<&PreparedTarget, PoseError> {
+        let prepared = self.whole.get_or_init(|| PreparedTarget::new(&self.cloud));
+        prepared.as_ref().map_err(|error| *error)
     }
 
     /// A reference that is only a flat shape, such as a silhouette: it can be ranked, but has no cloud for a pose.
@@ -213,6 +224,7 @@ impl Reference {
                 &[],
             )],
             literal,
+            whole: OnceLock::new(),
         }
     }
 }
@@ -322,6 +334,22 @@ fn viewpoints(cloud: &PointCloud, coverage: Coverage) -> Option<Vec<Point3<f64>>
         })
     };
     Some(fronts.iter().flat_map(around).collect())
+}
+
+/// The places that views are taken from, each with the part of the cloud that a camera sees from there.
+pub fn seen_around(cloud: &PointCloud, coverage: Coverage) -> Vec<(Point3<f64>, PointCloud)> {
+    let seen_from = |viewpoint: Point3<f64>| {
+        let visible = visible_from(cloud, &viewpoint);
+        let normals = cloud.normals.as_ref();
+        let seen = PointCloud {
+            points: visible.iter().map(|v| cloud.points[v.0]).collect(),
+            normals: normals.map(|all| visible.iter().map(|v| all[v.0]).collect()),
+            ..PointCloud::default()
+        };
+        (viewpoint, seen)
+    };
+    let places = viewpoints(cloud, coverage).unwrap_or_default();
+    places.into_iter().map(seen_from).collect()
 }
 
 /// Side of a cell of the view's depth buffer, metres: wider than the spacing of a reference cloud.

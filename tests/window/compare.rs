@@ -8,10 +8,16 @@ use egui_kittest::{
     kittest::{NodeT as _, Queryable as _},
 };
 use partsight::{
-    app::{WindowOptions, action::Action, compare::Front, source::CellChoice},
-    cases::{CaseFolder, Truth},
+    app::{
+        WindowOptions,
+        action::{Action, Ask},
+        compare::{CompareAction, Front},
+        source::CellChoice,
+    },
+    cases::{CaseAbout, CaseFolder, Found, Truth},
     pipeline::Recipe,
-    simulate::{ObjectKind, PartKind, Side},
+    simulate::{CellSetup, ObjectKind, PartKind, Side, frame},
+    stages::scene::scene_from_frame,
 };
 
 use super::set_up::{SMALL, USUAL, WindowHarness, act, open_with, press, settle};
@@ -103,6 +109,7 @@ fn a_case_is_kept_run_and_opened_again_from_its_cell() {
     assert!(run.ended.is_some() && run.results.len() == 3);
     harness.get_by_label("1 wrong and accepted");
     harness.get_by_label_contains("of 3 right");
+    harness.get_by_label_contains("Calibration: expected error 0.");
     // The same recipe gives what was found when the case was kept, to the last bit.
     for (result, case) in run.results.iter().zip(&list.cases) {
         assert_eq!(result.found, case.meta.about.found);
@@ -290,6 +297,63 @@ fn every_control_is_large_enough_labelled_and_inside_a_small_window() {
     harness.get_by_label("Run all kept cases");
 }
 
+#[test]
+fn an_earlier_run_is_compared_and_what_is_worse_is_listed_first() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let setup = CellSetup::with_part(PartKind::Fender, Side::Left, 0, 5);
+    let about = CaseAbout {
+        origin: "Monday".into(),
+        simulated: true,
+        kept_at: jiff::Timestamp::UNIX_EPOCH,
+        remark: String::new(),
+        difficulty: Some("placed anyhow".into()),
+        truth: Truth::Part("fender".into()),
+        found: Found::default(),
+        pose: None,
+    };
+    let cases = CaseFolder::at(folder.path().join("cases"));
+    let scene = scene_from_frame(&frame(&setup).frame);
+    cases.keep(&scene, about).expect("kept");
+    let earlier = folder.path().join("earlier.json");
+    let text = r#"{"schema":1,"cases":[
+        {"name":"monday","truth":{"is":"part","part":"fender"},"judgement":"right",
+         "found":{"part":"fender","score":0.93,"accepted":true}},
+        {"name":"sold","truth":{"is":"nothing"},"judgement":"right","found":{"accepted":false}}]}"#;
+    std::fs::write(&earlier, text).expect("written");
+
+    let mut harness = open(cases.path());
+    press(&mut harness, "Compare");
+    harness.get_by_label("it is: Fender, left · placed anyhow");
+    let compare = |harness: &mut WindowHarness| {
+        act(harness, Action::Chosen(Ask::EarlierRun, earlier.clone()));
+    };
+    // Before a run there is nothing to compare.
+    compare(&mut harness);
+    harness.get_by_label("There is no run to compare with an earlier one");
+    press(&mut harness, "Run all cases");
+    harness.get_by_label("Compare with an earlier run…");
+    compare(&mut harness);
+    harness.get_by_label("none worse");
+    harness.get_by_label_contains("1 cases of both · 1 gone or damaged · against earlier.json");
+
+    // With a threshold that nothing reaches it is refused now.
+    let strict = CompareAction::Set("accept.min_score", 1.0);
+    act(&mut harness, Action::Compare(strict));
+    press(&mut harness, "Run all cases");
+    compare(&mut harness);
+    harness.get_by_label("1 worse");
+    harness.get_by_label_contains("worse: refused, was right · Fender, left 0.93 → 0.");
+    press(&mut harness, "Open monday");
+    let front = &harness.state().state().compare.front;
+    assert!(matches!(front, Front::Kept(case) if case.name == "monday"));
+    press(&mut harness, "Back to matrix");
+    harness.get_by_label("Fender, left, not accepted: 1, wrongly refused");
+
+    std::fs::write(&earlier, "no JSON").expect("written");
+    compare(&mut harness);
+    harness.get_by_label_contains("earlier.json: not an evaluation");
+}
+
 /// With `PARTSIGHT_VIEW_PICTURES=DIR` it leaves what it drew in that folder.
 #[test]
 fn it_is_drawn_in_both_sizes_and_colours() {
@@ -344,6 +408,13 @@ fn it_is_drawn_in_both_sizes_and_colours() {
         shot(&mut harness, "cell");
         press(&mut harness, "Matcher: Paper");
         press(&mut harness, "Back to matrix");
+        if width == 1440 {
+            press(&mut harness, "Scaling: one core against several");
+            press(&mut harness, "Measure scaling");
+            harness.get_by_label("Measure scaling").scroll_to_me();
+            harness.run_steps(30);
+            shot(&mut harness, "scaling");
+        }
         act(&mut harness, Action::SwitchTheme);
         shot(&mut harness, "light");
     }

@@ -22,7 +22,11 @@ use crate::{
         nearest::KdTree,
         rigid::{self, RigidTransform},
     },
-    stages::{reference::Reference, scene::cloud_of},
+    stages::{
+        pose::{PoseError, PreparedTarget},
+        reference::Reference,
+        scene::cloud_of,
+    },
 };
 
 /// Which two clouds.
@@ -62,6 +66,8 @@ pub struct Pair {
     pub target: PointCloud,
     /// The points of the source that E is measured over, thinned as for the estimate's own figures.
     pub sample: Vec<Point3<f32>>,
+    /// The target as a method searches it, or why none can.
+    pub prepared: Result<PreparedTarget, PoseError>,
     /// Search tree over the target's finite points.
     pub target_tree: KdTree,
     /// The source as it is drawn, in its own space.
@@ -95,7 +101,14 @@ impl Pair {
                 let found = found.map_err(Trouble::of)?;
                 let title = format!("{} onto {title}", inspected.origin.title());
                 let target = PointCloud::from_points(reference.cloud.points.iter().copied());
-                Ok(Self::new(title, found.cloud.clone(), target, None))
+                let prepared = reference.whole().cloned();
+                Ok(Self::new(
+                    title,
+                    found.cloud.clone(),
+                    target,
+                    prepared,
+                    None,
+                ))
             }
             PairSource::Files { source, target } => {
                 let title = format!("{} onto {}", file_name(source), file_name(target));
@@ -109,9 +122,10 @@ impl Pair {
                         *point = (point.cast::<f64>() - middle).cast();
                     }
                 }
+                let prepared = PreparedTarget::new(&target);
                 Ok(Self {
                     warnings,
-                    ..Self::new(title, source, target, None)
+                    ..Self::new(title, source, target, prepared, None)
                 })
             }
         }
@@ -125,13 +139,15 @@ impl Pair {
         let source = PointCloud::from_points(source);
         let target = PointCloud::from_points(points.iter().copied());
         let title = format!("{title} from {}", start.title());
-        Self::new(title, source, target, Some(moved.inverse()))
+        let prepared = reference.whole().cloned();
+        Self::new(title, source, target, prepared, Some(moved.inverse()))
     }
 
     fn new(
         title: String,
         source: PointCloud,
         target: PointCloud,
+        prepared: Result<PreparedTarget, PoseError>,
         truth: Option<RigidTransform>,
     ) -> Self {
         let finite: Vec<Point3<f32>> = source.finite().map(|(_, p)| *p).collect();
@@ -145,6 +161,7 @@ impl Pair {
         Self {
             title,
             sample,
+            prepared,
             target_tree: KdTree::new(&of_target),
             source_points: drawn(&source, Role::Moving),
             target_points: drawn(&target, Role::Reference),

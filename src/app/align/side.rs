@@ -17,7 +17,7 @@ use crate::{
         theme::{ROUNDING, Theme, font, space},
         widgets::heading,
     },
-    stages::pose::PoseMethod,
+    stages::pose::{PoseMethod, Uncertainty},
 };
 
 /// Width of a column of numbers at most, logical pixels.
@@ -277,16 +277,13 @@ fn true_error(ui: &mut Ui, state: &State, theme: &Theme) {
     let Some(shown) = &state.align.shown else {
         return;
     };
-    heading(ui, theme, "True error at this start");
-    if shown.pair.truth.is_none() {
-        let text = "Not known: nothing but the two clouds tells where the part is";
-        ui.label(
-            RichText::new(text)
-                .font(font::small())
-                .color(theme.weak_text),
-        );
-        return;
-    }
+    let is_known = shown.pair.truth.is_some();
+    let title = if is_known {
+        "True error at this start"
+    } else {
+        "Off by less than, in 95 of 100 cases"
+    };
+    heading(ui, theme, title);
     ui.spacing_mut().interact_size.y = 20.0;
     let line = |ui: &mut Ui, name: RichText, turn: RichText, shift: RichText| {
         ui.horizontal(|ui| {
@@ -311,13 +308,17 @@ fn true_error(ui: &mut Ui, state: &State, theme: &Theme) {
     for run in &shown.runs {
         let colour = series::colour(run.method, theme);
         let name = RichText::new(series::title(run.method)).color(colour);
-        let error = run.track.as_ref().ok().and_then(|track| track.true_error);
-        let (turn, shift) = match error {
-            Some(error) => (
-                state.units.angle(error.rotation.0),
-                state.units.length(error.shift.0),
-            ),
-            None => ("no pose".into(), String::new()),
+        let off = run.track.as_ref().map(|track| match track.true_error {
+            Some(error) => Some((error.rotation.0, error.shift.0)),
+            None => track
+                .uncertainty
+                .filter(Uncertainty::is_held)
+                .map(|bounds| (bounds.turn.0, bounds.shift.0)),
+        });
+        let (turn, shift) = match off {
+            Ok(Some((turn, shift))) => (state.units.angle(turn), state.units.length(shift)),
+            Ok(None) => ("nothing holds it".into(), String::new()),
+            Err(_) => ("no pose".into(), String::new()),
         };
         let text = |text: String| RichText::new(text).color(theme.text);
         line(ui, name, text(turn), text(shift));

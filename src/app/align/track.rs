@@ -11,7 +11,8 @@ use crate::{
     error::Advice as _,
     geometry::rigid::{self, RigidTransform},
     stages::pose::{
-        Doubt, Fit, Iteration, Phase, PoseError, PoseEstimate, PoseMethod, Stopped, align_with,
+        Doubt, Fit, Iteration, Phase, PoseError, PoseEstimate, PoseMethod, Stopped, Uncertainty,
+        align_to,
     },
 };
 
@@ -43,6 +44,8 @@ pub struct Track {
     pub stopped: Stopped,
     /// How well the end fits.
     pub fit: Fit,
+    /// How far off the end may be.
+    pub uncertainty: Option<Uncertainty>,
     /// How far the end is from the truth, where that is known.
     pub true_error: Option<rigid::PoseError>,
     /// Why the end should not be relied upon.
@@ -62,13 +65,9 @@ pub(super) fn estimated(
     is_cancelled: &dyn Fn() -> bool,
 ) -> (Result<PoseEstimate, PoseError>, Duration) {
     let clock = Instant::now();
-    let aligned = align_with(
-        &pair.source,
-        &pair.target,
-        &method.into(),
-        None,
-        is_cancelled,
-    );
+    let prepared = pair.prepared.as_ref().map_err(|error| *error);
+    let aligned = prepared
+        .and_then(|target| align_to(&pair.source, target, &method.into(), None, is_cancelled));
     (aligned, clock.elapsed())
 }
 
@@ -105,6 +104,7 @@ impl Track {
             searches: searches(&estimate.iterations),
             stopped: estimate.stopped,
             fit: estimate.fit,
+            uncertainty: estimate.uncertainty,
             true_error: pair.true_error(&end),
             doubt: estimate.doubt().map(|doubt| doubted(&doubt, pair)),
             e_m2,
@@ -195,6 +195,7 @@ pub(super) fn in_the_window(error: &PoseError) -> Trouble {
 fn doubted(doubt: &Doubt, pair: &Pair) -> Trouble {
     let advice = match doubt {
         Doubt::Ambiguous { .. } => "Check which way round the part lies".into(),
+        Doubt::Loose => "Look for an edge or a bend that only one place of the part has".into(),
         Doubt::Unsettled { .. } => "Try another method, or a start that is nearer".into(),
         // They do show the same.
         Doubt::LittleOverlap { .. } if pair.truth.is_some() => {

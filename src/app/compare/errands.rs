@@ -37,6 +37,7 @@ pub(super) enum Errand {
     Study,
     Cases,
     Run,
+    Scaling,
 }
 
 impl CompareState {
@@ -70,7 +71,7 @@ impl State {
         let has_more = !compare.errands.is_empty() || compare.due != Due::No;
         let is_free = match compare.errand(self) {
             None => true,
-            Some(Errand::Run) => compare.due == Due::Now,
+            Some(Errand::Run | Errand::Scaling) => compare.due == Due::Now,
             Some(Errand::Study | Errand::Cases) => false,
         };
         !compare.is_listed || has_more && is_free || self.has_new_scene()
@@ -94,7 +95,9 @@ pub(super) fn next(state: &mut State) -> Option<Effect> {
     let errand = state.compare.errand(state);
     match errand {
         Some(Errand::Cases) => return None,
-        Some(Errand::Run) if state.compare.errands.is_empty() && state.compare.due != Due::Now => {
+        Some(Errand::Run | Errand::Scaling)
+            if state.compare.errands.is_empty() && state.compare.due != Due::Now =>
+        {
             return None;
         }
         _ => {}
@@ -106,7 +109,9 @@ pub(super) fn next(state: &mut State) -> Option<Effect> {
         }
         let kind = match &request {
             CompareRequest::Run { .. } => Errand::Run,
-            CompareRequest::Cases { .. } => Errand::Cases,
+            CompareRequest::Scaling => Errand::Scaling,
+            // As with the cases, nothing pushes it out: it is quick.
+            CompareRequest::Cases { .. } | CompareRequest::Earlier { .. } => Errand::Cases,
             CompareRequest::Study(_) => Errand::Study,
         };
         return Some(post(state, what, request, kind));

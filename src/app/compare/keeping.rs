@@ -54,8 +54,10 @@ pub(super) fn keep(state: &mut State) {
         simulated: study.camera == CameraKind::Simulated,
         kept_at: Timestamp::now(),
         remark: state.compare.remark.trim().to_owned(),
+        difficulty: None,
         truth,
         found: study.found.clone(),
+        pose: None,
     };
     let change = CaseChange::Keep {
         scene: Arc::clone(&study.scene),

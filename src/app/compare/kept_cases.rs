@@ -8,7 +8,7 @@ use egui::{
 };
 
 use super::{
-    CaseRun, CompareAction,
+    CaseRun, CompareAction, calibration_plot, changes_list,
     matrix::{Matrix, MatrixCell, part_title, truth_title},
 };
 use crate::{
@@ -25,6 +25,8 @@ use crate::{
 const NAMES: f32 = 118.0;
 /// Height of the columns' names where the columns are narrow.
 const UPRIGHT: f32 = 104.0;
+/// Least width of a column.
+const NARROWEST: f32 = space::TARGET + 2.0;
 /// A column wider than this has its name written across.
 const WIDE: f32 = 110.0;
 
@@ -59,13 +61,42 @@ pub(super) fn ui(
         list(ui, state, cases, theme, acts);
         return;
     };
+    if let (Some(changes), Some(shown)) = (&compare.changes, &state.library) {
+        changes_list::ui(ui, changes, shown, theme, acts);
+        return;
+    }
     ScrollArea::both()
         .id_salt("cases")
         .auto_shrink(false)
         .show(ui, |ui| match cell.and_then(|cell| run.matrix.cell(cell)) {
             Some(cell) => of_cell(ui, state, run, cell, theme, acts),
-            None => matrix(ui, &run.matrix, theme, acts),
+            None => matrix_and_calibration(ui, run, theme, acts),
         });
+}
+
+/// Side by side, or one under the other where there is no room.
+fn matrix_and_calibration(
+    ui: &mut Ui,
+    run: &CaseRun,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+) {
+    let num_columns = run.matrix.columns.len() as f32;
+    let beside = ui.available_width() - calibration_plot::WIDTH - space::LARGE;
+    if beside >= NAMES + 16.0 + NARROWEST * num_columns {
+        ui.horizontal_top(|ui| {
+            ui.vertical(|ui| {
+                ui.set_max_width(beside);
+                matrix(ui, &run.matrix, theme, acts);
+            });
+            ui.add_space(space::MEDIUM);
+            calibration_plot::ui(ui, &run.calibration, theme);
+        });
+    } else {
+        matrix(ui, &run.matrix, theme, acts);
+        ui.add_space(space::MEDIUM);
+        calibration_plot::ui(ui, &run.calibration, theme);
+    }
 }
 
 fn header(
@@ -89,15 +120,22 @@ fn header(
             if button.on_hover_text(hover).clicked() {
                 actions.push(Action::Ask(Ask::CasesFolder));
             }
-            if compare.cell.is_some()
-                && labelled(ui, Button::new("Back to matrix"), "Back to matrix").clicked()
+            let is_matrix = compare.cell.is_none() && compare.changes.is_none();
+            if !is_matrix && labelled(ui, Button::new("Back to matrix"), "Back to matrix").clicked()
             {
                 acts.push(CompareAction::ShowCell(None));
             }
             if let Some(run) = &compare.run
                 && let Some(ended) = run.ended
-                && compare.cell.is_none()
+                && is_matrix
             {
+                let name = "Compare with an earlier run…";
+                let button = labelled(ui, Button::new("Earlier run…"), name);
+                let hover =
+                    "Compare with what partsight evaluate --json has written of an earlier run";
+                if button.on_hover_text(hover).clicked() {
+                    actions.push(Action::Ask(Ask::EarlierRun));
+                }
                 let at = ended.to_zoned(jiff::tz::TimeZone::system());
                 let at = format!("ran at {}", at.strftime("%H:%M"));
                 ui.label(RichText::new(at).font(font::small()).color(theme.weak_text));
@@ -166,10 +204,15 @@ fn list(
         .auto_shrink(false)
         .show_rows(ui, height, cases.len(), |ui, rows| {
             for case in cases.get(rows).unwrap_or_default() {
-                let truth = state.library.as_ref().map_or_else(String::new, |shown| {
-                    truth_title(&case.meta.about.truth, shown)
-                });
-                case_row(ui, &case.name, &format!("it is: {truth}"), theme, acts);
+                let about = &case.meta.about;
+                let truth = state.library.as_ref();
+                let truth =
+                    truth.map_or_else(String::new, |shown| truth_title(&about.truth, shown));
+                let what = format!(
+                    "it is: {truth}{}",
+                    difficulty_words(about.difficulty.as_deref())
+                );
+                case_row(ui, &case.name, &what, theme, acts);
             }
         });
 }
@@ -203,11 +246,23 @@ fn of_cell(
             (Some(part), Some(score)) => format!("{} {score:.2}", part_title(part, shown)),
             _ => found.reason.clone().unwrap_or_default(),
         };
+        let what = format!("{what}{}", difficulty_words(result.difficulty.as_deref()));
         case_row(ui, &result.name, &what, theme, acts);
     }
 }
 
-fn case_row(ui: &mut Ui, name: &str, what: &str, theme: &Theme, acts: &mut Vec<CompareAction>) {
+/// Behind what a case is.
+fn difficulty_words(difficulty: Option<&str>) -> String {
+    difficulty.map_or_else(String::new, |words| format!(" · {words}"))
+}
+
+pub(super) fn case_row(
+    ui: &mut Ui,
+    name: &str,
+    what: &str,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+) {
     ui.horizontal(|ui| {
         let text = RichText::new(shortened(name, 34)).font(font::body_strong());
         let size = vec2(190.0, space::TARGET);
@@ -229,7 +284,7 @@ fn case_row(ui: &mut Ui, name: &str, what: &str, theme: &Theme, acts: &mut Vec<C
 fn matrix(ui: &mut Ui, matrix: &Matrix, theme: &Theme, acts: &mut Vec<CompareAction>) {
     let num_columns = matrix.columns.len().max(1);
     let room = ui.available_width() - NAMES - 16.0;
-    let width = (room / num_columns as f32).clamp(space::TARGET + 2.0, 140.0);
+    let width = (room / num_columns as f32).clamp(NARROWEST, 140.0);
     let height = space::TARGET + 2.0;
     let head = if width > WIDE { 22.0 } else { UPRIGHT };
     let size = vec2(

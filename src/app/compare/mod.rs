@@ -3,7 +3,9 @@
 //! A case, the scene inspected last or a kept one, is inspected with the recipe on trial and laid against one enrolled
 //! part; all kept cases can be run, and their confusion matrix leads back to each of them.
 
+mod calibration_plot;
 mod case_bar;
+mod changes_list;
 pub mod comparison;
 mod distances;
 mod errands;
@@ -14,6 +16,7 @@ mod parameter_table;
 pub mod parameters;
 mod pictures;
 mod recipe_panel;
+mod scaling_plot;
 mod state;
 pub mod study;
 mod trial;
@@ -24,7 +27,7 @@ use egui::{Frame, Key, Margin, Modifiers, Panel, Rect, Ui, UiBuilder, pos2, vec2
 pub(super) use self::work::answer;
 pub use self::{
     state::{Cases, CompareAction, CompareState, Front, Undo, apply, hear},
-    work::{CaseChange, CaseDone, CaseRun, CompareAnswer, CompareRequest},
+    work::{CaseChange, CaseDone, CaseRun, CompareAnswer, CompareRequest, RunChanges},
 };
 use super::{
     action::Action,

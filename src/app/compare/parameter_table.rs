@@ -41,7 +41,7 @@ macro_rules! number {
 
 /// All parameters, group by group in the order of the flow.
 #[rustfmt::skip]
-pub const PARAMETERS: [Parameter; 60] = [
+pub const PARAMETERS: [Parameter; 61] = [
     number!("segment.plane_distance", "Plane distance", Segmentation, Front, Millimetres, [1.0, 50.0], 1,
         |r| r.segment.plane_distance.0, |r, v| r.segment.plane_distance = Metres(v),
         "The paper's d_t: a point closer than this (plus the noise) to a background plane belongs to it. Raising it eats what is near the wall."),
@@ -108,6 +108,9 @@ pub const PARAMETERS: [Parameter; 60] = [
     number!("rank.outline_tolerance", "Outline tolerance", Match, Fold, Millimetres, [10.0, 200.0], 0,
         |r| r.rank.outline_tolerance.0, |r, v| r.rank.outline_tolerance = Metres(v),
         "Distance of the outlines at which the score has dropped to 1/e. Raising it forgives outlines that differ."),
+    number!("rank.parallel_from", "All cores from", Match, Fold, None, [1.0, 100_000.0], 0,
+        |r| r.rank.parallel_from as f64, |r, v| r.rank.parallel_from = v.round() as usize,
+        "Enrolled references from which all cores rank; the ranking stays the same. Lowering it costs time where starting them takes longer than ranking."),
     Parameter {
         key: "pose",
         name: "Pose by",

@@ -11,6 +11,7 @@ use super::{
     CompareAction,
     case_bar::judged,
     parameters::{Choice, Group, Kind, Number, PARAMETERS, Parameter, Place, num_changed},
+    scaling_plot,
 };
 use crate::{
     app::{
@@ -53,6 +54,10 @@ pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<Compa
                     for group in Group::ALL {
                         group_ui(ui, group, recipe, &default, theme, acts);
                     }
+                    ui.add_space(space::SMALL);
+                    CollapsingHeader::new("Scaling: one core against several")
+                        .id_salt("scaling")
+                        .show(ui, |ui| scaling_plot::ui(ui, state, theme, acts));
                 });
         });
 }

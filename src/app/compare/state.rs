@@ -9,7 +9,7 @@ use super::{
     parameters::Parameter,
     study::Study,
     trial::{change_recipe, undo, use_recipe},
-    work::{CaseChange, CaseDone, CaseRun},
+    work::{CaseChange, CaseDone, CaseRun, RunChanges},
 };
 use crate::{
     app::{
@@ -17,6 +17,7 @@ use crate::{
         job::Trouble,
         state::{Notice, NoticeKind, Shown, State},
     },
+    bench::scaling::Scaling,
     cases::{CaseFolder, Cell, KeptCase, Truth},
     pipeline::Recipe,
 };
@@ -44,6 +45,10 @@ pub struct CompareState {
     pub run: Option<Arc<CaseRun>>,
     /// The cell of the matrix whose cases are listed.
     pub cell: Option<Cell>,
+    /// What ranking takes by several workers, once measured.
+    pub scaling: Option<Arc<Scaling>>,
+    /// What changed since an earlier run, listed instead of the matrix.
+    pub changes: Option<Arc<RunChanges>>,
     /// What can be taken back.
     pub undo: Option<Undo>,
     /// True while the study is of what was asked for last.
@@ -124,6 +129,10 @@ pub enum CompareAction {
     Folder(PathBuf),
     /// List the cases of this cell of the matrix, or show the matrix.
     ShowCell(Option<Cell>),
+    /// Measure from how many references on several workers pay.
+    MeasureScaling,
+    /// List what changed since the run that has written this file.
+    Earlier(PathBuf),
     /// Remove the kept case of this name.
     Remove(String),
     /// Give the parameter of this key a value, as [`Parameter::set`] takes it.
@@ -175,6 +184,7 @@ pub fn apply(state: &mut State, action: CompareAction) -> Option<Effect> {
             compare.cases = None;
             compare.run = None;
             compare.cell = None;
+            compare.changes = None;
             compare.undo = None;
             if matches!(compare.front, Front::Kept(_)) {
                 compare.front = Front::Scene;
@@ -183,7 +193,15 @@ pub fn apply(state: &mut State, action: CompareAction) -> Option<Effect> {
             }
             change_cases(state, "Listing the kept cases", CaseChange::List);
         }
-        CompareAction::ShowCell(cell) => state.compare.cell = cell,
+        CompareAction::ShowCell(cell) => {
+            state.compare.cell = cell;
+            state.compare.changes = None;
+        }
+        CompareAction::MeasureScaling => {
+            let errand = ("Measuring the ranking".to_owned(), CompareRequest::Scaling);
+            state.compare.errands.push_back(errand);
+        }
+        CompareAction::Earlier(path) => earlier(state, path),
         CompareAction::Remove(name) => {
             change_cases(state, "Removing a case", CaseChange::Remove(name));
         }
@@ -223,6 +241,11 @@ pub fn hear(state: &mut State, outcome: Result<CompareAnswer, Trouble>) -> Optio
                 }
             }
             state.compare.run = Some(run);
+        }
+        Ok(CompareAnswer::Scaled(scaling)) => state.compare.scaling = Some(scaling),
+        Ok(CompareAnswer::Changed(changes)) => {
+            state.compare.cell = None;
+            state.compare.changes = Some(changes);
         }
         Ok(CompareAnswer::Cases {
             folder,
@@ -339,8 +362,24 @@ fn run_all(state: &mut State) {
         recipe: Arc::clone(state.tried_recipe()),
     };
     state.compare.cell = None;
+    state.compare.changes = None;
     state.compare.run = None;
     let errand = ("Running the kept cases".to_owned(), request);
+    state.compare.errands.push_back(errand);
+}
+
+fn earlier(state: &mut State, path: PathBuf) {
+    let run = state.compare.run.clone();
+    let Some(run) = run.filter(|run| run.ended.is_some()) else {
+        let none = Notice {
+            kind: NoticeKind::Look,
+            what: "There is no run to compare with an earlier one".into(),
+            advice: "Run all cases first".into(),
+        };
+        return notify(state, none);
+    };
+    let request = CompareRequest::Earlier { path, run };
+    let errand = ("Comparing with an earlier run".to_owned(), request);
     state.compare.errands.push_back(errand);
 }
 

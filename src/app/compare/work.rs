@@ -17,9 +17,13 @@ use crate::{
         shelf::Shelf,
         worker::Desk,
     },
-    cases::{CaseAbout, CaseError, CaseFolder, CaseResult, Confusion, KeptCase, found_in},
+    bench::scaling::{Scaling, ScalingError, ScalingRow, scaling, sizes},
+    cases::{
+        Calibration, CaseAbout, CaseError, CaseFolder, CaseJudge, CaseResult, Changes, Confusion,
+        EarlierRun, KeptCase, RecordError,
+    },
     pipeline::Recipe,
-    stages::scene::SceneCloud,
+    stages::{rank::Matcher, scene::SceneCloud},
 };
 
 /// What the workspace asks for.
@@ -40,6 +44,15 @@ pub enum CompareRequest {
         folder: CaseFolder,
         /// The recipe on trial.
         recipe: Arc<Recipe>,
+    },
+    /// Measure from how many references on several workers pay.
+    Scaling,
+    /// Hold a run against an earlier one.
+    Earlier {
+        /// What that one has written.
+        path: PathBuf,
+        /// The run.
+        run: Arc<CaseRun>,
     },
 }
 
@@ -102,6 +115,19 @@ pub enum CompareAnswer {
     },
     /// What came out of the kept cases so far.
     Ran(Arc<CaseRun>),
+    /// What ranking takes by several workers.
+    Scaled(Arc<Scaling>),
+    /// What changed since an earlier run.
+    Changed(Arc<RunChanges>),
+}
+
+/// What changed since an earlier run.
+#[derive(Debug)]
+pub struct RunChanges {
+    /// The earlier run's file name.
+    pub file: String,
+    /// The changes.
+    pub changes: Changes,
 }
 
 /// What came out of all kept cases.
@@ -119,6 +145,8 @@ pub struct CaseRun {
     pub total: usize,
     /// The matrix.
     pub matrix: Matrix,
+    /// Scores against shares of right guesses.
+    pub calibration: Calibration,
     /// When the run ended; `None` while it goes on.
     pub ended: Option<Timestamp>,
 }
@@ -139,7 +167,43 @@ pub(in crate::app) fn answer(
             Some(changed.map(Answer::Compare).map_err(|e| Trouble::of(&e)))
         }
         CompareRequest::Run { folder, recipe } => run(&folder, &recipe, shelf, desk),
+        CompareRequest::Scaling => measure_scaling(desk),
+        CompareRequest::Earlier { path, run } => {
+            let changed =
+                changes(&path, &run).map(|changes| CompareAnswer::Changed(Arc::new(changes)));
+            Some(changed.map(Answer::Compare).map_err(|e| Trouble::of(&e)))
+        }
     }
+}
+
+/// References at most: with their images below half a gigabyte.
+const MOST_REFERENCES: usize = 2048;
+
+fn measure_scaling(desk: &dyn Desk<Outcome>) -> Option<Outcome> {
+    let total = sizes(MOST_REFERENCES).len();
+    let mut done = 0;
+    desk.progress(done, total);
+    let mut after_row = |_: &ScalingRow| {
+        done += 1;
+        desk.progress(done, total);
+    };
+    match scaling(Matcher::Default, MOST_REFERENCES, desk, &mut after_row) {
+        Ok(scaling) => {
+            let answer = CompareAnswer::Scaled(Arc::new(scaling));
+            Some(Ok(Answer::Compare(answer)))
+        }
+        Err(ScalingError::Cancelled(_)) => None,
+        Err(error) => Some(Err(Trouble::of(&error))),
+    }
+}
+
+fn changes(path: &Path, run: &CaseRun) -> Result<RunChanges, RecordError> {
+    let earlier = EarlierRun::read(path)?;
+    let file = path.file_name().unwrap_or(path.as_os_str());
+    Ok(RunChanges {
+        file: file.to_string_lossy().into_owned(),
+        changes: Changes::between(&earlier, &run.results),
+    })
 }
 
 fn cases(folder: Option<&Path>, change: CaseChange) -> Result<CompareAnswer, CaseError> {
@@ -183,6 +247,7 @@ fn run(
     let order = library.references.iter().map(|r| r.name.clone());
     let order: Vec<String> = order.collect();
     let total = list.cases.len();
+    let judge = CaseJudge::new(&library, recipe);
     let (mut results, mut troubles) = (Vec::new(), Vec::new());
     let so_far = |results: &[CaseResult], troubles: &[Trouble], ended| {
         let confusion = Confusion::of(results, &order);
@@ -190,6 +255,7 @@ fn run(
             folder: folder.clone(),
             recipe: Arc::clone(recipe),
             matrix: Matrix::of(confusion, &shelved.shown),
+            calibration: Calibration::of(results),
             results: results.to_vec(),
             troubles: troubles.to_vec(),
             total,
@@ -202,11 +268,7 @@ fn run(
         }
         desk.progress(done, total);
         match folder.read_scene(case) {
-            Ok(scene) => results.push(CaseResult {
-                name: case.name.clone(),
-                truth: case.meta.about.truth.clone(),
-                found: found_in(&scene, &library, recipe, desk).ok()?,
-            }),
+            Ok(scene) => results.push(judge.judge(case, &scene, desk).ok()?),
             Err(error) => troubles.push(Trouble::of(&error)),
         }
         let run = so_far(&results, &troubles, None);

@@ -19,7 +19,7 @@ use crate::{
     error::Advice as _,
     geometry::rigid::RigidTransform,
     pipeline::Verdict,
-    stages::pose::PoseEstimate,
+    stages::pose::{PoseEstimate, Uncertainty},
 };
 
 /// A window lower than this has the offsets beside each other, logical pixels.
@@ -287,6 +287,10 @@ fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem, theme: &Theme) {
         "overlap",
         &format!("{:.0} %", pose.fit.overlap * 100.0),
     );
+    if let Some(bounds) = pose.uncertainty.filter(Uncertainty::is_held) {
+        let (shift, turn) = (units.length(bounds.shift.0), units.angle(bounds.turn.0));
+        row(ui, theme, "off by, 95 %", &format!("< {shift} · {turn}"));
+    }
     if let Some(runner_up) = pose.runner_up {
         row(
             ui,

@@ -25,8 +25,10 @@ fn about(origin: &str) -> CaseAbout {
         simulated: true,
         kept_at: "2026-11-20T14:07:31Z".parse().expect("a time"),
         remark: "after lunch".into(),
+        difficulty: None,
         truth: Truth::Part("front_door".into()),
         found: Found::default(),
+        pose: None,
     }
 }
 

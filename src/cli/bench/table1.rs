@@ -160,6 +160,12 @@ fn show(rows: &[Row], console: &mut Console) {
         ]);
     }
     table.show(console);
+    let preparations = rows.iter().map(|row| row.preparation.as_secs_f64() * 1e3);
+    if let Some(ms) = crate::bench::quantile(preparations, 0.5) {
+        console.line(&format_args!(
+            "Preparing a target, once per part: {ms:.0} ms (median), not in the times above."
+        ));
+    }
 }
 
 fn time_ms(attempt: &Attempt) -> f64 {

@@ -40,6 +40,7 @@ impl Candidate {
             stopped: refined.stopped,
             iterations: refined.iterations.clone(),
             fit: *fit,
+            uncertainty: None,
             runner_up: *runner_up,
         }
     }

@@ -12,6 +12,11 @@ const EDGE_WEIGHT: f64 = 0.1;
 /// neither surface nor edges hold (a plate sliding along itself) without dragging visibly.
 const POINT_WEIGHT: f64 = 0.02;
 
+/// What an edge pair counts beside a surface pair.
+pub(super) fn edge_share(num_surface: usize, num_edges: usize) -> f64 {
+    EDGE_WEIGHT * num_surface as f64 / num_edges as f64
+}
+
 /// The normal equations of one Gauss-Newton step.
 #[derive(Default)]
 pub(super) struct Equations {
@@ -21,6 +26,8 @@ pub(super) struct Equations {
     points: PointSums,
     sum_sq: f64,
     pub(super) num_pairs: usize,
+    /// Σ of the Welsch weights, those of edges by their share.
+    weight_sum: f64,
 }
 
 /// Sums over pairs pulled together along all three axes: with J = (-skew(x), I) the normal equations follow from them.
@@ -57,28 +64,35 @@ impl Equations {
             let weight = (-f64::from(n.distance_sq) * per_scale_sq).exp();
             let at: Point3<f64> = at.cast();
             if let Some(normal) = normals.get(n.index) {
-                sums.add_plane(&at, &away, &normal.cast(), weight);
+                let normal = normal.cast();
+                sums.add_plane(&at, &away, &normal, weight);
                 sums.points.add(&at, &away, POINT_WEIGHT * weight);
             } else {
                 sums.points.add(&at, &away, weight);
             }
             sums.sum_sq += f64::from(n.distance_sq);
+            sums.weight_sum += weight;
             sums.num_pairs += 1;
         }
         let edges = &source.edges[..level.num_edges.min(source.edges.len())];
         if !edges.is_empty() && !target.edges.is_empty() {
-            let share = EDGE_WEIGHT * surface.len() as f64 / edges.len() as f64;
+            let share = edge_share(surface.len(), edges.len());
             for p in edges {
                 let at = moved * p;
                 let Some((closest, distance_sq)) = target.edges.closest(&at, reach_sq) else {
                     continue;
                 };
-                let weight = (-f64::from(distance_sq) * per_scale_sq).exp();
-                sums.points
-                    .add(&at.cast(), &(closest - at).cast(), share * weight);
+                let weight = share * (-f64::from(distance_sq) * per_scale_sq).exp();
+                sums.weight_sum += weight;
+                sums.points.add(&at.cast(), &(closest - at).cast(), weight);
             }
         }
         sums
+    }
+
+    /// How much of the source is on the target, in points: what the robust refinement raises.
+    pub(super) fn support(&self) -> f64 {
+        self.weight_sum
     }
 
     /// E of eq. 12 over this step's pairs.

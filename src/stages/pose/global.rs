@@ -1,29 +1,30 @@
 //! The global pose: from no start at all.
 //!
 //! Lengths follow from the clouds: their extent says how far off a start may be, their spacing how fine the answer
-//! can be. The search tries the target's principal axes all four ways round and rotations spread evenly over SO(3)
-//! (M. Alexa, "Super-Fibonacci spirals: fast, low-discrepancy sampling of SO(3)", CVPR 2022), each refined on few
-//! points; the better ones go on to more points and finer scales.
+//! can be. Two clouds of the same whole thing have the same principal variances, and their principal axes lie on each
+//! other up to half turns: those starts come first, and if one of them convinces there is nothing else to look for,
+//! since a rigid motion that takes such a cloud onto itself takes its axes onto themselves. Otherwise rotations spread
+//! evenly over SO(3) race each other: all are refined a little on few points, the better go on to more points and
+//! finer scales.
 //!
 //! Known limits: a shift between clouds that share less than about half of their surface is only found if it is small
 //! against their size, since starts put centre on centre.
 
-use nalgebra::{Isometry3, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
+use nalgebra::{Point3, Translation3, Unit, UnitQuaternion};
 use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
 use super::{
-    Iteration, MIN_POINTS, PoseError, PoseEstimate, PoseMethod, RunnerUp,
-    edge_points::EdgePoints,
+    MIN_POINTS, PoseError, PoseEstimate, PoseMethod, RunnerUp,
+    centred::Centred,
+    prepared::PreparedTarget,
     quality::{Tolerance, measure_fit},
     refine::{Level, Refined, Search, Source, Target, cost, refine},
+    starts::{all_round, along_axes},
 };
 use crate::{
     geometry::{
         cloud::PointCloud,
-        nearest::KdTree,
-        nearest_field::NearestField,
-        normals::estimate_normals,
         principal::{PrincipalAxes, principal_axes},
         rigid::{RigidTransform, pose_error},
         voxel::downsample,
@@ -31,65 +32,62 @@ use crate::{
     units::Metres,
 };
 
-/// Rotations tried beside the principal axes: no rotation is further than about 35° from one of them, within what the
-/// coarse refinement closes.
-const NUM_ROTATIONS: usize = 150;
-/// Trials that go on after the coarse refinement.
-const NUM_KEPT: usize = 12;
-/// Trials that are refined to the end: the best, and two to compare it with.
-const NUM_FINISHED: usize = 3;
-/// Distance at which a point counts as plainly off in the coarse comparison, in extents of the target.
-const COST_LIMIT: f64 = 0.2;
-/// Points of the target at most: more do not sharpen the pose, and cost memory.
-const MAX_TARGET_POINTS: usize = 150_000;
 /// Points of the source used in the last refinement.
-const NUM_SOURCE_POINTS: usize = 4_000;
+const NUM_SOURCE_POINTS: usize = 2_000;
+/// Trials that are refined on the fine likeness: the best, and two to compare it with.
+const NUM_FINISHED: usize = 3;
+/// A pose is put aside so many times either way, by so many extents of the target each.
+const SLIDES: i32 = 10;
+const SLIDE: f64 = 0.06;
+/// So often at most: each time costs as much as the race.
+const MOST_ROUNDS: usize = 4;
+/// Share of the source that lies on the target where nothing is left to be found elsewhere.
+const COMPLETE: f64 = 0.99;
+/// Principal variances that differ by less than this share are those of the same whole thing.
+const ALIKE: f64 = 0.15;
+/// Principal variances that differ by less than this share leave their axes free to turn into each other.
+const TURNABLE: f64 = 0.25;
+/// Share of the source that lies on the target where a start along the axes convinces.
+const CONVINCING: f64 = 0.9;
 
-/// As the clouds lie; then centre on centre: principal axes on principal axes, rotations spread evenly.
-pub(super) fn starts(
-    no_turn: RigidTransform,
-    source: &PrincipalAxes,
-    target: &PrincipalAxes,
-) -> Vec<RigidTransform> {
-    let about_centres = |turn: UnitQuaternion<f64>| {
-        let shift = target.mean - turn * source.mean;
-        Isometry3::from_parts(Translation3::from(shift), turn)
-    };
-    let (of_source, of_target) = (source.frame().rotation, target.frame().rotation);
-    let half_turns = [
-        UnitQuaternion::identity(),
-        UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI),
-        UnitQuaternion::from_axis_angle(&Vector3::y_axis(), std::f64::consts::PI),
-        UnitQuaternion::from_axis_angle(&Vector3::z_axis(), std::f64::consts::PI),
-    ];
-    let along_axes = half_turns.map(|half| about_centres(of_target * half * of_source.inverse()));
-    std::iter::once(no_turn)
-        .chain(along_axes)
-        .chain(spread_rotations(NUM_ROTATIONS).map(about_centres))
-        .collect()
+/// A round of the race.
+struct Round {
+    /// Points of the source.
+    num_points: usize,
+    /// Scale in extents of the target.
+    scale: f64,
+    max_steps: usize,
+    /// Trials that go on.
+    num_kept: usize,
 }
 
-fn spread_rotations(num: usize) -> impl Iterator<Item = UnitQuaternion<f64>> {
-    // The constants of the article: irrational ratios for which the spiral covers SO(3) evenly.
-    const PHI: f64 = std::f64::consts::SQRT_2;
-    const PSI: f64 = 1.533_751_168_755_204_3;
-    (0..num).map(move |i| {
-        let s = i as f64 + 0.5;
-        let (r, big_r) = ((s / num as f64).sqrt(), (1.0 - s / num as f64).sqrt());
-        let (alpha, beta) = (
-            std::f64::consts::TAU * s / PHI,
-            std::f64::consts::TAU * s / PSI,
-        );
-        let (sin_a, cos_a) = alpha.sin_cos();
-        let (sin_b, cos_b) = beta.sin_cos();
-        UnitQuaternion::from_quaternion(Quaternion::new(
-            big_r * cos_b,
-            r * sin_a,
-            r * cos_a,
-            big_r * sin_b,
-        ))
-    })
-}
+/// From what a start is off by, some 35°, to what the fine likeness closes.
+const RACE: [Round; 4] = [
+    Round {
+        num_points: 80,
+        scale: 0.35,
+        max_steps: 4,
+        num_kept: 60,
+    },
+    Round {
+        num_points: 120,
+        scale: 0.2,
+        max_steps: 4,
+        num_kept: 24,
+    },
+    Round {
+        num_points: 250,
+        scale: 0.1,
+        max_steps: 6,
+        num_kept: 10,
+    },
+    Round {
+        num_points: 400,
+        scale: 0.06,
+        max_steps: 8,
+        num_kept: 5,
+    },
+];
 
 /// A pose on its way, with what it costs.
 struct Trial {
@@ -97,214 +95,225 @@ struct Trial {
     refined: Refined,
 }
 
-fn level(num_surface: usize, scale: f64, max_steps: usize, search: Search) -> Level {
-    Level {
-        num_surface,
-        num_edges: 0,
-        scale,
-        max_steps,
-        search,
-    }
-}
-
-/// A target with what searching it needs, and the lengths that follow from it.
-pub(super) struct PreparedTarget {
-    cloud: PointCloud,
-    tree: KdTree,
-    field: NearestField,
-    edges: EdgePoints,
-    /// Distance between neighbouring points, metres.
-    spacing: f64,
-    /// Standard deviation along the widest axis, metres.
-    extent: f64,
-}
-
-impl PreparedTarget {
-    pub(super) fn new(points: &[Point3<f32>]) -> Self {
-        let all = PointCloud::from_points(points.iter().copied());
-        let mut spacing = spacing_of(points);
-        let mut cloud = all;
-        while cloud.points.len() > MAX_TARGET_POINTS {
-            spacing *= 1.3;
-            cloud = downsample(&cloud, Metres(spacing));
+/// The pose of a source on a prepared target, from a start or from none. Both about their own middle.
+pub(super) fn search(
+    source: &Centred,
+    prepared: &PreparedTarget,
+    no_turn: RigidTransform,
+    start: Option<RigidTransform>,
+    is_cancelled: &dyn Fn() -> bool,
+) -> Result<PoseEstimate, PoseError> {
+    let search = GlobalSearch::new(source, prepared, is_cancelled);
+    let axes = (&search.axes, &prepared.axes);
+    let mut finished = Vec::new();
+    if let Some(start) = start {
+        finished = search.finish(search.race([start])?)?;
+    } else {
+        let near_at_hand = || std::iter::once(no_turn).chain(along_axes(axes.0, axes.1));
+        if are_alike(axes.0, axes.1) {
+            finished = search.finish(search.race(near_at_hand())?)?;
+            let best = finished.first();
+            let overlap = best.map_or(0.0, |best| search.overlap(best));
+            if overlap < CONVINCING {
+                finished.clear();
+            } else if overlap < COMPLETE {
+                search.put_aside(&mut finished)?;
+            }
         }
-        let tree = KdTree::new(&cloud.points);
-        let centre = principal_axes(cloud.points.iter().map(|p| (p.cast(), 1.0)));
-        let viewpoint = centre.map_or(Point3::origin(), |c| c.mean);
-        let extent = centre.map_or(0.0, |c| c.variances[0].sqrt());
-        // Three spacings reach some thirty neighbours: enough to average the noise of one point.
-        cloud.normals = Some(estimate_normals(
-            &cloud.points,
-            &tree,
-            Metres(3.0 * spacing),
-            &viewpoint,
-        ));
-        let cell = (2.0 * spacing).max(extent / 60.0) as f32;
-        let field = NearestField::new(&cloud.points, cell, (0.5 * extent) as f32);
+        if finished.is_empty() {
+            let starts = near_at_hand().chain(all_round(axes.0, axes.1));
+            finished = search.finish(search.race(starts)?)?;
+            search.put_aside(&mut finished)?;
+        }
+    }
+    search.conclude(finished)
+}
+
+/// True for clouds of the same whole thing, whose axes cannot turn into each other.
+fn are_alike(a: &PrincipalAxes, b: &PrincipalAxes) -> bool {
+    let close = |a: f64, b: f64, share: f64| (a - b).abs() <= share * a.max(b);
+    let (a, b) = (&a.variances, &b.variances);
+    (0..3).all(|i| close(a[i], b[i], ALIKE)) && (0..2).all(|i| !close(a[i], a[i + 1], TURNABLE))
+}
+
+struct GlobalSearch<'a> {
+    prepared: &'a PreparedTarget,
+    all_points: &'a [Point3<f32>],
+    /// Evenly dense, as the target's coarse likeness: a camera sees what is near it in more points.
+    coarse: Source,
+    source: Source,
+    axes: PrincipalAxes,
+    is_cancelled: &'a dyn Fn() -> bool,
+}
+
+impl<'a> GlobalSearch<'a> {
+    fn new(
+        source: &'a Centred,
+        prepared: &'a PreparedTarget,
+        is_cancelled: &'a dyn Fn() -> bool,
+    ) -> Self {
+        let step = source.points.len().div_ceil(NUM_SOURCE_POINTS).max(1);
+        let some = source.points.iter().step_by(step).copied().collect();
+        let all = PointCloud::from_points(source.points.iter().copied());
+        let even = downsample(&all, Metres(prepared.coarse_target().spacing)).points;
+        let axes = principal_axes(even.iter().map(|p| (p.cast(), 1.0))).unwrap_or(source.axes);
         Self {
-            tree,
-            field,
-            edges: EdgePoints::default(),
-            spacing,
-            extent,
-            cloud,
+            prepared,
+            all_points: &source.points,
+            coarse: shuffled(even),
+            source: shuffled(some),
+            axes,
+            is_cancelled,
         }
     }
 
-    pub(super) fn target(&self) -> Target<'_> {
-        let Self {
-            cloud,
-            tree,
-            field,
-            edges,
-            ..
-        } = self;
-        Target {
-            cloud,
-            tree,
-            field,
-            edges,
-            spacing: self.spacing,
-        }
-    }
-
-    /// The best pose that any of the starts leads to.
-    pub(super) fn search(
+    /// Refines all starts on the coarse likeness, fewer and fewer of them; the cheapest of different poses first.
+    fn race(
         &self,
-        source: &[Point3<f32>],
-        starts: &[RigidTransform],
-        is_cancelled: &dyn Fn() -> bool,
-    ) -> Result<PoseEstimate, PoseError> {
-        let step = (source.len() / NUM_SOURCE_POINTS).max(1);
-        let mut surface: Vec<Point3<f32>> = source.iter().step_by(step).copied().collect();
-        surface.shuffle(&mut Pcg64::seed_from_u64(1));
-        let source = Source {
-            surface,
-            edges: Vec::new(),
-        };
-        let centre = principal_axes(source.surface.iter().map(|p| (p.cast(), 1.0)))
-            .map_or(Point3::origin(), |axes| axes.mean);
-
-        let from_starts = starts.iter().map(|start| (start, [].as_slice()));
-        let mut trials = self.trials(
-            &source,
-            from_starts,
-            &self.coarse(),
-            COST_LIMIT,
-            is_cancelled,
-        )?;
-        trials.truncate(NUM_KEPT);
-        let mut trials = self.further(
-            &source,
-            &trials,
-            &self.middle(),
-            COST_LIMIT / 2.0,
-            is_cancelled,
-        )?;
-        trials = self.distinct(trials, &centre);
-        trials.truncate(NUM_FINISHED);
-        let trials = self.further(
-            &source,
-            &trials,
-            &self.fine(),
-            COST_LIMIT / 4.0,
-            is_cancelled,
-        )?;
-
-        let mut trials = self.distinct(trials, &centre).into_iter();
-        let best = trials.next().ok_or_else(|| self.no_overlap(0))?;
-        let num_pairs = best.refined.iterations.last().map_or(0, |i| i.num_pairs);
-        if num_pairs < MIN_POINTS {
-            return Err(self.no_overlap(num_pairs));
-        }
-        let runner_up = trials.next().map(|t| RunnerUp {
-            target_from_source: t.refined.target_from_source,
-            ratio: t.cost / best.cost.max(f64::MIN_POSITIVE),
-        });
-        Ok(self.estimate(&source.surface, best.refined, PoseMethod::Global, runner_up))
-    }
-
-    /// From what a start is off by to what a coarse refinement closes.
-    fn coarse(&self) -> [Level; 2] {
-        [
-            level(120, 0.35 * self.extent, 5, Search::Field),
-            level(200, 0.15 * self.extent, 5, Search::Field),
-        ]
-    }
-
-    fn middle(&self) -> [Level; 2] {
-        [
-            level(600, 0.1 * self.extent, 8, Search::Field),
-            level(600, 0.05 * self.extent, 8, Search::Field),
-        ]
-    }
-
-    /// Halving, down to the spacing.
-    fn fine(&self) -> Vec<Level> {
-        let finest = (1.5 * self.spacing).min(0.1 * self.extent);
-        let mut levels: Vec<Level> =
-            std::iter::successors(Some(0.03 * self.extent), |s| Some(s / 2.0))
-                .take_while(|scale| *scale > finest)
-                .map(|scale| level(1500, scale, 10, Search::Field))
-                .collect();
-        levels.push(level(NUM_SOURCE_POINTS, finest, 40, Search::Tree));
-        levels
-    }
-
-    /// Refines every pose through the levels; the cheapest first. Each comes with the iterations that led to it.
-    fn trials<'a>(
-        &self,
-        source: &Source,
-        poses: impl Iterator<Item = (&'a RigidTransform, &'a [Iteration])>,
-        levels: &[Level],
-        cost_limit: f64,
-        is_cancelled: &dyn Fn() -> bool,
+        starts: impl IntoIterator<Item = RigidTransform>,
     ) -> Result<Vec<Trial>, PoseError> {
-        let target = self.target();
-        let mut trials: Vec<Trial> = poses
-            .map(|(pose, before)| {
-                if is_cancelled() {
-                    return Err(PoseError::Cancelled);
-                }
-                let mut refined = refine(source, &target, pose, levels);
-                refined.iterations.splice(0..0, before.iter().copied());
-                let level = &levels[levels.len() - 1];
-                let limit = cost_limit * self.extent;
-                let cost = cost(source, &target, &refined.target_from_source, level, limit);
-                Ok(Trial { cost, refined })
+        let extent = self.prepared.extent();
+        let target = self.prepared.coarse_target();
+        let mut trials: Vec<Trial> = starts.into_iter().map(Trial::unrefined).collect();
+        for round in &RACE {
+            let level = Level {
+                num_surface: round.num_points,
+                num_edges: 0,
+                scale: round.scale * extent,
+                max_steps: round.max_steps,
+                search: Search::Field,
+            };
+            trials = self.further(trials, &self.coarse, &target, &[level], 2.0 * level.scale)?;
+            trials.truncate(4 * round.num_kept);
+            trials = self.distinct(trials);
+            trials.truncate(round.num_kept);
+        }
+        Ok(trials)
+    }
+
+    /// Refines the best few on the fine likeness, down to its spacing.
+    fn finish(&self, mut trials: Vec<Trial>) -> Result<Vec<Trial>, PoseError> {
+        trials.truncate(NUM_FINISHED);
+        let (extent, target) = (self.prepared.extent(), self.prepared.target());
+        let finest = self.prepared.finest().scale;
+        let levels: Vec<Level> = std::iter::successors(Some(0.03 * extent), |s| Some(s / 2.0))
+            .take_while(|scale| *scale > finest)
+            .map(|scale| Level {
+                num_surface: 600,
+                num_edges: 0,
+                scale,
+                max_steps: 7,
+                search: Search::Field,
             })
-            .collect::<Result<_, _>>()?;
+            .collect();
+        let trials = if levels.is_empty() {
+            trials
+        } else {
+            self.further(trials, &self.source, &target, &levels, 0.05 * extent)?
+        };
+        Ok(self.distinct(trials))
+    }
+
+    /// Tries the best elsewhere, as long as something better is found and there is something to be found.
+    ///
+    /// Half a part lies on a whole one in many places: a sheet slides along itself, the bars of a grille lie on the next
+    /// ones, and both fit nearly as well the other way round.
+    fn put_aside(&self, finished: &mut Vec<Trial>) -> Result<(), PoseError> {
+        for round in 0..MOST_ROUNDS {
+            let Some(best) = finished.first() else {
+                return Ok(());
+            };
+            let before = best.cost;
+            let mut aside = self.slid(&best.refined.target_from_source);
+            if round > 0 {
+                for axis in 0..3 {
+                    aside.extend(self.slid(&self.half_turned(best, axis)));
+                }
+            }
+            aside.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+            let mut aside = self.distinct(aside);
+            aside.truncate(NUM_FINISHED);
+            for trial in &mut aside {
+                trial
+                    .refined
+                    .iterations
+                    .clone_from(&best.refined.iterations);
+            }
+            finished.extend(self.finish(aside)?);
+            finished.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+            *finished = self.distinct(std::mem::take(finished));
+            let best = &finished[0];
+            let is_done = self.overlap(best) >= COMPLETE || (round > 0 && best.cost >= before);
+            if is_done {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// A pose put aside along the target's two longest axes: the cheapest places.
+    fn slid(&self, pose: &RigidTransform) -> Vec<Trial> {
+        let (extent, target) = (self.prepared.extent(), self.prepared.target());
+        let level = Level {
+            num_surface: 120,
+            num_edges: 0,
+            scale: 0.0,
+            max_steps: 0,
+            search: Search::Field,
+        };
+        let axes = &self.prepared.axes.axes;
+        let steps = || (-SLIDES..=SLIDES).map(|i| f64::from(i) * SLIDE * extent);
+        let mut slid: Vec<Trial> = steps()
+            .flat_map(|a| steps().map(move |b| (a, b)))
+            .map(|(a, b)| {
+                let shift = axes.column(0) * a + axes.column(1) * b;
+                let aside = Translation3::from(shift) * pose;
+                let mut trial = Trial::unrefined(aside);
+                trial.cost = cost(&self.source, &target, &aside, &level, 0.04 * extent);
+                trial
+            })
+            .collect();
+        slid.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        slid.truncate(20 * NUM_FINISHED);
+        slid
+    }
+
+    /// The source turned by half a turn about one of the target's axes, its middle where it was.
+    fn half_turned(&self, trial: &Trial, axis: usize) -> RigidTransform {
+        let pose = trial.refined.target_from_source;
+        let middle = pose * self.axes.mean;
+        let about = Unit::new_normalize(self.prepared.axes.axes.column(axis).into_owned());
+        let turn = UnitQuaternion::from_axis_angle(&about, std::f64::consts::PI);
+        Translation3::from(middle.coords) * turn * Translation3::from(-middle.coords) * pose
+    }
+
+    /// Takes every trial through the levels and sorts them by what they then cost, each distance cut off at `limit`.
+    fn further(
+        &self,
+        mut trials: Vec<Trial>,
+        source: &Source,
+        target: &Target<'_>,
+        levels: &[Level],
+        limit: f64,
+    ) -> Result<Vec<Trial>, PoseError> {
+        for trial in &mut trials {
+            if (self.is_cancelled)() {
+                return Err(PoseError::Cancelled);
+            }
+            let refined = refine(source, target, &trial.refined.target_from_source, levels);
+            trial.refined.target_from_source = refined.target_from_source;
+            trial.refined.stopped = refined.stopped;
+            trial.refined.iterations.extend(refined.iterations);
+            let level = &levels[levels.len() - 1];
+            let pose = &trial.refined.target_from_source;
+            trial.cost = cost(source, target, pose, level, limit);
+        }
         trials.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         Ok(trials)
     }
 
-    fn further(
-        &self,
-        source: &Source,
-        trials: &[Trial],
-        levels: &[Level],
-        cost_limit: f64,
-        is_cancelled: &dyn Fn() -> bool,
-    ) -> Result<Vec<Trial>, PoseError> {
-        let poses = trials.iter().map(|t| {
-            (
-                &t.refined.target_from_source,
-                t.refined.iterations.as_slice(),
-            )
-        });
-        self.trials(source, poses, levels, cost_limit, is_cancelled)
-    }
-
-    fn no_overlap(&self, found: usize) -> PoseError {
-        PoseError::NoOverlap {
-            found,
-            needed: MIN_POINTS,
-            reach: Metres(0.5 * self.extent),
-        }
-    }
-
     /// Of poses that a refinement would close, the cheapest.
-    fn distinct(&self, sorted: Vec<Trial>, centre: &Point3<f64>) -> Vec<Trial> {
+    fn distinct(&self, sorted: Vec<Trial>) -> Vec<Trial> {
         let mut kept: Vec<Trial> = Vec::new();
         for trial in sorted {
             let is_new = kept.iter().all(|k| {
@@ -312,8 +321,8 @@ impl PreparedTarget {
                     &k.refined.target_from_source,
                     &trial.refined.target_from_source,
                 );
-                let apart = pose_error(a, b, centre);
-                apart.rotation.degrees() > 5.0 || apart.shift.0 > 0.1 * self.extent
+                let apart = pose_error(a, b, &self.axes.mean);
+                apart.rotation.degrees() > 5.0 || apart.shift.0 > 0.1 * self.prepared.extent()
             });
             if is_new {
                 kept.push(trial);
@@ -322,54 +331,80 @@ impl PreparedTarget {
         kept
     }
 
-    /// The estimate that a refined pose stands for.
-    pub(super) fn estimate(
-        &self,
-        source: &[Point3<f32>],
-        refined: Refined,
-        method: PoseMethod,
-        runner_up: Option<RunnerUp>,
-    ) -> PoseEstimate {
-        let step = (source.len() / NUM_SOURCE_POINTS).max(1);
-        let measured: Vec<Point3<f32>> = source.iter().step_by(step).copied().collect();
+    /// Share of the source that lies on the target.
+    fn overlap(&self, trial: &Trial) -> f64 {
+        let some = &self.source.surface[..self.source.surface.len().min(500)];
         let tolerance = Tolerance {
-            base: Metres(3.0 * self.spacing),
+            base: Metres(3.0 * self.prepared.spacing()),
             noise_at_1m: Metres(0.0),
         };
-        let fit = measure_fit(
-            &measured,
-            &self.target(),
-            &refined.target_from_source,
-            tolerance,
-            Search::Tree,
-        );
-        PoseEstimate {
-            target_from_source: refined.target_from_source,
-            method,
-            stopped: refined.stopped,
-            iterations: refined.iterations,
-            fit,
-            runner_up,
+        let pose = &trial.refined.target_from_source;
+        let target = self.prepared.target();
+        measure_fit(some, &target, pose, tolerance, Search::Field).overlap
+    }
+
+    /// The best, refined to the end.
+    fn conclude(&self, finished: Vec<Trial>) -> Result<PoseEstimate, PoseError> {
+        let mut finished = finished.into_iter();
+        let best = finished.next().ok_or_else(|| self.no_overlap(0))?;
+        let runner_up = finished.next().map(|t| RunnerUp {
+            target_from_source: t.refined.target_from_source,
+            ratio: t.cost / best.cost.max(f64::MIN_POSITIVE),
+        });
+        let finest = self.prepared.finest();
+        // Most of the way on a third of the points.
+        let levels = [
+            Level {
+                num_surface: finest.num_surface / 3,
+                ..finest
+            },
+            finest,
+        ];
+        let best = self
+            .further(
+                vec![best],
+                &self.source,
+                &self.prepared.target(),
+                &levels,
+                1.0,
+            )?
+            .remove(0);
+        let num_pairs = best.refined.iterations.last().map_or(0, |i| i.num_pairs);
+        if num_pairs < MIN_POINTS {
+            return Err(self.no_overlap(num_pairs));
+        }
+        Ok(self
+            .prepared
+            .estimate(self.all_points, best.refined, PoseMethod::Global, runner_up))
+    }
+
+    fn no_overlap(&self, found: usize) -> PoseError {
+        PoseError::NoOverlap {
+            found,
+            needed: MIN_POINTS,
+            reach: Metres(0.5 * self.prepared.extent()),
         }
     }
 }
 
-/// The median distance of a point to its nearest neighbour, metres.
-fn spacing_of(points: &[Point3<f32>]) -> f64 {
-    const NUM_ASKED: usize = 500;
-    let tree = KdTree::new(points);
-    let step = (points.len() / NUM_ASKED).max(1);
-    let mut distances: Vec<f32> = points
-        .iter()
-        .enumerate()
-        .step_by(step)
-        .filter_map(|(i, p)| tree.nearest_other(p, i).map(|n| n.distance_sq.sqrt()))
-        // Twins say nothing about spacing.
-        .filter(|d| *d > 0.0)
-        .collect();
-    if distances.is_empty() {
-        return 1e-6;
+/// Any first n of the points are spread over the source.
+fn shuffled(mut surface: Vec<Point3<f32>>) -> Source {
+    surface.shuffle(&mut Pcg64::seed_from_u64(1));
+    Source {
+        surface,
+        edges: Vec::new(),
     }
-    let middle = distances.len() / 2;
-    f64::from(*distances.select_nth_unstable_by(middle, f32::total_cmp).1)
+}
+
+impl Trial {
+    fn unrefined(target_from_source: RigidTransform) -> Self {
+        Self {
+            cost: f64::INFINITY,
+            refined: Refined {
+                target_from_source,
+                iterations: Vec::new(),
+                stopped: super::Stopped::IterationLimit,
+            },
+        }
+    }
 }

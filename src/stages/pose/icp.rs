@@ -6,17 +6,12 @@
 
 use nalgebra::Point3;
 
-use super::{
-    Iteration, Phase, PoseError, PoseEstimate, PoseMethod, Stopped,
-    quality::{Fit, Tolerance, look_for, measure_fit},
-    refine::Search,
-};
+use super::{Iteration, Phase, PoseError, Stopped};
 use crate::{
     geometry::{
         nearest::KdTree,
         rigid::{RigidTransform, fit_rigid},
     },
-    stages::{reference::Reference, scene::SceneCloud, segment::SegmentedPart},
     units::{Metres, Radians},
 };
 
@@ -116,53 +111,6 @@ pub fn icp(
         target_from_source: pose,
         iterations,
         stopped,
-    })
-}
-
-/// The paper's pose of a scene's part: ICP from the standard position, that is from no displacement.
-pub fn locate_by_icp(
-    part: &SegmentedPart,
-    reference: &Reference,
-    scene: &SceneCloud,
-    params: &IcpParams,
-    is_cancelled: &dyn Fn() -> bool,
-) -> Result<PoseEstimate, PoseError> {
-    let points = &part.cloud.points;
-    let source: Vec<Point3<f32>> = points
-        .iter()
-        .step_by(points.len().div_ceil(params.max_source_points).max(1))
-        .copied()
-        .collect();
-    let target = reference.target(0).ok_or(PoseError::NoReferenceCloud)?;
-    let run = icp(
-        &source,
-        &reference.cloud.points,
-        &reference.tree,
-        &RigidTransform::identity(),
-        params,
-        is_cancelled,
-    )?;
-    let tolerance = Tolerance {
-        base: Metres::from_mm(10.0),
-        noise_at_1m: part.noise_at_1m,
-    };
-    let fit = Fit {
-        sight: look_for(&target, &run.target_from_source.inverse(), scene, tolerance),
-        ..measure_fit(
-            &source,
-            &target,
-            &run.target_from_source,
-            tolerance,
-            Search::Tree,
-        )
-    };
-    Ok(PoseEstimate {
-        target_from_source: run.target_from_source,
-        method: PoseMethod::Icp,
-        stopped: run.stopped,
-        iterations: run.iterations,
-        fit,
-        runner_up: None,
     })
 }
 

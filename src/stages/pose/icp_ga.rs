@@ -14,7 +14,6 @@
 //!   it is over all points of the source.
 //! - ICP goes on below 1e-6 m² until it settles: that takes a step or two, and stopping there may leave 0.3°.
 
-mod locate;
 mod params;
 #[cfg(test)]
 mod tests;
@@ -29,15 +28,13 @@ use super::{
     Iteration, MIN_POINTS, Phase, PoseError, RunnerUp, Stopped,
     genetic::{Genes, minimise},
     icp::icp,
+    prepared::PreparedTarget,
     refine::Target,
     spanned::spanned_axes,
 };
-use crate::geometry::{
-    principal::PrincipalAxes,
-    rigid::{RigidTransform, from_euler_zyx, pose_error},
-};
+use crate::geometry::rigid::{RigidTransform, from_euler_zyx, pose_error};
 
-pub use self::{locate::locate_by_icp_ga, params::IcpGaParams};
+pub use self::params::IcpGaParams;
 
 /// Points on which a round's E is taken.
 const NUM_CHECKED: usize = 1000;
@@ -66,10 +63,10 @@ pub struct IcpGaRun {
     pub runner_up: Option<RunnerUp>,
 }
 
-/// Aligns the source to the target from a start. The target's field should answer up to half of its extent.
-pub fn icp_ga(
+/// Aligns the source to the target, both about their own middle, from a start.
+pub(super) fn icp_ga(
     source: &[Point3<f32>],
-    target: &Target<'_>,
+    target: &PreparedTarget,
     start: &RigidTransform,
     params: &IcpGaParams,
     is_cancelled: &dyn Fn() -> bool,
@@ -137,12 +134,14 @@ enum Whereabouts {
 struct Search<'a> {
     params: &'a IcpGaParams,
     source: &'a [Point3<f32>],
-    target: &'a Target<'a>,
+    target: Target<'a>,
+    /// In few points, for poses that are far off.
+    coarse: Target<'a>,
     /// The source in an order of which any first n are spread over it.
     shuffled: Vec<Point3<f32>>,
     /// Takes the space of the principal axes of the source into source space.
     source_from_axes: RigidTransform,
-    target_axes: PrincipalAxes,
+    target_mean: Point3<f64>,
     /// Standard deviation of the target along its longest axis, metres.
     extent: f64,
     rng: Pcg64,
@@ -153,22 +152,22 @@ struct Search<'a> {
 impl<'a> Search<'a> {
     fn new(
         source: &'a [Point3<f32>],
-        target: &'a Target<'a>,
+        prepared: &'a PreparedTarget,
         params: &'a IcpGaParams,
     ) -> Result<Self, PoseError> {
         let source_axes = spanned_axes("source", source)?;
-        let target_axes = spanned_axes("target", &target.cloud.points)?;
         let mut rng = Pcg64::seed_from_u64(params.seed);
         let mut shuffled = source.to_vec();
         shuffled.shuffle(&mut rng);
         Ok(Self {
             params,
             source,
-            target,
+            target: prepared.target(),
+            coarse: prepared.coarse_target(),
             shuffled,
             source_from_axes: source_axes.frame(),
-            extent: target_axes.variances[0].sqrt(),
-            target_axes,
+            extent: prepared.extent(),
+            target_mean: prepared.axes.mean,
             rng,
             valleys: Vec::new(),
             iterations: Vec::new(),
@@ -197,7 +196,7 @@ impl<'a> Search<'a> {
             // So far off that one corner of the target is closest to all: middle on middle is a better start.
             Err(PoseError::OneSidedPairs { .. }) => {
                 let source_mean = self.source_from_axes * Point3::origin();
-                let shift = self.target_axes.mean - start.rotation * source_mean;
+                let shift = self.target_mean - start.rotation * source_mean;
                 Isometry3::from_parts(Translation3::from(shift), start.rotation)
             }
             Err(error) => return Err(error),
@@ -247,6 +246,7 @@ impl<'a> Search<'a> {
         let Self {
             params,
             target,
+            coarse,
             extent,
             source_from_axes,
             ..
@@ -279,7 +279,8 @@ impl<'a> Search<'a> {
         let distance_sq = |at: &Point3<f32>| {
             let nearest = match whereabouts {
                 Whereabouts::NearFine => target.tree.nearest(at, f32::INFINITY),
-                Whereabouts::NearCoarse | Whereabouts::Elsewhere => target.field.nearest(at),
+                Whereabouts::NearCoarse => target.field.nearest(at),
+                Whereabouts::Elsewhere => coarse.field.nearest(at),
             };
             nearest.map_or(far_off_sq, |n| n.distance_sq)
         };

@@ -5,6 +5,7 @@
 //! every method.
 
 mod align;
+mod centred;
 pub mod displacements;
 pub mod edge_points;
 mod equations;
@@ -12,15 +13,22 @@ pub mod genetic;
 mod global;
 pub mod icp;
 pub mod icp_ga;
+mod locate;
+mod prepared;
 pub mod quality;
 pub mod refine;
 mod spanned;
+mod starts;
+pub mod uncertainty;
 
 use crate::{geometry::rigid::RigidTransform, units::Metres};
 
 pub use self::{
-    align::{AlignParams, align, align_with},
+    align::{AlignParams, align, align_to, align_with},
+    locate::locate,
+    prepared::PreparedTarget,
     quality::{Fit, Sight},
+    uncertainty::Uncertainty,
 };
 
 /// Fewer points than this do not fix a pose.
@@ -118,6 +126,8 @@ pub struct PoseEstimate {
     pub iterations: Vec<Iteration>,
     /// How well it fits.
     pub fit: Fit,
+    /// How far off it may be; `None` of a pose that was not refined to the end.
+    pub uncertainty: Option<Uncertainty>,
     /// The best pose that is a different one, if another was tried.
     pub runner_up: Option<RunnerUp>,
 }
@@ -165,6 +175,8 @@ impl PoseEstimate {
             Some(Doubt::Ambiguous {
                 ratio: runner_up.ratio,
             })
+        } else if self.uncertainty.is_some_and(|u| !u.is_held()) {
+            Some(Doubt::Loose)
         } else if self.stopped == Stopped::IterationLimit {
             Some(Doubt::Unsettled {
                 num_iterations: self.iterations.len(),
@@ -200,6 +212,9 @@ pub enum Doubt {
         /// Cost of the other pose over this one's.
         ratio: f64,
     },
+    /// The source could slide or turn, and still lie on the target.
+    #[error("nothing holds the pose: the clouds could slide or turn along each other")]
+    Loose,
     /// The search was still moving when its iterations were used up.
     #[error("the pose was still moving after {num_iterations} iterations")]
     Unsettled {
@@ -215,6 +230,9 @@ impl crate::error::Advice for Doubt {
                 "Check that both clouds show the same thing and share at least half of it".into()
             }
             Self::Ambiguous { .. } => "Say where to start with --initial".into(),
+            Self::Loose => {
+                "Use clouds that show more of the part: an edge, a bend, a corner".into()
+            }
             Self::Unsettled { .. } => "Run it again from the pose found, with --initial".into(),
         }
     }

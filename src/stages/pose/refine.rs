@@ -100,6 +100,7 @@ pub fn refine(
     let mut stopped = Stopped::IterationLimit;
     for level in levels {
         stopped = Stopped::IterationLimit;
+        let mut before: Option<Step> = None;
         for _ in 0..level.max_steps {
             let equations = Equations::at(source, target, &pose, level);
             iterations.push(Iteration {
@@ -108,13 +109,34 @@ pub fn refine(
                 target_from_source: pose,
                 num_pairs: equations.num_pairs,
             });
-            let Some(step) = equations.solve() else { break };
-            pose = applied(&step, &pose);
-            // A half per cent of what the level can tell apart: a twentieth of a millimetre on a part, more on a scan
-            // of a street.
-            let shift_settled = (0.005 * level.scale).max(1e-5);
-            if step.fixed_rows::<3>(0).norm() < 5e-5
-                && step.fixed_rows::<3>(3).norm() < shift_settled
+            if let Some(step) =
+                before.filter(|b| b.stretch > 1.0 && equations.support() < b.support)
+            {
+                // Stretched too far: from where it began, only as far as the equations say.
+                pose = applied(&step.twist, &step.from);
+                before = Some(Step {
+                    stretch: 1.0,
+                    support: f64::INFINITY,
+                    ..step
+                });
+                continue;
+            }
+            let Some(twist) = equations.solve() else {
+                break;
+            };
+            let stretch = before.map_or(1.0, |b| b.next_stretch(&twist));
+            before = Some(Step {
+                from: pose,
+                twist,
+                stretch,
+                support: equations.support(),
+            });
+            pose = applied(&(twist * stretch), &pose);
+            // A five-hundredth of what the level can tell apart: a fiftieth of a millimetre on a part, more on a scan of
+            // a street.
+            let shift_settled = (0.002 * level.scale).max(1e-5);
+            if twist.fixed_rows::<3>(0).norm() < 5e-5
+                && twist.fixed_rows::<3>(3).norm() < shift_settled
             {
                 stopped = Stopped::Converged;
                 break;
@@ -127,6 +149,38 @@ pub fn refine(
         stopped,
     }
 }
+
+/// A step of the refinement.
+///
+/// Closest points hold a sheet where it is, so it slides along itself by many small steps the same way. As long as the
+/// way stays the same, each is therefore stretched to twice the length of the one before, and taken back if less of
+/// the source is on the target then.
+#[derive(Clone, Copy)]
+struct Step {
+    from: RigidTransform,
+    /// What the equations said: turn in radians, shift in metres.
+    twist: Vector6<f64>,
+    stretch: f64,
+    /// Of the pose it began at.
+    support: f64,
+}
+
+impl Step {
+    fn next_stretch(&self, twist: &Vector6<f64>) -> f64 {
+        let along =
+            self.twist.dot(twist) / (self.twist.norm() * twist.norm()).max(f64::MIN_POSITIVE);
+        if along > SAME_WAY {
+            (2.0 * self.stretch).min(MOST_STRETCHED)
+        } else {
+            1.0
+        }
+    }
+}
+
+/// Cosine between two steps above which they go the same way.
+const SAME_WAY: f64 = 0.8;
+/// No step is stretched further than this.
+const MOST_STRETCHED: f64 = 16.0;
 
 /// Turn (first three, radians) and shift (last three) in target space, applied after the pose.
 fn applied(step: &Vector6<f64>, pose: &RigidTransform) -> RigidTransform {

@@ -17,8 +17,10 @@ fn kept(name: &str) -> KeptCase {
         simulated: true,
         kept_at: Timestamp::UNIX_EPOCH,
         remark: String::new(),
+        difficulty: None,
         truth: Truth::Part("fender".into()),
         found: Found::default(),
+        pose: None,
     };
     let scene = SceneRecord {
         bytes: 0,

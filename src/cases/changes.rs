@@ -1,0 +1,192 @@
+//! Two runs over the same cases: what was broken, what was mended, and whose score changed.
+
+use std::collections::{BTreeMap, BTreeSet};
+
+use super::{
+    judge::{CaseResult, Found, Judgement, Truth},
+    record::{CaseRecord, EarlierRun},
+};
+
+/// A score that changed by less reads the same.
+const LEAST_CHANGE: f64 = 0.005;
+
+/// What became of a case.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CaseChange {
+    /// The case's folder name.
+    pub name: String,
+    /// What it truly is.
+    pub truth: Truth,
+    /// What was found before.
+    pub before: Found,
+    /// What is found now.
+    pub now: Found,
+    /// Whether that was right, and whether this is.
+    pub judgements: [Judgement; 2],
+}
+
+/// What differs between two runs; each list in the order of the later run's cases.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Changes {
+    /// Judged worse now: right before and not now, or refused before and wrong and accepted now.
+    pub regressions: Vec<CaseChange>,
+    /// Judged better now.
+    pub mends: Vec<CaseChange>,
+    /// Judged as before, with another best guess or a score that changed by 0.005 or more.
+    pub rescored: Vec<CaseChange>,
+    /// Cases of both runs.
+    pub num_common: usize,
+    /// Cases of this run only.
+    pub added: Vec<String>,
+    /// Cases of the earlier run only: removed since, or damaged.
+    pub gone: Vec<String>,
+}
+
+impl Changes {
+    /// From an earlier run to these results. Both are judged by what the case is said to be now.
+    pub fn between(earlier: &EarlierRun, results: &[CaseResult]) -> Self {
+        let before: BTreeMap<&str, &CaseRecord> = earlier
+            .cases
+            .iter()
+            .map(|case| (case.name.as_str(), case))
+            .collect();
+        let mut changes = Self::default();
+        for result in results {
+            let Some(case) = before.get(result.name.as_str()) else {
+                changes.added.push(result.name.clone());
+                continue;
+            };
+            changes.num_common += 1;
+            let change = CaseChange {
+                name: result.name.clone(),
+                truth: result.truth.clone(),
+                before: case.found.clone(),
+                now: result.found.clone(),
+                judgements: [
+                    Judgement::of(&result.truth, &case.found.answered()),
+                    result.judgement(),
+                ],
+            };
+            let [was, is] = change.judgements;
+            if is > was {
+                changes.regressions.push(change);
+            } else if is < was {
+                changes.mends.push(change);
+            } else if change.is_rescored() {
+                changes.rescored.push(change);
+            }
+        }
+        let now: BTreeSet<&str> = results.iter().map(|r| r.name.as_str()).collect();
+        let gone = earlier.cases.iter().map(|case| &case.name);
+        changes.gone = gone
+            .filter(|name| !now.contains(name.as_str()))
+            .cloned()
+            .collect();
+        changes
+    }
+}
+
+impl CaseChange {
+    fn is_rescored(&self) -> bool {
+        let Self { before, now, .. } = self;
+        before.part != now.part
+            || match (before.score, now.score) {
+                (Some(before), Some(now)) => !((before - now).abs() < LEAST_CHANGE),
+                (before, now) => before.is_some() != now.is_some(),
+            }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::pipeline::Timings;
+
+    fn found(part: Option<&str>, score: f64, accepted: bool) -> Found {
+        Found {
+            part: part.map(Into::into),
+            score: part.map(|_| score),
+            accepted,
+            ..Found::default()
+        }
+    }
+
+    fn result(name: &str, truth: &Truth, found: Found) -> CaseResult {
+        CaseResult {
+            name: name.into(),
+            difficulty: None,
+            truth: truth.clone(),
+            found,
+            pose_error: None,
+            timings: Timings::default(),
+        }
+    }
+
+    fn names(changes: &[CaseChange]) -> Vec<&str> {
+        changes.iter().map(|c| c.name.as_str()).collect()
+    }
+
+    #[test]
+    fn every_case_of_both_runs_is_a_regression_a_mend_rescored_or_unchanged() {
+        let door = Truth::Part("door".into());
+        let right = || found(Some("door"), 0.9, true);
+        let refused = || found(Some("door"), 0.6, false);
+        let wrong = || found(Some("hood"), 0.9, true);
+        let cases = [
+            ("kept", right(), right()),
+            ("lost", right(), refused()),
+            ("taken_for_another", right(), wrong()),
+            ("worse", refused(), wrong()),
+            ("mended", wrong(), right()),
+            ("safer", wrong(), refused()),
+            ("weaker", right(), found(Some("door"), 0.88, true)),
+            ("as_weak", right(), found(Some("door"), 0.896, true)),
+            ("other_guess", refused(), found(Some("hood"), 0.6, false)),
+            ("nothing_found", refused(), found(None, 0.0, false)),
+        ];
+        let earlier: Vec<CaseResult> = cases
+            .iter()
+            .map(|(name, before, _)| result(name, &door, before.clone()))
+            .collect();
+        let mut earlier = EarlierRun {
+            cases: earlier.iter().map(CaseRecord::from).collect(),
+        };
+        let mut results: Vec<CaseResult> = cases
+            .iter()
+            .map(|(name, _, now)| result(name, &door, now.clone()))
+            .collect();
+        earlier
+            .cases
+            .push(CaseRecord::from(&result("removed", &door, right())));
+        results.push(result("new", &door, wrong()));
+
+        let changes = Changes::between(&earlier, &results);
+        assert_eq!(
+            names(&changes.regressions),
+            ["lost", "taken_for_another", "worse"]
+        );
+        assert_eq!(names(&changes.mends), ["mended", "safer"]);
+        assert_eq!(
+            names(&changes.rescored),
+            ["weaker", "other_guess", "nothing_found"]
+        );
+        assert_eq!(changes.gone, ["removed"]);
+        assert_eq!(changes.added, ["new"]);
+        assert_eq!(changes.num_common, 10);
+    }
+
+    #[test]
+    fn a_corrected_truth_is_no_regression() {
+        // Said to be a door, and accepted as one; then somebody saw that it was a hood.
+        let answer = found(Some("door"), 0.9, true);
+        let door = Truth::Part("door".into());
+        let earlier = EarlierRun {
+            cases: vec![CaseRecord::from(&result("a", &door, answer.clone()))],
+        };
+        let results = [result("a", &Truth::NotEnrolled, answer)];
+        assert_eq!(results[0].judgement(), Judgement::WrongAccepted);
+        let changes = Changes::between(&earlier, &results);
+        assert_eq!(changes.regressions, []);
+        assert_eq!(changes.num_common, 1);
+    }
+}

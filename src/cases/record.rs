@@ -1,0 +1,276 @@
+//! What is written down of a run of all cases: JSON, schema 1, which a later run can be held against.
+//!
+//! ```json
+//! {"schema":1,"matcher":"default","pose":"global","num_threads":1,
+//!  "tally":{"total":48,"right":47,"wrong_accepted":0,"refused":1,"guessed_right":48},
+//!  "by_truth":[{"truth":{"is":"part","part":"fender"},"tally":{…}}],
+//!  "by_difficulty":[{"difficulty":"placed","tally":{…}}],
+//!  "confusion":[{"truth":{"is":"part","part":"fender"},"accepted_as":null,"num":1}],
+//!  "calibration":{"bins":[{"from":0.0,"to":0.1,"num":0,"num_right":0,"mean_score":0.0}],"expected_error":0.02},
+//!  "pose_errors":{"num":47,"median":{"rotation_deg":0.2,"shift_mm":1.1},"p95":{…}},
+//!  "times_ms":[{"stage":"segment","median_ms":1.9,"p95_ms":2.4,"budget_ms":2.5}],
+//!  "cases":[{"name":"fender_placed_1","difficulty":"placed","truth":{…},"found":{"part":"fender","score":0.97,
+//!            "margin":0.4,"accepted":true},"judgement":"right","rotation_error_deg":0.2,"shift_error_mm":1.1,"total_ms":9.0}],
+//!  "damaged":["the kept case door is damaged and set aside: scene.pcd does not have its checksum"]}
+//! ```
+//!
+//! `accepted_as` is null where nothing was accepted. Errors are those of right guesses whose true pose is known.
+
+use std::path::{Path, PathBuf};
+
+use serde::{Deserialize, Serialize};
+
+use super::{
+    calibration::Calibration,
+    confusion::Tally,
+    evaluation::Evaluation,
+    judge::{Answered, CaseResult, Found, Judgement, Truth},
+};
+use crate::{
+    error::Advice,
+    files::{FileError, read_bytes},
+};
+
+/// The version that is written; newer ones are refused.
+pub const RECORD_SCHEMA: u32 = 1;
+
+/// A run of all cases, to be written. `T` is what a stage's times are written as.
+#[derive(Debug, Serialize)]
+pub struct EvaluationRecord<'a, T> {
+    schema: u32,
+    matcher: &'a str,
+    pose: &'a str,
+    num_threads: usize,
+    tally: Tally,
+    by_truth: Vec<TruthTally<'a>>,
+    by_difficulty: Vec<DifficultyTally<'a>>,
+    confusion: Vec<CellRecord<'a>>,
+    calibration: &'a Calibration,
+    pose_errors: PoseErrors,
+    times_ms: T,
+    cases: Vec<CaseRecord>,
+    damaged: Vec<String>,
+}
+
+#[derive(Debug, Serialize)]
+struct TruthTally<'a> {
+    truth: &'a Truth,
+    tally: Tally,
+}
+
+#[derive(Debug, Serialize)]
+struct DifficultyTally<'a> {
+    difficulty: Option<&'a str>,
+    tally: Tally,
+}
+
+#[derive(Debug, Serialize)]
+struct CellRecord<'a> {
+    truth: &'a Truth,
+    accepted_as: Option<&'a str>,
+    num: usize,
+}
+
+/// How far the poses are off.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Serialize)]
+pub struct PoseErrors {
+    /// Poses whose true one is known.
+    pub num: usize,
+    /// Half of them are off by less, the rotation and the shift each by itself.
+    pub median: Option<PoseOff>,
+    /// 95 in 100 of them are off by less.
+    pub p95: Option<PoseOff>,
+}
+
+/// How far a pose is off.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct PoseOff {
+    /// Degrees.
+    pub rotation_deg: f64,
+    /// Millimetres, at the part's middle.
+    pub shift_mm: f64,
+}
+
+impl PoseErrors {
+    /// Of these results.
+    pub fn of(results: &[CaseResult]) -> Self {
+        let errors: Vec<_> = results.iter().filter_map(|r| r.pose_error).collect();
+        let off = |share: f64| {
+            let of = |value: &dyn Fn(usize) -> f64| {
+                let mut values: Vec<f64> = (0..errors.len()).map(value).collect();
+                values.sort_by(f64::total_cmp);
+                let place = (errors.len().saturating_sub(1) as f64 * share).round() as usize;
+                values.get(place).copied()
+            };
+            Some(PoseOff {
+                rotation_deg: of(&|i| errors[i].rotation.degrees())?,
+                shift_mm: of(&|i| errors[i].shift.mm())?,
+            })
+        };
+        Self {
+            num: errors.len(),
+            median: off(0.5),
+            p95: off(0.95),
+        }
+    }
+}
+
+/// A case of a run, as it is written and read again.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct CaseRecord {
+    /// Its folder.
+    pub name: String,
+    /// How hard it is.
+    #[serde(default)]
+    pub difficulty: Option<String>,
+    /// What it truly is.
+    pub truth: Truth,
+    /// What was found.
+    pub found: Found,
+    /// Whether that was right.
+    pub judgement: Judgement,
+    /// How far the pose is turned, degrees.
+    #[serde(default)]
+    pub rotation_error_deg: Option<f64>,
+    /// How far the pose is shifted, millimetres.
+    #[serde(default)]
+    pub shift_error_mm: Option<f64>,
+    /// Time of the inspection, milliseconds.
+    #[serde(default)]
+    pub total_ms: f64,
+}
+
+impl From<&CaseResult> for CaseRecord {
+    fn from(result: &CaseResult) -> Self {
+        Self {
+            name: result.name.clone(),
+            difficulty: result.difficulty.clone(),
+            truth: result.truth.clone(),
+            found: result.found.clone(),
+            judgement: result.judgement(),
+            rotation_error_deg: result.pose_error.map(|e| e.rotation.degrees()),
+            shift_error_mm: result.pose_error.map(|e| e.shift.mm()),
+            total_ms: result.timings.total.as_secs_f64() * 1e3,
+        }
+    }
+}
+
+impl<'a, T> EvaluationRecord<'a, T> {
+    /// Of an evaluation by this matcher and way to the pose, on so many threads.
+    pub fn of(
+        evaluation: &'a Evaluation,
+        [matcher, pose]: [&'a str; 2],
+        num_threads: usize,
+        times_ms: T,
+    ) -> Self {
+        let Evaluation {
+            results,
+            problems,
+            confusion,
+            by_truth,
+            by_difficulty,
+            calibration,
+        } = evaluation;
+        let by_truth = by_truth.iter();
+        let by_truth = by_truth.map(|(truth, tally)| TruthTally {
+            truth,
+            tally: *tally,
+        });
+        let by_difficulty = by_difficulty.iter();
+        let by_difficulty = by_difficulty.map(|(difficulty, tally)| DifficultyTally {
+            difficulty: difficulty.as_deref(),
+            tally: *tally,
+        });
+        let cells = confusion.cells.iter();
+        let cells = cells.map(|((truth, answered), places)| CellRecord {
+            truth,
+            accepted_as: match answered {
+                Answered::Part(part) => Some(part),
+                Answered::NotAccepted => None,
+            },
+            num: places.len(),
+        });
+        Self {
+            schema: RECORD_SCHEMA,
+            matcher,
+            pose,
+            num_threads,
+            tally: confusion.tally,
+            by_truth: by_truth.collect(),
+            by_difficulty: by_difficulty.collect(),
+            confusion: cells.collect(),
+            calibration,
+            pose_errors: PoseErrors::of(results),
+            times_ms,
+            cases: results.iter().map(CaseRecord::from).collect(),
+            damaged: problems.iter().map(ToString::to_string).collect(),
+        }
+    }
+}
+
+/// What a later run needs of an earlier one.
+#[derive(Clone, Debug, PartialEq, Deserialize)]
+pub struct EarlierRun {
+    /// Its cases.
+    pub cases: Vec<CaseRecord>,
+}
+
+/// Why a file is no earlier run.
+#[derive(Debug, thiserror::Error)]
+pub enum RecordError {
+    /// It cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// It is something else.
+    #[error("{}: not an evaluation: {what}", path.display())]
+    NotARecord {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        what: String,
+    },
+    /// Written by a newer program.
+    #[error("{}: made by a newer version (schema {found}, known up to {RECORD_SCHEMA})", path.display())]
+    Newer {
+        /// The file.
+        path: PathBuf,
+        /// Its version.
+        found: u32,
+    },
+}
+
+impl Advice for RecordError {
+    fn advice(&self) -> String {
+        match self {
+            Self::File(error) => error.advice(),
+            Self::NotARecord { .. } => {
+                "Choose a file that partsight evaluate DIR --json FILE has written".into()
+            }
+            Self::Newer { .. } => "Update Partsight on this computer".into(),
+        }
+    }
+}
+
+impl EarlierRun {
+    /// Reads what a run has written.
+    pub fn read(path: &Path) -> Result<Self, RecordError> {
+        /// The one field that every version has.
+        #[derive(Deserialize)]
+        struct Versioned {
+            schema: u32,
+        }
+        let bytes = read_bytes(path)?;
+        let no_record = |error: serde_json::Error| RecordError::NotARecord {
+            path: path.to_owned(),
+            what: error.to_string(),
+        };
+        let Versioned { schema } = serde_json::from_slice(&bytes).map_err(no_record)?;
+        if schema > RECORD_SCHEMA {
+            return Err(RecordError::Newer {
+                path: path.to_owned(),
+                found: schema,
+            });
+        }
+        serde_json::from_slice(&bytes).map_err(no_record)
+    }
+}

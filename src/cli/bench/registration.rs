@@ -1,0 +1,208 @@
+//! `partsight bench registration`: poses of clouds that share no point.
+
+use anyhow::Context as _;
+use serde::Serialize;
+
+use super::BenchArgs;
+use crate::{
+    bench::{
+        quantile,
+        registration::{
+            Attempt, Condition, NUM_POINTS, Registration, RegistrationSetup, ablation, register_all,
+        },
+    },
+    cli::{
+        Outcome,
+        console::{Advised as _, Console, Table},
+    },
+    files::write_atomically,
+    simulate::PartKind,
+    stages::pose::{AlignParams, PoseMethod},
+};
+
+/// What `--json` writes.
+#[derive(Debug, Serialize)]
+struct RegistrationFile {
+    schema: u32,
+    simulated: bool,
+    num_points: usize,
+    attempts: Vec<AttemptLine>,
+}
+
+#[derive(Debug, Serialize)]
+struct AttemptLine {
+    condition: Condition,
+    method: String,
+    part: &'static str,
+    source: usize,
+    time_ms: f64,
+    right: bool,
+    rotation_error_deg: Option<f64>,
+    shift_error_mm: Option<f64>,
+    shift_bound_mm: Option<f64>,
+    turn_bound_deg: Option<f64>,
+    /// Why there is no pose, or why it should not be relied upon.
+    reason: Option<String>,
+}
+
+/// What is compared: a heading, how the sources are, the methods.
+struct Study {
+    title: String,
+    condition: Condition,
+    methods: Vec<(String, AlignParams)>,
+}
+
+fn studies() -> Vec<Study> {
+    let named = |method: PoseMethod| (method.name().to_owned(), AlignParams::from(method));
+    let mut studies: Vec<Study> = Condition::ALL
+        .into_iter()
+        .map(|condition| Study {
+            title: condition.title().to_owned(),
+            condition,
+            methods: match condition {
+                Condition::Starts => PoseMethod::ALL.map(named).to_vec(),
+                _ => vec![named(PoseMethod::Global)],
+            },
+        })
+        .collect();
+    studies.push(Study {
+        title: "what ICP-GA is without each of its means, from the same starts".to_owned(),
+        condition: Condition::Starts,
+        methods: ablation(),
+    });
+    studies
+}
+
+pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let studies = studies();
+    let num_sources = args.poses as usize;
+    let num_methods: usize = studies.iter().map(|study| study.methods.len()).sum();
+    console.start_progress(num_methods * num_sources * PartKind::ALL.len());
+    let mut done = Vec::new();
+    for study in studies {
+        console.begin(&study.title);
+        let setup = RegistrationSetup {
+            condition: study.condition,
+            num_sources,
+            seed: args.seed,
+            methods: study.methods.clone(),
+        };
+        let registration = register_all(&setup, |_| console.done(), &|| false)?;
+        done.push((study, registration));
+    }
+    console.end_progress();
+    console.line(&format_args!(
+        "Simulated: 8 parts, {num_sources} sources of each, {NUM_POINTS} points each (of a view: at most), one core. Right: within 2° and 1 cm."
+    ));
+    show(&done, console);
+    if let Some(path) = &args.json {
+        let file = RegistrationFile {
+            schema: 1,
+            simulated: true,
+            num_points: NUM_POINTS,
+            attempts: done.iter().flat_map(|(s, r)| lines(s, r)).collect(),
+        };
+        write_atomically(path, |writer| {
+            serde_json::to_writer_pretty(&mut *writer, &file)?;
+            writeln!(writer)
+        })
+        .advised()
+        .with_context(|| format!("{} was not written", path.display()))?;
+    }
+    Ok(Outcome::Accepted)
+}
+
+fn show(done: &[(Study, Registration)], console: &mut Console) {
+    for (study, registration) in done {
+        console.line(&"");
+        console.line(&study.title);
+        let mut table = Table::new(&[
+            "method",
+            "right",
+            "right or doubted",
+            "doubted though right",
+            "within its bounds",
+            "median error",
+            "median time",
+            "95 %",
+        ]);
+        for (method, _) in &study.methods {
+            let attempts = || registration.attempts.iter().filter(|a| a.method == *method);
+            let num = attempts().count();
+            let count = |is: fn(&Attempt) -> bool| attempts().filter(|a| is(a)).count();
+            let right = || {
+                let found = attempts().filter(|a| a.is_right());
+                found.filter_map(|a| a.found.as_ref().ok())
+            };
+            let turn = quantile(right().map(|f| f.error.rotation.degrees()), 0.5);
+            let shift = quantile(right().map(|f| f.error.shift.mm()), 0.5);
+            let error = turn.zip(shift);
+            let time = |share| {
+                let time = quantile(attempts().map(time_ms), share);
+                time.map_or_else(String::new, |ms| format!("{ms:.1} ms"))
+            };
+            table.row([
+                method.clone(),
+                format!("{}/{num}", count(Attempt::is_right)),
+                format!("{}/{num}", count(|a| a.is_right() || a.is_doubted())),
+                count(|a| a.is_right() && a.is_doubted()).to_string(),
+                format!(
+                    "{}/{}",
+                    count(|a| a.is_right() && a.is_within_bounds()),
+                    count(Attempt::is_right)
+                ),
+                error.map_or_else(String::new, |(turn, shift)| {
+                    format!("{turn:.3}° {shift:.2} mm")
+                }),
+                time(0.5),
+                time(0.95),
+            ]);
+        }
+        table.show(console);
+        for kind in PartKind::ALL {
+            let wrong = |a: &&Attempt| a.part == kind && !a.is_right();
+            let of_first = |a: &&Attempt| a.method == study.methods[0].0;
+            let num = registration
+                .attempts
+                .iter()
+                .filter(of_first)
+                .filter(wrong)
+                .count();
+            if num > 0 && study.methods.len() == 1 {
+                console.line(&format_args!("  not right: {} {num} times", kind.name()));
+            }
+        }
+    }
+    let preparations = done.iter().flat_map(|(_, r)| &r.preparations);
+    if let Some(ms) = quantile(preparations.map(|t| t.as_secs_f64() * 1e3), 0.5) {
+        console.line(&"");
+        console.line(&format_args!(
+            "Preparing a target, once per part: {ms:.0} ms (median), not in the times above."
+        ));
+    }
+}
+
+fn time_ms(attempt: &Attempt) -> f64 {
+    attempt.time.as_secs_f64() * 1e3
+}
+
+fn lines(study: &Study, registration: &Registration) -> Vec<AttemptLine> {
+    let line = |attempt: &Attempt| {
+        let found = attempt.found.as_ref().ok();
+        let failure = attempt.found.as_ref().err().map(ToString::to_string);
+        AttemptLine {
+            condition: study.condition,
+            method: attempt.method.clone(),
+            part: attempt.part.name(),
+            source: attempt.source,
+            time_ms: time_ms(attempt),
+            right: attempt.is_right(),
+            rotation_error_deg: found.map(|f| f.error.rotation.degrees()),
+            shift_error_mm: found.map(|f| f.error.shift.mm()),
+            shift_bound_mm: found.and_then(|f| f.uncertainty).map(|u| u.shift.mm()),
+            turn_bound_deg: found.and_then(|f| f.uncertainty).map(|u| u.turn.degrees()),
+            reason: failure.or_else(|| found?.doubt.map(|doubt| doubt.to_string())),
+        }
+    };
+    registration.attempts.iter().map(line).collect()
+}

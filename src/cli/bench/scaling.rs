@@ -1,0 +1,131 @@
+//! `partsight bench scaling`: serial and parallel ranking, the paper's Fig. 7(a) and (b).
+
+use anyhow::Context as _;
+use serde::Serialize;
+
+use super::{BenchArgs, name_of, write_json};
+use crate::{
+    bench::scaling::{Scaling, scaling, sizes},
+    cli::{
+        Outcome,
+        console::{Advised as _, Console, Table},
+    },
+    pipeline::Unwatched,
+    report::{TimeCurve, scaling_picture, stacked, write_png},
+    stages::rank::{Matcher, RankParams},
+};
+
+/// What `--json` writes.
+#[derive(Debug, Serialize)]
+struct ScalingFile {
+    schema: u32,
+    simulated: bool,
+    scalings: Vec<Scaling>,
+}
+
+pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let most = args.most as usize;
+    let matchers = [Matcher::Default, Matcher::Paper];
+    console.start_progress(matchers.len() * sizes(most).len());
+    let mut scalings = Vec::new();
+    for matcher in matchers {
+        scalings.push(scaling(matcher, most, &Unwatched, &mut |_| console.done()).advised()?);
+    }
+    console.end_progress();
+    for scaling in &scalings {
+        show(scaling, console);
+    }
+    console.line(&format_args!(
+        "By default all cores rank from {} references on.",
+        RankParams::default().parallel_from
+    ));
+    if let Some(path) = &args.plot {
+        let pictures: Vec<_> = scalings.iter().map(picture).collect();
+        write_png(path, &stacked(&pictures))
+            .advised()
+            .with_context(|| format!("{} was not written", path.display()))?;
+    }
+    if let Some(path) = &args.json {
+        let file = ScalingFile {
+            schema: 1,
+            simulated: true,
+            scalings,
+        };
+        write_json(path, &file)?;
+    }
+    Ok(Outcome::Accepted)
+}
+
+fn show(scaling: &Scaling, console: &mut Console) {
+    let num_cores = scaling.num_cores;
+    console.line(&format_args!(
+        "Ranking one simulated front door, {} matcher; the first 64 references are enrolled, the rest perturbed signatures.",
+        name_of(scaling.matcher)
+    ));
+    let shared = match scaling.workers.iter().filter(|w| **w > num_cores).min() {
+        Some(least) => format!("; {least} workers and more share them"),
+        None => String::new(),
+    };
+    console.line(&format_args!(
+        "This machine has {num_cores} cores{shared}. The quickest ranking of each, in parentheses the median."
+    ));
+    let mut table = Table::new(&["references", "1 worker", "2", "4", "8", "quickest"]);
+    for row in &scaling.rows {
+        let times = row.least_ms.iter().zip(row.median_ms);
+        let times = times.map(|(least, median)| format!("{least:.3} ms ({median:.3})"));
+        let quickest = row.least_ms.iter().zip(scaling.workers);
+        let quickest = quickest.min_by(|a, b| a.0.total_cmp(b.0));
+        let quickest = quickest.map_or_else(String::new, |(ms, workers)| {
+            let gain = row.least_ms[0] / ms;
+            match workers {
+                1 => "1 worker".into(),
+                workers => format!("{workers} workers, {gain:.2}×"),
+            }
+        });
+        let first = row.num_references.to_string();
+        table.row([first].into_iter().chain(times).chain([quickest]));
+    }
+    table.show(console);
+    for (workers, from) in scaling.workers.iter().zip(scaling.crossovers).skip(1) {
+        let from = from.map_or_else(
+            || "nowhere".into(),
+            |size| format!("from {size} references on"),
+        );
+        console.line(&format_args!("{workers} workers pay {from}"));
+    }
+    let same = if scaling.is_identical {
+        "Every ranking was the same to the last bit."
+    } else {
+        "RANKINGS DIFFERED from the serial one."
+    };
+    console.line(&same);
+    console.line(&"");
+}
+
+fn picture(scaling: &Scaling) -> image::RgbImage {
+    let curves: Vec<TimeCurve> = scaling
+        .workers
+        .iter()
+        .enumerate()
+        .map(|(place, workers)| TimeCurve {
+            name: match workers {
+                1 => "1 worker".into(),
+                workers => format!("{workers} workers"),
+            },
+            points: scaling
+                .rows
+                .iter()
+                .map(|row| [row.num_references as f64, row.least_ms[place]])
+                .collect(),
+        })
+        .collect();
+    let num_cores = scaling.num_cores;
+    let title = format!(
+        "Ranking, {} matcher, {num_cores} cores",
+        name_of(scaling.matcher)
+    );
+    let crossover = scaling.crossover();
+    let words = crossover.map(|from| format!("{num_cores} cores pay from {from}"));
+    let mark = crossover.map(|from| from as f64).zip(words.as_deref());
+    scaling_picture(&title, &curves, mark)
+}

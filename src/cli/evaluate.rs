@@ -1,0 +1,137 @@
+//! `partsight evaluate`: how often right, on recorded cases whose truth is known, and what changed since an earlier run.
+
+mod tables;
+
+use std::path::PathBuf;
+
+use anyhow::Context as _;
+use clap::Args;
+
+use super::{
+    LibraryChoice, Outcome,
+    console::{Advised as _, Console, advised_error},
+    recipe::RecipeChoice,
+};
+use crate::{
+    bench::stage_times,
+    cases::{CaseFolder, CaseJudge, Changes, EarlierRun, Evaluation, EvaluationRecord, evaluate},
+    files::write_atomically,
+    geometry::parallel::num_cores,
+    pipeline::Timings,
+    report::{evaluation_picture, write_png},
+};
+
+/// Inspect recorded cases with known truth: accuracy, confusion matrix, calibration, times
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  partsight simulate --cases tried --num 40 --placement facing,placed,hard
+  partsight evaluate tried
+  partsight evaluate tried --json monday.json --report monday.png
+  partsight evaluate tried --against monday.json
+  partsight evaluate tried --threads 1        # for times that nothing else disturbs
+
+A folder of cases holds a folder for each, with case.toml (what it truly is, how hard, where) and scene.pcd; the window
+keeps such cases in Compare. With --pose icp, icp-ga or global the pose is measured too where the true one is known.
+
+Exit codes: 0 nothing was accepted as what it is not, and nothing is worse than in the earlier run; 1 something was
+accepted wrongly, or is worse; 2 a case is damaged, or nothing could run. An enrolled part that is refused is counted, but
+is no failure. Files are written at the end and whole: Ctrl-C leaves none.")]
+pub(super) struct EvaluateArgs {
+    /// The folder of cases
+    #[arg(value_name = "DIR")]
+    folder: PathBuf,
+    #[command(flatten)]
+    library: LibraryChoice,
+    #[command(flatten)]
+    recipe: RecipeChoice,
+    /// Inspections at the same time; all cores without it. More than one disturb each other's times, nothing else
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
+    threads: Option<u16>,
+    /// Write everything to this file as JSON
+    #[arg(long, value_name = "FILE")]
+    json: Option<PathBuf>,
+    /// Draw confusion matrix and calibration into this file
+    #[arg(long, value_name = "PNG")]
+    report: Option<PathBuf>,
+    /// Compare with what an earlier run wrote with --json
+    #[arg(long, value_name = "FILE.json")]
+    against: Option<PathBuf>,
+}
+
+pub(super) fn run(args: &EvaluateArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    if args.json.is_some() && args.json == args.report {
+        return Err(advised_error(
+            "--json and --report are the same file",
+            "Name two",
+        ));
+    }
+    // Before the work, so that a wrong file does not cost it.
+    let earlier = args.against.as_deref().map(EarlierRun::read);
+    let earlier = earlier.transpose().advised()?;
+    let library = args.library.load_some(console)?.library;
+    let folder = CaseFolder::at(&args.folder);
+    let list = folder.list().advised()?;
+    if list.cases.is_empty() && list.problems.is_empty() {
+        let path = args.folder.display();
+        let what = if args.folder.is_dir() {
+            "there are no cases"
+        } else {
+            "there is no such folder"
+        };
+        return Err(advised_error(
+            format!("{path}: {what}"),
+            format!(
+                "Keep some in the window's Compare, or make some: partsight simulate --cases {path}"
+            ),
+        ));
+    }
+    let recipe = args.recipe.recipe();
+    let num_threads = args.threads.map_or_else(num_cores, usize::from);
+    console.start_progress(list.cases.len());
+    let judge = CaseJudge::new(&library, &recipe);
+    let shown: &Console = console;
+    let evaluation = evaluate(&folder, list, &judge, num_threads, &|case| {
+        shown.begin(&case.name);
+        shown.done();
+    });
+    console.end_progress();
+    for problem in &evaluation.problems {
+        console.warn(problem, problem);
+    }
+    let changes = earlier.map(|earlier| Changes::between(&earlier, &evaluation.results));
+    let timings: Vec<Timings> = evaluation.results.iter().map(|r| r.timings).collect();
+    let times = stage_times(&timings);
+    tables::show(&evaluation, &times, num_threads, console);
+    if let Some(changes) = &changes {
+        tables::show_changes(changes, console);
+    }
+    if let Some(path) = &args.json {
+        let record = EvaluationRecord::of(&evaluation, args.recipe.names(), num_threads, times);
+        write_atomically(path, |writer| {
+            serde_json::to_writer_pretty(&mut *writer, &record)?;
+            writeln!(writer)
+        })
+        .advised()
+        .with_context(|| format!("{} was not written", path.display()))?;
+    }
+    if let Some(path) = &args.report {
+        let [matcher, pose] = args.recipe.names();
+        let title = format!("{}, matcher {matcher}, pose {pose}", args.folder.display());
+        write_png(path, &evaluation_picture(&title, &evaluation))
+            .advised()
+            .with_context(|| format!("{} was not written", path.display()))?;
+    }
+    Ok(outcome(&evaluation, changes.as_ref()))
+}
+
+fn outcome(evaluation: &Evaluation, changes: Option<&Changes>) -> Outcome {
+    let is_worse = changes.is_some_and(|changes| !changes.regressions.is_empty());
+    if !evaluation.problems.is_empty() {
+        Outcome::CouldNotRun
+    } else if evaluation.confusion.tally.wrong_accepted > 0 || is_worse {
+        Outcome::NotAccepted
+    } else {
+        Outcome::Accepted
+    }
+}

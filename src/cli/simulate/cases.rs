@@ -1,0 +1,104 @@
+//! `partsight simulate --cases DIR`: frames with their truth, as a folder of cases for `partsight evaluate`.
+
+use std::path::Path;
+
+use jiff::Timestamp;
+
+use super::SimulateArgs;
+use crate::{
+    cases::{CaseAbout, CaseFolder, Found, TruePose, Truth},
+    cli::{
+        Outcome,
+        console::{Advised as _, Console, advised_error},
+    },
+    library::shipped_enrolled_at,
+    simulate::{PartPose, Placement, Side, SimulatedFrame, Subject, frame},
+    stages::scene::scene_from_frame,
+};
+
+/// Writes `--num` cases: subjects take turns, then placements, and every frame has a seed of its own.
+pub(super) fn run(
+    folder: &Path,
+    args: &SimulateArgs,
+    console: &mut Console,
+) -> anyhow::Result<Outcome> {
+    let folder = CaseFolder::at(folder);
+    let subjects = args.subjects()?;
+    let num = args.num as usize;
+    console.start_progress(num);
+    for place in 0..num {
+        let subject = subjects[place % subjects.len()];
+        let placement = args.placement[(place / subjects.len()) % args.placement.len()];
+        let seed = args.seed.checked_add(place as u64).ok_or_else(|| {
+            advised_error(
+                "the seeds run out",
+                "Begin with a smaller one, such as --seed 1",
+            )
+        })?;
+        let mut setup = args.cell(subject, seed);
+        setup.pose = PartPose::Drawn(Placement::from(placement));
+        let shot = frame(&setup);
+        let difficulty = match &args.difficulty {
+            Some(words) => words.clone(),
+            None => placement.name().to_owned(),
+        };
+        let origin = format!("{} {difficulty} {seed}", name_of(subject));
+        console.begin(&origin);
+        let scene = scene_from_frame(&shot.frame);
+        let about = about(&shot, origin, difficulty);
+        folder.keep(&scene, about).advised()?;
+        console.done();
+    }
+    console.end_progress();
+    console.line(&format_args!(
+        "{}: {num} simulated cases. Now: partsight evaluate {0}",
+        folder.path().display()
+    ));
+    Ok(Outcome::Accepted)
+}
+
+fn name_of(subject: Subject) -> &'static str {
+    match subject {
+        Subject::Part { kind, .. } => kind.name(),
+        Subject::Object(kind) => kind.name(),
+        Subject::Nothing => "empty",
+    }
+}
+
+/// What is known of a frame, held against the shipped parts: those are what a newcomer has.
+fn about(shot: &SimulatedFrame, origin: String, difficulty: String) -> CaseAbout {
+    let truth = &shot.truth;
+    let enrolled_at = match truth.subject {
+        // Left ones are shipped where there are sides.
+        Subject::Part { kind, side, .. } if side == Side::Left || !kind.is_sided() => {
+            shipped_enrolled_at(kind.name())
+        }
+        _ => None,
+    };
+    let is = match truth.subject {
+        Subject::Nothing => Truth::Nothing,
+        Subject::Part { kind, .. } if enrolled_at.is_some() => Truth::Part(kind.name().into()),
+        Subject::Part { .. } | Subject::Object(_) => Truth::NotEnrolled,
+    };
+    // What hangs of another model of the car is not where the enrolled part would be, only about there.
+    let is_same_model = matches!(truth.subject, Subject::Part { model_seed: 0, .. });
+    let enrolled_at = enrolled_at.filter(|_| is_same_model);
+    CaseAbout {
+        origin,
+        simulated: true,
+        // Not now: the same arguments give the same files.
+        kept_at: Timestamp::UNIX_EPOCH,
+        remark: match truth.subject {
+            Subject::Nothing => String::new(),
+            _ => format!("{:.0} % of it in sight", truth.visible_share * 100.0),
+        },
+        difficulty: Some(difficulty),
+        truth: is,
+        // Nobody has looked yet.
+        found: Found::default(),
+        pose: enrolled_at.map(|at| TruePose {
+            camera_from_part: truth.camera_from_part * at.part_from_model.inverse(),
+            cloud_crc32: Some(at.cloud.crc32),
+        }),
+    }
+}

@@ -1,0 +1,99 @@
+//! Equal pieces of work on several workers, the results in the order of the pieces.
+//!
+//! The one place below the window that starts threads for the stages. A stage stays a pure function: it says how many
+//! pieces there are and how many workers may share them, and gets the same results, bit for bit, for any number of
+//! workers, because no piece knows of another and none is summed up here. Threads are started per call and end with
+//! it: a pool would save some ten microseconds a thread and be a global state that outlives its callers.
+
+use std::{
+    num::NonZero,
+    panic::resume_unwind,
+    sync::atomic::{AtomicUsize, Ordering},
+    thread,
+};
+
+/// Processor cores that may be used.
+pub fn num_cores() -> usize {
+    thread::available_parallelism().map_or(1, NonZero::get)
+}
+
+/// `work` on each of `0..num_pieces`, by up to `num_workers` workers; the results are in order.
+///
+/// Each worker makes itself a state, such as buffers, by `prepare` and hands it to all of its pieces; the results must
+/// not depend on what earlier pieces left in it. One worker, or one piece, starts no thread.
+pub fn map_in_order<S, T: Send>(
+    num_pieces: usize,
+    num_workers: usize,
+    prepare: impl Fn() -> S + Sync,
+    work: impl Fn(&mut S, usize) -> T + Sync,
+) -> Vec<T> {
+    let num_workers = num_workers.min(num_pieces);
+    if num_workers <= 1 {
+        let mut state = prepare();
+        return (0..num_pieces).map(|i| work(&mut state, i)).collect();
+    }
+    // Small enough that nobody waits long for the last block, large enough that taking one costs nothing.
+    let block = (num_pieces / (num_workers * BLOCKS_EACH)).max(1);
+    let next = AtomicUsize::new(0);
+    let take_part = || {
+        let mut state = prepare();
+        let mut done: Vec<(usize, Vec<T>)> = Vec::new();
+        loop {
+            let start = next.fetch_add(block, Ordering::Relaxed);
+            if start >= num_pieces {
+                return done;
+            }
+            let end = num_pieces.min(start + block);
+            done.push((start, (start..end).map(|i| work(&mut state, i)).collect()));
+        }
+    };
+    let mut blocks = thread::scope(|scope| {
+        let others: Vec<_> = (1..num_workers).map(|_| scope.spawn(take_part)).collect();
+        let mut blocks = take_part();
+        for other in others {
+            match other.join() {
+                Ok(done) => blocks.extend(done),
+                Err(panic) => resume_unwind(panic),
+            }
+        }
+        blocks
+    });
+    blocks.sort_by_key(|(start, _)| *start);
+    blocks
+        .into_iter()
+        .flat_map(|(_, results)| results)
+        .collect()
+}
+
+/// Blocks that a worker takes one after another.
+const BLOCKS_EACH: usize = 8;
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_results_are_in_order_for_any_number_of_workers() {
+        for num_pieces in [0, 1, 2, 7, 64, 1001] {
+            let serial: Vec<usize> = (0..num_pieces).map(|i| i * i).collect();
+            for num_workers in [0, 1, 2, 3, 8, 50] {
+                let found = map_in_order(num_pieces, num_workers, || (), |(), i| i * i);
+                assert_eq!(found, serial, "{num_pieces} by {num_workers}");
+            }
+        }
+    }
+
+    #[test]
+    fn a_worker_keeps_its_state_from_piece_to_piece() {
+        let prepared = AtomicUsize::new(0);
+        let prepare = || prepared.fetch_add(1, Ordering::Relaxed);
+        map_in_order(100, 4, prepare, |_, i| i);
+        assert!(prepared.load(Ordering::Relaxed) <= 4);
+    }
+
+    #[test]
+    #[should_panic(expected = "piece 30")]
+    fn a_panic_in_a_piece_comes_out() {
+        map_in_order(40, 4, || (), |(), i| assert!(i != 30, "piece {i}"));
+    }
+}

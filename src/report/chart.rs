@@ -1,0 +1,97 @@
+//! Axes with ticks and titles, and where a value lies between them.
+
+use image::Rgb;
+
+use super::{
+    canvas::Canvas,
+    lettering::{Anchor, Lettering},
+    pictures::{DIM, FAINT, LIGHT},
+};
+
+/// How an axis divides its length.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Division {
+    /// Evenly.
+    Even,
+    /// By factors; values are above zero.
+    ByFactors,
+}
+
+/// An axis.
+pub(super) struct Axis<'a> {
+    pub(super) title: &'a str,
+    pub(super) range: [f64; 2],
+    pub(super) division: Division,
+    /// Values with a line across, and what is written there.
+    pub(super) ticks: Vec<(f64, String)>,
+}
+
+impl Axis<'_> {
+    /// 0 at the lower end, 1 at the upper one.
+    fn share(&self, value: f64) -> f64 {
+        let of = |value: f64| match self.division {
+            Division::Even => value,
+            Division::ByFactors => value.max(f64::MIN_POSITIVE).ln(),
+        };
+        let [low, high] = self.range.map(of);
+        (of(value) - low) / (high - low)
+    }
+}
+
+/// A field between two axes.
+pub(super) struct Chart<'a> {
+    /// Upper left and lower right corner, pixels.
+    pub(super) corners: [[f64; 2]; 2],
+    pub(super) across: Axis<'a>,
+    pub(super) up: Axis<'a>,
+}
+
+impl Chart<'_> {
+    /// The pixel of a pair of values.
+    pub(super) fn place(&self, [x, y]: [f64; 2]) -> [f64; 2] {
+        let [[left, top], [right, bottom]] = self.corners;
+        [
+            left + (right - left) * self.across.share(x),
+            bottom - (bottom - top) * self.up.share(y),
+        ]
+    }
+
+    /// Lines, numbers and titles.
+    pub(super) fn draw_axes(&self, canvas: &mut Canvas, lettering: &Lettering) {
+        let [[left, top], [right, bottom]] = self.corners;
+        for (value, text) in &self.across.ticks {
+            let x = self.place([*value, self.up.range[0]])[0];
+            canvas.line([x, top], [x, bottom], FAINT);
+            lettering.write(
+                &mut canvas.image,
+                text,
+                [x, bottom + 20.0],
+                Anchor::Middle,
+                DIM_TEXT,
+            );
+        }
+        for (value, text) in &self.up.ticks {
+            let y = self.place([self.across.range[0], *value])[1];
+            canvas.line([left, y], [right, y], FAINT);
+            let at = [left - 8.0, y + 5.0];
+            lettering.write(&mut canvas.image, text, at, Anchor::Right, DIM_TEXT);
+        }
+        canvas.polyline(
+            [[left, top], [left, bottom], [right, bottom]].into_iter(),
+            DIM,
+        );
+        let at = [f64::midpoint(left, right), bottom + 44.0];
+        lettering.write(
+            &mut canvas.image,
+            self.across.title,
+            at,
+            Anchor::Middle,
+            LIGHT,
+        );
+        let at = [left - 56.0, f64::midpoint(top, bottom)];
+        lettering.write_upwards(&mut canvas.image, self.up.title, at, Anchor::Middle, LIGHT);
+    }
+}
+
+/// Numbers of an axis.
+pub(super) const DIM_TEXT: Rgb<u8> = Rgb([164, 172, 184]);

@@ -1,0 +1,227 @@
+//! A picture of an evaluation: the confusion matrix, and the shares right over the scores.
+
+use image::{Rgb, RgbImage};
+
+use super::{
+    canvas::Canvas,
+    chart::{Axis, Chart, DIM_TEXT, Division},
+    lettering::{Anchor, Lettering},
+    pictures::{DARK, DIM, FAINT, LIGHT, PART},
+};
+use crate::cases::{Answered, Calibration, Confusion, Evaluation, Judgement, Truth};
+
+/// Side of a cell of the matrix, pixels.
+const CELL: f64 = 46.0;
+/// Side of the plot.
+const PLOT: f64 = 400.0;
+/// Around everything.
+const EDGE: f64 = 28.0;
+
+/// Draws both side by side; `title` stands above.
+pub fn evaluation_picture(title: &str, evaluation: &Evaluation) -> RgbImage {
+    let small = Lettering::new(15.0);
+    let confusion = &evaluation.confusion;
+    let widest = |names: &mut dyn Iterator<Item = &str>| {
+        names.map(|name| small.width(name)).fold(60.0, f32::max)
+    };
+    let names = f64::from(widest(&mut confusion.rows.iter().map(row_name))) + 12.0;
+    let head = f64::from(widest(&mut confusion.columns.iter().map(column_name))) + 12.0;
+    let matrix = [
+        CELL * confusion.columns.len() as f64,
+        CELL * confusion.rows.len() as f64,
+    ];
+    let left = EDGE + names;
+    let top = EDGE + 64.0 + head;
+    let plot_left = (left + matrix[0]).max(EDGE + 330.0) + 120.0;
+    let plot_top = EDGE + 84.0;
+    let width = plot_left + PLOT + 2.0 * EDGE;
+    let height = (top + matrix[1] + 60.0).max(plot_top + PLOT + 110.0);
+    let mut canvas = Canvas::new(width as usize, height as usize, DARK);
+    let large = Lettering::new(20.0);
+    large.write(
+        &mut canvas.image,
+        title,
+        [EDGE, EDGE + 18.0],
+        Anchor::Left,
+        LIGHT,
+    );
+    let tally = &confusion.tally;
+    let text = format!(
+        "{} cases: {} right, {} wrong and accepted, {} refused",
+        tally.total, tally.right, tally.wrong_accepted, tally.refused
+    );
+    small.write(
+        &mut canvas.image,
+        &text,
+        [EDGE, EDGE + 44.0],
+        Anchor::Left,
+        DIM_TEXT,
+    );
+    draw_matrix(&mut canvas, &small, confusion, [left, top]);
+    draw_calibration(
+        &mut canvas,
+        &small,
+        &evaluation.calibration,
+        [plot_left, plot_top],
+    );
+    canvas.image
+}
+
+fn row_name(truth: &Truth) -> &str {
+    match truth {
+        Truth::Part(name) => name,
+        Truth::NotEnrolled => "not enrolled",
+        Truth::Nothing => "nothing",
+    }
+}
+
+fn column_name(answered: &Answered) -> &str {
+    match answered {
+        Answered::Part(name) => name,
+        Answered::NotAccepted => "not accepted",
+    }
+}
+
+/// What a judgement looks like; colour is not the only sign.
+fn look(judgement: Judgement) -> (Rgb<u8>, &'static str) {
+    match judgement {
+        Judgement::Right => (Rgb([44, 104, 78]), ""),
+        Judgement::Refused => (Rgb([140, 100, 30]), " !"),
+        Judgement::WrongAccepted => (Rgb([176, 52, 52]), " ×"),
+    }
+}
+
+/// Rows are what it is, columns what it was accepted as.
+fn draw_matrix(
+    canvas: &mut Canvas,
+    lettering: &Lettering,
+    confusion: &Confusion,
+    [left, top]: [f64; 2],
+) {
+    let Confusion {
+        rows,
+        columns,
+        cells,
+        ..
+    } = confusion;
+    let corner = |row: usize, column: usize| [left + CELL * column as f64, top + CELL * row as f64];
+    let inner = |[x, y]: [f64; 2]| ([x + 1.0, y + 1.0], [x + CELL - 1.0, y + CELL - 1.0]);
+    for (row, truth) in rows.iter().enumerate() {
+        let [x, y] = corner(row, 0);
+        let at = [x - 10.0, y + CELL / 2.0 + 5.0];
+        lettering.write(&mut canvas.image, row_name(truth), at, Anchor::Right, LIGHT);
+        for column in 0..columns.len() {
+            let (from, to) = inner(corner(row, column));
+            canvas.block(from, to, FAINT);
+        }
+    }
+    for (column, answered) in columns.iter().enumerate() {
+        let [x, y] = corner(0, column);
+        let at = [x + CELL / 2.0 + 5.0, y - 8.0];
+        let name = column_name(answered);
+        lettering.write_upwards(&mut canvas.image, name, at, Anchor::Left, LIGHT);
+    }
+    for ((truth, answered), places) in cells {
+        let row = rows.iter().position(|row| row == truth);
+        let column = columns.iter().position(|column| column == answered);
+        let (Some(row), Some(column)) = (row, column) else {
+            continue;
+        };
+        let (colour, sign) = look(Judgement::of(truth, answered));
+        let (from, to) = inner(corner(row, column));
+        canvas.block(from, to, colour);
+        let text = format!("{}{sign}", places.len());
+        let at = [from[0] + CELL / 2.0, from[1] + CELL / 2.0 + 5.0];
+        lettering.write(&mut canvas.image, &text, at, Anchor::Middle, LIGHT);
+    }
+    let words = "rows: what it is; columns: what it was accepted as; × wrong, ! refused";
+    let at = [EDGE, top + CELL * rows.len() as f64 + 32.0];
+    lettering.write(&mut canvas.image, words, at, Anchor::Left, DIM_TEXT);
+}
+
+/// A dot a bin, with the number of its guesses; on the diagonal a score says how often it is right.
+fn draw_calibration(
+    canvas: &mut Canvas,
+    lettering: &Lettering,
+    calibration: &Calibration,
+    [left, top]: [f64; 2],
+) {
+    let fifths = || (0..=5).map(|i| f64::from(i) / 5.0);
+    let axis = |title| Axis {
+        title,
+        range: [0.0, 1.0],
+        division: Division::Even,
+        ticks: fifths().map(|v| (v, format!("{v:.1}"))).collect(),
+    };
+    let chart = Chart {
+        corners: [[left, top], [left + PLOT, top + PLOT]],
+        across: axis("score of the best guess"),
+        up: axis("share of right guesses"),
+    };
+    chart.draw_axes(canvas, lettering);
+    canvas.line(chart.place([0.0, 0.0]), chart.place([1.0, 1.0]), DIM);
+    let mut last = None;
+    for bin in &calibration.bins {
+        let Some(share) = bin.share_right() else {
+            continue;
+        };
+        let at = chart.place([bin.mean_score, share]);
+        if let Some(last) = last.replace(at) {
+            canvas.line(last, at, PART);
+        }
+        canvas.dot(at, 5.0, PART);
+        let text = bin.num.to_string();
+        // Above: below the lowest are the numbers of the axis.
+        let at = [at[0], at[1] - 12.0];
+        lettering.write(&mut canvas.image, &text, at, Anchor::Middle, LIGHT);
+    }
+    let words = calibration.expected_error.map_or_else(
+        || "no guess, no calibration".to_owned(),
+        |error| format!("expected calibration error {error:.3}; numbers are guesses"),
+    );
+    let at = [left, top + PLOT + 74.0];
+    lettering.write(&mut canvas.image, &words, at, Anchor::Left, DIM_TEXT);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        cases::{CaseResult, Found},
+        pipeline::Timings,
+    };
+
+    #[test]
+    fn every_judgement_has_its_colour_and_an_empty_evaluation_a_picture() {
+        let result = |truth: Truth, part: &str, score: f64, accepted| CaseResult {
+            name: "case".into(),
+            difficulty: None,
+            truth,
+            found: Found {
+                part: Some(part.into()),
+                score: Some(score),
+                accepted,
+                ..Found::default()
+            },
+            pose_error: None,
+            timings: Timings::default(),
+        };
+        let door = || Truth::Part("door".into());
+        let results = vec![
+            result(door(), "door", 0.95, true),
+            result(door(), "door", 0.6, false),
+            result(Truth::NotEnrolled, "door", 0.9, true),
+        ];
+        let evaluation = Evaluation::of(results, Vec::new(), &["door".into()]);
+        let image = evaluation_picture("A trial", &evaluation);
+        for judgement in [
+            Judgement::Right,
+            Judgement::Refused,
+            Judgement::WrongAccepted,
+        ] {
+            let num = image.pixels().filter(|p| **p == look(judgement).0).count();
+            assert!(num > 1000, "{judgement:?}: {num} pixels");
+        }
+        evaluation_picture("", &Evaluation::default());
+    }
+}

@@ -1,0 +1,143 @@
+//! A picture of times over sizes: one curve for each number of workers.
+
+use image::{Rgb, RgbImage, imageops::replace};
+
+use super::{
+    canvas::Canvas,
+    chart::{Axis, Chart, Division},
+    lettering::{Anchor, Lettering},
+    pictures::{DARK, DIM, LIGHT},
+};
+
+/// Times over sizes.
+#[derive(Clone, Debug, PartialEq)]
+pub struct TimeCurve {
+    /// What it is of.
+    pub name: String,
+    /// Sizes and times in milliseconds, both above zero, sizes ascending.
+    pub points: Vec<[f64; 2]>,
+}
+
+/// Told apart by brightness as well as by hue; the first is serial.
+const COLOURS: [Rgb<u8>; 4] = [
+    Rgb([244, 246, 250]),
+    Rgb([255, 196, 61]),
+    Rgb([96, 176, 255]),
+    Rgb([178, 110, 200]),
+];
+
+/// Both axes by factors; `crossover` is marked by an upright line.
+pub fn scaling_picture(
+    title: &str,
+    curves: &[TimeCurve],
+    crossover: Option<(f64, &str)>,
+) -> RgbImage {
+    let points = || curves.iter().flat_map(|curve| curve.points.iter());
+    let range = |axis: usize| {
+        let values = || {
+            points()
+                .map(|p| p[axis])
+                .filter(|v| v.is_finite() && *v > 0.0)
+        };
+        let (low, high) = (
+            values().fold(f64::INFINITY, f64::min),
+            values().fold(0.0, f64::max),
+        );
+        if low < high { [low, high] } else { [1.0, 10.0] }
+    };
+    let [low, high] = range(1);
+    let chart = Chart {
+        corners: [[110.0, 60.0], [830.0, 500.0]],
+        across: Axis {
+            title: "references",
+            range: range(0),
+            division: Division::ByFactors,
+            ticks: decades(range(0)),
+        },
+        up: Axis {
+            title: "time of a ranking, ms",
+            range: [low / 1.3, high * 1.3],
+            division: Division::ByFactors,
+            ticks: decades([low / 1.3, high * 1.3]),
+        },
+    };
+    let mut canvas = Canvas::new(1040, 570, DARK);
+    let (large, small) = (Lettering::new(20.0), Lettering::new(15.0));
+    large.write(&mut canvas.image, title, [110.0, 36.0], Anchor::Left, LIGHT);
+    chart.draw_axes(&mut canvas, &small);
+    if let Some((size, words)) = crossover {
+        let [x, top] = chart.place([size, chart.up.range[1]]);
+        canvas.line([x, top], [x, chart.corners[1][1]], DIM);
+        // Curves rise from left to right: above the left half and below the right one is none.
+        let bottom = chart.corners[1][1];
+        let (at, anchor) = if x < f64::midpoint(chart.corners[0][0], chart.corners[1][0]) {
+            ([x + 6.0, top + 16.0], Anchor::Left)
+        } else {
+            ([x - 6.0, bottom - 10.0], Anchor::Right)
+        };
+        small.write(&mut canvas.image, words, at, anchor, LIGHT);
+    }
+    for (place, curve) in curves.iter().enumerate() {
+        let colour = COLOURS[place % COLOURS.len()];
+        canvas.polyline(curve.points.iter().map(|p| chart.place(*p)), colour);
+        for point in &curve.points {
+            canvas.dot(chart.place(*point), 3.0, colour);
+        }
+        let row = 80.0 + 24.0 * place as f64;
+        canvas.dot([858.0, row - 5.0], 5.0, colour);
+        small.write(
+            &mut canvas.image,
+            &curve.name,
+            [872.0, row],
+            Anchor::Left,
+            LIGHT,
+        );
+    }
+    canvas.image
+}
+
+/// Pictures over each other.
+pub fn stacked(pictures: &[RgbImage]) -> RgbImage {
+    let width = pictures.iter().map(RgbImage::width).max().unwrap_or(1);
+    let height = pictures.iter().map(RgbImage::height).sum::<u32>().max(1);
+    let mut all = RgbImage::from_pixel(width, height, DARK);
+    let mut top = 0;
+    for picture in pictures {
+        replace(&mut all, picture, 0, i64::from(top));
+        top += picture.height();
+    }
+    all
+}
+
+/// 1, 10, 100 and so on within a range.
+fn decades([low, high]: [f64; 2]) -> Vec<(f64, String)> {
+    (-6..=9)
+        .map(|power| 10.0_f64.powi(power))
+        .filter(|value| (low..=high).contains(value))
+        .map(|value| (value, value.to_string()))
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn every_curve_is_drawn_and_nonsense_is_survived() {
+        let curve = |times: [f64; 3]| TimeCurve {
+            name: "a worker".into(),
+            points: vec![[8.0, times[0]], [64.0, times[1]], [512.0, times[2]]],
+        };
+        let image = scaling_picture(
+            "Ranking",
+            &[curve([0.1, 1.0, 9.0]), curve([0.3, 0.8, 5.0])],
+            Some((32.0, "32")),
+        );
+        for colour in &COLOURS[..2] {
+            let num = image.pixels().filter(|p| *p == colour).count();
+            assert!(num > 300, "{num}");
+        }
+        scaling_picture("", &[curve([f64::NAN, 0.0, -1.0])], None);
+        scaling_picture("", &[], None);
+    }
+}

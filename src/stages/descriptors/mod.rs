@@ -1,0 +1,52 @@
+//! Recognition by 3-D descriptors: the major systems that a car part recogniser is compared with, on our own frames.
+//!
+//! A segmented part is thinned and given normals (`surface`), described, and matched against the described references
+//! (`matching`). Three descriptors are local: one row of numbers per keypoint, from the surface within a radius of it.
+//! One is global: a single row for all that a camera sees.
+//!
+//! | descriptor | numbers | what is counted |
+//! | --- | --- | --- |
+//! | `fpfh` | 33 | angles between pairs of normals, averaged over the neighbourhood |
+//! | `shot` | 352 | angles of the normals to the keypoint's axis, in 32 sectors of a sphere |
+//! | `spin_image` | 225 | points by their distance from the normal's line and from the tangent plane |
+//! | `vfh` | 308 | angles between all normals, the mean normal and the viewing direction |
+//!
+//! All four are unchanged when camera and part are moved together, and all need normals that look at the camera.
+
+pub mod fpfh;
+pub mod local;
+pub mod matching;
+mod pair;
+pub mod shot;
+pub mod spin_image;
+pub mod surface;
+pub mod vfh;
+
+/// One row of numbers per described keypoint.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Descriptors {
+    /// Numbers in a row.
+    pub width: usize,
+    /// The rows one after the other; `width` times the number of keypoints, all finite.
+    pub values: Vec<f32>,
+    /// Index of each row's keypoint among the surface's points, ascending. A keypoint too lonely to be described is
+    /// left out.
+    pub keypoints: Vec<u32>,
+}
+
+impl Descriptors {
+    /// The rows.
+    pub fn rows(&self) -> impl Iterator<Item = &[f32]> {
+        self.values.chunks_exact(self.width.max(1))
+    }
+
+    /// The number of rows.
+    pub fn len(&self) -> usize {
+        self.keypoints.len()
+    }
+
+    /// True without a row.
+    pub fn is_empty(&self) -> bool {
+        self.keypoints.is_empty()
+    }
+}

@@ -1,0 +1,41 @@
+//! A scene's part put in its place as the paper does it, from the standard position.
+
+use nalgebra::Point3;
+
+use super::{
+    AlignParams, PoseError, PoseEstimate, align_to,
+    quality::{Fit, Tolerance, look_for, measure_fit},
+    refine::Search,
+};
+use crate::{
+    stages::{reference::Reference, scene::SceneCloud, segment::SegmentedPart},
+    units::Metres,
+};
+
+/// Points on which the figures of a fit are taken.
+const NUM_MEASURED: usize = 5000;
+
+/// The pose of a scene's part by ICP or by Algorithm 3, from no displacement.
+pub fn locate(
+    part: &SegmentedPart,
+    reference: &Reference,
+    scene: &SceneCloud,
+    params: &AlignParams,
+    is_cancelled: &dyn Fn() -> bool,
+) -> Result<PoseEstimate, PoseError> {
+    let target = reference.target(0).ok_or(PoseError::NoReferenceCloud)?;
+    let mut estimate = align_to(&part.cloud, reference.whole()?, params, None, is_cancelled)?;
+    let points = &part.cloud.points;
+    let step = points.len().div_ceil(NUM_MEASURED).max(1);
+    let measured: Vec<Point3<f32>> = points.iter().step_by(step).copied().collect();
+    let tolerance = Tolerance {
+        base: Metres::from_mm(10.0),
+        noise_at_1m: part.noise_at_1m,
+    };
+    let pose = &estimate.target_from_source;
+    estimate.fit = Fit {
+        sight: look_for(&target, &pose.inverse(), scene, tolerance),
+        ..measure_fit(&measured, &target, pose, tolerance, Search::Tree)
+    };
+    Ok(estimate)
+}

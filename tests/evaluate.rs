@@ -1,0 +1,320 @@
+//! `partsight evaluate` from end to end: cases are simulated, inspected, held against an earlier run, and damaged.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::{Command, Stdio},
+};
+
+use serde_json::Value;
+
+/// A folder to work in; the library is the shipped one, in a data folder of its own.
+struct Workplace {
+    folder: tempfile::TempDir,
+    data: tempfile::TempDir,
+}
+
+impl Workplace {
+    fn new() -> Self {
+        let folder = || tempfile::tempdir().expect("a folder");
+        Self {
+            folder: folder(),
+            data: folder(),
+        }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn command(&self, args: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_partsight"));
+        command
+            .args(args)
+            .current_dir(self.folder.path())
+            .env("XDG_DATA_HOME", self.data.path())
+            .env("HOME", self.data.path());
+        command
+    }
+
+    /// Exit code, standard output, standard error.
+    fn run(&self, args: &[&str]) -> (i32, String, String) {
+        let output = self.command(args).output().expect("starts");
+        let text = |bytes| String::from_utf8(bytes).expect("text");
+        let code = output.status.code().expect("ended by itself");
+        (code, text(output.stdout), text(output.stderr))
+    }
+
+    fn accepted(&self, args: &[&str]) -> String {
+        let (code, out, err) = self.run(args);
+        assert_eq!(code, 0, "{args:?}\n{out}\n{err}");
+        out
+    }
+
+    /// Two placements of three parts, and a box: seven cases.
+    fn with_cases(&self) {
+        let parts = ["--part", "fender,grille,front_door", "--num", "6"];
+        let simulate = ["simulate", "--cases", "cases", "--seed", "40"];
+        let placements = ["--placement", "facing,placed"];
+        self.accepted(&[&simulate[..], &parts, &placements].concat());
+        let other = ["--part", "box", "--num", "1", "--difficulty", "unknown"];
+        self.accepted(&[&simulate[..], &other].concat());
+    }
+
+    fn json(&self, name: &str) -> Value {
+        let text = fs::read(self.path(name)).expect("written");
+        serde_json::from_slice(&text).expect("JSON")
+    }
+
+    fn names(&self) -> Vec<String> {
+        let names = |folder: &Path| -> Vec<String> {
+            let entries = fs::read_dir(folder).expect("listed");
+            let names = entries.map(|e| e.expect("an entry").file_name());
+            names.map(|n| n.to_string_lossy().into_owned()).collect()
+        };
+        let mut all = names(self.folder.path());
+        all.extend(names(&self.path("cases")));
+        all.sort();
+        all
+    }
+}
+
+/// All but the times.
+fn cases_of(record: &Value) -> Vec<Value> {
+    let mut cases = record["cases"].as_array().expect("cases").clone();
+    for case in &mut cases {
+        case.as_object_mut().expect("a case").remove("total_ms");
+    }
+    cases
+}
+
+#[test]
+fn simulated_cases_are_evaluated_with_the_same_results_on_any_number_of_threads() {
+    let place = Workplace::new();
+    place.with_cases();
+    let evaluate = ["evaluate", "cases", "--json"];
+    let out = place.accepted(&[&evaluate[..], &["a.json", "--report", "a.png"]].concat());
+    for expected in [
+        "fender",
+        "not_enrolled",
+        "facing",
+        "unknown",
+        "Confusion matrix",
+        "Calibration",
+        "Pose of 6 right guesses",
+    ] {
+        assert!(out.contains(expected), "no {expected} in\n{out}");
+    }
+    let record = place.json("a.json");
+    assert_eq!(record["schema"], 1);
+    assert_eq!(record["tally"]["total"], 7);
+    assert_eq!(record["tally"]["right"], 7);
+    assert_eq!(record["pose_errors"]["num"], 6);
+    let median = &record["pose_errors"]["median"];
+    assert!(
+        median["rotation_deg"].as_f64().expect("degrees") < 2.0,
+        "{median}"
+    );
+    assert!(
+        median["shift_mm"].as_f64().expect("millimetres") < 10.0,
+        "{median}"
+    );
+    let difficulties: Vec<(&str, u64)> = record["by_difficulty"]
+        .as_array()
+        .expect("difficulties")
+        .iter()
+        .map(|d| {
+            let num = d["tally"]["total"].as_u64().expect("a number");
+            (d["difficulty"].as_str().expect("words"), num)
+        })
+        .collect();
+    assert_eq!(difficulties, [("facing", 3), ("placed", 3), ("unknown", 1)]);
+    let png = fs::read(place.path("a.png")).expect("drawn");
+    assert!(png.starts_with(b"\x89PNG"));
+
+    for threads in ["1", "3"] {
+        let more = ["b.json", "--threads", threads, "--against", "a.json"];
+        let out = place.accepted(&[&evaluate[..], &more].concat());
+        assert!(out.contains("7 cases of both: 0 worse, 0 better, 0 with another score"));
+        assert_eq!(cases_of(&place.json("b.json")), cases_of(&record));
+    }
+}
+
+#[test]
+fn what_is_worse_than_before_is_listed_and_decides_the_exit_code() {
+    let place = Workplace::new();
+    place.with_cases();
+    place.accepted(&["evaluate", "cases", "--json", "now.json"]);
+    let mut record = place.json("now.json");
+
+    // As if a fender had been refused before: mended since.
+    let mut cases = record["cases"].as_array_mut().expect("cases").iter_mut();
+    let fender = cases.find(|case| case["name"] == "fender_facing_40");
+    let found = &mut fender.expect("there")["found"];
+    found["accepted"] = false.into();
+    found["score"] = 0.5.into();
+    fs::write(place.path("before.json"), record.to_string()).expect("written");
+    let out = place.accepted(&["evaluate", "cases", "--against", "before.json"]);
+    assert!(
+        out.contains("0 worse, 1 better, 0 with another score"),
+        "{out}"
+    );
+
+    // Without a pose, the paper's matcher accepts nothing: every part that was right is worse.
+    let worse = [
+        "--against",
+        "now.json",
+        "--matcher",
+        "paper",
+        "--pose",
+        "none",
+    ];
+    let (code, out, _) = place.run(&[&["evaluate", "cases"], &worse[..]].concat());
+    assert_eq!(code, 1, "{out}");
+    assert!(
+        out.contains("6 worse, 0 better, 1 with another score"),
+        "{out}"
+    );
+    let line = out
+        .lines()
+        .find(|line| line.contains("worse: fender_facing_40"));
+    let line = line.expect("named");
+    assert!(
+        line.contains("right before") && line.contains("refused now"),
+        "{line}"
+    );
+
+    // Said to be the box: now it is accepted as what it is not.
+    let toml = place.path("cases/grille_placed_44/case.toml");
+    let text = fs::read_to_string(&toml).expect("read");
+    let text = text.replace("is = \"part\"\npart = \"grille\"", "is = \"not_enrolled\"");
+    fs::write(&toml, text).expect("written");
+    let (code, out, _) = place.run(&["evaluate", "cases"]);
+    assert_eq!(code, 1, "{out}");
+    assert!(
+        out.contains("grille_placed_44: wrong and accepted, it is not_enrolled"),
+        "{out}"
+    );
+}
+
+#[test]
+fn damaged_cases_are_named_and_left_out() {
+    let place = Workplace::new();
+    place.with_cases();
+    let scene = place.path("cases/fender_facing_40/scene.pcd");
+    let mut bytes = fs::read(&scene).expect("read");
+    bytes[9000] ^= 1;
+    fs::write(&scene, bytes).expect("written");
+    fs::write(
+        place.path("cases/grille_facing_41/case.toml"),
+        "schema_version = 1",
+    )
+    .expect("written");
+    let (code, out, err) = place.run(&["evaluate", "cases", "--json", "a.json"]);
+    assert_eq!(code, 2);
+    assert!(
+        err.contains("fender_facing_40 is damaged") && err.contains("its checksum"),
+        "{err}"
+    );
+    assert!(err.contains("grille_facing_41 is damaged"), "{err}");
+    assert!(out.contains("2 damaged and left out"));
+    let record = place.json("a.json");
+    assert_eq!(record["tally"]["total"], 5);
+    assert_eq!(record["damaged"].as_array().expect("named").len(), 2);
+}
+
+#[test]
+fn what_cannot_be_evaluated_is_said_in_words() {
+    let place = Workplace::new();
+    fs::create_dir(place.path("cases")).expect("made");
+    fs::write(place.path("newer.json"), "{\"schema\":2}").expect("written");
+    fs::write(place.path("other.json"), "{\"schema\":1}").expect("written");
+    for (args, expected) in [
+        (&["evaluate", "cases"][..], "there are no cases"),
+        (&["evaluate", "nowhere"], "no such folder"),
+        (
+            &["evaluate", "cases", "--against", "none.json"],
+            "none.json",
+        ),
+        (
+            &["evaluate", "cases", "--against", "newer.json"],
+            "newer version",
+        ),
+        (
+            &["evaluate", "cases", "--against", "other.json"],
+            "not an evaluation",
+        ),
+        (
+            &["evaluate", "cases", "--json", "x", "--report", "x"],
+            "Name two",
+        ),
+        (
+            &["simulate", "--part", "all", "--out", "x.pcd"],
+            "one file shows one part",
+        ),
+        (
+            &["simulate", "--cases", "c", "--out", "x.pcd"],
+            "cannot be used with",
+        ),
+        (
+            &[
+                "simulate", "--part", "box", "--out", "x.pcd", "--noise", "9",
+            ],
+            "0 to 5",
+        ),
+    ] {
+        let (code, _, err) = place.run(args);
+        assert_eq!(code, 2, "{args:?}");
+        assert!(err.contains(expected), "{args:?}: {err}");
+    }
+    assert_eq!(place.names(), ["cases", "newer.json", "other.json"]);
+}
+
+/// Another seed for each case: a folder of cases can be made again to the last byte.
+#[test]
+fn the_same_arguments_make_the_same_cases() {
+    let place = Workplace::new();
+    place.with_cases();
+    let again = Workplace::new();
+    again.with_cases();
+    let names = place.names();
+    assert_eq!(names, again.names());
+    for case in names.iter().filter(|name| name.contains("facing")) {
+        for file in ["case.toml", "scene.pcd"] {
+            let path = format!("cases/{case}/{file}");
+            let read = |place: &Workplace| fs::read(place.path(&path)).expect("read");
+            assert!(read(&place) == read(&again), "{path}");
+        }
+    }
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_leaves_nothing_half_written() {
+    use std::{os::unix::process::ExitStatusExt as _, thread, time::Duration};
+
+    let place = Workplace::new();
+    let simulate = ["simulate", "--cases", "cases", "--num", "24"];
+    place.accepted(&[&simulate[..], &["--placement", "facing"]].concat());
+    // Fills the library.
+    place.accepted(&["library", "list"]);
+    let before = place.names();
+    let mut running = place
+        .command(&["evaluate", "cases", "--json", "a.json", "--report", "a.png"])
+        .stdout(Stdio::null())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("starts");
+    thread::sleep(Duration::from_millis(150));
+    let killed = Command::new("kill")
+        .args(["-INT", &running.id().to_string()])
+        .status();
+    assert!(killed.expect("kill").success());
+    let status = running.wait().expect("ended");
+    // A machine that is quick enough to have ended before has written both.
+    if status.signal().is_some() {
+        assert_eq!(place.names(), before);
+    } else {
+        assert!(place.path("a.json").exists() && place.path("a.png").exists());
+    }
+}
