@@ -2,9 +2,10 @@
 
 use nalgebra::Point3;
 
+use super::suites::{enrol_standard_part, enrolment_pose};
 use crate::{
     geometry::rigid::{PoseError, RigidTransform, pose_error},
-    library::{About, EnrolError, EnrolParams, Library, PartName, enrol_captured},
+    library::{EnrolError, EnrolParams, Library},
     pipeline::{Cancelled, Recipe, Timings, Verdict, Watch, run},
     simulate::{CellSetup, PartKind, PartModel, PartPose, Placement, Side, frame_of_mesh},
     stages::scene::scene_from_frame,
@@ -145,26 +146,13 @@ impl Recognition {
 
 /// Enrols each part of the standard car from one capture, square-on, 1.3 m before the camera.
 pub fn enrol_standard_parts(params: &EnrolParams) -> Result<EnrolledStandard, EnrolError> {
-    let mut library = Library::default();
-    let camera_from_model = RigidTransform::translation(0.0, 0.0, 1.3);
-    for kind in PartKind::ALL {
-        let mut setup = CellSetup::with_part(kind, Side::Left, 0, 1);
-        setup.pose = PartPose::Fixed(camera_from_model);
-        let shot = crate::simulate::frame(&setup);
-        let about = About {
-            name: PartName::new(kind.name()).expect("our own names are valid"),
-            title: kind.title().to_owned(),
-            notes: String::new(),
-            from: "simulated cell".to_owned(),
-            at: jiff::Timestamp::UNIX_EPOCH,
-            simulated: true,
-        };
-        let enrolled = enrol_captured(&scene_from_frame(&shot.frame), &about, params)?;
-        library.references.push(enrolled.reference);
-    }
+    let references = PartKind::ALL
+        .into_iter()
+        .map(|kind| enrol_standard_part(kind, Side::Left, params))
+        .collect::<Result<_, _>>()?;
     Ok(EnrolledStandard {
-        library,
-        camera_from_model: [camera_from_model; 8],
+        library: Library { references },
+        camera_from_model: [enrolment_pose(); 8],
     })
 }
 

@@ -262,7 +262,12 @@ impl Columns {
                 let figures = format!(
                     "{score:5.2} {margin:6.2}  {middle:>23}  {turn:>23}  {rms:>5} {time_ms:7.1}"
                 );
-                (part.as_str(), verdict, figures)
+                let part = if inspection.verdict.is_unknown() {
+                    "unknown"
+                } else {
+                    part.as_str()
+                };
+                (part, verdict, figures)
             }
             Verdict::NoPart(_) => ("-", "NOT ACCEPTED", String::new()),
         };

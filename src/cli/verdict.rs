@@ -57,12 +57,13 @@ pub(super) fn show_card(
         } => {
             let verdict = rejected.as_ref().map_or("accepted", |_| "NOT ACCEPTED");
             line("scene", scene.to_owned());
-            line("part", format!("{part}: {verdict}"));
-            let ahead = inspection
-                .ranking
-                .entries
-                .get(1)
-                .map(|next| next.part.as_str());
+            if inspection.verdict.is_unknown() {
+                line("part", format!("unknown, nearest {part}: {verdict}"));
+            } else {
+                line("part", format!("{part}: {verdict}"));
+            }
+            let ahead = inspection.ranking.runner_up();
+            let ahead = ahead.map(|next| next.part.as_str());
             let ahead = ahead.map_or(String::new(), |next| {
                 format!(", {margin:.2} ahead of {next}")
             });

@@ -74,7 +74,7 @@ impl<'a> InspectionLine<'a> {
 
     /// Of a scene by this name.
     pub fn of(scene: &'a str, inspection: &'a Inspection) -> Self {
-        let ranking = inspection.ranking.entries.iter().map(|entry| RankLine {
+        let ranking = inspection.ranking.by_part().map(|entry| RankLine {
             part: &entry.part,
             score: entry.score,
             distance: entry.distance,
@@ -105,8 +105,12 @@ impl<'a> InspectionLine<'a> {
                 margin,
                 rejected,
             } => Self {
-                status: "ok",
-                part: Some(part),
+                status: if inspection.verdict.is_unknown() {
+                    "unknown"
+                } else {
+                    "ok"
+                },
+                part: Some(part.as_str()).filter(|_| !inspection.verdict.is_unknown()),
                 accepted: rejected.is_none(),
                 score: Some(*score),
                 margin: Some(*margin),

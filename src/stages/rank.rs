@@ -12,6 +12,7 @@ use rustfft::num_complex::Complex;
 
 use crate::{
     stages::{
+        confirm::Evidence,
         contour::Contour,
         correlation::{CircularCorrelator, spectrum},
         pose::PoseEstimate,
@@ -98,6 +99,8 @@ pub struct MatchEntry {
     /// Where the confirmation put it; `None` if it ranked too low to be tried, or has no cloud. The first's is refined
     /// to the end, the others' as far as it took to see that they are not the first.
     pub pose: Option<PoseEstimate>,
+    /// What speaks for and against it at that pose.
+    pub evidence: Option<Evidence>,
 }
 
 /// All references, best first.
@@ -105,6 +108,22 @@ pub struct MatchEntry {
 pub struct MatchRanking {
     /// One entry per reference, in descending order of score.
     pub entries: Vec<MatchEntry>,
+}
+
+impl MatchRanking {
+    /// The best entry of each part, best first: a part may be enrolled by several references.
+    pub fn by_part(&self) -> impl Iterator<Item = &MatchEntry> {
+        let entries = &self.entries;
+        entries.iter().enumerate().filter_map(|(i, entry)| {
+            let is_first = entries[..i].iter().all(|before| before.part != entry.part);
+            is_first.then_some(entry)
+        })
+    }
+
+    /// The best entry of a part other than the first.
+    pub fn runner_up(&self) -> Option<&MatchEntry> {
+        self.by_part().nth(1)
+    }
 }
 
 /// Ranks all references.
@@ -138,6 +157,7 @@ fn rank_literally(query: &Query<'_>, references: &[Reference]) -> Vec<MatchEntry
             distance,
             placements: Vec::new(),
             pose: None,
+            evidence: None,
         })
         .collect()
 }
@@ -162,6 +182,7 @@ fn rank_by_overlap(
                     .map_or(f64::INFINITY, |p| p.outline_distance.0),
                 placements,
                 pose: None,
+                evidence: None,
             }
         })
         .collect()

@@ -24,6 +24,34 @@ pub struct SceneCloud {
     pub edge: PictureEdge,
 }
 
+impl SceneCloud {
+    /// The scene as in a mirror held beside the camera: x turned round, the picture's rows with it.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let turned = |p: &Point3<f32>| Point3::new(-p.x, p.y, p.z);
+        let points = &self.cloud.points;
+        let points = match self.cloud.grid {
+            Some(Grid { width, .. }) => points
+                .chunks(width.max(1))
+                .flat_map(|row| row.iter().rev().map(turned))
+                .collect(),
+            None => points.iter().map(turned).collect(),
+        };
+        Self {
+            cloud: PointCloud {
+                points,
+                grid: self.cloud.grid,
+                ..PointCloud::default()
+            },
+            intrinsics: self.intrinsics.map(|camera| Intrinsics {
+                cx: camera.width as f64 - 1.0 - camera.cx,
+                ..camera
+            }),
+            edge: self.edge,
+        }
+    }
+}
+
 /// What the edge of a picture is.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub enum PictureEdge {

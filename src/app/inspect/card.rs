@@ -50,7 +50,11 @@ impl Headline {
                     },
                     // No name in large letters that is not certain.
                     Some(reason) => Self {
-                        title: "Not recognised".into(),
+                        title: if inspected.inspection.verdict.is_unknown() {
+                            "Unknown part".into()
+                        } else {
+                            "Not recognised".into()
+                        },
                         nearest: Some(nearest),
                         is_accepted: false,
                         complaint: Some((reason.to_string(), reason.advice())),

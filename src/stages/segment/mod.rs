@@ -10,6 +10,7 @@
 //! Known limits: whatever touches the part, such as a stand, joins it.
 
 mod clusters;
+mod noise;
 mod planes;
 mod subset;
 
@@ -25,7 +26,8 @@ pub struct SegmentParams {
     /// The paper's `d_t`: a point closer than this (plus the noise) to a background plane belongs to it, 1..50 mm.
     /// Raising it eats what is near the wall.
     pub plane_distance: Metres,
-    /// Standard deviation of the depth at 1 m, 0..20 mm; it grows with depth². Used until a plane shows the real one.
+    /// Least standard deviation of the depth at 1 m to reckon with, 0..20 mm; it grows with depth². Used until the
+    /// picture and then a plane show the real one.
     pub noise_at_1m: Metres,
     /// How many standard deviations of noise still belong to a plane, 2..6. Raising it eats what is near the wall,
     /// lowering it leaves specks of the wall.
@@ -116,6 +118,25 @@ impl SegmentedPart {
         let indices: Vec<u32> = indices.iter().copied().filter(is_reading).collect();
         let touches_edge = clusters::touches_edge(scene, &indices);
         Self::of(&scene.cloud, indices, noise_at_1m, touches_edge)
+    }
+
+    /// The same part in the mirrored scene.
+    #[must_use]
+    pub fn mirrored(&self, mirrored_scene: &SceneCloud) -> Self {
+        let mut indices = self.indices.clone();
+        if let Some(crate::geometry::cloud::Grid { width, .. }) = mirrored_scene.cloud.grid {
+            for i in &mut indices {
+                let (row, column) = (*i as usize / width, *i as usize % width);
+                *i = (row * width + width - 1 - column) as u32;
+            }
+            indices.sort_unstable();
+        }
+        Self::of(
+            &mirrored_scene.cloud,
+            indices,
+            self.noise_at_1m,
+            self.touches_edge,
+        )
     }
 
     fn of(scene: &PointCloud, indices: Vec<u32>, noise_at_1m: Metres, touches_edge: bool) -> Self {
@@ -240,6 +261,72 @@ pub fn surfaces(
 pub fn pieces(scene: &SceneCloud, params: &SegmentParams) -> Vec<Vec<u32>> {
     let labels = label_readings(&scene.cloud.points);
     connected(scene, &labels, params.noise_at_1m, params)
+}
+
+/// A surface smaller than this share of the largest one is not looked at as a part.
+const LEAST_SHARE: f64 = 0.1;
+
+/// The surfaces beside the one that was taken for the part, the likeliest first, at most `limit`.
+pub fn other_parts(
+    scene: &SceneCloud,
+    segmentation: &Segmentation,
+    params: &SegmentParams,
+    limit: usize,
+) -> Vec<SegmentedPart> {
+    let largest = segmentation.clusters.first().map_or(0.0, |c| c.area);
+    let least = params.min_part_area.max(LEAST_SHARE * largest);
+    let is_candidate =
+        |cluster: &Cluster| cluster.area >= least && cluster.num_points >= MIN_POINTS;
+    if segmentation
+        .clusters
+        .iter()
+        .filter(|c| is_candidate(c))
+        .count()
+        < 2
+    {
+        return Vec::new();
+    }
+    let taken = segmentation
+        .part
+        .as_ref()
+        .ok()
+        .and_then(|p| p.indices.first());
+    let mut others: Vec<(f64, bool, Vec<u32>)> = surfaces(scene, segmentation, params)
+        .into_iter()
+        .zip(&segmentation.clusters)
+        .filter(|(indices, cluster)| is_candidate(cluster) && indices.first() != taken)
+        .map(|(indices, cluster)| (likelihood(cluster), cluster.touches_edge, indices))
+        .collect();
+    others.sort_by(|a, b| b.0.total_cmp(&a.0));
+    others
+        .into_iter()
+        .take(limit)
+        .map(|(_, touches_edge, indices)| {
+            SegmentedPart::of(
+                &scene.cloud,
+                indices,
+                segmentation.noise_at_1m,
+                touches_edge,
+            )
+        })
+        .collect()
+}
+
+impl Segmentation {
+    /// Takes another surface for the part.
+    pub fn take(&mut self, part: SegmentedPart) {
+        for label in &mut self.labels {
+            if *label == PointLabel::Part {
+                *label = PointLabel::Rest;
+            }
+        }
+        for &i in &part.indices {
+            if let Some(label) = self.labels.get_mut(i as usize) {
+                *label = PointLabel::Part;
+            }
+        }
+        self.part = Ok(part);
+    }
 }
 
 fn connected(

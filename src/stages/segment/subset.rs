@@ -8,6 +8,7 @@ use super::SegmentParams;
 use crate::{
     geometry::cloud::{Grid, is_finite},
     stages::scene::SceneCloud,
+    units::Metres,
 };
 
 /// Points that planes are searched on; 5 000 fix a wall to a fraction of a millimetre and fit in the cache.
@@ -33,7 +34,8 @@ pub(super) struct Cells {
 }
 
 impl Subset {
-    pub(super) fn new(scene: &SceneCloud, params: &SegmentParams) -> Self {
+    /// `noise_at_1m` is the depth's standard deviation there.
+    pub(super) fn new(scene: &SceneCloud, params: &SegmentParams, noise_at_1m: Metres) -> Self {
         let points = &scene.cloud.points;
         let mut subset = Self {
             x: Vec::new(),
@@ -43,7 +45,7 @@ impl Subset {
             cells: None,
         };
         let base = params.plane_distance.0 as f32;
-        let noise = (params.noise_factor * params.noise_at_1m.0) as f32;
+        let noise = (params.noise_factor * noise_at_1m.0) as f32;
         let mut push = |p: &Point3<f32>| {
             subset.x.push(p.x);
             subset.y.push(p.y);

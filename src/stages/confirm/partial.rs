@@ -1,0 +1,172 @@
+//! Starts for a part of which only a piece is seen.
+//!
+//! The centroid and the rays of a piece are not those of the part, so the ranking's placements are off. Here the
+//! piece's own outline points are laid onto each view of a reference from evenly spread turns, and pulled onto its
+//! outline by iterated closest points in the plane (eq. 12 in two dimensions) with weights that shrink, after
+//! H. G. Barrow, J. M. Tenenbaum, R. C. Bolles and H. C. Wolf, "Parametric correspondence and chamfer matching", IJCAI
+//! 1977, whose distance image we use: it answers every closest point with one look-up.
+
+use nalgebra::{Isometry2, Point2, UnitComplex, Vector2};
+
+use crate::{
+    geometry::outline_field::OutlineField,
+    stages::reference::{Reference, ReferenceView},
+};
+
+/// Turns tried, evenly around: a closest-point search closes half of what lies between two.
+const NUM_TURNS: usize = 14;
+/// Shifts tried along the piece's two axes, shares of its deviation there: a closest-point search slides slowly along
+/// a long edge, and the centroid of a piece is off by up to a quarter of the deviation for every tenth that is gone.
+const SHIFTS: [[f64; 2]; 5] = [
+    [0.0, 0.0],
+    [0.45, 0.0],
+    [-0.45, 0.0],
+    [0.0, 0.45],
+    [0.0, -0.45],
+];
+/// Scales of the weights, metres, from what a centroid is off by to what the outline is known to.
+const SCALES: [f64; 7] = [0.12, 0.09, 0.06, 0.045, 0.03, 0.02, 0.02];
+/// Points of the piece's outline that are laid on.
+const NUM_POINTS: usize = 48;
+/// Points of the piece's area that must find the reference's.
+const NUM_INNER: usize = 80;
+/// What a point of the piece beyond the reference costs, in squared distances of the outline, metres.
+const BESIDE: f64 = 0.05;
+/// Starts kept of a reference.
+const NUM_STARTS: usize = 60;
+
+/// A piece of a part in plane space.
+pub(super) struct Piece {
+    outline: Vec<Point2<f64>>,
+    inner: Vec<Point2<f64>>,
+    centre: Point2<f64>,
+    /// Standard deviations along the axes of its plane.
+    deviations: Vector2<f64>,
+}
+
+impl Piece {
+    pub(super) fn new(
+        own: impl ExactSizeIterator<Item = Point2<f64>>,
+        area: &[Point2<f64>],
+    ) -> Option<Self> {
+        let thin = |n: usize, of: usize| n.div_ceil(of).max(1);
+        let step = thin(own.len(), NUM_POINTS);
+        let outline: Vec<Point2<f64>> = own.step_by(step).collect();
+        let inner: Vec<Point2<f64>> = area
+            .iter()
+            .step_by(thin(area.len(), NUM_INNER))
+            .copied()
+            .collect();
+        if outline.len() < 8 || inner.is_empty() {
+            return None;
+        }
+        let sum = inner.iter().fold(Vector2::zeros(), |s, p| s + p.coords);
+        let centre = Point2::from(sum / inner.len() as f64);
+        let squares = inner
+            .iter()
+            .map(|p| (p - centre).component_mul(&(p - centre)));
+        let variances = squares.sum::<Vector2<f64>>() / inner.len() as f64;
+        Some(Self {
+            centre,
+            deviations: variances.map(f64::sqrt),
+            outline,
+            inner,
+        })
+    }
+
+    /// Ways of laying the piece onto the views of a reference: view, `view_plane_from_scene_plane`, best first.
+    pub(super) fn starts(&self, reference: &Reference) -> Vec<(usize, Isometry2<f64>)> {
+        let mut laid: Vec<(f64, usize, Isometry2<f64>)> = Vec::new();
+        for (number, view) in reference.views.iter().enumerate() {
+            let field = view.outline_field();
+            for turn in 0..NUM_TURNS {
+                let turn = turn as f64 / NUM_TURNS as f64 * std::f64::consts::TAU;
+                for shift in SHIFTS {
+                    let shift = Vector2::from(shift).component_mul(&self.deviations);
+                    let (at, cost) = self.pulled(view, field, turn, &shift);
+                    laid.push((cost, number, at));
+                }
+            }
+        }
+        laid.sort_by(|a, b| a.0.total_cmp(&b.0));
+        let mut kept: Vec<(usize, Isometry2<f64>)> = Vec::new();
+        for (_, number, at) in laid {
+            let is_known = |k: &(usize, Isometry2<f64>)| {
+                k.0 == number
+                    && (k.1 * self.centre - at * self.centre).norm() < 0.02
+                    && k.1.rotation.angle_to(&at.rotation).abs() < 0.1
+            };
+            if !kept.iter().any(is_known) {
+                kept.push((number, at));
+            }
+            if kept.len() == NUM_STARTS {
+                break;
+            }
+        }
+        kept
+    }
+
+    fn pulled(
+        &self,
+        view: &ReferenceView,
+        field: &OutlineField,
+        turn: f64,
+        shift: &Vector2<f64>,
+    ) -> (Isometry2<f64>, f64) {
+        let rotation = UnitComplex::new(turn);
+        let middle = view.signature.centroid;
+        let mut at =
+            Isometry2::from_parts((middle - rotation * (self.centre + shift)).into(), rotation);
+        for scale in SCALES {
+            at = self.step(field, &at, scale);
+        }
+        let limit_sq = 0.04_f64.powi(2);
+        let off = self.outline.iter().map(|p| {
+            let moved = at * p;
+            field
+                .nearest(&moved)
+                .map_or(limit_sq, |n| (n - moved).norm_squared().min(limit_sq))
+        });
+        let outline_cost = off.sum::<f64>() / self.outline.len() as f64;
+        let is_beside = |p: &&Point2<f64>| {
+            let (column, row) = view.plane.pixel_of(&(at * *p));
+            !view
+                .plane
+                .image
+                .is_set(column.round() as i64, row.round() as i64)
+        };
+        let beside = self.inner.iter().filter(is_beside).count() as f64 / self.inner.len() as f64;
+        (at, outline_cost + beside * BESIDE * BESIDE)
+    }
+
+    /// One weighted step of iterated closest points, in closed form.
+    fn step(&self, field: &OutlineField, at: &Isometry2<f64>, scale: f64) -> Isometry2<f64> {
+        let mut sums = (0.0, Vector2::zeros(), Vector2::zeros());
+        let pairs: Vec<(f64, Vector2<f64>, Vector2<f64>)> = self
+            .outline
+            .iter()
+            .filter_map(|p| {
+                let moved = at * p;
+                let nearest = field.nearest(&moved)?;
+                let weight = (-(nearest - moved).norm_squared() / (scale * scale)).exp();
+                sums.0 += weight;
+                sums.1 += moved.coords * weight;
+                sums.2 += nearest.coords * weight;
+                Some((weight, moved.coords, nearest.coords))
+            })
+            .collect();
+        if sums.0 < 1e-3 {
+            return *at;
+        }
+        let (from, to) = (sums.1 / sums.0, sums.2 / sums.0);
+        let (mut cos, mut sin) = (0.0, 0.0);
+        for (weight, p, q) in &pairs {
+            let (p, q) = (p - from, q - to);
+            cos += weight * p.dot(&q);
+            sin += weight * (p.x * q.y - p.y * q.x);
+        }
+        let rotation = UnitComplex::new(sin.atan2(cos));
+        let shift = to - rotation * from;
+        Isometry2::from_parts(shift.into(), rotation) * at
+    }
+}
