@@ -3,7 +3,8 @@
 //! Outlines are alike where parts are not, and fail where a part is half hidden. So every placement of the best-ranked
 //! references becomes a start of a pose, refined coarsely; each reference's best is refined further, and its score
 //! then follows from distances and from what the camera sees: is the scene's part on the reference, and is the
-//! reference in the scene?
+//! reference in the scene? Where only a piece of a part is in sight, the stretches of its outline that are not its own
+//! are left out, and the piece is laid onto all references by itself.
 
 mod candidate;
 mod ends;
@@ -14,7 +15,7 @@ use nalgebra::{Point3, Vector3};
 use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
-pub use self::evidence::{Evidence, NUM_FEATURES};
+pub use self::evidence::{Evidence, FEATURES, NUM_FEATURES};
 use self::{
     candidate::{Candidate, Trial},
     ends::{Outline, outline_of},
@@ -197,8 +198,6 @@ struct Seen<'a> {
     scene: &'a Scene<'a>,
     source: Source,
     centre: Point3<f64>,
-    /// Share of the outline where only the view ends.
-    cut_share: f64,
     /// `None` if a whole part is in sight.
     piece: Option<Piece>,
     tolerance: Tolerance,
@@ -212,7 +211,6 @@ impl<'a> Seen<'a> {
             scene,
             centre: centre_of(&source.surface),
             source,
-            cut_share: outline.cut_share,
             piece: piece_of(scene, &outline),
             tolerance: Tolerance {
                 base: params.tolerance,

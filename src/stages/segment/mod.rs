@@ -7,16 +7,24 @@
 //! - a point belongs to a plane within a distance that follows the noise, which is measured on the largest plane;
 //! - of what is left, one connected surface is the part, not all of it: the largest, those inside the picture first.
 //!
-//! Known limits: whatever touches the part, such as a stand, joins it.
+//! The noise is measured on the picture before a plane is known, so that a wall is found at any noise. A capture of the
+//! [`EmptyCell`] fixes wall, floor and whatever else always stands there.
+//!
+//! Known limits: whatever touches the part and was not there in the empty cell, such as a hanger, joins it.
 
 mod clusters;
+mod empty_cell;
 mod noise;
 mod planes;
 mod subset;
 
 use nalgebra::Point3;
 
-pub use self::{clusters::Cluster, planes::BackgroundPlane};
+pub use self::{
+    clusters::Cluster,
+    empty_cell::{EmptyCell, EmptyCellError},
+    planes::BackgroundPlane,
+};
 use crate::{error::Advice, geometry::cloud::PointCloud, stages::scene::SceneCloud, units::Metres};
 
 /// Parameters of [`segment`]. The defaults work untouched for a Kinect-like camera.
@@ -65,7 +73,7 @@ impl Default for SegmentParams {
 pub enum PointLabel {
     /// The camera had no reading here.
     NoReading,
-    /// On (or behind) the background plane of this number.
+    /// On (or behind) the background plane of this number; one more than the last of them: what stood in the empty cell.
     Background(u8),
     /// Neither background nor part.
     Rest,
@@ -226,10 +234,19 @@ pub fn segment(scene: &SceneCloud, params: &SegmentParams) -> Segmentation {
         };
     }
     let planes::Background {
-        planes,
+        mut planes,
         noise_at_1m,
     } = planes::find_background(scene, params);
-    let mut labels = planes::label_background(&scene.cloud.points, &planes, noise_at_1m, params);
+    let empty_cell = scene.empty_cell.as_ref().filter(|cell| cell.fits(scene));
+    if let Some(cell) = empty_cell {
+        planes.retain(|found| cell.knows(&found.plane, scene, noise_at_1m, params));
+    }
+    let points = &scene.cloud.points;
+    let mut labels = planes::label_background(points, &planes, noise_at_1m, params);
+    if let Some(cell) = empty_cell {
+        let label = PointLabel::Background(planes.len() as u8);
+        cell.mark(points, &mut labels, label, noise_at_1m, params);
+    }
     let clusters = clusters::connect(scene, &labels, noise_at_1m, params);
     let part = take_part(scene, &clusters, &mut labels, &planes, noise_at_1m, params)
         .map_err(|no_part| too_wide(scene).unwrap_or(no_part));
