@@ -171,3 +171,43 @@ pub fn bands(results: &[SuiteResult]) -> Vec<Band> {
         })
         .collect()
 }
+
+#[cfg(test)]
+mod tests {
+    use rand::{RngExt as _, SeedableRng as _};
+    use rand_pcg::Pcg64;
+
+    use super::*;
+
+    #[test]
+    fn the_weights_that_made_the_samples_are_found_again() {
+        let truth = Model {
+            constant: 3.0,
+            weights: [-2.0, -1.0, 0.0, -1.5, -0.5],
+        };
+        let mut random = Pcg64::seed_from_u64(8);
+        let samples: Vec<Sample> = (0..20_000)
+            .map(|_| {
+                let evidence = Evidence {
+                    off: random.random_range(0.0..0.4),
+                    missing: random.random_range(0.0..0.4),
+                    hidden: 0.0,
+                    outside: random.random_range(0.0..0.5),
+                    relief_m: random.random_range(0.0..0.01),
+                    outline_m: random.random_range(0.0..0.04),
+                    cut: 0.0,
+                    facing: 1.0,
+                };
+                Sample {
+                    evidence,
+                    is_right: random.random::<f64>() < truth.probability(&evidence),
+                }
+            })
+            .collect();
+        let found = Model::fit(&samples, [true; NUM_FEATURES]);
+        for (found, truth) in found.weights.iter().zip(truth.weights) {
+            assert!((found - truth).abs() < 0.15, "{found} instead of {truth}");
+        }
+        assert!((found.constant - truth.constant).abs() < 0.3);
+    }
+}

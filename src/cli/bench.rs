@@ -1,5 +1,6 @@
 //! `partsight bench`: how often right, how far off, how long, on simulated frames.
 
+mod calibration;
 mod suites;
 mod table1;
 
@@ -34,6 +35,7 @@ Examples:
   partsight bench recognition --poses 50 --model 3
   partsight bench recognition --suite all --json suites.json
   partsight bench recognition --suite hard --poses 20 --seed 3000000
+  partsight bench calibration
   partsight bench table1 --csv table1.csv
   partsight bench table1 --part fender --part grille
   partsight bench window
@@ -79,6 +81,8 @@ enum Bench {
     Speed,
     /// Right, accepted and well placed, by the default matcher and by the paper's
     Recognition,
+    /// Fits the score to simulated frames, and says what each piece of evidence is worth
+    Calibration,
     /// The paper's Table I: what is left of E from T1..T5, by ICP, ICP-GA and the global method
     Table1,
     /// Processor time of a frame of the window, at rest and turning; needs no display
@@ -140,6 +144,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         Bench::Speed | Bench::Window => &[Matcher::Default],
         Bench::Recognition => &[Matcher::Default, Matcher::Paper],
         Bench::Table1 => return table1::run(args, console),
+        Bench::Calibration => return calibration::run(args, console),
     };
     if args.csv.is_some() || !args.part.is_empty() {
         return Err(advised_error(

@@ -77,6 +77,17 @@ impl Verdict {
         )
     }
 
+    /// True if it is another model of the part, so that the pose is only about right.
+    pub fn is_approximate(&self) -> bool {
+        matches!(
+            self,
+            Self::Part {
+                rejected: Some(Rejection::AnotherModel { .. }),
+                ..
+            }
+        )
+    }
+
     /// True if the part was named and accepted.
     pub fn is_accepted(&self) -> bool {
         matches!(self, Self::Part { rejected: None, .. })

@@ -34,6 +34,7 @@ struct PoseLine {
     overlap: f64,
     stopped: &'static str,
     ambiguous: bool,
+    approximate: bool,
 }
 
 #[derive(Debug, Serialize)]
@@ -90,6 +91,7 @@ impl<'a> InspectionLine<'a> {
                 overlap: pose.fit.overlap,
                 stopped: pose.stopped.name(),
                 ambiguous: pose.is_ambiguous(),
+                approximate: inspection.verdict.is_approximate(),
             });
         let line = Self {
             pose,

@@ -198,6 +198,8 @@ struct Seen<'a> {
     scene: &'a Scene<'a>,
     source: Source,
     centre: Point3<f64>,
+    /// Share of the outline where only the view ends.
+    cut_share: f64,
     /// `None` if a whole part is in sight.
     piece: Option<Piece>,
     tolerance: Tolerance,
@@ -211,6 +213,7 @@ impl<'a> Seen<'a> {
             scene,
             centre: centre_of(&source.surface),
             source,
+            cut_share: outline.cut_share,
             piece: piece_of(scene, &outline),
             tolerance: Tolerance {
                 base: params.tolerance,

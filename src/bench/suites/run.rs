@@ -93,6 +93,8 @@ pub struct SuiteCase {
     pub margin: f64,
     /// Whether it was accepted.
     pub accepted: bool,
+    /// Whether it was called unknown, or the mirror image of what is enrolled.
+    pub is_unknown: bool,
     /// Why not.
     pub reason: Option<String>,
     /// Time of the whole inspection, milliseconds.
@@ -141,6 +143,7 @@ impl SuiteCase {
             score,
             margin,
             accepted: reason.is_none(),
+            is_unknown: inspection.verdict.is_unknown(),
             reason,
             total_ms: inspection.timings.total.as_secs_f64() * 1e3,
             contenders: inspection

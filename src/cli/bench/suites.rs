@@ -5,7 +5,7 @@ use std::path::Path;
 use clap::ValueEnum;
 use serde::Serialize;
 
-use super::{BenchArgs, write_json};
+use super::{BenchArgs, calibration::show_bands, write_json};
 use crate::{
     bench::suites::{MEASURING_SEED, Suite, SuiteCase, SuiteLibraries, SuiteResult, run_suite},
     cli::{
@@ -70,31 +70,13 @@ struct SuitesFile<'a> {
 pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let num_poses = args.poses.unwrap_or(NUM_POSES);
     let first_seed = args.seed.unwrap_or(MEASURING_SEED);
-    let libraries = SuiteLibraries::enrol(&EnrolParams::default()).advised()?;
     let mut suites: Vec<Suite> = Vec::new();
     for suite in args.suite.iter().flat_map(|choice| choice.suites()) {
         if !suites.contains(&suite) {
             suites.push(suite);
         }
     }
-    let frames: Vec<_> = suites
-        .iter()
-        .map(|suite| suite.frames(num_poses, first_seed))
-        .collect();
-    console.start_progress(frames.iter().map(Vec::len).sum());
-    let mut results: Vec<SuiteResult> = Vec::new();
-    for (suite, frames) in suites.iter().zip(&frames) {
-        let library = libraries.of(*suite);
-        results.push(run_suite(
-            *suite,
-            frames,
-            library,
-            &Recipe::default(),
-            &Unwatched,
-            |_, _| console.done(),
-        )?);
-    }
-    console.end_progress();
+    let results = results(&suites, num_poses, first_seed, console)?;
     show(&results, num_poses, first_seed, console);
     if let Some(path) = &args.json {
         write(path, &results, first_seed)?;
@@ -102,7 +84,33 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     Ok(Outcome::Accepted)
 }
 
-fn write(path: &Path, suites: &[SuiteResult], first_seed: u64) -> anyhow::Result<()> {
+/// Runs suites one after the other, on this thread.
+pub(super) fn results(
+    suites: &[Suite],
+    num_poses: u64,
+    first_seed: u64,
+    console: &mut Console,
+) -> anyhow::Result<Vec<SuiteResult>> {
+    let libraries = SuiteLibraries::enrol(&EnrolParams::default()).advised()?;
+    let frames: Vec<_> = suites
+        .iter()
+        .map(|suite| suite.frames(num_poses, first_seed))
+        .collect();
+    console.start_progress(frames.iter().map(Vec::len).sum());
+    let recipe = Recipe::default();
+    let mut results: Vec<SuiteResult> = Vec::new();
+    for (suite, frames) in suites.iter().zip(&frames) {
+        let library = libraries.of(*suite);
+        let done = |_: &_, _: &_| console.done();
+        results.push(run_suite(
+            *suite, frames, library, &recipe, &Unwatched, done,
+        )?);
+    }
+    console.end_progress();
+    Ok(results)
+}
+
+pub(super) fn write(path: &Path, suites: &[SuiteResult], first_seed: u64) -> anyhow::Result<()> {
     let file = SuitesFile {
         schema: 1,
         simulated: true,
@@ -125,6 +133,7 @@ fn show(results: &[SuiteResult], num_poses: u64, first_seed: u64, console: &mut 
         "right and accepted",
         "wrong and accepted",
         "not accepted",
+        "of these unknown",
         "median",
     ]);
     for result in results {
@@ -138,10 +147,14 @@ fn show(results: &[SuiteResult], num_poses: u64, first_seed: u64, console: &mut 
             share(result.num(|c| c.is_right() && c.accepted)),
             share(result.num(SuiteCase::is_wrong_accepted)),
             share(result.num(|c| !c.accepted)),
+            share(result.num(|c| c.is_unknown)),
             format!("{:.1} ms", result.median_ms().unwrap_or_default()),
         ]);
     }
     table.show(console);
+    console.line(&"");
+    show_bands(results, console);
+    console.line(&"");
     for result in results {
         for confusion in result.confusions().iter().take(NUM_CONFUSIONS) {
             console.line(&format_args!(

@@ -124,3 +124,52 @@ impl<'a> PartMask<'a> {
         false
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        simulate::{CellSetup, Clutter, PartKind, Placement, Side, frame},
+        stages::{
+            contour::{ContourParams, find_contour},
+            project::{ProjectParams, project},
+            rank::Query,
+            scene::scene_from_frame,
+            segment::{SegmentParams, segment},
+            signature::{SignatureParams, describe},
+        },
+    };
+
+    fn cut_share(clutter: Clutter) -> f64 {
+        let mut setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 0, 12);
+        setup.pose = crate::simulate::PartPose::Drawn(Placement {
+            nearest: crate::units::Metres(1.5),
+            ..Placement::facing()
+        });
+        setup.clutter = clutter;
+        let scene = scene_from_frame(&frame(&setup).frame);
+        let part = segment(&scene, &SegmentParams::default()).part;
+        let part = part.expect("a part");
+        let plane = project(&part, &ProjectParams::default()).expect("a plane");
+        let contour = find_contour(&plane, &ContourParams::default()).expect("an outline");
+        let signature = describe(&contour, &SignatureParams::default()).expect("rays");
+        let query = Query {
+            plane: &plane,
+            contour: &contour,
+            signature: &signature,
+        };
+        let scene = Scene {
+            scene: &scene,
+            part: &part,
+            query,
+        };
+        outline_of(&scene).cut_share
+    }
+
+    #[test]
+    fn a_plank_cuts_the_outline_and_things_behind_do_not() {
+        assert!(cut_share(Clutter::None) < 0.01);
+        assert!(cut_share(Clutter::OnFloor) < 0.01);
+        assert!(cut_share(Clutter::InFront) > 0.08);
+    }
+}

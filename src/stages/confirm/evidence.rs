@@ -50,7 +50,9 @@ pub struct Evidence {
     pub relief_m: f64,
     /// Mean distance of the part's outline and openings to the reference's, metres.
     pub outline_m: f64,
-    /// Cosine of the angle between where the camera is and the nearest of the sides that the reference is known from.
+    /// Share of the part's outline where only the view ends, 0..1.
+    pub cut: f64,
+    /// Cosine of the angle that the reference's face is seen at.
     pub facing: f64,
 }
 
@@ -103,6 +105,7 @@ impl Seen<'_> {
                 .max(0.0)
                 .sqrt(),
             outline_m: outline_distance(&self.source, &target, target_from_source),
+            cut: self.cut_share,
             facing: facing(reference, view, target_from_source),
         };
         (fit, evidence)
@@ -176,11 +179,13 @@ fn facing(reference: &Reference, view: usize, target_from_source: &RigidTransfor
     (part_from_plane * Vector3::z()).dot(&towards.normalize())
 }
 
-/// A part that is seen at an angle of more than 66° to all of its views is not recognised: hardly a point of it says
-/// anything, and a strip of anything fits it.
-const LEAST_FACING: f64 = 0.4;
+/// A part that is seen at more than 61° to its face is not recognised: hardly a point of it says anything, and a strip
+/// of anything fits it.
+const LEAST_FACING: f64 = 0.48;
 /// Nor is a part of which less than this share is in sight: a strip of floor lies well on the end of a bumper.
-const LEAST_IN_SIGHT: f64 = 0.5;
+const LEAST_IN_SIGHT: f64 = 0.6;
+/// Nor is what has hardly an outline of its own.
+const MOST_CUT: f64 = 0.5;
 
 impl Evidence {
     /// What the score is made of: each 0 for a perfect fit, and some 1 where a fit becomes doubtful. Shares beyond 0.4
@@ -198,7 +203,7 @@ impl Evidence {
     /// The probability that the part hangs there and stands where it was found, 0..1.
     pub fn score(&self) -> f64 {
         let in_sight = (1.0 - self.outside) * (1.0 - self.hidden);
-        if self.facing < LEAST_FACING || in_sight < LEAST_IN_SIGHT {
+        if self.facing < LEAST_FACING || in_sight < LEAST_IN_SIGHT || self.cut > MOST_CUT {
             return 0.0;
         }
         let weighted = self.features().into_iter().zip(WEIGHTS);

@@ -25,13 +25,19 @@ const SHIFTS: [[f64; 2]; 5] = [
     [0.0, -0.45],
 ];
 /// Scales of the weights, metres, from what a centroid is off by to what the outline is known to.
-const SCALES: [f64; 7] = [0.12, 0.09, 0.06, 0.045, 0.03, 0.02, 0.02];
+const FIRST_SCALES: [f64; 3] = [0.12, 0.08, 0.05];
+/// For those that are pulled further.
+const LAST_SCALES: [f64; 4] = [0.045, 0.03, 0.02, 0.02];
+/// Starts of a reference that are pulled further.
+const NUM_PULLED: usize = 80;
 /// Points of the piece's outline that are laid on.
 const NUM_POINTS: usize = 48;
 /// Points of the piece's area that must find the reference's.
 const NUM_INNER: usize = 80;
 /// What a point of the piece beyond the reference costs, in squared distances of the outline, metres.
 const BESIDE: f64 = 0.05;
+/// Distances of the outline beyond this count as this, metres.
+const FAR: f64 = 0.04;
 /// Starts kept of a reference.
 const NUM_STARTS: usize = 60;
 
@@ -78,15 +84,24 @@ impl Piece {
     pub(super) fn starts(&self, reference: &Reference) -> Vec<(usize, Isometry2<f64>)> {
         let mut laid: Vec<(f64, usize, Isometry2<f64>)> = Vec::new();
         for (number, view) in reference.views.iter().enumerate() {
-            let field = view.outline_field();
             for turn in 0..NUM_TURNS {
                 let turn = turn as f64 / NUM_TURNS as f64 * std::f64::consts::TAU;
                 for shift in SHIFTS {
                     let shift = Vector2::from(shift).component_mul(&self.deviations);
-                    let (at, cost) = self.pulled(view, field, turn, &shift);
-                    laid.push((cost, number, at));
+                    let rotation = UnitComplex::new(turn);
+                    let onto = view.signature.centroid - rotation * (self.centre + shift);
+                    let at = Isometry2::from_parts(onto.into(), rotation);
+                    let at = self.pulled(view, &at, &FIRST_SCALES);
+                    laid.push((self.cost(view, &at), number, at));
                 }
             }
+        }
+        laid.sort_by(|a, b| a.0.total_cmp(&b.0));
+        laid.truncate(NUM_PULLED);
+        for (cost, number, at) in &mut laid {
+            let view = &reference.views[*number];
+            *at = self.pulled(view, at, &LAST_SCALES);
+            *cost = self.cost(view, at);
         }
         laid.sort_by(|a, b| a.0.total_cmp(&b.0));
         let mut kept: Vec<(usize, Isometry2<f64>)> = Vec::new();
@@ -106,21 +121,17 @@ impl Piece {
         kept
     }
 
-    fn pulled(
-        &self,
-        view: &ReferenceView,
-        field: &OutlineField,
-        turn: f64,
-        shift: &Vector2<f64>,
-    ) -> (Isometry2<f64>, f64) {
-        let rotation = UnitComplex::new(turn);
-        let middle = view.signature.centroid;
-        let mut at =
-            Isometry2::from_parts((middle - rotation * (self.centre + shift)).into(), rotation);
-        for scale in SCALES {
-            at = self.step(field, &at, scale);
-        }
-        let limit_sq = 0.04_f64.powi(2);
+    fn pulled(&self, view: &ReferenceView, at: &Isometry2<f64>, scales: &[f64]) -> Isometry2<f64> {
+        let field = view.outline_field();
+        scales
+            .iter()
+            .fold(*at, |at, scale| self.step(field, &at, *scale))
+    }
+
+    /// How badly the piece lies on a view, square metres.
+    fn cost(&self, view: &ReferenceView, at: &Isometry2<f64>) -> f64 {
+        let field = view.outline_field();
+        let limit_sq = FAR * FAR;
         let off = self.outline.iter().map(|p| {
             let moved = at * p;
             field
@@ -130,13 +141,11 @@ impl Piece {
         let outline_cost = off.sum::<f64>() / self.outline.len() as f64;
         let is_beside = |p: &&Point2<f64>| {
             let (column, row) = view.plane.pixel_of(&(at * *p));
-            !view
-                .plane
-                .image
-                .is_set(column.round() as i64, row.round() as i64)
+            let (column, row) = (column.round() as i64, row.round() as i64);
+            !view.plane.image.is_set(column, row)
         };
         let beside = self.inner.iter().filter(is_beside).count() as f64 / self.inner.len() as f64;
-        (at, outline_cost + beside * BESIDE * BESIDE)
+        outline_cost + beside * BESIDE * BESIDE
     }
 
     /// One weighted step of iterated closest points, in closed form.
@@ -168,5 +177,50 @@ impl Piece {
         let rotation = UnitComplex::new(sin.atan2(cos));
         let shift = to - rotation * from;
         Isometry2::from_parts(shift.into(), rotation) * at
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{bench::suites::Suite, library::EnrolParams};
+
+    #[test]
+    fn two_thirds_of_an_outline_fall_back_onto_the_whole() {
+        let libraries = crate::bench::suites::SuiteLibraries::enrol(&EnrolParams::default());
+        let libraries = libraries.expect("the standard parts");
+        let reference = &libraries.of(Suite::Placed).references[4];
+        let view = &reference.views[0];
+        let moved = Isometry2::new(Vector2::new(0.3, -0.1), 2.0);
+        // What lies left of a line, seen at another place.
+        let is_seen = |p: &&Point2<f64>| p.x < view.signature.centroid.x + 0.2;
+        let outline: Vec<Point2<f64>> = view
+            .contour
+            .outline
+            .iter()
+            .filter(is_seen)
+            .copied()
+            .collect();
+        let image = &view.plane.image;
+        let area: Vec<Point2<f64>> = (0..image.width * image.height)
+            .step_by(7)
+            .filter(|i| image.pixels[*i] != 0)
+            .map(|i| {
+                view.plane
+                    .plane_point((i % image.width) as f64, (i / image.width) as f64)
+            })
+            .filter(|p| is_seen(&p))
+            .map(|p| moved * p)
+            .collect();
+        let own: Vec<Point2<f64>> = outline.iter().map(|p| moved * p).collect();
+        let piece = Piece::new(own.into_iter(), &area).expect("a piece");
+        let starts = piece.starts(reference);
+        let is_found = |start: &(usize, Isometry2<f64>)| {
+            let back = start.1 * moved;
+            start.0 == 0
+                && back.translation.vector.norm() < 0.01
+                && back.rotation.angle().abs() < 0.03
+        };
+        assert!(starts.iter().any(is_found));
     }
 }

@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 use super::{
     PointLabel, SegmentParams,
     noise::{self, NOISE_RANGE},
-    subset::Subset,
+    subset::{Neighbourhood, Subset},
 };
 use crate::{
     geometry::plane::Plane,
@@ -156,8 +156,12 @@ fn best_plane(
     let mut drawn = 0;
     while drawn < needed {
         drawn += 1;
+        let shape = match drawn % 2 {
+            0 => Neighbourhood::Strip,
+            _ => Neighbourhood::Round,
+        };
         let first = unclaimed[rng.random_range(0..unclaimed.len())];
-        let Some([second, third]) = subset.companions(first, unclaimed, rng) else {
+        let Some([second, third]) = subset.companions(first, shape, unclaimed, rng) else {
             continue;
         };
         let Some(plane) = Plane::through(
