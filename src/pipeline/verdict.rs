@@ -125,6 +125,14 @@ pub enum Rejection {
         /// Share beyond the picture.
         outside: f64,
     },
+    /// It would be seen too little to be told from something else.
+    #[error("what may be {part} is hardly in sight: seen nearly edge-on, or cut off on most sides")]
+    HardlySeen {
+        /// Best match.
+        part: String,
+        /// Its score.
+        score: f64,
+    },
     /// Of its type, but of another car model.
     #[error(
         "it is like {part}, but not the same: its surface is off by {relief}, and {:.1} % of it is missing; another model, the pose is approximate",
@@ -217,6 +225,9 @@ impl Advice for Rejection {
             Self::Piece { .. } => {
                 "Take away what stands before the part, or hang it further inside the picture, and capture again".into()
             }
+            Self::HardlySeen { .. } => {
+                "Turn the part so that its face looks at the camera, all of it inside the picture, and capture again".into()
+            }
             Self::AnotherModel { part, .. } => format!(
                 "If this one is to be painted too, enrol it as one more reference of {part}"
             ),
@@ -287,6 +298,8 @@ pub(super) fn verdict(
     }
 }
 
+/// Of what is hardly seen, more than this score is a good fit.
+const WORTH_NAMING: f64 = 0.3;
 /// A piece is one of which at least this share is hidden or beyond the picture.
 const PIECE: f64 = 0.05;
 
@@ -294,6 +307,9 @@ const PIECE: f64 = 0.05;
 fn too_low(best: &MatchEntry, accept: &AcceptParams) -> Rejection {
     let (part, score, threshold) = (best.part.clone(), best.score, accept.min_score);
     match best.evidence {
+        Some(evidence) if !evidence.is_seen() && score > WORTH_NAMING => {
+            Rejection::HardlySeen { part, score }
+        }
         Some(_) if score < accept.unknown_below => Rejection::Unknown {
             nearest: part,
             score,

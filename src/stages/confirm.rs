@@ -87,6 +87,18 @@ const FIRST: [Level; 2] = [
         search: Search::Field,
     },
 ];
+/// The plane of a piece is not that of the part: a piece starts further off.
+const FIRST_OF_A_PIECE: [Level; 2] = [
+    Level {
+        scale: 0.06,
+        max_steps: 10,
+        ..FIRST[0]
+    },
+    Level {
+        max_steps: 6,
+        ..FIRST[1]
+    },
+];
 const SECOND: [Level; 1] = [Level {
     num_surface: 400,
     num_edges: 128,

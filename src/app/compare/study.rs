@@ -252,6 +252,9 @@ fn refused(verdict: &Verdict, title_of: &dyn Fn(&str) -> String) -> Option<Strin
                 "its surface is off by {relief}, {:.1} % of it is missing: another model",
                 missing * 100.0
             ),
+            Rejection::HardlySeen { score, .. } => {
+                format!("score {score:.2}: hardly in sight")
+            }
             Rejection::Unknown { score, .. } => format!("score {score:.2}: unknown"),
             Rejection::Mirrored { part, .. } => {
                 format!("it looks like the mirror image of {}", title_of(part))

@@ -3,7 +3,7 @@
 use nalgebra::{Isometry2, Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use super::{
-    COST_LIMIT, FIRST, Seen,
+    COST_LIMIT, FIRST, FIRST_OF_A_PIECE, Seen,
     evidence::{Evidence, facing_view},
 };
 use crate::{
@@ -60,14 +60,14 @@ pub(super) struct Trial {
 /// Poses of a whole part on one reference that are refined: too few points decide between the two ways round.
 const POSES_OF_A_WHOLE: usize = 2;
 /// Poses of a piece: it may lie in several places along the part.
-const POSES_OF_A_PIECE: usize = 6;
+const POSES_OF_A_PIECE: usize = 8;
 /// Starts of a piece that lie this close, turn (degrees) and shift (millimetres), are of one place, seen in
 /// neighbouring views.
 const SAME_PLACE: (f64, f64) = (35.0, 60.0);
 /// Starts of a piece from one place.
 const STARTS_OF_A_PLACE: usize = 2;
 /// Starts of a piece in all.
-const MAX_STARTS: usize = 12;
+const MAX_STARTS: usize = 16;
 
 impl Seen<'_> {
     /// The poses that the placements of one reference lead to, the cheapest first.
@@ -76,10 +76,14 @@ impl Seen<'_> {
         reference: &Reference,
         placements: &[Placement],
     ) -> Vec<Trial> {
+        let first = match &self.piece {
+            Some(_) => &FIRST_OF_A_PIECE,
+            None => &FIRST,
+        };
         let mut trials: Vec<Trial> = self
             .distinct_starts(reference, placements)
             .into_iter()
-            .filter_map(|(view, start)| self.attempt(reference, view, &start, &FIRST))
+            .filter_map(|(view, start)| self.attempt(reference, view, &start, first))
             .collect();
         trials.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         trials

@@ -184,6 +184,8 @@ fn facing(reference: &Reference, view: usize, target_from_source: &RigidTransfor
 const LEAST_FACING: f64 = 0.48;
 /// Nor is a part of which less than this share is in sight: a strip of floor lies well on the end of a bumper.
 const LEAST_IN_SIGHT: f64 = 0.6;
+/// What a perfect fit of a part that is hardly seen scores.
+const HARDLY_SEEN: f64 = 0.4;
 /// Nor is what has hardly an outline of its own.
 const MOST_CUT: f64 = 0.5;
 
@@ -200,15 +202,19 @@ impl Evidence {
         ]
     }
 
-    /// The probability that the part hangs there and stands where it was found, 0..1.
-    pub fn score(&self) -> f64 {
+    /// True if enough of the part would be in sight to tell it from something else.
+    pub fn is_seen(&self) -> bool {
         let in_sight = (1.0 - self.outside) * (1.0 - self.hidden);
-        if self.facing < LEAST_FACING || in_sight < LEAST_IN_SIGHT || self.cut > MOST_CUT {
-            return 0.0;
-        }
+        self.facing >= LEAST_FACING && in_sight >= LEAST_IN_SIGHT && self.cut <= MOST_CUT
+    }
+
+    /// The probability that the part hangs there and stands where it was found, 0..1; at most 0.4 for what is hardly
+    /// seen.
+    pub fn score(&self) -> f64 {
+        let most = if self.is_seen() { 1.0 } else { HARDLY_SEEN };
         let weighted = self.features().into_iter().zip(WEIGHTS);
         let sum: f64 = weighted.map(|(x, weight)| weight * x).sum();
-        1.0 / (1.0 + (-(CONSTANT + sum)).exp())
+        most / (1.0 + (-(CONSTANT + sum)).exp())
     }
 }
 

@@ -29,7 +29,7 @@ const FIRST_SCALES: [f64; 3] = [0.12, 0.08, 0.05];
 /// For those that are pulled further.
 const LAST_SCALES: [f64; 4] = [0.045, 0.03, 0.02, 0.02];
 /// Starts of a reference that are pulled further.
-const NUM_PULLED: usize = 80;
+const NUM_PULLED: usize = 120;
 /// Points of the piece's outline that are laid on.
 const NUM_POINTS: usize = 48;
 /// Points of the piece's area that must find the reference's.
