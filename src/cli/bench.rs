@@ -34,7 +34,7 @@ Examples:
   partsight bench
   partsight bench recognition --poses 50 --model 3
   partsight bench recognition --suite all --json suites.json
-  partsight bench recognition --suite hard --poses 20 --seed 3000000
+  partsight bench recognition --suite hard --poses 20 --seed 3000000 --pictures why/
   partsight bench calibration
   partsight bench table1 --csv table1.csv
   partsight bench table1 --part fender --part grille
@@ -62,6 +62,9 @@ pub(super) struct BenchArgs {
     /// Of recognition: these sets of frames instead; may be given several times
     #[arg(long, value_enum, value_name = "NAME")]
     suite: Vec<suites::SuiteChoice>,
+    /// Of the sets of frames: draw the stages of what went wrong into this folder, the first of each subject
+    #[arg(long, value_name = "DIR", requires = "suite")]
+    pictures: Option<PathBuf>,
     /// Write every case to this file as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,

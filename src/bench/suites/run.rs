@@ -10,7 +10,12 @@ use crate::{
     library::{About, EnrolError, EnrolParams, Library, PartName, enrol_captured},
     pipeline::{Cancelled, Inspection, Recipe, Verdict, Watch, run},
     simulate::{CellSetup, PartKind, PartPose, Side, Truth, frame, frame_of_mesh},
-    stages::{confirm::Evidence, rank::MatchEntry, reference::Reference, scene::scene_from_frame},
+    stages::{
+        confirm::Evidence,
+        rank::MatchEntry,
+        reference::Reference,
+        scene::{SceneCloud, scene_from_frame},
+    },
 };
 
 /// The libraries that the suites are inspected against: standard parts, each enrolled from one frontal capture.
@@ -250,21 +255,23 @@ pub struct Confusion {
     pub first_seed: u64,
 }
 
-/// Inspects the frames of a suite; `after_each` is called after every frame.
+/// Inspects the frames of a suite; `after_each` is called with every frame's outcome, its scene and what was found.
 pub fn run_suite(
     suite: Suite,
     frames: &[SuiteFrame],
     library: &Library,
     recipe: &Recipe,
     watch: &dyn Watch,
-    mut after_each: impl FnMut(&SuiteFrame, &Inspection),
+    mut after_each: impl FnMut(&SuiteCase, &SceneCloud, &Inspection),
 ) -> Result<SuiteResult, Cancelled> {
     let mut cases = Vec::with_capacity(frames.len());
     for frame in frames {
         let shot = frame_of_mesh(&frame.setup, &frame.setup.subject.mesh());
-        let inspection = run(&scene_from_frame(&shot.frame), library, recipe, watch)?;
-        cases.push(SuiteCase::of(frame, &shot.truth, &inspection));
-        after_each(frame, &inspection);
+        let scene = scene_from_frame(&shot.frame);
+        let inspection = run(&scene, library, recipe, watch)?;
+        let case = SuiteCase::of(frame, &shot.truth, &inspection);
+        after_each(&case, &scene, &inspection);
+        cases.push(case);
     }
     Ok(SuiteResult { suite, cases })
 }

@@ -22,7 +22,7 @@ const ACCEPTED: f64 = 0.9;
 pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let num_poses = args.poses.unwrap_or(NUM_POSES);
     let first_seed = args.seed.unwrap_or(TUNING_SEED);
-    let results = suites::results(&Suite::ALL, num_poses, first_seed, console)?;
+    let results = suites::results(&Suite::ALL, num_poses, first_seed, None, console)?;
     // One half of the subjects is fitted on, the other is measured, and the other way round.
     let (odd, even) = halves(&results);
     console.line(&format_args!(

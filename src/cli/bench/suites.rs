@@ -13,7 +13,9 @@ use crate::{
         console::{Advised as _, Console, Table},
     },
     library::EnrolParams,
-    pipeline::{Recipe, Unwatched},
+    pipeline::{Inspection, Recipe, Unwatched},
+    report::{InspectionLine, ReportError, ReportFolder, stage_pictures},
+    stages::scene::SceneCloud,
 };
 
 /// The suites by name.
@@ -76,7 +78,8 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
             suites.push(suite);
         }
     }
-    let results = results(&suites, num_poses, first_seed, console)?;
+    let pictures = args.pictures.as_deref().map(Pictures::make).transpose()?;
+    let results = results(&suites, num_poses, first_seed, pictures, console)?;
     show(&results, num_poses, first_seed, console);
     if let Some(path) = &args.json {
         write(path, &results, first_seed)?;
@@ -84,11 +87,49 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     Ok(Outcome::Accepted)
 }
 
+/// Where the stages of what went wrong are drawn: the first frame of each subject of each suite.
+pub(super) struct Pictures {
+    folder: ReportFolder,
+    known: Vec<(Suite, String)>,
+    failed: Option<ReportError>,
+}
+
+impl Pictures {
+    fn make(folder: &Path) -> anyhow::Result<Self> {
+        Ok(Self {
+            folder: ReportFolder::make(folder).advised()?,
+            known: Vec::new(),
+            failed: None,
+        })
+    }
+
+    fn keep(
+        &mut self,
+        suite: Suite,
+        case: &SuiteCase,
+        scene: &SceneCloud,
+        inspection: &Inspection,
+    ) {
+        let key = (suite, case.subject.clone());
+        let is_wrong = !case.is_right() || case.is_wrong_accepted();
+        if !is_wrong || self.failed.is_some() || self.known.contains(&key) {
+            return;
+        }
+        self.known.push(key);
+        let found = case.found.as_deref().unwrap_or("nothing");
+        let name = format!("{}_{}_as_{found}_{}", suite.name(), case.subject, case.seed);
+        let line = InspectionLine::of(&name, inspection).to_json();
+        let drawn = stage_pictures(scene, inspection);
+        self.failed = self.folder.write(Path::new(&name), &line, &drawn).err();
+    }
+}
+
 /// Runs suites one after the other, on this thread.
 pub(super) fn results(
     suites: &[Suite],
     num_poses: u64,
     first_seed: u64,
+    mut pictures: Option<Pictures>,
     console: &mut Console,
 ) -> anyhow::Result<Vec<SuiteResult>> {
     let libraries = SuiteLibraries::enrol(&EnrolParams::default()).advised()?;
@@ -101,10 +142,18 @@ pub(super) fn results(
     let mut results: Vec<SuiteResult> = Vec::new();
     for (suite, frames) in suites.iter().zip(&frames) {
         let library = libraries.of(*suite);
-        let done = |_: &_, _: &_| console.done();
+        let done = |case: &SuiteCase, scene: &SceneCloud, inspection: &Inspection| {
+            console.done();
+            if let Some(pictures) = &mut pictures {
+                pictures.keep(*suite, case, scene, inspection);
+            }
+        };
         results.push(run_suite(
             *suite, frames, library, &recipe, &Unwatched, done,
         )?);
+    }
+    if let Some(error) = pictures.and_then(|pictures| pictures.failed) {
+        return Err(error).advised();
     }
     console.end_progress();
     Ok(results)

@@ -109,47 +109,54 @@ impl Seen<'_> {
                 different.push(trial);
             }
         }
-        let mut contenders: Vec<Candidate> = different
+        let mut finer: Vec<Trial> = different
             .into_iter()
             .take(num_poses)
-            .filter_map(|trial| self.refined_candidate(reference, trial, levels))
+            .filter_map(|trial| self.finer(reference, trial, levels))
             .collect();
-        contenders.sort_by(|a, b| b.evidence.score().total_cmp(&a.evidence.score()));
-        let mut contenders = contenders.into_iter();
-        let mut best = contenders.next()?;
+        finer.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        // The cost does not know what hides a piece, the evidence does; for a whole part the cost is enough.
+        let num_weighed = match &self.piece {
+            Some(_) => finer.len(),
+            None => 1,
+        };
+        let mut weighed: Vec<Candidate> = finer
+            .iter()
+            .take(num_weighed)
+            .map(|trial| self.weighed(reference, trial))
+            .collect();
+        weighed.sort_by(|a, b| b.evidence.score().total_cmp(&a.evidence.score()));
+        let mut best = weighed.into_iter().next()?;
         let pose = best.refined.target_from_source;
         let is_other =
-            |c: &Candidate| self.is_apart(&pose, &c.refined.target_from_source, POSE_APART);
-        best.runner_up = contenders.find(is_other).map(|other| RunnerUp {
+            |trial: &&Trial| self.is_apart(&pose, &trial.refined.target_from_source, POSE_APART);
+        best.runner_up = finer.iter().find(is_other).map(|other| RunnerUp {
             target_from_source: other.refined.target_from_source,
             ratio: (other.cost / best.cost.max(f64::MIN_POSITIVE)).max(1.0),
         });
         Some(best)
     }
 
-    fn refined_candidate(
-        &self,
-        reference: &Reference,
-        trial: &Trial,
-        levels: &[Level],
-    ) -> Option<Candidate> {
+    fn finer(&self, reference: &Reference, trial: &Trial, levels: &[Level]) -> Option<Trial> {
         let start = &trial.refined.target_from_source;
-        let Trial {
-            mut refined, cost, ..
-        } = self.attempt(reference, trial.view, start, levels)?;
+        let mut finer = self.attempt(reference, trial.view, start, levels)?;
         let before = trial.refined.iterations.iter().copied();
-        refined.iterations.splice(0..0, before);
-        let view = facing_view(reference, &refined.target_from_source);
-        let (fit, evidence) =
-            self.weigh(reference, view, &refined.target_from_source, Search::Field);
-        Some(Candidate {
-            refined,
-            cost,
+        finer.refined.iterations.splice(0..0, before);
+        Some(finer)
+    }
+
+    fn weighed(&self, reference: &Reference, trial: &Trial) -> Candidate {
+        let pose = &trial.refined.target_from_source;
+        let view = facing_view(reference, pose);
+        let (fit, evidence) = self.weigh(reference, view, pose, Search::Field);
+        Candidate {
+            refined: trial.refined.clone(),
+            cost: trial.cost,
             view,
             fit,
             evidence,
             runner_up: None,
-        })
+        }
     }
 
     /// Neighbouring views lead to nearly the same start: one or two of them are enough.

@@ -14,6 +14,8 @@ use crate::{geometry::cloud::is_finite, stages::scene::PictureEdge};
 const WALK: i64 = 32;
 /// Pixels along the picture's edge without readings.
 const MARGIN: i64 = 4;
+/// An outline that ends so many pixels before that edge ends at it.
+const AT_EDGE: i64 = 4;
 /// What hides is nearer than the part by at least this, metres, plus the noise.
 const STEP_NEARER: f64 = 0.04;
 /// Outline points on either side that fix the outwards direction.
@@ -114,7 +116,8 @@ impl<'a> PartMask<'a> {
             let (u, v) = (p.x.round() as i64, p.y.round() as i64);
             let is_inside = u >= MARGIN && v >= MARGIN && u < width - MARGIN && v < height - MARGIN;
             if !is_inside {
-                return self.scene.scene.edge == PictureEdge::View;
+                // Further out there is the wall, or its shadow.
+                return walked <= AT_EDGE && self.scene.scene.edge == PictureEdge::View;
             }
             let i = (v * width + u) as usize;
             if !self.is_part[i] && is_finite(&points[i]) {
