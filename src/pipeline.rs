@@ -18,7 +18,7 @@ use crate::{
         project::{PlaneImage, ProjectParams, project},
         rank::{MatchRanking, Matcher, Query, RankParams, place, rank},
         scene::SceneCloud,
-        segment::{SegmentParams, Segmentation, SegmentedPart, segment},
+        segment::{SegmentParams, Segmentation, SegmentedPart, other_parts, segment},
         signature::{FanSignature, SignatureParams, describe},
     },
 };
@@ -106,6 +106,7 @@ pub fn run(
     let clock = StageClock::start(watch);
     let segmentation = clock.time(Stage::Segment, || segment(scene, &recipe.segment))?;
     let mut inspection = Inspection {
+        segmentation,
         plane: None,
         contour: None,
         signature: None,
@@ -113,23 +114,158 @@ pub fn run(
         pose: None,
         verdict: Verdict::NoPart(Unrecognisable::EmptyLibrary),
         timings: Timings::default(),
-        segmentation,
     };
-    let recognised = match inspection.segmentation.part.clone() {
-        Ok(part) => recognise(&mut inspection, &part, scene, library, recipe, &clock)?,
-        Err(no_part) => Err(no_part.into()),
-    };
-    inspection.verdict = match recognised {
-        Ok(()) => verdict(&inspection, recipe),
-        Err(reason) => Verdict::NoPart(reason),
-    };
+    match inspection.segmentation.part.clone() {
+        Ok(part) => {
+            let first = inspect_surface(&part, scene, library, recipe, &clock)?;
+            first.keep(&mut inspection);
+            if may_be_another(&inspection, recipe) {
+                look_elsewhere(&mut inspection, scene, library, recipe, &clock)?;
+            }
+            if may_be_another(&inspection, recipe) {
+                look_into_the_mirror(&mut inspection, scene, library, recipe, &clock)?;
+            }
+        }
+        Err(no_part) => inspection.verdict = Verdict::NoPart(no_part.into()),
+    }
     inspection.timings = clock.finish();
     Ok(inspection)
 }
 
-/// The stages after segmentation; each leaves its result in the inspection.
-fn recognise(
+/// Of the other surfaces so many are looked at.
+const MAX_OTHERS: usize = 3;
+
+/// Below this score one surface is as little an enrolled part as another: the first stays.
+const WORTH_CHANGING: f64 = 0.1;
+
+/// True if the part may be another of the surfaces in the scene. The paper knows only one.
+fn may_be_another(inspection: &Inspection, recipe: &Recipe) -> bool {
+    let is_ours = recipe.rank.matcher == Matcher::Default
+        && recipe.pose == PoseChoice::By(PoseMethod::Global);
+    let is_accepted = matches!(inspection.verdict, Verdict::Part { rejected: None, .. });
+    is_ours && !is_accepted && !inspection.ranking.entries.is_empty()
+}
+
+/// Looks at the next largest surfaces too, and keeps the one that is most likely an enrolled part.
+fn look_elsewhere(
     inspection: &mut Inspection,
+    scene: &SceneCloud,
+    library: &Library,
+    recipe: &Recipe,
+    clock: &StageClock<'_>,
+) -> Result<(), Cancelled> {
+    let others = clock.time(Stage::Segment, || {
+        other_parts(scene, &inspection.segmentation, &recipe.segment, MAX_OTHERS)
+    })?;
+    let mut best = inspection.best_score().max(WORTH_CHANGING);
+    for part in others {
+        let found = inspect_surface(&part, scene, library, recipe, clock)?;
+        if found.best_score() > best {
+            best = found.best_score();
+            inspection.segmentation.take(part);
+            found.keep(inspection);
+        }
+    }
+    Ok(())
+}
+
+/// A mirror image must score this much more than the part itself to be spoken of.
+const MIRROR_LEAD: f64 = 0.3;
+
+/// Says so if the mirror image of an enrolled part fits, and the part itself does not: a part of the other side.
+fn look_into_the_mirror(
+    inspection: &mut Inspection,
+    scene: &SceneCloud,
+    library: &Library,
+    recipe: &Recipe,
+    clock: &StageClock<'_>,
+) -> Result<(), Cancelled> {
+    let Ok(part) = &inspection.segmentation.part else {
+        return Ok(());
+    };
+    let scene = scene.mirrored();
+    let found = inspect_surface(&part.mirrored(&scene), &scene, library, recipe, clock)?;
+    let score = found.best_score();
+    let is_clear = score
+        > recipe
+            .accept
+            .unknown_below
+            .max(inspection.best_score() + MIRROR_LEAD);
+    if let (true, Verdict::Part { rejected, .. }, Some(seen)) = (
+        is_clear,
+        &mut inspection.verdict,
+        found.ranking.entries.first(),
+    ) {
+        *rejected = Some(Rejection::Mirrored {
+            part: seen.part.clone(),
+            score,
+        });
+    }
+    Ok(())
+}
+
+/// What the stages after segmentation make of one surface.
+#[derive(Default)]
+struct Surface {
+    plane: Option<PlaneImage>,
+    contour: Option<Contour>,
+    signature: Option<FanSignature>,
+    ranking: MatchRanking,
+    pose: Option<Result<PoseEstimate, PoseError>>,
+    verdict: Option<Verdict>,
+}
+
+impl Surface {
+    fn best_score(&self) -> f64 {
+        self.ranking.entries.first().map_or(0.0, |e| e.score)
+    }
+
+    fn keep(self, inspection: &mut Inspection) {
+        let Self {
+            plane,
+            contour,
+            signature,
+            ranking,
+            pose,
+            verdict,
+        } = self;
+        inspection.plane = plane;
+        inspection.contour = contour;
+        inspection.signature = signature;
+        inspection.ranking = ranking;
+        inspection.pose = pose;
+        if let Some(verdict) = verdict {
+            inspection.verdict = verdict;
+        }
+    }
+}
+
+impl Inspection {
+    fn best_score(&self) -> f64 {
+        self.ranking.entries.first().map_or(0.0, |e| e.score)
+    }
+}
+
+/// The stages after segmentation, on one surface.
+fn inspect_surface(
+    part: &SegmentedPart,
+    scene: &SceneCloud,
+    library: &Library,
+    recipe: &Recipe,
+    clock: &StageClock<'_>,
+) -> Result<Surface, Cancelled> {
+    let mut surface = Surface::default();
+    let recognised = recognise(&mut surface, part, scene, library, recipe, clock)?;
+    surface.verdict = Some(match recognised {
+        Ok(()) => verdict(&surface.ranking, surface.pose.as_ref(), recipe),
+        Err(reason) => Verdict::NoPart(reason),
+    });
+    Ok(surface)
+}
+
+/// Each stage leaves its result in the surface.
+fn recognise(
+    inspection: &mut Surface,
     part: &SegmentedPart,
     scene: &SceneCloud,
     library: &Library,

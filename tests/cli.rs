@@ -254,7 +254,8 @@ fn an_empty_cell_and_an_unknown_part_are_not_accepted() {
     let lines = ran.lines();
     assert_eq!(lines[0]["status"], "no_part");
     assert_eq!(lines[0]["part"], Value::Null);
-    assert_eq!(lines[1]["status"], "ok");
+    assert_eq!(lines[1]["status"], "unknown");
+    assert_eq!(lines[1]["part"], Value::Null);
     for line in lines {
         assert_eq!(line["accepted"], false);
         assert!(line["reason"].is_string());
@@ -265,6 +266,50 @@ fn an_empty_cell_and_an_unknown_part_are_not_accepted() {
         "{}",
         card.out
     );
+}
+
+#[test]
+fn what_stands_in_the_empty_cell_is_no_part_and_a_second_reference_names_its_part() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    let seen = |name: &'static str, options: &[&'static str]| {
+        let simulate = [
+            "simulate",
+            "--part",
+            "fender",
+            "--placement",
+            "facing",
+            "--out",
+            name,
+        ];
+        place.accepted(&[&simulate, options].concat());
+    };
+    seen("scene.pcd", &["--seed", "8"]);
+    // Known to the cell as it hangs there, the fender is furniture.
+    let inspect = ["inspect", "scene.pcd", "--json", "--library", "parts"];
+    let empty = place.run(&[&inspect[..], &["--empty-cell", "scene.pcd"]].concat());
+    assert_eq!(empty.code, 1, "{}", empty.err);
+    assert_eq!(empty.lines()[0]["status"], "no_part");
+    seen("other_make.pcd", &["--model", "5"]);
+    let enrol = [
+        "enrol",
+        "other_make.pcd",
+        "--name",
+        "fender_b",
+        "--as",
+        "fender",
+    ];
+    place.accepted(&[&enrol[..], &["--library", "parts"]].concat());
+    seen("other_scene.pcd", &["--model", "5", "--seed", "9"]);
+    let line = place
+        .run(&["inspect", "other_scene.pcd", "--json", "--library", "parts"])
+        .lines()
+        .remove(0);
+    assert_eq!(
+        (&line["part"], &line["accepted"]),
+        (&"fender".into(), &true.into())
+    );
+    assert_eq!(line["ranking"].as_array().map(Vec::len), Some(1));
 }
 
 #[test]

@@ -11,10 +11,12 @@ use partsight::{
     },
     library::{EnrolParams, Library},
     pipeline::{
-        Cancelled, Inspection, PoseChoice, Recipe, Stage, Unrecognisable, Unwatched, Verdict,
-        Watch, run,
+        Cancelled, Inspection, PoseChoice, Recipe, Rejection, Stage, Unrecognisable, Unwatched,
+        Verdict, Watch, run,
     },
-    simulate::{CellSetup, PartKind, PartPose, SensorNoise, Side, Subject, frame},
+    simulate::{
+        CellSetup, Clutter, ObjectKind, PartKind, PartPose, SensorNoise, Side, Subject, frame,
+    },
     stages::{
         pose::PoseMethod,
         rank::Matcher,
@@ -318,4 +320,102 @@ fn a_capture_saved_as_bare_points_is_recognised_as_well() {
             );
         }
     }
+}
+
+#[test]
+fn a_right_hand_part_is_refused_as_the_mirror_image_of_the_left_one() {
+    let EnrolledStandard { library, .. } = standard();
+    for kind in [PartKind::FrontDoor, PartKind::BackDoor, PartKind::Fender] {
+        let setup = CellSetup::with_part(kind, Side::Right, 0, 41);
+        let verdict = inspected(
+            &scene_from_frame(&frame(&setup).frame),
+            &library,
+            &Recipe::default(),
+        )
+        .verdict;
+        let mirrored = match &verdict {
+            Verdict::Part {
+                rejected: Some(Rejection::Mirrored { part, .. }),
+                ..
+            } => part.as_str(),
+            other => panic!("{kind}: {other:?}"),
+        };
+        assert_eq!(mirrored, kind.name());
+        assert!(verdict.is_unknown());
+    }
+}
+
+#[test]
+fn what_nobody_enrolled_is_unknown() {
+    let EnrolledStandard { library, .. } = standard();
+    for (object, seed) in [
+        (ObjectKind::Hood, 5),
+        (ObjectKind::Board, 6),
+        (ObjectKind::Box, 7),
+    ] {
+        let setup = CellSetup::new(Subject::Object(object), seed);
+        let verdict = inspected(
+            &scene_from_frame(&frame(&setup).frame),
+            &library,
+            &Recipe::default(),
+        )
+        .verdict;
+        assert!(
+            matches!(
+                verdict,
+                Verdict::Part {
+                    rejected: Some(Rejection::Unknown { .. }),
+                    ..
+                }
+            ),
+            "{object:?}: {verdict:?}"
+        );
+    }
+}
+
+#[test]
+fn a_part_behind_a_plank_among_clutter_and_noise_is_named() {
+    let EnrolledStandard { library, .. } = standard();
+    for kind in [PartKind::FrontDoor, PartKind::TrunkLid, PartKind::Fender] {
+        let mut setup = CellSetup::with_part(kind, Side::Left, 0, 23);
+        setup.clutter = Clutter::InFront;
+        setup.noise = SensorNoise {
+            multiplier: 3.0,
+            seed: 23,
+        };
+        let shot = frame(&setup);
+        let inspection = inspected(&scene_from_frame(&shot.frame), &library, &Recipe::default());
+        let verdict = &inspection.verdict;
+        assert!(
+            matches!(verdict, Verdict::Part { part, .. } if part == kind.name()),
+            "{kind}: {verdict:?}"
+        );
+        assert!(!verdict.is_unknown(), "{kind}: {verdict:?}");
+    }
+}
+
+#[test]
+fn a_second_reference_of_the_same_part_takes_nothing_from_its_margin() {
+    let EnrolledStandard { mut library, .. } = standard();
+    let scene = door(0.3, [0.02, 0.0]);
+    let margin = |library: &Library| {
+        let verdict = inspected(&scene, library, &Recipe::default()).verdict;
+        match verdict {
+            Verdict::Part {
+                part,
+                margin,
+                rejected: None,
+                ..
+            } if part == "front_door" => margin,
+            other => panic!("{other:?}"),
+        }
+    };
+    let alone = margin(&library);
+    let again = library
+        .references
+        .iter()
+        .find(|reference| reference.name == "front_door")
+        .cloned();
+    library.references.extend(again);
+    assert!((margin(&library) - alone).abs() < 1e-9);
 }

@@ -23,6 +23,7 @@ use super::{
     worker::News,
     writing::WriteRequest,
 };
+use crate::stages::segment::EmptyCell;
 
 /// Something that happened.
 #[derive(Debug)]
@@ -31,6 +32,10 @@ pub enum Action {
     Capture,
     /// Capture from the simulated cell, with this in it.
     UseCell(CellChoice),
+    /// Take the scene in front as the empty cell: what stands in it is not taken for a part from now on.
+    TakeEmptyCell,
+    /// Forget the empty cell.
+    ForgetEmptyCell,
     /// Have a person choose a file or folder.
     Ask(Ask),
     /// A person chose it.
@@ -133,6 +138,11 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
             state.source = Source::Cell(choice);
             return Some(capture(state));
         }
+        Action::TakeEmptyCell => take_empty_cell(state),
+        Action::ForgetEmptyCell => {
+            state.empty_cell = None;
+            notify(state, Notice::done("The empty cell is forgotten"));
+        }
         Action::Ask(Ask::Scene) if state.workspace == Workspace::Enrol => {
             return Some(Effect::ShowDialog(Ask::Part));
         }
@@ -227,8 +237,27 @@ fn capture(state: &mut State) -> Effect {
     if state.workspace == Workspace::Enrol {
         return enrol::take(state, source, what);
     }
+    let source = match &state.empty_cell {
+        Some(cell) => SceneSource::Before(Arc::clone(cell), Box::new(source)),
+        None => source,
+    };
     let recipe = Arc::clone(&state.recipe);
     state.begin(what, Request::Inspect(InspectRequest { source, recipe }))
+}
+
+/// The scene in front becomes the empty cell.
+fn take_empty_cell(state: &mut State) {
+    let Some(shown) = &state.shown else {
+        return;
+    };
+    match EmptyCell::of(&shown.inspected.scene) {
+        Ok(cell) => {
+            state.empty_cell = Some(Arc::new(cell));
+            let what = "The empty cell is taken: from the next capture on, what stands in it is not taken for a part";
+            notify(state, Notice::done(what));
+        }
+        Err(error) => notify(state, Trouble::of(&error).into()),
+    }
 }
 
 /// More files than this nobody looks through.

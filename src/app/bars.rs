@@ -87,6 +87,8 @@ fn source_menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
             actions.push(Action::Ask(Ask::Scene));
             ui.close();
         }
+        ui.separator();
+        empty_cell_entries(ui, state, actions);
         if !state.recent.is_empty() {
             ui.label(RichText::new("Recent files").font(font::heading()));
         }
@@ -102,6 +104,24 @@ fn source_menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     })
     .response
     .on_hover_text("Where Capture takes a scene from");
+}
+
+/// Taking and forgetting the empty cell.
+fn empty_cell_entries(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+    ui.label(RichText::new("Empty cell").font(font::heading()));
+    let take = Button::new("Take the empty cell");
+    let take = ui.add_enabled(state.shown.is_some(), take).on_hover_text(
+        "The scene in front shows the cell without a part: what stands in it is not taken for a part from now on",
+    );
+    if take.clicked() {
+        actions.push(Action::TakeEmptyCell);
+        ui.close();
+    }
+    let forget = Button::new("Forget the empty cell");
+    if ui.add_enabled(state.empty_cell.is_some(), forget).clicked() {
+        actions.push(Action::ForgetEmptyCell);
+        ui.close();
+    }
 }
 
 /// The text, its middle left out where it is too long.

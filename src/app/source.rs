@@ -9,7 +9,10 @@ use crate::{
     error::Advice,
     files::{self, FileError, FileWarning, Opened},
     simulate::{CellSetup, ObjectKind, PartKind, PartPose, Placement, Side, Subject, frame},
-    stages::scene::{SceneCloud, scene_from_cloud, scene_from_frame},
+    stages::{
+        scene::{SceneCloud, scene_from_cloud, scene_from_frame},
+        segment::EmptyCell,
+    },
 };
 
 /// What hangs in the simulated cell when a frame is captured.
@@ -141,6 +144,8 @@ pub enum SceneSource {
     File(PathBuf),
     /// A scene that is at hand.
     AtHand(Arc<SceneCloud>, Origin),
+    /// Another source, whose camera saw this empty cell before.
+    Before(Arc<EmptyCell>, Box<SceneSource>),
 }
 
 /// A scene and where it came from.
@@ -210,6 +215,13 @@ impl SceneSource {
                     origin: Origin::File(path.clone()),
                     warnings,
                 })
+            }
+            Self::Before(cell, source) => {
+                let mut captured = source.read()?;
+                let mut scene = Arc::unwrap_or_clone(captured.scene);
+                scene.empty_cell = Some(Arc::clone(cell));
+                captured.scene = Arc::new(scene);
+                Ok(captured)
             }
             Self::AtHand(scene, origin) => Ok(Captured {
                 scene: Arc::clone(scene),

@@ -14,13 +14,18 @@ use super::{
     shelf::LibraryShown,
     source::CellChoice,
 };
-use crate::pipeline::{Recipe, Stage};
+use crate::{
+    pipeline::{Recipe, Stage},
+    stages::segment::EmptyCell,
+};
 
 /// Everything that the panels read. Only [`apply`](super::action::apply) changes it.
 #[derive(Debug, Default)]
 pub struct State {
     /// What Capture takes a scene from.
     pub source: Source,
+    /// What the camera saw without a part, if that was taken.
+    pub empty_cell: Option<Arc<EmptyCell>>,
     /// The last result.
     pub shown: Option<Shown>,
     /// What is being worked on, by whom; while a scene is, the result shown is old.

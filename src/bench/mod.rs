@@ -3,10 +3,12 @@
 //! Speed is reported here and nowhere else: as medians on the machine at hand, beside the budgets that the design
 //! names, never asserted by a test.
 
+pub mod calibration;
 mod recognition;
 pub mod registration;
 pub mod scaling;
 mod speed;
+pub mod suites;
 pub mod systems;
 pub mod table1;
 mod window;

@@ -2,12 +2,13 @@
 
 use nalgebra::Point3;
 
+use super::suites::{enrol_part, enrolment_pose};
 use crate::{
     geometry::rigid::{PoseError, RigidTransform, pose_error},
-    library::{About, EnrolError, EnrolParams, Library, PartName, enrol_captured},
+    library::{EnrolError, EnrolParams, Library},
     pipeline::{Cancelled, Recipe, Timings, Verdict, Watch, run},
     simulate::{CellSetup, PartKind, PartModel, PartPose, Placement, Side, frame_of_mesh},
-    stages::{reference::Reference, scene::scene_from_frame},
+    stages::scene::scene_from_frame,
     units::{Metres, Radians},
 };
 
@@ -145,40 +146,14 @@ impl Recognition {
 
 /// Enrols each part of the standard car from one capture, square-on, 1.3 m before the camera.
 pub fn enrol_standard_parts(params: &EnrolParams) -> Result<EnrolledStandard, EnrolError> {
-    let mut library = Library::default();
-    for kind in PartKind::ALL {
-        library.references.push(enrol_model(kind, 0, params)?);
-    }
+    let references = PartKind::ALL
+        .into_iter()
+        .map(|kind| enrol_part(kind, Side::Left, 0, params))
+        .collect::<Result<_, _>>()?;
     Ok(EnrolledStandard {
-        library,
-        camera_from_model: [enrolled_at(); 8],
+        library: Library { references },
+        camera_from_model: [enrolment_pose(); 8],
     })
-}
-
-/// Where a part hangs when it is enrolled.
-fn enrolled_at() -> RigidTransform {
-    RigidTransform::translation(0.0, 0.0, 1.3)
-}
-
-/// Enrols a part of a model of the car from one capture, square-on, 1.3 m before the camera.
-pub(super) fn enrol_model(
-    kind: PartKind,
-    model_seed: u64,
-    params: &EnrolParams,
-) -> Result<Reference, EnrolError> {
-    let mut setup = CellSetup::with_part(kind, Side::Left, model_seed, 1);
-    setup.pose = PartPose::Fixed(enrolled_at());
-    let shot = crate::simulate::frame(&setup);
-    let about = About {
-        name: PartName::new(kind.name()).expect("our own names are valid"),
-        title: kind.title().to_owned(),
-        notes: String::new(),
-        from: "simulated cell".to_owned(),
-        at: jiff::Timestamp::UNIX_EPOCH,
-        simulated: true,
-    };
-    let enrolled = enrol_captured(&scene_from_frame(&shot.frame), &about, params)?;
-    Ok(enrolled.reference)
 }
 
 /// Inspects the frames of a setup; `after_each` is told how many are done, of how many.

@@ -22,7 +22,7 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 use serde::Serialize;
 
-use super::{recognition::enrol_model, speed::quantile};
+use super::{speed::quantile, suites::enrol_part};
 use crate::{
     error::Advice,
     geometry::{
@@ -231,7 +231,7 @@ fn originals(most: usize, watch: &dyn Watch) -> Result<Vec<Reference>, ScalingEr
                 return Err(Cancelled.into());
             }
             if originals.len() < most {
-                let enrolled = enrol_model(kind, model_seed, &EnrolParams::default())?;
+                let enrolled = enrol_part(kind, Side::Left, model_seed, &EnrolParams::default())?;
                 originals.push(without_cloud(enrolled));
             }
         }

@@ -140,6 +140,7 @@ impl CaseFolder {
             cloud,
             intrinsics: camera,
             edge: case.meta.scene.picture_edge.into(),
+            empty_cell: None,
         })
     }
 

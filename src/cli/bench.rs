@@ -1,7 +1,9 @@
 //! `partsight bench`: how often right, how far off, how long, on simulated frames.
 
+mod calibration;
 mod registration;
 mod scaling;
+mod suites;
 mod systems;
 mod table1;
 
@@ -34,7 +36,9 @@ use crate::{
 Examples:
   partsight bench
   partsight bench recognition --poses 50 --model 3
-  partsight bench recognition --placement hard --json hard.json
+  partsight bench recognition --suite all --json suites.json
+  partsight bench recognition --suite hard --poses 20 --seed 3000000 --pictures why/
+  partsight bench calibration
   partsight bench table1 --csv table1.csv
   partsight bench table1 --part fender --part grille
   partsight bench registration --poses 125
@@ -50,17 +54,23 @@ pub(super) struct BenchArgs {
     #[arg(value_enum, default_value_t = Bench::Speed)]
     bench: Bench,
     /// Poses of each part
-    #[arg(long, value_name = "N", default_value_t = 25, value_parser = clap::value_parser!(u64).range(1..=100_000))]
-    poses: u64,
-    /// Seed of the first frame
-    #[arg(long, default_value_t = 1_000_000)]
-    seed: u64,
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=10_000))]
+    poses: Option<u64>,
+    /// Seed of the first frame. Parameters are chosen on frames from 3000000 on, and measured on those from 9000000 on
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
+    seed: Option<u64>,
     /// Model of the car that is seen; the enrolled one is 0
     #[arg(long, default_value_t = 0)]
     model: u64,
     /// How far from square-on the poses are drawn
     #[arg(long, value_enum, default_value_t = super::simulate::PlacementChoice::Placed)]
     placement: super::simulate::PlacementChoice,
+    /// Of recognition: these sets of frames instead; may be given several times
+    #[arg(long, value_enum, value_name = "NAME")]
+    suite: Vec<suites::SuiteChoice>,
+    /// Of the sets of frames: draw the stages of what went wrong into this folder, the first of each subject
+    #[arg(long, value_name = "DIR", requires = "suite")]
+    pictures: Option<PathBuf>,
     /// Write every case to this file as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
@@ -86,6 +96,8 @@ enum Bench {
     Speed,
     /// Right, accepted and well placed, by the default matcher and by the paper's
     Recognition,
+    /// Fits the score to simulated frames, and says what each piece of evidence is worth
+    Calibration,
     /// The paper's Table I: what is left of E from T1..T5, by ICP, ICP-GA and the global method
     Table1,
     /// Poses of clouds that share no point: whole, single views, hidden, noisy, with stray points, and what the genetic algorithm adds
@@ -98,6 +110,10 @@ enum Bench {
     Window,
 }
 
+/// Poses of each part, unless asked for otherwise.
+const NUM_POSES: u64 = 25;
+/// Seed of the first frame, unless asked for otherwise.
+const FIRST_SEED: u64 = 1_000_000;
 /// Frames of each kind that are measured.
 const NUM_FRAMES: usize = 120;
 
@@ -152,6 +168,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         Bench::Table1 => return table1::run(args, console),
         Bench::Registration => return registration::run(args, console),
         Bench::Systems => return systems::run(args, console),
+        Bench::Calibration => return calibration::run(args, console),
     };
     if args.csv.is_some() || !args.part.is_empty() {
         return Err(advised_error(
@@ -159,14 +176,24 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
             "Ask for it: partsight bench table1 --csv FILE",
         ));
     }
+    if !args.suite.is_empty() {
+        if args.bench != Bench::Recognition {
+            return Err(advised_error(
+                "--suite goes with recognition",
+                "Ask for it: partsight bench recognition --suite all",
+            ));
+        }
+        return suites::run(args, console);
+    }
+    let num_poses = args.poses.unwrap_or(NUM_POSES);
     let enrolled = enrol_standard_parts(&EnrolParams::default()).advised()?;
     let setup = RecognitionSetup {
-        num_poses: args.poses,
-        first_seed: args.seed,
+        num_poses,
+        first_seed: args.seed.unwrap_or(FIRST_SEED),
         model_seed: args.model,
         placement: Placement::from(args.placement),
     };
-    let num_frames = args.poses as usize * enrolled.library.references.len();
+    let num_frames = num_poses as usize * enrolled.library.references.len();
     console.start_progress(num_frames * matchers.len());
     let mut runs: Vec<(Matcher, Recognition)> = Vec::new();
     for &matcher in matchers {
@@ -180,7 +207,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     console.end_progress();
     console.line(&format_args!(
         "Simulated: {num_frames} frames, {} of each part, car model {} against the enrolled model 0, one core.",
-        args.poses, args.model
+        num_poses, args.model
     ));
     if args.bench == Bench::Recognition {
         console.line(&"");

@@ -27,6 +27,7 @@ use crate::{
 Examples:
   partsight enrol capture.pcd --name front_door
   partsight enrol scan.ply --name grille --whole --notes \"spare, with badge\"
+  partsight enrol other_make.pcd --name front_door_b --as front_door
   partsight enrol car.gltf#Door_FL --name door_left --library /media/stick/parts
 
 An organised cloud or a depth image is a captured scene: the part before the wall is taken out of it. Anything
@@ -38,6 +39,9 @@ pub(super) struct EnrolArgs {
     /// Name of the part: lowercase letters, digits, _ and -
     #[arg(long)]
     name: PartName,
+    /// The part that this is one more reference of, such as another view or another car model: a verdict names that part
+    #[arg(long = "as", value_name = "PART")]
+    part: Option<PartName>,
     #[command(flatten)]
     library: LibraryChoice,
     /// Take everything in the file
@@ -58,7 +62,9 @@ pub(super) struct EnrolArgs {
 }
 
 pub(super) fn run(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    let enrolled = enrolled_from(args, console)?;
+    let mut enrolled = enrolled_from(args, console)?;
+    enrolled.part.meta.part.clone_from(&args.part);
+    enrolled.reference.name = enrolled.part.meta.part_name().to_string();
     for warning in &enrolled.warnings {
         console.warn(warning, warning);
     }

@@ -1,6 +1,9 @@
 //! `partsight inspect`: which part is it, and where?
 
-use std::path::{Path, PathBuf};
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use clap::Args;
 
@@ -16,6 +19,7 @@ use crate::{
     library::Library,
     pipeline::{self, Inspection, Recipe, Unwatched, Verdict},
     report::{InspectionLine, ReportFolder, stage_pictures},
+    stages::segment::{EmptyCell, EmptyCellError},
 };
 
 /// Recognise the part in captured scenes and say where it is
@@ -26,6 +30,7 @@ Examples:
   partsight inspect captures/*.png --library /media/stick/reference_parts
   partsight inspect door.pcd --json | jq .part
   partsight inspect misread.pcd --report why/
+  partsight inspect door.pcd --empty-cell cell.pcd
   partsight inspect door.pcd --matcher paper --pose icp-ga
 
 Files: PCD, PLY, XYZ or CSV text, or a 16-bit depth PNG with its intrinsics in a JSON beside it; metres.
@@ -40,6 +45,9 @@ pub(super) struct InspectArgs {
     library: LibraryChoice,
     #[command(flatten)]
     recipe: RecipeChoice,
+    /// What the same camera saw without a part: what stood there then is not taken for one
+    #[arg(long, value_name = "FILE")]
+    empty_cell: Option<PathBuf>,
     /// Write one line of JSON per file, and nothing else, to standard output
     #[arg(long)]
     json: bool,
@@ -58,11 +66,22 @@ pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<O
     };
     let report = args.report.as_deref().map(ReportFolder::make);
     let report = report.transpose().advised()?;
+    let empty_cell = match &args.empty_cell {
+        Some(path) => {
+            let (scene, warnings) = open_scene(path).advised()?;
+            for warning in &warnings {
+                console.warn(warning, warning);
+            }
+            Some(Arc::new(EmptyCell::of(&scene).advised()?))
+        }
+        None => None,
+    };
     telling.head(console);
     console.start_progress(args.files.len());
     let mut one = Inspector {
         library,
         recipe,
+        empty_cell,
         telling,
         report,
     };
@@ -79,6 +98,7 @@ pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<O
 struct Inspector {
     library: Library,
     recipe: Recipe,
+    empty_cell: Option<Arc<EmptyCell>>,
     telling: Telling,
     report: Option<ReportFolder>,
 }
@@ -88,11 +108,12 @@ impl Inspector {
         let Self {
             library,
             recipe,
+            empty_cell,
             telling,
             report,
         } = self;
         let name = path.display().to_string();
-        let (scene, warnings) = match open_scene(path) {
+        let (mut scene, warnings) = match open_scene(path) {
             Ok(opened) => opened,
             Err(error) => {
                 let line = InspectionLine::unreadable(&name, &error).to_json();
@@ -109,6 +130,11 @@ impl Inspector {
         for warning in &warnings {
             console.warn(&format_args!("{name}: {warning}"), warning);
         }
+        if empty_cell.as_ref().is_some_and(|cell| !cell.fits(&scene)) {
+            let other = EmptyCellError::OtherPicture;
+            console.warn(&format_args!("{name}: {other}"), &other);
+        }
+        scene.empty_cell.clone_from(empty_cell);
         let inspection = pipeline::run(&scene, library, recipe, &Unwatched)?;
         let line = InspectionLine::of(&name, &inspection).to_json();
         telling.inspected(&name, &line, &inspection, library, console);
@@ -221,7 +247,12 @@ impl Columns {
                 let figures = format!(
                     "{score:5.2} {margin:6.2}  {middle:>23}  {turn:>23}  {rms:>5} {time_ms:7.1}"
                 );
-                (part.as_str(), verdict, figures)
+                let part = if inspection.verdict.is_unknown() {
+                    "unknown"
+                } else {
+                    part.as_str()
+                };
+                (part, verdict, figures)
             }
             Verdict::NoPart(_) => ("-", "NOT ACCEPTED", String::new()),
         };

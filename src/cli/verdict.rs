@@ -17,6 +17,12 @@ pub(super) fn outcome_of(inspection: &Inspection) -> Outcome {
     }
 }
 
+/// True if what was taken for the part runs out of the picture.
+fn reaches_the_edge(inspection: &Inspection) -> bool {
+    let part = inspection.segmentation.part.as_ref();
+    part.is_ok_and(|part| part.touches_edge)
+}
+
 /// Why an inspection was not accepted and what to do, if it was not.
 pub(super) fn complaint(inspection: &Inspection) -> Option<(String, String)> {
     match &inspection.verdict {
@@ -58,12 +64,13 @@ pub(super) fn show_card(
         } => {
             let verdict = rejected.as_ref().map_or("accepted", |_| "NOT ACCEPTED");
             line("scene", scene.to_owned());
-            line("part", format!("{part}: {verdict}"));
-            let ahead = inspection
-                .ranking
-                .entries
-                .get(1)
-                .map(|next| next.part.as_str());
+            if inspection.verdict.is_unknown() {
+                line("part", format!("unknown, nearest {part}: {verdict}"));
+            } else {
+                line("part", format!("{part}: {verdict}"));
+            }
+            let ahead = inspection.ranking.runner_up();
+            let ahead = ahead.map(|next| next.part.as_str());
             let ahead = ahead.map_or(String::new(), |next| {
                 format!(", {margin:.2} ahead of {next}")
             });
@@ -114,6 +121,10 @@ pub(super) fn show_card(
                 bounds.turn.degrees()
             ),
         );
+    }
+    if reaches_the_edge(inspection) {
+        let text = "what was found reaches the picture's edge: some of it may be missing";
+        line("edge", text.to_owned());
     }
     line(
         "time",

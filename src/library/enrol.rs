@@ -270,6 +270,7 @@ fn assemble(
         meta: PartMeta {
             schema_version: SCHEMA_VERSION,
             name: about.name.clone(),
+            part: None,
             title: about.title.clone(),
             notes: about.notes.clone(),
             coverage: source.coverage,

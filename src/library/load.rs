@@ -152,7 +152,8 @@ fn read_entry(
     let read = || -> Result<StoredPart, EntryError> {
         let meta = read_meta(entry)?;
         let cloud = read_cloud(entry, &meta.cloud)?;
-        let reference = Reference::prepare(meta.name.as_str(), cloud, meta.coverage, params)?;
+        let reference =
+            Reference::prepare(meta.part_name().as_str(), cloud, meta.coverage, params)?;
         let warnings = troubles(entry, &reference, look, params)
             .into_iter()
             .map(|trouble| EntryWarning {

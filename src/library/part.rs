@@ -40,6 +40,10 @@ pub struct PartMeta {
     pub schema_version: u32,
     /// The part's name, which is that of its folder.
     pub name: PartName,
+    /// The part that this is one more reference of, such as another view or another car model; none if it is the
+    /// part's own. A verdict names the part, whichever of its references was found.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub part: Option<PartName>,
     /// The name for people.
     #[serde(default)]
     pub title: String,
@@ -65,6 +69,11 @@ impl PartMeta {
             title: self.title.clone(),
             notes: self.notes.clone(),
         }
+    }
+
+    /// The name of the part that a verdict gives.
+    pub fn part_name(&self) -> &PartName {
+        self.part.as_ref().unwrap_or(&self.name)
     }
 
     /// Its title, or its name where it has none.

@@ -1,12 +1,18 @@
 //! The verdict on a scene, and why it is not another.
 
-use super::{Inspection, Recipe};
+use super::Recipe;
 use crate::{
     error::Advice,
     stages::{
-        contour::ContourError, pose::PoseError, project::ProjectError, rank::Matcher,
-        segment::NoPart, signature::SignatureError,
+        confirm::Evidence,
+        contour::ContourError,
+        pose::{PoseError, PoseEstimate},
+        project::ProjectError,
+        rank::{MatchEntry, MatchRanking, Matcher},
+        segment::NoPart,
+        signature::SignatureError,
     },
+    units::Metres,
 };
 
 /// When a verdict counts.
@@ -15,15 +21,27 @@ use crate::{
 pub struct AcceptParams {
     /// Least score, 0..1. Raising it turns wrong verdicts into rejections, and some right ones too.
     pub min_score: f64,
-    /// Least lead over the next part, 0..1.
+    /// Least lead over the next part of another name, 0..1.
     pub min_margin: f64,
+    /// A best guess below this score, 0..1, is not named: what hangs there is more likely unknown. Raising it names
+    /// fewer parts that are half hidden.
+    pub unknown_below: f64,
+    /// How far the surface may bulge or sink from the reference's, 0.5..20 mm root mean square beyond the noise; more
+    /// is another model of the part. Raising it accepts other models too, at a pose that is only about right.
+    pub max_relief: Metres,
+    /// Share of the reference that the camera may look past, 0.001..0.1; more is another model of the part, of another
+    /// size. Raising it accepts other models too, at a pose that is only about right.
+    pub max_missing: f64,
 }
 
 impl Default for AcceptParams {
     fn default() -> Self {
         Self {
-            min_score: 0.85,
+            min_score: 0.9,
             min_margin: 0.05,
+            unknown_below: 0.5,
+            max_relief: Metres::from_mm(4.0),
+            max_missing: 0.008,
         }
     }
 }
@@ -46,6 +64,36 @@ pub enum Verdict {
     NoPart(Unrecognisable),
 }
 
+impl Verdict {
+    /// True if something hangs there that is nothing enrolled.
+    pub fn is_unknown(&self) -> bool {
+        let rejected = match self {
+            Self::Part { rejected, .. } => rejected.as_ref(),
+            Self::NoPart(_) => None,
+        };
+        matches!(
+            rejected,
+            Some(Rejection::Unknown { .. } | Rejection::Mirrored { .. })
+        )
+    }
+
+    /// True if it is another model of the part, so that the pose is only about right.
+    pub fn is_approximate(&self) -> bool {
+        matches!(
+            self,
+            Self::Part {
+                rejected: Some(Rejection::AnotherModel { .. }),
+                ..
+            }
+        )
+    }
+
+    /// True if the part was named and accepted.
+    pub fn is_accepted(&self) -> bool {
+        matches!(self, Self::Part { rejected: None, .. })
+    }
+}
+
 /// Why a best guess was not accepted.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Rejection {
@@ -58,6 +106,63 @@ pub enum Rejection {
         score: f64,
         /// Least score.
         threshold: f64,
+    },
+    /// Only a piece of it is seen, and that is too little.
+    #[error(
+        "only a piece of {part} is in sight ({:.0} % of it hidden, {:.0} % beyond the picture); it scores {score:.2}, below the threshold of {threshold:.2}",
+        hidden * 100.0,
+        outside * 100.0
+    )]
+    Piece {
+        /// Best match.
+        part: String,
+        /// Its score.
+        score: f64,
+        /// Least score.
+        threshold: f64,
+        /// Share hidden by something nearer.
+        hidden: f64,
+        /// Share beyond the picture.
+        outside: f64,
+    },
+    /// It would be seen too little to be told from something else.
+    #[error("what may be {part} is hardly in sight: seen nearly edge-on, or cut off on most sides")]
+    HardlySeen {
+        /// Best match.
+        part: String,
+        /// Its score.
+        score: f64,
+    },
+    /// Of its type, but of another car model.
+    #[error(
+        "it is like {part}, but not the same: its surface is off by {relief}, and {:.1} % of it is missing; another model, the pose is approximate",
+        missing * 100.0
+    )]
+    AnotherModel {
+        /// Best match.
+        part: String,
+        /// Root mean square of how far patches of the surface are off.
+        relief: Metres,
+        /// Share of the reference that is not there, 0..1.
+        missing: f64,
+    },
+    /// Nothing enrolled is like it.
+    #[error("unknown: nothing enrolled is like it; the nearest, {nearest}, scores {score:.2}")]
+    Unknown {
+        /// Best match.
+        nearest: String,
+        /// Its score.
+        score: f64,
+    },
+    /// Its mirror image is enrolled.
+    #[error(
+        "it looks like the mirror image of {part} (which scores {score:.2}): the part of the other side of the car"
+    )]
+    Mirrored {
+        /// The part whose mirror image it looks like.
+        part: String,
+        /// How well the mirror image fits.
+        score: f64,
     },
     /// Another part fits nearly as well.
     #[error(
@@ -117,6 +222,21 @@ impl Advice for Rejection {
                  remove one of them from the library"
                     .into()
             }
+            Self::Piece { .. } => {
+                "Take away what stands before the part, or hang it further inside the picture, and capture again".into()
+            }
+            Self::HardlySeen { .. } => {
+                "Turn the part so that its face looks at the camera, all of it inside the picture, and capture again".into()
+            }
+            Self::AnotherModel { part, .. } => format!(
+                "If this one is to be painted too, enrol it as one more reference of {part}"
+            ),
+            Self::Unknown { .. } => {
+                "Enrol the part if it is to be painted; if it is enrolled, turn its face to the camera and capture again".into()
+            }
+            Self::Mirrored { .. } => {
+                "Enrol the part of this side under a name of its own, and do not paint it with the other side's path".into()
+            }
             Self::Unconfirmed { .. } => "Have the pose estimated too, with --pose global".into(),
             Self::NoPose(error) => error.advice(),
         }
@@ -136,36 +256,77 @@ impl Advice for Unrecognisable {
 }
 
 /// What the results of all stages come to.
-pub(super) fn verdict(inspection: &Inspection, recipe: &Recipe) -> Verdict {
-    let Some(best) = inspection.ranking.entries.first() else {
+pub(super) fn verdict(
+    ranking: &MatchRanking,
+    pose: Option<&Result<PoseEstimate, PoseError>>,
+    recipe: &Recipe,
+) -> Verdict {
+    let Some(best) = ranking.entries.first() else {
         return Verdict::NoPart(Unrecognisable::EmptyLibrary);
     };
     let accept = &recipe.accept;
-    let next = inspection.ranking.entries.get(1);
+    let next = ranking.runner_up();
     let margin = best.score - next.map_or(0.0, |n| n.score);
-    let part = best.part.clone();
-    let rejected = match (&inspection.pose, next) {
+    let rejected = match (pose, best.evidence) {
         (Some(Err(error)), _) => Some(Rejection::NoPose(*error)),
-        (None, _) if recipe.rank.matcher == Matcher::Paper => {
-            Some(Rejection::Unconfirmed { part: part.clone() })
-        }
-        _ if best.score < accept.min_score => Some(Rejection::LowScore {
-            part: part.clone(),
-            score: best.score,
-            threshold: accept.min_score,
+        (None, _) if recipe.rank.matcher == Matcher::Paper => Some(Rejection::Unconfirmed {
+            part: best.part.clone(),
         }),
-        (_, Some(next)) if margin < accept.min_margin => Some(Rejection::SmallMargin {
-            part: part.clone(),
+        _ if best.score < accept.min_score => Some(too_low(best, accept)),
+        _ if margin < accept.min_margin => next.map(|next| Rejection::SmallMargin {
+            part: best.part.clone(),
             other: next.part.clone(),
             margin,
             threshold: accept.min_margin,
         }),
+        (_, Some(evidence))
+            if evidence.relief_m > accept.max_relief.0 || evidence.missing > accept.max_missing =>
+        {
+            Some(Rejection::AnotherModel {
+                part: best.part.clone(),
+                relief: Metres(evidence.relief_m),
+                missing: evidence.missing,
+            })
+        }
         _ => None,
     };
     Verdict::Part {
-        part,
+        part: best.part.clone(),
         score: best.score,
         margin,
         rejected,
+    }
+}
+
+/// Of what is hardly seen, more than this score is a good fit.
+const WORTH_NAMING: f64 = 0.3;
+/// A piece is one of which at least this share is hidden or beyond the picture.
+const PIECE: f64 = 0.05;
+
+/// Why a score is too low: nobody knows the part, or too little of it is seen.
+fn too_low(best: &MatchEntry, accept: &AcceptParams) -> Rejection {
+    let (part, score, threshold) = (best.part.clone(), best.score, accept.min_score);
+    match best.evidence {
+        Some(evidence) if !evidence.is_seen() && score > WORTH_NAMING => {
+            Rejection::HardlySeen { part, score }
+        }
+        Some(_) if score < accept.unknown_below => Rejection::Unknown {
+            nearest: part,
+            score,
+        },
+        Some(Evidence {
+            hidden, outside, ..
+        }) if hidden + outside >= PIECE => Rejection::Piece {
+            part,
+            score,
+            threshold,
+            hidden,
+            outside,
+        },
+        _ => Rejection::LowScore {
+            part,
+            score,
+            threshold,
+        },
     }
 }

@@ -5,7 +5,7 @@ use std::{
     time::{Duration, Instant},
 };
 
-/// How long each stage took.
+/// How long each stage took, over all surfaces of the scene that were looked at.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
 pub struct Timings {
     /// Segmentation.
@@ -96,7 +96,7 @@ impl<'a> StageClock<'a> {
             Stage::Signature => &mut timings.signature,
             Stage::Rank => &mut timings.rank,
             Stage::Pose => &mut timings.pose,
-        } = begun.elapsed();
+        } += begun.elapsed();
         self.timings.set(timings);
         Ok(output)
     }

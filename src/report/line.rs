@@ -37,6 +37,7 @@ struct PoseLine {
     turn_bound_rad: Option<f64>,
     stopped: &'static str,
     ambiguous: bool,
+    approximate: bool,
 }
 
 #[derive(Debug, Serialize)]
@@ -77,7 +78,7 @@ impl<'a> InspectionLine<'a> {
 
     /// Of a scene by this name.
     pub fn of(scene: &'a str, inspection: &'a Inspection) -> Self {
-        let ranking = inspection.ranking.entries.iter().map(|entry| RankLine {
+        let ranking = inspection.ranking.by_part().map(|entry| RankLine {
             part: &entry.part,
             score: entry.score,
             distance: entry.distance,
@@ -95,6 +96,7 @@ impl<'a> InspectionLine<'a> {
                 turn_bound_rad: pose.uncertainty.map(|u| u.turn.0),
                 stopped: pose.stopped.name(),
                 ambiguous: pose.is_ambiguous(),
+                approximate: inspection.verdict.is_approximate(),
             });
         let line = Self {
             pose,
@@ -110,8 +112,12 @@ impl<'a> InspectionLine<'a> {
                 margin,
                 rejected,
             } => Self {
-                status: "ok",
-                part: Some(part),
+                status: if inspection.verdict.is_unknown() {
+                    "unknown"
+                } else {
+                    "ok"
+                },
+                part: Some(part.as_str()).filter(|_| !inspection.verdict.is_unknown()),
                 accepted: rejected.is_none(),
                 score: Some(*score),
                 margin: Some(*margin),

@@ -3,22 +3,30 @@
 //! Outlines are alike where parts are not, and fail where a part is half hidden. So every placement of the best-ranked
 //! references becomes a start of a pose, refined coarsely; each reference's best is refined further, and its score
 //! then follows from distances and from what the camera sees: is the scene's part on the reference, and is the
-//! reference in the scene?
+//! reference in the scene? Where only a piece of a part is in sight, the stretches of its outline that are not its own
+//! are left out, and the piece is laid onto all references by itself.
 
 mod candidate;
+mod ends;
+mod evidence;
+mod partial;
 
 use nalgebra::{Point3, Vector3};
 use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
-use self::candidate::{Candidate, Trial, best_candidate, coarse_trials};
+pub use self::evidence::{Evidence, FEATURES, NUM_FEATURES};
+use self::{
+    candidate::{Candidate, Trial},
+    ends::{Outline, outline_of},
+    partial::Piece,
+};
 use crate::{
-    geometry::rigid::RigidTransform,
     stages::{
         pose::{
-            PoseError, PoseEstimate, PoseMethod,
-            quality::{Fit, Tolerance, look_for, measure_fit},
-            refine::{Level, Search, Source, Target, refine},
+            PoseError, PoseEstimate,
+            quality::Tolerance,
+            refine::{Level, Search, Source, refine},
             uncertainty::uncertainty,
         },
         rank::{MatchEntry, MatchRanking, Query},
@@ -80,6 +88,18 @@ const FIRST: [Level; 2] = [
         search: Search::Field,
     },
 ];
+/// The plane of a piece is not that of the part: a piece starts further off.
+const FIRST_OF_A_PIECE: [Level; 2] = [
+    Level {
+        scale: 0.06,
+        max_steps: 10,
+        ..FIRST[0]
+    },
+    Level {
+        max_steps: 6,
+        ..FIRST[1]
+    },
+];
 const SECOND: [Level; 1] = [Level {
     num_surface: 400,
     num_edges: 128,
@@ -107,8 +127,6 @@ const THIRD: [Level; 2] = [
 const COST_LIMIT: f64 = 0.04;
 /// A coarse pose that costs this many times the best one is not refined.
 const HOPELESS: f64 = 2.5;
-/// Scene points on which the figures of a fit are taken.
-const NUM_MEASURED: usize = 1000;
 
 /// Re-orders the ranking by the confirmed scores, and gives the pose of the first. Each entry keeps its own pose.
 pub fn confirm(
@@ -117,82 +135,135 @@ pub fn confirm(
     ranking: MatchRanking,
     params: &ConfirmParams,
 ) -> (MatchRanking, Result<PoseEstimate, PoseError>) {
-    let source = thinned_source(scene, params);
-    if source.surface.len() < 20 {
+    let seen = Seen::new(scene, params);
+    if seen.source.surface.len() < 20 {
         let error = PoseError::TooFewPoints {
             which: "source",
-            found: source.surface.len(),
+            found: seen.source.surface.len(),
             needed: 20,
         };
         return (ranking, Err(error));
     }
-    let tolerance = Tolerance {
-        base: params.tolerance,
-        noise_at_1m: scene.part.noise_at_1m,
-    };
-    let centre = centre_of(&source.surface);
-    let num_looked_at = params.num_references.min(ranking.entries.len());
+    let num_looked_at = match &seen.piece {
+        // What a piece looks like from afar says little: all are looked at.
+        Some(_) => params.num_references.max(NUM_FOR_A_PIECE),
+        None => params.num_references,
+    }
+    .min(ranking.entries.len());
     let trials: Vec<Vec<Trial>> = ranking.entries[..num_looked_at]
         .iter()
-        .map(|entry| {
-            coarse_trials(
-                scene,
-                &source,
-                &references[entry.reference],
-                &entry.placements,
-                &centre,
-            )
-        })
+        .map(|entry| seen.coarse_trials(&references[entry.reference], &entry.placements))
         .collect();
-    let least = trials
-        .iter()
-        .flatten()
-        .map(|t| t.cost)
-        .fold(f64::INFINITY, f64::min);
+    let costs = trials.iter().flatten().map(|trial| trial.cost);
+    let least = costs.fold(f64::INFINITY, f64::min);
     let mut trials = trials.into_iter();
     let mut confirmed: Vec<(MatchEntry, Option<Candidate>)> = ranking
         .entries
         .into_iter()
         .map(|mut entry| {
-            let reference = &references[entry.reference];
             let candidate = trials.next().and_then(|trials| {
                 // What is far off already will not win: it is scored where it is.
                 let is_worth_more = trials.first()?.cost < HOPELESS * least;
                 let levels: &[Level] = if is_worth_more { &SECOND } else { &[] };
-                best_candidate(scene, &source, reference, &trials, levels, tolerance)
+                seen.best_candidate(&references[entry.reference], &trials, levels)
             });
             entry.score = match &candidate {
-                Some(candidate) => candidate.fit.score(),
+                Some(candidate) => candidate.evidence.score(),
                 None => entry.score * UNCONFIRMED,
             };
-            entry.pose = candidate.as_ref().map(Candidate::estimate);
             (entry, candidate)
         })
         .collect();
     // Those that were not looked at stay behind those that were.
-    confirmed[..num_looked_at].sort_by(|a, b| b.0.score.total_cmp(&a.0.score));
-    let pose = match confirmed.first() {
-        Some((entry, Some(best))) => references[entry.reference]
-            .target(best.view)
-            .map(|target| finish(scene, &source, &target, best, tolerance))
-            .ok_or(PoseError::NoReferenceCloud),
-        _ => Err(PoseError::NoReferenceCloud),
-    };
-    let mut entries: Vec<MatchEntry> = confirmed.into_iter().map(|c| c.0).collect();
-    if let (Some(first), Ok(pose)) = (entries.first_mut(), &pose) {
-        first.pose = Some(pose.clone());
+    sort_by_score(&mut confirmed[..num_looked_at]);
+    let best = confirmed.first().map_or(0.0, |c| c.0.score);
+    for (entry, candidate) in &mut confirmed[..num_looked_at] {
+        if let Some(candidate) = candidate.as_mut().filter(|_| entry.score > CONTENDS * best) {
+            seen.finish(&references[entry.reference], candidate);
+            entry.score = candidate.evidence.score();
+        }
     }
-    (MatchRanking { entries }, pose)
+    sort_by_score(&mut confirmed[..num_looked_at]);
+    let entries: Vec<MatchEntry> = confirmed
+        .into_iter()
+        .map(|(mut entry, candidate)| {
+            entry.pose = candidate.as_ref().map(Candidate::estimate);
+            entry.evidence = candidate.map(|c| c.evidence);
+            entry
+        })
+        .collect();
+    let pose = entries.first().and_then(|first| first.pose.clone());
+    (
+        MatchRanking { entries },
+        pose.ok_or(PoseError::NoReferenceCloud),
+    )
+}
+
+fn sort_by_score(confirmed: &mut [(MatchEntry, Option<Candidate>)]) {
+    confirmed.sort_by(|a, b| b.0.score.total_cmp(&a.0.score));
+}
+
+/// Whose score is more than this share of the best one's is refined to the end.
+const CONTENDS: f64 = 0.6;
+
+/// The scene's side of all comparisons, prepared once.
+struct Seen<'a> {
+    scene: &'a Scene<'a>,
+    source: Source,
+    centre: Point3<f64>,
+    /// Share of the outline where only the view ends.
+    cut_share: f64,
+    /// `None` if a whole part is in sight.
+    piece: Option<Piece>,
+    tolerance: Tolerance,
+}
+
+impl<'a> Seen<'a> {
+    fn new(scene: &'a Scene<'a>, params: &ConfirmParams) -> Self {
+        let outline = outline_of(scene);
+        let source = thinned_source(scene, &outline, params);
+        Self {
+            scene,
+            centre: centre_of(&source.surface),
+            source,
+            cut_share: outline.cut_share,
+            piece: piece_of(scene, &outline),
+            tolerance: Tolerance {
+                base: params.tolerance,
+                noise_at_1m: scene.part.noise_at_1m,
+            },
+        }
+    }
+
+    /// Refines a candidate to the end.
+    fn finish(&self, reference: &Reference, candidate: &mut Candidate) {
+        let Some(target) = reference.target(candidate.view) else {
+            return;
+        };
+        let start = candidate.refined.target_from_source;
+        let last = refine(&self.source, &target, &start, &THIRD);
+        candidate.refined.iterations.extend(last.iterations);
+        candidate.refined.stopped = last.stopped;
+        candidate.refined.target_from_source = last.target_from_source;
+        let pose = &candidate.refined.target_from_source;
+        candidate.uncertainty = Some(uncertainty(&self.source, &target, pose, &THIRD[1]));
+        (candidate.fit, candidate.evidence) = self.weigh(
+            reference,
+            candidate.view,
+            &last.target_from_source,
+            Search::Tree,
+        );
+    }
 }
 
 /// What a ranking's score is worth when the part was not looked for.
 pub const UNCONFIRMED: f64 = 0.3;
 
 /// Thins part and edges at random, so that any first n of them are spread over the part.
-fn thinned_source(scene: &Scene<'_>, params: &ConfirmParams) -> Source {
+fn thinned_source(scene: &Scene<'_>, outline: &Outline, params: &ConfirmParams) -> Source {
     let mut rng = Pcg64::seed_from_u64(params.seed);
     let points = &scene.part.cloud.points;
-    let wanted = THIRD[1].num_surface.max(NUM_MEASURED);
+    let wanted = THIRD[1].num_surface;
     let mut surface: Vec<Point3<f32>> = points
         .iter()
         .step_by((points.len() / wanted).max(1))
@@ -200,48 +271,39 @@ fn thinned_source(scene: &Scene<'_>, params: &ConfirmParams) -> Source {
         .collect();
     surface.shuffle(&mut rng);
     let camera_from_plane = scene.query.plane.plane_from_camera.inverse();
-    let lifted = scene.query.contour.lifted(scene.query.plane);
-    let mut edges: Vec<Point3<f32>> = lifted
+    let mut edges: Vec<Point3<f32>> = outline
+        .own
         .iter()
-        .step_by((lifted.len() / 300).max(1))
+        .step_by((outline.own.len() / 300).max(1))
         .map(|p| (camera_from_plane * p).cast())
         .collect();
     edges.shuffle(&mut rng);
     Source { surface, edges }
 }
 
-/// The winner, refined to the end.
-fn finish(
-    scene: &Scene<'_>,
-    source: &Source,
-    target: &Target<'_>,
-    best: &Candidate,
-    tolerance: Tolerance,
-) -> PoseEstimate {
-    let last = refine(source, target, &best.refined.target_from_source, &THIRD);
-    let mut iterations = best.refined.iterations.clone();
-    iterations.extend(last.iterations);
-    PoseEstimate {
-        target_from_source: last.target_from_source,
-        method: PoseMethod::Global,
-        stopped: last.stopped,
-        iterations,
-        fit: fit_of(
-            scene,
-            source,
-            target,
-            &last.target_from_source,
-            tolerance,
-            Search::Tree,
-        ),
-        uncertainty: Some(uncertainty(
-            source,
-            target,
-            &last.target_from_source,
-            &THIRD[1],
-        )),
-        runner_up: best.runner_up,
+/// An outline of which more than this share is not the part's own is that of a piece.
+const CUT_SHARE: f64 = 0.04;
+/// References that a piece is laid onto.
+const NUM_FOR_A_PIECE: usize = 16;
+/// Spacing of the points that stand for a piece's area, pixels.
+const PIECE_SPACING: usize = 6;
+
+/// The piece of a part that the scene shows; `None` if it shows a whole part.
+fn piece_of(scene: &Scene<'_>, outline: &Outline) -> Option<Piece> {
+    if outline.cut_share < CUT_SHARE {
+        return None;
     }
+    let plane = scene.query.plane;
+    let image = &plane.image;
+    let mut area = Vec::new();
+    for row in (0..image.height).step_by(PIECE_SPACING) {
+        for column in (0..image.width).step_by(PIECE_SPACING) {
+            if image.is_set(column as i64, row as i64) {
+                area.push(plane.plane_point(column as f64, row as f64));
+            }
+        }
+    }
+    Piece::new(outline.own.iter().map(nalgebra::Point3::xy), &area)
 }
 
 fn centre_of(points: &[Point3<f32>]) -> Point3<f64> {
@@ -251,24 +313,4 @@ fn centre_of(points: &[Point3<f32>]) -> Point3<f64> {
             sum + p.coords.cast::<f64>()
         });
     Point3::from(sum / points.len().max(1) as f64)
-}
-
-fn fit_of(
-    scene: &Scene<'_>,
-    source: &Source,
-    target: &Target<'_>,
-    target_from_source: &RigidTransform,
-    tolerance: Tolerance,
-    search: Search,
-) -> Fit {
-    let measured = &source.surface[..NUM_MEASURED.min(source.surface.len())];
-    Fit {
-        sight: look_for(
-            target,
-            &target_from_source.inverse(),
-            scene.scene,
-            tolerance,
-        ),
-        ..measure_fit(measured, target, target_from_source, tolerance, search)
-    }
 }

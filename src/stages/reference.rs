@@ -12,8 +12,8 @@ use rustfft::num_complex::Complex;
 use crate::{
     error::Advice,
     geometry::{
-        cloud::PointCloud, nearest::KdTree, nearest_field::NearestField, principal::principal_axes,
-        rigid::RigidTransform,
+        cloud::PointCloud, nearest::KdTree, nearest_field::NearestField,
+        outline_field::OutlineField, principal::principal_axes, rigid::RigidTransform,
     },
     stages::{
         contour::{Contour, ContourParams, find_contour},
@@ -115,6 +115,8 @@ pub struct ReferenceView {
     pub edges: EdgePoints,
     /// Discrete Fourier transform of the signature's complex rays, for the circular correlation.
     pub spectrum: Vec<Complex<f64>>,
+    /// Field of nearest points around outline and openings; made when the first piece of a part is laid onto it.
+    outline_field: OnceLock<OutlineField>,
 }
 
 /// Turns of the viewpoint about the part's long and short axis, degrees. The first is the standard view; the rest
@@ -241,6 +243,7 @@ impl ReferenceView {
             edges: EdgePoints::new(edges, NUM_EDGES),
             spectrum: correlation::spectrum(&signature.rays),
             image_area: plane.image.num_set() as f64 * plane.pixel.0.powi(2),
+            outline_field: OnceLock::new(),
             plane_from_part,
             plane,
             contour,
@@ -269,6 +272,14 @@ impl ReferenceView {
             signature,
             &edges,
         ))
+    }
+
+    /// The nearest points of outline and openings, in the view's plane space.
+    pub fn outline_field(&self) -> &OutlineField {
+        self.outline_field.get_or_init(|| {
+            let borders = std::iter::once(&self.contour.outline).chain(&self.contour.openings);
+            OutlineField::new(borders.flatten().copied().collect())
+        })
     }
 
     /// The transform of view-plane space into a scene's plane space, in the plane, that turns by `turn` and carries

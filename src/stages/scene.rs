@@ -5,8 +5,11 @@
 //! later stages ask the camera what it would have seen at a place. A capture saved as bare points (PLY, XYZ) has lost
 //! its rows and columns, but not its viewpoint: it is put back onto a picture, so that it is inspected as well.
 
+use std::sync::Arc;
+
 use nalgebra::Point3;
 
+use super::segment::EmptyCell;
 use crate::{
     capture::frame::{DepthFrame, Intrinsics},
     files::Opened,
@@ -22,6 +25,38 @@ pub struct SceneCloud {
     pub intrinsics: Option<Intrinsics>,
     /// What lies at the edge of an organised cloud.
     pub edge: PictureEdge,
+    /// What the same camera saw without a part, if that was captured.
+    pub empty_cell: Option<Arc<EmptyCell>>,
+}
+
+impl SceneCloud {
+    /// The scene as in a mirror held beside the camera: x turned round, the picture's rows with it.
+    #[must_use]
+    pub fn mirrored(&self) -> Self {
+        let turned = |p: &Point3<f32>| Point3::new(-p.x, p.y, p.z);
+        let points = &self.cloud.points;
+        let points = match self.cloud.grid {
+            Some(Grid { width, .. }) => points
+                .chunks(width.max(1))
+                .flat_map(|row| row.iter().rev().map(turned))
+                .collect(),
+            None => points.iter().map(turned).collect(),
+        };
+        Self {
+            cloud: PointCloud {
+                points,
+                grid: self.cloud.grid,
+                ..PointCloud::default()
+            },
+            intrinsics: self.intrinsics.map(|camera| Intrinsics {
+                cx: camera.width as f64 - 1.0 - camera.cx,
+                ..camera
+            }),
+            edge: self.edge,
+            // It is only of use before the part is found.
+            empty_cell: None,
+        }
+    }
 }
 
 /// What the edge of a picture is.
@@ -82,6 +117,7 @@ pub fn scene_from_frame(frame: &DepthFrame) -> SceneCloud {
         },
         intrinsics: Some(*camera),
         edge: PictureEdge::View,
+        empty_cell: None,
     }
 }
 
@@ -101,6 +137,7 @@ pub fn scene_from_cloud(cloud: PointCloud) -> SceneCloud {
         cloud,
         intrinsics,
         edge: PictureEdge::View,
+        empty_cell: None,
     }
 }
 
@@ -186,6 +223,7 @@ fn organised(cloud: &PointCloud) -> Option<SceneCloud> {
             cy: -f64::from(low[1]) * focal - 0.5,
         }),
         edge: PictureEdge::Points,
+        empty_cell: None,
     })
 }
 

@@ -26,28 +26,29 @@ struct Silhouette {
     longest_side: f64,
 }
 
+/// The first shape of each class.
 fn silhouettes(folder: &Path) -> Vec<Silhouette> {
+    let mut names = shape_names(folder);
+    names.dedup_by_key(|name| class_of(name).to_owned());
+    names.iter().map(|name| silhouette(folder, name)).collect()
+}
+
+fn class_of(name: &str) -> &str {
+    &name[..name.rfind('-').expect("CLASS-N.png")]
+}
+
+/// The files by class and number.
+fn shape_names(folder: &Path) -> Vec<String> {
     let mut names: Vec<_> = std::fs::read_dir(folder)
         .expect("a folder of silhouettes")
         .filter_map(|entry| entry.ok()?.file_name().into_string().ok())
         .collect();
-    names.sort();
     let number = |name: &str| -> u32 {
-        let digits = name
-            .trim_end_matches(".png")
-            .rsplit('-')
-            .next()
-            .expect("CLASS-N.png");
+        let digits = name[class_of(name).len() + 1..].trim_end_matches(".png");
         digits.parse().expect("a number")
     };
-    names.sort_by_key(|name| {
-        (
-            name[..name.rfind('-').expect("CLASS-N.png")].to_owned(),
-            number(name),
-        )
-    });
-    names.dedup_by_key(|name| name[..name.rfind('-').expect("CLASS-N.png")].to_owned());
-    names.iter().map(|name| silhouette(folder, name)).collect()
+    names.sort_by_key(|name| (class_of(name).to_owned(), number(name)));
+    names
 }
 
 fn silhouette(folder: &Path, name: &str) -> Silhouette {
@@ -67,7 +68,7 @@ fn silhouette(folder: &Path, name: &str) -> Silhouette {
         }
     }
     Silhouette {
-        class: name[..name.rfind('-').expect("CLASS-N.png")].to_owned(),
+        class: class_of(name).to_owned(),
         centre: Point2::new(
             (low[0] + high[0]) as f64 / 2.0,
             (low[1] + high[1]) as f64 / 2.0,
@@ -159,4 +160,45 @@ fn a_shape_is_found_again_turned_flipped_and_at_another_resolution() {
         eprintln!("{what}: default {by_default}/35, paper {by_paper}/35");
         assert!(by_default >= 34, "{what}: only {by_default} of 35");
     }
+}
+
+/// The other shapes of a class are other things of its kind: another bat, another camel. One of each class is enrolled.
+#[test]
+fn other_shapes_of_a_class_rank_their_class_among_the_first() {
+    let Some(data) = data_folder() else { return };
+    let folder = data.join("silhouettes");
+    let reference = |shape: &Silhouette| {
+        let plane = drawn(shape, 0.0, 200);
+        let (contour, signature) = described(&plane);
+        Reference::from_plane(&shape.class, plane, contour, signature)
+    };
+    let exemplars = silhouettes(&folder);
+    let references: Vec<Reference> = exemplars.iter().map(reference).collect();
+    let params = RankParams::default();
+    let (mut num, mut first, mut among_five) = (0, 0, 0);
+    for name in shape_names(&folder) {
+        let shape = silhouette(&folder, &name);
+        let plane = drawn(&shape, 0.0, 200);
+        let (contour, signature) = described(&plane);
+        let query = Query {
+            plane: &plane,
+            contour: &contour,
+            signature: &signature,
+        };
+        let ranking = rank(&query, &references, &params);
+        let place = ranking.entries.iter().position(|e| e.part == shape.class);
+        num += 1;
+        first += usize::from(place == Some(0));
+        among_five += usize::from(place.is_some_and(|place| place < 5));
+    }
+    // The exemplars themselves are first, and not counted.
+    let own = references.len();
+    (num, first, among_five) = (num - own, first - own, among_five - own);
+    let share = |n: usize| 100.0 * n as f64 / num as f64;
+    eprintln!(
+        "{num} other shapes: first {first} ({:.1} %), among five {among_five} ({:.1} %)",
+        share(first),
+        share(among_five)
+    );
+    assert!(share(first) > 60.0 && share(among_five) > 75.0);
 }

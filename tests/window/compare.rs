@@ -163,7 +163,7 @@ fn what_is_refused_is_said_to_be_so_and_why_and_only_the_judgement_is_good() {
     harness.get_by_label_contains("Not accepted · nearest ");
     harness.get_by_label_contains("Whether rightly is not known · ");
     harness.get_by_label_contains("Refused: score 0.");
-    harness.get_by_label_contains(" is below 0.85; the outlines lie ");
+    harness.get_by_label_contains(": unknown; the outlines lie ");
     // Of both matchers, in the smallest window too.
     harness.get_by_label("paper: ‖A − C‖₁, px² + rad²");
 

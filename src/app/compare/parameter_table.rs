@@ -41,7 +41,7 @@ macro_rules! number {
 
 /// All parameters, group by group in the order of the flow.
 #[rustfmt::skip]
-pub const PARAMETERS: [Parameter; 61] = [
+pub const PARAMETERS: [Parameter; 64] = [
     number!("segment.plane_distance", "Plane distance", Segmentation, Front, Millimetres, [1.0, 50.0], 1,
         |r| r.segment.plane_distance.0, |r, v| r.segment.plane_distance = Metres(v),
         "The paper's d_t: a point closer than this (plus the noise) to a background plane belongs to it. Raising it eats what is near the wall."),
@@ -240,6 +240,15 @@ pub const PARAMETERS: [Parameter; 61] = [
     number!("accept.min_margin", "Margin at least", Acceptance, Front, None, [0.0, 1.0], 2,
         |r| r.accept.min_margin, |r, v| r.accept.min_margin = v,
         "Least lead over the next part. Raising it rejects parts that are alike."),
+    number!("accept.unknown_below", "Unknown below", Acceptance, Fold, None, [0.0, 1.0], 2,
+        |r| r.accept.unknown_below, |r, v| r.accept.unknown_below = v,
+        "A best guess that scores less is not named. Raising it names fewer parts that are half hidden."),
+    number!("accept.max_relief", "Same model: relief", Acceptance, Fold, Millimetres, [0.5, 20.0], 1,
+        |r| r.accept.max_relief.0, |r, v| r.accept.max_relief = Metres(v),
+        "How far the surface may bulge or sink from the reference's. Raising it accepts other models, at a pose that is only about right."),
+    number!("accept.max_missing", "Same model: missing", Acceptance, Fold, None, [0.001, 0.1], 3,
+        |r| r.accept.max_missing, |r, v| r.accept.max_missing = v,
+        "Share of the reference that the camera may look past. Raising it accepts other models, at a pose that is only about right."),
     number!("stand_off.taught", "Taught distance", StandOff, Fold, Millimetres, [20.0, 1000.0], 0,
         |r| r.stand_off.taught.0, |r, v| r.stand_off.taught = Metres(v),
         "Distance of the nozzle from the part when its path was taught (the paper's standard d)."),

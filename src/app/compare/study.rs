@@ -243,6 +243,22 @@ fn refused(verdict: &Verdict, title_of: &dyn Fn(&str) -> String) -> Option<Strin
             Rejection::Unconfirmed { .. } => {
                 "the paper's matcher alone cannot tell it from an unknown part".into()
             }
+            Rejection::Piece {
+                score, threshold, ..
+            } => format!("score {score:.2} is below {threshold:.2}: only a piece is in sight"),
+            Rejection::AnotherModel {
+                relief, missing, ..
+            } => format!(
+                "its surface is off by {relief}, {:.1} % of it is missing: another model",
+                missing * 100.0
+            ),
+            Rejection::HardlySeen { score, .. } => {
+                format!("score {score:.2}: hardly in sight")
+            }
+            Rejection::Unknown { score, .. } => format!("score {score:.2}: unknown"),
+            Rejection::Mirrored { part, .. } => {
+                format!("it looks like the mirror image of {}", title_of(part))
+            }
             no_pose @ Rejection::NoPose(_) => no_pose.to_string(),
         },
         Verdict::NoPart(reason) => reason.to_string(),

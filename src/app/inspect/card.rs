@@ -50,7 +50,11 @@ impl Headline {
                     },
                     // No name in large letters that is not certain.
                     Some(reason) => Self {
-                        title: "Not recognised".into(),
+                        title: if inspected.inspection.verdict.is_unknown() {
+                            "Unknown part".into()
+                        } else {
+                            "Not recognised".into()
+                        },
                         nearest: Some(nearest),
                         is_accepted: false,
                         complaint: Some((reason.to_string(), reason.advice())),
@@ -104,6 +108,11 @@ pub(super) fn ui(
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let headline = Headline::of(inspected);
         verdict(ui, &headline, theme);
+        let part = inspection.segmentation.part.as_ref();
+        if part.is_ok_and(|part| part.touches_edge) {
+            let text = "It reaches the picture's edge: some of it may be missing";
+            ui.label(RichText::new(text).color(theme.warning));
+        }
         score(ui, inspected, &headline, theme);
         if let Some(pose) = pose {
             offset(ui, inspected, pose, state.units, theme);

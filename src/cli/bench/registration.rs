@@ -1,21 +1,20 @@
 //! `partsight bench registration`: poses of clouds that share no point.
 
-use anyhow::Context as _;
 use serde::Serialize;
 
-use super::BenchArgs;
+use super::{BenchArgs, NUM_POSES, write_json};
 use crate::{
     bench::{
         quantile,
         registration::{
             Attempt, Condition, NUM_POINTS, Registration, RegistrationSetup, ablation, register_all,
         },
+        suites::MEASURING_SEED,
     },
     cli::{
         Outcome,
-        console::{Advised as _, Console, Table},
+        console::{Console, Table},
     },
-    files::write_atomically,
     simulate::PartKind,
     stages::pose::{AlignParams, PoseMethod},
 };
@@ -75,7 +74,7 @@ fn studies() -> Vec<Study> {
 
 pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let studies = studies();
-    let num_sources = args.poses as usize;
+    let num_sources = args.poses.unwrap_or(NUM_POSES) as usize;
     let num_methods: usize = studies.iter().map(|study| study.methods.len()).sum();
     console.start_progress(num_methods * num_sources * PartKind::ALL.len());
     let mut done = Vec::new();
@@ -84,7 +83,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         let setup = RegistrationSetup {
             condition: study.condition,
             num_sources,
-            seed: args.seed,
+            seed: args.seed.unwrap_or(MEASURING_SEED),
             methods: study.methods.clone(),
         };
         let registration = register_all(&setup, |_| console.done(), &|| false)?;
@@ -102,12 +101,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
             num_points: NUM_POINTS,
             attempts: done.iter().flat_map(|(s, r)| lines(s, r)).collect(),
         };
-        write_atomically(path, |writer| {
-            serde_json::to_writer_pretty(&mut *writer, &file)?;
-            writeln!(writer)
-        })
-        .advised()
-        .with_context(|| format!("{} was not written", path.display()))?;
+        write_json(path, &file)?;
     }
     Ok(Outcome::Accepted)
 }

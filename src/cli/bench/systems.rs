@@ -2,10 +2,11 @@
 
 use serde::Serialize;
 
-use super::{BenchArgs, write_json};
+use super::{BenchArgs, NUM_POSES, write_json};
 use crate::{
     bench::{
         RecognitionSetup, enrol_standard_parts, quantile,
+        suites::MEASURING_SEED,
         systems::{
             Comparison, PAPER_COLUMNS, PAPER_MEAN_OF_OTHERS, PAPER_MEAN_OF_OWN, PAPER_SECONDS,
             System, compare_systems,
@@ -84,12 +85,12 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     }
     let enrolled = enrol_standard_parts(&EnrolParams::default()).advised()?;
     let setup = RecognitionSetup {
-        num_poses: args.poses,
-        first_seed: args.seed,
+        num_poses: args.poses.unwrap_or(NUM_POSES),
+        first_seed: args.seed.unwrap_or(MEASURING_SEED),
         model_seed: args.model,
         placement: Placement::from(args.placement),
     };
-    console.start_progress(args.poses as usize * PartKind::ALL.len());
+    console.start_progress(args.poses.unwrap_or(NUM_POSES) as usize * PartKind::ALL.len());
     let comparison = compare_systems(&setup, &enrolled, |_, _| console.done()).advised()?;
     console.end_progress();
     let lines = system_lines(&comparison);

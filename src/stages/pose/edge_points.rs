@@ -55,7 +55,7 @@ impl EdgePoints {
     }
 
     /// The closest point within reach, with its squared distance.
-    pub(super) fn closest(&self, at: &Point3<f32>, reach_sq: f32) -> Option<(Point3<f32>, f32)> {
+    pub fn closest(&self, at: &Point3<f32>, reach_sq: f32) -> Option<(Point3<f32>, f32)> {
         let mut best = [reach_sq; LANES];
         let mut best_group = [u32::MAX; LANES];
         for (number, [x, y, z]) in (0_u32..).zip(&self.groups) {

@@ -7,15 +7,24 @@
 //! - a point belongs to a plane within a distance that follows the noise, which is measured on the largest plane;
 //! - of what is left, one connected surface is the part, not all of it: the largest, those inside the picture first.
 //!
-//! Known limits: whatever touches the part, such as a stand, joins it.
+//! The noise is measured on the picture before a plane is known, so that a wall is found at any noise. A capture of the
+//! [`EmptyCell`] fixes wall, floor and whatever else always stands there.
+//!
+//! Known limits: whatever touches the part and was not there in the empty cell, such as a hanger, joins it.
 
 mod clusters;
+mod empty_cell;
+mod noise;
 mod planes;
 mod subset;
 
 use nalgebra::Point3;
 
-pub use self::{clusters::Cluster, planes::BackgroundPlane};
+pub use self::{
+    clusters::Cluster,
+    empty_cell::{EmptyCell, EmptyCellError},
+    planes::BackgroundPlane,
+};
 use crate::{error::Advice, geometry::cloud::PointCloud, stages::scene::SceneCloud, units::Metres};
 
 /// Parameters of [`segment`]. The defaults work untouched for a Kinect-like camera.
@@ -25,7 +34,8 @@ pub struct SegmentParams {
     /// The paper's `d_t`: a point closer than this (plus the noise) to a background plane belongs to it, 1..50 mm.
     /// Raising it eats what is near the wall.
     pub plane_distance: Metres,
-    /// Standard deviation of the depth at 1 m, 0..20 mm; it grows with depth². Used until a plane shows the real one.
+    /// Least standard deviation of the depth at 1 m to reckon with, 0..20 mm; it grows with depth². Used until the
+    /// picture and then a plane show the real one.
     pub noise_at_1m: Metres,
     /// How many standard deviations of noise still belong to a plane, 2..6. Raising it eats what is near the wall,
     /// lowering it leaves specks of the wall.
@@ -63,7 +73,7 @@ impl Default for SegmentParams {
 pub enum PointLabel {
     /// The camera had no reading here.
     NoReading,
-    /// On (or behind) the background plane of this number.
+    /// On (or behind) the background plane of this number; one more than the last of them: what stood in the empty cell.
     Background(u8),
     /// Neither background nor part.
     Rest,
@@ -116,6 +126,25 @@ impl SegmentedPart {
         let indices: Vec<u32> = indices.iter().copied().filter(is_reading).collect();
         let touches_edge = clusters::touches_edge(scene, &indices);
         Self::of(&scene.cloud, indices, noise_at_1m, touches_edge)
+    }
+
+    /// The same part in the mirrored scene.
+    #[must_use]
+    pub fn mirrored(&self, mirrored_scene: &SceneCloud) -> Self {
+        let mut indices = self.indices.clone();
+        if let Some(crate::geometry::cloud::Grid { width, .. }) = mirrored_scene.cloud.grid {
+            for i in &mut indices {
+                let (row, column) = (*i as usize / width, *i as usize % width);
+                *i = (row * width + width - 1 - column) as u32;
+            }
+            indices.sort_unstable();
+        }
+        Self::of(
+            &mirrored_scene.cloud,
+            indices,
+            self.noise_at_1m,
+            self.touches_edge,
+        )
     }
 
     fn of(scene: &PointCloud, indices: Vec<u32>, noise_at_1m: Metres, touches_edge: bool) -> Self {
@@ -205,10 +234,19 @@ pub fn segment(scene: &SceneCloud, params: &SegmentParams) -> Segmentation {
         };
     }
     let planes::Background {
-        planes,
+        mut planes,
         noise_at_1m,
     } = planes::find_background(scene, params);
-    let mut labels = planes::label_background(&scene.cloud.points, &planes, noise_at_1m, params);
+    let empty_cell = scene.empty_cell.as_ref().filter(|cell| cell.fits(scene));
+    if let Some(cell) = empty_cell {
+        planes.retain(|found| cell.knows(&found.plane, scene, noise_at_1m, params));
+    }
+    let points = &scene.cloud.points;
+    let mut labels = planes::label_background(points, &planes, noise_at_1m, params);
+    if let Some(cell) = empty_cell {
+        let label = PointLabel::Background(planes.len() as u8);
+        cell.mark(points, &mut labels, label, noise_at_1m, params);
+    }
     let clusters = clusters::connect(scene, &labels, noise_at_1m, params);
     let part = take_part(scene, &clusters, &mut labels, &planes, noise_at_1m, params)
         .map_err(|no_part| too_wide(scene).unwrap_or(no_part));
@@ -240,6 +278,72 @@ pub fn surfaces(
 pub fn pieces(scene: &SceneCloud, params: &SegmentParams) -> Vec<Vec<u32>> {
     let labels = label_readings(&scene.cloud.points);
     connected(scene, &labels, params.noise_at_1m, params)
+}
+
+/// A surface smaller than this share of the largest one is not looked at as a part.
+const LEAST_SHARE: f64 = 0.1;
+
+/// The surfaces beside the one that was taken for the part, the likeliest first, at most `limit`.
+pub fn other_parts(
+    scene: &SceneCloud,
+    segmentation: &Segmentation,
+    params: &SegmentParams,
+    limit: usize,
+) -> Vec<SegmentedPart> {
+    let largest = segmentation.clusters.first().map_or(0.0, |c| c.area);
+    let least = params.min_part_area.max(LEAST_SHARE * largest);
+    let is_candidate =
+        |cluster: &Cluster| cluster.area >= least && cluster.num_points >= MIN_POINTS;
+    if segmentation
+        .clusters
+        .iter()
+        .filter(|c| is_candidate(c))
+        .count()
+        < 2
+    {
+        return Vec::new();
+    }
+    let taken = segmentation
+        .part
+        .as_ref()
+        .ok()
+        .and_then(|p| p.indices.first());
+    let mut others: Vec<(f64, bool, Vec<u32>)> = surfaces(scene, segmentation, params)
+        .into_iter()
+        .zip(&segmentation.clusters)
+        .filter(|(indices, cluster)| is_candidate(cluster) && indices.first() != taken)
+        .map(|(indices, cluster)| (likelihood(cluster), cluster.touches_edge, indices))
+        .collect();
+    others.sort_by(|a, b| b.0.total_cmp(&a.0));
+    others
+        .into_iter()
+        .take(limit)
+        .map(|(_, touches_edge, indices)| {
+            SegmentedPart::of(
+                &scene.cloud,
+                indices,
+                segmentation.noise_at_1m,
+                touches_edge,
+            )
+        })
+        .collect()
+}
+
+impl Segmentation {
+    /// Takes another surface for the part.
+    pub fn take(&mut self, part: SegmentedPart) {
+        for label in &mut self.labels {
+            if *label == PointLabel::Part {
+                *label = PointLabel::Rest;
+            }
+        }
+        for &i in &part.indices {
+            if let Some(label) = self.labels.get_mut(i as usize) {
+                *label = PointLabel::Part;
+            }
+        }
+        self.part = Ok(part);
+    }
 }
 
 fn connected(

@@ -4,7 +4,11 @@ use nalgebra::{Point3, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
-use super::{PointLabel, SegmentParams, subset::Subset};
+use super::{
+    PointLabel, SegmentParams,
+    noise::{self, NOISE_RANGE},
+    subset::{Neighbourhood, Subset},
+};
 use crate::{
     geometry::plane::Plane,
     stages::scene::{PictureEdge, SceneCloud},
@@ -42,9 +46,10 @@ const LEAST_FOREGROUND: f64 = 0.03;
 const MAX_CANDIDATES: usize = 6;
 
 pub(super) fn find_background(scene: &SceneCloud, params: &SegmentParams) -> Background {
-    let subset = Subset::new(scene, params);
+    let noise_seen = noise::noise_of_picture(scene).unwrap_or(params.noise_at_1m);
+    let mut noise_at_1m = Metres(params.noise_at_1m.0.max(noise_seen.0));
+    let subset = Subset::new(scene, params, noise_at_1m);
     let mut rng = Pcg64::seed_from_u64(params.seed);
-    let mut noise_at_1m = params.noise_at_1m;
     let mut planes: Vec<BackgroundPlane> = Vec::new();
     // Points that no plane has claimed yet, background or not.
     let mut unclaimed: Vec<u32> = (0..subset.len() as u32).collect();
@@ -151,8 +156,12 @@ fn best_plane(
     let mut drawn = 0;
     while drawn < needed {
         drawn += 1;
+        let shape = match drawn % 2 {
+            0 => Neighbourhood::Strip,
+            _ => Neighbourhood::Round,
+        };
         let first = unclaimed[rng.random_range(0..unclaimed.len())];
-        let Some([second, third]) = subset.companions(first, unclaimed, rng) else {
+        let Some([second, third]) = subset.companions(first, shape, unclaimed, rng) else {
             continue;
         };
         let Some(plane) = Plane::through(
@@ -280,7 +289,8 @@ fn measured_noise(subset: &Subset, plane: &Plane, inliers: &[u32]) -> Option<Met
     }
     let middle = deviations.len() / 2;
     let (_, median, _) = deviations.select_nth_unstable_by(middle, f64::total_cmp);
-    // 1.4826 turns the median absolute deviation of a normal distribution into its standard deviation. The range
-    // keeps a perfect (rendered) or warped wall from switching the tolerance off or opening it wide.
-    Some(Metres((1.4826 * *median).clamp(0.0003, 0.008)))
+    // 1.4826 turns the median absolute deviation of a normal distribution into its standard deviation.
+    Some(Metres(
+        (1.4826 * *median).clamp(NOISE_RANGE[0], NOISE_RANGE[1]),
+    ))
 }

@@ -8,6 +8,7 @@ use super::SegmentParams;
 use crate::{
     geometry::cloud::{Grid, is_finite},
     stages::scene::SceneCloud,
+    units::Metres,
 };
 
 /// Points that planes are searched on; 5 000 fix a wall to a fraction of a millimetre and fit in the cache.
@@ -23,6 +24,15 @@ pub(super) struct Subset {
     pub(super) cells: Option<Cells>,
 }
 
+/// Where the companions of a point are drawn from.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Neighbourhood {
+    /// As far across as down.
+    Round,
+    /// Far across, hardly down.
+    Strip,
+}
+
 pub(super) struct Cells {
     pub(super) columns: usize,
     pub(super) rows: usize,
@@ -33,7 +43,8 @@ pub(super) struct Cells {
 }
 
 impl Subset {
-    pub(super) fn new(scene: &SceneCloud, params: &SegmentParams) -> Self {
+    /// `noise_at_1m` is the depth's standard deviation there.
+    pub(super) fn new(scene: &SceneCloud, params: &SegmentParams, noise_at_1m: Metres) -> Self {
         let points = &scene.cloud.points;
         let mut subset = Self {
             x: Vec::new(),
@@ -43,7 +54,7 @@ impl Subset {
             cells: None,
         };
         let base = params.plane_distance.0 as f32;
-        let noise = (params.noise_factor * params.noise_at_1m.0) as f32;
+        let noise = (params.noise_factor * noise_at_1m.0) as f32;
         let mut push = |p: &Point3<f32>| {
             subset.x.push(p.x);
             subset.y.push(p.y);
@@ -97,10 +108,12 @@ impl Subset {
     }
 
     /// Two more points for a sample that begins with `first`: on a grid from its neighbourhood, where they most
-    /// likely lie on the same surface, otherwise from anywhere.
+    /// likely lie on the same surface, otherwise from anywhere. Every second neighbourhood is wide and low: a floor is
+    /// often seen as a strip along the lower edge.
     pub(super) fn companions(
         &self,
         first: u32,
+        shape: Neighbourhood,
         unclaimed: &[u32],
         rng: &mut Pcg64,
     ) -> Option<[u32; 2]> {
@@ -108,12 +121,16 @@ impl Subset {
             return Some([0; 2].map(|_: u32| unclaimed[rng.random_range(0..unclaimed.len())]));
         };
         // A tenth of the picture: wide enough to fix the direction, narrow enough to stay on one surface.
-        let reach = (cells.columns / 10).max(2) as i64;
+        let (across, down) = match shape {
+            Neighbourhood::Round => (cells.columns / 10, cells.columns / 10),
+            Neighbourhood::Strip => (cells.columns / 3, cells.columns / 25),
+        };
+        let (across, down) = (across.max(2) as i64, down.max(2) as i64);
         let cell = i64::from(cells.cell_of[first as usize]);
         let (column, row) = (cell % cells.columns as i64, cell / cells.columns as i64);
         let mut one = || {
-            let u = column + rng.random_range(-reach..=reach);
-            let v = row + rng.random_range(-reach..=reach);
+            let u = column + rng.random_range(-across..=across);
+            let v = row + rng.random_range(-down..=down);
             let inside = u >= 0 && v >= 0 && u < cells.columns as i64 && v < cells.rows as i64;
             if inside {
                 cells.point_in[v as usize * cells.columns + u as usize]

@@ -1,0 +1,213 @@
+//! Fitting the score: from the evidence for a reference to the probability that it is the part and stands where it was
+//! found.
+//!
+//! Logistic regression with a small ridge penalty by Newton's method (D. R. Cox, "The regression analysis of binary
+//! sequences", Journal of the Royal Statistical Society B 20(2), 1958). Every contender of every frame is one sample,
+//! so an unknown object speaks against each part that it resembles. Right is a contender whose name is right and whose
+//! pose is within 5° and 40 mm; parts of other car models count as right then too.
+
+use nalgebra::{SMatrix, SVector};
+use serde::Serialize;
+
+use super::suites::SuiteResult;
+use crate::stages::confirm::{Evidence, NUM_FEATURES};
+
+/// Weights and one constant.
+const SIZE: usize = NUM_FEATURES + 1;
+/// Keeps the weights finite where the samples are told apart without a fault.
+const RIDGE: f64 = 1e-4;
+/// A pose within this is right: degrees and millimetres.
+const RIGHT_POSE: [f64; 2] = [5.0, 40.0];
+
+/// One contender of one frame.
+#[derive(Clone, Copy, Debug)]
+pub struct Sample {
+    /// What speaks for and against it.
+    pub evidence: Evidence,
+    /// Whether it is the part, at its place.
+    pub is_right: bool,
+}
+
+/// The contenders of all frames.
+pub fn samples(results: &[SuiteResult]) -> Vec<Sample> {
+    let cases = results.iter().flat_map(|result| &result.cases);
+    cases
+        .flat_map(|case| &case.contenders)
+        .map(|contender| Sample {
+            evidence: contender.evidence,
+            is_right: contender
+                .pose_off
+                .is_some_and(|off| off[0] <= RIGHT_POSE[0] && off[1] <= RIGHT_POSE[1]),
+        })
+        .collect()
+}
+
+/// A fitted model and how well it does on other samples.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Model {
+    /// The constant.
+    pub constant: f64,
+    /// A weight per feature of [`Evidence::features`].
+    pub weights: [f64; NUM_FEATURES],
+}
+
+impl Model {
+    /// Fits the features that are switched on.
+    pub fn fit(samples: &[Sample], is_on: [bool; NUM_FEATURES]) -> Self {
+        let row = |sample: &Sample| row_of(&sample.evidence, is_on);
+        let mut weights = SVector::<f64, SIZE>::zeros();
+        for _ in 0..50 {
+            let mut gradient = -weights * RIDGE * samples.len() as f64;
+            gradient[0] = 0.0;
+            let mut hessian =
+                SMatrix::<f64, SIZE, SIZE>::identity() * (RIDGE * samples.len() as f64);
+            for sample in samples {
+                let x = row(sample);
+                let p = logistic(weights.dot(&x));
+                gradient += x * (f64::from(u8::from(sample.is_right)) - p);
+                hessian += x * x.transpose() * (p * (1.0 - p));
+            }
+            let Some(step) = hessian.cholesky().map(|c| c.solve(&gradient)) else {
+                break;
+            };
+            weights += step;
+            if step.norm() < 1e-8 {
+                break;
+            }
+        }
+        Self {
+            constant: weights[0],
+            weights: std::array::from_fn(|i| weights[i + 1]),
+        }
+    }
+
+    /// The probability of being right.
+    pub fn probability(&self, evidence: &Evidence) -> f64 {
+        let sum: f64 = self
+            .weights
+            .iter()
+            .zip(evidence.features())
+            .map(|(w, x)| w * x)
+            .sum();
+        logistic(self.constant + sum)
+    }
+
+    /// Mean of -ln(probability of what is so), over samples.
+    pub fn log_loss(&self, samples: &[Sample]) -> f64 {
+        let loss = samples.iter().map(|sample| {
+            let p = self.probability(&sample.evidence);
+            let p = if sample.is_right { p } else { 1.0 - p };
+            -p.max(1e-9).ln()
+        });
+        loss.sum::<f64>() / samples.len().max(1) as f64
+    }
+
+    /// Wrong samples at or above a threshold, and right ones below it.
+    pub fn errors(&self, samples: &[Sample], threshold: f64) -> [usize; 2] {
+        let mut errors = [0; 2];
+        for sample in samples {
+            let is_above = self.probability(&sample.evidence) >= threshold;
+            match (sample.is_right, is_above) {
+                (false, true) => errors[0] += 1,
+                (true, false) => errors[1] += 1,
+                _ => {}
+            }
+        }
+        errors
+    }
+}
+
+fn row_of(evidence: &Evidence, is_on: [bool; NUM_FEATURES]) -> SVector<f64, SIZE> {
+    let features = evidence.features();
+    SVector::from_fn(|i, _| match i.checked_sub(1) {
+        None => 1.0,
+        Some(i) if is_on[i] => features[i],
+        Some(_) => 0.0,
+    })
+}
+
+fn logistic(x: f64) -> f64 {
+    1.0 / (1.0 + (-x).exp())
+}
+
+/// Of the verdicts whose score falls into a band: how many there are, and how many are right.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Band {
+    /// Lower end of the band.
+    pub from: f64,
+    /// Mean score of those in it.
+    pub mean_score: f64,
+    /// Best guesses in it.
+    pub num: usize,
+    /// Right ones.
+    pub num_right: usize,
+}
+
+/// How often best guesses were right, by score: calibrated is as often as the score says.
+pub fn bands(results: &[SuiteResult]) -> Vec<Band> {
+    const ENDS: [f64; 8] = [0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97, 0.99];
+    let cases: Vec<(f64, bool)> = results
+        .iter()
+        .flat_map(|result| &result.cases)
+        .filter(|case| !case.contenders.is_empty())
+        .map(|case| {
+            (
+                case.score,
+                case.found.is_some() && case.found == case.expected,
+            )
+        })
+        .collect();
+    ENDS.iter()
+        .enumerate()
+        .map(|(i, &from)| {
+            let to = ENDS.get(i + 1).copied().unwrap_or(f64::INFINITY);
+            let inside: Vec<_> = cases.iter().filter(|c| c.0 >= from && c.0 < to).collect();
+            Band {
+                from,
+                mean_score: inside.iter().map(|c| c.0).sum::<f64>() / inside.len().max(1) as f64,
+                num: inside.len(),
+                num_right: inside.iter().filter(|c| c.1).count(),
+            }
+        })
+        .collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::{RngExt as _, SeedableRng as _};
+    use rand_pcg::Pcg64;
+
+    use super::*;
+
+    #[test]
+    fn the_weights_that_made_the_samples_are_found_again() {
+        let truth = Model {
+            constant: 3.0,
+            weights: [-2.0, -1.0, 0.0, -1.5, -0.5],
+        };
+        let mut random = Pcg64::seed_from_u64(8);
+        let samples: Vec<Sample> = (0..20_000)
+            .map(|_| {
+                let evidence = Evidence {
+                    off: random.random_range(0.0..0.4),
+                    missing: random.random_range(0.0..0.4),
+                    hidden: 0.0,
+                    outside: random.random_range(0.0..0.5),
+                    relief_m: random.random_range(0.0..0.01),
+                    outline_m: random.random_range(0.0..0.04),
+                    cut: 0.0,
+                    facing: 1.0,
+                };
+                Sample {
+                    evidence,
+                    is_right: random.random::<f64>() < truth.probability(&evidence),
+                }
+            })
+            .collect();
+        let found = Model::fit(&samples, [true; NUM_FEATURES]);
+        for (found, truth) in found.weights.iter().zip(truth.weights) {
+            assert!((found - truth).abs() < 0.15, "{found} instead of {truth}");
+        }
+        assert!((found.constant - truth.constant).abs() < 0.3);
+    }
+}

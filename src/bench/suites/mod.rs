@@ -1,0 +1,209 @@
+//! The sets of simulated frames that recognition is measured on, and what each frame should come to.
+//!
+//! Frames follow from a seed alone. We tune on frames from [`TUNING_SEED`] on and on the car models that go with it,
+//! and measure on frames from [`MEASURING_SEED`] on, which no parameter was chosen by.
+
+mod cut;
+mod run;
+
+use serde::Serialize;
+
+use self::cut::pushed_out_of_the_picture;
+pub use self::run::{Confusion, Contender, SuiteCase, SuiteLibraries, SuiteResult, run_suite};
+pub(super) use self::run::{enrol_part, enrolment_pose};
+use crate::simulate::{
+    CellSetup, Clutter, ObjectKind, PartKind, PartPose, Placement, SensorNoise, Side, Stand,
+    Subject,
+};
+
+/// Frames from this seed on are for choosing parameters.
+pub const TUNING_SEED: u64 = 3_000_000;
+/// Frames from this seed on are only measured.
+pub const MEASURING_SEED: u64 = 9_000_000;
+/// Seeds that one suite may use: more frames than anybody waits for.
+const SEEDS_PER_SUITE: u64 = 100_000;
+
+/// A set of frames.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Suite {
+    /// Enrolled parts hung with care: ±10°, 1.0 to 1.4 m.
+    Standard,
+    /// Enrolled parts hung anyhow: ±30° yaw, ±20° pitch, any roll, 0.9 to 1.8 m.
+    Placed,
+    /// The same parts of other car models, placed.
+    OtherModels,
+    /// Enrolled parts turned up to 45°, things on the floor, three times the noise, every second one on a stand, and
+    /// 10 to 25 % behind a plank or out of the picture.
+    Hard,
+    /// Things that nobody enrolled, placed, and empty cells.
+    Unknown,
+    /// Right-hand parts where only the left-hand ones are enrolled, placed.
+    Mirrored,
+    /// Parts of both sides, placed, with both enrolled.
+    BothSides,
+}
+
+impl Suite {
+    /// All of them.
+    pub const ALL: [Self; 7] = [
+        Self::Standard,
+        Self::Placed,
+        Self::OtherModels,
+        Self::Hard,
+        Self::Unknown,
+        Self::Mirrored,
+        Self::BothSides,
+    ];
+
+    /// The name in files and on the command line.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Standard => "standard",
+            Self::Placed => "placed",
+            Self::OtherModels => "other_models",
+            Self::Hard => "hard",
+            Self::Unknown => "unknown",
+            Self::Mirrored => "mirrored",
+            Self::BothSides => "both_sides",
+        }
+    }
+
+    /// The frames, `num_poses` of each subject.
+    pub fn frames(self, num_poses: u64, first_seed: u64) -> Vec<SuiteFrame> {
+        let subjects = self.subjects();
+        let first_seed = first_seed + self as u64 * SEEDS_PER_SUITE;
+        (0..num_poses)
+            .flat_map(|pose| {
+                let first = first_seed + pose * subjects.len() as u64;
+                subjects
+                    .iter()
+                    .zip(first..)
+                    .map(move |(subject, seed)| (pose, *subject, seed))
+            })
+            .map(|(pose, subject, seed)| self.frame(subject, pose, seed))
+            .collect()
+    }
+
+    fn subjects(self) -> Vec<Subject> {
+        let part = |kind, side| Subject::Part {
+            kind,
+            side,
+            model_seed: 0,
+        };
+        let sided = || PartKind::ALL.into_iter().filter(|kind| kind.is_sided());
+        match self {
+            Self::Standard | Self::Placed | Self::OtherModels | Self::Hard => {
+                PartKind::ALL.map(|kind| part(kind, Side::Left)).to_vec()
+            }
+            Self::Unknown => ObjectKind::ALL
+                .into_iter()
+                .map(Subject::Object)
+                .chain([Subject::Nothing])
+                .collect(),
+            Self::Mirrored => sided().map(|kind| part(kind, Side::Right)).collect(),
+            Self::BothSides => sided()
+                .flat_map(|kind| Side::ALL.map(|side| part(kind, side)))
+                .collect(),
+        }
+    }
+
+    fn frame(self, subject: Subject, pose: u64, seed: u64) -> SuiteFrame {
+        let mut setup = CellSetup::new(subject, seed);
+        match self {
+            Self::Placed | Self::Unknown | Self::Mirrored | Self::BothSides => {}
+            Self::Standard => setup.pose = PartPose::Drawn(Placement::facing()),
+            Self::OtherModels => {
+                if let Subject::Part { model_seed, .. } = &mut setup.subject {
+                    // Never 0, and other models for tuning than for measuring.
+                    *model_seed = seed / 10_000 + pose;
+                }
+            }
+            Self::Hard => {
+                setup.noise = SensorNoise {
+                    multiplier: 3.0,
+                    ..SensorNoise::kinect(seed)
+                };
+                let mesh = setup.subject.mesh();
+                let placed = Placement::hard().draw(&mesh, &setup.intrinsics, seed);
+                (setup.clutter, setup.pose) = if pose.is_multiple_of(2) {
+                    (Clutter::InFront, PartPose::Fixed(placed.camera_from_part))
+                } else {
+                    let pushed = pushed_out_of_the_picture(&mesh, &placed, &setup.intrinsics, seed);
+                    (Clutter::OnFloor, PartPose::Fixed(pushed))
+                };
+                if pose / 2 % 2 == 1 {
+                    setup.stand = Stand::Post;
+                }
+            }
+        }
+        SuiteFrame {
+            expected: self.expected(subject),
+            setup,
+        }
+    }
+
+    fn expected(self, subject: Subject) -> Option<String> {
+        match (self, subject) {
+            (Self::Mirrored, _) | (_, Subject::Object(_) | Subject::Nothing) => None,
+            (_, Subject::Part { kind, side, .. }) => Some(enrolled_name(kind, side)),
+        }
+    }
+}
+
+/// The name that a standard part is enrolled by.
+pub fn enrolled_name(kind: PartKind, side: Side) -> String {
+    match side {
+        Side::Right if kind.is_sided() => format!("{kind}_right"),
+        Side::Left | Side::Right => kind.name().to_owned(),
+    }
+}
+
+/// One frame of a suite.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SuiteFrame {
+    /// The cell.
+    pub setup: CellSetup,
+    /// The name that the part is enrolled by; `None` for what must not be accepted as anything.
+    pub expected: Option<String>,
+}
+
+impl SuiteFrame {
+    /// What hangs there, for people.
+    pub fn subject(&self) -> String {
+        match self.setup.subject {
+            Subject::Part { kind, side, .. } => enrolled_name(kind, side),
+            Subject::Object(kind) => kind.name().to_owned(),
+            Subject::Nothing => "nothing".to_owned(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn no_two_frames_share_a_seed_and_tuning_is_kept_apart_from_measuring() {
+        let mut seeds: Vec<u64> = [TUNING_SEED, MEASURING_SEED]
+            .into_iter()
+            .flat_map(|first| Suite::ALL.map(|suite| suite.frames(5, first)))
+            .flatten()
+            .map(|frame| frame.setup.seed)
+            .collect();
+        let num = seeds.len();
+        seeds.sort_unstable();
+        seeds.dedup();
+        assert_eq!(seeds.len(), num);
+    }
+
+    #[test]
+    fn another_model_is_never_the_enrolled_one() {
+        for frame in Suite::OtherModels.frames(3, TUNING_SEED) {
+            let Subject::Part { model_seed, .. } = frame.setup.subject else {
+                panic!("a part");
+            };
+            assert_ne!(model_seed, 0);
+        }
+    }
+}

@@ -1,0 +1,116 @@
+//! `partsight bench calibration`: fits the score's model on simulated frames, and says what each piece of evidence is
+//! worth.
+
+use super::{BenchArgs, suites};
+use crate::{
+    bench::{
+        calibration::{Model, Sample, bands, samples},
+        suites::{Suite, SuiteResult, TUNING_SEED},
+    },
+    cli::{
+        Outcome,
+        console::{Console, Table},
+    },
+    stages::confirm::{FEATURES, NUM_FEATURES},
+};
+
+/// Poses of each subject, unless asked for otherwise.
+const NUM_POSES: u64 = 14;
+/// A score from which on errors are counted.
+const ACCEPTED: f64 = 0.9;
+
+pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let num_poses = args.poses.unwrap_or(NUM_POSES);
+    let first_seed = args.seed.unwrap_or(TUNING_SEED);
+    let results = suites::results(&Suite::ALL, num_poses, first_seed, None, console)?;
+    // One half of the subjects is fitted on, the other is measured, and the other way round.
+    let (odd, even) = halves(&results);
+    console.line(&format_args!(
+        "Simulated: {num_poses} poses of each subject, seeds from {first_seed}; {} contenders, {} of them right.",
+        odd.len() + even.len(),
+        odd.iter().chain(&even).filter(|s| s.is_right).count()
+    ));
+    console.line(&"");
+    let mut table = Table::new(&[
+        "evidence",
+        "log loss on unseen subjects",
+        "wrong from 0.9 on",
+        "right below 0.9",
+    ]);
+    let all = [true; NUM_FEATURES];
+    let mut row = |what: String, is_on: [bool; NUM_FEATURES]| {
+        let models = [Model::fit(&odd, is_on), Model::fit(&even, is_on)];
+        let loss = f64::midpoint(models[0].log_loss(&even), models[1].log_loss(&odd));
+        let errors = [
+            models[0].errors(&even, ACCEPTED),
+            models[1].errors(&odd, ACCEPTED),
+        ];
+        table.row([
+            what,
+            format!("{loss:.4}"),
+            (errors[0][0] + errors[1][0]).to_string(),
+            (errors[0][1] + errors[1][1]).to_string(),
+        ]);
+    };
+    row("all".to_owned(), all);
+    for (i, name) in FEATURES.iter().enumerate() {
+        let mut is_on = all;
+        is_on[i] = false;
+        row(format!("without {name}"), is_on);
+    }
+    for (i, name) in FEATURES.iter().enumerate() {
+        let mut is_on = [false; NUM_FEATURES];
+        is_on[i] = true;
+        row(format!("{name} alone"), is_on);
+    }
+    table.show(console);
+    let both: Vec<Sample> = odd.iter().chain(&even).copied().collect();
+    let model = Model::fit(&both, all);
+    console.line(&"");
+    console.line(&format_args!(
+        "Fitted on all: constant {:.2}",
+        model.constant
+    ));
+    for (name, weight) in FEATURES.iter().zip(model.weights) {
+        console.line(&format_args!("  {name}  {weight:.2}"));
+    }
+    console.line(&"");
+    show_bands(&results, console);
+    if let Some(path) = &args.json {
+        suites::write(path, &results, first_seed)?;
+    }
+    Ok(Outcome::Accepted)
+}
+
+/// The contenders of every second subject, and the others.
+fn halves(results: &[SuiteResult]) -> (Vec<Sample>, Vec<Sample>) {
+    let half = |is_odd: bool| {
+        let half_of = |result: &SuiteResult| {
+            let cases = result.cases.iter();
+            SuiteResult {
+                suite: result.suite,
+                cases: cases
+                    .filter(|case| (case.subject.len() % 2 == 1) == is_odd)
+                    .cloned()
+                    .collect(),
+            }
+        };
+        samples(&results.iter().map(half_of).collect::<Vec<_>>())
+    };
+    (half(true), half(false))
+}
+
+/// How often best guesses were right, by score.
+pub(super) fn show_bands(results: &[SuiteResult], console: &mut Console) {
+    let mut table = Table::new(&["score from", "mean score", "best guesses", "right"]);
+    for band in bands(results).iter().filter(|band| band.num > 0) {
+        let share = 100.0 * band.num_right as f64 / band.num as f64;
+        table.row([
+            format!("{:.2}", band.from),
+            format!("{:.3}", band.mean_score),
+            band.num.to_string(),
+            format!("{} ({share:.1} %)", band.num_right),
+        ]);
+    }
+    table.show(console);
+}

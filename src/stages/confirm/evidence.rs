@@ -1,0 +1,228 @@
+//! What speaks for and against a reference at its pose, and what that comes to.
+//!
+//! The score is a logistic model: the probability that the part hangs there, at the pose found. Its weights are fitted
+//! on simulated frames (`partsight bench calibration`, tuning seeds), where every reference that was looked at is one
+//! sample, so a box speaks against each part that it resembles.
+//!
+//! What the evidence is worth, as the mean of -ln(probability of what is so) on kinds of part that were not fitted on
+//! (0.0040 with all five; 2 070 samples of 600 frames):
+//!
+//! | without | log loss |
+//! | --- | --- |
+//! | the reference's points that the camera looks past (`missing`) | 0.029 |
+//! | the part's points off the reference (`off`) | 0.009 |
+//! | the distance between the outlines | 0.005 |
+//! | what is beyond the picture | 0.0043 |
+//! | the relief, less noise | 0.0045 |
+//!
+//! Alone each is ten times worse. Dropped, because the model was as good or better without: the residual over the noise
+//! (the relief holds it), the way back from the reference's edges to the part's (openings come and go with the noise:
+//! twice the loss on unseen kinds), the share that is hidden, and the share of the outline that is cut. The size is in
+//! `off` and `missing`, openings are in `missing` and the outline, so neither needs a figure of its own.
+
+use nalgebra::{Point3, Vector3};
+
+use super::Seen;
+use crate::{
+    geometry::rigid::RigidTransform,
+    stages::{
+        pose::{
+            quality::{Fit, look_for, measure_fit},
+            refine::{Search, Source, Target},
+        },
+        reference::Reference,
+    },
+};
+
+/// What speaks for and against a reference at its pose. Distances are cut off at 40 mm, so one stray counts little.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct Evidence {
+    /// Share of the part's points that lie off the reference, 0..1.
+    pub off: f64,
+    /// Share of the reference that the camera looks through, of what it sees or looks through, 0..1.
+    pub missing: f64,
+    /// Share of the reference that something nearer hides, 0..1.
+    pub hidden: f64,
+    /// Share of the reference beyond the picture, 0..1.
+    pub outside: f64,
+    /// How far the surface bulges or sinks from the reference's, metres: root mean square of the mean signed distances
+    /// over patches of 12 cm, less what the noise leaves of itself in such a mean.
+    pub relief_m: f64,
+    /// Mean distance of the part's outline and openings to the reference's, metres.
+    pub outline_m: f64,
+    /// Share of the part's outline where only the view ends, 0..1.
+    pub cut: f64,
+    /// Cosine of the angle that the reference's face is seen at.
+    pub facing: f64,
+}
+
+/// Points on which the figures of a fit are taken.
+const NUM_MEASURED: usize = 1000;
+/// Distances beyond this count as this, metres.
+const FAR: f64 = 0.04;
+/// Side of a patch, metres: some 40 points of a door, and less than the radius of anything pressed into a sheet.
+const PATCH: f32 = 0.12;
+/// Fewer points than this make no mean.
+const LEAST_IN_PATCH: f64 = 6.0;
+/// What is left of the noise in the mean over a patch, as measured on parts that were enrolled: neighbouring readings
+/// share theirs.
+const NOISE_LEFT: f64 = 0.3;
+
+impl Seen<'_> {
+    /// Takes the figures of one reference at a pose.
+    pub(super) fn weigh(
+        &self,
+        reference: &Reference,
+        view: usize,
+        target_from_source: &RigidTransform,
+        search: Search,
+    ) -> (Fit, Evidence) {
+        let target = reference
+            .target(view)
+            .expect("what has a pose has a cloud and a view");
+        let scene = self.scene;
+        let surface = &self.source.surface;
+        let measured = &surface[..NUM_MEASURED.min(surface.len())];
+        let tolerance = self.tolerance;
+        let camera_from_target = target_from_source.inverse();
+        let sight = look_for(&target, &camera_from_target, scene.scene, tolerance);
+        let fit = Fit {
+            sight,
+            ..measure_fit(measured, &target, target_from_source, tolerance, search)
+        };
+        let noise = |p: &Point3<f32>| scene.part.noise_at_1m.0 * f64::from(p.z * p.z);
+        let noise_sq = measured.iter().map(|p| noise(p).powi(2)).sum::<f64>();
+        let noise_sq = noise_sq / measured.len().max(1) as f64;
+        let relief_sq = relief(measured, &target, target_from_source, search).powi(2);
+        let evidence = Evidence {
+            off: 1.0 - fit.overlap,
+            missing: sight.map_or(0.0, |s| {
+                s.missing / (s.confirmed + s.missing).max(f64::MIN_POSITIVE)
+            }),
+            hidden: sight.map_or(0.0, |s| s.hidden),
+            outside: sight.map_or(0.0, |s| s.outside),
+            relief_m: (relief_sq - NOISE_LEFT * NOISE_LEFT * noise_sq)
+                .max(0.0)
+                .sqrt(),
+            outline_m: outline_distance(&self.source, &target, target_from_source),
+            cut: self.cut_share,
+            facing: facing(reference, view, target_from_source),
+        };
+        (fit, evidence)
+    }
+}
+
+/// Root mean square of the patches' mean signed distances.
+fn relief(
+    measured: &[Point3<f32>],
+    target: &Target<'_>,
+    target_from_source: &RigidTransform,
+    search: Search,
+) -> f64 {
+    let Some(normals) = target.cloud.normals.as_deref() else {
+        return 0.0;
+    };
+    let moved = target_from_source.cast::<f32>();
+    let mut patches: Vec<([i32; 3], f64)> = measured
+        .iter()
+        .filter_map(|p| {
+            let at = moved * p;
+            let near = target.nearest(search, &at, (FAR * FAR) as f32)?;
+            let off = normals[near.index].dot(&(at - target.cloud.points[near.index]));
+            let patch = [at.x, at.y, at.z].map(|x| (x / PATCH).floor() as i32);
+            Some((patch, f64::from(off)))
+        })
+        .collect();
+    patches.sort_by_key(|p| p.0);
+    let (mut sum, mut num) = (0.0, 0.0_f64);
+    for patch in patches.chunk_by(|a, b| a.0 == b.0) {
+        let n = patch.len() as f64;
+        if n >= LEAST_IN_PATCH {
+            let mean = patch.iter().map(|p| p.1).sum::<f64>() / n;
+            sum += n * mean * mean;
+            num += n;
+        }
+    }
+    (sum / num.max(1.0)).sqrt()
+}
+
+/// Mean distance of the part's edges to the reference's.
+fn outline_distance(
+    source: &Source,
+    target: &Target<'_>,
+    target_from_source: &RigidTransform,
+) -> f64 {
+    if source.edges.is_empty() || target.edges.is_empty() {
+        return FAR;
+    }
+    let moved = target_from_source.cast::<f32>();
+    let distances = source.edges.iter().map(|p| {
+        let closest = target.edges.closest(&(moved * p), (FAR * FAR) as f32);
+        closest.map_or(FAR, |c| f64::from(c.1).sqrt())
+    });
+    distances.sum::<f64>() / source.edges.len() as f64
+}
+
+/// The view of a reference that its pose shows most squarely.
+pub(super) fn facing_view(reference: &Reference, target_from_source: &RigidTransform) -> usize {
+    let views = 0..reference.views.len();
+    let facings = views.map(|view| (view, facing(reference, view, target_from_source)));
+    facings
+        .max_by(|a, b| a.1.total_cmp(&b.1))
+        .map_or(0, |best| best.0)
+}
+
+/// Cosine of the angle between a view of a reference and where the camera is.
+fn facing(reference: &Reference, view: usize, target_from_source: &RigidTransform) -> f64 {
+    let part_from_plane = reference.views[view].plane_from_part.inverse();
+    let towards = target_from_source * Point3::origin() - part_from_plane * Point3::origin();
+    (part_from_plane * Vector3::z()).dot(&towards.normalize())
+}
+
+/// A part that is seen at more than 61° to its face is not recognised: hardly a point of it says anything, and a strip
+/// of anything fits it.
+const LEAST_FACING: f64 = 0.48;
+/// Nor is a part of which less than this share is in sight: a strip of floor lies well on the end of a bumper.
+const LEAST_IN_SIGHT: f64 = 0.6;
+/// What a perfect fit of a part that is hardly seen scores.
+const HARDLY_SEEN: f64 = 0.4;
+/// Nor is what has hardly an outline of its own.
+const MOST_CUT: f64 = 0.5;
+
+impl Evidence {
+    /// What the score is made of: each 0 for a perfect fit, and some 1 where a fit becomes doubtful. Shares beyond 0.4
+    /// say no more than 0.4 does.
+    pub fn features(&self) -> [f64; NUM_FEATURES] {
+        [
+            self.off.min(0.4) / 0.1,
+            self.missing.min(0.4) / 0.1,
+            self.outside / 0.25,
+            self.relief_m / 0.005,
+            self.outline_m / 0.01,
+        ]
+    }
+
+    /// True if enough of the part would be in sight to tell it from something else.
+    pub fn is_seen(&self) -> bool {
+        let in_sight = (1.0 - self.outside) * (1.0 - self.hidden);
+        self.facing >= LEAST_FACING && in_sight >= LEAST_IN_SIGHT && self.cut <= MOST_CUT
+    }
+
+    /// The probability that the part hangs there and stands where it was found, 0..1; at most 0.4 for what is hardly
+    /// seen.
+    pub fn score(&self) -> f64 {
+        let most = if self.is_seen() { 1.0 } else { HARDLY_SEEN };
+        let weighted = self.features().into_iter().zip(WEIGHTS);
+        let sum: f64 = weighted.map(|(x, weight)| weight * x).sum();
+        most / (1.0 + (-(CONSTANT + sum)).exp())
+    }
+}
+
+/// The model of the score, as `bench calibration` fits it on the tuning seeds.
+const CONSTANT: f64 = 10.4;
+const WEIGHTS: [f64; NUM_FEATURES] = [-2.43, -5.13, -1.06, -1.52, -2.0];
+
+/// Figures that a score is made of.
+pub const NUM_FEATURES: usize = 5;
+/// Their names, in order.
+pub const FEATURES: [&str; NUM_FEATURES] = ["off", "missing", "outside", "relief", "outline"];
