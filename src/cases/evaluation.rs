@@ -11,6 +11,7 @@ use super::{
     error::CaseError,
     judge::{CaseResult, Found, Truth},
     store::{CaseFolder, CaseList, KeptCase},
+    trade_off::TradeOff,
 };
 use crate::{
     geometry::{
@@ -98,6 +99,8 @@ pub struct Evaluation {
     pub by_difficulty: Vec<(Option<String>, Tally)>,
     /// Scores against shares.
     pub calibration: Calibration,
+    /// What a threshold on the score costs.
+    pub trade_off: TradeOff,
 }
 
 impl Evaluation {
@@ -118,6 +121,7 @@ impl Evaluation {
             by_truth: by_truth.collect(),
             by_difficulty: by_difficulty.collect(),
             calibration: Calibration::of(&results),
+            trade_off: TradeOff::of(&results),
             confusion,
             problems,
             results,

@@ -61,6 +61,7 @@ mod judge;
 mod meta;
 mod record;
 mod store;
+mod trade_off;
 
 pub use self::{
     calibration::{Calibration, ScoreBin},
@@ -74,4 +75,5 @@ pub use self::{
         CaseRecord, EarlierRun, EvaluationRecord, PoseErrors, PoseOff, RECORD_SCHEMA, RecordError,
     },
     store::{CaseFolder, CaseList, KeptCase},
+    trade_off::{AtThreshold, TradeOff},
 };

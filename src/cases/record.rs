@@ -7,6 +7,7 @@
 //!  "by_difficulty":[{"difficulty":"placed","tally":{…}}],
 //!  "confusion":[{"truth":{"is":"part","part":"fender"},"accepted_as":null,"num":1}],
 //!  "calibration":{"bins":[{"from":0.0,"to":0.1,"num":0,"num_right":0,"mean_score":0.0}],"expected_error":0.02},
+//!  "trade_off":{"num_cases":48,"num_enrolled":40,"steps":[{"threshold":0.0,"num_wrong_accepted":8,"num_refused":0}]},
 //!  "pose_errors":{"num":47,"median":{"rotation_deg":0.2,"shift_mm":1.1},"p95":{…}},
 //!  "times_ms":[{"stage":"segment","median_ms":1.9,"p95_ms":2.4,"budget_ms":2.5}],
 //!  "cases":[{"name":"fender_placed_1","difficulty":"placed","truth":{…},"found":{"part":"fender","score":0.97,
@@ -25,6 +26,7 @@ use super::{
     confusion::Tally,
     evaluation::Evaluation,
     judge::{Answered, CaseResult, Found, Judgement, Truth},
+    trade_off::TradeOff,
 };
 use crate::{
     error::Advice,
@@ -46,6 +48,7 @@ pub struct EvaluationRecord<'a, T> {
     by_difficulty: Vec<DifficultyTally<'a>>,
     confusion: Vec<CellRecord<'a>>,
     calibration: &'a Calibration,
+    trade_off: &'a TradeOff,
     pose_errors: PoseErrors,
     times_ms: T,
     cases: Vec<CaseRecord>,
@@ -170,6 +173,7 @@ impl<'a, T> EvaluationRecord<'a, T> {
             by_truth,
             by_difficulty,
             calibration,
+            trade_off,
         } = evaluation;
         let by_truth = by_truth.iter();
         let by_truth = by_truth.map(|(truth, tally)| TruthTally {
@@ -200,6 +204,7 @@ impl<'a, T> EvaluationRecord<'a, T> {
             by_difficulty: by_difficulty.collect(),
             confusion: cells.collect(),
             calibration,
+            trade_off,
             pose_errors: PoseErrors::of(results),
             times_ms,
             cases: results.iter().map(CaseRecord::from).collect(),

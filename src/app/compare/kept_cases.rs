@@ -8,8 +8,9 @@ use egui::{
 };
 
 use super::{
-    CaseRun, CompareAction, calibration_plot, changes_list,
+    CaseRun, CompareAction, changes_list,
     matrix::{Matrix, MatrixCell, part_title, truth_title},
+    score_plots,
 };
 use crate::{
     app::{
@@ -82,7 +83,7 @@ fn matrix_and_calibration(
     acts: &mut Vec<CompareAction>,
 ) {
     let num_columns = run.matrix.columns.len() as f32;
-    let beside = ui.available_width() - calibration_plot::WIDTH - space::LARGE;
+    let beside = ui.available_width() - score_plots::WIDTH - space::LARGE;
     if beside >= NAMES + 16.0 + NARROWEST * num_columns {
         ui.horizontal_top(|ui| {
             ui.vertical(|ui| {
@@ -90,13 +91,18 @@ fn matrix_and_calibration(
                 matrix(ui, &run.matrix, theme, acts);
             });
             ui.add_space(space::MEDIUM);
-            calibration_plot::ui(ui, &run.calibration, theme);
+            ui.vertical(|ui| plots(ui, run, theme));
         });
     } else {
         matrix(ui, &run.matrix, theme, acts);
         ui.add_space(space::MEDIUM);
-        calibration_plot::ui(ui, &run.calibration, theme);
+        ui.horizontal_wrapped(|ui| plots(ui, run, theme));
     }
+}
+
+fn plots(ui: &mut Ui, run: &CaseRun, theme: &Theme) {
+    score_plots::calibration(ui, &run.calibration, theme);
+    score_plots::trade_off(ui, &run.trade_off, run.recipe.accept.min_score, theme);
 }
 
 fn header(

@@ -3,7 +3,6 @@
 //! A case, the scene inspected last or a kept one, is inspected with the recipe on trial and laid against one enrolled
 //! part; all kept cases can be run, and their confusion matrix leads back to each of them.
 
-mod calibration_plot;
 mod case_bar;
 mod changes_list;
 pub mod comparison;
@@ -17,6 +16,7 @@ pub mod parameters;
 mod pictures;
 mod recipe_panel;
 mod scaling_plot;
+mod score_plots;
 mod state;
 pub mod study;
 mod trial;

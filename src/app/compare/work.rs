@@ -20,7 +20,7 @@ use crate::{
     bench::scaling::{Scaling, ScalingError, ScalingRow, scaling, sizes},
     cases::{
         Calibration, CaseAbout, CaseError, CaseFolder, CaseJudge, CaseResult, Changes, Confusion,
-        EarlierRun, KeptCase, RecordError,
+        EarlierRun, KeptCase, RecordError, TradeOff,
     },
     pipeline::Recipe,
     stages::{rank::Matcher, scene::SceneCloud},
@@ -147,6 +147,8 @@ pub struct CaseRun {
     pub matrix: Matrix,
     /// Scores against shares of right guesses.
     pub calibration: Calibration,
+    /// What a threshold on the score costs.
+    pub trade_off: TradeOff,
     /// When the run ended; `None` while it goes on.
     pub ended: Option<Timestamp>,
 }
@@ -256,6 +258,7 @@ fn run(
             recipe: Arc::clone(recipe),
             matrix: Matrix::of(confusion, &shelved.shown),
             calibration: Calibration::of(results),
+            trade_off: TradeOff::of(results),
             results: results.to_vec(),
             troubles: troubles.to_vec(),
             total,

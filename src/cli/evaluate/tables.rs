@@ -23,6 +23,7 @@ pub(super) fn show(
         by_truth,
         by_difficulty,
         calibration,
+        trade_off: _,
     } = evaluation;
     let by_truth = by_truth.iter().map(|(truth, tally)| (truth.name(), tally));
     let by_difficulty = by_difficulty

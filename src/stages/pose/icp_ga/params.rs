@@ -5,7 +5,7 @@ use crate::{
     units::Radians,
 };
 
-/// Parameters of [`icp_ga`](super::icp_ga).
+/// Parameters of ICP-GA.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct IcpGaParams {
