@@ -9,6 +9,8 @@
 //! are summed over patches of the part before they are squared, and only patches count as independent (K.-Y. Liang and
 //! S. L. Zeger, "Longitudinal data analysis using generalized linear models", Biometrika 73(1), 1986).
 //!
+//! The bounds are about the pose of least squares. A pose found another way is off it by a step, which is added.
+//!
 //! Noisy normals feign a hold that is not there: on a plane they point a little to every side. What they would feign
 //! by their own scatter is therefore taken off H; where nothing is left, the pose is free that way.
 //!
@@ -204,9 +206,12 @@ impl Sums {
             .sum::<Matrix6<f64>>()
             * (num / (num - 6.0).max(1.0));
         let covariance = inverse * spread * inverse;
+        // ICP ends where points are close, not where surfaces are: what it has still to go counts in full.
+        let to_go = inverse * self.pulls.values().sum::<Vector6<f64>>();
         let bound = |first: usize| {
             let block: Matrix3<f64> = covariance.fixed_view::<3, 3>(first, first).into_owned();
-            (WITHIN_SQ * block.symmetric_eigenvalues().max().max(0.0)).sqrt()
+            let scatter = (WITHIN_SQ * block.symmetric_eigenvalues().max().max(0.0)).sqrt();
+            scatter + to_go.fixed_rows::<3>(first).norm()
         };
         let (turn, shift) = (bound(0), bound(3));
         (turn.is_finite() && shift.is_finite()).then_some(Uncertainty {
