@@ -11,7 +11,7 @@ use std::{
 use serde_json::Value;
 
 /// Long enough for a machine at work with other things; what is waited for comes at once.
-const PATIENCE: Duration = Duration::from_secs(120);
+const PATIENCE: Duration = Duration::from_mins(2);
 
 struct Workplace {
     folder: tempfile::TempDir,

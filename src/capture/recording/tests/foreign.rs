@@ -19,7 +19,7 @@ fn a_sequence_of_depth_images_is_read_with_its_times_and_its_camera() {
         },
         metres_per_unit: 0.0002,
     };
-    let mut list = String::from("# depth maps\n# timestamp filename\n");
+    let mut list = vec!["# depth maps".to_owned(), "# timestamp filename".into()];
     for k in 0..3_u16 {
         let frame = DepthFrame {
             intrinsics: camera.intrinsics,
@@ -29,10 +29,10 @@ fn a_sequence_of_depth_images_is_read_with_its_times_and_its_camera() {
         let mut png = Vec::new();
         write_depths(&mut png, &frame).unwrap();
         fs::write(folder.path().join(format!("depth/{k}.png")), png).unwrap();
-        list += &format!("1305031102.16040{k} depth/{k}.png\n");
+        list.push(format!("1305031102.16040{k} depth/{k}.png"));
     }
-    list += "1305031103.0 depth/missing.png\n";
-    fs::write(folder.path().join("depth.txt"), &list).unwrap();
+    list.push("1305031103.0 depth/missing.png".into());
+    fs::write(folder.path().join("depth.txt"), list.join("\n")).unwrap();
     // The assumed camera has another size: every image is named with what is wrong.
     let (_, names) = replayed(folder.path());
     assert!(names.iter().all(|name| name.starts_with('!')), "{names:?}");
