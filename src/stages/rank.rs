@@ -378,12 +378,12 @@ fn overlap(
             .pixel_of(&(view_plane_from_scene * Point2::new(x, y)))
     };
     let (origin, right, up) = (at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0));
-    let image = &seen.plane.image;
     let is_shared = |p: &&Point2<f64>| {
-        // Half a pixel more, so that cutting off the fraction rounds.
-        let column = origin.0 + (right.0 - origin.0) * p.x + (up.0 - origin.0) * p.y + 0.5;
-        let row = origin.1 + (right.1 - origin.1) * p.x + (up.1 - origin.1) * p.y + 0.5;
-        column >= 0.0 && row >= 0.0 && image.is_set(column as i64, row as i64)
+        let column = origin.0 + (right.0 - origin.0) * p.x + (up.0 - origin.0) * p.y;
+        let row = origin.1 + (right.1 - origin.1) * p.x + (up.1 - origin.1) * p.y;
+        // A pixel more, so that cutting off the fraction is rounding down before the image too.
+        let pixel = |x: f64| (x + 1.5) as i32 - 1;
+        seen.pixels.is_set(pixel(column), pixel(row))
     };
     let shared = scene.points.iter().filter(is_shared).count() as f64 * scene.area_each;
     let scene_area = scene.points.len() as f64 * scene.area_each;

@@ -13,7 +13,8 @@ use crate::{
     error::Advice,
     geometry::{
         cloud::PointCloud, nearest::KdTree, nearest_field::NearestField,
-        outline_field::OutlineField, principal::principal_axes, rigid::RigidTransform,
+        outline_field::OutlineField, principal::principal_axes, raster::PackedImage,
+        rigid::RigidTransform,
     },
     stages::{
         contour::{Contour, ContourParams, find_contour},
@@ -105,6 +106,8 @@ pub struct ReferenceView {
     pub plane_from_part: RigidTransform,
     /// The binary image.
     pub plane: PlaneImage,
+    /// Its pixels alone.
+    pub pixels: PackedImage,
     /// Area of its set pixels, square metres.
     pub image_area: f64,
     /// Its outline and openings.
@@ -242,6 +245,7 @@ impl ReferenceView {
         Self {
             edges: EdgePoints::new(edges, NUM_EDGES),
             spectrum: correlation::spectrum(&signature.rays),
+            pixels: plane.image.packed(),
             image_area: plane.image.num_set() as f64 * plane.pixel.0.powi(2),
             outline_field: OnceLock::new(),
             plane_from_part,
