@@ -4,6 +4,7 @@ use std::{io, path::PathBuf};
 
 use thiserror::Error;
 
+use super::kinect::{KinectError, KinectWarning};
 use crate::{
     error::Advice,
     files::{FileError, FileWarning, advice_on, words_of},
@@ -37,6 +38,9 @@ pub enum CaptureError {
         /// The file.
         path: PathBuf,
     },
+    /// A Kinect.
+    #[error(transparent)]
+    Kinect(#[from] KinectError),
     /// The system gives no thread for the camera.
     #[error("the camera's thread cannot be started: {source}")]
     NoThread {
@@ -66,6 +70,7 @@ impl CaptureError {
             Self::FolderGone { may_come: true, .. } | Self::FolderUnreadable { .. } => {
                 Recovery::AskAgain
             }
+            Self::Kinect(error) => error.recovery(),
             Self::FolderGone { .. }
             | Self::File(_)
             | Self::MeshIsNoCapture { .. }
@@ -96,6 +101,7 @@ impl Advice for CaptureError {
                     path.display()
                 )
             }
+            Self::Kinect(error) => error.advice(),
             Self::NoThread { .. } => "Close other programs and start again".into(),
             Self::Crashed => "Choose the source again, and report what was done before".into(),
         }
@@ -108,12 +114,16 @@ pub enum CaptureWarning {
     /// About the file it came from.
     #[error(transparent)]
     File(#[from] FileWarning),
+    /// About a Kinect.
+    #[error(transparent)]
+    Kinect(#[from] KinectWarning),
 }
 
 impl Advice for CaptureWarning {
     fn advice(&self) -> String {
         match self {
             Self::File(warning) => warning.advice(),
+            Self::Kinect(warning) => warning.advice(),
         }
     }
 }

@@ -20,6 +20,7 @@ mod spec;
 
 pub use self::error::{CaptureError, CaptureWarning, Recovery};
 pub use self::feed::{Delivery, Feed, FeedItem, FeedState, FeedStatus};
+pub use self::kinect::{KinectError, KinectWarning};
 pub use self::open::{Listed, list, open};
 pub use self::rate::FrameRate;
 pub use self::simulated::SimulatedCell;
