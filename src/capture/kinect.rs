@@ -28,7 +28,7 @@ use jiff::Timestamp;
 pub use self::error::{KinectError, KinectWarning};
 use self::{
     failure::Failed,
-    freenect::{Context, Device},
+    freenect::{Context, Device, Library},
     header::{DEPTH_11BIT, DEPTH_MM, DEPTH_MM_MAX, FrameMode},
     search::Found,
 };
@@ -50,7 +50,9 @@ pub(super) struct Kinect {
     title: String,
     camera: Intrinsics,
     units: Units,
-    plays_session: bool,
+    library: &'static Library,
+    /// Where it plays a recorded session, how long that is.
+    num_entries: Option<usize>,
     num_frames: u64,
     silence: Silence,
     warnings: Vec<CaptureWarning>,
@@ -75,7 +77,7 @@ pub(super) fn list() -> Vec<Listed> {
 
 fn found_devices() -> Result<Vec<Listed>, KinectError> {
     let library = search::find(None)?;
-    let context = start(&library)?;
+    let (context, num_entries) = start(&library)?;
     let num_devices = context.num_devices().map_err(KinectError::of_opening)?;
     if num_devices == 0 {
         return Err(KinectError::NoDevice);
@@ -91,7 +93,7 @@ fn found_devices() -> Result<Vec<Listed>, KinectError> {
             trouble: None,
         }
     };
-    if library.library.plays_sessions() {
+    if num_entries.is_some() {
         return Ok(vec![can_be_opened(None)]);
     }
     let serials = context.serials().map_err(KinectError::of_opening)?;
@@ -122,18 +124,22 @@ fn title(spec: &KinectSpec, library: &Found) -> String {
 }
 
 /// Starts the library. A build that plays recorded sessions ends the program where it has none, so that is looked at
-/// before.
-fn start(found: &Found) -> Result<Context, KinectError> {
-    if found.library.plays_sessions() {
-        session::check(&found.name)?;
-    }
-    Context::new(found.library).map_err(|error| KinectError::of_start(error, &found.name))
+/// before; its number of entries comes with the context.
+fn start(found: &Found) -> Result<(Context, Option<usize>), KinectError> {
+    let plays_session = found.library.plays_sessions();
+    let num_entries = plays_session
+        .then(|| session::check(&found.name))
+        .transpose()?;
+    let context =
+        Context::new(found.library).map_err(|error| KinectError::of_start(error, &found.name))?;
+    Ok((context, num_entries))
 }
 
 impl Kinect {
     fn open(spec: &KinectSpec, now: Instant) -> Result<Self, KinectError> {
         let library = search::find(spec.library.as_deref())?;
-        let mut device = open_device(&library, spec.serial.as_deref())?;
+        let (context, num_entries) = start(&library)?;
+        let mut device = open_device(context, num_entries.is_some(), spec.serial.as_deref())?;
         let mode = best_mode(&device.depth_modes()).ok_or(KinectError::NoDepthMode)?;
         let mut warnings = Vec::new();
         let camera = camera_of(&device, &mode).unwrap_or_else(|| {
@@ -155,7 +161,8 @@ impl Kinect {
             title: title(spec, &library),
             camera,
             units,
-            plays_session: library.library.plays_sessions(),
+            library: library.library,
+            num_entries,
             num_frames: 0,
             silence: Silence { since: now },
             warnings,
@@ -201,6 +208,13 @@ impl DepthSource for Kinect {
         let mut now = Instant::now();
         let deadline = now + wait;
         loop {
+            // Asked beyond its end, the library would also write about it among the program's own output.
+            if self
+                .num_entries
+                .is_some_and(|num| self.library.num_turns() >= num)
+            {
+                self.device = None;
+            }
             let Some(device) = &mut self.device else {
                 return Ok(Next::End);
             };
@@ -209,14 +223,14 @@ impl DepthSource for Kinect {
             now = Instant::now();
             match depth {
                 Ok(Some(depth)) => return Ok(Next::Captured(self.captured(depth, now))),
-                Ok(None) if self.plays_session => {}
+                Ok(None) if self.num_entries.is_some() => {}
                 Ok(None) => {
                     if let Some(seconds) = self.silence.is_too_long(now) {
                         return self.end(KinectError::Silent { seconds });
                     }
                 }
                 // A session that is over and a camera that is gone have the same code.
-                Err(_) if self.plays_session => {
+                Err(_) if self.num_entries.is_some() => {
                     self.device = None;
                     return Ok(Next::End);
                 }
@@ -258,8 +272,11 @@ impl Silence {
     }
 }
 
-fn open_device(library: &Found, serial: Option<&str>) -> Result<Device, KinectError> {
-    let context = start(library)?;
+fn open_device(
+    context: Context,
+    plays_session: bool,
+    serial: Option<&str>,
+) -> Result<Device, KinectError> {
     let num_devices = context.num_devices().map_err(KinectError::of_opening)?;
     if num_devices == 0 {
         return Err(KinectError::NoDevice);
@@ -269,7 +286,7 @@ fn open_device(library: &Found, serial: Option<&str>) -> Result<Device, KinectEr
     };
     let found = context.serials().map_err(KinectError::of_opening)?;
     // A session has one camera, and its number is not known.
-    if !library.library.plays_sessions() && !found.iter().any(|one| one == serial) {
+    if !plays_session && !found.iter().any(|one| one == serial) {
         if found.len() < num_devices {
             return Err(KinectError::no_permission());
         }

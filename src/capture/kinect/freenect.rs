@@ -18,7 +18,10 @@ use std::{
     cell::{Cell, RefCell},
     ffi::{CStr, OsStr, OsString, c_char, c_double, c_int, c_void},
     ptr::{self, NonNull},
-    sync::{Mutex, PoisonError},
+    sync::{
+        Mutex, PoisonError,
+        atomic::{AtomicUsize, Ordering},
+    },
     time::Duration,
 };
 
@@ -99,6 +102,7 @@ impl Functions {
 pub(super) struct Library {
     /// Or the first function that is missing.
     functions: Result<Functions, &'static str>,
+    num_turns: AtomicUsize,
 }
 
 impl Library {
@@ -114,7 +118,10 @@ impl Library {
         let library =
             unsafe { libloading::Library::new(name) }.map_err(|error| error.to_string())?;
         let functions = Functions::look_up(Box::leak(Box::new(library)));
-        let library: &'static Self = Box::leak(Box::new(Self { functions }));
+        let library: &'static Self = Box::leak(Box::new(Self {
+            functions,
+            num_turns: AtomicUsize::new(0),
+        }));
         loaded.push((name.to_owned(), library));
         Ok(library)
     }
@@ -124,10 +131,16 @@ impl Library {
         self.functions
             .is_ok_and(|functions| functions.list().is_none())
     }
+
+    /// How often it was let work since it was loaded.
+    pub(super) fn num_turns(&self) -> usize {
+        self.num_turns.load(Ordering::Relaxed)
+    }
 }
 
 /// A running library: no device is open yet.
 pub(super) struct Context {
+    library: &'static Library,
     functions: Functions,
     handle: NonNull<c_void>,
     _claim: Claim,
@@ -151,6 +164,7 @@ impl Context {
             (functions.freenect_select_subdevices)(context.as_ptr(), DEVICE_CAMERA);
         }
         Ok(Self {
+            library,
             functions,
             handle: context,
             _claim: claim,
@@ -259,18 +273,9 @@ impl Device {
     /// Where on x and y, in millimetres, the library puts what a pixel shows at `depth_mm`; `None` if it cannot say.
     pub(super) fn point_mm(&self, column: i32, row: i32, depth_mm: i32) -> Option<(f64, f64)> {
         let camera_to_world = self.context.functions.freenect_camera_to_world?;
-        let (mut x, mut y) = (0.0, 0.0);
+        let (device, mut x, mut y) = (self.handle.as_ptr(), 0.0, 0.0);
         // SAFETY: the device is open; `x` and `y` are places to write a number to.
-        unsafe {
-            camera_to_world(
-                self.handle.as_ptr(),
-                column,
-                row,
-                depth_mm,
-                &raw mut x,
-                &raw mut y,
-            );
-        }
+        unsafe { camera_to_world(device, column, row, depth_mm, &raw mut x, &raw mut y) };
         Some((x, y))
     }
 
@@ -295,6 +300,10 @@ impl Device {
         let mut wait = TimeVal::from(wait);
         self.inbox.is_new = false;
         let (functions, context) = (self.context.functions, self.context.handle.as_ptr());
+        self.context
+            .library
+            .num_turns
+            .fetch_add(1, Ordering::Relaxed);
         RECEIVING.set(&raw mut self.inbox);
         // SAFETY: the context is initialised and its device open; `wait` is a timeval. The callback finds the inbox,
         // which nothing else touches until the call has returned.
@@ -305,11 +314,8 @@ impl Device {
         match outcome {
             // A frame that came before the trouble is given first; the trouble stays and is told next time.
             _ if self.inbox.is_new => Ok(Some(&self.inbox.depth)),
-            Ok(_)
-            | Err(Failed {
-                code: INTERRUPTED, ..
-            }) => Ok(None),
-            Err(failed) => Err(failed),
+            Err(failed) if failed.code != INTERRUPTED => Err(failed),
+            _ => Ok(None),
         }
     }
 
@@ -347,8 +353,8 @@ extern "C" fn on_depth(_device: *mut c_void, depth: *mut c_void, _ticks: u32) {
         return;
     }
     let num_bytes = size_of_val(inbox.depth.as_slice());
-    // SAFETY: the inbox has the size of a frame in the mode that is set, and the library finished a frame of it. Bytes
-    // are copied, because it need not be aligned for more.
+    // SAFETY: the inbox has the size of a frame in the mode that is set, and the library finished a frame of it; that a
+    // recorded one is whole was looked at before. Bytes are copied, because it need not be aligned for more.
     unsafe {
         ptr::copy_nonoverlapping(
             depth.cast::<u8>(),

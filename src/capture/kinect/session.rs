@@ -20,8 +20,9 @@ const FRAME_BYTES: u64 = 640 * 480 * 2;
 /// A header is `P5 640 480 65535` and the end of the line.
 const LONGEST_HEADER: u64 = 64;
 
-/// Looks through the session that the variable names, on behalf of the library of that name.
-pub(super) fn check(library: &str) -> Result<(), KinectError> {
+/// Looks through the session that the variable names, on behalf of the library of that name. The result is its number
+/// of entries; the library plays one at a turn.
+pub(super) fn check(library: &str) -> Result<usize, KinectError> {
     match env::var_os(VARIABLE).filter(|value| !value.is_empty()) {
         Some(folder) => check_folder(Path::new(&folder)),
         None => Err(KinectError::NoSession {
@@ -30,14 +31,12 @@ pub(super) fn check(library: &str) -> Result<(), KinectError> {
     }
 }
 
-fn check_folder(folder: &Path) -> Result<(), KinectError> {
+fn check_folder(folder: &Path) -> Result<usize, KinectError> {
     let index = folder.join("INDEX.txt");
     let lines = fs::read_to_string(&index).map_err(|error| unusable(&index, words(&error)))?;
     // An empty line ends the session for the library, too.
-    let names: BTreeSet<&str> = lines
-        .split('\n')
-        .take_while(|line| !line.is_empty())
-        .collect();
+    let entries = || lines.split('\n').take_while(|line| !line.is_empty());
+    let names: BTreeSet<&str> = entries().collect();
     for name in names {
         let path = folder.join(name);
         if !is_entry(name) {
@@ -52,7 +51,7 @@ fn check_folder(folder: &Path) -> Result<(), KinectError> {
             return Err(unusable(&path, what));
         }
     }
-    Ok(())
+    Ok(entries().count())
 }
 
 /// Of one file; the shared words for a missing one speak of its folder.
@@ -119,12 +118,13 @@ mod tests {
 
     #[test]
     fn a_whole_session_passes_and_what_stands_behind_an_empty_line_is_not_played() {
-        for index in [
-            "d-1.5-90.pgm\nd-1.5-90.pgm\n",
-            "d-1.5-90.pgm",
-            "d-1.5-90.pgm\n\nmissing",
+        for (index, num_entries) in [
+            ("d-1.5-90.pgm\nd-1.5-90.pgm\n", 2),
+            ("d-1.5-90.pgm", 1),
+            ("d-1.5-90.pgm\n\nmissing", 1),
         ] {
-            check_folder(session(index, &whole()).path()).unwrap();
+            let found = check_folder(session(index, &whole()).path()).unwrap();
+            assert_eq!(found, num_entries);
         }
     }
 
