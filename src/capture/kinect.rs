@@ -40,7 +40,7 @@ use super::{
     spec::{KinectSpec, SourceSpec},
 };
 
-/// A Kinect that sends nothing for so long is lost. It takes about a second from the start to its first frame.
+/// A Kinect that sends nothing while it is waited for so long is lost. It takes about a second from the start to its first frame.
 const SILENCE: Duration = Duration::from_secs(5);
 
 /// An open Kinect whose depth stream runs. Dropped, it stops the stream and lets the camera go.
@@ -67,7 +67,7 @@ enum Units {
 
 /// Opens the Kinect of that serial number, or the first one, and starts its depth stream.
 pub(super) fn open(spec: &KinectSpec) -> Result<Box<dyn DepthSource>, CaptureError> {
-    Ok(Box::new(Kinect::open(spec, Instant::now())?))
+    Ok(Box::new(Kinect::open(spec)?))
 }
 
 /// The Kinects that are plugged in, or why there is none, with libfreenect where the environment or the system has it.
@@ -136,7 +136,7 @@ fn start(found: &Found) -> Result<(Context, Option<usize>), KinectError> {
 }
 
 impl Kinect {
-    fn open(spec: &KinectSpec, now: Instant) -> Result<Self, KinectError> {
+    fn open(spec: &KinectSpec) -> Result<Self, KinectError> {
         let library = search::find(spec.library.as_deref())?;
         let (context, num_entries) = start(&library)?;
         let mut device = open_device(context, num_entries.is_some(), spec.serial.as_deref())?;
@@ -164,19 +164,19 @@ impl Kinect {
             library: library.library,
             num_entries,
             num_frames: 0,
-            silence: Silence { since: now },
+            silence: Silence::default(),
             warnings,
         })
     }
 
-    fn captured(&mut self, depth: Vec<u16>, now: Instant) -> Captured {
+    fn captured(&mut self, depth: Vec<u16>) -> Captured {
         self.num_frames += 1;
-        self.silence.since = now;
+        self.silence = Silence::default();
         Captured {
             number: self.num_frames,
             name: format!("Kinect frame {}", self.num_frames),
             taken_at: Timestamp::now(),
-            arrived: now,
+            arrived: Instant::now(),
             image: Image::Depth(DepthFrame {
                 intrinsics: self.camera,
                 metres_per_unit: 0.001,
@@ -205,8 +205,8 @@ impl DepthSource for Kinect {
     }
 
     fn next(&mut self, wait: Duration) -> Result<Next, CaptureError> {
-        let mut now = Instant::now();
-        let deadline = now + wait;
+        let start = Instant::now();
+        let mut waited = Duration::ZERO;
         loop {
             // Asked beyond its end, the library would also write about it among the program's own output.
             if self
@@ -218,14 +218,15 @@ impl DepthSource for Kinect {
             let Some(device) = &mut self.device else {
                 return Ok(Next::End);
             };
-            let received = device.receive(deadline.saturating_duration_since(now));
+            let received = device.receive(wait.saturating_sub(waited));
             let depth = received.map(|values| values.map(|values| self.units.millimetres(values)));
-            now = Instant::now();
+            let turn = start.elapsed().saturating_sub(waited);
+            waited += turn;
             match depth {
-                Ok(Some(depth)) => return Ok(Next::Captured(self.captured(depth, now))),
+                Ok(Some(depth)) => return Ok(Next::Captured(self.captured(depth))),
                 Ok(None) if self.num_entries.is_some() => {}
                 Ok(None) => {
-                    if let Some(seconds) = self.silence.is_too_long(now) {
+                    if let Some(seconds) = self.silence.goes_on(turn) {
                         return self.end(KinectError::Silent { seconds });
                     }
                 }
@@ -236,7 +237,7 @@ impl DepthSource for Kinect {
                 }
                 Err(Failed { said, .. }) => return self.end(KinectError::Lost { said }),
             }
-            if now >= deadline {
+            if waited >= wait {
                 return Ok(Next::NotYet);
             }
         }
@@ -259,16 +260,15 @@ impl Units {
     }
 }
 
-/// Since when nothing came.
-struct Silence {
-    since: Instant,
-}
+/// How long a camera was waited for and sent nothing. Pauses in which nobody waited do not count.
+#[derive(Default)]
+struct Silence(Duration);
 
 impl Silence {
-    /// Whole seconds of it, if they are too many for a camera that is well.
-    fn is_too_long(&self, now: Instant) -> Option<u64> {
-        let silence = now.saturating_duration_since(self.since);
-        (silence >= SILENCE).then_some(silence.as_secs())
+    /// It went on for so long. Its whole seconds, if those are too many for a camera that is well.
+    fn goes_on(&mut self, turn: Duration) -> Option<u64> {
+        self.0 += turn;
+        (self.0 >= SILENCE).then_some(self.0.as_secs())
     }
 }
 
@@ -348,14 +348,10 @@ mod tests {
 
     #[test]
     fn a_camera_is_silent_for_too_long_only_after_its_time() {
-        let start = Instant::now();
-        let silence = Silence { since: start };
-        assert_eq!(silence.is_too_long(start), None);
-        assert_eq!(
-            silence.is_too_long(start + SILENCE - Duration::from_millis(1)),
-            None
-        );
-        assert_eq!(silence.is_too_long(start + SILENCE), Some(5));
+        let mut silence = Silence::default();
+        assert_eq!(silence.goes_on(Duration::ZERO), None);
+        assert_eq!(silence.goes_on(SILENCE - Duration::from_millis(1)), None);
+        assert_eq!(silence.goes_on(Duration::from_millis(1)), Some(5));
     }
 
     #[test]
