@@ -72,7 +72,7 @@ pub enum CaptureError {
         path: PathBuf,
     },
     /// A recording cannot be written on.
-    #[error("{}: cannot record: {}; {num_kept} frames are kept", path.display(), words_of(source))]
+    #[error("{}: cannot record: {}; {} kept", path.display(), words_of(source), counted(*num_kept))]
     Unwritable {
         /// The folder or the frame's file.
         path: PathBuf,
@@ -90,6 +90,13 @@ pub enum CaptureError {
     /// The camera's thread ended by a fault of the program.
     #[error("the camera's thread ended by a fault of the program")]
     Crashed,
+}
+
+fn counted(num_frames: u64) -> String {
+    match num_frames {
+        1 => "1 frame is".into(),
+        num => format!("{num} frames are"),
+    }
 }
 
 /// What helps after an error of a source.
@@ -138,7 +145,9 @@ impl Advice for CaptureError {
             Self::FolderGone { .. } => {
                 "Check the name and that the drive or stick is connected".into()
             }
-            Self::FolderUnreadable { source, .. } => advice_on(source).into(),
+            Self::FolderUnreadable { .. } => {
+                "Ask for access to this folder; it is looked for again by itself".into()
+            }
             Self::File(error) => error.advice(),
             Self::MeshIsNoCapture { path } => {
                 format!(
