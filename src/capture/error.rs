@@ -195,6 +195,13 @@ pub enum CaptureWarning {
     },
 }
 
+impl CaptureWarning {
+    /// True if it is about the source, and so the same for its captures: told once, it is told.
+    pub fn is_about_source(&self) -> bool {
+        !matches!(self, Self::File(_))
+    }
+}
+
 impl Advice for CaptureWarning {
     fn advice(&self) -> String {
         match self {

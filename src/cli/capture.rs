@@ -10,7 +10,7 @@ use super::{
     follow::{follow, parse_source},
 };
 use crate::{
-    capture::{FeedItem, Recorder, SourceSpec, list},
+    capture::{CaptureWarning, FeedItem, Recorder, SourceSpec, list},
     error::Advice as _,
 };
 
@@ -47,6 +47,7 @@ fn record(
 ) -> anyhow::Result<Outcome> {
     let mut recorder: Option<Recorder> = None;
     let mut outcome = Outcome::Accepted;
+    let mut told: Vec<CaptureWarning> = Vec::new();
     console.start_progress(usize::try_from(frames.unwrap_or(0)).unwrap_or(usize::MAX));
     let status = follow(source, console, |item, status, console| {
         let captured = match item {
@@ -61,7 +62,13 @@ fn record(
             }
         };
         for warning in &captured.warnings {
+            if told.contains(warning) {
+                continue;
+            }
             console.warn(&format_args!("{}: {warning}", captured.name), warning);
+            if warning.is_about_source() {
+                told.push(warning.clone());
+            }
         }
         let recorder = match &mut recorder {
             Some(recorder) => recorder,
