@@ -1,6 +1,9 @@
 //! `partsight capture`: records what a source gives.
 
-use std::{ops::ControlFlow, path::PathBuf};
+use std::{
+    ops::ControlFlow,
+    path::{Path, PathBuf},
+};
 
 use clap::Args;
 
@@ -41,14 +44,17 @@ pub(super) fn run(args: &CaptureArgs, console: &mut Console) -> anyhow::Result<O
 
 fn record(
     source: &SourceSpec,
-    out: &std::path::Path,
+    out: &Path,
     frames: Option<u64>,
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
     let mut recorder: Option<Recorder> = None;
     let mut outcome = Outcome::Accepted;
     let mut told: Vec<CaptureWarning> = Vec::new();
-    console.start_progress(usize::try_from(frames.unwrap_or(0)).unwrap_or(usize::MAX));
+    match frames {
+        Some(frames) => console.start_progress(usize::try_from(frames).unwrap_or(usize::MAX)),
+        None => console.start_counting(),
+    }
     let status = follow(source, console, |item, status, console| {
         let captured = match item {
             FeedItem::Captured(captured) => captured,
@@ -101,7 +107,8 @@ fn record(
     };
     let num = recorder.num_frames();
     console.line(&format_args!(
-        "{num} frames{simulated} in {}",
+        "{num} {}{simulated} in {}",
+        if num == 1 { "frame" } else { "frames" },
         out.display()
     ));
     if status.num_dropped > 0 {
@@ -110,11 +117,8 @@ fn record(
             status.num_dropped
         ));
     }
-    if frames.is_some_and(|wanted| num < wanted) {
-        console.note(&format_args!(
-            "the source ended before {} frames",
-            frames.unwrap_or(0)
-        ));
+    if let Some(wanted) = frames.filter(|&wanted| num < wanted) {
+        console.note(&format_args!("{wanted} frames were asked for"));
     }
     Ok(outcome)
 }

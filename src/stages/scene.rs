@@ -11,10 +11,7 @@ use nalgebra::Point3;
 
 use super::segment::EmptyCell;
 use crate::{
-    capture::{
-        Image,
-        frame::{DepthFrame, Intrinsics},
-    },
+    capture::{DepthFrame, Image, Intrinsics},
     files::Opened,
     geometry::cloud::{Grid, PointCloud, is_finite},
 };

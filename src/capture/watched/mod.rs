@@ -194,9 +194,12 @@ impl DepthSource for WatchedFolder {
             }
             thread::sleep(due.saturating_duration_since(now));
             let begun = Instant::now();
-            let looked = self.look();
+            if let Err(error) = self.look() {
+                // Whoever asks again has waited as long as he thinks fit.
+                self.next_look = None;
+                return Err(error);
+            }
             self.next_look = Some(Instant::now() + LOOK.max(begun.elapsed() * SHARE));
-            looked?;
             if self.ready.is_empty() && Instant::now() >= until {
                 return Ok(Next::NotYet);
             }
