@@ -7,32 +7,28 @@
 //! {"width":640,"height":480,"fx":525.0,"fy":525.0,"cx":319.5,"cy":239.5,"metres_per_unit":0.001}
 //! ```
 //!
-//! The fields are those of [`Intrinsics`] and [`DepthFrame`]; others are read over.
+//! The fields are those of [`Intrinsics`] and [`DepthFrame`]; others are read over. Images of one camera may share an
+//! `intrinsics.json` in their folder: an image without a JSON of its own has that camera.
 
-use std::io::Cursor;
+use std::io::{self, Cursor, Write};
 use std::path::{Path, PathBuf};
 
 use image::codecs::png::{PngDecoder, PngEncoder};
 use image::{ExtendedColorType, ImageDecoder as _, ImageEncoder as _, ImageError, Limits};
-use serde::{Deserialize, Serialize};
 
+use super::depth_camera::DepthCamera;
 use super::error::FileError;
-use super::source::{Source, read_bytes};
+use super::source::Source;
 use super::write::write_atomically;
 use crate::capture::frame::{DepthFrame, Intrinsics};
-
-/// The JSON beside a depth image.
-#[derive(Serialize, Deserialize)]
-struct Sidecar {
-    #[serde(flatten)]
-    intrinsics: Intrinsics,
-    metres_per_unit: f64,
-}
 
 /// Where the camera of a depth image stands: the same name ending in `.json`.
 pub fn intrinsics_path(image: &Path) -> PathBuf {
     image.with_extension("json")
 }
+
+/// The camera of all depth images in a folder that have no JSON of their own.
+pub const FOLDER_CAMERA: &str = "intrinsics.json";
 
 /// Writes a depth image as PNG with its camera in the JSON beside it.
 ///
@@ -41,17 +37,6 @@ pub fn intrinsics_path(image: &Path) -> PathBuf {
 /// # Panics
 /// If the frame has not as many depths as its camera has pixels.
 pub fn write_depth_png(path: &Path, frame: &DepthFrame) -> Result<(), FileError> {
-    let DepthFrame {
-        intrinsics,
-        metres_per_unit,
-        depth,
-    } = frame;
-    let Intrinsics { width, height, .. } = *intrinsics;
-    assert_eq!(depth.len(), width * height, "a depth for every pixel");
-    let sidecar = Sidecar {
-        intrinsics: *intrinsics,
-        metres_per_unit: *metres_per_unit,
-    };
     let json = intrinsics_path(path);
     // Whatever else lies there is somebody's data.
     if std::fs::read(&json).is_ok_and(|bytes| !is_intrinsics(&bytes)) {
@@ -60,64 +45,80 @@ pub fn write_depth_png(path: &Path, frame: &DepthFrame) -> Result<(), FileError>
             image: path.to_owned(),
         });
     }
-    write_atomically(&json, |writer| {
-        serde_json::to_writer_pretty(&mut *writer, &sidecar)?;
+    write_camera(&json, &DepthCamera::of(frame))?;
+    write_atomically(path, |writer| write_depths(writer, frame))
+}
+
+/// Writes the camera of depth images as a JSON, for one image or for all of a folder.
+pub(crate) fn write_camera(path: &Path, camera: &DepthCamera) -> Result<(), FileError> {
+    write_atomically(path, |writer| {
+        serde_json::to_writer_pretty(&mut *writer, camera)?;
         writer.write_all(b"\n")
-    })?;
+    })
+}
+
+/// Writes the depths of a frame as a 16-bit PNG, without its camera.
+///
+/// # Panics
+/// If the frame has not as many depths as its camera has pixels.
+pub(crate) fn write_depths(writer: &mut dyn Write, frame: &DepthFrame) -> io::Result<()> {
+    let DepthFrame {
+        intrinsics: Intrinsics { width, height, .. },
+        depth,
+        ..
+    } = frame;
+    assert_eq!(depth.len(), width * height, "a depth for every pixel");
     // The encoder takes the bytes in this machine's order and stores them in the PNG's.
     let bytes: Vec<u8> = depth.iter().flat_map(|depth| depth.to_ne_bytes()).collect();
-    write_atomically(path, |writer| {
-        let encoder = PngEncoder::new(&mut *writer);
-        let written =
-            encoder.write_image(&bytes, width as u32, height as u32, ExtendedColorType::L16);
-        written.map_err(|error| match error {
+    let (width, height) = (*width as u32, *height as u32);
+    PngEncoder::new(writer)
+        .write_image(&bytes, width, height, ExtendedColorType::L16)
+        .map_err(|error| match error {
             ImageError::IoError(error) => error,
-            other => std::io::Error::other(other),
+            other => io::Error::other(other),
         })
-    })
 }
 
 /// True for the JSON that describes a depth image's camera.
 pub(super) fn is_intrinsics(bytes: &[u8]) -> bool {
-    serde_json::from_slice::<Sidecar>(bytes).is_ok()
+    serde_json::from_slice::<DepthCamera>(bytes).is_ok()
 }
 
 pub(super) fn read(source: Source<'_>) -> Result<DepthFrame, FileError> {
     let (size, depth) = decode(source)?;
-    let json = intrinsics_path(source.path);
-    let Sidecar {
-        intrinsics,
-        metres_per_unit,
-    } = read_sidecar(source.path, &json)?;
-    let bad = |found: String| FileError::BadIntrinsics {
-        path: json.clone(),
-        found,
+    let own = intrinsics_path(source.path);
+    let shared = own.with_file_name(FOLDER_CAMERA);
+    let json = if shared.is_file() && !own.exists() {
+        shared
+    } else {
+        own
     };
-    if (intrinsics.width, intrinsics.height) != size {
-        return Err(bad(format!(
-            "{}×{} pixels, where the image has {}×{}",
-            intrinsics.width, intrinsics.height, size.0, size.1
-        )));
-    }
-    if !(intrinsics.fx > 0.0 && intrinsics.fy > 0.0 && metres_per_unit > 0.0) {
-        return Err(bad("fx, fy and metres_per_unit must be above 0".into()));
-    }
-    if !(intrinsics.fx + intrinsics.fy + intrinsics.cx + intrinsics.cy + metres_per_unit)
-        .is_finite()
-    {
-        return Err(bad("a number is not finite".into()));
-    }
-    if depth.iter().all(|&depth| depth == 0) {
+    let camera = DepthCamera::read(&json).map_err(|error| match error {
+        FileError::NotFound { .. } => FileError::MissingIntrinsics {
+            path: source.path.to_owned(),
+            json: json.clone(),
+        },
+        other => other,
+    })?;
+    let num_pixels = depth.len();
+    let is_empty = depth.iter().all(|&depth| depth == 0);
+    let frame = camera.frame(size, depth);
+    let frame = frame.map_err(|found| FileError::BadIntrinsics { path: json, found })?;
+    if is_empty {
         return Err(FileError::NoPoints {
             path: source.path.to_owned(),
-            found: depth.len(),
+            found: num_pixels,
         });
     }
-    Ok(DepthFrame {
-        intrinsics,
-        metres_per_unit,
-        depth,
-    })
+    Ok(frame)
+}
+
+/// Width, height and the depths of a 16-bit PNG in memory, with or without a reading; `path` is for the errors.
+pub(crate) fn read_depths(
+    path: &Path,
+    bytes: &[u8],
+) -> Result<((usize, usize), Vec<u16>), FileError> {
+    decode(Source { path, bytes })
 }
 
 fn decode(source: Source<'_>) -> Result<((usize, usize), Vec<u16>), FileError> {
@@ -212,201 +213,5 @@ fn kind_in_words(kind: ExtendedColorType) -> String {
     }
 }
 
-fn read_sidecar(image: &Path, json: &Path) -> Result<Sidecar, FileError> {
-    let bytes = read_bytes(json).map_err(|error| match error {
-        FileError::NotFound { .. } => FileError::MissingIntrinsics {
-            path: image.to_owned(),
-            json: json.to_owned(),
-        },
-        other => other,
-    })?;
-    serde_json::from_slice(&bytes).map_err(|error| FileError::BadIntrinsics {
-        path: json.to_owned(),
-        found: error.to_string(),
-    })
-}
-
 #[cfg(test)]
-mod tests {
-    use super::*;
-    use crate::error::Advice as _;
-    use crate::files::{Opened, crc32, open};
-
-    fn frame() -> DepthFrame {
-        DepthFrame {
-            intrinsics: Intrinsics {
-                width: 3,
-                height: 2,
-                fx: 500.0,
-                fy: 501.5,
-                cx: 1.0,
-                cy: 0.5,
-            },
-            metres_per_unit: 0.001,
-            depth: vec![0, 1, 256, 1000, 65_535, 700],
-        }
-    }
-
-    #[test]
-    fn a_frame_survives_being_written_and_read() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("frame.png");
-        write_depth_png(&path, &frame()).unwrap();
-        assert_eq!(open(&path).unwrap(), Opened::Depth(frame()));
-    }
-
-    #[test]
-    fn missing_intrinsics_are_asked_for_with_an_example_that_works() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("frame.png");
-        write_depth_png(&path, &frame()).unwrap();
-        std::fs::remove_file(intrinsics_path(&path)).unwrap();
-        let error = open(&path).unwrap_err();
-        assert!(matches!(error, FileError::MissingIntrinsics { .. }));
-        let advice = error.advice();
-        let example = advice.get(advice.find('{').unwrap()..).unwrap();
-        let parsed: Sidecar = serde_json::from_str(example).unwrap();
-        assert_eq!(parsed.intrinsics, Intrinsics::KINECT);
-    }
-
-    #[test]
-    fn intrinsics_that_cannot_be_are_refused() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("frame.png");
-        write_depth_png(&path, &frame()).unwrap();
-        let json = intrinsics_path(&path);
-        let good = std::fs::read_to_string(&json).unwrap();
-        for (from, to) in [
-            ("500.0", "0.0"),
-            ("501.5", "-1.0"),
-            ("0.001", "0"),
-            ("\"width\": 3", "\"width\": 4"),
-            ("\"fx\"", "\"focal\""),
-            ("0.5", "1e999"),
-            ("{", ""),
-        ] {
-            let bad = good.replacen(from, to, 1);
-            assert_ne!(bad, good);
-            std::fs::write(&json, bad).unwrap();
-            let error = open(&path).unwrap_err();
-            assert!(
-                matches!(error, FileError::BadIntrinsics { .. }),
-                "{from} -> {to}: {error}"
-            );
-        }
-    }
-
-    #[test]
-    fn other_kinds_of_png_are_named() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("picture.png");
-        for (kind, num_bytes, word) in [
-            (ExtendedColorType::L8, 1, "8 bits"),
-            (ExtendedColorType::Rgb8, 3, "colour"),
-            (ExtendedColorType::Rgb16, 6, "16-bit colour"),
-        ] {
-            let mut png = Vec::new();
-            PngEncoder::new(&mut png)
-                .write_image(&vec![9; num_bytes], 1, 1, kind)
-                .unwrap();
-            std::fs::write(&path, png).unwrap();
-            let error = open(&path).unwrap_err();
-            assert!(
-                matches!(&error, FileError::WrongPngKind { found, .. } if found.contains(word)),
-                "{error}"
-            );
-        }
-    }
-
-    #[test]
-    fn a_frame_without_a_reading_has_no_points() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("frame.png");
-        write_depth_png(
-            &path,
-            &DepthFrame {
-                depth: vec![0; 6],
-                ..frame()
-            },
-        )
-        .unwrap();
-        assert!(matches!(
-            open(&path),
-            Err(FileError::NoPoints { found: 6, .. })
-        ));
-    }
-
-    #[test]
-    fn an_image_larger_than_its_bytes_could_hold_takes_no_memory() {
-        // A correct header of 7000×7000 pixels over the data of six.
-        let png = with_header(|header| {
-            header[..4].copy_from_slice(&7000_u32.to_be_bytes());
-            header[4..8].copy_from_slice(&7000_u32.to_be_bytes());
-        });
-        assert!(matches!(decoded(&png), Err(FileError::Truncated { .. })));
-    }
-
-    /// A PNG of six pixels whose header was changed and made consistent again.
-    fn with_header(change: impl FnOnce(&mut [u8])) -> Vec<u8> {
-        let mut png = Vec::new();
-        PngEncoder::new(&mut png)
-            .write_image(&[0; 12], 3, 2, ExtendedColorType::L16)
-            .unwrap();
-        change(&mut png[16..29]);
-        let checksum = crc32(&png[12..29]);
-        png[29..33].copy_from_slice(&checksum.to_be_bytes());
-        png
-    }
-
-    fn decoded(png: &[u8]) -> Result<((usize, usize), Vec<u16>), FileError> {
-        decode(Source {
-            path: Path::new("test.png"),
-            bytes: png,
-        })
-    }
-
-    #[test]
-    fn a_size_beyond_all_cameras_is_too_large_as_in_other_formats() {
-        let png = with_header(|header| {
-            header[..4].copy_from_slice(&(1_u32 << 16).to_be_bytes());
-            header[4..8].copy_from_slice(&(1_u32 << 15).to_be_bytes());
-        });
-        assert!(matches!(
-            decoded(&png),
-            Err(FileError::TooLarge { what: "pixels", found, .. }) if found == 1 << 31
-        ));
-    }
-
-    #[test]
-    fn a_palette_is_named_and_a_cut_image_invents_no_number() {
-        let palette = with_header(|header| header[8..10].copy_from_slice(&[8, PALETTE]));
-        let error = decoded(&palette).unwrap_err();
-        assert!(
-            error.to_string().contains("an 8-bit PNG with a palette"),
-            "{error}"
-        );
-        let whole = with_header(|_| {});
-        for length in [9, 20, whole.len() - 20] {
-            let error = decoded(&whole[..length]).unwrap_err();
-            assert!(
-                error.to_string().contains("expected the end of the"),
-                "{error}"
-            );
-        }
-    }
-
-    #[test]
-    fn a_camera_is_no_capture_and_nothing_else_is_overwritten_by_one() {
-        let folder = tempfile::tempdir().unwrap();
-        let path = folder.path().join("frame.png");
-        write_depth_png(&path, &frame()).unwrap();
-        let json = intrinsics_path(&path);
-        let error = open(&json).unwrap_err();
-        assert!(matches!(&error, FileError::IsIntrinsics { image, .. } if *image == path));
-        write_depth_png(&path, &frame()).expect("a camera may be replaced by a camera");
-        std::fs::write(&json, "{\"shift\": 3}").unwrap();
-        let error = write_depth_png(&path, &frame()).unwrap_err();
-        assert!(matches!(error, FileError::ForeignSidecar { .. }));
-        assert_eq!(std::fs::read_to_string(&json).unwrap(), "{\"shift\": 3}");
-    }
-}
+mod tests;
