@@ -4,6 +4,7 @@ use std::{io, path::PathBuf};
 
 use thiserror::Error;
 
+use super::kinect::{KinectError, KinectWarning};
 use crate::{
     error::Advice,
     files::{FileError, FileWarning, advice_on, words_of},
@@ -37,6 +38,9 @@ pub enum CaptureError {
         /// The file.
         path: PathBuf,
     },
+    /// A Kinect.
+    #[error(transparent)]
+    Kinect(#[from] KinectError),
     /// A folder without anything to replay.
     #[error("{}: no recording, and no file of a camera", path.display())]
     NoFrames {
@@ -113,6 +117,7 @@ impl CaptureError {
             Self::FolderGone { may_come: true, .. } | Self::FolderUnreadable { .. } => {
                 Recovery::AskAgain
             }
+            Self::Kinect(error) => error.recovery(),
             Self::FolderGone { .. }
             | Self::File(_)
             | Self::MeshIsNoCapture { .. }
@@ -150,6 +155,7 @@ impl Advice for CaptureError {
                     path.display()
                 )
             }
+            Self::Kinect(error) => error.advice(),
             Self::NoFrames { path } => format!(
                 "Give the folder that holds the frames; partsight capture --out {} makes one",
                 path.display()
@@ -172,6 +178,9 @@ pub enum CaptureWarning {
     /// About the file it came from.
     #[error(transparent)]
     File(#[from] FileWarning),
+    /// About a Kinect.
+    #[error(transparent)]
+    Kinect(#[from] KinectWarning),
     /// A recording whose end is missing.
     #[error("the recording was cut off; its {num_frames} whole frames are replayed")]
     CutOff {
@@ -186,10 +195,18 @@ pub enum CaptureWarning {
     },
 }
 
+impl CaptureWarning {
+    /// True if it is about the source, and so the same for its captures: told once, it is told.
+    pub fn is_about_source(&self) -> bool {
+        !matches!(self, Self::File(_))
+    }
+}
+
 impl Advice for CaptureWarning {
     fn advice(&self) -> String {
         match self {
             Self::File(warning) => warning.advice(),
+            Self::Kinect(warning) => warning.advice(),
             Self::CutOff { .. } => {
                 "Record again if the end matters; leave room on the disk and stop before pulling out a stick".into()
             }

@@ -13,7 +13,7 @@ use super::{
     follow::{follow, parse_source},
 };
 use crate::{
-    capture::{FeedItem, Recorder, SourceSpec, list},
+    capture::{CaptureWarning, FeedItem, Recorder, SourceSpec, list},
     error::Advice as _,
 };
 
@@ -50,6 +50,7 @@ fn record(
 ) -> anyhow::Result<Outcome> {
     let mut recorder: Option<Recorder> = None;
     let mut outcome = Outcome::Accepted;
+    let mut told: Vec<CaptureWarning> = Vec::new();
     match frames {
         Some(frames) => console.start_progress(usize::try_from(frames).unwrap_or(usize::MAX)),
         None => console.start_counting(),
@@ -67,7 +68,13 @@ fn record(
             }
         };
         for warning in &captured.warnings {
+            if told.contains(warning) {
+                continue;
+            }
             console.warn(&format_args!("{}: {warning}", captured.name), warning);
+            if warning.is_about_source() {
+                told.push(warning.clone());
+            }
         }
         let recorder = match &mut recorder {
             Some(recorder) => recorder,
