@@ -80,7 +80,9 @@ fn wait_until(what: impl Fn() -> bool) {
 }
 
 fn num_lines(path: &Path) -> usize {
-    fs::read(path).map_or(0, |bytes| bytes.iter().filter(|&&b| b == b'\n').count())
+    fs::read(path).map_or(0, |bytes| {
+        String::from_utf8_lossy(&bytes).matches('\n').count()
+    })
 }
 
 /// As Ctrl-C does.
