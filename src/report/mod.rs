@@ -3,6 +3,7 @@
 
 mod canvas;
 mod chart;
+mod contenders;
 mod evaluation;
 mod folder;
 mod lettering;
@@ -12,6 +13,7 @@ mod scaling;
 pub mod stand_off;
 
 pub use self::{
+    contenders::contenders_picture,
     evaluation::evaluation_picture,
     folder::{ReportError, ReportFolder},
     line::{InspectionLine, SCHEMA},
