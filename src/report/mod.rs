@@ -10,6 +10,7 @@ mod lettering;
 mod line;
 mod pictures;
 mod scaling;
+mod score_plots;
 pub mod stand_off;
 
 pub use self::{
