@@ -241,6 +241,12 @@ impl Surface {
 }
 
 impl Inspection {
+    /// True if what was taken for the part reaches the picture's edge, so that some of it may be missing.
+    pub fn touches_edge(&self) -> bool {
+        let part = self.segmentation.part.as_ref();
+        part.is_ok_and(|part| part.touches_edge)
+    }
+
     fn best_score(&self) -> f64 {
         self.ranking.entries.first().map_or(0.0, |e| e.score)
     }

@@ -108,8 +108,7 @@ pub(super) fn ui(
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let headline = Headline::of(inspected);
         verdict(ui, &headline, theme);
-        let part = inspection.segmentation.part.as_ref();
-        if part.is_ok_and(|part| part.touches_edge) {
+        if inspection.touches_edge() {
             let text = "It reaches the picture's edge: some of it may be missing";
             ui.label(RichText::new(text).color(theme.warning));
         }

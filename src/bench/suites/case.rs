@@ -67,6 +67,7 @@ impl SuiteCase {
                 score,
                 margin,
                 rejected,
+                ..
             } => (
                 Some(part.clone()),
                 *score,
