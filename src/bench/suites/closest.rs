@@ -102,6 +102,7 @@ mod tests {
             outside: 0.0,
             relief_m: 0.0,
             outline_m: 0.0,
+            outline_shift_m: None,
             cut: 0.0,
             facing: 1.0,
         };
