@@ -183,6 +183,10 @@ fn look_into_the_mirror(
     let Ok(part) = &inspection.segmentation.part else {
         return Ok(());
     };
+    if inspection.best_score() + MIRROR_LEAD >= 1.0 {
+        // No score can lead by that much.
+        return Ok(());
+    }
     let scene = scene.mirrored();
     let found = inspect_surface(&part.mirrored(&scene), &scene, library, recipe, clock)?;
     let score = found.best_score();

@@ -343,6 +343,29 @@ fn a_right_hand_part_is_refused_as_the_mirror_image_of_the_left_one() {
 }
 
 #[test]
+fn a_part_of_another_model_is_named_and_its_pose_is_marked_as_approximate() {
+    let library = standard();
+    let verdict_on = |model_seed: u64, kind: PartKind| {
+        let setup = CellSetup::with_part(kind, Side::Left, model_seed, 51);
+        let scene = scene_from_frame(&frame(&setup).frame);
+        inspected(&scene, &library, &Recipe::default()).verdict
+    };
+    let mut num_marked = 0;
+    for (kind, model_seed) in PartKind::ALL.into_iter().zip(7..) {
+        let same = verdict_on(0, kind);
+        assert!(same.is_accepted() && !same.is_approximate(), "{same:?}");
+        let other = verdict_on(model_seed, kind);
+        let is_named = matches!(&other, Verdict::Part { part, .. } if part == kind.name());
+        assert!(is_named && !other.is_unknown(), "{other:?}");
+        // What is accepted is taken to be the enrolled model itself.
+        assert!(!(other.is_accepted() && other.is_approximate()));
+        num_marked += usize::from(other.is_approximate());
+    }
+    // A model that differs by millimetres only is the same to a camera of this noise.
+    assert!(num_marked >= 6, "{num_marked} of 8");
+}
+
+#[test]
 fn what_nobody_enrolled_is_unknown() {
     let library = standard();
     for (object, seed) in [

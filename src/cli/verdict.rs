@@ -94,10 +94,15 @@ pub(super) fn show_card(
         } else {
             ""
         };
+        let approximate = if inspection.verdict.is_approximate() {
+            "; approximate, since this is another model of the part"
+        } else {
+            ""
+        };
         line(
             "fit",
             format!(
-                "{:.1} mm rms, {:.0} % of what was seen lies on the reference, {} by {}{ambiguous}",
+                "{:.1} mm rms, {:.0} % of what was seen lies on the reference, {} by {}{ambiguous}{approximate}",
                 pose.fit.rms_m * 1000.0,
                 pose.fit.overlap * 100.0,
                 pose.stopped.name().replace('_', " "),

@@ -1,6 +1,6 @@
 //! Letters on a picture, in the font of the window.
 //!
-//! skrifa gives the outlines of the glyphs and vello_cpu fills them, as egui does for the window.
+//! `skrifa` gives the outlines of the glyphs and `vello_cpu` fills them, as egui does for the window.
 //!
 //! Known limits: one line of text from left to right, no kerning.
 

@@ -91,11 +91,13 @@ pub(super) fn draw_trade_off(
     };
     let refused = curve(&|step| share(step.num_refused, *num_enrolled));
     let wrong = curve(&|step| share(step.num_wrong_accepted, *num_cases));
-    let legend: [(&str, Vec<[f64; 2]>, &[f64], Rgb<u8>); 2] = [
-        ("wrong and accepted, of all cases", wrong, &[], PART),
-        ("refused, of the enrolled parts", refused, &DASHES, OPENING),
+    let looks: [(&str, &[f64], Rgb<u8>); 2] = [
+        ("wrong and accepted, of all cases", &[], PART),
+        ("refused, of the enrolled parts", &DASHES, OPENING),
     ];
-    for (row, (words, curve, pattern, colour)) in (0..).zip(legend) {
+    for (row, ((words, pattern, colour), curve)) in
+        (0..).zip(looks.into_iter().zip([wrong, refused]))
+    {
         // Twice, a pixel apart: a thin line is lost beside the grid.
         let below = curve.iter().map(|[x, y]| [*x, y + 1.0]);
         canvas.dashes(below, pattern, colour);

@@ -131,19 +131,21 @@ pub(super) fn trade_off(ui: &mut Ui, trade_off: &TradeOff, threshold: f64, theme
     painter.extend(accepting(&wrong, theme));
     let at = square.place(threshold, 0.0).x;
     painter.vline(at, square.0.y_range(), Stroke::new(1.0, theme.text));
-    type Look = fn(&[Pos2], &Theme) -> Vec<Shape>;
     let legend: [(&str, Look, Color32); 2] = [
         ("wrong and accepted", accepting, theme.rejected),
         ("parts refused", refusing, theme.first_series),
     ];
     for (row, (text, look, colour)) in (0_u8..).zip(legend) {
-        let at = square.0.left_top() + vec2(28.0, 14.0 + 14.0 * f32::from(row));
+        let at = square.0.left_top() + vec2(12.0, 14.0 + 14.0 * f32::from(row));
         painter.extend(look(&[at, at + vec2(26.0, 0.0)], theme));
         let at = at + vec2(32.0, 0.0);
         painter.text(at, Align2::LEFT_CENTER, text, font::scale(), colour);
     }
     ui.add_space(space::SMALL);
 }
+
+/// How a curve is drawn.
+type Look = fn(&[Pos2], &Theme) -> Vec<Shape>;
 
 /// The curve of what is wrong and accepted: a whole line.
 fn accepting(points: &[Pos2], theme: &Theme) -> Vec<Shape> {

@@ -85,9 +85,10 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     let frames = Frames::of(args, &Suite::ALL, NUM_POSES);
     let recipe = Recipe::default();
     let libraries = SuiteLibraries::enrol(&EnrolParams::default()).advised()?;
-    let systems = match args.only_ours {
-        true => None,
-        false => Some(Systems::prepare(&libraries.left).advised()?),
+    let systems = if args.only_ours {
+        None
+    } else {
+        Some(Systems::prepare(&libraries.left).advised()?)
     };
     let mut shown = Vec::new();
     let mut pictures = args.pictures.as_deref().map(Pictures::make).transpose()?;
@@ -274,6 +275,14 @@ fn show_closest(closest: &[Closest], console: &mut Console) {
         &"Of each part, the frame in which another one came nearest to being taken for it; --pictures draws why.",
     );
     console.line(&"");
+    // A part that is clearly another one scores far below a thousandth.
+    let score = |score: f64| {
+        if score < 0.001 {
+            format!("{score:.0e}")
+        } else {
+            format!("{score:.3}")
+        }
+    };
     let mut table = Table::new(&[
         "part",
         "nearest other",
@@ -287,8 +296,8 @@ fn show_closest(closest: &[Closest], console: &mut Console) {
         table.row([
             case.part.clone(),
             case.other.clone(),
-            format!("{:.3}", case.other_score),
-            format!("{:.3}", case.own_score),
+            score(case.other_score),
+            score(case.own_score),
             case.suite.name().to_owned(),
             case.seed.to_string(),
             case.verdict(),
