@@ -5,7 +5,7 @@
 /// Columns of the paper's Table I: four systems by their numbers in its bibliography, and its own.
 pub const PAPER_COLUMNS: [&str; 5] = ["[22]", "[44]", "[45]", "[46]", "proposed"];
 
-/// The paper's Table I, seconds, for each of [`PartKind::ALL`] and each of [`PAPER_COLUMNS`].
+/// The paper's Table I, seconds, for each of [`PartKind::ALL`](crate::simulate::PartKind::ALL) and each of [`PAPER_COLUMNS`].
 pub const PAPER_SECONDS: [[f64; 5]; 8] = [
     [45.4, 159.9, 128.1, 26.7, 0.084],
     [57.9, 154.4, 136.5, 32.1, 0.0554],
