@@ -183,6 +183,10 @@ fn look_into_the_mirror(
     let Ok(part) = &inspection.segmentation.part else {
         return Ok(());
     };
+    if inspection.best_score() + MIRROR_LEAD >= 1.0 {
+        // No score can lead by that much.
+        return Ok(());
+    }
     let scene = scene.mirrored();
     let found = inspect_surface(&part.mirrored(&scene), &scene, library, recipe, clock)?;
     let score = found.best_score();
@@ -241,6 +245,12 @@ impl Surface {
 }
 
 impl Inspection {
+    /// True if what was taken for the part reaches the picture's edge, so that some of it may be missing.
+    pub fn touches_edge(&self) -> bool {
+        let part = self.segmentation.part.as_ref();
+        part.is_ok_and(|part| part.touches_edge)
+    }
+
     fn best_score(&self) -> f64 {
         self.ranking.entries.first().map_or(0.0, |e| e.score)
     }

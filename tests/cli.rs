@@ -522,6 +522,81 @@ fn table_1_is_shown_and_written_for_the_parts_asked_for() {
 }
 
 #[test]
+fn a_part_that_runs_out_of_the_picture_is_found_and_that_is_said() {
+    let place = Workplace::new();
+    place.with_part("front_door");
+    for (x, is_cut) in [("0", false), ("600mm", true)] {
+        let pose = format!("0 0 0 {x} 0 1500mm");
+        let door = ["simulate", "--part", "front_door", "--out", "door.pcd"];
+        place.accepted(&[&door[..], &["--pose", &pose]].concat());
+        let ran = place.run(&["inspect", "door.pcd", "--json", "--library", "parts"]);
+        let line = &ran.lines()[0];
+        assert_eq!(line["touches_edge"], is_cut, "{line}");
+        assert_eq!(line["part"], "front_door", "{line}");
+        let card = place.run(&["inspect", "door.pcd", "--library", "parts"]);
+        let is_said = card.out.contains("reaches the picture's edge");
+        assert_eq!(is_said, is_cut, "{}", card.out);
+    }
+}
+
+#[test]
+fn recognition_is_measured_beside_the_other_systems_and_its_worst_confusions_are_drawn() {
+    let place = Workplace::new();
+    let ran = place.accepted(&[
+        "bench",
+        "recognition",
+        "--suite",
+        "standard",
+        "--poses",
+        "1",
+        "--json",
+        "r.json",
+        "--pictures",
+        "why",
+    ]);
+    for said in [
+        "standard",
+        "SHOT",
+        "paper's sources for its four are not known",
+    ] {
+        assert!(ran.out.contains(said), "{said}: {}", ran.out);
+    }
+    let text = fs::read_to_string(place.path("r.json")).expect("written");
+    let file: Value = serde_json::from_str(&text).expect("JSON");
+    let list = |value: &Value| value.as_array().expect("a list").len();
+    assert_eq!(list(&file["suites"][0]["cases"]), 8);
+    assert_eq!(list(&file["table1"]["frames"]), 8);
+    let systems = file["table1"]["systems"].as_array().expect("a list");
+    let names: Vec<&str> = systems
+        .iter()
+        .filter_map(|s| s["system"].as_str())
+        .collect();
+    let known = [
+        "paper",
+        "rank",
+        "confirmed",
+        "vfh",
+        "spin_images",
+        "fpfh",
+        "shot",
+    ];
+    assert_eq!(names, known);
+    for system in systems {
+        assert!(system["median_ms"].as_f64().is_some_and(|ms| ms > 0.0));
+        assert_eq!(system["by_suite"][0]["num_frames"], 8);
+    }
+    assert_eq!(list(&file["closest"]), 8);
+    let drawn = fs::read_dir(place.path("why")).expect("a folder");
+    let drawn = drawn.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
+    let num_contenders = drawn.filter(|name| name.ends_with(".contenders.png"));
+    assert_eq!(num_contenders.count(), 8);
+
+    let gone = place.run(&["bench", "speed", "--only-ours"]);
+    assert_eq!(gone.code, 2);
+    assert!(gone.err.contains("go with recognition"), "{}", gone.err);
+}
+
+#[test]
 fn a_mesh_is_enrolled_but_is_no_scene() {
     let place = Workplace::new();
     place.with_part("fender");

@@ -4,7 +4,9 @@
 //! the passes are recorded and submitted. Only the last step, showing the picture, is left out. It serves to measure
 //! what a frame costs and to prove what it does not do.
 
-use std::{fs, thread, time::Instant};
+mod cost;
+
+use std::{thread, time::Instant};
 
 use eframe::{
     egui_wgpu::{
@@ -15,11 +17,13 @@ use eframe::{
 };
 use egui::{Event, FullOutput, RawInput, Rect, Vec2};
 
+pub use self::cost::{FrameCost, WindowCost, window_cost};
 use super::{
     action::Action,
     viewport::ViewError,
     window::{Window, WindowOptions},
 };
+use crate::bench::ProcessorWatch;
 
 /// What the picture is drawn in.
 const FORMAT: wgpu::TextureFormat = wgpu::TextureFormat::Rgba8Unorm;
@@ -161,13 +165,9 @@ impl HeadlessWindow {
 
     /// Draws one frame in which this happens.
     pub fn frame(&mut self, events: Vec<Event>, pace: Pace) -> FrameTime {
-        let begun = Instant::now();
-        let busy_before = thread_seconds();
+        let (begun, watch) = (Instant::now(), ProcessorWatch::start());
         self.draw(events);
-        let busy = match (busy_before, thread_seconds()) {
-            (Some(before), Some(after)) => after - before,
-            _ => begun.elapsed().as_secs_f64(),
-        };
+        let busy = watch.elapsed().as_secs_f64();
         if pace == Pace::InStep {
             // A device that is gone draws nothing to wait for.
             let _ = self.device.poll(wgpu::PollType::wait_indefinitely());
@@ -249,29 +249,6 @@ impl HeadlessWindow {
             renderer.free_texture(&id);
         }
     }
-}
-
-/// Processor time of this thread so far, seconds; `None` where there is no /proc.
-pub fn thread_seconds() -> Option<f64> {
-    // Linux brings the figure up to date when the thread gives way.
-    thread::yield_now();
-    let text = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    let nanoseconds: f64 = text.split_whitespace().next()?.parse().ok()?;
-    Some(nanoseconds / 1e9)
-}
-
-/// Processor time of all threads of this process so far, seconds, in steps of ten milliseconds: with a software driver
-/// the drawing is in it. `None` where there is no /proc.
-pub fn process_seconds() -> Option<f64> {
-    const TICKS_PER_SECOND: f64 = 100.0;
-    let stat = fs::read_to_string("/proc/self/stat").ok()?;
-    // The name, in brackets, may hold spaces; user and system time are the 12th and 13th fields after it.
-    let fields = stat.rsplit(')').next()?.split_whitespace();
-    let ticks = fields
-        .skip(11)
-        .take(2)
-        .filter_map(|ticks| ticks.parse::<f64>().ok());
-    Some(ticks.sum::<f64>() / TICKS_PER_SECOND)
 }
 
 #[cfg(test)]

@@ -195,6 +195,7 @@ mod tests {
                     outside: random.random_range(0.0..0.5),
                     relief_m: random.random_range(0.0..0.01),
                     outline_m: random.random_range(0.0..0.04),
+                    outline_shift_m: None,
                     cut: 0.0,
                     facing: 1.0,
                 };

@@ -67,6 +67,7 @@ impl From<&Verdict> for Found {
                 score,
                 margin,
                 rejected,
+                ..
             } => Self {
                 part: Some(part.clone()),
                 score: Some(*score),

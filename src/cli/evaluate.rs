@@ -51,7 +51,7 @@ pub(super) struct EvaluateArgs {
     /// Write everything to this file as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Draw confusion matrix and calibration into this file
+    /// Draw confusion matrix, calibration and thresholds into this file
     #[arg(long, value_name = "PNG")]
     report: Option<PathBuf>,
     /// Compare with what an earlier run wrote with --json
@@ -118,7 +118,8 @@ pub(super) fn run(args: &EvaluateArgs, console: &mut Console) -> anyhow::Result<
     if let Some(path) = &args.report {
         let [matcher, pose] = args.recipe.names();
         let title = format!("{}, matcher {matcher}, pose {pose}", args.folder.display());
-        write_png(path, &evaluation_picture(&title, &evaluation))
+        let threshold = recipe.accept.min_score;
+        write_png(path, &evaluation_picture(&title, &evaluation, threshold))
             .advised()
             .with_context(|| format!("{} was not written", path.display()))?;
     }

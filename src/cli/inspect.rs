@@ -335,6 +335,7 @@ impl Columns {
                 score,
                 margin,
                 rejected,
+                ..
             } => {
                 let triple = |[a, b, c]: [f64; 3]| format!("{a:7.1} {b:7.1} {c:7.1}");
                 let (middle, turn) = place_of(inspection, library)

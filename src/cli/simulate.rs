@@ -15,7 +15,7 @@ use crate::{
     files::{depth_png::intrinsics_path, save_cloud, write_atomically, write_depth_png},
     geometry::written_pose::{GivenPose, parse_pose},
     simulate::{
-        CellSetup, Clutter, ObjectKind, PartKind, PartPose, Placement, Side, SimulatedFrame,
+        CellSetup, Clutter, ObjectKind, PartKind, PartPose, Placement, Side, SimulatedFrame, Stand,
         Subject, frame,
     },
     stages::scene::scene_from_frame,
@@ -62,6 +62,9 @@ pub(super) struct SimulateArgs {
     /// What else is in the cell
     #[arg(long, value_enum, default_value_t = ClutterChoice::None)]
     clutter: ClutterChoice,
+    /// What holds it
+    #[arg(long, value_enum, default_value_t = StandChoice::None)]
+    stand: StandChoice,
     /// Noise of the camera: 1 is a Kinect's, 0 none, 3 a bad day
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = parse_noise)]
     noise: f64,
@@ -143,6 +146,11 @@ impl SimulateArgs {
             ClutterChoice::OnFloor => Clutter::OnFloor,
             ClutterChoice::InFront => Clutter::InFront,
         };
+        setup.stand = match self.stand {
+            StandChoice::None => Stand::None,
+            StandChoice::Post => Stand::Post,
+            StandChoice::Floor => Stand::Floor,
+        };
         setup
     }
 }
@@ -155,6 +163,16 @@ enum ClutterChoice {
     OnFloor,
     /// The same, and a plank that hides 10 to 25 % of the part
     InFront,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum StandChoice {
+    /// Nothing in sight
+    None,
+    /// A post with two hooks
+    Post,
+    /// It stands on the floor
+    Floor,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]

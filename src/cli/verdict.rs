@@ -17,12 +17,6 @@ pub(super) fn outcome_of(inspection: &Inspection) -> Outcome {
     }
 }
 
-/// True if what was taken for the part runs out of the picture.
-fn reaches_the_edge(inspection: &Inspection) -> bool {
-    let part = inspection.segmentation.part.as_ref();
-    part.is_ok_and(|part| part.touches_edge)
-}
-
 /// Why an inspection was not accepted and what to do, if it was not.
 pub(super) fn complaint(inspection: &Inspection) -> Option<(String, String)> {
     match &inspection.verdict {
@@ -61,6 +55,7 @@ pub(super) fn show_card(
             score,
             margin,
             rejected,
+            ..
         } => {
             let verdict = rejected.as_ref().map_or("accepted", |_| "NOT ACCEPTED");
             line("scene", scene.to_owned());
@@ -99,10 +94,15 @@ pub(super) fn show_card(
         } else {
             ""
         };
+        let approximate = if inspection.verdict.is_approximate() {
+            "; approximate, since this is another model of the part"
+        } else {
+            ""
+        };
         line(
             "fit",
             format!(
-                "{:.1} mm rms, {:.0} % of what was seen lies on the reference, {} by {}{ambiguous}",
+                "{:.1} mm rms, {:.0} % of what was seen lies on the reference, {} by {}{ambiguous}{approximate}",
                 pose.fit.rms_m * 1000.0,
                 pose.fit.overlap * 100.0,
                 pose.stopped.name().replace('_', " "),
@@ -122,7 +122,7 @@ pub(super) fn show_card(
             ),
         );
     }
-    if reaches_the_edge(inspection) {
+    if inspection.touches_edge() {
         let text = "what was found reaches the picture's edge: some of it may be missing";
         line("edge", text.to_owned());
     }

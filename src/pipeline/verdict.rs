@@ -32,6 +32,9 @@ pub struct AcceptParams {
     /// Share of the reference that the camera may look past, 0.001..0.1; more is another model of the part, of another
     /// size. Raising it accepts other models too, at a pose that is only about right.
     pub max_missing: f64,
+    /// How far stretches of the outline may lie off the reference's, 2..20 mm root mean square; more is another model of
+    /// the part. Raising it accepts other models too, at a pose that is only about right.
+    pub max_outline_shift: Metres,
 }
 
 impl Default for AcceptParams {
@@ -40,8 +43,9 @@ impl Default for AcceptParams {
             min_score: 0.9,
             min_margin: 0.05,
             unknown_below: 0.5,
-            max_relief: Metres::from_mm(4.0),
-            max_missing: 0.008,
+            max_relief: Metres::from_mm(2.0),
+            max_missing: 0.0045,
+            max_outline_shift: Metres::from_mm(5.5),
         }
     }
 }
@@ -59,6 +63,8 @@ pub enum Verdict {
         margin: f64,
         /// `None` when accepted, else why not.
         rejected: Option<Rejection>,
+        /// True if it is another model of the part, as far as its shape tells: its pose is only about right.
+        is_approximate: bool,
     },
     /// Nothing to recognise.
     NoPart(Unrecognisable),
@@ -82,7 +88,7 @@ impl Verdict {
         matches!(
             self,
             Self::Part {
-                rejected: Some(Rejection::AnotherModel { .. }),
+                is_approximate: true,
                 ..
             }
         )
@@ -135,7 +141,7 @@ pub enum Rejection {
     },
     /// Of its type, but of another car model.
     #[error(
-        "it is like {part}, but not the same: its surface is off by {relief}, and {:.1} % of it is missing; another model, the pose is approximate",
+        "it is like {part}, but not the same: its surface is off by {relief}, its outline by {outline}, and {:.1} % of it is missing; another model, the pose is approximate",
         missing * 100.0
     )]
     AnotherModel {
@@ -143,6 +149,8 @@ pub enum Rejection {
         part: String,
         /// Root mean square of how far patches of the surface are off.
         relief: Metres,
+        /// Root mean square of how far stretches of the outline are off.
+        outline: Metres,
         /// Share of the reference that is not there, 0..1.
         missing: f64,
     },
@@ -267,6 +275,7 @@ pub(super) fn verdict(
     let accept = &recipe.accept;
     let next = ranking.runner_up();
     let margin = best.score - next.map_or(0.0, |n| n.score);
+    let other_model = best.evidence.filter(|e| is_other_model(e, accept));
     let rejected = match (pose, best.evidence) {
         (Some(Err(error)), _) => Some(Rejection::NoPose(*error)),
         (None, _) if recipe.rank.matcher == Matcher::Paper => Some(Rejection::Unconfirmed {
@@ -279,23 +288,29 @@ pub(super) fn verdict(
             margin,
             threshold: accept.min_margin,
         }),
-        (_, Some(evidence))
-            if evidence.relief_m > accept.max_relief.0 || evidence.missing > accept.max_missing =>
-        {
-            Some(Rejection::AnotherModel {
-                part: best.part.clone(),
-                relief: Metres(evidence.relief_m),
-                missing: evidence.missing,
-            })
-        }
-        _ => None,
+        _ => other_model.map(|evidence| Rejection::AnotherModel {
+            part: best.part.clone(),
+            relief: Metres(evidence.relief_m),
+            outline: Metres(evidence.outline_shift_m.unwrap_or(0.0)),
+            missing: evidence.missing,
+        }),
     };
     Verdict::Part {
         part: best.part.clone(),
         score: best.score,
         margin,
         rejected,
+        is_approximate: other_model.is_some(),
     }
+}
+
+/// True if a part of the same type, but not this one, would leave such evidence.
+fn is_other_model(evidence: &Evidence, accept: &AcceptParams) -> bool {
+    evidence.relief_m > accept.max_relief.0
+        || evidence.missing > accept.max_missing
+        || evidence
+            .outline_shift_m
+            .is_some_and(|shift| shift > accept.max_outline_shift.0)
 }
 
 /// Of what is hardly seen, more than this score is a good fit.

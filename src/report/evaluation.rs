@@ -1,24 +1,25 @@
-//! A picture of an evaluation: the confusion matrix, and the shares right over the scores.
+//! A picture of an evaluation: the confusion matrix, the shares right over the scores, and what thresholds on them cost.
 
 use image::{Rgb, RgbImage};
 
 use super::{
     canvas::Canvas,
-    chart::{Axis, Chart, DIM_TEXT, Division},
+    chart::DIM_TEXT,
     lettering::{Anchor, Lettering},
-    pictures::{DARK, DIM, FAINT, LIGHT, PART},
+    pictures::{DARK, FAINT, LIGHT},
+    score_plots::{PLOT, draw_calibration, draw_trade_off},
 };
-use crate::cases::{Answered, Calibration, Confusion, Evaluation, Judgement, Truth};
+use crate::cases::{Answered, Confusion, Evaluation, Judgement, Truth};
 
 /// Side of a cell of the matrix, pixels.
 const CELL: f64 = 46.0;
-/// Side of the plot.
-const PLOT: f64 = 400.0;
+/// Between two plots, for the numbers and the title of an axis.
+const GAP: f64 = 120.0;
 /// Around everything.
 const EDGE: f64 = 28.0;
 
-/// Draws both side by side; `title` stands above.
-pub fn evaluation_picture(title: &str, evaluation: &Evaluation) -> RgbImage {
+/// Draws them side by side; `title` stands above, and `threshold` is the recipe's least score.
+pub fn evaluation_picture(title: &str, evaluation: &Evaluation, threshold: f64) -> RgbImage {
     let small = Lettering::new(15.0);
     let confusion = &evaluation.confusion;
     let widest = |names: &mut dyn Iterator<Item = &str>| {
@@ -32,9 +33,9 @@ pub fn evaluation_picture(title: &str, evaluation: &Evaluation) -> RgbImage {
     ];
     let left = EDGE + names;
     let top = EDGE + 64.0 + head;
-    let plot_left = (left + matrix[0]).max(EDGE + 330.0) + 120.0;
+    let plot_left = (left + matrix[0]).max(EDGE + 330.0) + GAP;
     let plot_top = EDGE + 84.0;
-    let width = plot_left + PLOT + 2.0 * EDGE;
+    let width = plot_left + 2.0 * PLOT + GAP + 2.0 * EDGE;
     let height = (top + matrix[1] + 60.0).max(plot_top + PLOT + 110.0);
     let mut canvas = Canvas::new(width as usize, height as usize, DARK);
     let large = Lettering::new(20.0);
@@ -63,6 +64,13 @@ pub fn evaluation_picture(title: &str, evaluation: &Evaluation) -> RgbImage {
         &small,
         &evaluation.calibration,
         [plot_left, plot_top],
+    );
+    draw_trade_off(
+        &mut canvas,
+        &small,
+        &evaluation.trade_off,
+        threshold,
+        [plot_left + PLOT + GAP, plot_top],
     );
     canvas.image
 }
@@ -139,50 +147,6 @@ fn draw_matrix(
     lettering.write(&mut canvas.image, words, at, Anchor::Left, DIM_TEXT);
 }
 
-/// A dot a bin, with the number of its guesses; on the diagonal a score says how often it is right.
-fn draw_calibration(
-    canvas: &mut Canvas,
-    lettering: &Lettering,
-    calibration: &Calibration,
-    [left, top]: [f64; 2],
-) {
-    let fifths = || (0..=5).map(|i| f64::from(i) / 5.0);
-    let axis = |title| Axis {
-        title,
-        range: [0.0, 1.0],
-        division: Division::Even,
-        ticks: fifths().map(|v| (v, format!("{v:.1}"))).collect(),
-    };
-    let chart = Chart {
-        corners: [[left, top], [left + PLOT, top + PLOT]],
-        across: axis("score of the best guess"),
-        up: axis("share of right guesses"),
-    };
-    chart.draw_axes(canvas, lettering);
-    canvas.line(chart.place([0.0, 0.0]), chart.place([1.0, 1.0]), DIM);
-    let mut last = None;
-    for bin in &calibration.bins {
-        let Some(share) = bin.share_right() else {
-            continue;
-        };
-        let at = chart.place([bin.mean_score, share]);
-        if let Some(last) = last.replace(at) {
-            canvas.line(last, at, PART);
-        }
-        canvas.dot(at, 5.0, PART);
-        let text = bin.num.to_string();
-        // Above: below the lowest are the numbers of the axis.
-        let at = [at[0], at[1] - 12.0];
-        lettering.write(&mut canvas.image, &text, at, Anchor::Middle, LIGHT);
-    }
-    let words = calibration.expected_error.map_or_else(
-        || "no guess, no calibration".to_owned(),
-        |error| format!("expected calibration error {error:.3}; numbers are guesses"),
-    );
-    let at = [left, top + PLOT + 74.0];
-    lettering.write(&mut canvas.image, &words, at, Anchor::Left, DIM_TEXT);
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -213,7 +177,7 @@ mod tests {
             result(Truth::NotEnrolled, "door", 0.9, true),
         ];
         let evaluation = Evaluation::of(results, Vec::new(), &["door".into()]);
-        let image = evaluation_picture("A trial", &evaluation);
+        let image = evaluation_picture("A trial", &evaluation, 0.9);
         for judgement in [
             Judgement::Right,
             Judgement::Refused,
@@ -222,6 +186,6 @@ mod tests {
             let num = image.pixels().filter(|p| **p == look(judgement).0).count();
             assert!(num > 1000, "{judgement:?}: {num} pixels");
         }
-        evaluation_picture("", &Evaluation::default());
+        evaluation_picture("", &Evaluation::default(), 0.9);
     }
 }

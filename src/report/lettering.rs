@@ -1,16 +1,19 @@
 //! Letters on a picture, in the font of the window.
 //!
-//! The outline of each glyph is cut into short lines, and what every line covers to its right is summed up per pixel;
-//! a running sum over the row then is the coverage. The method is the one of R. Levien's font-rs, 2016.
+//! `skrifa` gives the outlines of the glyphs and `vello_cpu` fills them, as egui does for the window.
 //!
-//! Known limits: one line of text from left to right, no kerning, and contours of a glyph that lie over each other are
-//! counted twice; those of the font used here do not.
+//! Known limits: one line of text from left to right, no kerning.
 
 use image::{Pixel as _, Rgb, RgbImage};
 use skrifa::{
     FontRef, MetadataProvider as _,
     instance::{LocationRef, Size},
     outline::{DrawSettings, OutlinePen},
+};
+use vello_cpu::{
+    Pixmap, RenderContext, Resources,
+    color::{OpaqueColor, Srgb},
+    kurbo::{Affine, BezPath, Point, Shape as _, Vec2},
 };
 
 /// The font: Inter, under the licence in `assets/fonts`.
@@ -62,18 +65,9 @@ impl Lettering {
         anchor: Anchor,
         colour: Rgb<u8>,
     ) {
-        let coverage = self.coverage(text);
         let left = at[0] - self.offset(text, anchor);
-        coverage.paint(
-            image,
-            |u, v| {
-                (
-                    left.round() as i64 + u,
-                    at[1].round() as i64 + v - coverage.baseline,
-                )
-            },
-            colour,
-        );
+        let place = Affine::translate(Vec2::new(left.round(), at[1].round()));
+        fill(image, &(place * self.outline(text)), colour);
     }
 
     /// Writes a text from bottom to top; `at` is on the line that the letters stand on.
@@ -85,18 +79,10 @@ impl Lettering {
         anchor: Anchor,
         colour: Rgb<u8>,
     ) {
-        let coverage = self.coverage(text);
         let bottom = at[1] + self.offset(text, anchor);
-        coverage.paint(
-            image,
-            |u, v| {
-                (
-                    at[0].round() as i64 + v - coverage.baseline,
-                    bottom.round() as i64 - u,
-                )
-            },
-            colour,
-        );
+        let place = Affine::translate(Vec2::new(at[0].round(), bottom.round()));
+        let upwards = Affine::rotate(-std::f64::consts::FRAC_PI_2);
+        fill(image, &(place * upwards * self.outline(text)), colour);
     }
 
     fn offset(&self, text: &str, anchor: Anchor) -> f64 {
@@ -108,164 +94,87 @@ impl Lettering {
         }
     }
 
-    fn coverage(&self, text: &str) -> Coverage {
+    /// The outlines of a text that begins at the origin, y down.
+    fn outline(&self, text: &str) -> BezPath {
         let size = Size::new(self.size);
         let (charmap, outlines) = (self.font.charmap(), self.font.outline_glyphs());
         let metrics = self.font.glyph_metrics(size, LocationRef::default());
-        let baseline = (self.size * 1.1).ceil();
-        let mut pen = Pen {
-            coverage: Coverage {
-                width: self.width(text).ceil() as usize + 3,
-                height: (self.size * 1.5).ceil() as usize,
-                baseline: baseline as i64,
-                sums: Vec::new(),
-            },
-            origin: [1.0, baseline],
-            start: [0.0; 2],
-            last: [0.0; 2],
-        };
-        pen.coverage.sums = vec![0.0; pen.coverage.width * pen.coverage.height];
+        let mut pen = Pen::default();
         for glyph in text.chars().filter_map(|letter| charmap.map(letter)) {
             if let Some(outline) = outlines.get(glyph) {
                 let settings = DrawSettings::unhinted(size, LocationRef::default());
                 // A glyph that cannot be drawn leaves a gap.
                 let _ = outline.draw(settings, &mut pen);
             }
-            pen.origin[0] += metrics.advance_width(glyph).unwrap_or(0.0);
+            pen.left += metrics.advance_width(glyph).unwrap_or(0.0);
         }
-        pen.coverage
+        pen.path
     }
 }
 
-/// How much of every pixel is covered, as differences along the rows.
-struct Coverage {
-    width: usize,
-    height: usize,
-    /// Row of the line that the letters stand on.
-    baseline: i64,
-    sums: Vec<f32>,
-}
-
-impl Coverage {
-    fn paint(&self, image: &mut RgbImage, place: impl Fn(i64, i64) -> (i64, i64), colour: Rgb<u8>) {
-        for (v, row) in self.sums.chunks(self.width).enumerate() {
-            let mut sum = 0.0;
-            for (u, change) in row.iter().enumerate() {
-                sum += change;
-                let share = sum.abs().min(1.0);
-                let (x, y) = place(u as i64, v as i64);
-                let (Ok(x), Ok(y)) = (u32::try_from(x), u32::try_from(y)) else {
-                    continue;
-                };
-                if share > 0.0
-                    && let Some(pixel) = image.get_pixel_mut_checked(x, y)
-                {
-                    *pixel = pixel.map2(&colour, |under, over| {
-                        let (under, over) = (f32::from(under), f32::from(over));
-                        (under + (over - under) * share).round() as u8
-                    });
-                }
-            }
-        }
+/// Fills outlines, pixels of the picture; what lies outside is left out.
+fn fill(image: &mut RgbImage, path: &BezPath, colour: Rgb<u8>) {
+    let picture = [image.width(), image.height()].map(f64::from);
+    let bounds = path.bounding_box();
+    let (left, top) = (bounds.x0.floor().max(0.0), bounds.y0.floor().max(0.0));
+    let width = bounds.x1.ceil().min(picture[0]) - left;
+    let height = bounds.y1.ceil().min(picture[1]) - top;
+    if !(width >= 1.0 && height >= 1.0) {
+        return;
     }
-
-    /// What a line covers to its right, row by row.
-    fn add_line(&mut self, from: [f32; 2], to: [f32; 2]) {
-        let (sign, top, bottom) = if from[1] < to[1] {
-            (1.0, from, to)
-        } else {
-            (-1.0, to, from)
-        };
-        let slope = (bottom[0] - top[0]) / (bottom[1] - top[1]);
-        let first = top[1].max(0.0);
-        let last = bottom[1].min(self.height as f32);
-        let mut y = first;
-        while y < last {
-            let row = y as usize;
-            let until = (row as f32 + 1.0).min(last);
-            let x_at = |y: f32| top[0] + (y - top[1]) * slope;
-            self.add_span(row, [x_at(y), x_at(until)], sign * (until - y));
-            y = until;
-        }
-    }
-
-    /// A piece of a line within one row, from x to x, over a height with a sign.
-    fn add_span(&mut self, row: usize, [a, b]: [f32; 2], height: f32) {
-        let (left, right) = (a.min(b), a.max(b));
-        let steps = ((right - left).ceil() as usize).clamp(1, self.width);
-        for step in 0..steps {
-            // A slice no wider than a pixel: its share of the pixel is that of its middle.
-            let x = left + (right - left) * (step as f32 + 0.5) / steps as f32;
-            let x = x.clamp(0.0, self.width as f32 - 2.0);
-            let cell = row * self.width + x as usize;
-            let (part, beside) = (height / steps as f32, x.fract());
-            self.sums[cell] += part * (1.0 - beside);
-            self.sums[cell + 1] += part * beside;
+    let mut context = RenderContext::new(width as u16, height as u16);
+    context.set_transform(Affine::translate((-left, -top)));
+    context.set_paint(OpaqueColor::<Srgb>::WHITE);
+    context.fill_path(path);
+    let mut covered = Pixmap::new(width as u16, height as u16);
+    context.render(&mut covered, &mut Resources::new());
+    let rows = covered.data_as_u8_slice().chunks(4 * width as usize);
+    for (v, row) in (top as u32..).zip(rows) {
+        for (u, covered) in (left as u32..).zip(row.chunks(4)) {
+            let share = f32::from(covered[3]) / 255.0;
+            let pixel = image.get_pixel_mut(u, v);
+            *pixel = pixel.map2(&colour, |under, over| {
+                let (under, over) = (f32::from(under), f32::from(over));
+                (under + (over - under) * share).round() as u8
+            });
         }
     }
 }
 
-/// Follows the outline of a glyph; y up, in pixels from the place where it stands.
+/// Follows the outline of a glyph; the font's y is up.
+#[derive(Default)]
 struct Pen {
-    coverage: Coverage,
-    origin: [f32; 2],
-    start: [f32; 2],
-    last: [f32; 2],
+    path: BezPath,
+    /// Where the glyph stands.
+    left: f32,
 }
-
-/// Lines that stand for a curve: less than a tenth of a pixel off at these sizes.
-const STEPS: usize = 6;
 
 impl Pen {
-    fn place(&self, x: f32, y: f32) -> [f32; 2] {
-        [self.origin[0] + x, self.origin[1] - y]
-    }
-
-    fn line(&mut self, to: [f32; 2]) {
-        if (to[1] - self.last[1]).abs() > f32::EPSILON {
-            self.coverage.add_line(self.last, to);
-        }
-        self.last = to;
-    }
-
-    fn curve(&mut self, at: impl Fn(f32) -> [f32; 2]) {
-        for step in 1..=STEPS {
-            self.line(at(step as f32 / STEPS as f32));
-        }
+    fn at(&self, x: f32, y: f32) -> Point {
+        Point::new(f64::from(self.left + x), f64::from(-y))
     }
 }
 
 impl OutlinePen for Pen {
     fn move_to(&mut self, x: f32, y: f32) {
-        self.start = self.place(x, y);
-        self.last = self.start;
+        self.path.move_to(self.at(x, y));
     }
 
     fn line_to(&mut self, x: f32, y: f32) {
-        let to = self.place(x, y);
-        self.line(to);
+        self.path.line_to(self.at(x, y));
     }
 
     fn quad_to(&mut self, cx: f32, cy: f32, x: f32, y: f32) {
-        let [a, b, c] = [self.last, self.place(cx, cy), self.place(x, y)];
-        self.curve(|t| {
-            let s = 1.0 - t;
-            [0, 1].map(|i| s * s * a[i] + 2.0 * s * t * b[i] + t * t * c[i])
-        });
+        self.path.quad_to(self.at(cx, cy), self.at(x, y));
     }
 
     fn curve_to(&mut self, cx0: f32, cy0: f32, cx1: f32, cy1: f32, x: f32, y: f32) {
-        let (a, b) = (self.last, self.place(cx0, cy0));
-        let (c, d) = (self.place(cx1, cy1), self.place(x, y));
-        self.curve(|t| {
-            let s = 1.0 - t;
-            let [wa, wb, wc, wd] = [s * s * s, 3.0 * s * s * t, 3.0 * s * t * t, t * t * t];
-            [0, 1].map(|i| wa * a[i] + wb * b[i] + wc * c[i] + wd * d[i])
-        });
+        self.path
+            .curve_to(self.at(cx0, cy0), self.at(cx1, cy1), self.at(x, y));
     }
 
     fn close(&mut self) {
-        self.line(self.start);
+        self.path.close_path();
     }
 }
 

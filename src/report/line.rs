@@ -25,6 +25,8 @@ pub struct InspectionLine<'a> {
     score: Option<f64>,
     margin: Option<f64>,
     reason: Option<String>,
+    /// What was taken for the part reaches the picture's edge: some of it may be missing.
+    touches_edge: bool,
     pose: Option<PoseLine>,
     ranking: Vec<RankLine<'a>>,
     timings_ms: Option<TimingsLine>,
@@ -100,6 +102,7 @@ impl<'a> InspectionLine<'a> {
             score: None,
             margin: None,
             reason: Some(reason.to_string()),
+            touches_edge: false,
             pose: None,
             ranking: Vec::new(),
             timings_ms: None,
@@ -135,6 +138,7 @@ impl<'a> InspectionLine<'a> {
                 approximate: inspection.verdict.is_approximate(),
             });
         let line = Self {
+            touches_edge: inspection.touches_edge(),
             pose,
             ranking: ranking.collect(),
             timings_ms: Some(TimingsLine::of(&inspection.timings)),
@@ -147,6 +151,7 @@ impl<'a> InspectionLine<'a> {
                 score,
                 margin,
                 rejected,
+                ..
             } => Self {
                 status: if inspection.verdict.is_unknown() {
                     "unknown"

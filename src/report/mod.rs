@@ -3,15 +3,18 @@
 
 mod canvas;
 mod chart;
+mod contenders;
 mod evaluation;
 mod folder;
 mod lettering;
 mod line;
 mod pictures;
 mod scaling;
+mod score_plots;
 pub mod stand_off;
 
 pub use self::{
+    contenders::contenders_picture,
     evaluation::evaluation_picture,
     folder::{ReportError, ReportFolder},
     line::{CaptureLine, InspectionLine, SCHEMA},

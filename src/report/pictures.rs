@@ -37,7 +37,7 @@ pub(super) const FAINT: Rgb<u8> = Rgb([52, 60, 72]);
 /// Told apart by brightness as well as by hue, for those who see few colours.
 pub(super) const PART: Rgb<u8> = Rgb([255, 196, 61]);
 const OUTLINE: Rgb<u8> = Rgb([255, 196, 61]);
-const OPENING: Rgb<u8> = Rgb([96, 176, 255]);
+pub(super) const OPENING: Rgb<u8> = Rgb([96, 176, 255]);
 const PLANES: [Rgb<u8>; 4] = [
     Rgb([44, 82, 130]),
     Rgb([40, 108, 96]),

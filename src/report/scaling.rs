@@ -18,12 +18,12 @@ pub struct TimeCurve {
     pub points: Vec<[f64; 2]>,
 }
 
-/// Told apart by brightness as well as by hue; the first is serial.
-const COLOURS: [Rgb<u8>; 4] = [
-    Rgb([244, 246, 250]),
-    Rgb([255, 196, 61]),
-    Rgb([96, 176, 255]),
-    Rgb([178, 110, 200]),
+/// Told apart by their dashes as well; the first is serial.
+const LOOKS: [(Rgb<u8>, &[f64]); 4] = [
+    (Rgb([244, 246, 250]), &[]),
+    (Rgb([255, 196, 61]), &[14.0, 6.0]),
+    (Rgb([96, 176, 255]), &[6.0, 4.0]),
+    (Rgb([178, 110, 200]), &[2.0, 4.0]),
 ];
 
 /// Both axes by factors; `crossover` is marked by an upright line.
@@ -78,17 +78,19 @@ pub fn scaling_picture(
         small.write(&mut canvas.image, words, at, anchor, LIGHT);
     }
     for (place, curve) in curves.iter().enumerate() {
-        let colour = COLOURS[place % COLOURS.len()];
-        canvas.polyline(curve.points.iter().map(|p| chart.place(*p)), colour);
+        let (colour, pattern) = LOOKS[place % LOOKS.len()];
+        let corners = curve.points.iter().map(|p| chart.place(*p));
+        canvas.dashes(corners, pattern, colour);
         for point in &curve.points {
             canvas.dot(chart.place(*point), 3.0, colour);
         }
         let row = 80.0 + 24.0 * place as f64;
-        canvas.dot([858.0, row - 5.0], 5.0, colour);
+        let sample = [[850.0, row - 5.0], [890.0, row - 5.0]];
+        canvas.dashes(sample.into_iter(), pattern, colour);
         small.write(
             &mut canvas.image,
             &curve.name,
-            [872.0, row],
+            [898.0, row],
             Anchor::Left,
             LIGHT,
         );
@@ -133,7 +135,7 @@ mod tests {
             &[curve([0.1, 1.0, 9.0]), curve([0.3, 0.8, 5.0])],
             Some((32.0, "32")),
         );
-        for colour in &COLOURS[..2] {
+        for (colour, _) in &LOOKS[..2] {
             let num = image.pixels().filter(|p| *p == colour).count();
             assert!(num > 300, "{num}");
         }

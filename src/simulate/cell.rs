@@ -12,7 +12,7 @@ use super::part::{PartKind, PartModel, Side};
 use super::placement::{Placed, Placement};
 use super::rasteriser::{Plane, Rendering, SurfaceLabel};
 use super::sensor::SensorNoise;
-use super::stand::{Stand, post};
+use super::stand::{Stand, down_from_above, floor_below, post};
 use crate::capture::frame::Intrinsics;
 use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::rigid::RigidTransform;
@@ -78,7 +78,7 @@ pub struct CellSetup {
     pub intrinsics: Intrinsics,
     /// Distance of the wall on the optical axis, 2.2 to 3.0 m; moved back where the part reaches farther.
     pub wall: Metres,
-    /// How far the floor lies below the camera; moved down where the part reaches lower.
+    /// How far the floor lies below the camera; moved down where the part reaches lower, and up to what stands on it.
     pub floor: Metres,
     /// Draws the pose, the tilt of wall and floor, and the clutter.
     pub seed: u64,
@@ -152,10 +152,17 @@ impl<'a> Cell<'a> {
             .iter()
             .map(|p| camera_from_part * p.cast::<f64>())
             .collect();
-        let wall = behind(setup.wall, &hung, &mut random);
-        let floor = below(setup.floor, &hung, &mut random);
+        let mut wall = behind(setup.wall, &hung, &mut random);
+        let mut floor = below(setup.floor, &hung, &mut random);
+        if setup.stand == Stand::Floor {
+            let down = down_from_above(&mut random);
+            // The wall stays upright.
+            let away = Vector3::new(0.0, -down.z, down.y);
+            wall = beyond(away, setup.wall.0, &hung, &mut random);
+            floor = floor_below(&hung, &down).unwrap_or(floor);
+        }
         let stand = match setup.stand {
-            Stand::None => Assembly::default(),
+            Stand::None | Stand::Floor => Assembly::default(),
             Stand::Post => post(&hung, &floor),
         };
         let clutter = match setup.clutter {

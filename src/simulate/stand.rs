@@ -1,6 +1,8 @@
 //! What holds the part.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Point3, Vector2, Vector3};
+use rand::RngExt as _;
+use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
 use super::assembly::Assembly;
@@ -16,6 +18,49 @@ pub enum Stand {
     None,
     /// A post behind the part with a cross bar and two hooks over the part's upper edge.
     Post,
+    /// The floor: it stands there on an edge or on two corners, and the camera looks down at it.
+    Floor,
+}
+
+/// How far the camera looks down at what stands on the floor.
+const LOOKING_DOWN: std::ops::Range<f64> = 0.0..0.45;
+
+/// Which way is down for a camera that looks down at the floor.
+pub(super) fn down_from_above(random: &mut Pcg64) -> Vector3<f64> {
+    let (sin, cos) = random.random_range(LOOKING_DOWN).sin_cos();
+    Vector3::new(0.0, cos, sin)
+}
+
+/// The floor that a part stands on as it hangs there: about square to `down`, turned in the picture until it touches
+/// the part below its middle from both sides.
+pub(super) fn floor_below(hung: &[Point3<f64>], down: &Vector3<f64>) -> Option<Plane> {
+    let aside = Vector3::x();
+    // Sideways and down.
+    let mut flat: Vec<[f64; 2]> = hung
+        .iter()
+        .map(|p| [aside.dot(&p.coords), down.dot(&p.coords)])
+        .collect();
+    flat.sort_by(|a, b| a[0].total_cmp(&b[0]));
+    let middle = flat.iter().map(|p| p[0]).sum::<f64>() / flat.len().max(1) as f64;
+    let mut lower: Vec<[f64; 2]> = Vec::new();
+    for p in flat {
+        // The convex hull's lower side: no corner may lie above the line past it.
+        while let [.., a, b] = lower[..]
+            && (b[0] - a[0]) * (p[1] - a[1]) >= (b[1] - a[1]) * (p[0] - a[0])
+        {
+            lower.pop();
+        }
+        lower.push(p);
+    }
+    let edge = lower.windows(2).find(|edge| edge[1][0] >= middle)?;
+    let along = Vector2::new(edge[1][0] - edge[0][0], edge[1][1] - edge[0][1]);
+    let along = along.try_normalize(1e-9)?;
+    let normal = down * along.x - aside * along.y;
+    let reach = hung.iter().map(|p| normal.dot(&p.coords));
+    Some(Plane {
+        normal,
+        offset: reach.fold(f64::NEG_INFINITY, f64::max),
+    })
 }
 
 /// A post behind the part, a cross bar at its upper edge, two hooks over that edge.
@@ -69,4 +114,34 @@ pub(super) fn post(hung: &[Point3<f64>], floor: &Plane) -> Assembly {
         sweep(&mut stand, &path, wire, Vector3::x());
     }
     stand
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::SeedableRng as _;
+
+    use super::*;
+    use crate::simulate::part::{PartKind, PartModel, Side};
+
+    #[test]
+    fn a_part_stands_on_the_floor_to_both_sides_of_its_middle() {
+        for (kind, seed) in PartKind::ALL.into_iter().zip(0..) {
+            let down = down_from_above(&mut Pcg64::seed_from_u64(seed));
+            let hung: Vec<Point3<f64>> = PartModel::new(kind, Side::Left, 0)
+                .into_mesh()
+                .vertices
+                .iter()
+                .map(|p| p.cast::<f64>() + Vector3::new(0.1, 0.0, 1.3))
+                .collect();
+            let floor = floor_below(&hung, &down).expect("a floor");
+            let above = |p: &Point3<f64>| floor.offset - floor.normal.dot(&p.coords);
+            assert!(hung.iter().all(|p| above(p) > -1e-9), "{kind}");
+            let touching = hung.iter().filter(|p| above(p) < 1e-6);
+            let middle = hung.iter().map(|p| p.x).sum::<f64>() / hung.len() as f64;
+            let (left, right): (Vec<f64>, Vec<f64>) =
+                touching.map(|p| p.x).partition(|x| *x < middle);
+            assert!(!left.is_empty() && !right.is_empty(), "{kind}");
+            assert!(floor.normal.dot(&down) > 0.7, "{kind}: {:?}", floor.normal);
+        }
+    }
 }

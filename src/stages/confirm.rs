@@ -9,6 +9,7 @@
 mod candidate;
 mod ends;
 mod evidence;
+mod outline_shift;
 mod partial;
 
 use nalgebra::{Point3, Vector3};
@@ -19,6 +20,7 @@ pub use self::evidence::{Evidence, FEATURES, NUM_FEATURES};
 use self::{
     candidate::{Candidate, Trial},
     ends::{Outline, outline_of},
+    outline_shift::outline_shift,
     partial::Piece,
 };
 use crate::{
@@ -259,6 +261,16 @@ impl<'a> Seen<'a> {
         candidate.uncertainty = Some(uncertainty(source, &closest, &target, pose, &THIRD[2]));
         (candidate.fit, candidate.evidence) =
             self.weigh(reference, candidate.view, pose, &closest, NUM_LOOKED_FOR);
+        let view = &reference.views[candidate.view];
+        let noise = self.scene.part.noise_at_1m;
+        candidate.evidence.outline_shift_m = outline_shift(
+            source,
+            &target,
+            &view.contour,
+            &view.plane_from_part,
+            pose,
+            noise,
+        );
     }
 }
 

@@ -174,6 +174,7 @@ fn doors_and_lid_of_a_car_are_told_apart_and_left_is_never_right() {
                 score,
                 margin,
                 rejected,
+                ..
             } = &inspection.verdict
             else {
                 panic!("{} at seed {seed}: {:?}", part.name, inspection.verdict);

@@ -41,7 +41,7 @@ macro_rules! number {
 
 /// All parameters, group by group in the order of the flow.
 #[rustfmt::skip]
-pub const PARAMETERS: [Parameter; 64] = [
+pub const PARAMETERS: [Parameter; 65] = [
     number!("segment.plane_distance", "Plane distance", Segmentation, Front, Millimetres, [1.0, 50.0], 1,
         |r| r.segment.plane_distance.0, |r, v| r.segment.plane_distance = Metres(v),
         "The paper's d_t: a point closer than this (plus the noise) to a background plane belongs to it. Raising it eats what is near the wall."),
@@ -249,6 +249,9 @@ pub const PARAMETERS: [Parameter; 64] = [
     number!("accept.max_missing", "Same model: missing", Acceptance, Fold, None, [0.001, 0.1], 3,
         |r| r.accept.max_missing, |r, v| r.accept.max_missing = v,
         "Share of the reference that the camera may look past. Raising it accepts other models, at a pose that is only about right."),
+    number!("accept.max_outline_shift", "Same model: outline", Acceptance, Fold, Millimetres, [2.0, 20.0], 1,
+        |r| r.accept.max_outline_shift.0, |r, v| r.accept.max_outline_shift = Metres(v),
+        "How far stretches of the outline may lie off the reference's. Raising it accepts other models, at a pose that is only about right."),
     number!("stand_off.taught", "Taught distance", StandOff, Fold, Millimetres, [20.0, 1000.0], 0,
         |r| r.stand_off.taught.0, |r, v| r.stand_off.taught = Metres(v),
         "Distance of the nozzle from the part when its path was taught (the paper's standard d)."),

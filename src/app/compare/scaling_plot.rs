@@ -1,6 +1,6 @@
 //! What ranking takes over a growing number of references, by one and by several workers: the paper's Fig. 7(a) and (b).
 
-use egui::{Align2, Button, Pos2, RichText, Sense, Stroke, Ui, WidgetInfo, vec2};
+use egui::{Align2, Button, Pos2, RichText, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
 
 use super::CompareAction;
 use crate::{
@@ -119,8 +119,21 @@ fn plot(ui: &mut Ui, scaling: &Scaling, theme: &Theme) {
             1 => "1 worker".to_owned(),
             workers => workers.to_string(),
         };
-        let at = area.left_top() + vec2(8.0, 6.0 + 15.0 * place as f32);
-        painter.text(at, Align2::LEFT_TOP, name, font::scale(), colour);
-        painter.line(points, Stroke::new(1.5, colour));
+        let at = area.left_top() + vec2(8.0, 13.0 + 15.0 * place as f32);
+        let stroke = Stroke::new(1.5, colour);
+        painter.extend(line(place, &[at, at + vec2(26.0, 0.0)], stroke));
+        let at = at + vec2(32.0, 0.0);
+        painter.text(at, Align2::LEFT_CENTER, name, font::scale(), colour);
+        painter.extend(line(place, &points, stroke));
+    }
+}
+
+/// Whole for the serial curve, in ever shorter dashes for the others.
+fn line(place: usize, points: &[Pos2], stroke: Stroke) -> Vec<Shape> {
+    match place {
+        0 => vec![Shape::line(points.to_vec(), stroke)],
+        1 => Shape::dashed_line(points, stroke, 10.0, 4.0),
+        2 => Shape::dashed_line(points, stroke, 5.0, 3.0),
+        _ => Shape::dashed_line(points, stroke, 1.5, 3.0),
     }
 }

@@ -1,6 +1,6 @@
 //! What scores are worth, beside the confusion matrix: how often they are right, and what a threshold on them costs.
 
-use egui::{Align2, Color32, Pos2, Rect, Sense, Stroke, Ui, WidgetInfo, pos2, vec2};
+use egui::{Align2, Color32, Pos2, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, pos2, vec2};
 
 use crate::{
     app::theme::{Theme, font, space},
@@ -127,18 +127,37 @@ pub(super) fn trade_off(ui: &mut Ui, trade_off: &TradeOff, threshold: f64, theme
     };
     let wrong = curve(&|step| share(step.num_wrong_accepted, *num_cases));
     let refused = curve(&|step| share(step.num_refused, *num_enrolled));
-    painter.line(wrong, Stroke::new(2.0, theme.rejected));
-    painter.line(refused, Stroke::new(2.0, theme.first_series));
+    painter.extend(refusing(&refused, theme));
+    painter.extend(accepting(&wrong, theme));
     let at = square.place(threshold, 0.0).x;
     painter.vline(at, square.0.y_range(), Stroke::new(1.0, theme.text));
-    let middle = square.0.center().x;
-    let legend = |line: f32, text: &str, colour: Color32| {
-        let at = pos2(middle, square.0.top() + 6.0 + 14.0 * line);
-        painter.text(at, Align2::CENTER_TOP, text, font::scale(), colour);
-    };
-    legend(0.0, "– wrong and accepted", theme.rejected);
-    legend(1.0, "– parts refused", theme.first_series);
+    let legend: [(&str, Look, Color32); 2] = [
+        ("wrong and accepted", accepting, theme.rejected),
+        ("parts refused", refusing, theme.first_series),
+    ];
+    for (row, (text, look, colour)) in (0_u8..).zip(legend) {
+        let at = square.0.left_top() + vec2(12.0, 14.0 + 14.0 * f32::from(row));
+        painter.extend(look(&[at, at + vec2(26.0, 0.0)], theme));
+        let at = at + vec2(32.0, 0.0);
+        painter.text(at, Align2::LEFT_CENTER, text, font::scale(), colour);
+    }
     ui.add_space(space::SMALL);
+}
+
+/// How a curve is drawn.
+type Look = fn(&[Pos2], &Theme) -> Vec<Shape>;
+
+/// The curve of what is wrong and accepted: a whole line.
+fn accepting(points: &[Pos2], theme: &Theme) -> Vec<Shape> {
+    vec![Shape::line(
+        points.to_vec(),
+        Stroke::new(2.0, theme.rejected),
+    )]
+}
+
+/// The curve of what is refused: in dashes, since colour must not be the only sign.
+fn refusing(points: &[Pos2], theme: &Theme) -> Vec<Shape> {
+    Shape::dashed_line(points, Stroke::new(2.0, theme.first_series), 6.0, 4.0)
 }
 
 fn words(calibration: &Calibration) -> String {

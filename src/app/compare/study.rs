@@ -247,9 +247,12 @@ fn refused(verdict: &Verdict, title_of: &dyn Fn(&str) -> String) -> Option<Strin
                 score, threshold, ..
             } => format!("score {score:.2} is below {threshold:.2}: only a piece is in sight"),
             Rejection::AnotherModel {
-                relief, missing, ..
+                relief,
+                outline,
+                missing,
+                ..
             } => format!(
-                "its surface is off by {relief}, {:.1} % of it is missing: another model",
+                "its surface is off by {relief}, its outline by {outline}, {:.1} % of it is missing: another model",
                 missing * 100.0
             ),
             Rejection::HardlySeen { score, .. } => {

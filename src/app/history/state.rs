@@ -122,6 +122,7 @@ impl PastInspection {
                 score,
                 margin,
                 rejected,
+                ..
             } => {
                 let verdict = match rejected {
                     None => PastVerdict::Accepted,

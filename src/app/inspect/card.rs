@@ -18,7 +18,7 @@ use crate::{
     },
     error::Advice as _,
     geometry::rigid::RigidTransform,
-    pipeline::Verdict,
+    pipeline::{Rejection, Verdict},
     stages::pose::{PoseEstimate, Uncertainty},
 };
 
@@ -47,6 +47,13 @@ impl Headline {
                         nearest: None,
                         is_accepted: true,
                         complaint: None,
+                    },
+                    // Of its type beyond doubt.
+                    Some(reason @ Rejection::AnotherModel { .. }) => Self {
+                        title: format!("{nearest}, another model"),
+                        nearest: None,
+                        is_accepted: false,
+                        complaint: Some((reason.to_string(), reason.advice())),
                     },
                     // No name in large letters that is not certain.
                     Some(reason) => Self {
@@ -108,8 +115,7 @@ pub(super) fn ui(
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let headline = Headline::of(inspected);
         verdict(ui, &headline, theme);
-        let part = inspection.segmentation.part.as_ref();
-        if part.is_ok_and(|part| part.touches_edge) {
+        if inspection.touches_edge() {
             let text = "It reaches the picture's edge: some of it may be missing";
             ui.label(RichText::new(text).color(theme.warning));
         }
@@ -117,6 +123,10 @@ pub(super) fn ui(
         if let Some(pose) = pose {
             offset(ui, inspected, pose, state.units, theme);
             fit(ui, pose, state.units, theme);
+            if inspection.verdict.is_approximate() {
+                let text = "The pose is approximate: this is another model of the part";
+                ui.label(RichText::new(text).color(theme.warning));
+            }
             stand_off::ui(ui, inspected, state.units, theme);
         }
         footer(ui, inspected, theme);

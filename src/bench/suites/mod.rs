@@ -3,14 +3,22 @@
 //! Frames follow from a seed alone. We tune on frames from [`TUNING_SEED`] on and on the car models that go with it,
 //! and measure on frames from [`MEASURING_SEED`] on, which no parameter was chosen by.
 
+mod case;
+mod closest;
 mod cut;
+mod libraries;
 mod run;
 
 use serde::Serialize;
 
 use self::cut::pushed_out_of_the_picture;
-pub use self::run::{Confusion, Contender, SuiteCase, SuiteLibraries, SuiteResult, run_suite};
-pub(super) use self::run::{enrol_part, enrolment_pose};
+pub(super) use self::libraries::enrol_part;
+pub use self::{
+    case::{Contender, SuiteCase},
+    closest::Closest,
+    libraries::{SuiteLibraries, enrol_standard_parts, enrolment_pose},
+    run::{Confusion, SuiteResult, run_suite},
+};
 use crate::simulate::{
     CellSetup, Clutter, ObjectKind, PartKind, PartPose, Placement, SensorNoise, Side, Stand,
     Subject,
@@ -42,11 +50,13 @@ pub enum Suite {
     Mirrored,
     /// Parts of both sides, placed, with both enrolled.
     BothSides,
+    /// Enrolled parts that stand on the floor: ±30° yaw, leaning by up to 20°, every second time on another edge.
+    Floor,
 }
 
 impl Suite {
     /// All of them.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Standard,
         Self::Placed,
         Self::OtherModels,
@@ -54,6 +64,7 @@ impl Suite {
         Self::Unknown,
         Self::Mirrored,
         Self::BothSides,
+        Self::Floor,
     ];
 
     /// The name in files and on the command line.
@@ -66,6 +77,15 @@ impl Suite {
             Self::Unknown => "unknown",
             Self::Mirrored => "mirrored",
             Self::BothSides => "both_sides",
+            Self::Floor => "floor",
+        }
+    }
+
+    /// True if every frame shows one of the eight enrolled parts, so that a system which cannot refuse can be right.
+    pub fn is_for_all_systems(self) -> bool {
+        match self {
+            Self::Standard | Self::Placed | Self::OtherModels | Self::Hard | Self::Floor => true,
+            Self::Unknown | Self::Mirrored | Self::BothSides => false,
         }
     }
 
@@ -93,7 +113,7 @@ impl Suite {
         };
         let sided = || PartKind::ALL.into_iter().filter(|kind| kind.is_sided());
         match self {
-            Self::Standard | Self::Placed | Self::OtherModels | Self::Hard => {
+            Self::Standard | Self::Placed | Self::OtherModels | Self::Hard | Self::Floor => {
                 PartKind::ALL.map(|kind| part(kind, Side::Left)).to_vec()
             }
             Self::Unknown => ObjectKind::ALL
@@ -113,6 +133,17 @@ impl Suite {
         match self {
             Self::Placed | Self::Unknown | Self::Mirrored | Self::BothSides => {}
             Self::Standard => setup.pose = PartPose::Drawn(Placement::facing()),
+            Self::Floor => {
+                setup.stand = Stand::Floor;
+                let roll = match pose % 2 {
+                    0 => Placement::facing().roll,
+                    _ => Placement::placed().roll,
+                };
+                setup.pose = PartPose::Drawn(Placement {
+                    roll,
+                    ..Placement::placed()
+                });
+            }
             Self::OtherModels => {
                 if let Subject::Part { model_seed, .. } = &mut setup.subject {
                     // Never 0, and other models for tuning than for measuring.

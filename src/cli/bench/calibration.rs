@@ -1,7 +1,9 @@
 //! `partsight bench calibration`: fits the score's model on simulated frames, and says what each piece of evidence is
 //! worth.
 
-use super::{BenchArgs, suites};
+use serde::Serialize;
+
+use super::{BenchArgs, recognition::Frames, write_json};
 use crate::{
     bench::{
         calibration::{Model, Sample, bands, samples},
@@ -14,6 +16,16 @@ use crate::{
     stages::confirm::{FEATURES, NUM_FEATURES},
 };
 
+/// What `--json` writes.
+#[derive(Debug, Serialize)]
+struct CalibrationFile<'a> {
+    schema: u32,
+    simulated: bool,
+    first_seed: u64,
+    model: Model,
+    suites: &'a [SuiteResult],
+}
+
 /// Poses of each subject, unless asked for otherwise.
 const NUM_POSES: u64 = 14;
 /// A score from which on errors are counted.
@@ -22,11 +34,13 @@ const ACCEPTED: f64 = 0.9;
 pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let num_poses = args.poses.unwrap_or(NUM_POSES);
     let first_seed = args.seed.unwrap_or(TUNING_SEED);
-    let results = suites::results(&Suite::ALL, num_poses, first_seed, None, console)?;
+    let frames = Frames::from_seed(&Suite::ALL, num_poses, first_seed);
+    let results = frames.inspect(console)?;
     // One half of the subjects is fitted on, the other is measured, and the other way round.
     let (odd, even) = halves(&results);
     console.line(&format_args!(
-        "Simulated: {num_poses} poses of each subject, seeds from {first_seed}; {} contenders, {} of them right.",
+        "Simulated: {}; {} contenders, {} of them right.",
+        frames.words(),
         odd.len() + even.len(),
         odd.iter().chain(&even).filter(|s| s.is_right).count()
     ));
@@ -77,7 +91,14 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     console.line(&"");
     show_bands(&results, console);
     if let Some(path) = &args.json {
-        suites::write(path, &results, first_seed)?;
+        let file = CalibrationFile {
+            schema: 1,
+            simulated: true,
+            first_seed,
+            model,
+            suites: &results,
+        };
+        write_json(path, &file)?;
     }
     Ok(Outcome::Accepted)
 }

@@ -51,6 +51,9 @@ pub struct Evidence {
     pub relief_m: f64,
     /// Mean distance of the part's outline and openings to the reference's, metres.
     pub outline_m: f64,
+    /// How far stretches of the outline lie off the reference's, metres: root mean square of their mean signed distances.
+    /// `None` as long as the pose is not refined to the end, or if too little of the outline is seen.
+    pub outline_shift_m: Option<f64>,
     /// Share of the part's outline where only the view ends, 0..1.
     pub cut: f64,
     /// Cosine of the angle that the reference's face is seen at.
@@ -110,6 +113,7 @@ impl Seen<'_> {
                 .max(0.0)
                 .sqrt(),
             outline_m: outline_distance(&self.source, &target, target_from_source),
+            outline_shift_m: None,
             cut: self.cut_share,
             facing: facing(reference, view, target_from_source),
         };

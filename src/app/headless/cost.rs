@@ -3,15 +3,13 @@
 use egui::{Event, Modifiers, PointerButton, Pos2, Vec2};
 use serde::Serialize;
 
-use super::speed::quantile;
-use crate::app::{
-    WindowOptions,
-    action::Action,
-    align::AlignAction,
-    enrol::EnrolAction,
-    headless::{FrameTime, HeadlessWindow, Pace, process_seconds},
-    state::Workspace,
-    viewport::ViewError,
+use super::{FrameTime, HeadlessWindow, Pace};
+use crate::{
+    app::{
+        WindowOptions, action::Action, align::AlignAction, enrol::EnrolAction, state::Workspace,
+        viewport::ViewError,
+    },
+    bench::{process_seconds, quantile},
 };
 
 /// Times over many frames, milliseconds.

@@ -1,0 +1,169 @@
+//! As many references as are asked for.
+//!
+//! Simulated. The first 64 are the eight parts of eight models of the car, each enrolled from a frontal capture. All
+//! further ones are *perturbed signatures* of these: the ray lengths swing by a few per cent over the outline, the
+//! images are those of the original at 25 mm a pixel, and there is no cloud. They are no parts, and what they score
+//! means nothing; but ranking does the same work for them, since its transforms go over all rays and its overlap over
+//! the points of the scene. That keeps a reference at a quarter of a megabyte, and ten thousand below 3 GB.
+
+use nalgebra::Vector2;
+use rand::{RngExt as _, SeedableRng as _};
+use rand_pcg::Pcg64;
+
+use super::ScalingError;
+use crate::{
+    bench::suites::enrol_part,
+    geometry::{nearest::KdTree, nearest_field::NearestField, raster::BinaryImage},
+    library::EnrolParams,
+    pipeline::{Cancelled, Watch},
+    simulate::{PartKind, Side},
+    stages::{
+        correlation::{LiteralReference, spectrum},
+        pose::edge_points::EdgePoints,
+        project::PlaneImage,
+        rank::Matcher,
+        reference::{Reference, ReferenceView},
+    },
+    units::Metres,
+};
+
+/// Models of the car that are enrolled in earnest.
+const NUM_MODELS: u64 = 8;
+
+/// The parts that are enrolled in earnest.
+pub(super) fn originals(most: usize, watch: &dyn Watch) -> Result<Vec<Reference>, ScalingError> {
+    let mut originals = Vec::new();
+    for model_seed in 0..NUM_MODELS {
+        for kind in PartKind::ALL {
+            if watch.is_cancelled() {
+                return Err(Cancelled.into());
+            }
+            if originals.len() < most {
+                let enrolled = enrol_part(kind, Side::Left, model_seed, &EnrolParams::default())?;
+                originals.push(without_cloud(enrolled));
+            }
+        }
+    }
+    Ok(originals)
+}
+
+/// Side of a pixel of a perturbed reference: that of the grid on which ranking compares images.
+const COARSE: Metres = Metres(0.025);
+
+/// An original, or a perturbed copy of one with nothing that this matcher does not look at.
+pub(super) fn nth_reference(originals: &[Reference], place: usize, matcher: Matcher) -> Reference {
+    let original = &originals[place % originals.len()];
+    if place < originals.len() {
+        return original.clone();
+    }
+    let mut random = Pcg64::seed_from_u64(place as u64);
+    let swing = Swing::new(&mut random);
+    let mut copy = original.clone();
+    copy.name = format!("{}_{place}", original.name);
+    copy.views.clear();
+    match matcher {
+        Matcher::Default => {
+            copy.views = original
+                .views
+                .iter()
+                .map(|view| perturbed(view, &swing))
+                .collect();
+            copy.literal = LiteralReference::new(&crate::stages::signature::LiteralSignature {
+                lengths: Vec::new(),
+                angles: Vec::new(),
+            });
+        }
+        Matcher::Paper => {
+            let mut signature = original.literal.signature.clone();
+            let num = signature.lengths.len();
+            for (k, length) in signature.lengths.iter_mut().enumerate() {
+                *length *= swing.at(k, num);
+            }
+            copy.literal = LiteralReference::new(&signature);
+        }
+    }
+    copy
+}
+
+/// A factor that goes up and down a few times around the outline.
+struct Swing {
+    waves: [[f64; 2]; 4],
+}
+
+impl Swing {
+    fn new(random: &mut Pcg64) -> Self {
+        let mut wave = || {
+            [
+                random.random_range(-0.02..0.02),
+                random.random_range(0.0..std::f64::consts::TAU),
+            ]
+        };
+        Self {
+            waves: [wave(), wave(), wave(), wave()],
+        }
+    }
+
+    fn at(&self, k: usize, num: usize) -> f64 {
+        let turn = std::f64::consts::TAU * k as f64 / num.max(1) as f64;
+        let waves = self.waves.iter().zip(1..);
+        1.0 + waves
+            .map(|([height, phase], times)| height * (f64::from(times) * turn + phase).cos())
+            .sum::<f64>()
+    }
+}
+
+fn perturbed(view: &ReferenceView, swing: &Swing) -> ReferenceView {
+    let mut view = view.clone();
+    let num = view.signature.rays.len();
+    let rays = &mut view.signature.rays;
+    for (k, ray) in rays.iter_mut().enumerate() {
+        *ray *= swing.at(k, num);
+    }
+    view.signature.lengths = view.signature.rays.iter().map(Vector2::norm).collect();
+    view.spectrum = spectrum(&view.signature.rays);
+    view.plane = coarse(&view.plane);
+    // None of these is looked at by the ranking.
+    view.signature.literal.lengths = Vec::new();
+    view.signature.literal.angles = Vec::new();
+    view.signature.angles = Vec::new();
+    view.contour.outline = Vec::new();
+    view.contour.openings = Vec::new();
+    view.contour.outline_pixels = Vec::new();
+    view
+}
+
+/// The same image with fewer pixels.
+fn coarse(plane: &PlaneImage) -> PlaneImage {
+    let step = ((COARSE.0 / plane.pixel.0).round() as usize).max(1);
+    let (width, height) = (
+        plane.image.width.div_ceil(step),
+        plane.image.height.div_ceil(step),
+    );
+    let mut image = BinaryImage::new(width, height);
+    let mut heights = Vec::with_capacity(width * height);
+    for row in 0..height {
+        for column in 0..width {
+            let from = row * step * plane.image.width + column * step;
+            image.pixels[row * width + column] = plane.image.pixels[from];
+            heights.push(plane.heights[from]);
+        }
+    }
+    PlaneImage {
+        image,
+        heights,
+        pixel: Metres(plane.pixel.0 * step as f64),
+        ..plane.clone()
+    }
+}
+
+/// Only what a ranking looks at: a cloud with its searches takes megabytes.
+fn without_cloud(mut reference: Reference) -> Reference {
+    let cloud = crate::geometry::cloud::PointCloud::default();
+    reference.tree = KdTree::new(&cloud.points);
+    reference.field = NearestField::new(&cloud.points, 1.0, 1.0);
+    reference.cloud = cloud;
+    for view in &mut reference.views {
+        view.edges = EdgePoints::new(&[], 1);
+    }
+    reference
+}

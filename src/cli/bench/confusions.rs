@@ -1,0 +1,122 @@
+//! Pictures of what was taken for what: the first frame of each subject of each suite that went wrong, and of each
+//! part the frame in which another one came nearest.
+
+use std::path::Path;
+
+use crate::{
+    bench::suites::{Closest, Suite, SuiteCase},
+    cli::console::Advised as _,
+    library::Library,
+    pipeline::Inspection,
+    report::{
+        InspectionLine, Picture, ReportError, ReportFolder, contenders_picture, stage_pictures,
+    },
+    stages::scene::SceneCloud,
+};
+
+/// What is drawn while the suites run.
+pub(super) struct Pictures {
+    folder: ReportFolder,
+    known: Vec<(Suite, String)>,
+    /// Of each part the worst so far; written at the end.
+    closest: Vec<(Closest, Drawn)>,
+    failed: Option<ReportError>,
+}
+
+/// One frame, ready to be written.
+struct Drawn {
+    name: String,
+    line: String,
+    pictures: Vec<Picture>,
+}
+
+impl Drawn {
+    fn of(name: String, scene: &SceneCloud, inspection: &Inspection, library: &Library) -> Self {
+        let line = InspectionLine::of(&name, inspection).to_json();
+        let mut pictures = stage_pictures(scene, inspection);
+        pictures.extend(contenders_picture(scene, inspection, library));
+        Self {
+            name,
+            line,
+            pictures,
+        }
+    }
+
+    fn write(&self, folder: &mut ReportFolder) -> Result<(), ReportError> {
+        folder.write(Path::new(&self.name), &self.line, &self.pictures)?;
+        Ok(())
+    }
+}
+
+impl Pictures {
+    pub(super) fn make(folder: &Path) -> anyhow::Result<Self> {
+        Ok(Self {
+            folder: ReportFolder::make(folder).advised()?,
+            known: Vec::new(),
+            closest: Vec::new(),
+            failed: None,
+        })
+    }
+
+    /// Draws a frame if it went wrong, or is the worst of its part so far.
+    pub(super) fn keep(
+        &mut self,
+        suite: Suite,
+        case: &SuiteCase,
+        scene: &SceneCloud,
+        inspection: &Inspection,
+        library: &Library,
+    ) {
+        self.keep_wrong(suite, case, scene, inspection, library);
+        let Some(closest) = Closest::of(suite, case) else {
+            return;
+        };
+        let known = self.closest.iter().position(|k| k.0.part == closest.part);
+        if known.is_some_and(|known| !closest.is_worse_than(&self.closest[known].0)) {
+            return;
+        }
+        let name = format!(
+            "closest_{}_to_{}_{}_{}",
+            closest.part,
+            closest.other,
+            suite.name(),
+            case.seed
+        );
+        let drawn = Drawn::of(name, scene, inspection, library);
+        match known {
+            Some(known) => self.closest[known] = (closest, drawn),
+            None => self.closest.push((closest, drawn)),
+        }
+    }
+
+    fn keep_wrong(
+        &mut self,
+        suite: Suite,
+        case: &SuiteCase,
+        scene: &SceneCloud,
+        inspection: &Inspection,
+        library: &Library,
+    ) {
+        let key = (suite, case.subject.clone());
+        let is_wrong = !case.is_right() || case.is_wrong_accepted();
+        if !is_wrong || self.failed.is_some() || self.known.contains(&key) {
+            return;
+        }
+        self.known.push(key);
+        let found = case.found.as_deref().unwrap_or("nothing");
+        let name = format!("{}_{}_as_{found}_{}", suite.name(), case.subject, case.seed);
+        let drawn = Drawn::of(name, scene, inspection, library);
+        self.failed = drawn.write(&mut self.folder).err();
+    }
+
+    /// Writes what is left; the first failure, if there was one.
+    pub(super) fn write(mut self) -> anyhow::Result<()> {
+        if let Some(error) = self.failed {
+            return Err(error).advised();
+        }
+        for (_, drawn) in &self.closest {
+            drawn.write(&mut self.folder).advised()?;
+        }
+        Ok(())
+    }
+}

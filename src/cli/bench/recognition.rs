@@ -1,0 +1,307 @@
+//! `partsight bench recognition`: right, accepted and wrongly accepted on sets of simulated frames, then the paper's
+//! matcher and the other systems of its Table I on the same frames.
+
+use clap::ValueEnum;
+use serde::Serialize;
+
+use super::{
+    BenchArgs, calibration::show_bands, confusions::Pictures, systems::SystemsTable, write_json,
+};
+use crate::{
+    bench::{
+        suites::{
+            Closest, MEASURING_SEED, Suite, SuiteCase, SuiteFrame, SuiteLibraries, SuiteResult,
+            run_suite,
+        },
+        systems::Systems,
+    },
+    cli::{
+        Outcome,
+        console::{Advised as _, Console, Table},
+    },
+    library::EnrolParams,
+    pipeline::{Inspection, Recipe, Unwatched},
+    stages::scene::SceneCloud,
+};
+
+/// The suites by name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum SuiteChoice {
+    /// All of them
+    All,
+    /// Enrolled parts hung with care: up to 10 degrees off, 1.0 to 1.4 m away
+    Standard,
+    /// Enrolled parts hung anyhow: up to 30 degrees off, any roll, 0.9 to 1.8 m away
+    Placed,
+    /// The same parts of other car models
+    OtherModels,
+    /// Up to 45 degrees off, clutter, three times the noise, 10 to 25 % hidden or out of the picture
+    Hard,
+    /// Things that nobody enrolled, and empty cells
+    Unknown,
+    /// Right-hand parts where only the left-hand ones are enrolled
+    Mirrored,
+    /// Parts of both sides, both enrolled
+    BothSides,
+    /// Enrolled parts that stand or lean on the floor, up to 30 degrees off
+    Floor,
+}
+
+impl SuiteChoice {
+    fn suites(self) -> Vec<Suite> {
+        let one = match self {
+            Self::All => return Suite::ALL.to_vec(),
+            Self::Standard => Suite::Standard,
+            Self::Placed => Suite::Placed,
+            Self::OtherModels => Suite::OtherModels,
+            Self::Hard => Suite::Hard,
+            Self::Unknown => Suite::Unknown,
+            Self::Mirrored => Suite::Mirrored,
+            Self::BothSides => Suite::BothSides,
+            Self::Floor => Suite::Floor,
+        };
+        vec![one]
+    }
+}
+
+/// Poses of each subject, unless asked for otherwise.
+const NUM_POSES: u64 = 10;
+/// Worst confusions that are named per suite.
+const NUM_CONFUSIONS: usize = 6;
+
+/// What `--json` writes.
+#[derive(Debug, Serialize)]
+struct RecognitionFile<'a> {
+    schema: u32,
+    simulated: bool,
+    first_seed: u64,
+    suites: &'a [SuiteResult],
+    closest: &'a [Closest],
+    #[serde(skip_serializing_if = "Option::is_none")]
+    table1: Option<&'a SystemsTable>,
+}
+
+pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let frames = Frames::of(args, &Suite::ALL, NUM_POSES);
+    let recipe = Recipe::default();
+    let libraries = SuiteLibraries::enrol(&EnrolParams::default()).advised()?;
+    let systems = if args.only_ours {
+        None
+    } else {
+        Some(Systems::prepare(&libraries.left).advised()?)
+    };
+    let mut shown = Vec::new();
+    let mut pictures = args.pictures.as_deref().map(Pictures::make).transpose()?;
+    let results = frames.inspect_with(&libraries, console, |suite, case, scene, inspection| {
+        if let Some(pictures) = &mut pictures {
+            pictures.keep(suite, case, scene, inspection, libraries.of(suite));
+        }
+        if let Some(systems) = systems.as_ref().filter(|_| suite.is_for_all_systems()) {
+            shown.extend(systems.recognise(suite, case, scene, &recipe));
+        }
+    })?;
+    if let Some(pictures) = pictures {
+        pictures.write()?;
+    }
+    let closest = Closest::per_part(&results);
+    console.line(&format_args!(
+        "Simulated: {}, one thread. Of what must not be accepted, right is not accepted.",
+        frames.words()
+    ));
+    console.line(&"");
+    show(&results, console);
+    show_closest(&closest, console);
+    let table1 = systems.map(|systems| SystemsTable::of(&systems, &shown));
+    if let Some(table1) = table1.as_ref().filter(|_| !shown.is_empty()) {
+        console.line(&"");
+        table1.show(console);
+    }
+    if let Some(path) = &args.json {
+        let file = RecognitionFile {
+            schema: 2,
+            simulated: true,
+            first_seed: frames.first_seed,
+            suites: &results,
+            closest: &closest,
+            table1: table1.as_ref(),
+        };
+        write_json(path, &file)?;
+    }
+    Ok(Outcome::Accepted)
+}
+
+/// The frames that are inspected.
+pub(super) struct Frames {
+    suites: Vec<(Suite, Vec<SuiteFrame>)>,
+    num_poses: u64,
+    pub(super) first_seed: u64,
+}
+
+impl Frames {
+    /// Those asked for; without a word these.
+    pub(super) fn of(args: &BenchArgs, suites: &[Suite], num_poses: u64) -> Self {
+        let mut asked_for: Vec<Suite> = Vec::new();
+        for suite in args.suite.iter().flat_map(|choice| choice.suites()) {
+            if !asked_for.contains(&suite) {
+                asked_for.push(suite);
+            }
+        }
+        if asked_for.is_empty() {
+            asked_for.extend(suites);
+        }
+        let first_seed = args.seed.unwrap_or(MEASURING_SEED);
+        Self::from_seed(&asked_for, args.poses.unwrap_or(num_poses), first_seed)
+    }
+
+    /// The suites' frames from a seed on.
+    pub(super) fn from_seed(suites: &[Suite], num_poses: u64, first_seed: u64) -> Self {
+        let frames = |suite: &Suite| (*suite, suite.frames(num_poses, first_seed));
+        Self {
+            suites: suites.iter().map(frames).collect(),
+            num_poses,
+            first_seed,
+        }
+    }
+
+    /// Which they are.
+    pub(super) fn words(&self) -> String {
+        let Self {
+            num_poses,
+            first_seed,
+            ..
+        } = self;
+        format!("{num_poses} poses of each subject, seeds from {first_seed}")
+    }
+
+    /// Inspects them one after the other, on this thread.
+    pub(super) fn inspect(&self, console: &mut Console) -> anyhow::Result<Vec<SuiteResult>> {
+        let libraries = SuiteLibraries::enrol(&EnrolParams::default()).advised()?;
+        self.inspect_with(&libraries, console, |_, _, _, _| {})
+    }
+
+    /// The same with these libraries; `after_each` gets what came of every frame.
+    fn inspect_with(
+        &self,
+        libraries: &SuiteLibraries,
+        console: &mut Console,
+        mut after_each: impl FnMut(Suite, &SuiteCase, &SceneCloud, &Inspection),
+    ) -> anyhow::Result<Vec<SuiteResult>> {
+        console.start_progress(self.suites.iter().map(|(_, frames)| frames.len()).sum());
+        let recipe = Recipe::default();
+        let mut results: Vec<SuiteResult> = Vec::new();
+        for (suite, frames) in &self.suites {
+            let library = libraries.of(*suite);
+            let done = |case: &SuiteCase, scene: &SceneCloud, inspection: &Inspection| {
+                after_each(*suite, case, scene, inspection);
+                console.done();
+            };
+            let result = run_suite(*suite, frames, library, &recipe, &Unwatched, done)?;
+            results.push(result);
+        }
+        console.end_progress();
+        Ok(results)
+    }
+}
+
+fn show(results: &[SuiteResult], console: &mut Console) {
+    let mut table = Table::new(&[
+        "suite",
+        "frames",
+        "right",
+        "right and accepted",
+        "wrong and accepted",
+        "not accepted",
+        "of these unknown",
+        "approximate",
+        "median time",
+        "pose within 2° and 10 mm",
+        "median error",
+        "95 % below",
+    ]);
+    for result in results {
+        let total = result.cases.len();
+        let share = |num: usize, of: usize| {
+            format!("{num} ({:.1} %)", 100.0 * num as f64 / of.max(1) as f64)
+        };
+        let num_placed = result.num(|c| c.pose_off().is_some());
+        let error = |share| match result.pose_off_quantile(share) {
+            Some([turn, shift]) => format!("{turn:.2}°, {shift:.1} mm"),
+            None => "-".to_owned(),
+        };
+        table.row([
+            result.suite.name().to_owned(),
+            total.to_string(),
+            share(result.num(SuiteCase::is_right), total),
+            share(result.num(|c| c.is_right() && c.accepted), total),
+            share(result.num(SuiteCase::is_wrong_accepted), total),
+            share(result.num(|c| !c.accepted), total),
+            share(result.num(|c| c.is_unknown), total),
+            share(result.num(|c| c.is_approximate), total),
+            format!("{:.1} ms", result.median_ms().unwrap_or_default()),
+            match num_placed {
+                0 => "-".to_owned(),
+                _ => share(result.num(SuiteCase::is_well_placed), num_placed),
+            },
+            error(0.5),
+            error(0.95),
+        ]);
+    }
+    table.show(console);
+    console.line(&"");
+    show_bands(results, console);
+    console.line(&"");
+    for result in results {
+        for confusion in result.confusions().iter().take(NUM_CONFUSIONS) {
+            console.line(&format_args!(
+                "  {}: {} taken for {}, {}×, accepted {}× (first seed {})",
+                result.suite.name(),
+                confusion.subject,
+                confusion.found.as_deref().unwrap_or("nothing"),
+                confusion.num,
+                confusion.num_accepted,
+                confusion.first_seed
+            ));
+        }
+    }
+}
+
+/// The frame of each part in which another came nearest.
+fn show_closest(closest: &[Closest], console: &mut Console) {
+    if closest.is_empty() {
+        return;
+    }
+    console.line(&"");
+    console.line(
+        &"Of each part, the frame in which another one came nearest to being taken for it; --pictures draws why.",
+    );
+    console.line(&"");
+    // A part that is clearly another one scores far below a thousandth.
+    let score = |score: f64| {
+        if score < 0.001 {
+            format!("{score:.0e}")
+        } else {
+            format!("{score:.3}")
+        }
+    };
+    let mut table = Table::new(&[
+        "part",
+        "nearest other",
+        "its score",
+        "the part's",
+        "suite",
+        "seed",
+        "verdict",
+    ]);
+    for case in closest {
+        table.row([
+            case.part.clone(),
+            case.other.clone(),
+            score(case.other_score),
+            score(case.own_score),
+            case.suite.name().to_owned(),
+            case.seed.to_string(),
+            case.verdict(),
+        ]);
+    }
+    table.show(console);
+}

@@ -1,0 +1,114 @@
+//! What scores are worth: how often they are right, and what a threshold on them costs.
+
+use image::Rgb;
+
+use super::{
+    canvas::Canvas,
+    chart::{Axis, Chart, DIM_TEXT, Division},
+    lettering::{Anchor, Lettering},
+    pictures::{DIM, LIGHT, OPENING, PART},
+};
+use crate::cases::{AtThreshold, Calibration, TradeOff};
+
+/// Side of a plot, pixels.
+pub(super) const PLOT: f64 = 400.0;
+/// Dashes and gaps of the second curve, pixels.
+const DASHES: [f64; 2] = [9.0, 6.0];
+
+/// Shares over scores, both from 0 to 1.
+fn unit_chart([left, top]: [f64; 2], [across, up]: [&str; 2]) -> Chart<'_> {
+    let fifths = || (0..=5).map(|i| f64::from(i) / 5.0);
+    let axis = |title| Axis {
+        title,
+        range: [0.0, 1.0],
+        division: Division::Even,
+        ticks: fifths().map(|v| (v, format!("{v:.1}"))).collect(),
+    };
+    Chart {
+        corners: [[left, top], [left + PLOT, top + PLOT]],
+        across: axis(across),
+        up: axis(up),
+    }
+}
+
+/// A dot a bin, with the number of its guesses; on the diagonal a score says how often it is right.
+pub(super) fn draw_calibration(
+    canvas: &mut Canvas,
+    lettering: &Lettering,
+    calibration: &Calibration,
+    [left, top]: [f64; 2],
+) {
+    let chart = unit_chart(
+        [left, top],
+        ["score of the best guess", "share of right guesses"],
+    );
+    chart.draw_axes(canvas, lettering);
+    canvas.line(chart.place([0.0, 0.0]), chart.place([1.0, 1.0]), DIM);
+    let mut last = None;
+    for bin in &calibration.bins {
+        let Some(share) = bin.share_right() else {
+            continue;
+        };
+        let at = chart.place([bin.mean_score, share]);
+        if let Some(last) = last.replace(at) {
+            canvas.line(last, at, PART);
+        }
+        canvas.dot(at, 5.0, PART);
+        let text = bin.num.to_string();
+        // Above: below the lowest are the numbers of the axis.
+        let at = [at[0], at[1] - 12.0];
+        lettering.write(&mut canvas.image, &text, at, Anchor::Middle, LIGHT);
+    }
+    let words = calibration.expected_error.map_or_else(
+        || "no guess, no calibration".to_owned(),
+        |error| format!("expected calibration error {error:.3}; numbers are guesses"),
+    );
+    let at = [left, top + PLOT + 74.0];
+    lettering.write(&mut canvas.image, &words, at, Anchor::Left, DIM_TEXT);
+}
+
+/// What every least score would accept wrongly, and what it would refuse, by the score alone.
+pub(super) fn draw_trade_off(
+    canvas: &mut Canvas,
+    lettering: &Lettering,
+    trade_off: &TradeOff,
+    threshold: f64,
+    [left, top]: [f64; 2],
+) {
+    let TradeOff {
+        num_cases,
+        num_enrolled,
+        steps,
+    } = trade_off;
+    let chart = unit_chart([left, top], ["least score", "share"]);
+    chart.draw_axes(canvas, lettering);
+    let ends = [0.0, 1.0].map(|share| chart.place([threshold, share]));
+    canvas.line(ends[0], ends[1], DIM);
+    let share = |num: usize, of: usize| num as f64 / of.max(1) as f64;
+    let curve = |height: &dyn Fn(&AtThreshold) -> f64| -> Vec<[f64; 2]> {
+        let at = |step: &AtThreshold| chart.place([step.threshold, height(step)]);
+        steps.iter().map(at).collect()
+    };
+    let refused = curve(&|step| share(step.num_refused, *num_enrolled));
+    let wrong = curve(&|step| share(step.num_wrong_accepted, *num_cases));
+    let looks: [(&str, &[f64], Rgb<u8>); 2] = [
+        ("wrong and accepted, of all cases", &[], PART),
+        ("refused, of the enrolled parts", &DASHES, OPENING),
+    ];
+    for (row, ((words, pattern, colour), curve)) in
+        (0..).zip(looks.into_iter().zip([wrong, refused]))
+    {
+        // Twice, a pixel apart: a thin line is lost beside the grid.
+        let below = curve.iter().map(|[x, y]| [*x, y + 1.0]);
+        canvas.dashes(below, pattern, colour);
+        canvas.dashes(curve.iter().copied(), pattern, colour);
+        let y = top - 30.0 + 20.0 * f64::from(row);
+        let sample = [[left, y - 5.0], [left + 40.0, y - 5.0]];
+        canvas.dashes(sample.into_iter(), pattern, colour);
+        let at = [left + 50.0, y];
+        lettering.write(&mut canvas.image, words, at, Anchor::Left, LIGHT);
+    }
+    let words = format!("the upright line is the threshold of {threshold:.2}");
+    let at = [left, top + PLOT + 74.0];
+    lettering.write(&mut canvas.image, &words, at, Anchor::Left, DIM_TEXT);
+}
