@@ -94,6 +94,7 @@ pub enum CaptureError {
 
 fn counted(num_frames: u64) -> String {
     match num_frames {
+        0 => "no frame is".into(),
         1 => "1 frame is".into(),
         num => format!("{num} frames are"),
     }

@@ -295,27 +295,25 @@ fn smooth_noise(camera: &Intrinsics, random: &mut Pcg64) -> Vec<f32> {
             }
         }
         // All five in one pass: this is most of the time that a frame takes.
-        let near: [&[f32]; 5] = std::array::from_fn(|k| &draws[k..][..width]);
-        for (u, value) in row.iter_mut().enumerate() {
-            *value = weighted(&WEIGHTS, near.map(|draws| draws[u]));
-        }
+        let near = std::array::from_fn(|k| &draws[k..][..width]);
+        add_up(&WEIGHTS, near, row);
     }
     let scaled = WEIGHTS.map(|weight| scale * weight);
     let mut field = vec![0.0_f32; width * height];
     for (v, row) in field.chunks_exact_mut(width).enumerate() {
-        let near: [&[f32]; 5] = std::array::from_fn(|k| &along[(v + k) * width..][..width]);
-        for (u, value) in row.iter_mut().enumerate() {
-            *value = weighted(&scaled, near.map(|row| row[u]));
-        }
+        let near = std::array::from_fn(|k| &along[(v + k) * width..][..width]);
+        add_up(&scaled, near, row);
     }
     field
 }
 
-/// The weighted sum of five values, added up from the first to the last.
-fn weighted(weights: &[f32; 5], values: [f32; 5]) -> f32 {
-    let [a, b, c, d, e] = values;
+/// Puts the weighted sum of five rows, added up from the first to the last, into a sixth.
+fn add_up(weights: &[f32; 5], rows: [&[f32]; 5], sum: &mut [f32]) {
     let [v, w, x, y, z] = weights;
-    v * a + w * b + x * c + y * d + z * e
+    let [a, b, c, d, e] = rows.map(|row| &row[..sum.len()]);
+    for (u, sum) in sum.iter_mut().enumerate() {
+        *sum = v * a[u] + w * b[u] + x * c[u] + y * d[u] + z * e[u];
+    }
 }
 
 #[cfg(test)]
