@@ -189,6 +189,32 @@ pub enum Rejection {
     /// The pose could not be estimated.
     #[error("no pose was found: {0}")]
     NoPose(#[from] PoseError),
+    /// Frames of a scene that does not move say different things.
+    #[error("{num_agreeing} of {num_frames} frames accept {part}, {needed} are needed")]
+    Undecided {
+        /// The part that most frames name.
+        part: String,
+        /// Frames that accept it.
+        num_agreeing: usize,
+        /// Frames in all.
+        num_frames: usize,
+        /// Frames needed.
+        needed: usize,
+    },
+    /// Frames of a scene that does not move put the part in different places.
+    #[error(
+        "the poses of {part} lie together in {num_agreeing} of {num_frames} frames, {needed} are needed"
+    )]
+    PosesApart {
+        /// The part.
+        part: String,
+        /// Frames whose poses lie together.
+        num_agreeing: usize,
+        /// Frames in all.
+        num_frames: usize,
+        /// Frames needed.
+        needed: usize,
+    },
 }
 
 /// Why nothing could be recognised.
@@ -239,6 +265,12 @@ impl Advice for Rejection {
             }
             Self::Unconfirmed { .. } => "Have the pose estimated too, with --pose global".into(),
             Self::NoPose(error) => error.advice(),
+            Self::Undecided { .. } => {
+                "Wait a moment; if it stays so, turn the part's face to the camera and take away what stands before it".into()
+            }
+            Self::PosesApart { .. } => {
+                "Hang the part so that nothing can swing, and wait a moment; if it stays so, turn its face to the camera".into()
+            }
         }
     }
 }

@@ -259,7 +259,9 @@ fn refused(verdict: &Verdict, title_of: &dyn Fn(&str) -> String) -> Option<Strin
             Rejection::Mirrored { part, .. } => {
                 format!("it looks like the mirror image of {}", title_of(part))
             }
-            no_pose @ Rejection::NoPose(_) => no_pose.to_string(),
+            other @ (Rejection::NoPose(_)
+            | Rejection::Undecided { .. }
+            | Rejection::PosesApart { .. }) => other.to_string(),
         },
         Verdict::NoPart(reason) => reason.to_string(),
     })
