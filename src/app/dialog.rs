@@ -67,6 +67,12 @@ impl Dialog {
                     .add_filter("Pictures", &["png"])
                     .save_file(),
             ),
+            Ask::Recording => Box::pin(dialog.set_title("Play a recording").pick_folder()),
+            Ask::WatchedFolder => Box::pin(
+                dialog
+                    .set_title("Folder that captures are saved to")
+                    .pick_folder(),
+            ),
             Ask::CasesFolder => Box::pin(dialog.set_title("Folder of kept cases").pick_folder()),
             Ask::EarlierRun => Box::pin(
                 dialog
@@ -130,6 +136,8 @@ fn without_dialog(ask: Ask) -> Action {
         Ask::Picture => "view.png",
         Ask::Align(AlignAsk::TableFile) => "table1.csv",
         Ask::Scene
+        | Ask::Recording
+        | Ask::WatchedFolder
         | Ask::Library
         | Ask::CasesFolder
         | Ask::EarlierRun

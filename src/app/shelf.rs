@@ -1,4 +1,5 @@
-//! The library in use, shared by the threads: loaded when first needed, replaced whole when it was changed.
+//! What the threads share: the library in use, loaded when first needed and replaced whole when it was changed, and the
+//! camera.
 
 use std::{
     path::{Path, PathBuf},
@@ -7,16 +8,19 @@ use std::{
 
 use image::RgbaImage;
 
-use super::{fitted::FittedCache, job::Trouble};
+use super::{camera::Camera, fitted::FittedCache, job::Trouble};
 use crate::{
     error::Advice as _,
     library::{Library, LibraryError, LibraryLoad, LibraryPlace, PartMeta, open_library},
     stages::reference::ReferenceParams,
 };
 
-/// A handle to the library in use; clones share it.
+/// A handle to the library and the camera in use; clones share them.
 #[derive(Clone, Debug, Default)]
-pub struct Shelf(Arc<Mutex<Choice>>);
+pub struct Shelf {
+    choice: Arc<Mutex<Choice>>,
+    camera: Camera,
+}
 
 #[derive(Debug, Default)]
 struct Choice {
@@ -82,7 +86,15 @@ impl Shelf {
     /// The library of this folder, else the one that [`open_library`] finds.
     pub fn new(given: Option<PathBuf>) -> Self {
         let loaded = None;
-        Self(Arc::new(Mutex::new(Choice { given, loaded })))
+        Self {
+            choice: Arc::new(Mutex::new(Choice { given, loaded })),
+            camera: Camera::default(),
+        }
+    }
+
+    /// The camera in use.
+    pub fn camera(&self) -> &Camera {
+        &self.camera
     }
 
     /// The library; loads it if nobody has yet.
@@ -113,7 +125,7 @@ impl Shelf {
 
     fn lock(&self) -> MutexGuard<'_, Choice> {
         // What it holds is only ever replaced whole.
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        self.choice.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

@@ -189,6 +189,22 @@ pub enum Rejection {
     /// The pose could not be estimated.
     #[error("no pose was found: {0}")]
     NoPose(#[from] PoseError),
+    /// It moves, or moved a moment ago.
+    #[error("{part} does not hang still yet")]
+    NotSteady {
+        /// Best match.
+        part: String,
+    },
+    /// It hangs still, and too few frames were seen since.
+    #[error("{part} hangs still, and {num_frames} of {needed} frames were inspected since")]
+    FewFrames {
+        /// Best match.
+        part: String,
+        /// Frames so far.
+        num_frames: usize,
+        /// Frames needed.
+        needed: usize,
+    },
     /// Frames of a scene that does not move say different things.
     #[error("{num_agreeing} of {num_frames} frames accept {part}, {needed} are needed")]
     Undecided {
@@ -265,6 +281,8 @@ impl Advice for Rejection {
             }
             Self::Unconfirmed { .. } => "Have the pose estimated too, with --pose global".into(),
             Self::NoPose(error) => error.advice(),
+            Self::NotSteady { .. } => "Let the part hang still for a second".into(),
+            Self::FewFrames { .. } => "Wait a moment".into(),
             Self::Undecided { .. } => {
                 "Wait a moment; if it stays so, turn the part's face to the camera and take away what stands before it".into()
             }

@@ -260,6 +260,8 @@ fn refused(verdict: &Verdict, title_of: &dyn Fn(&str) -> String) -> Option<Strin
                 format!("it looks like the mirror image of {}", title_of(part))
             }
             other @ (Rejection::NoPose(_)
+            | Rejection::NotSteady { .. }
+            | Rejection::FewFrames { .. }
             | Rejection::Undecided { .. }
             | Rejection::PosesApart { .. }) => other.to_string(),
         },
@@ -339,7 +341,7 @@ mod tests {
 
     fn request(choice: CellChoice) -> StudyRequest {
         let captured = SceneSource::Cell { choice, number: 2 }
-            .read()
+            .take(&crate::app::camera::Camera::default(), &|| false)
             .expect("a scene");
         StudyRequest {
             case: CaseScene::AtHand {

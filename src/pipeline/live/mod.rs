@@ -23,7 +23,7 @@ pub use self::{
     mean_pose::{MeanPose, PoseTolerance, mean_pose},
     steady::{SteadyParams, SteadyWatch, Stillness},
 };
-use super::{AcceptParams, Inspection};
+use super::{AcceptParams, Inspection, Rejection, Verdict};
 use crate::stages::scene::SceneCloud;
 
 /// How frames are followed.
@@ -123,24 +123,83 @@ impl LiveWatch {
         }
     }
 
-    /// Takes in what was found in the scene that [`look`](Self::look) gave last. `middle` is the named part's, part
-    /// space, metres.
+    /// Takes in what was found in the scene that [`look`](Self::look) gave last, and puts what counts in its place: the
+    /// verdict and the mean pose of all frames, or why the frame's own verdict does not count. `middle` is the named
+    /// part's, part space, metres.
     pub fn judge(
         &mut self,
-        inspection: &Inspection,
+        inspection: &mut Inspection,
         middle: Option<Point3<f64>>,
         accept: &AcceptParams,
     ) -> Standing {
         self.consensus.add(self.last_at, inspection, middle);
-        let Stillness::Steady { since, .. } = self.steady.stillness() else {
-            return Standing::Open;
+        let standing = match self.steady.stillness() {
+            Stillness::Watching | Stillness::Moving => Standing::Open,
+            Stillness::Steady { since, .. } => match self.consensus.agreed(since, accept) {
+                Some(agreed) => Standing::Counted(Box::new(unless_out_of_line(agreed, inspection))),
+                None => {
+                    let (num_frames, needed) = self.consensus.gathered(since);
+                    Standing::Gathering { num_frames, needed }
+                }
+            },
         };
-        match self.consensus.agreed(since, accept) {
-            Some(agreed) => Standing::Counted(Box::new(agreed)),
-            None => {
-                let (num_frames, needed) = self.consensus.gathered(since);
-                Standing::Gathering { num_frames, needed }
+        standing.put_into(inspection);
+        standing
+    }
+}
+
+impl Standing {
+    /// Nobody who is handed the inspection must take a single frame's verdict for one that counts.
+    fn put_into(&self, inspection: &mut Inspection) {
+        match self {
+            Self::Counted(agreed) => {
+                inspection.verdict = agreed.verdict.clone();
+                if let (Some(Ok(pose)), Some(mean)) = (&mut inspection.pose, &agreed.pose) {
+                    pose.target_from_source = mean.camera_from_part.inverse();
+                }
+            }
+            Self::Open | Self::Gathering { .. } => {
+                if let Verdict::Part { part, rejected, .. } = &mut inspection.verdict
+                    && rejected.is_none()
+                {
+                    let part = part.clone();
+                    *rejected = Some(match *self {
+                        Self::Gathering { num_frames, needed } => Rejection::FewFrames {
+                            part,
+                            num_frames,
+                            needed,
+                        },
+                        _ => Rejection::NotSteady { part },
+                    });
+                }
             }
         }
     }
 }
+
+/// What was agreed upon, not accepted where this frame is one of the few that take the part for another or find no
+/// pose: what the frame holds besides the verdict would be of something else.
+fn unless_out_of_line(mut agreed: Agreed, inspection: &Inspection) -> Agreed {
+    let best = inspection.ranking.entries.first();
+    if let Verdict::Part {
+        part,
+        rejected: rejected @ None,
+        ..
+    } = &mut agreed.verdict
+    {
+        let is_in_line =
+            best.is_some_and(|best| best.part == *part) && !matches!(inspection.pose, Some(Err(_)));
+        if !is_in_line {
+            *rejected = Some(Rejection::Undecided {
+                part: part.clone(),
+                num_agreeing: agreed.num_agreeing,
+                num_frames: agreed.num_frames,
+                needed: agreed.num_frames,
+            });
+        }
+    }
+    agreed
+}
+
+#[cfg(test)]
+mod tests;

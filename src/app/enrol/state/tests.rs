@@ -25,6 +25,14 @@ struct Tray(Mutex<Vec<Outcome>>);
 impl Watch for Tray {}
 
 impl Desk<Outcome> for Tray {
+    fn stands(&self, outcome: Outcome) {
+        self.partly(outcome);
+    }
+
+    fn is_followed(&self) -> bool {
+        true
+    }
+
     fn progress(&self, _done: usize, _total: usize) {}
     fn partly(&self, outcome: Outcome) {
         self.0.lock().expect("whole").push(outcome);
