@@ -10,13 +10,27 @@ use std::{
 };
 
 use crate::{
-    capture::{Captured, Delivery, Feed, FeedItem, FeedState, SourceSpec},
+    capture::{
+        self, CaptureError, Captured, Delivery, DepthSource, Feed, FeedItem, FeedState, SourceSpec,
+    },
     error::Advice,
 };
 
 /// A handle to the camera in use; clones share it.
-#[derive(Clone, Default)]
-pub struct Camera(Arc<Mutex<Option<Opened>>>);
+#[derive(Clone)]
+pub struct Camera {
+    opened: Arc<Mutex<Option<Opened>>>,
+    open: Arc<Open>,
+}
+
+/// How a source is opened.
+type Open = dyn Fn(&SourceSpec) -> Result<Box<dyn DepthSource>, CaptureError> + Send + Sync;
+
+impl Default for Camera {
+    fn default() -> Self {
+        Self::opened_by(capture::open)
+    }
+}
 
 struct Opened {
     spec: SourceSpec,
@@ -28,7 +42,7 @@ struct Opened {
 pub enum CameraError {
     /// The source says why.
     #[error(transparent)]
-    Capture(Arc<crate::capture::CaptureError>),
+    Capture(Arc<CaptureError>),
     /// A recording has no more frames.
     #[error("{title} has no more frames")]
     AtItsEnd {
@@ -54,6 +68,19 @@ impl Advice for CameraError {
 const TURN: Duration = Duration::from_millis(50);
 
 impl Camera {
+    /// With another way to open a source.
+    pub fn opened_by(
+        open: impl Fn(&SourceSpec) -> Result<Box<dyn DepthSource>, CaptureError>
+        + Send
+        + Sync
+        + 'static,
+    ) -> Self {
+        Self {
+            opened: Arc::default(),
+            open: Arc::new(open),
+        }
+    }
+
     /// The source at work: as it is, if it is the one that is open, else opened after the other was closed. A frame
     /// that comes from now on is waited for with [`Feed::wait`].
     pub fn feed(&self, spec: &SourceSpec) -> Result<Arc<Feed>, CameraError> {
@@ -66,7 +93,8 @@ impl Camera {
         }
         // One camera at a time: two handles of one device would refuse each other.
         *opened = None;
-        let feed = Feed::start(spec.clone(), Delivery::suiting(spec), || {})
+        let (open, wanted) = (Arc::clone(&self.open), spec.clone());
+        let feed = Feed::start_with(move || open(&wanted), Delivery::suiting(spec), || {})
             .map_err(|error| CameraError::Capture(Arc::new(error)))?;
         let feed = Arc::new(feed);
         *opened = Some(Opened {
@@ -101,7 +129,7 @@ impl Camera {
 
     fn lock(&self) -> MutexGuard<'_, Option<Opened>> {
         // What it holds is only ever replaced whole.
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        self.opened.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

@@ -84,11 +84,11 @@ impl LibraryShown {
 
 impl Shelf {
     /// The library of this folder, else the one that [`open_library`] finds.
-    pub fn new(given: Option<PathBuf>) -> Self {
+    pub fn new(given: Option<PathBuf>, camera: Camera) -> Self {
         let loaded = None;
         Self {
             choice: Arc::new(Mutex::new(Choice { given, loaded })),
-            camera: Camera::default(),
+            camera,
         }
     }
 

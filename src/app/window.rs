@@ -9,6 +9,7 @@ use super::{
     action::{Action, Ask, Effect, apply},
     align::AlignPanel,
     bars,
+    camera::Camera,
     compare::{self, CompareState},
     dialog::Dialog,
     enrol::EnrolPanel,
@@ -39,6 +40,8 @@ pub struct WindowOptions {
     pub settings: Option<PathBuf>,
     /// The folder of kept cases; without it the user's own.
     pub cases: Option<PathBuf>,
+    /// What opens cameras.
+    pub camera: Camera,
 }
 
 /// The window.
@@ -68,9 +71,10 @@ impl Window {
             scene,
             settings,
             cases,
+            camera,
         } = options;
         let (remembered, trouble) = settings.as_deref().map(settings::load).unwrap_or_default();
-        let shelf = Shelf::new(library.or_else(|| remembered.library.clone()));
+        let shelf = Shelf::new(library.or_else(|| remembered.library.clone()), camera);
         let start = |lane: Lane| {
             let (shelf, repaint) = (shelf.clone(), ctx.clone());
             let worker = Worker::start(

@@ -4,6 +4,7 @@
 //! names, never asserted by a test.
 
 pub mod calibration;
+mod live;
 mod recognition;
 pub mod registration;
 pub mod scaling;
@@ -17,6 +18,7 @@ pub use self::{
     recognition::{
         Case, EnrolledStandard, Recognition, RecognitionSetup, enrol_standard_parts, recognise_all,
     },
-    speed::{StageTimes, quantile, stage_times},
+    live::{LiveStretch, live_stretches},
+        speed::{StageTimes, quantile, stage_times},
     window::{FrameCost, WindowCost, window_cost},
 };

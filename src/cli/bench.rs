@@ -1,6 +1,7 @@
 //! `partsight bench`: how often right, how far off, how long, on simulated frames.
 
 mod calibration;
+mod live;
 mod registration;
 mod scaling;
 mod suites;
@@ -45,6 +46,7 @@ Examples:
   partsight bench systems --placement hard
   partsight bench scaling --plot scaling.png
   partsight bench window
+  partsight bench live --minutes 10
 
 Each part is enrolled from one frontal capture of the standard car, then seen at drawn poses. Without a name: a few
 frames of each part, to time the stages. table1 needs no frames: each part of the library is put where T1..T5 of the
@@ -83,6 +85,9 @@ pub(super) struct BenchArgs {
     /// Of scaling: references at most; ten thousand take below 3 GB
     #[arg(long, value_name = "N", default_value_t = crate::bench::scaling::MOST as u64, value_parser = clap::value_parser!(u64).range(8..=100_000))]
     most: u64,
+    /// Of live: how long
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1440))]
+    minutes: u64,
     /// Of table1: only this part; may be given several times
     #[arg(long, value_name = "NAME")]
     part: Vec<String>,
@@ -106,8 +111,10 @@ enum Bench {
     Systems,
     /// Ranking by 1, 2, 4 and 8 workers over a growing number of references: from where do several pay?
     Scaling,
-    /// Processor time of a frame of the window, at rest and turning; needs no display
+    /// Processor time of a frame of the window, at rest, turning and live; needs no display
     Window,
+    /// The simulated line followed for minutes: rate, latency, the window's thread, memory; needs no display
+    Live,
 }
 
 /// Poses of each part, unless asked for otherwise.
@@ -163,6 +170,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     }
     let matchers: &[Matcher] = match args.bench {
         Bench::Scaling => return scaling::run(args, console),
+        Bench::Live => return live::run(args, console),
         Bench::Speed | Bench::Window => &[Matcher::Default],
         Bench::Recognition => &[Matcher::Default, Matcher::Paper],
         Bench::Table1 => return table1::run(args, console),

@@ -86,20 +86,21 @@ fn a_part_is_accepted_once_it_hangs_still_and_no_longer_when_it_moves() {
     let said = follow();
     for (number, own, standing, verdict) in &said {
         match number {
-            0..24 => {
+            0..=23 => {
                 assert!(*own, "frame {number} by itself");
                 assert!(!verdict.is_accepted(), "{number}: {standing:?}");
             }
-            36..40 => {
+            36..=39 => {
                 let agreed = standing.counted().expect("counted");
                 assert!(
                     agreed.num_frames >= 5 && verdict.is_accepted(),
                     "{standing:?}"
                 );
             }
-            // The second frame on its way.
+            // The first frame on its way is 7 mm off.
+            40 => {}
             41.. => assert!(!verdict.is_accepted(), "{number}: {standing:?}"),
-            _ => {}
+            24..=35 => {}
         }
     }
     // The same frames again: the same verdicts, bit for bit.

@@ -6,6 +6,7 @@ use super::*;
 use crate::{
     app::{
         action::{self, Action},
+        camera::Camera,
         enrol::{selection::PixelBox, subject::Fate},
         job::{Outcome, answer},
         shelf::Shelf,
@@ -54,7 +55,7 @@ impl Bench {
                 workspace: Workspace::Enrol,
                 ..State::default()
             },
-            shelf: Shelf::new(Some(folder.path().to_owned())),
+            shelf: Shelf::new(Some(folder.path().to_owned()), Camera::default()),
             folder,
         }
     }
