@@ -70,10 +70,7 @@ const TURN: Duration = Duration::from_millis(50);
 impl Camera {
     /// With another way to open a source.
     pub fn opened_by(
-        open: impl Fn(&SourceSpec) -> Result<Box<dyn DepthSource>, CaptureError>
-        + Send
-        + Sync
-        + 'static,
+        open: impl Fn(&SourceSpec) -> Result<Box<dyn DepthSource>, CaptureError> + Send + Sync + 'static,
     ) -> Self {
         Self {
             opened: Arc::default(),

@@ -15,11 +15,7 @@ use super::{
     source::CellChoice,
     state::{Source, State, ThemeChoice, UnitSystem, Workspace},
 };
-use crate::{
-    capture::SourceSpec,
-    files::write_atomically,
-    pipeline::Recipe,
-};
+use crate::{capture::SourceSpec, files::write_atomically, pipeline::Recipe};
 
 /// The version of the file.
 const SCHEMA: u32 = 1;

@@ -134,6 +134,10 @@ impl Origin {
         match self {
             Self::Simulated { number, .. } => format!("Simulated frame {number}"),
             Self::File(path) => file_name(path),
+            Self::Frame {
+                name,
+                is_simulated: true,
+            } if !name.contains("simulated") => format!("{}, simulated", sentence(name)),
             Self::Frame { name, .. } => sentence(name),
         }
     }

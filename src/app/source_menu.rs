@@ -1,6 +1,6 @@
 //! What Capture and Live take scenes from: the menu that it is chosen in.
 
-use egui::{Button, RichText, ScrollArea, Ui};
+use egui::{Button, RichText, ScrollArea, Ui, Vec2};
 
 use super::{
     action::{Action, Ask},
@@ -8,12 +8,14 @@ use super::{
     live::LiveAction,
     source::{CellChoice, file_name},
     state::{Source, State},
-    theme::font,
+    theme::{font, space},
 };
 use crate::capture::{KinectSpec, SimulatedSpec, SourceSpec};
 
 /// Width of a column, logical pixels.
 const COLUMN: f32 = 230.0;
+/// Frames that depth can be averaged over: the noise falls with the root.
+const AVERAGED: [usize; 4] = [1, 4, 8, 16];
 /// What of the window's height the menu leaves free, logical pixels.
 const MARGIN: f32 = 90.0;
 
@@ -125,6 +127,21 @@ fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
             ui.close();
         }
     }
+    ui.separator();
+    heading(ui, "Live averages depth over");
+    ui.horizontal(|ui| {
+        for num in AVERAGED {
+            let is_chosen = state.live.params.average == num;
+            let text = match num {
+                1 => "1 frame".to_owned(),
+                num => num.to_string(),
+            };
+            let button = Button::selectable(is_chosen, text).min_size(Vec2::splat(space::TARGET));
+            if ui.add(button).clicked() {
+                actions.push(Action::Live(LiveAction::Average(num)));
+            }
+        }
+    });
     ui.separator();
     empty_cell(ui, state, actions);
     if !state.recent.is_empty() {

@@ -94,7 +94,7 @@ impl State {
     pub(super) fn begin(&mut self, what: impl Into<String>, request: Request) -> Effect {
         let lane = request.lane();
         // First: this request's generation is the newest behind this.
-        let stop = live::yield_to(self, lane);
+        let stop = matches!(request, Request::Inspect(_)).then(|| live::give_way(self));
         self.generation += 1;
         let work = Work {
             generation: self.generation,
@@ -107,7 +107,7 @@ impl State {
             generation: self.generation,
             request,
         };
-        match stop {
+        match stop.flatten() {
             Some(stop) => Effect::Several(vec![stop, post]),
             None => post,
         }

@@ -15,10 +15,10 @@ pub mod table1;
 mod window;
 
 pub use self::{
+    live::{LiveStretch, live_stretches},
     recognition::{
         Case, EnrolledStandard, Recognition, RecognitionSetup, enrol_standard_parts, recognise_all,
     },
-    live::{LiveStretch, live_stretches},
-        speed::{StageTimes, quantile, stage_times},
+    speed::{StageTimes, quantile, stage_times},
     window::{FrameCost, WindowCost, window_cost},
 };

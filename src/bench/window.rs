@@ -108,16 +108,22 @@ fn live(window: &mut HeadlessWindow, num_frames: usize) -> FrameCost {
         shown.map(|shown| shown.generation)
     };
     window.act(Action::Live(LiveAction::Toggle));
-    let cost = measured("Inspect, live", window, num_frames, Pace::Ahead, |window, _| {
-        let (before, began) = (generation(window), Instant::now());
-        loop {
-            let time = window.frame(Vec::new(), Pace::Ahead);
-            if generation(window) != before || began.elapsed().as_secs() > 10 {
-                return time;
+    let cost = measured(
+        "Inspect, live",
+        window,
+        num_frames,
+        Pace::Ahead,
+        |window, _| {
+            let (before, began) = (generation(window), Instant::now());
+            loop {
+                let time = window.frame(Vec::new(), Pace::Ahead);
+                if generation(window) != before || began.elapsed().as_secs() > 10 {
+                    return time;
+                }
+                thread::sleep(Duration::from_millis(2));
             }
-            thread::sleep(Duration::from_millis(2));
-        }
-    });
+        },
+    );
     window.act(Action::Live(LiveAction::Toggle));
     window.settle();
     cost

@@ -33,8 +33,11 @@ use super::set_up::{USUAL, WindowHarness, act, open, open_with, settle, wait_unt
 /// Between two frames, by the camera's clock: as a slow one.
 const APART: i64 = 150;
 
+/// The test's end of the wire.
+type Wire = Sender<Step>;
+
 /// What the camera does next.
-enum Step {
+pub(crate) enum Step {
     /// It sees the fender, so far to the right of its place, metres.
     Fender(f64),
     /// It is unplugged until the next step.
@@ -99,7 +102,13 @@ impl Wired {
 }
 
 /// A window whose every camera is this wire.
-fn wired() -> (WindowHarness, Sender<Step>) {
+fn wired() -> (WindowHarness, Wire) {
+    let (options, wire) = wired_options();
+    (open_with(USUAL, options), wire)
+}
+
+/// What to open such a window with, and the wire.
+pub(crate) fn wired_options() -> (WindowOptions, Wire) {
     let (sender, steps) = channel();
     let steps = Arc::new(Mutex::new(steps));
     let camera = Camera::opened_by(move |_| {
@@ -113,11 +122,15 @@ fn wired() -> (WindowHarness, Sender<Step>) {
         camera,
         ..WindowOptions::default()
     };
-    (open_with(USUAL, options), sender)
+    (options, sender)
 }
 
 fn num_inspected(state: &State) -> u64 {
-    state.live.status.as_ref().map_or(0, |status| status.num_inspected)
+    state
+        .live
+        .status
+        .as_ref()
+        .map_or(0, |status| status.num_inspected)
 }
 
 fn says(harness: &WindowHarness, text: &str) -> bool {
@@ -125,7 +138,11 @@ fn says(harness: &WindowHarness, text: &str) -> bool {
 }
 
 /// One frame after the other, each once the one before was inspected and is shown.
-fn sees(harness: &mut WindowHarness, wire: &Sender<Step>, places: impl IntoIterator<Item = f64>) {
+pub(crate) fn sees(
+    harness: &mut WindowHarness,
+    wire: &Wire,
+    places: impl IntoIterator<Item = f64>,
+) {
     for x in places {
         let before = num_inspected(harness.state().state());
         wire.send(Step::Fender(x)).expect("the camera is open");
@@ -134,7 +151,7 @@ fn sees(harness: &mut WindowHarness, wire: &Sender<Step>, places: impl IntoItera
     }
 }
 
-fn toggle(harness: &mut WindowHarness) {
+pub(crate) fn toggle(harness: &mut WindowHarness) {
     harness.get_by_label("Live").click();
     harness.step();
     harness.step();
@@ -150,14 +167,18 @@ fn a_part_counts_once_it_hangs_still_and_no_longer_when_it_moves() {
     assert!(harness.query_by_label("Accepted").is_none());
     assert!(says(&harness, "no camera was read") && says(&harness, "Wired frame"));
 
-    sees(&mut harness, &wire, [0.0; 6]);
+    sees(&mut harness, &wire, [0.0; 12]);
     assert!(says(&harness, "Live · steady since"), "no longer looked at");
     assert!(says(&harness, "frames agree"));
     harness.get_by_label("Accepted");
     harness.get_by_label("Fender, left");
     // One verdict that counts is one inspection to look up, however many frames it rests on.
     let history = &harness.state().state().history;
-    assert_eq!(history.num_rows(), 2, "the first frame of the window, and this one");
+    assert_eq!(
+        history.num_rows(),
+        2,
+        "the first frame of the window, and this one"
+    );
     let newest = history.row(2).expect("kept");
     assert_eq!(newest.verdict, PastVerdict::Accepted);
     assert!(newest.origin.is_simulated());
@@ -170,7 +191,7 @@ fn a_part_counts_once_it_hangs_still_and_no_longer_when_it_moves() {
     assert!(!shown.inspected.inspection.verdict.is_accepted());
 
     // It hangs still again, elsewhere: another verdict.
-    sees(&mut harness, &wire, [0.06; 12]);
+    sees(&mut harness, &wire, [0.06; 22]);
     harness.get_by_label("Accepted");
     assert_eq!(harness.state().state().history.num_rows(), 3);
     toggle(&mut harness);
@@ -207,7 +228,7 @@ fn act_live(harness: &mut WindowHarness, action: Action) {
 fn a_lost_source_is_a_notice_until_it_comes_back_by_itself() {
     let (mut harness, wire) = wired();
     toggle(&mut harness);
-    sees(&mut harness, &wire, [0.0; 10]);
+    sees(&mut harness, &wire, [0.0; 16]);
     harness.get_by_label("Accepted");
     wire.send(Step::Unplugged).expect("the camera is open");
     let is_lost = |state: &State| {
@@ -267,13 +288,13 @@ fn following_ends_from_any_state() {
 fn another_source_is_followed_at_once_and_changed_parameters_count_anew() {
     let (mut harness, wire) = wired();
     toggle(&mut harness);
-    sees(&mut harness, &wire, [0.0; 10]);
+    sees(&mut harness, &wire, [0.0; 16]);
     harness.get_by_label("Accepted");
     act_live(&mut harness, Action::Live(LiveAction::Average(4)));
     sees(&mut harness, &wire, [0.0]);
     assert!(harness.query_by_label("Accepted").is_none());
     assert_eq!(num_inspected(harness.state().state()), 1);
-    sees(&mut harness, &wire, [0.0; 9]);
+    sees(&mut harness, &wire, [0.0; 15]);
     assert!(says(&harness, "depth of 4"));
     harness.get_by_label("Accepted");
 

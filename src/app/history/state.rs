@@ -9,7 +9,6 @@ use crate::{
         action::{Effect, notify},
         inspect::work::{InspectRequest, Inspected},
         job::Request,
-        lane::Lane,
         live,
         source::{Origin, SceneSource, file_name},
         state::{Notice, NoticeKind, Shown, State, Workspace},
@@ -322,7 +321,7 @@ fn open(state: &mut State, number: u64) -> Option<Effect> {
             session: None,
         });
         state.workspace = Workspace::Inspect;
-        return live::yield_to(state, Lane::Inspect);
+        return live::give_way(state);
     }
     let Some(source) = row.origin.source() else {
         let notice = not_kept(row);

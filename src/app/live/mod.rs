@@ -10,7 +10,7 @@ mod work;
 
 pub(super) use self::{
     set_up::set_up,
-    state::{apply, hear, source_changed, start_anew, yield_to},
+    state::{apply, give_way, hear, source_changed, start_anew},
     status::{card, chip},
     work::answer,
 };

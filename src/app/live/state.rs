@@ -163,9 +163,9 @@ fn ended(state: &mut State) {
     forget_lost(state);
 }
 
-/// Ends following if this lane brings something else to the front.
-pub(in crate::app) fn yield_to(state: &mut State, lane: Lane) -> Option<Effect> {
-    (lane == Lane::Inspect && state.is_live()).then(|| stop(state))
+/// Ends following, if anything is followed: something else comes to the front.
+pub(in crate::app) fn give_way(state: &mut State) -> Option<Effect> {
+    state.is_live().then(|| stop(state))
 }
 
 /// Takes in what the thread tells.
@@ -249,4 +249,104 @@ fn forget_lost(state: &mut State) -> bool {
     };
     state.notices.retain(|notice| *notice != lost);
     true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        app::{action::Action, source::CellChoice},
+        simulate::{PartKind, Side},
+    };
+
+    fn posted(effect: Option<Effect>) -> Vec<Request> {
+        match effect {
+            Some(Effect::Post { request, .. }) => vec![request],
+            Some(Effect::Several(effects)) => {
+                effects.into_iter().flat_map(|e| posted(Some(e))).collect()
+            }
+            _ => Vec::new(),
+        }
+    }
+
+    fn followed(requests: &[Request]) -> Option<String> {
+        requests.iter().find_map(|request| match request {
+            Request::Live(LiveRequest::Follow { spec, .. }) => Some(spec.to_string()),
+            _ => None,
+        })
+    }
+
+    fn rests(requests: &[Request]) -> bool {
+        let rests = |request: &Request| matches!(request, Request::Live(LiveRequest::Rest));
+        requests.iter().any(rests)
+    }
+
+    fn toggled(state: &mut State) -> Vec<Request> {
+        posted(action::apply(state, Action::Live(LiveAction::Toggle)))
+    }
+
+    #[test]
+    fn the_cell_is_followed_as_it_was_chosen_and_rests_afterwards() {
+        let mut state = State::default();
+        assert_eq!(
+            followed(&toggled(&mut state)).as_deref(),
+            Some("simulated:line")
+        );
+        let choice = CellChoice::Part(PartKind::Fender, Side::Right);
+        let other = posted(action::apply(&mut state, Action::UseCell(choice)));
+        assert_eq!(
+            followed(&other).as_deref(),
+            Some("simulated,side=right:fender")
+        );
+        assert!(rests(&toggled(&mut state)) && !state.is_live());
+    }
+
+    #[test]
+    fn a_single_capture_ends_following_and_a_library_does_not() {
+        let mut state = State::default();
+        toggled(&mut state);
+        let library = posted(action::apply(&mut state, Action::UseFoundLibrary));
+        assert!(state.is_live() && !rests(&library));
+        let captured = posted(action::apply(&mut state, Action::Capture));
+        assert!(!state.is_live() && rests(&captured));
+        assert!(captured.iter().any(|r| matches!(r, Request::Inspect(_))));
+        // The capture is the newest request of its lane, whatever was posted along with it.
+        assert!(state.works.contains_key(&Lane::Inspect));
+    }
+
+    #[test]
+    fn a_watched_folder_is_followed_as_soon_as_it_is_chosen() {
+        let mut state = State::default();
+        let watched = "watch:captures".parse().expect("a source");
+        let requests = posted(action::apply(
+            &mut state,
+            Action::Live(LiveAction::Use(watched)),
+        ));
+        assert_eq!(followed(&requests).as_deref(), Some("watch:captures"));
+        let recording = "recording:monday".parse().expect("a source");
+        toggled(&mut state);
+        let requests = posted(action::apply(
+            &mut state,
+            Action::Live(LiveAction::Use(recording)),
+        ));
+        assert_eq!(followed(&requests), None, "its first frame is captured");
+    }
+
+    #[test]
+    fn changed_parameters_follow_anew_and_nothing_is_followed_for_them_alone() {
+        let mut state = State::default();
+        assert!(start_anew(&mut state).is_none());
+        toggled(&mut state);
+        let before = state.live.session;
+        let requests = posted(action::apply(
+            &mut state,
+            Action::Live(LiveAction::Average(99)),
+        ));
+        assert!(followed(&requests).is_some());
+        // The view keeps its camera.
+        assert_eq!(
+            (state.live.session, state.live.params.average),
+            (before, MAX_AVERAGED)
+        );
+    }
 }

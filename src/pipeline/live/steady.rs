@@ -25,8 +25,9 @@ pub struct SteadyParams {
     /// Standard deviations by which a pixel has to be off to be changed, 4..8. Raising it forgives noise that is not
     /// what the picture's is, and small motion.
     pub deviations: f64,
-    /// Share of the pixels that may be changed from one spell to another, 0.0001..0.01. Raising it forgives small
-    /// things that move, such as a cable, and slow motion.
+    /// Share of the pixels that may be changed from one spell to another, 0.00005..0.01. Raising it forgives small
+    /// things that move, such as a cable, and slow motion. In simulated frames of a still cell, up to three times a
+    /// Kinect's noise, it is 0.00001; of a part that drifts by 1 cm/s from 0.0009, at three times the noise 0.0002.
     pub max_changed: f64,
 }
 
@@ -35,7 +36,7 @@ impl Default for SteadyParams {
         Self {
             settle: Duration::from_millis(900),
             deviations: 5.0,
-            max_changed: 0.0008,
+            max_changed: 0.0002,
         }
     }
 }
@@ -68,8 +69,9 @@ impl Stillness {
 const NUM_SAMPLES: usize = 76_800;
 /// Spells that must agree, all with all.
 const NUM_SPELLS: usize = 3;
-/// Frames in a spell at least, however far apart they are.
-const LEAST_FRAMES: usize = 3;
+/// Frames in a spell at least, however far apart they are: a pixel at an edge that flickers between two surfaces must
+/// not be on one of them throughout a spell and on the other throughout the next, by chance.
+const LEAST_FRAMES: usize = 5;
 /// Frames further apart than this are no motion picture: what happened between them nobody knows.
 const MAX_GAP: Duration = Duration::from_secs(2);
 /// Share of the pixels that may be off in a single frame: one frame is noisier than a spell.

@@ -51,10 +51,20 @@ impl Hanging {
 
     /// What is said of every frame.
     fn watched(&self, num_frames: u64, moved: impl Fn(f64) -> RigidTransform) -> Vec<Stillness> {
+        self.watched_every(FRAME, num_frames, moved)
+    }
+
+    /// The same, with frames so far apart.
+    fn watched_every(
+        &self,
+        apart: Duration,
+        num_frames: u64,
+        moved: impl Fn(f64) -> RigidTransform,
+    ) -> Vec<Stillness> {
         let mut watch = SteadyWatch::new(SteadyParams::default());
         (0..num_frames)
             .map(|number| {
-                let at = FRAME * number as u32;
+                let at = apart * number as u32;
                 watch.see(&self.frame(number, &moved(at.as_secs_f64())), at)
             })
             .collect()
@@ -90,9 +100,108 @@ fn noise_alone_is_steady_from_the_first_frame_on() {
     }
 }
 
+#[test]
+fn a_slow_camera_is_steady_too_after_more_time() {
+    let hanging = Hanging::new(PartKind::Grille, 1.0, 4);
+    let apart = Duration::from_millis(125);
+    let said = hanging.watched_every(apart, 30, |_| RigidTransform::identity());
+    assert!(said[18..].iter().all(|s| s.is_steady()), "{said:?}");
+}
+
+#[test]
+fn what_drifts_swings_or_turns_slowly_is_never_steady() {
+    let turned = |angle: f64| {
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), angle);
+        RigidTransform::from_parts(Translation3::identity(), turn)
+    };
+    let swing =
+        |phase: f64| move |t: f64| shifted(0.004 * (TAU * (t / 1.6 + phase)).sin(), 0.0, 0.0);
+    type Moved<'a> = (&'a str, PartKind, f64, Box<dyn Fn(f64) -> RigidTransform>);
+    let cases: [Moved<'_>; 7] = [
+        (
+            "right",
+            PartKind::Grille,
+            1.0,
+            Box::new(|t| shifted(0.01 * t, 0.0, 0.0)),
+        ),
+        (
+            "right",
+            PartKind::FrontDoor,
+            3.0,
+            Box::new(|t| shifted(0.01 * t, 0.0, 0.0)),
+        ),
+        (
+            "down",
+            PartKind::FrontDoor,
+            1.0,
+            Box::new(|t| shifted(0.0, 0.01 * t, 0.0)),
+        ),
+        (
+            "away",
+            PartKind::Grille,
+            1.0,
+            Box::new(|t| shifted(0.0, 0.0, 0.01 * t)),
+        ),
+        ("swing", PartKind::FrontDoor, 1.0, Box::new(swing(0.0))),
+        ("swing", PartKind::FrontBumper, 1.0, Box::new(swing(0.2))),
+        (
+            "turn",
+            PartKind::FrontDoor,
+            1.0,
+            Box::new(move |t| turned(0.5_f64.to_radians() * t)),
+        ),
+    ];
+    for (name, kind, noise, moved) in cases {
+        let said = Hanging::new(kind, noise, 5).watched(40, moved);
+        let steady = said.iter().filter(|s| s.is_steady()).count();
+        assert_eq!(steady, 0, "{name} of {kind} at noise {noise}: {said:?}");
+    }
+}
+
+#[test]
+fn motion_after_a_rest_is_said_at_once_and_creeping_within_seconds() {
+    let hanging = Hanging::new(PartKind::Fender, 1.0, 6);
+    // Pushed at 30 cm/s after 36 frames.
+    let pushed = |t: f64| shifted(0.3 * (t - 36.0 / 30.0).max(0.0), 0.0, 0.0);
+    let said = hanging.watched(40, pushed);
+    assert!(said[35].is_steady());
+    assert_eq!(said[38], Stillness::Moving, "{said:?}");
+    let creeping = |t: f64| shifted(0.001 * t, 0.0, 0.0);
+    let said = hanging.watched_every(Duration::from_millis(100), 70, creeping);
+    assert!(said.contains(&Stillness::Moving), "{said:?}");
+}
+
+#[test]
+fn a_gap_in_time_and_another_picture_begin_anew_and_a_cloud_without_rows_is_never_steady() {
+    let hanging = Hanging::new(PartKind::Fender, 1.0, 7);
+    let scene = hanging.frame(0, &RigidTransform::identity());
+    let mut watch = SteadyWatch::new(SteadyParams::default());
+    let seconds = Duration::from_secs_f64;
+    for number in 0..40 {
+        watch.see(&scene, seconds(0.04 * f64::from(number)));
+    }
+    assert!(watch.stillness().is_steady());
+    let run = watch.run();
+    assert_eq!(watch.see(&scene, seconds(60.0)), Stillness::Watching);
+    assert!(watch.run() > run);
+    // A clock that was set back.
+    for number in 0..40 {
+        watch.see(&scene, seconds(61.0 + 0.04 * f64::from(number)));
+    }
+    assert!(watch.stillness().is_steady());
+    assert_eq!(watch.see(&scene, seconds(1.0)), Stillness::Watching);
+    let mut bare = scene;
+    bare.cloud.grid = None;
+    for number in 0..40 {
+        let said = watch.see(&bare, seconds(1.0 + 0.04 * f64::from(number)));
+        assert_eq!(said, Stillness::Watching);
+    }
+}
+
 /// Prints what the thresholds are chosen by.
 #[test]
 #[ignore = "a table for whoever chooses the thresholds"]
+#[expect(clippy::print_stdout, reason = "a table")]
 fn table() {
     let cases: [(&str, Box<dyn Fn(f64) -> RigidTransform>); 7] = [
         ("still", Box::new(|_| RigidTransform::identity())),
