@@ -37,6 +37,46 @@ pub enum CaptureError {
         /// The file.
         path: PathBuf,
     },
+    /// A folder without anything to replay.
+    #[error("{}: no recording, and no file of a camera", path.display())]
+    NoFrames {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A recording made by a newer version.
+    #[error("{}: made by a newer version: format {found}, this one reads up to {known}", path.display())]
+    NewerRecording {
+        /// Its list of frames.
+        path: PathBuf,
+        /// Its version.
+        found: u32,
+        /// The newest that is read.
+        known: u32,
+    },
+    /// A recording that contradicts itself.
+    #[error("{}: damaged: {what}", path.display())]
+    DamagedRecording {
+        /// The file.
+        path: PathBuf,
+        /// The contradiction.
+        what: String,
+    },
+    /// A recording would be mixed with what is there.
+    #[error("{}: the folder is not empty", path.display())]
+    FolderInUse {
+        /// The folder.
+        path: PathBuf,
+    },
+    /// A recording cannot be written on.
+    #[error("{}: cannot record: {}; {num_kept} frames are kept", path.display(), words_of(source))]
+    Unwritable {
+        /// The folder or the frame's file.
+        path: PathBuf,
+        /// Whole frames that the recording has.
+        num_kept: u64,
+        /// What the system says.
+        source: io::Error,
+    },
     /// The system gives no thread for the camera.
     #[error("the camera's thread cannot be started: {source}")]
     NoThread {
@@ -69,6 +109,11 @@ impl CaptureError {
             Self::FolderGone { .. }
             | Self::File(_)
             | Self::MeshIsNoCapture { .. }
+            | Self::NoFrames { .. }
+            | Self::NewerRecording { .. }
+            | Self::DamagedRecording { .. }
+            | Self::FolderInUse { .. }
+            | Self::Unwritable { .. }
             | Self::NoThread { .. }
             | Self::Crashed => Recovery::None,
         }
@@ -96,6 +141,16 @@ impl Advice for CaptureError {
                     path.display()
                 )
             }
+            Self::NoFrames { path } => format!(
+                "Give the folder that holds the frames; partsight capture --out {} makes one",
+                path.display()
+            ),
+            Self::NewerRecording { .. } => "Update Partsight on this computer".into(),
+            Self::DamagedRecording { .. } => {
+                "Copy the recording again from where it was made".into()
+            }
+            Self::FolderInUse { .. } => "Name a folder that is not there yet".into(),
+            Self::Unwritable { source, .. } => advice_on(source).into(),
             Self::NoThread { .. } => "Close other programs and start again".into(),
             Self::Crashed => "Choose the source again, and report what was done before".into(),
         }
@@ -108,12 +163,31 @@ pub enum CaptureWarning {
     /// About the file it came from.
     #[error(transparent)]
     File(#[from] FileWarning),
+    /// A recording whose end is missing.
+    #[error("the recording was cut off; its {num_frames} whole frames are replayed")]
+    CutOff {
+        /// Frames that are whole.
+        num_frames: usize,
+    },
+    /// A sequence that does not say its camera.
+    #[error("{} is not there: taken for a camera of 640×480 pixels, fx = fy = 525, with 5000 units to the metre", missing.display())]
+    AssumedCamera {
+        /// Where the camera was looked for.
+        missing: PathBuf,
+    },
 }
 
 impl Advice for CaptureWarning {
     fn advice(&self) -> String {
         match self {
             Self::File(warning) => warning.advice(),
+            Self::CutOff { .. } => {
+                "Record again if the end matters; leave room on the disk and stop before pulling out a stick".into()
+            }
+            Self::AssumedCamera { missing } => format!(
+                "Put the camera's numbers into {}, as they stand beside a depth PNG",
+                missing.display()
+            ),
         }
     }
 }

@@ -14,17 +14,22 @@ pub mod frame;
 mod kinect;
 mod open;
 mod rate;
+mod read;
+mod recording;
 mod simulated;
 mod source;
 mod spec;
+mod watched;
 
 pub use self::error::{CaptureError, CaptureWarning, Recovery};
 pub use self::feed::{Delivery, Feed, FeedItem, FeedState, FeedStatus};
 pub use self::open::{Listed, list, open};
 pub use self::rate::FrameRate;
+pub use self::recording::{Recorder, Replay};
 pub use self::simulated::SimulatedCell;
 pub use self::source::{Captured, DepthSource, Image, Next, Skipped};
 pub use self::spec::{
     CellScene, HungPose, KinectSpec, Pace, RecordingSpec, SimulatedSpec, SourceSpec, SpecError,
     WatchedFrom, WatchedSpec,
 };
+pub use self::watched::WatchedFolder;

@@ -3,28 +3,20 @@
 use super::{
     error::CaptureError,
     kinect,
+    recording::Replay,
     simulated::SimulatedCell,
     source::DepthSource,
     spec::{SimulatedSpec, SourceSpec},
+    watched::WatchedFolder,
 };
 
 /// Opens a source. Call it on the thread that will use the source.
 pub fn open(spec: &SourceSpec) -> Result<Box<dyn DepthSource>, CaptureError> {
     Ok(match spec {
         SourceSpec::Simulated(spec) => Box::new(SimulatedCell::new(spec.clone())),
+        SourceSpec::Recording(spec) => Box::new(Replay::open(spec)?),
+        SourceSpec::Watched(spec) => Box::new(WatchedFolder::new(spec)),
         SourceSpec::Kinect(spec) => kinect::open(spec)?,
-        SourceSpec::Recording(spec) => {
-            return Err(CaptureError::FolderGone {
-                path: spec.folder.clone(),
-                may_come: false,
-            });
-        }
-        SourceSpec::Watched(spec) => {
-            return Err(CaptureError::FolderGone {
-                path: spec.folder.clone(),
-                may_come: true,
-            });
-        }
     })
 }
 

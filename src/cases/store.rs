@@ -13,7 +13,9 @@ use super::{
     meta::{CaseAbout, CaseMeta, SCHEMA_VERSION, SceneRecord},
 };
 use crate::{
-    files::{FileError, Opened, crc32, open_bytes, read_bytes, words_of, write_pcd},
+    files::{
+        FileError, Opened, crc32, in_counting_order, open_bytes, read_bytes, words_of, write_pcd,
+    },
     stages::scene::SceneCloud,
 };
 
@@ -333,28 +335,6 @@ fn plain_name(origin: &str) -> String {
     } else {
         name.into()
     }
-}
-
-/// So that frame 10 comes after frame 9: every run of digits by its value.
-fn in_counting_order(name: &str) -> Vec<(String, u64)> {
-    let mut pieces = vec![(String::new(), 0_u64)];
-    for letter in name.chars() {
-        let Some((_, number)) = pieces.last_mut() else {
-            break;
-        };
-        match letter.to_digit(10) {
-            Some(digit) => {
-                *number = number.saturating_mul(10).saturating_add(u64::from(digit));
-            }
-            None if *number > 0 => pieces.push((letter.to_string(), 0)),
-            None => {
-                if let Some((text, _)) = pieces.last_mut() {
-                    text.push(letter);
-                }
-            }
-        }
-    }
-    pieces
 }
 
 /// A hidden folder to build a case in; gone when dropped.

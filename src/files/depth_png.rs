@@ -7,32 +7,28 @@
 //! {"width":640,"height":480,"fx":525.0,"fy":525.0,"cx":319.5,"cy":239.5,"metres_per_unit":0.001}
 //! ```
 //!
-//! The fields are those of [`Intrinsics`] and [`DepthFrame`]; others are read over.
+//! The fields are those of [`Intrinsics`] and [`DepthFrame`]; others are read over. Images of one camera may share an
+//! `intrinsics.json` in their folder: an image without a JSON of its own has that camera.
 
-use std::io::Cursor;
+use std::io::{self, Cursor, Write};
 use std::path::{Path, PathBuf};
 
 use image::codecs::png::{PngDecoder, PngEncoder};
 use image::{ExtendedColorType, ImageDecoder as _, ImageEncoder as _, ImageError, Limits};
-use serde::{Deserialize, Serialize};
 
+use super::depth_camera::DepthCamera;
 use super::error::FileError;
-use super::source::{Source, read_bytes};
+use super::source::Source;
 use super::write::write_atomically;
 use crate::capture::frame::{DepthFrame, Intrinsics};
-
-/// The JSON beside a depth image.
-#[derive(Serialize, Deserialize)]
-struct Sidecar {
-    #[serde(flatten)]
-    intrinsics: Intrinsics,
-    metres_per_unit: f64,
-}
 
 /// Where the camera of a depth image stands: the same name ending in `.json`.
 pub fn intrinsics_path(image: &Path) -> PathBuf {
     image.with_extension("json")
 }
+
+/// The camera of all depth images in a folder that have no JSON of their own.
+pub const FOLDER_CAMERA: &str = "intrinsics.json";
 
 /// Writes a depth image as PNG with its camera in the JSON beside it.
 ///
@@ -41,17 +37,6 @@ pub fn intrinsics_path(image: &Path) -> PathBuf {
 /// # Panics
 /// If the frame has not as many depths as its camera has pixels.
 pub fn write_depth_png(path: &Path, frame: &DepthFrame) -> Result<(), FileError> {
-    let DepthFrame {
-        intrinsics,
-        metres_per_unit,
-        depth,
-    } = frame;
-    let Intrinsics { width, height, .. } = *intrinsics;
-    assert_eq!(depth.len(), width * height, "a depth for every pixel");
-    let sidecar = Sidecar {
-        intrinsics: *intrinsics,
-        metres_per_unit: *metres_per_unit,
-    };
     let json = intrinsics_path(path);
     // Whatever else lies there is somebody's data.
     if std::fs::read(&json).is_ok_and(|bytes| !is_intrinsics(&bytes)) {
@@ -60,64 +45,80 @@ pub fn write_depth_png(path: &Path, frame: &DepthFrame) -> Result<(), FileError>
             image: path.to_owned(),
         });
     }
-    write_atomically(&json, |writer| {
-        serde_json::to_writer_pretty(&mut *writer, &sidecar)?;
+    write_camera(&json, &DepthCamera::of(frame))?;
+    write_atomically(path, |writer| write_depths(writer, frame))
+}
+
+/// Writes the camera of depth images as a JSON, for one image or for all of a folder.
+pub(crate) fn write_camera(path: &Path, camera: &DepthCamera) -> Result<(), FileError> {
+    write_atomically(path, |writer| {
+        serde_json::to_writer_pretty(&mut *writer, camera)?;
         writer.write_all(b"\n")
-    })?;
+    })
+}
+
+/// Writes the depths of a frame as a 16-bit PNG, without its camera.
+///
+/// # Panics
+/// If the frame has not as many depths as its camera has pixels.
+pub(crate) fn write_depths(writer: &mut dyn Write, frame: &DepthFrame) -> io::Result<()> {
+    let DepthFrame {
+        intrinsics: Intrinsics { width, height, .. },
+        depth,
+        ..
+    } = frame;
+    assert_eq!(depth.len(), width * height, "a depth for every pixel");
     // The encoder takes the bytes in this machine's order and stores them in the PNG's.
     let bytes: Vec<u8> = depth.iter().flat_map(|depth| depth.to_ne_bytes()).collect();
-    write_atomically(path, |writer| {
-        let encoder = PngEncoder::new(&mut *writer);
-        let written =
-            encoder.write_image(&bytes, width as u32, height as u32, ExtendedColorType::L16);
-        written.map_err(|error| match error {
+    let (width, height) = (*width as u32, *height as u32);
+    PngEncoder::new(writer)
+        .write_image(&bytes, width, height, ExtendedColorType::L16)
+        .map_err(|error| match error {
             ImageError::IoError(error) => error,
-            other => std::io::Error::other(other),
+            other => io::Error::other(other),
         })
-    })
 }
 
 /// True for the JSON that describes a depth image's camera.
 pub(super) fn is_intrinsics(bytes: &[u8]) -> bool {
-    serde_json::from_slice::<Sidecar>(bytes).is_ok()
+    serde_json::from_slice::<DepthCamera>(bytes).is_ok()
 }
 
 pub(super) fn read(source: Source<'_>) -> Result<DepthFrame, FileError> {
     let (size, depth) = decode(source)?;
-    let json = intrinsics_path(source.path);
-    let Sidecar {
-        intrinsics,
-        metres_per_unit,
-    } = read_sidecar(source.path, &json)?;
-    let bad = |found: String| FileError::BadIntrinsics {
-        path: json.clone(),
-        found,
+    let own = intrinsics_path(source.path);
+    let shared = own.with_file_name(FOLDER_CAMERA);
+    let json = if shared.is_file() && !own.exists() {
+        shared
+    } else {
+        own
     };
-    if (intrinsics.width, intrinsics.height) != size {
-        return Err(bad(format!(
-            "{}×{} pixels, where the image has {}×{}",
-            intrinsics.width, intrinsics.height, size.0, size.1
-        )));
-    }
-    if !(intrinsics.fx > 0.0 && intrinsics.fy > 0.0 && metres_per_unit > 0.0) {
-        return Err(bad("fx, fy and metres_per_unit must be above 0".into()));
-    }
-    if !(intrinsics.fx + intrinsics.fy + intrinsics.cx + intrinsics.cy + metres_per_unit)
-        .is_finite()
-    {
-        return Err(bad("a number is not finite".into()));
-    }
-    if depth.iter().all(|&depth| depth == 0) {
+    let camera = DepthCamera::read(&json).map_err(|error| match error {
+        FileError::NotFound { .. } => FileError::MissingIntrinsics {
+            path: source.path.to_owned(),
+            json: json.clone(),
+        },
+        other => other,
+    })?;
+    let num_pixels = depth.len();
+    let is_empty = depth.iter().all(|&depth| depth == 0);
+    let frame = camera.frame(size, depth);
+    let frame = frame.map_err(|found| FileError::BadIntrinsics { path: json, found })?;
+    if is_empty {
         return Err(FileError::NoPoints {
             path: source.path.to_owned(),
-            found: depth.len(),
+            found: num_pixels,
         });
     }
-    Ok(DepthFrame {
-        intrinsics,
-        metres_per_unit,
-        depth,
-    })
+    Ok(frame)
+}
+
+/// Width, height and the depths of a 16-bit PNG in memory, with or without a reading; `path` is for the errors.
+pub(crate) fn read_depths(
+    path: &Path,
+    bytes: &[u8],
+) -> Result<((usize, usize), Vec<u16>), FileError> {
+    decode(Source { path, bytes })
 }
 
 fn decode(source: Source<'_>) -> Result<((usize, usize), Vec<u16>), FileError> {
@@ -212,20 +213,6 @@ fn kind_in_words(kind: ExtendedColorType) -> String {
     }
 }
 
-fn read_sidecar(image: &Path, json: &Path) -> Result<Sidecar, FileError> {
-    let bytes = read_bytes(json).map_err(|error| match error {
-        FileError::NotFound { .. } => FileError::MissingIntrinsics {
-            path: image.to_owned(),
-            json: json.to_owned(),
-        },
-        other => other,
-    })?;
-    serde_json::from_slice(&bytes).map_err(|error| FileError::BadIntrinsics {
-        path: json.to_owned(),
-        found: error.to_string(),
-    })
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -265,7 +252,7 @@ mod tests {
         assert!(matches!(error, FileError::MissingIntrinsics { .. }));
         let advice = error.advice();
         let example = advice.get(advice.find('{').unwrap()..).unwrap();
-        let parsed: Sidecar = serde_json::from_str(example).unwrap();
+        let parsed: DepthCamera = serde_json::from_str(example).unwrap();
         assert_eq!(parsed.intrinsics, Intrinsics::KINECT);
     }
 
@@ -294,6 +281,23 @@ mod tests {
                 "{from} -> {to}: {error}"
             );
         }
+    }
+
+    #[test]
+    fn the_images_of_a_folder_may_share_a_camera() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("frame.png");
+        write_depth_png(&path, &frame()).unwrap();
+        let shared = folder.path().join(FOLDER_CAMERA);
+        std::fs::rename(intrinsics_path(&path), &shared).unwrap();
+        assert_eq!(open(&path).unwrap(), Opened::Depth(frame()));
+        let mut other = DepthCamera::of(&frame());
+        other.intrinsics.fx = 600.0;
+        write_camera(&intrinsics_path(&path), &other).unwrap();
+        let Opened::Depth(own) = open(&path).unwrap() else {
+            panic!("a depth image");
+        };
+        assert_eq!(DepthCamera::of(&own), other);
     }
 
     #[test]

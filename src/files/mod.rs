@@ -24,6 +24,8 @@
 
 mod cause;
 mod checksum;
+mod counting_order;
+mod depth_camera;
 pub mod depth_png;
 mod error;
 mod gltf;
@@ -42,6 +44,8 @@ pub mod xyz;
 
 pub(crate) use self::cause::{advice_on, words_of};
 pub(crate) use self::checksum::crc32;
+pub(crate) use self::counting_order::in_counting_order;
+pub use self::depth_camera::DepthCamera;
 pub use self::depth_png::write_depth_png;
 pub use self::error::{Expected, FileError, NoFile};
 pub(crate) use self::open::open_bytes;

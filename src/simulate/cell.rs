@@ -202,7 +202,8 @@ impl<'a> Cell<'a> {
     }
 }
 
-fn is_in_frame(
+/// True if all of the mesh lies within the picture.
+pub(super) fn is_in_frame(
     part: &TriangleMesh,
     camera_from_part: &RigidTransform,
     camera: &Intrinsics,

@@ -23,6 +23,7 @@ mod sensor;
 mod sheet;
 mod shot;
 mod stand;
+mod standing_cell;
 mod variation;
 
 pub use cell::{CellSetup, PartPose, Subject};
@@ -34,3 +35,4 @@ pub use rasteriser::SurfaceLabel;
 pub use sensor::SensorNoise;
 pub use shot::{SimulatedFrame, Truth, frame, frame_of_mesh};
 pub use stand::Stand;
+pub use standing_cell::StandingCell;

@@ -119,6 +119,17 @@ impl Rendering {
         }
     }
 
+    /// Puts what was drawn elsewhere, by the same camera, behind and between what is drawn here.
+    pub(super) fn draw_behind(&mut self, other: &Self) {
+        for pixel in 0..self.depth.len() {
+            if other.depth[pixel] < self.depth[pixel] {
+                self.depth[pixel] = other.depth[pixel];
+                self.facing[pixel] = other.facing[pixel];
+                self.labels[pixel] = other.labels[pixel];
+            }
+        }
+    }
+
     fn draw_triangle(&mut self, corners: &[Point3<f64>; 3], label: SurfaceLabel) {
         let camera = self.intrinsics;
         let [a, b, c] = corners.map(|p| {

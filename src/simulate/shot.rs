@@ -62,7 +62,7 @@ pub fn frame_of_mesh(setup: &CellSetup, mesh: &TriangleMesh) -> SimulatedFrame {
     let num_alone = if cell.fits_frame {
         rendering.num_pixels(SurfaceLabel::Part)
     } else {
-        num_pixels_without_edges(&cell, &setup.intrinsics)
+        num_pixels_without_edges(mesh, &cell.camera_from_part, &setup.intrinsics)
     };
     cell.draw_rest(&mut rendering);
     let num_visible = rendering.num_pixels(SurfaceLabel::Part);
@@ -79,7 +79,11 @@ pub fn frame_of_mesh(setup: &CellSetup, mesh: &TriangleMesh) -> SimulatedFrame {
 }
 
 /// The part's pixels in a picture three times as wide and high: all of them, unless it nearly touches the camera.
-fn num_pixels_without_edges(cell: &Cell<'_>, camera: &Intrinsics) -> usize {
+pub(super) fn num_pixels_without_edges(
+    part: &TriangleMesh,
+    camera_from_part: &RigidTransform,
+    camera: &Intrinsics,
+) -> usize {
     let mut rendering = Rendering::new(Intrinsics {
         width: 3 * camera.width,
         height: 3 * camera.height,
@@ -87,7 +91,7 @@ fn num_pixels_without_edges(cell: &Cell<'_>, camera: &Intrinsics) -> usize {
         cy: camera.cy + camera.height as f64,
         ..*camera
     });
-    cell.draw_part(&mut rendering);
+    rendering.draw_mesh(part, camera_from_part, SurfaceLabel::Part);
     rendering.num_pixels(SurfaceLabel::Part)
 }
 

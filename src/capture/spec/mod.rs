@@ -40,15 +40,17 @@ pub enum SourceSpec {
 pub struct RecordingSpec {
     /// A recording made here, an RGB-D sequence with a `depth.txt`, or a folder of clouds and depth images.
     pub folder: PathBuf,
-    /// How fast.
-    pub pace: Pace,
+    /// How fast; `None` as suits whoever opens it.
+    pub pace: Option<Pace>,
+    /// The camera of a sequence of depth images, as in the JSON beside a depth PNG; `None` for the `intrinsics.json`
+    /// in the folder.
+    pub camera: Option<PathBuf>,
 }
 
 /// How fast frames are replayed.
-#[derive(Clone, Copy, Debug, Default, PartialEq)]
+#[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Pace {
-    /// With the pauses there were when it was taken; frames without times come ten a second.
-    #[default]
+    /// With the pauses there were when it was taken, ten seconds at most; frames without times come ten a second.
     AsTaken,
     /// Each as soon as it is asked for.
     Step,
@@ -152,9 +154,25 @@ impl SourceSpec {
         matches!(self, Self::Simulated(_))
     }
 
-    /// True for a camera that goes on whether its frames are looked at or not: they are dropped rather than queued.
+    /// True for a camera, or a recording replayed like one, that goes on whether its frames are looked at or not: they
+    /// are dropped rather than queued.
     pub fn is_live(&self) -> bool {
-        matches!(self, Self::Simulated(_) | Self::Kinect(_))
+        match self {
+            Self::Simulated(_) | Self::Kinect(_) => true,
+            Self::Recording(recording) => {
+                matches!(recording.pace, Some(Pace::AsTaken | Pace::PerSecond(_)))
+            }
+            Self::Watched(_) => false,
+        }
+    }
+
+    /// The same source; a recording that does not say its pace has this one.
+    #[must_use]
+    pub fn paced(mut self, pace: Pace) -> Self {
+        if let Self::Recording(recording) = &mut self {
+            recording.pace.get_or_insert(pace);
+        }
+        self
     }
 
     /// What a person calls it, before it is opened.
@@ -191,12 +209,13 @@ impl FromStr for SourceSpec {
                 SimulatedSpec::read(what, &options).map(Self::Simulated)
             }
             RECORDING => {
-                let options = Options::split(RECORDING, options, "pace")?;
+                let options = Options::split(RECORDING, options, "pace camera")?;
                 let pace =
                     options.value("pace", "as-taken, step, or frames a second", Pace::of_name)?;
                 Ok(Self::Recording(RecordingSpec {
                     folder: folder()?,
-                    pace: pace.unwrap_or_default(),
+                    pace,
+                    camera: options.value("camera", "a file", |path| Some(PathBuf::from(path)))?,
                 }))
             }
             WATCH => {
@@ -244,12 +263,20 @@ impl fmt::Display for SourceSpec {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         match self {
             Self::Simulated(spec) => spec.write(f),
-            Self::Recording(RecordingSpec { folder, pace }) => {
+            Self::Recording(RecordingSpec {
+                folder,
+                pace,
+                camera,
+            }) => {
                 f.write_str(RECORDING)?;
                 match pace {
-                    Pace::AsTaken => {}
-                    Pace::Step => f.write_str(",pace=step")?,
-                    Pace::PerSecond(rate) => write!(f, ",pace={rate}")?,
+                    None => {}
+                    Some(Pace::AsTaken) => f.write_str(",pace=as-taken")?,
+                    Some(Pace::Step) => f.write_str(",pace=step")?,
+                    Some(Pace::PerSecond(rate)) => write!(f, ",pace={rate}")?,
+                }
+                if let Some(camera) = camera {
+                    write!(f, ",camera={}", escaped(&camera.to_string_lossy()))?;
                 }
                 write!(f, ":{}", folder.display())
             }
@@ -309,6 +336,7 @@ mod tests {
             "recording:captures/monday",
             "recording,pace=step:C:\\captures, old",
             "recording,pace=2.5:a",
+            "recording,pace=as-taken,camera=my.json:a",
             "watch:/mnt/scanner",
             "watch,from=all:/mnt/scanner",
             "kinect",
@@ -333,13 +361,13 @@ mod tests {
                 library: Some("/opt/a,b:c%/lib".into()),
             })
         );
+        let paced = read("recording:x").paced(Pace::Step);
+        assert_eq!(paced, read("recording,pace=step:x"));
         assert_eq!(
-            read("recording,pace=as-taken:x"),
-            SourceSpec::Recording(RecordingSpec {
-                folder: "x".into(),
-                pace: Pace::AsTaken
-            })
+            read("recording,pace=3:x").paced(Pace::Step),
+            read("recording,pace=3:x")
         );
+        assert!(!paced.is_live() && read("recording,pace=3:x").is_live());
         assert!(read("simulated").is_live() && !read("watch:x").is_live());
     }
 

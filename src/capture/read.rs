@@ -1,0 +1,70 @@
+//! One file as a capture.
+
+use std::{fs, path::Path};
+
+use jiff::Timestamp;
+
+use super::{
+    error::{CaptureError, CaptureWarning},
+    source::Image,
+};
+use crate::{
+    files::{self, FileError, Opened},
+    geometry::cloud::PointCloud,
+};
+
+/// Endings of files that may be captures. Beside them programs leave logs, previews and settings.
+const ENDINGS: [&str; 7] = ["pcd", "ply", "xyz", "csv", "asc", "pts", "png"];
+
+/// True if a file of this name may be a capture: a known ending, and not hidden.
+pub(super) fn may_be_capture(path: &Path) -> bool {
+    let ending = path.extension().map(|ending| ending.to_string_lossy());
+    let is_known = ending.is_some_and(|found| {
+        ENDINGS
+            .iter()
+            .any(|ending| found.eq_ignore_ascii_case(ending))
+    });
+    is_known && !file_name(path).starts_with('.')
+}
+
+/// The last part of a path, for people.
+pub(super) fn file_name(path: &Path) -> String {
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    name.to_string_lossy().into_owned()
+}
+
+/// Reads what a camera saw. A file without a single reading is an image without points: the camera was covered.
+pub(super) fn read_image(path: &Path) -> Result<(Image, Vec<CaptureWarning>), CaptureError> {
+    image_of(files::open(path), path)
+}
+
+/// As [`read_image`], of a file that is opened.
+pub(super) fn image_of(
+    opened: Result<Opened, FileError>,
+    path: &Path,
+) -> Result<(Image, Vec<CaptureWarning>), CaptureError> {
+    let opened = match opened {
+        Ok(opened) => opened,
+        Err(FileError::NoPoints { .. }) => {
+            return Ok((Image::Cloud(PointCloud::default()), Vec::new()));
+        }
+        Err(error) => return Err(error.into()),
+    };
+    let warnings = opened.warnings().into_iter().map(CaptureWarning::File);
+    let warnings = warnings.collect();
+    let image = match opened {
+        Opened::Cloud(cloud) => Image::Cloud(cloud),
+        Opened::Depth(frame) => Image::Depth(frame),
+        Opened::Mesh(_) => {
+            let path = path.to_owned();
+            return Err(CaptureError::MeshIsNoCapture { path });
+        }
+    };
+    Ok((image, warnings))
+}
+
+/// When a file was last written, as far as the system knows.
+pub(super) fn written_at(path: &Path) -> Option<Timestamp> {
+    let modified = fs::metadata(path).and_then(|file| file.modified()).ok()?;
+    Timestamp::try_from(modified).ok()
+}

@@ -1,0 +1,39 @@
+//! A folder of clouds or depth images, in the order that a person counts them.
+
+use std::path::Path;
+
+use super::replay::{Content, Frames, Recorded};
+use crate::{
+    capture::{
+        error::CaptureError,
+        read::{file_name, may_be_capture},
+    },
+    files::in_counting_order,
+};
+
+pub(super) fn frames(folder: &Path) -> Result<Frames, CaptureError> {
+    let listed = || -> std::io::Result<Vec<_>> {
+        let paths = std::fs::read_dir(folder)?.map(|entry| Ok(entry?.path()));
+        paths.collect()
+    };
+    let mut paths = listed().map_err(|source| CaptureError::FolderUnreadable {
+        path: folder.to_owned(),
+        source,
+    })?;
+    paths.retain(|path| may_be_capture(path) && path.is_file());
+    paths.sort_by_cached_key(|path| in_counting_order(&file_name(path)));
+    let frames = paths.into_iter().map(|path| Recorded {
+        name: file_name(&path),
+        path,
+        taken_at: None,
+        is_simulated: false,
+        truth: None,
+        content: Content::Any,
+    });
+    Ok(Frames {
+        title: format!("Folder {}", file_name(folder)),
+        is_simulated: false,
+        frames: frames.collect(),
+        warnings: Vec::new(),
+    })
+}

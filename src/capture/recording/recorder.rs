@@ -1,0 +1,167 @@
+//! Writes captures into a folder as they come.
+
+use std::{
+    fs::{self, File},
+    io::{self, Write as _},
+    path::{Path, PathBuf},
+};
+
+use jiff::Timestamp;
+use serde::Serialize;
+
+use super::manifest::{FrameLine, Header, MANIFEST, VERSION};
+use crate::{
+    capture::{
+        error::CaptureError,
+        source::{Captured, Image},
+    },
+    files::{
+        DepthCamera, FileError, crc32,
+        depth_png::{FOLDER_CAMERA, write_camera, write_depths},
+        write_pcd,
+    },
+};
+
+/// Writes captures into a folder as they come. There is nothing to finish: after every frame the recording is whole.
+#[derive(Debug)]
+pub struct Recorder {
+    folder: PathBuf,
+    manifest: File,
+    /// Bytes of the manifest's whole lines.
+    length: u64,
+    num_frames: u64,
+    /// The camera in the folder's `intrinsics.json`.
+    camera: Option<DepthCamera>,
+}
+
+impl Recorder {
+    /// Begins a recording in a folder that is empty or not there yet. `title` and `source` say what is recorded, for
+    /// people and as it was opened.
+    pub fn create(
+        folder: &Path,
+        title: &str,
+        source: &str,
+        is_simulated: bool,
+    ) -> Result<Self, CaptureError> {
+        let header = Header {
+            partsight_recording: VERSION,
+            title: title.to_owned(),
+            source: source.to_owned(),
+            simulated: is_simulated,
+            started_at: Timestamp::now(),
+        };
+        let begun = || -> io::Result<Option<Self>> {
+            fs::create_dir_all(folder)?;
+            if fs::read_dir(folder)?.next().is_some() {
+                return Ok(None);
+            }
+            let mut recorder = Self {
+                folder: folder.to_owned(),
+                manifest: File::options()
+                    .append(true)
+                    .create_new(true)
+                    .open(folder.join(MANIFEST))?,
+                length: 0,
+                num_frames: 0,
+                camera: None,
+            };
+            recorder.append(&header)?;
+            Ok(Some(recorder))
+        };
+        match begun() {
+            Ok(Some(recorder)) => Ok(recorder),
+            Ok(None) => Err(CaptureError::FolderInUse {
+                path: folder.to_owned(),
+            }),
+            Err(source) => Err(CaptureError::Unwritable {
+                path: folder.to_owned(),
+                num_kept: 0,
+                source,
+            }),
+        }
+    }
+
+    /// Frames written so far.
+    pub fn num_frames(&self) -> u64 {
+        self.num_frames
+    }
+
+    /// Where it is.
+    pub fn folder(&self) -> &Path {
+        &self.folder
+    }
+
+    /// Writes a capture; on an error nothing of it is left, and the frames before it are kept.
+    pub fn write(&mut self, captured: &Captured) -> Result<(), CaptureError> {
+        let (ending, camera) = match &captured.image {
+            Image::Depth(frame) => ("png", Some(DepthCamera::of(frame))),
+            Image::Cloud(_) => ("pcd", None),
+        };
+        let file = format!("frame-{:06}.{ending}", self.num_frames + 1);
+        let path = self.folder.join(&file);
+        let written = self.write_frame(captured, camera, file);
+        written.map_err(|source| {
+            // Half a frame is of no use; if it cannot be removed either, the list does not name it.
+            let _ = fs::remove_file(&path);
+            let _ = self.manifest.set_len(self.length);
+            CaptureError::Unwritable {
+                path,
+                num_kept: self.num_frames,
+                source,
+            }
+        })
+    }
+
+    fn write_frame(
+        &mut self,
+        captured: &Captured,
+        camera: Option<DepthCamera>,
+        file: String,
+    ) -> io::Result<()> {
+        let mut content = Vec::new();
+        match &captured.image {
+            Image::Depth(frame) => write_depths(&mut content, frame)?,
+            Image::Cloud(cloud) => write_pcd(&mut content, cloud)?,
+        }
+        let path = self.folder.join(&file);
+        if let Some(camera) = camera
+            && self.camera != Some(camera)
+        {
+            // The first camera is that of the folder; a frame of another one has its own beside it.
+            let json = if self.camera.is_none() {
+                self.folder.join(FOLDER_CAMERA)
+            } else {
+                path.with_extension("json")
+            };
+            write_camera(&json, &camera).map_err(|error| match error {
+                FileError::Write { source, .. } => source,
+                other => io::Error::other(other),
+            })?;
+            self.camera.get_or_insert(camera);
+        }
+        let mut image = File::create_new(&path)?;
+        image.write_all(&content)?;
+        image.sync_all()?;
+        self.append(&FrameLine {
+            file,
+            bytes: content.len() as u64,
+            crc32: crc32(&content),
+            taken_at: captured.taken_at,
+            name: captured.name.clone(),
+            simulated: captured.is_simulated,
+            camera,
+            truth: captured.truth.as_deref().cloned(),
+        })?;
+        self.num_frames += 1;
+        Ok(())
+    }
+
+    fn append(&mut self, line: &impl Serialize) -> io::Result<()> {
+        let mut text = serde_json::to_vec(line)?;
+        text.push(b'\n');
+        self.manifest.write_all(&text)?;
+        self.manifest.sync_data()?;
+        self.length += text.len() as u64;
+        Ok(())
+    }
+}

@@ -1,0 +1,271 @@
+//! A folder of frames as a source.
+
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+    thread,
+    time::{Duration, Instant},
+};
+
+use jiff::Timestamp;
+
+use super::{
+    frame_folder,
+    manifest::{self, FrameLine, MANIFEST},
+    rgbd_sequence::{self, LIST},
+};
+use crate::{
+    capture::{
+        error::{CaptureError, CaptureWarning},
+        read::{file_name, image_of, read_image, written_at},
+        source::{Captured, DepthSource, Image, Next, Skipped},
+        spec::{Pace, RecordingSpec},
+    },
+    files::{DepthCamera, crc32, depth_png::read_depths, open_bytes, read_bytes},
+    simulate::Truth,
+};
+
+/// A folder of frames as a source: a recording, an RGB-D sequence with a list of depth images, or files in order.
+pub struct Replay {
+    title: String,
+    is_simulated: bool,
+    frames: Vec<Recorded>,
+    /// When each frame is due after the first.
+    due: Vec<Duration>,
+    next: usize,
+    started: Option<Instant>,
+    /// What is odd about all of it; said with the first frame.
+    warnings: Vec<CaptureWarning>,
+}
+
+/// What a folder holds.
+pub(super) struct Frames {
+    pub(super) title: String,
+    pub(super) is_simulated: bool,
+    pub(super) frames: Vec<Recorded>,
+    pub(super) warnings: Vec<CaptureWarning>,
+}
+
+/// A frame to be read.
+pub(super) struct Recorded {
+    pub(super) name: String,
+    pub(super) path: PathBuf,
+    pub(super) taken_at: Option<Timestamp>,
+    pub(super) is_simulated: bool,
+    pub(super) truth: Option<Arc<Truth>>,
+    pub(super) content: Content,
+}
+
+/// How a frame's file is read.
+pub(super) enum Content {
+    /// As it was recorded, with this checksum; depth images have a camera.
+    Listed(u32, Option<DepthCamera>),
+    /// A depth image of this camera.
+    Depth(DepthCamera),
+    /// A file of any kind.
+    Any,
+}
+
+/// Longer pauses are cut to this: nobody waits for a night that nothing came in.
+const LONGEST_PAUSE: Duration = Duration::from_secs(10);
+/// The pause before a frame without a time.
+const PAUSE: Duration = Duration::from_millis(100);
+
+impl Replay {
+    /// Finds the frames of a folder; none is read yet.
+    pub fn open(spec: &RecordingSpec) -> Result<Self, CaptureError> {
+        let folder = &spec.folder;
+        if !folder.is_dir() {
+            return Err(CaptureError::FolderGone {
+                path: folder.clone(),
+                may_come: false,
+            });
+        }
+        let found = if folder.join(MANIFEST).is_file() {
+            of_recording(folder)?
+        } else if folder.join(LIST).is_file() {
+            rgbd_sequence::frames(folder, spec.camera.as_deref())?
+        } else {
+            frame_folder::frames(folder)?
+        };
+        let Frames {
+            title,
+            is_simulated,
+            frames,
+            warnings,
+        } = found;
+        if frames.is_empty() {
+            let path = folder.clone();
+            return Err(CaptureError::NoFrames { path });
+        }
+        Ok(Self {
+            title,
+            is_simulated,
+            due: due_times(&frames, spec.pace.unwrap_or(Pace::AsTaken)),
+            frames,
+            next: 0,
+            started: None,
+            warnings,
+        })
+    }
+
+    /// Frames there are.
+    pub fn num_frames(&self) -> usize {
+        self.frames.len()
+    }
+}
+
+fn of_recording(folder: &Path) -> Result<Frames, CaptureError> {
+    let list = manifest::read(folder)?;
+    let num_frames = list.frames.len();
+    let frames = list.frames.into_iter().map(|line| {
+        let FrameLine {
+            file,
+            crc32,
+            taken_at,
+            name,
+            simulated,
+            camera,
+            truth,
+            ..
+        } = line;
+        Recorded {
+            name,
+            path: folder.join(file),
+            taken_at: Some(taken_at),
+            is_simulated: simulated,
+            truth: truth.map(Arc::new),
+            content: Content::Listed(crc32, camera),
+        }
+    });
+    let cut_off = list
+        .is_cut_off
+        .then_some(CaptureWarning::CutOff { num_frames });
+    Ok(Frames {
+        title: format!("Recording {}, {}", file_name(folder), list.header.title),
+        is_simulated: list.header.simulated,
+        frames: frames.collect(),
+        warnings: cut_off.into_iter().collect(),
+    })
+}
+
+fn due_times(frames: &[Recorded], pace: Pace) -> Vec<Duration> {
+    let mut due = Duration::ZERO;
+    let mut before: Option<Timestamp> = None;
+    let as_taken = |frame: &Recorded| {
+        let pause = match (before, frame.taken_at) {
+            // A clock that was set back makes no pause.
+            (Some(before), Some(taken_at)) => Duration::try_from(taken_at.duration_since(before))
+                .unwrap_or_default()
+                .min(LONGEST_PAUSE),
+            _ => PAUSE,
+        };
+        before = frame.taken_at;
+        due += pause;
+        due
+    };
+    let after_first = |mut times: Vec<Duration>| {
+        let first = times.first().copied().unwrap_or_default();
+        times.iter_mut().for_each(|time| *time -= first);
+        times
+    };
+    match pace {
+        Pace::AsTaken => after_first(frames.iter().map(as_taken).collect()),
+        Pace::Step => vec![Duration::ZERO; frames.len()],
+        Pace::PerSecond(rate) => {
+            let pause = Duration::try_from_secs_f64(1.0 / rate).unwrap_or(LONGEST_PAUSE);
+            (0..frames.len() as u32)
+                .map(|k| pause.saturating_mul(k))
+                .collect()
+        }
+    }
+}
+
+impl Recorded {
+    fn read(&self) -> Result<(Image, Vec<CaptureWarning>), CaptureError> {
+        let depth_frame = |camera: DepthCamera, bytes: &[u8]| {
+            let (size, depth) = read_depths(&self.path, bytes)?;
+            let frame = camera
+                .checked()
+                .and_then(|camera| camera.frame(size, depth));
+            frame.map_err(|what| self.damaged(what))
+        };
+        let no_warnings = |image| (image, Vec::new());
+        match self.content {
+            Content::Any => read_image(&self.path),
+            Content::Depth(camera) => {
+                let frame = depth_frame(camera, &read_bytes(&self.path)?)?;
+                Ok(no_warnings(Image::Depth(frame)))
+            }
+            Content::Listed(checksum, camera) => {
+                let bytes = read_bytes(&self.path)?;
+                if crc32(&bytes) != checksum {
+                    return Err(self.damaged("it does not have its checksum".into()));
+                }
+                match camera {
+                    Some(camera) => {
+                        depth_frame(camera, &bytes).map(|frame| no_warnings(Image::Depth(frame)))
+                    }
+                    None => image_of(open_bytes(&self.path, &bytes), &self.path),
+                }
+            }
+        }
+    }
+
+    fn damaged(&self, what: String) -> CaptureError {
+        CaptureError::DamagedRecording {
+            path: self.path.clone(),
+            what,
+        }
+    }
+}
+
+impl DepthSource for Replay {
+    fn title(&self) -> String {
+        self.title.clone()
+    }
+
+    fn is_simulated(&self) -> bool {
+        self.is_simulated
+    }
+
+    fn next(&mut self, wait: Duration) -> Result<Next, CaptureError> {
+        let (Some(frame), Some(due)) = (self.frames.get(self.next), self.due.get(self.next)) else {
+            return Ok(Next::End);
+        };
+        let left = due.saturating_sub(self.started.get_or_insert_with(Instant::now).elapsed());
+        thread::sleep(left.min(wait));
+        if left > wait {
+            return Ok(Next::NotYet);
+        }
+        self.next += 1;
+        match frame.read() {
+            Ok((image, warnings)) => Ok(Next::Captured(Captured {
+                number: self.next as u64,
+                name: frame.name.clone(),
+                taken_at: frame
+                    .taken_at
+                    .or_else(|| written_at(&frame.path))
+                    .unwrap_or_else(Timestamp::now),
+                arrived: Instant::now(),
+                image,
+                is_simulated: frame.is_simulated,
+                truth: frame.truth.clone(),
+                warnings: self.warnings.drain(..).chain(warnings).collect(),
+            })),
+            // The drive was pulled out: all that follows would be missing, one by one.
+            Err(_) if frame.path.parent().is_some_and(|folder| !folder.is_dir()) => {
+                self.next -= 1;
+                let path = frame.path.parent().map(Path::to_owned).unwrap_or_default();
+                Err(CaptureError::FolderGone {
+                    path,
+                    may_come: true,
+                })
+            }
+            Err(error) => Ok(Next::Skipped(Skipped {
+                name: frame.name.clone(),
+                error: Arc::new(error),
+            })),
+        }
+    }
+}

@@ -1,0 +1,97 @@
+//! The usual folder form of RGB-D sequences: `depth.txt` lists a time and a depth image per line.
+//!
+//! Source: J. Sturm, N. Engelhard, F. Endres, W. Burgard and D. Cremers, "A Benchmark for the Evaluation of RGB-D SLAM
+//! Systems", IROS 2012, and the file formats on the benchmark's page: lines of `timestamp filename`, comments after
+//! `#`, time in seconds since 1970, 16-bit PNG with 5000 units to the metre. The camera of a folder without an
+//! `intrinsics.json` is taken for the one that the benchmark gives where none was calibrated.
+
+use std::path::Path;
+
+use jiff::Timestamp;
+
+use super::replay::{Content, Frames, Recorded};
+use crate::{
+    capture::{
+        error::{CaptureError, CaptureWarning},
+        frame::Intrinsics,
+        read::file_name,
+    },
+    files::{DepthCamera, depth_png::FOLDER_CAMERA, read_bytes},
+};
+
+pub(super) const LIST: &str = "depth.txt";
+
+const ASSUMED: DepthCamera = DepthCamera {
+    intrinsics: Intrinsics::KINECT,
+    metres_per_unit: 1.0 / 5000.0,
+};
+
+pub(super) fn frames(folder: &Path, camera: Option<&Path>) -> Result<Frames, CaptureError> {
+    let beside = folder.join(FOLDER_CAMERA);
+    let mut warnings = Vec::new();
+    let camera = match camera {
+        Some(given) => DepthCamera::read(given)?,
+        None if beside.exists() => DepthCamera::read(&beside)?,
+        None => {
+            warnings.push(CaptureWarning::AssumedCamera { missing: beside });
+            ASSUMED
+        }
+    };
+    let path = folder.join(LIST);
+    let bytes = read_bytes(&path)?;
+    let text = String::from_utf8_lossy(&bytes);
+    let lines = text.lines().map(str::trim).enumerate();
+    let lines = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
+    let frames = lines.map(|(at, line)| {
+        let words = line.split_once(|c: char| c.is_whitespace() || c == ',');
+        let Some((time, image)) = words else {
+            return Err(CaptureError::DamagedRecording {
+                path: path.clone(),
+                what: format!(
+                    "line {}: expected a time and a file, found {line:.60?}",
+                    at + 1
+                ),
+            });
+        };
+        let image = image.trim();
+        Ok(Recorded {
+            name: image.to_owned(),
+            path: folder.join(image),
+            taken_at: seconds_since_1970(time),
+            is_simulated: false,
+            truth: None,
+            content: Content::Depth(camera),
+        })
+    });
+    Ok(Frames {
+        title: format!("Sequence {}", file_name(folder)),
+        is_simulated: false,
+        frames: frames.collect::<Result<_, _>>()?,
+        warnings,
+    })
+}
+
+/// The digits themselves are read: as one floating-point number a time of today has only 0.2 µs.
+fn seconds_since_1970(text: &str) -> Option<Timestamp> {
+    let (whole, fraction) = text.split_once('.').unwrap_or((text, ""));
+    let digits = fraction.get(..9).unwrap_or(fraction);
+    let nanoseconds: i32 = format!("{digits:0<9}").parse().ok()?;
+    Timestamp::new(whole.parse().ok()?, nanoseconds).ok()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn times_are_exact_to_the_last_digit() {
+        let time = seconds_since_1970("1305031102.160407").unwrap();
+        assert_eq!(time.as_nanosecond(), 1_305_031_102_160_407_000);
+        assert_eq!(seconds_since_1970("7").unwrap().as_second(), 7);
+        assert_eq!(
+            seconds_since_1970("1.0000000019").unwrap().as_nanosecond(),
+            1_000_000_001
+        );
+        assert!(seconds_since_1970("noon").is_none());
+    }
+}

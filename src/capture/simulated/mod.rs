@@ -1,0 +1,159 @@
+//! The simulated cell as a camera: frames at its own rate, each following from the settings and its number alone.
+//!
+//! A camera that cannot be read fast enough loses frames: here their numbers are left out, so that the line runs at
+//! the same speed on every machine.
+
+mod conveyor;
+
+use std::{
+    sync::Arc,
+    thread,
+    time::{Duration, Instant},
+};
+
+use jiff::Timestamp;
+
+use self::conveyor::Moment;
+use super::{
+    error::CaptureError,
+    source::{Captured, DepthSource, Image, Next},
+    spec::{CellScene, SimulatedSpec},
+};
+use crate::simulate::{
+    CellSetup, PartKind, PartPose, SensorNoise, SimulatedFrame, StandingCell, Subject, Truth,
+};
+
+/// The simulated cell as a camera.
+pub struct SimulatedCell {
+    spec: SimulatedSpec,
+    /// The cell as it is now, and for which part of the line it was arranged.
+    cell: Option<(u64, StandingCell)>,
+    /// When the first frame was due.
+    started: Option<Instant>,
+    /// Of the frame given last, from 1; 0 before the first.
+    number: u64,
+}
+
+impl SimulatedCell {
+    /// A cell whose first frame is due as soon as it is asked for.
+    pub fn new(spec: SimulatedSpec) -> Self {
+        Self {
+            spec,
+            cell: None,
+            started: None,
+            number: 0,
+        }
+    }
+
+    /// The frame of this number, counted from 1: the same whenever it is asked for. The truth has no labels.
+    pub fn frame(&mut self, number: u64) -> (Image, Truth) {
+        let seconds = number.saturating_sub(1) as f64 / self.spec.frames_per_second;
+        let moment = match self.spec.scene {
+            CellScene::Line { every } => Some(Moment::of(seconds, every)),
+            CellScene::Part(_) | CellScene::Object(_) | CellScene::Empty => None,
+        };
+        let visit = moment.map_or(0, |moment| moment.visit);
+        let cell = match self.cell.take() {
+            Some((arranged, cell)) if arranged == visit => cell,
+            _ => arranged(&self.spec, visit),
+        };
+        let at_rest = cell.at_rest();
+        let camera_from_part = moment.map_or(at_rest, |now| now.camera_from_part(&at_rest));
+        let noise = SensorNoise {
+            multiplier: self.spec.noise,
+            seed: mixed(self.spec.seed, number),
+        };
+        let SimulatedFrame { frame, truth } = cell.frame(&camera_from_part, &noise);
+        self.cell = Some((visit, cell));
+        let truth = Truth {
+            labels: Vec::new(),
+            ..truth
+        };
+        (Image::Depth(frame), truth)
+    }
+
+    /// The number of the frame to be given next, and how long it is until then.
+    fn due(&mut self, now: Instant) -> (u64, Duration) {
+        let elapsed = now - *self.started.get_or_insert(now);
+        let rate = self.spec.frames_per_second;
+        // The last one that was due by now; an earlier one is lost, unless it is the very one before.
+        let latest = (elapsed.as_secs_f64() * rate) as u64 + 1;
+        let number = (self.number + 1).max(latest.saturating_sub(1));
+        let at = Duration::from_secs_f64((number - 1) as f64 / rate);
+        (number, at.saturating_sub(elapsed))
+    }
+}
+
+/// The cell with the part of the line that comes as number `visit`.
+fn arranged(spec: &SimulatedSpec, visit: u64) -> StandingCell {
+    let part = |kind| Subject::Part {
+        kind,
+        side: spec.side,
+        model_seed: spec.model,
+    };
+    let subject = match spec.scene {
+        CellScene::Line { .. } => {
+            // A front door first, as wherever the program shows one part.
+            let first = PartKind::FrontDoor as u64;
+            part(PartKind::ALL[((first + visit) % PartKind::ALL.len() as u64) as usize])
+        }
+        CellScene::Part(kind) => part(kind),
+        CellScene::Object(kind) => Subject::Object(kind),
+        CellScene::Empty => Subject::Nothing,
+    };
+    let mesh = subject.mesh();
+    let mut setup = CellSetup::new(subject, spec.seed);
+    setup.clutter = spec.clutter;
+    setup.pose = match spec.pose.placement() {
+        // The seed of the cell stays, so that wall and floor do; each part hangs in its own way.
+        Ok(range) => {
+            let seed = spec.seed.wrapping_add(visit);
+            let placed = range.draw(&mesh, &setup.intrinsics, seed);
+            PartPose::Fixed(placed.camera_from_part)
+        }
+        Err(pose) => PartPose::Fixed(pose),
+    };
+    StandingCell::arrange(&setup, mesh)
+}
+
+/// A seed for each frame, far from those of other frames and other seeds (the finaliser of G. Steele, D. Lea and
+/// C. Flood, "Fast Splittable Pseudorandom Number Generators", OOPSLA 2014).
+fn mixed(seed: u64, number: u64) -> u64 {
+    let mut z = seed.wrapping_add(number.wrapping_mul(0x9e37_79b9_7f4a_7c15));
+    z = (z ^ (z >> 30)).wrapping_mul(0xbf58_476d_1ce4_e5b9);
+    z = (z ^ (z >> 27)).wrapping_mul(0x94d0_49bb_1331_11eb);
+    z ^ (z >> 31)
+}
+
+impl DepthSource for SimulatedCell {
+    fn title(&self) -> String {
+        self.spec.title()
+    }
+
+    fn is_simulated(&self) -> bool {
+        true
+    }
+
+    fn next(&mut self, wait: Duration) -> Result<Next, CaptureError> {
+        let (number, left) = self.due(Instant::now());
+        thread::sleep(left.min(wait));
+        if left > wait {
+            return Ok(Next::NotYet);
+        }
+        self.number = number;
+        let (image, truth) = self.frame(number);
+        Ok(Next::Captured(Captured {
+            number,
+            name: format!("simulated frame {number}"),
+            taken_at: Timestamp::now(),
+            arrived: Instant::now(),
+            image,
+            is_simulated: true,
+            truth: Some(Arc::new(truth)),
+            warnings: Vec::new(),
+        }))
+    }
+}
+
+#[cfg(test)]
+mod tests;

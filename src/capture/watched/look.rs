@@ -1,0 +1,65 @@
+//! What lies in a watched folder now.
+
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+    time::SystemTime,
+};
+
+use crate::{
+    capture::{error::CaptureError, read::may_be_capture},
+    files::depth_png::intrinsics_path,
+};
+
+/// A file as it is now; another time or size is another content.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) struct Seen {
+    pub(super) modified: SystemTime,
+    bytes: u64,
+    /// Of the JSON beside a depth image: an image without one may get it later.
+    camera: Option<(SystemTime, u64)>,
+}
+
+/// The files that may be captures.
+pub(super) fn look(folder: &Path) -> Result<Vec<(PathBuf, Seen)>, CaptureError> {
+    let looked = || -> io::Result<Vec<(PathBuf, Seen)>> {
+        let mut found = Vec::new();
+        for entry in fs::read_dir(folder)? {
+            let path = entry?.path();
+            if !may_be_capture(&path) {
+                continue;
+            }
+            // A file that is gone since it was listed is not there.
+            if let Some((modified, bytes)) = size_and_time(&path) {
+                let is_image = path
+                    .extension()
+                    .is_some_and(|e| e.eq_ignore_ascii_case("png"));
+                let camera = is_image.then(|| size_and_time(&intrinsics_path(&path)));
+                let camera = camera.flatten();
+                let seen = Seen {
+                    modified,
+                    bytes,
+                    camera,
+                };
+                found.push((path, seen));
+            }
+        }
+        Ok(found)
+    };
+    looked().map_err(|source| {
+        let path = folder.to_owned();
+        match source.kind() {
+            io::ErrorKind::NotFound | io::ErrorKind::NotADirectory => CaptureError::FolderGone {
+                path,
+                may_come: true,
+            },
+            _ => CaptureError::FolderUnreadable { path, source },
+        }
+    })
+}
+
+/// `None` for what is no regular file.
+fn size_and_time(path: &Path) -> Option<(SystemTime, u64)> {
+    let file = fs::metadata(path).ok().filter(fs::Metadata::is_file)?;
+    Some((file.modified().ok()?, file.len()))
+}

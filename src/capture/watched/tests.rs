@@ -1,0 +1,263 @@
+use std::{fs, io::Write as _, path::Path};
+
+use super::*;
+use crate::{
+    capture::{
+        frame::{DepthFrame, Intrinsics},
+        source::Image,
+    },
+    files::{depth_png::intrinsics_path, save_cloud, write_depth_png},
+    geometry::cloud::PointCloud,
+};
+
+/// A folder whose looks are made by hand, so that no test waits for a clock.
+struct Bench {
+    folder: tempfile::TempDir,
+    source: WatchedFolder,
+}
+
+impl Bench {
+    fn new(from: WatchedFrom) -> Self {
+        let folder = tempfile::tempdir().unwrap();
+        let source = WatchedFolder::new(&WatchedSpec {
+            folder: folder.path().join("scans"),
+            from,
+        });
+        fs::create_dir(folder.path().join("scans")).unwrap();
+        Self { folder, source }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join("scans").join(name)
+    }
+
+    /// What a look brings: names of captures, and names with a mark for what cannot be read.
+    fn look(&mut self) -> Vec<String> {
+        self.source.look().unwrap();
+        let mut names = Vec::new();
+        while let Some(path) = self.source.ready.pop_front() {
+            match self.source.take(path) {
+                Some(Next::Captured(captured)) => names.push(captured.name),
+                Some(Next::Skipped(skipped)) => names.push(format!("!{}", skipped.name)),
+                _ => {}
+            }
+        }
+        names
+    }
+
+    fn looks(&mut self, num: u32) -> Vec<String> {
+        (0..num).flat_map(|_| self.look()).collect()
+    }
+}
+
+fn cloud(x: f32) -> PointCloud {
+    PointCloud::from_points([nalgebra::Point3::new(x, 0.0, 1.0)])
+}
+
+fn frame() -> DepthFrame {
+    DepthFrame {
+        intrinsics: Intrinsics {
+            width: 2,
+            height: 1,
+            ..Intrinsics::KINECT
+        },
+        metres_per_unit: 0.001,
+        depth: vec![900, 901],
+    }
+}
+
+fn save(path: &Path, x: f32) {
+    save_cloud(path, &cloud(x)).unwrap();
+}
+
+#[test]
+fn a_file_is_taken_once_when_it_has_stopped_changing() {
+    let mut bench = Bench::new(WatchedFrom::Now);
+    bench.look();
+    let path = bench.path("door.pcd");
+    save(&path, 1.0);
+    assert!(bench.look().is_empty(), "it may still be written");
+    assert_eq!(bench.look(), ["door.pcd"]);
+    assert!(bench.looks(20).is_empty());
+}
+
+#[test]
+fn a_file_that_is_written_slowly_waits_until_it_is_whole() {
+    let mut bench = Bench::new(WatchedFrom::Now);
+    bench.look();
+    let whole = bench.folder.path().join("whole.ply");
+    save_cloud(
+        &whole,
+        &PointCloud::from_points((0..500).map(|k| nalgebra::Point3::new(k as f32, 0.0, 1.0))),
+    )
+    .unwrap();
+    let bytes = fs::read(&whole).unwrap();
+    let path = bench.path("slow.ply");
+    let mut file = fs::File::create(&path).unwrap();
+    for piece in bytes.chunks(1000) {
+        file.write_all(piece).unwrap();
+        file.sync_all().unwrap();
+        // Longer than two looks: it seems complete, and cannot be read.
+        assert!(bench.looks(4).is_empty());
+    }
+    drop(file);
+    assert_eq!(bench.looks(PATIENCE + 2), ["slow.ply"]);
+    assert!(bench.looks(PATIENCE + 2).is_empty());
+}
+
+#[test]
+fn files_come_in_the_order_they_were_written() {
+    let mut bench = Bench::new(WatchedFrom::Now);
+    bench.look();
+    let at = |seconds| std::time::UNIX_EPOCH + Duration::from_secs(seconds);
+    for (name, seconds) in [
+        ("b.pcd", 30),
+        ("scan10.pcd", 20),
+        ("scan9.pcd", 20),
+        ("a.pcd", 40),
+    ] {
+        save(&bench.path(name), 1.0);
+        let file = fs::File::options()
+            .write(true)
+            .open(bench.path(name))
+            .unwrap();
+        file.set_modified(at(seconds)).unwrap();
+    }
+    assert_eq!(
+        bench.looks(2),
+        ["scan9.pcd", "scan10.pcd", "b.pcd", "a.pcd"]
+    );
+}
+
+#[test]
+fn what_is_no_capture_is_left_alone_and_what_cannot_be_read_is_named_once() {
+    let mut bench = Bench::new(WatchedFrom::Now);
+    bench.look();
+    for name in ["log.txt", "scan.pcd.part", ".scan.pcd", "part.step"] {
+        fs::write(bench.path(name), "not for us").unwrap();
+    }
+    image::GrayImage::new(2, 2)
+        .save(bench.path("preview.png"))
+        .unwrap();
+    fs::create_dir(bench.path("folder.pcd")).unwrap();
+    fs::write(bench.path("broken.pcd"), "# .PCD v0.7\nVERSION 0.7\n").unwrap();
+    save(&bench.path("good.pcd"), 1.0);
+    assert_eq!(
+        bench.looks(2),
+        ["good.pcd"],
+        "nothing waits for a broken file"
+    );
+    assert_eq!(bench.looks(PATIENCE), ["!broken.pcd"]);
+    assert!(bench.looks(3 * PATIENCE).is_empty());
+    save(&bench.path("broken.pcd"), 2.0);
+    assert_eq!(bench.looks(3), ["broken.pcd"], "mended, it is a capture");
+}
+
+#[test]
+fn a_depth_image_waits_for_its_camera() {
+    let mut bench = Bench::new(WatchedFrom::Now);
+    bench.look();
+    let aside = bench.folder.path().join("frame.png");
+    write_depth_png(&aside, &frame()).unwrap();
+    let path = bench.path("frame.png");
+    fs::copy(&aside, &path).unwrap();
+    assert!(bench.looks(5).is_empty());
+    fs::copy(intrinsics_path(&aside), intrinsics_path(&path)).unwrap();
+    assert_eq!(bench.looks(3), ["frame.png"]);
+    assert!(bench.looks(2 * PATIENCE).is_empty());
+}
+
+#[test]
+fn a_renamed_file_and_one_that_is_written_again_are_new() {
+    let mut bench = Bench::new(WatchedFrom::Now);
+    bench.look();
+    let aside = bench.path("latest.pcd.tmp");
+    for round in 0..3 {
+        // Every round has another size, as another scan has.
+        let points = (0..=round).map(|k| nalgebra::Point3::new(k as f32, 0.0, 1.0));
+        let made = bench.folder.path().join("made.pcd");
+        save_cloud(&made, &PointCloud::from_points(points)).unwrap();
+        fs::copy(&made, &aside).unwrap();
+        assert!(bench.looks(3).is_empty());
+        fs::rename(&aside, bench.path("latest.pcd")).unwrap();
+        assert_eq!(bench.looks(3), ["latest.pcd"], "round {round}");
+    }
+}
+
+#[test]
+fn what_lay_there_before_is_taken_only_if_wanted() {
+    for (from, expected) in [
+        (WatchedFrom::Now, &[][..]),
+        (WatchedFrom::All, &["old.pcd"]),
+    ] {
+        let mut bench = Bench::new(from);
+        save(&bench.path("old.pcd"), 1.0);
+        assert_eq!(bench.looks(3), expected);
+        save(&bench.path("new.pcd"), 1.0);
+        assert_eq!(bench.looks(3), ["new.pcd"]);
+    }
+}
+
+#[test]
+fn the_folder_may_vanish_and_come_back() {
+    let mut bench = Bench::new(WatchedFrom::Now);
+    bench.look();
+    save(&bench.path("one.pcd"), 1.0);
+    assert_eq!(bench.looks(2), ["one.pcd"]);
+    let (here, away) = (bench.path(""), bench.folder.path().join("unplugged"));
+    fs::rename(&here, &away).unwrap();
+    let gone = bench.source.look().unwrap_err();
+    assert!(matches!(
+        gone,
+        CaptureError::FolderGone { may_come: true, .. }
+    ));
+    assert_eq!(gone.recovery(), crate::capture::Recovery::AskAgain);
+    // The place where a share was is an empty folder while it is away.
+    fs::create_dir(&here).unwrap();
+    assert!(bench.looks(2).is_empty());
+    fs::remove_dir(&here).unwrap();
+    save(&away.join("two.pcd"), 2.0);
+    fs::rename(&away, &here).unwrap();
+    assert_eq!(
+        bench.looks(3),
+        ["two.pcd"],
+        "and the first one is not taken again"
+    );
+}
+
+#[test]
+fn an_image_without_a_reading_is_a_capture_of_nothing() {
+    let mut bench = Bench::new(WatchedFrom::Now);
+    bench.look();
+    let dark = DepthFrame {
+        depth: vec![0, 0],
+        ..frame()
+    };
+    write_depth_png(&bench.path("dark.png"), &dark).unwrap();
+    bench.source.look().unwrap();
+    bench.source.look().unwrap();
+    let path = bench.source.ready.pop_front().expect("complete");
+    let Some(Next::Captured(captured)) = bench.source.take(path) else {
+        panic!("a capture");
+    };
+    assert_eq!(captured.image, Image::Cloud(PointCloud::default()));
+}
+
+#[test]
+fn asked_for_a_capture_it_looks_by_itself() {
+    let bench = Bench::new(WatchedFrom::All);
+    save(&bench.path("one.pcd"), 1.0);
+    let mut source = bench.source;
+    let mut captured = None;
+    for _ in 0..600 {
+        match source.next(Duration::from_millis(50)).unwrap() {
+            Next::Captured(found) => {
+                captured = Some(found.name);
+                break;
+            }
+            Next::NotYet => {}
+            other => panic!("{other:?}"),
+        }
+    }
+    assert_eq!(captured.as_deref(), Some("one.pcd"));
+}

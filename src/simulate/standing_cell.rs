@@ -1,0 +1,110 @@
+//! A cell that stands still while many frames are taken of it: what does not move is drawn once.
+
+use super::cell::{Cell, CellSetup, Subject, is_in_frame};
+use super::rasteriser::{Rendering, SurfaceLabel};
+use super::sensor::{SensorNoise, sense};
+use super::shot::{SimulatedFrame, Truth, num_pixels_without_edges};
+use crate::capture::frame::Intrinsics;
+use crate::geometry::mesh::TriangleMesh;
+use crate::geometry::rigid::RigidTransform;
+
+/// A cell that stands still; only the part moves, and the sensor's noise changes.
+pub struct StandingCell {
+    subject: Subject,
+    mesh: TriangleMesh,
+    intrinsics: Intrinsics,
+    camera_from_part: RigidTransform,
+    /// Everything but the part.
+    backdrop: Rendering,
+}
+
+impl StandingCell {
+    /// Arranges the cell around the part as it hangs at rest. `mesh` is the subject's.
+    pub fn arrange(setup: &CellSetup, mesh: TriangleMesh) -> Self {
+        let cell = Cell::arrange(setup, &mesh);
+        let mut backdrop = Rendering::new(setup.intrinsics);
+        cell.draw_rest(&mut backdrop);
+        let camera_from_part = cell.camera_from_part;
+        Self {
+            subject: setup.subject,
+            mesh,
+            intrinsics: setup.intrinsics,
+            camera_from_part,
+            backdrop,
+        }
+    }
+
+    /// Where the part hangs at rest: `camera_from_part`.
+    pub fn at_rest(&self) -> RigidTransform {
+        self.camera_from_part
+    }
+
+    /// A frame with the part at this pose. A part of which nothing is in the picture is not there: the truth says
+    /// [`Subject::Nothing`].
+    pub fn frame(&self, camera_from_part: &RigidTransform, noise: &SensorNoise) -> SimulatedFrame {
+        let mut rendering = Rendering::new(self.intrinsics);
+        rendering.draw_mesh(&self.mesh, camera_from_part, SurfaceLabel::Part);
+        let num_in_frame = rendering.num_pixels(SurfaceLabel::Part);
+        let fully_visible = is_in_frame(&self.mesh, camera_from_part, &self.intrinsics);
+        let num_alone = if fully_visible || num_in_frame == 0 {
+            num_in_frame
+        } else {
+            num_pixels_without_edges(&self.mesh, camera_from_part, &self.intrinsics)
+        };
+        rendering.draw_behind(&self.backdrop);
+        let num_visible = rendering.num_pixels(SurfaceLabel::Part);
+        SimulatedFrame {
+            frame: sense(&rendering, noise),
+            truth: Truth {
+                subject: if num_in_frame == 0 {
+                    Subject::Nothing
+                } else {
+                    self.subject
+                },
+                camera_from_part: *camera_from_part,
+                fully_visible,
+                visible_share: num_visible as f64 / num_alone.max(1) as f64,
+                labels: rendering.labels,
+            },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulate::{Clutter, PartKind, Side, frame};
+
+    #[test]
+    fn at_rest_it_gives_the_same_frame_as_drawing_all_of_it() {
+        for (seed, clutter) in [
+            (1, Clutter::None),
+            (2, Clutter::OnFloor),
+            (3, Clutter::InFront),
+        ] {
+            let kind = PartKind::ALL[seed as usize];
+            let mut setup = CellSetup::with_part(kind, Side::Left, 0, seed);
+            setup.clutter = clutter;
+            let cell = StandingCell::arrange(&setup, setup.subject.mesh());
+            let found = cell.frame(&cell.at_rest(), &setup.noise);
+            assert!(found == frame(&setup), "seed {seed}");
+        }
+    }
+
+    #[test]
+    fn what_is_out_of_the_picture_is_not_there() {
+        let setup = CellSetup::with_part(PartKind::Grille, Side::Left, 0, 5);
+        let cell = StandingCell::arrange(&setup, setup.subject.mesh());
+        let mut aside = cell.at_rest();
+        aside.translation.x += 5.0;
+        let SimulatedFrame { frame, truth } = cell.frame(&aside, &setup.noise);
+        assert_eq!(truth.subject, Subject::Nothing);
+        assert!(!truth.labels.contains(&SurfaceLabel::Part));
+        assert!(frame.depth.iter().any(|&depth| depth > 0));
+        let mut half = cell.at_rest();
+        half.translation.x += 0.8;
+        let truth = cell.frame(&half, &setup.noise).truth;
+        assert_eq!(truth.subject, setup.subject);
+        assert!(!truth.fully_visible && truth.visible_share < 0.9);
+    }
+}
