@@ -97,6 +97,8 @@ pub enum Ask {
     Recording,
     /// A folder to watch for captures.
     WatchedFolder,
+    /// The folder that the source is recorded in.
+    RecordTo,
     /// The folder of another library.
     Library,
     /// The folder that the report of the inspection in front goes to.
@@ -179,10 +181,14 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
                 }),
                 _ => SourceSpec::Recording(RecordingSpec {
                     folder,
-                    pace: Pace::default(),
+                    pace: Some(Pace::AsTaken),
+                    camera: None,
                 }),
             };
             return live::apply(state, LiveAction::Use(spec));
+        }
+        Action::Chosen(Ask::RecordTo, folder) => {
+            return live::apply(state, LiveAction::Record(folder));
         }
         Action::Chosen(Ask::Library, path) => {
             state.chosen_library = Some(path);

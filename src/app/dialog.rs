@@ -68,6 +68,11 @@ impl Dialog {
                     .save_file(),
             ),
             Ask::Recording => Box::pin(dialog.set_title("Play a recording").pick_folder()),
+            Ask::RecordTo => Box::pin(
+                dialog
+                    .set_title("Folder to record the source in")
+                    .pick_folder(),
+            ),
             Ask::WatchedFolder => Box::pin(
                 dialog
                     .set_title("Folder that captures are saved to")
@@ -131,7 +136,7 @@ fn anything_with_points(dialog: rfd::AsyncFileDialog) -> rfd::AsyncFileDialog {
 /// Where nothing can be asked: files to write go to a folder of their own, files to open can be dropped.
 fn without_dialog(ask: Ask) -> Action {
     let name = match ask {
-        Ask::ReportFolder => "",
+        Ask::ReportFolder | Ask::RecordTo => "",
         Ask::HistoryCsv => "inspections.csv",
         Ask::Picture => "view.png",
         Ask::Align(AlignAsk::TableFile) => "table1.csv",

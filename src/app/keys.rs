@@ -24,7 +24,7 @@ pub(in crate::app) struct Shortcut {
 }
 
 /// The shortcuts of the whole window.
-const SHORTCUTS: [Shortcut; 9] = [
+const SHORTCUTS: [Shortcut; 10] = [
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::Space,
@@ -38,6 +38,13 @@ const SHORTCUTS: [Shortcut; 9] = [
         keys: "L",
         does: "Live: follow the source, or stop",
         action: || Action::Live(LiveAction::Toggle),
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::R,
+        keys: "Ctrl R",
+        does: "Record the source, or stop",
+        action: || Action::Live(LiveAction::ToggleRecording),
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,

@@ -8,18 +8,19 @@ use std::{
 
 use image::RgbaImage;
 
-use super::{camera::Camera, fitted::FittedCache, job::Trouble};
+use super::{camera::Camera, fitted::FittedCache, job::Trouble, live::Tape};
 use crate::{
     error::Advice as _,
     library::{Library, LibraryError, LibraryLoad, LibraryPlace, PartMeta, open_library},
     stages::reference::ReferenceParams,
 };
 
-/// A handle to the library and the camera in use; clones share them.
+/// A handle to the library, the camera and the recording in use; clones share them.
 #[derive(Clone, Debug, Default)]
 pub struct Shelf {
     choice: Arc<Mutex<Choice>>,
     camera: Camera,
+    tape: Tape,
 }
 
 #[derive(Debug, Default)]
@@ -89,7 +90,13 @@ impl Shelf {
         Self {
             choice: Arc::new(Mutex::new(Choice { given, loaded })),
             camera,
+            tape: Tape::default(),
         }
+    }
+
+    /// The recording that is being made.
+    pub fn tape(&self) -> &Tape {
+        &self.tape
     }
 
     /// The camera in use.

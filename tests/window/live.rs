@@ -165,7 +165,7 @@ fn a_part_counts_once_it_hangs_still_and_no_longer_when_it_moves() {
     sees(&mut harness, &wire, [0.0; 4]);
     assert!(says(&harness, "Live · looking") && says(&harness, "Not accepted yet"));
     assert!(harness.query_by_label("Accepted").is_none());
-    assert!(says(&harness, "no camera was read") && says(&harness, "Wired frame"));
+    assert!(says(&harness, "Wired frame 4, simulated"));
 
     sees(&mut harness, &wire, [0.0; 12]);
     assert!(says(&harness, "Live · steady since"), "no longer looked at");
@@ -210,7 +210,7 @@ fn the_view_stays_where_a_person_has_turned_it_and_each_frame_is_shown() {
     assert!(!Arc::ptr_eq(&first.inspected, &second.inspected));
     assert!(first.generation != second.generation && first.session == second.session);
     // Another workspace keeps what it has in hand, and says how live stands.
-    act_live(&mut harness, Action::GoTo(Workspace::Compare));
+    act_live(&mut harness, Action::GoTo(Workspace::History));
     sees(&mut harness, &wire, [0.0]);
     let third = harness.state().state().shown.clone().expect("shown");
     assert!(Arc::ptr_eq(&second.inspected, &third.inspected));
@@ -305,6 +305,55 @@ fn another_source_is_followed_at_once_and_changed_parameters_count_anew() {
 }
 
 #[test]
+fn a_recording_is_made_and_plays_as_what_it_was() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut harness, wire) = wired();
+    toggle(&mut harness);
+    let parent = folder.path().to_owned();
+    act_live(&mut harness, Action::Live(LiveAction::Record(parent)));
+    sees(&mut harness, &wire, [0.0; 22]);
+    assert!(says(&harness, "Stop recording · 22 frames"));
+    harness.get_by_label("Accepted");
+    harness.get_by_label_contains("Stop recording").click();
+    harness.run_steps(2);
+    assert!(says(&harness, "Recorded 22 frames"));
+    // What comes now is in no recording.
+    sees(&mut harness, &wire, [0.0]);
+    toggle(&mut harness);
+    settle(&mut harness);
+    drop(harness);
+
+    let recording = std::fs::read_dir(folder.path()).expect("read");
+    let recording = recording.map(|entry| entry.expect("read").path());
+    let recording: Vec<_> = recording.collect();
+    assert_eq!(recording.len(), 1, "{recording:?}");
+    let mut harness = open();
+    let spec = format!("recording,pace=step:{}", recording[0].display());
+    let spec = spec.parse().expect("a source");
+    // Step by step: each capture is the next frame.
+    act(&mut harness, Action::Live(LiveAction::Use(spec)));
+    assert!(says(&harness, "wired frame 1") || says(&harness, "Wired frame 1"));
+    harness.get_by_label("Accepted");
+    harness.get_by_label("Capture").click();
+    settle(&mut harness);
+    assert!(says(&harness, "Wired frame 2, simulated"));
+    // Played: frame after frame, to the end, and what hung still counts.
+    toggle(&mut harness);
+    wait_until(&mut harness, |state| !state.is_live());
+    settle(&mut harness);
+    assert!(says(&harness, "has no more frames"));
+    let history = &harness.state().state().history;
+    assert_eq!(
+        history.num_rows(),
+        4,
+        "the first frame, two captures, and this"
+    );
+    let newest = history.row(4).expect("kept");
+    assert_eq!(newest.verdict, PastVerdict::Accepted);
+    assert!(newest.origin.is_simulated());
+}
+
+#[test]
 fn a_single_file_is_not_followed_and_that_is_said() {
     let mut harness = open();
     act(&mut harness, Action::Open("missing.pcd".into()));
@@ -329,6 +378,6 @@ fn the_cell_can_be_set_up_and_is_captured_as_it_is() {
     let Source::Camera(spec) = &harness.state().state().source else {
         panic!("not set up");
     };
-    assert_eq!(spec.to_string(), "simulated,clutter=in-front:line");
+    assert_eq!(spec.to_string(), "simulated,clutter=in-front");
     assert!(says(&harness, "simulated frame 1") || says(&harness, "Simulated frame 1"));
 }

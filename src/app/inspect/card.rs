@@ -127,7 +127,7 @@ pub(super) fn ui(
         ui.label(text.color(theme.warning));
     }
     if state.is_live() {
-        live::card(ui, state, theme);
+        live::card(ui, state, theme, actions);
     }
     let inspection = &inspected.inspection;
     let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());

@@ -6,6 +6,7 @@
 mod set_up;
 pub mod state;
 mod status;
+mod tape;
 mod work;
 
 pub(super) use self::{
@@ -16,5 +17,6 @@ pub(super) use self::{
 };
 pub use self::{
     state::{LiveAction, LiveState},
+    tape::{Recorded, Tape},
     work::{LiveAnswer, LiveRequest, LiveStatus, LiveTold, SourceState},
 };

@@ -1,11 +1,11 @@
 //! What the window knows of the source that it follows, and what can happen to that.
 
-use std::sync::Arc;
+use std::{path::PathBuf, sync::Arc};
 
 use super::work::{LiveAnswer, LiveRequest, LiveStatus, SourceState};
 use crate::{
     app::{
-        action::{self, Effect, notify},
+        action::{self, Ask, Effect, notify},
         history,
         job::{Request, Trouble},
         lane::Lane,
@@ -24,6 +24,8 @@ pub struct LiveState {
     pub status: Option<LiveStatus>,
     /// When a verdict counts, and over how many frames depth is averaged.
     pub params: LiveParams,
+    /// The folder that the source is recorded in, while it is.
+    pub recording: Option<PathBuf>,
     /// The simulated cell as it is being set up, while its window is open.
     pub setup: Option<crate::capture::SimulatedSpec>,
     /// Counts how often following began with another view: within one the 3-D view keeps its camera.
@@ -51,6 +53,12 @@ pub enum LiveAction {
     Use(SourceSpec),
     /// Average depth over so many frames.
     Average(usize),
+    /// Record the source into a folder in this one.
+    Record(PathBuf),
+    /// Choose where to record it, or record it no longer.
+    ToggleRecording,
+    /// Record it no longer.
+    StopRecording,
     /// Open the window that sets up the simulated cell, or close it.
     SetUp(Option<crate::capture::SimulatedSpec>),
 }
@@ -96,6 +104,21 @@ pub(in crate::app) fn apply(state: &mut State, action: LiveAction) -> Option<Eff
             state.live.params.average = num.clamp(1, MAX_AVERAGED);
             start_anew(state)
         }
+        LiveAction::Record(folder) => {
+            state.live.recording = Some(folder);
+            if state.is_live() {
+                start_anew(state)
+            } else {
+                start(state)
+            }
+        }
+        LiveAction::ToggleRecording if state.live.recording.is_none() => {
+            Some(Effect::ShowDialog(Ask::RecordTo))
+        }
+        LiveAction::StopRecording | LiveAction::ToggleRecording => {
+            end_recording(state);
+            start_anew(state)
+        }
         LiveAction::SetUp(spec) => {
             state.live.setup = spec;
             None
@@ -124,7 +147,6 @@ fn start(state: &mut State) -> Option<Effect> {
         return None;
     }
     state.live.session += 1;
-    state.live.status = None;
     forget_lost(state);
     state.works.remove(&Lane::Inspect);
     let follow = follow(state)?;
@@ -141,8 +163,10 @@ fn follow(state: &mut State) -> Option<Effect> {
         recipe: Arc::clone(&state.recipe),
         params: state.live.params.clone(),
         empty_cell: state.empty_cell.clone(),
+        record: state.live.recording.clone(),
     };
     state.live.switch = LiveSwitch::On;
+    state.live.status = None;
     Some(state.begin("Live", Request::Live(request)))
 }
 
@@ -157,7 +181,28 @@ fn stop(state: &mut State) -> Effect {
     state.begin("Closing the camera", Request::Live(LiveRequest::Rest))
 }
 
+/// Says what was recorded.
+fn end_recording(state: &mut State) {
+    state.live.recording = None;
+    let status = state.live.status.as_mut();
+    if let Some(recorded) = status.and_then(|status| status.recorded.take()) {
+        let what = format!(
+            "Recorded {} frames, {}, to {}",
+            recorded.num_frames,
+            megabytes(recorded.num_bytes),
+            recorded.folder.display()
+        );
+        notify(state, Notice::done(what));
+    }
+}
+
+/// Bytes, for a person.
+pub(super) fn megabytes(bytes: u64) -> String {
+    format!("{:.1} MB", bytes as f64 / 1e6)
+}
+
 fn ended(state: &mut State) {
+    end_recording(state);
     state.live.switch = LiveSwitch::Off;
     state.live.status = None;
     forget_lost(state);
@@ -184,6 +229,10 @@ pub(in crate::app) fn hear(state: &mut State, answer: Result<LiveAnswer, Trouble
             }
             history::keep(state, &inspected);
             show(state, inspected);
+        }
+        Ok(LiveAnswer::NotRecorded(trouble)) => {
+            state.live.recording = None;
+            notify(state, trouble.into());
         }
         Ok(LiveAnswer::Skipped(trouble)) => notify(state, trouble.into()),
         Ok(LiveAnswer::AtItsEnd) => {
@@ -290,7 +339,7 @@ mod tests {
         let mut state = State::default();
         assert_eq!(
             followed(&toggled(&mut state)).as_deref(),
-            Some("simulated:line")
+            Some("simulated")
         );
         let choice = CellChoice::Part(PartKind::Fender, Side::Right);
         let other = posted(action::apply(&mut state, Action::UseCell(choice)));

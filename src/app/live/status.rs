@@ -1,10 +1,14 @@
 //! How following the source stands, in words: on the verdict card, and in the bar where that is not in front.
 
-use egui::{Label, RichText, Sense, Ui, Vec2};
+use egui::{Button, Label, RichText, Sense, Ui, Vec2};
 
-use super::work::{LiveStatus, SourceState};
+use super::{
+    state::{LiveAction, megabytes},
+    work::{LiveStatus, SourceState},
+};
 use crate::{
     app::{
+        action::{Action, Ask},
         state::{Source, State},
         theme::{Theme, font, space},
         widgets::{Mark, mark},
@@ -17,7 +21,7 @@ use crate::{
 const HEIGHT: f32 = 64.0;
 
 /// The head of the verdict card while the source is followed.
-pub(in crate::app) fn card(ui: &mut Ui, state: &State, theme: &Theme) {
+pub(in crate::app) fn card(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
     let (sign, words) = words(state);
     let small = |text: String| {
         RichText::new(text)
@@ -38,8 +42,41 @@ pub(in crate::app) fn card(ui: &mut Ui, state: &State, theme: &Theme) {
         ui.label(small(status.map_or_else(String::new, rests_on)));
         ui.label(small(status.map_or_else(String::new, figures)));
     });
+    record(ui, state, actions);
     ui.separator();
     ui.add_space(space::SMALL);
+}
+
+/// Begins and ends a recording, and says what is recorded.
+fn record(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+    let size = Vec2::new(ui.available_width(), space::TARGET);
+    if state.live.recording.is_none() {
+        let text = RichText::new("Record…").font(font::small());
+        let says = "Keep every frame that is taken from the source, as it came (Ctrl R)";
+        if ui
+            .add(Button::new(text).min_size(size))
+            .on_hover_text(says)
+            .clicked()
+        {
+            actions.push(Action::Ask(Ask::RecordTo));
+        }
+        return;
+    }
+    let recorded = state.live.status.as_ref();
+    let recorded = recorded.and_then(|status| status.recorded.as_ref());
+    let so_far = recorded.map_or_else(String::new, |recorded| {
+        let size = megabytes(recorded.num_bytes);
+        format!(" · {} frames, {size}", recorded.num_frames)
+    });
+    let text = RichText::new(format!("Stop recording{so_far}")).font(font::small());
+    let button = Button::selectable(true, text).min_size(size);
+    let response = ui.add(button);
+    response.widget_info(|| {
+        egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Stop recording{so_far}"))
+    });
+    if response.clicked() {
+        actions.push(Action::Live(LiveAction::StopRecording));
+    }
 }
 
 /// The same in one line.

@@ -2,10 +2,12 @@
 
 use std::{
     collections::VecDeque,
+    path::{Path, PathBuf},
     sync::Arc,
     time::{Duration, Instant},
 };
 
+use super::tape::Recorded;
 use crate::{
     app::{
         inspect::work::{Followed, Found, Inspected},
@@ -35,6 +37,8 @@ pub enum LiveRequest {
         params: LiveParams,
         /// What its camera saw without a part.
         empty_cell: Option<Arc<EmptyCell>>,
+        /// The folder that it is recorded in, if it is.
+        record: Option<PathBuf>,
     },
     /// Let the camera rest.
     Rest,
@@ -47,6 +51,8 @@ pub enum LiveAnswer {
     Stands(Box<LiveTold>),
     /// A verdict that counts, and was not told before.
     Counts(Arc<Inspected>),
+    /// It is not recorded any more.
+    NotRecorded(Trouble),
     /// Something of the source that cannot be read.
     Skipped(Trouble),
     /// The source has no more frames.
@@ -83,6 +89,8 @@ pub struct LiveStatus {
     pub num_dropped: u64,
     /// Frames that depth is averaged over.
     pub num_averaged: usize,
+    /// What was recorded so far, while it is.
+    pub recorded: Option<Recorded>,
 }
 
 /// Whether frames come.
@@ -108,6 +116,7 @@ pub(in crate::app) fn answer(
     desk: &dyn Desk<Outcome>,
 ) -> Option<Outcome> {
     let LiveRequest::Follow { spec, .. } = request else {
+        shelf.tape().end();
         shelf.camera().rest();
         return Some(Ok(Answer::Live(LiveAnswer::Rests)));
     };
@@ -121,6 +130,10 @@ pub(in crate::app) fn answer(
 struct Follower<'a> {
     shelf: &'a Shelf,
     desk: &'a dyn Desk<Outcome>,
+    spec: &'a SourceSpec,
+    /// Where it is recorded; not any more after a failure.
+    record: Option<&'a Path>,
+    recorded: Option<Recorded>,
     recipe: &'a Arc<Recipe>,
     empty_cell: Option<&'a Arc<EmptyCell>>,
     /// `None` of a source whose captures stand for themselves.
@@ -158,6 +171,7 @@ impl<'a> Follower<'a> {
             recipe,
             params,
             empty_cell,
+            record,
         } = request
         else {
             return None;
@@ -167,6 +181,9 @@ impl<'a> Follower<'a> {
         Some(Self {
             shelf,
             desk,
+            spec,
+            record: record.as_deref(),
+            recorded: None,
             recipe,
             empty_cell: empty_cell.as_ref(),
             stillness: watch.as_ref().map(LiveWatch::stillness),
@@ -190,6 +207,7 @@ impl<'a> Follower<'a> {
             }
             match feed.wait(TURN) {
                 Some(FeedItem::Captured(captured)) => {
+                    self.write(&captured, feed);
                     if let Err(trouble) = self.take(captured)? {
                         return Some(Err(trouble));
                     }
@@ -207,6 +225,19 @@ impl<'a> Follower<'a> {
                 },
             }
             self.tell_how_it_stands(feed);
+        }
+    }
+
+    /// Records the frame before anything else is done with it, if it is to be.
+    fn write(&mut self, captured: &Captured, feed: &Feed) {
+        let tape = self.shelf.tape();
+        match tape.write(self.record, captured, self.spec, &feed.status()) {
+            Ok(recorded) => self.recorded = recorded,
+            Err(error) => {
+                self.record = None;
+                self.recorded = None;
+                self.tell(LiveAnswer::NotRecorded(Trouble::of(&error)));
+            }
         }
     }
 
@@ -317,6 +348,7 @@ impl<'a> Follower<'a> {
             num_inspected: self.num_inspected,
             num_dropped: feed.num_dropped.saturating_sub(self.dropped_before),
             num_averaged: self.watch.as_ref().map_or(1, LiveWatch::num_averaged),
+            recorded: self.recorded.clone(),
         };
         let is_news = self.told.as_ref().is_none_or(|told| {
             told.num_inspected != status.num_inspected || told.source != status.source

@@ -78,6 +78,8 @@ const MAX_GAP: Duration = Duration::from_secs(2);
 const MAX_OFF_AT_ONCE: f64 = 0.006;
 /// Standard deviations by which a pixel has to be off in a single frame.
 const DEVIATIONS_AT_ONCE: f32 = 6.0;
+/// Frames of a spell that is not complete, from which on a single frame is held against it.
+const FRAMES_TO_JUDGE: usize = 4;
 /// Share of the pixels that may scatter by more than their noise, edges among them: more is shaking.
 const MAX_RESTLESS: f64 = 0.06;
 /// A pixel is restless from this many times the noise on.
@@ -166,11 +168,9 @@ impl SteadyWatch {
             self.noise = noise.0 as f32;
         }
         let samples = samples(scene, grid);
-        if self
-            .spells
-            .back()
-            .is_some_and(|spell| self.is_off_at_once(spell, &samples))
-        {
+        let last = self.spells.back();
+        let last = last.or((self.filling.num_frames >= FRAMES_TO_JUDGE).then_some(&self.filling));
+        if last.is_some_and(|spell| self.is_off_at_once(spell, &samples)) {
             self.start_anew(Stillness::Moving, at);
         }
         self.gather(&samples, at);
