@@ -163,46 +163,11 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
             return Some(Effect::ShowDialog(Ask::Part));
         }
         Action::Ask(ask) => return Some(Effect::ShowDialog(ask)),
-        Action::Chosen(Ask::CasesFolder, path) => {
-            return compare::apply(state, CompareAction::Folder(path));
-        }
-        Action::Chosen(Ask::EarlierRun, path) => {
-            return compare::apply(state, CompareAction::Earlier(path));
-        }
-        Action::Chosen(Ask::Scene | Ask::Part, path) | Action::Open(path) => {
-            state.source = Source::File(path);
-            return Some(capture(state));
-        }
-        Action::Chosen(ask @ (Ask::Recording | Ask::WatchedFolder), folder) => {
-            let spec = match ask {
-                Ask::WatchedFolder => SourceSpec::Watched(WatchedSpec {
-                    folder,
-                    from: WatchedFrom::default(),
-                }),
-                _ => SourceSpec::Recording(RecordingSpec {
-                    folder,
-                    pace: Some(Pace::AsTaken),
-                    camera: None,
-                }),
-            };
-            return live::apply(state, LiveAction::Use(spec));
-        }
-        Action::Chosen(Ask::RecordTo, folder) => {
-            return live::apply(state, LiveAction::Record(folder));
-        }
-        Action::Chosen(Ask::Library, path) => {
-            state.chosen_library = Some(path);
-            return Some(open_library(state));
-        }
-        Action::Chosen(Ask::ReportFolder, folder) => return export(state, folder),
-        Action::Chosen(Ask::HistoryCsv, path) => return Some(history::export(state, path)),
+        Action::Chosen(ask, path) => return chosen(state, ask, path),
+        Action::Open(path) => return chosen(state, Ask::Scene, path),
         Action::UseFoundLibrary => {
             state.chosen_library = None;
             return Some(open_library(state));
-        }
-        Action::Chosen(Ask::Picture, path) => state.inspect.picture_to = Some(path),
-        Action::Chosen(Ask::Align(ask), path) => {
-            return align::apply(state, AlignAction::Chosen(ask, path));
         }
         Action::Cancel(Lane::Live) => return None,
         Action::Cancel(lane) => {
@@ -251,6 +216,45 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::Hear(lane, news) => return hear(state, lane, news),
     }
     None
+}
+
+/// What follows from the file or folder that was chosen.
+fn chosen(state: &mut State, ask: Ask, path: PathBuf) -> Option<Effect> {
+    match ask {
+        Ask::CasesFolder => compare::apply(state, CompareAction::Folder(path)),
+        Ask::EarlierRun => compare::apply(state, CompareAction::Earlier(path)),
+        Ask::Scene | Ask::Part => {
+            state.source = Source::File(path);
+            Some(capture(state))
+        }
+        Ask::Recording => {
+            let spec = SourceSpec::Recording(RecordingSpec {
+                folder: path,
+                pace: Some(Pace::AsTaken),
+                camera: None,
+            });
+            live::apply(state, LiveAction::Use(spec))
+        }
+        Ask::WatchedFolder => {
+            let spec = SourceSpec::Watched(WatchedSpec {
+                folder: path,
+                from: WatchedFrom::default(),
+            });
+            live::apply(state, LiveAction::Use(spec))
+        }
+        Ask::RecordTo => live::apply(state, LiveAction::Record(path)),
+        Ask::Library => {
+            state.chosen_library = Some(path);
+            Some(open_library(state))
+        }
+        Ask::ReportFolder => export(state, path),
+        Ask::HistoryCsv => Some(history::export(state, path)),
+        Ask::Picture => {
+            state.inspect.picture_to = Some(path);
+            None
+        }
+        Ask::Align(ask) => align::apply(state, AlignAction::Chosen(ask, path)),
+    }
 }
 
 /// Asks for a scene from the source: to be inspected, or to be enrolled while that is in front. To be inspected it is a

@@ -168,7 +168,7 @@ fn a_part_counts_once_it_hangs_still_and_no_longer_when_it_moves() {
     assert!(says(&harness, "Wired frame 4, simulated"));
 
     sees(&mut harness, &wire, [0.0; 12]);
-    assert!(says(&harness, "Live · steady since"), "no longer looked at");
+    assert!(says(&harness, "Live · steady for"), "no longer looked at");
     assert!(says(&harness, "frames agree"));
     harness.get_by_label("Accepted");
     harness.get_by_label("Fender, left");
@@ -315,7 +315,8 @@ fn a_recording_is_made_and_plays_as_what_it_was() {
     assert!(says(&harness, "Stop recording · 22 frames"));
     harness.get_by_label("Accepted");
     harness.get_by_label_contains("Stop recording").click();
-    harness.run_steps(2);
+    harness.run_steps(4);
+    assert!(harness.state().state().live.recording.is_none());
     assert!(says(&harness, "Recorded 22 frames"));
     // What comes now is in no recording.
     sees(&mut harness, &wire, [0.0]);

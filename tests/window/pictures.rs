@@ -215,6 +215,20 @@ fn live_looks_as_it_did() {
 }
 
 #[test]
+fn choosing_a_source_looks_as_it_did() {
+    if !draws_in_software() {
+        return;
+    }
+    let mut harness = open_drawn(SMALL);
+    harness.get_by_label_contains("Source").click();
+    harness.run_steps(6);
+    compare_as_it_is(&mut harness, "source_menu");
+    harness.get_by_label("Set up the cell…").click();
+    harness.run_steps(6);
+    compare_as_it_is(&mut harness, "cell_set_up");
+}
+
+#[test]
 fn the_other_workspaces_look_as_they_did() {
     if !draws_in_software() {
         return;

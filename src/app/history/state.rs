@@ -353,16 +353,14 @@ fn not_kept(row: &PastInspection) -> Notice {
 
 fn inspect_again(state: &mut State, number: u64) -> Option<Effect> {
     let row = state.history.row(number)?;
-    let source = match &row.whole {
-        Some(whole) => SceneSource::AtHand(Arc::clone(&whole.scene), whole.origin.clone()),
-        None => match row.origin.source() {
-            Some(source) => source,
-            None => {
-                let notice = not_kept(row);
-                notify(state, notice);
-                return None;
-            }
-        },
+    let at_hand = row
+        .whole
+        .as_ref()
+        .map(|whole| SceneSource::AtHand(Arc::clone(&whole.scene), whole.origin.clone()));
+    let Some(source) = at_hand.or_else(|| row.origin.source()) else {
+        let notice = not_kept(row);
+        notify(state, notice);
+        return None;
     };
     let what = format!("Inspecting {} again", row.origin.title());
     let recipe = Arc::clone(&state.recipe);

@@ -241,6 +241,8 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline, theme: &Theme)
     let width = bar.width() * score.clamp(0.0, 1.0) as f32;
     let fill = if headline.is_accepted {
         theme.accepted
+    } else if headline.is_open {
+        theme.warning
     } else {
         theme.rejected
     };

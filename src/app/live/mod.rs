@@ -18,5 +18,5 @@ pub(super) use self::{
 pub use self::{
     state::{LiveAction, LiveState},
     tape::{Recorded, Tape},
-    work::{LiveAnswer, LiveRequest, LiveStatus, LiveTold, SourceState},
+    work::{FollowRequest, LiveAnswer, LiveRequest, LiveStatus, LiveTold, SourceState},
 };

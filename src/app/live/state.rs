@@ -2,7 +2,7 @@
 
 use std::{path::PathBuf, sync::Arc};
 
-use super::work::{LiveAnswer, LiveRequest, LiveStatus, SourceState};
+use super::work::{FollowRequest, LiveAnswer, LiveRequest, LiveStatus, SourceState};
 use crate::{
     app::{
         action::{self, Ask, Effect, notify},
@@ -158,7 +158,7 @@ fn start(state: &mut State) -> Option<Effect> {
 
 /// Has the lane's thread follow the source with what holds now.
 fn follow(state: &mut State) -> Option<Effect> {
-    let request = LiveRequest::Follow {
+    let request = FollowRequest {
         spec: state.source.followed()?,
         recipe: Arc::clone(&state.recipe),
         params: state.live.params.clone(),
@@ -167,6 +167,7 @@ fn follow(state: &mut State) -> Option<Effect> {
     };
     state.live.switch = LiveSwitch::On;
     state.live.status = None;
+    let request = LiveRequest::Follow(Box::new(request));
     Some(state.begin("Live", Request::Live(request)))
 }
 
@@ -320,7 +321,7 @@ mod tests {
 
     fn followed(requests: &[Request]) -> Option<String> {
         requests.iter().find_map(|request| match request {
-            Request::Live(LiveRequest::Follow { spec, .. }) => Some(spec.to_string()),
+            Request::Live(LiveRequest::Follow(request)) => Some(request.spec.to_string()),
             _ => None,
         })
     }
@@ -337,10 +338,7 @@ mod tests {
     #[test]
     fn the_cell_is_followed_as_it_was_chosen_and_rests_afterwards() {
         let mut state = State::default();
-        assert_eq!(
-            followed(&toggled(&mut state)).as_deref(),
-            Some("simulated")
-        );
+        assert_eq!(followed(&toggled(&mut state)).as_deref(), Some("simulated"));
         let choice = CellChoice::Part(PartKind::Fender, Side::Right);
         let other = posted(action::apply(&mut state, Action::UseCell(choice)));
         assert_eq!(

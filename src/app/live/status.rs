@@ -111,7 +111,7 @@ fn words(state: &State) -> (Mark, String) {
         (SourceState::Running, Some(Stillness::Moving)) => (Mark::Look, "moving".into()),
         (SourceState::Running, Some(Stillness::Steady { lasting, .. })) => (
             Mark::Good,
-            format!("steady since {:.1} s", lasting.as_secs_f64()),
+            format!("steady for {:.1} s", lasting.as_secs_f64()),
         ),
     };
     (sign, format!("{name} · {what}"))
@@ -145,12 +145,14 @@ fn figures(status: &LiveStatus) -> String {
     let [captured, inspected] = status
         .rates
         .map(|rate| rate.map_or_else(|| "–".to_owned(), |rate| format!("{rate:.0}")));
-    let mut text = format!("{captured} fps, {inspected} inspected");
-    if let Some(latency) = status.latency {
-        text += &format!(" · {:.0} ms", latency.as_secs_f64() * 1000.0);
-    }
-    if status.num_dropped > 0 {
-        text += &format!(" · {} dropped", status.num_dropped);
-    }
-    text
+    let latency = status
+        .latency
+        .map(|latency| format!("{:.0} ms", latency.as_secs_f64() * 1000.0));
+    let dropped = (status.num_dropped > 0).then(|| format!("{} dropped", status.num_dropped));
+    let rates = format!("{captured} fps, {inspected} inspected");
+    let all: Vec<String> = [Some(rates), latency, dropped]
+        .into_iter()
+        .flatten()
+        .collect();
+    all.join(" · ")
 }

@@ -28,20 +28,24 @@ use crate::{
 #[derive(Clone, Debug)]
 pub enum LiveRequest {
     /// Follow a source until something else is asked for.
-    Follow {
-        /// The source.
-        spec: SourceSpec,
-        /// All parameters.
-        recipe: Arc<Recipe>,
-        /// When a verdict counts.
-        params: LiveParams,
-        /// What its camera saw without a part.
-        empty_cell: Option<Arc<EmptyCell>>,
-        /// The folder that it is recorded in, if it is.
-        record: Option<PathBuf>,
-    },
+    Follow(Box<FollowRequest>),
     /// Let the camera rest.
     Rest,
+}
+
+/// Which source to follow, and how.
+#[derive(Clone, Debug)]
+pub struct FollowRequest {
+    /// The source.
+    pub spec: SourceSpec,
+    /// All parameters.
+    pub recipe: Arc<Recipe>,
+    /// When a verdict counts.
+    pub params: LiveParams,
+    /// What its camera saw without a part.
+    pub empty_cell: Option<Arc<EmptyCell>>,
+    /// The folder that it is recorded in, if it is.
+    pub record: Option<PathBuf>,
 }
 
 /// What the lane tells.
@@ -115,14 +119,14 @@ pub(in crate::app) fn answer(
     shelf: &Shelf,
     desk: &dyn Desk<Outcome>,
 ) -> Option<Outcome> {
-    let LiveRequest::Follow { spec, .. } = request else {
+    let LiveRequest::Follow(request) = request else {
         shelf.tape().end();
         shelf.camera().rest();
         return Some(Ok(Answer::Live(LiveAnswer::Rests)));
     };
     // It stays open behind this: whoever asks next may follow the same one.
-    match shelf.camera().feed(spec) {
-        Ok(feed) => Follower::new(request, shelf, desk)?.follow(&feed),
+    match shelf.camera().feed(&request.spec) {
+        Ok(feed) => Follower::new(request, shelf, desk).follow(&feed),
         Err(error) => Some(Err(Trouble::of(&error))),
     }
 }
@@ -161,31 +165,17 @@ impl Watch for Quietly<'_> {
 }
 
 impl<'a> Follower<'a> {
-    fn new(
-        request: &'a LiveRequest,
-        shelf: &'a Shelf,
-        desk: &'a dyn Desk<Outcome>,
-    ) -> Option<Self> {
-        let LiveRequest::Follow {
-            spec,
-            recipe,
-            params,
-            empty_cell,
-            record,
-        } = request
-        else {
-            return None;
-        };
-        let stands_for_itself = matches!(spec, SourceSpec::Watched(_));
-        let watch = (!stands_for_itself).then(|| LiveWatch::new(params));
-        Some(Self {
+    fn new(request: &'a FollowRequest, shelf: &'a Shelf, desk: &'a dyn Desk<Outcome>) -> Self {
+        let stands_for_itself = matches!(request.spec, SourceSpec::Watched(_));
+        let watch = (!stands_for_itself).then(|| LiveWatch::new(&request.params));
+        Self {
             shelf,
             desk,
-            spec,
-            record: record.as_deref(),
+            spec: &request.spec,
+            record: request.record.as_deref(),
             recorded: None,
-            recipe,
-            empty_cell: empty_cell.as_ref(),
+            recipe: &request.recipe,
+            empty_cell: request.empty_cell.as_ref(),
             stillness: watch.as_ref().map(LiveWatch::stillness),
             watch,
             rate: FrameRate::default(),
@@ -196,7 +186,7 @@ impl<'a> Follower<'a> {
             inspected: None,
             counted: None,
             told: None,
-        })
+        }
     }
 
     fn follow(mut self, feed: &Feed) -> Option<Outcome> {

@@ -123,7 +123,7 @@ impl Consensus {
         let num_frames = said.len();
         let needed = (self.params.least_share * num_frames as f64).ceil() as usize;
         let Some(name) = most_named(&said) else {
-            return self.nothing_named(&said);
+            return nothing_named(&said);
         };
         let naming: Vec<&Said> = said
             .iter()
@@ -135,7 +135,7 @@ impl Consensus {
             .filter(|said| named(&said.verdict).is_none())
             .count();
         if num_empty > naming.len() {
-            return self.nothing_named(&said);
+            return nothing_named(&said);
         }
         let of = |pick: fn(&Verdict) -> Option<f64>| {
             median(naming.iter().filter_map(|said| pick(&said.verdict)))
@@ -168,9 +168,9 @@ impl Consensus {
         };
         let rejected = if num_accepting < needed || is_contradicted {
             // What most frames complain about says more than that not all of them agree.
-            let complaints = naming.iter().filter_map(|said| complaint(&said.verdict));
+            let mut complaints = naming.iter().filter_map(|said| complaint(&said.verdict));
             let num_rejecting = naming.len() - num_accepting;
-            let last = complaints.last().cloned();
+            let last = complaints.next_back().cloned();
             let is_common = num_rejecting >= needed && !is_contradicted;
             Some(
                 last.filter(|_| is_common)
@@ -204,18 +204,18 @@ impl Consensus {
             pose,
         })
     }
+}
 
-    /// Most frames found nothing to name.
-    fn nothing_named(&self, said: &[&Said]) -> Option<Agreed> {
-        let empty = said.iter().filter(|said| named(&said.verdict).is_none());
-        let num_agreeing = empty.clone().count();
-        Some(Agreed {
-            verdict: empty.last()?.verdict.clone(),
-            num_frames: said.len(),
-            num_agreeing,
-            pose: None,
-        })
-    }
+/// What was found where most frames found nothing to name.
+fn nothing_named(said: &[&Said]) -> Option<Agreed> {
+    let mut empty = said.iter().filter(|said| named(&said.verdict).is_none());
+    let num_agreeing = empty.clone().count();
+    Some(Agreed {
+        verdict: empty.next_back()?.verdict.clone(),
+        num_frames: said.len(),
+        num_agreeing,
+        pose: None,
+    })
 }
 
 fn named(verdict: &Verdict) -> Option<(&str, f64, f64)> {

@@ -135,13 +135,14 @@ impl LiveWatch {
         self.consensus.add(self.last_at, inspection, middle);
         let standing = match self.steady.stillness() {
             Stillness::Watching | Stillness::Moving => Standing::Open,
-            Stillness::Steady { since, .. } => match self.consensus.agreed(since, accept) {
-                Some(agreed) => Standing::Counted(Box::new(unless_out_of_line(agreed, inspection))),
-                None => {
+            Stillness::Steady { since, .. } => {
+                if let Some(agreed) = self.consensus.agreed(since, accept) {
+                    Standing::Counted(Box::new(unless_out_of_line(agreed, inspection)))
+                } else {
                     let (num_frames, needed) = self.consensus.gathered(since);
                     Standing::Gathering { num_frames, needed }
                 }
-            },
+            }
         };
         standing.put_into(inspection);
         standing
