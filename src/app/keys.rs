@@ -41,8 +41,8 @@ const SHORTCUTS: [Shortcut; 10] = [
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
-        key: Key::R,
-        keys: "Ctrl R",
+        key: Key::L,
+        keys: "Ctrl L",
         does: "Record the source, or stop",
         action: || Action::Live(LiveAction::ToggleRecording),
     },

@@ -52,7 +52,7 @@ fn record(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     let size = Vec2::new(ui.available_width(), space::TARGET);
     if state.live.recording.is_none() {
         let text = RichText::new("Record…").font(font::small());
-        let says = "Keep every frame that is taken from the source, as it came (Ctrl R)";
+        let says = "Keep every frame that is taken from the source, as it came (Ctrl L)";
         if ui
             .add(Button::new(text).min_size(size))
             .on_hover_text(says)
