@@ -4,6 +4,7 @@ use std::{io, path::PathBuf};
 
 use thiserror::Error;
 
+use super::kinect::{KinectError, KinectWarning};
 use crate::{
     error::Advice,
     files::{FileError, FileWarning, advice_on, words_of},
@@ -37,6 +38,9 @@ pub enum CaptureError {
         /// The file.
         path: PathBuf,
     },
+    /// A Kinect.
+    #[error(transparent)]
+    Kinect(#[from] KinectError),
     /// A folder without anything to replay.
     #[error("{}: no recording, and no file of a camera", path.display())]
     NoFrames {
@@ -68,7 +72,7 @@ pub enum CaptureError {
         path: PathBuf,
     },
     /// A recording cannot be written on.
-    #[error("{}: cannot record: {}; {num_kept} frames are kept", path.display(), words_of(source))]
+    #[error("{}: cannot record: {}; {} kept", path.display(), words_of(source), counted(*num_kept))]
     Unwritable {
         /// The folder or the frame's file.
         path: PathBuf,
@@ -86,6 +90,14 @@ pub enum CaptureError {
     /// The camera's thread ended by a fault of the program.
     #[error("the camera's thread ended by a fault of the program")]
     Crashed,
+}
+
+fn counted(num_frames: u64) -> String {
+    match num_frames {
+        0 => "no frame is".into(),
+        1 => "1 frame is".into(),
+        num => format!("{num} frames are"),
+    }
 }
 
 /// What helps after an error of a source.
@@ -106,6 +118,7 @@ impl CaptureError {
             Self::FolderGone { may_come: true, .. } | Self::FolderUnreadable { .. } => {
                 Recovery::AskAgain
             }
+            Self::Kinect(error) => error.recovery(),
             Self::FolderGone { .. }
             | Self::File(_)
             | Self::MeshIsNoCapture { .. }
@@ -133,7 +146,9 @@ impl Advice for CaptureError {
             Self::FolderGone { .. } => {
                 "Check the name and that the drive or stick is connected".into()
             }
-            Self::FolderUnreadable { source, .. } => advice_on(source).into(),
+            Self::FolderUnreadable { .. } => {
+                "Ask for access to this folder; it is looked for again by itself".into()
+            }
             Self::File(error) => error.advice(),
             Self::MeshIsNoCapture { path } => {
                 format!(
@@ -141,6 +156,7 @@ impl Advice for CaptureError {
                     path.display()
                 )
             }
+            Self::Kinect(error) => error.advice(),
             Self::NoFrames { path } => format!(
                 "Give the folder that holds the frames; partsight capture --out {} makes one",
                 path.display()
@@ -163,6 +179,9 @@ pub enum CaptureWarning {
     /// About the file it came from.
     #[error(transparent)]
     File(#[from] FileWarning),
+    /// About a Kinect.
+    #[error(transparent)]
+    Kinect(#[from] KinectWarning),
     /// A recording whose end is missing.
     #[error("the recording was cut off; its {num_frames} whole frames are replayed")]
     CutOff {
@@ -177,10 +196,18 @@ pub enum CaptureWarning {
     },
 }
 
+impl CaptureWarning {
+    /// True if it is about the source, and so the same for its captures: told once, it is told.
+    pub fn is_about_source(&self) -> bool {
+        !matches!(self, Self::File(_))
+    }
+}
+
 impl Advice for CaptureWarning {
     fn advice(&self) -> String {
         match self {
             Self::File(warning) => warning.advice(),
+            Self::Kinect(warning) => warning.advice(),
             Self::CutOff { .. } => {
                 "Record again if the end matters; leave room on the disk and stop before pulling out a stick".into()
             }

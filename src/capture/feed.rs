@@ -134,7 +134,7 @@ impl Feed {
                     slot: &theirs,
                     retry: FIRST_RETRY,
                 }
-                .run(&mut open)
+                .run(&mut open);
             })
             .map_err(|source| CaptureError::NoThread { source })?;
         Ok(Self {

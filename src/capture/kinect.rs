@@ -1,10 +1,368 @@
-//! A Kinect.
+//! A Kinect, through libfreenect.
+//!
+//! Depth is taken in the depth camera's own geometry and in millimetres, as the library makes them from the values
+//! that every Kinect keeps of itself; the focal length comes from the same values. The other mode in millimetres moves
+//! every reading to where the colour camera would see it, which leaves holes, and colour is not used here. Libraries
+//! that give only steps of disparity, such as those that play recorded sessions, are turned into millimetres with a
+//! usual Kinect's values, and every capture says so.
+//!
+//! Motor and LED are left alone. (libfreenect itself lights the LED of the later models, 1473 and Kinect for Windows,
+//! while it opens them.) One Kinect at a time can be open in a process.
 
-use super::{error::CaptureError, source::DepthSource, spec::KinectSpec};
+mod claim;
+mod error;
+mod failure;
+mod freenect;
+mod header;
+mod raw_depth;
+mod search;
+mod session;
 
-/// Opens a Kinect.
-pub(super) fn open(_spec: &KinectSpec) -> Result<Box<dyn DepthSource>, CaptureError> {
-    Err(CaptureError::NoThread {
-        source: std::io::ErrorKind::Unsupported.into(),
+use std::{
+    ffi::CString,
+    time::{Duration, Instant},
+};
+
+use jiff::Timestamp;
+
+pub use self::error::{KinectError, KinectWarning};
+use self::{
+    failure::Failed,
+    freenect::{Context, Device, Library},
+    header::{DEPTH_11BIT, DEPTH_MM, DEPTH_MM_MAX, FrameMode},
+    search::Found,
+};
+use super::{
+    error::{CaptureError, CaptureWarning},
+    frame::{DepthFrame, Intrinsics},
+    open::Listed,
+    source::{Captured, DepthSource, Image, Next},
+    spec::{KinectSpec, SourceSpec},
+};
+
+/// A Kinect that sends nothing while it is waited for so long is lost. It takes about a second from the start to its first frame.
+const SILENCE: Duration = Duration::from_secs(5);
+
+/// An open Kinect whose depth stream runs. Dropped, it stops the stream and lets the camera go.
+pub(super) struct Kinect {
+    /// `None` once it is lost or the session has ended.
+    device: Option<Device>,
+    title: String,
+    camera: Intrinsics,
+    units: Units,
+    library: &'static Library,
+    /// Where it plays a recorded session, how long that is.
+    num_entries: Option<usize>,
+    num_frames: u64,
+    silence: Silence,
+    warnings: Vec<CaptureWarning>,
+}
+
+/// What a value of the library's frames stands for.
+enum Units {
+    Millimetres,
+    /// A step of disparity; the table holds its millimetres.
+    Steps(Vec<u16>),
+}
+
+/// Opens the Kinect of that serial number, or the first one, and starts its depth stream.
+pub(super) fn open(spec: &KinectSpec) -> Result<Box<dyn DepthSource>, CaptureError> {
+    Ok(Box::new(Kinect::open(spec)?))
+}
+
+/// The Kinects that are plugged in, or why there is none, with libfreenect where the environment or the system has it.
+pub(super) fn list() -> Vec<Listed> {
+    found_devices().unwrap_or_else(|error| vec![cannot_be_opened(error)])
+}
+
+fn found_devices() -> Result<Vec<Listed>, KinectError> {
+    let library = search::find(None)?;
+    let (context, num_entries) = start(&library)?;
+    let num_devices = context.num_devices().map_err(KinectError::of_opening)?;
+    if num_devices == 0 {
+        return Err(KinectError::NoDevice);
+    }
+    let can_be_opened = |serial| {
+        let spec = KinectSpec {
+            serial,
+            library: None,
+        };
+        Listed {
+            title: title(&spec, &library),
+            spec: Some(SourceSpec::Kinect(spec)),
+            trouble: None,
+        }
+    };
+    if num_entries.is_some() {
+        return Ok(vec![can_be_opened(None)]);
+    }
+    let serials = context.serials().map_err(KinectError::of_opening)?;
+    let num_closed = num_devices.saturating_sub(serials.len());
+    let closed = (0..num_closed).map(|_| cannot_be_opened(KinectError::no_permission()));
+    Ok(serials
+        .into_iter()
+        .map(Some)
+        .map(can_be_opened)
+        .chain(closed)
+        .collect())
+}
+
+fn cannot_be_opened(error: KinectError) -> Listed {
+    Listed {
+        title: "Kinect".into(),
+        spec: None,
+        trouble: Some(error.into()),
+    }
+}
+
+fn title(spec: &KinectSpec, library: &Found) -> String {
+    if library.library.plays_sessions() {
+        "Kinect, a recorded session".into()
+    } else {
+        SourceSpec::Kinect(spec.clone()).title()
+    }
+}
+
+/// Starts the library. A build that plays recorded sessions ends the program where it has none, so that is looked at
+/// before; its number of entries comes with the context.
+fn start(found: &Found) -> Result<(Context, Option<usize>), KinectError> {
+    let plays_session = found.library.plays_sessions();
+    let num_entries = plays_session
+        .then(|| session::check(&found.name))
+        .transpose()?;
+    let context =
+        Context::new(found.library).map_err(|error| KinectError::of_start(error, &found.name))?;
+    Ok((context, num_entries))
+}
+
+impl Kinect {
+    fn open(spec: &KinectSpec) -> Result<Self, KinectError> {
+        let library = search::find(spec.library.as_deref())?;
+        let (context, num_entries) = start(&library)?;
+        let mut device = open_device(context, num_entries.is_some(), spec.serial.as_deref())?;
+        let mode = best_mode(&device.depth_modes()).ok_or(KinectError::NoDepthMode)?;
+        let mut warnings = Vec::new();
+        let camera = camera_of(&device, &mode).unwrap_or_else(|| {
+            let camera = usual_camera(&mode);
+            warnings.push(KinectWarning::FocalLengthAssumed { pixels: camera.fx }.into());
+            camera
+        });
+        let units = if mode.format == DEPTH_MM {
+            Units::Millimetres
+        } else {
+            warnings.push(KinectWarning::DepthScaleAssumed.into());
+            Units::Steps(raw_depth::millimetres_by_step())
+        };
+        device
+            .start(mode)
+            .map_err(|failed| KinectError::NotStarted { said: failed.said })?;
+        Ok(Self {
+            device: Some(device),
+            title: title(spec, &library),
+            camera,
+            units,
+            library: library.library,
+            num_entries,
+            num_frames: 0,
+            silence: Silence::default(),
+            warnings,
+        })
+    }
+
+    fn captured(&mut self, depth: Vec<u16>) -> Captured {
+        self.num_frames += 1;
+        self.silence = Silence::default();
+        Captured {
+            number: self.num_frames,
+            name: format!("Kinect frame {}", self.num_frames),
+            taken_at: Timestamp::now(),
+            arrived: Instant::now(),
+            image: Image::Depth(DepthFrame {
+                intrinsics: self.camera,
+                metres_per_unit: 0.001,
+                depth,
+            }),
+            is_simulated: false,
+            truth: None,
+            warnings: self.warnings.clone(),
+        }
+    }
+
+    /// Lets the camera go.
+    fn end(&mut self, reason: KinectError) -> Result<Next, CaptureError> {
+        self.device = None;
+        Err(reason.into())
+    }
+}
+
+impl DepthSource for Kinect {
+    fn title(&self) -> String {
+        self.title.clone()
+    }
+
+    fn is_simulated(&self) -> bool {
+        false
+    }
+
+    fn next(&mut self, wait: Duration) -> Result<Next, CaptureError> {
+        let start = Instant::now();
+        let mut waited = Duration::ZERO;
+        loop {
+            // Asked beyond its end, the library would also write about it among the program's own output.
+            if self
+                .num_entries
+                .is_some_and(|num| self.library.num_turns() >= num)
+            {
+                self.device = None;
+            }
+            let Some(device) = &mut self.device else {
+                return Ok(Next::End);
+            };
+            let received = device.receive(wait.saturating_sub(waited));
+            let depth = received.map(|values| values.map(|values| self.units.millimetres(values)));
+            let turn = start.elapsed().saturating_sub(waited);
+            waited += turn;
+            match depth {
+                Ok(Some(depth)) => return Ok(Next::Captured(self.captured(depth))),
+                Ok(None) if self.num_entries.is_some() => {}
+                Ok(None) => {
+                    if let Some(seconds) = self.silence.goes_on(turn) {
+                        return self.end(KinectError::Silent { seconds });
+                    }
+                }
+                // A session that is over and a camera that is gone have the same code.
+                Err(_) if self.num_entries.is_some() => {
+                    self.device = None;
+                    return Ok(Next::End);
+                }
+                Err(Failed { said, .. }) => return self.end(KinectError::Lost { said }),
+            }
+            if waited >= wait {
+                return Ok(Next::NotYet);
+            }
+        }
+    }
+}
+
+impl Units {
+    /// A frame in millimetres; 0 is no reading.
+    fn millimetres(&self, values: &[u16]) -> Vec<u16> {
+        match self {
+            Self::Millimetres => values
+                .iter()
+                .map(|&mm| if mm < DEPTH_MM_MAX { mm } else { 0 })
+                .collect(),
+            Self::Steps(table) => values
+                .iter()
+                .map(|&step| table.get(usize::from(step)).copied().unwrap_or(0))
+                .collect(),
+        }
+    }
+}
+
+/// How long a camera was waited for and sent nothing. Pauses in which nobody waited do not count.
+#[derive(Default)]
+struct Silence(Duration);
+
+impl Silence {
+    /// It went on for so long. Its whole seconds, if those are too many for a camera that is well.
+    fn goes_on(&mut self, turn: Duration) -> Option<u64> {
+        self.0 += turn;
+        (self.0 >= SILENCE).then_some(self.0.as_secs())
+    }
+}
+
+fn open_device(
+    context: Context,
+    plays_session: bool,
+    serial: Option<&str>,
+) -> Result<Device, KinectError> {
+    let num_devices = context.num_devices().map_err(KinectError::of_opening)?;
+    if num_devices == 0 {
+        return Err(KinectError::NoDevice);
+    }
+    let Some(serial) = serial else {
+        return context.open(None).map_err(KinectError::of_opening);
+    };
+    let found = context.serials().map_err(KinectError::of_opening)?;
+    // A session has one camera, and its number is not known.
+    if !plays_session && !found.iter().any(|one| one == serial) {
+        if found.len() < num_devices {
+            return Err(KinectError::no_permission());
+        }
+        return Err(KinectError::NoSuchSerial {
+            serial: serial.to_owned(),
+            found,
+        });
+    }
+    let serial = CString::new(serial).ok();
+    context
+        .open(serial.as_deref())
+        .map_err(KinectError::of_opening)
+}
+
+/// Millimetres made by the library, else steps of disparity.
+fn best_mode(modes: &[FrameMode]) -> Option<FrameMode> {
+    let of_format = |format| modes.iter().find(|mode| mode.format == format).copied();
+    of_format(DEPTH_MM).or_else(|| of_format(DEPTH_11BIT))
+}
+
+/// The camera that the library itself reckons with; `None` where it does not tell.
+fn camera_of(device: &Device, mode: &FrameMode) -> Option<Intrinsics> {
+    // Far enough away that whole millimetres are no limit, and within what a C int can hold.
+    let far_mm = 1_000_000;
+    let (width, height) = (i32::from(mode.width), i32::from(mode.height));
+    let (left, top) = device.point_mm(0, 0, far_mm)?;
+    let (right, bottom) = device.point_mm(width, height, far_mm)?;
+    let far_mm = f64::from(far_mm);
+    let fx = far_mm * f64::from(width) / (right - left);
+    let fy = far_mm * f64::from(height) / (bottom - top);
+    let is_camera = |focal: f64| focal > 0.2 * f64::from(width) && focal < 5.0 * f64::from(width);
+    (is_camera(fx) && is_camera(fy)).then(|| Intrinsics {
+        cx: -left * fx / far_mm,
+        cy: -top * fy / far_mm,
+        fx,
+        fy,
+        ..usual_camera(mode)
     })
+}
+
+/// The camera of a Kinect with the usual values.
+fn usual_camera(mode: &FrameMode) -> Intrinsics {
+    let (width, height) = (f64::from(mode.width), f64::from(mode.height));
+    let focal = raw_depth::FOCAL_LENGTH * width / 640.0;
+    Intrinsics {
+        width: usize::try_from(mode.width).unwrap_or(0),
+        height: usize::try_from(mode.height).unwrap_or(0),
+        fx: focal,
+        fy: focal,
+        // As libfreenect has it in `freenect_camera_to_world`.
+        cx: width / 2.0,
+        cy: height / 2.0,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_camera_is_silent_for_too_long_only_after_its_time() {
+        let mut silence = Silence::default();
+        assert_eq!(silence.goes_on(Duration::ZERO), None);
+        assert_eq!(silence.goes_on(Duration::from_millis(4_999)), None);
+        assert_eq!(silence.goes_on(Duration::from_millis(1)), Some(5));
+    }
+
+    #[test]
+    fn what_is_beyond_the_range_is_no_reading() {
+        let values = [0, 1234, 9_999, 10_000, u16::MAX];
+        assert_eq!(
+            Units::Millimetres.millimetres(&values),
+            [0, 1234, 9_999, 0, 0]
+        );
+        let steps = Units::Steps(raw_depth::millimetres_by_step()).millimetres(&[802, 2047, 2048]);
+        assert_eq!(steps[1..], [0, 0]);
+        assert!((1200..1205).contains(&steps[0]));
+    }
 }

@@ -23,6 +23,8 @@ mod watched;
 
 pub use self::error::{CaptureError, CaptureWarning, Recovery};
 pub use self::feed::{Delivery, Feed, FeedItem, FeedState, FeedStatus};
+pub use self::frame::{DepthFrame, Intrinsics};
+pub use self::kinect::{KinectError, KinectWarning};
 pub use self::open::{Listed, list, open};
 pub use self::rate::FrameRate;
 pub use self::recording::{Recorder, Replay};

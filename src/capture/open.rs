@@ -33,9 +33,10 @@ pub struct Listed {
 
 /// The sources that can be found without being told a folder: the simulated cell and every connected camera.
 pub fn list() -> Vec<Listed> {
-    vec![Listed {
+    let simulated = Listed {
         title: "Simulated cell".into(),
         spec: Some(SourceSpec::Simulated(SimulatedSpec::default())),
         trouble: None,
-    }]
+    };
+    [simulated].into_iter().chain(kinect::list()).collect()
 }

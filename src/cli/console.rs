@@ -83,6 +83,16 @@ impl Console {
         }
     }
 
+    /// Counts on a terminal what comes, where nobody can say how much that will be.
+    pub(super) fn start_counting(&mut self) {
+        if io::stderr().is_terminal() {
+            let style = ProgressStyle::with_template("{spinner} {pos} {msg}");
+            self.progress = ProgressBar::no_length()
+                .with_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
+            self.progress.enable_steady_tick(Duration::from_millis(200));
+        }
+    }
+
     /// One input more is done; `next` comes now.
     pub(super) fn begin(&self, next: &dyn Display) {
         self.progress.set_message(next.to_string());

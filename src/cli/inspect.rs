@@ -1,6 +1,8 @@
 //! `partsight inspect`: which part is it, and where?
 
 use std::{
+    fmt::Display,
+    ops::ControlFlow,
     path::{Path, PathBuf},
     sync::Arc,
 };
@@ -10,16 +12,21 @@ use clap::Args;
 use super::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console},
+    follow::{follow, parse_source},
     input::open_scene,
     recipe::RecipeChoice,
     verdict::{complaint, outcome_of, place_of, show_card},
 };
 use crate::{
-    error::Advice as _,
+    capture::{FeedItem, SourceSpec},
+    error::Advice,
     library::Library,
     pipeline::{self, Inspection, Recipe, Unwatched, Verdict},
-    report::{InspectionLine, ReportFolder, stage_pictures},
-    stages::segment::{EmptyCell, EmptyCellError},
+    report::{CaptureLine, InspectionLine, ReportFolder, stage_pictures},
+    stages::{
+        scene::{SceneCloud, scene_from_image},
+        segment::{EmptyCell, EmptyCellError},
+    },
 };
 
 /// Recognise the part in captured scenes and say where it is
@@ -32,15 +39,26 @@ Examples:
   partsight inspect misread.pcd --report why/
   partsight inspect door.pcd --empty-cell cell.pcd
   partsight inspect door.pcd --matcher paper --pose icp-ga
+  partsight inspect --source simulated
+  partsight inspect --source watch:/mnt/scanner --json
 
 Files: PCD, PLY, XYZ or CSV text, or a 16-bit depth PNG with its intrinsics in a JSON beside it; metres.
 Exit codes: 0 every input accepted, 1 something was not accepted, 2 something could not be read.
 Without a part to compare with, because the library is empty or cannot be loaded, nothing is inspected: one error, no
-line of JSON, exit code 2.")]
+line of JSON, exit code 2.
+With --source: follows a camera, a recording or a folder until it ends, --frames were inspected, or Ctrl-C. Of a live
+camera the newest frame is inspected and those in between are dropped; of a recording or folder every one is inspected.
+Exit codes as with files; 1 also if nothing came. What can be a source: partsight capture --help")]
 pub(super) struct InspectArgs {
     /// Captured scenes
-    #[arg(required = true, value_name = "FILE")]
+    #[arg(required_unless_present = "source", value_name = "FILE")]
     files: Vec<PathBuf>,
+    /// Instead of files: what a camera, a recording or a folder gives, as it comes
+    #[arg(long, value_name = "SOURCE", value_parser = parse_source, conflicts_with = "files")]
+    source: Option<SourceSpec>,
+    /// Of a source: captures to inspect; without it, until Ctrl-C or the source's end
+    #[arg(long, value_name = "N", requires = "source", value_parser = clap::value_parser!(u64).range(1..))]
+    frames: Option<u64>,
     #[command(flatten)]
     library: LibraryChoice,
     #[command(flatten)]
@@ -61,6 +79,7 @@ pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<O
     let recipe = args.recipe.recipe();
     let telling = match (args.json, args.files.as_slice()) {
         (true, _) => Telling::Json,
+        (false, []) => Telling::Rows(Columns::for_captures(&library)),
         (false, [_]) => Telling::Card,
         (false, files) => Telling::Rows(Columns::for_files(files, &library)),
     };
@@ -77,7 +96,6 @@ pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<O
         None => None,
     };
     telling.head(console);
-    console.start_progress(args.files.len());
     let mut one = Inspector {
         library,
         recipe,
@@ -85,6 +103,10 @@ pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<O
         telling,
         report,
     };
+    if let Some(source) = &args.source {
+        return inspect_source(source, args.frames, &mut one, console);
+    }
+    console.start_progress(args.files.len());
     let mut outcome = Outcome::Accepted;
     for path in &args.files {
         console.begin(&path.display());
@@ -105,6 +127,46 @@ struct Inspector {
 
 impl Inspector {
     fn inspect(&mut self, path: &Path, console: &mut Console) -> anyhow::Result<Outcome> {
+        let name = path.display().to_string();
+        match open_scene(path) {
+            Ok((scene, warnings)) => {
+                for warning in &warnings {
+                    console.warn(&format_args!("{name}: {warning}"), warning);
+                }
+                self.inspect_scene(path, scene, None, console)
+            }
+            // The message names the file.
+            Err(error) => self.unreadable(path, &error, &error, console),
+        }
+    }
+
+    /// Something that is no scene, and why; `shown` is the same in words for people.
+    fn unreadable(
+        &mut self,
+        path: &Path,
+        error: &impl Advice,
+        shown: &dyn Display,
+        console: &mut Console,
+    ) -> anyhow::Result<Outcome> {
+        let name = path.display().to_string();
+        let line = InspectionLine::unreadable(&name, shown).to_json();
+        self.telling.unreadable(&name, &line, console);
+        console.note(&format_args!("error: {shown}"));
+        console.note(&format_args!("  to do: {}", error.advice()));
+        if let Some(report) = &mut self.report {
+            report.write(path, &line, &[]).advised()?;
+        }
+        Ok(Outcome::CouldNotRun)
+    }
+
+    /// A scene, and what is known of it if a source captured it; its report takes its name from the path.
+    fn inspect_scene(
+        &mut self,
+        path: &Path,
+        mut scene: SceneCloud,
+        capture: Option<CaptureLine<'_>>,
+        console: &mut Console,
+    ) -> anyhow::Result<Outcome> {
         let Self {
             library,
             recipe,
@@ -113,30 +175,14 @@ impl Inspector {
             report,
         } = self;
         let name = path.display().to_string();
-        let (mut scene, warnings) = match open_scene(path) {
-            Ok(opened) => opened,
-            Err(error) => {
-                let line = InspectionLine::unreadable(&name, &error).to_json();
-                telling.unreadable(&name, &line, console);
-                // The message names the file.
-                console.note(&format_args!("error: {error}"));
-                console.note(&format_args!("  to do: {}", error.advice()));
-                if let Some(report) = report {
-                    report.write(path, &line, &[]).advised()?;
-                }
-                return Ok(Outcome::CouldNotRun);
-            }
-        };
-        for warning in &warnings {
-            console.warn(&format_args!("{name}: {warning}"), warning);
-        }
         if empty_cell.as_ref().is_some_and(|cell| !cell.fits(&scene)) {
             let other = EmptyCellError::OtherPicture;
             console.warn(&format_args!("{name}: {other}"), &other);
         }
         scene.empty_cell.clone_from(empty_cell);
         let inspection = pipeline::run(&scene, library, recipe, &Unwatched)?;
-        let line = InspectionLine::of(&name, &inspection).to_json();
+        let line = InspectionLine::of(&name, &inspection).captured(capture);
+        let line = line.to_json();
         telling.inspected(&name, &line, &inspection, library, console);
         if let Some(report) = report {
             let pictures = stage_pictures(&scene, &inspection);
@@ -144,6 +190,54 @@ impl Inspector {
         }
         Ok(outcome_of(&inspection))
     }
+}
+
+/// Inspects what a source gives, as it comes.
+fn inspect_source(
+    source: &SourceSpec,
+    frames: Option<u64>,
+    inspector: &mut Inspector,
+    console: &mut Console,
+) -> anyhow::Result<Outcome> {
+    let text = source.to_string();
+    let mut outcome = Outcome::Accepted;
+    let mut num_inspected = 0;
+    let status = follow(source, console, |item, status, console| {
+        let one = match item {
+            FeedItem::Skipped(skipped) => {
+                let name = Path::new(&skipped.name);
+                inspector.unreadable(name, &*skipped.error, &skipped.error, console)?
+            }
+            FeedItem::Captured(captured) => {
+                if num_inspected == 0 && captured.is_simulated {
+                    console.note(&"Simulated: no camera is read.");
+                }
+                for warning in &captured.warnings {
+                    console.warn(&format_args!("{}: {warning}", captured.name), warning);
+                }
+                num_inspected += 1;
+                let line = CaptureLine::of(&text, &captured, status.num_dropped);
+                let name = captured.name;
+                let scene = scene_from_image(captured.image);
+                inspector.inspect_scene(Path::new(&name), scene, Some(line), console)?
+            }
+        };
+        outcome = outcome.max(one);
+        Ok(match frames {
+            Some(frames) if num_inspected >= frames => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
+        })
+    })?;
+    let (dropped, skipped) = (status.num_dropped, status.num_skipped);
+    console.note(&format_args!(
+        "{num_inspected} inspected, {dropped} dropped, {skipped} could not be read"
+    ));
+    // Nothing was accepted, then.
+    Ok(if num_inspected == 0 {
+        outcome.max(Outcome::NotAccepted)
+    } else {
+        outcome
+    })
 }
 
 /// How results are shown.
@@ -199,6 +293,14 @@ impl Columns {
         Self {
             scene: scenes.max().unwrap_or(0).max("SCENE".len()),
             part: parts.max().unwrap_or(0).max("PART".len()),
+        }
+    }
+
+    /// Names of captures are not known before they come: most are as long as this.
+    fn for_captures(library: &Library) -> Self {
+        Self {
+            scene: "simulated frame 12345".len(),
+            ..Self::for_files(&[], library)
         }
     }
 

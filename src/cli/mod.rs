@@ -5,12 +5,15 @@
 
 mod align;
 mod bench;
+mod capture;
 mod console;
 mod enrol;
 mod evaluate;
 mod first_look;
+mod follow;
 mod input;
 mod inspect;
+mod interrupt;
 mod library;
 mod recipe;
 mod simulate;
@@ -40,6 +43,7 @@ Without a command: opens the window. Without a display: inspects one frame of a 
 Examples:
   partsight simulate --part fender --out fender.pcd
   partsight inspect fender.pcd
+  partsight inspect --source simulated
   partsight --open fender.pcd
   partsight inspect captures/*.pcd --json > verdicts.jsonl
   partsight enrol door.pcd --name front_door
@@ -61,6 +65,7 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Inspect(inspect::InspectArgs),
+    Capture(capture::CaptureArgs),
     Enrol(enrol::EnrolArgs),
     Library(library::LibraryArgs),
     Align(align::AlignArgs),
@@ -107,6 +112,7 @@ pub fn run(cli: Cli) -> Outcome {
             window(&LibraryChoice { library }, cli.open, &mut console)
         }
         Some(Command::Inspect(args)) => inspect::run(&args, &mut console),
+        Some(Command::Capture(args)) => capture::run(&args, &mut console),
         Some(Command::Enrol(args)) => enrol::run(&args, &mut console),
         Some(Command::Library(args)) => library::run(&args, &mut console),
         Some(Command::Align(args)) => align::run(&args, &mut console),

@@ -80,10 +80,33 @@ impl KdTree {
         self.nearest_but(query, f32::INFINITY, index as u32)
     }
 
+    /// The nearest point as by [`Self::nearest`], and the squared distance that every other point has at least.
+    pub fn nearest_and_next(
+        &self,
+        query: &Point3<f32>,
+        radius_sq: f32,
+    ) -> Option<(Neighbour, f32)> {
+        let best = self.best::<true>(query, radius_sq, u32::MAX);
+        Some((self.neighbour(&best)?, best.next_sq))
+    }
+
     fn nearest_but(&self, query: &Point3<f32>, radius_sq: f32, skipped: u32) -> Option<Neighbour> {
+        self.neighbour(&self.best::<false>(query, radius_sq, skipped))
+    }
+
+    fn neighbour(&self, best: &Best) -> Option<Neighbour> {
+        (best.position != usize::MAX).then(|| Neighbour {
+            index: self.indices[best.position] as usize,
+            distance_sq: best.distance_sq,
+        })
+    }
+
+    /// `NEXT`: whether the second nearest is looked for too.
+    fn best<const NEXT: bool>(&self, query: &Point3<f32>, radius_sq: f32, skipped: u32) -> Best {
         let mut best = Best {
             position: usize::MAX,
             distance_sq: radius_sq,
+            next_sq: radius_sq,
             skipped,
         };
         let query = [query.x, query.y, query.z];
@@ -94,15 +117,12 @@ impl KdTree {
             depth: self.depth,
             offsets: [0.0; 3],
         };
-        self.search(&query, cell, &mut best);
-        (best.position != usize::MAX).then(|| Neighbour {
-            index: self.indices[best.position] as usize,
-            distance_sq: best.distance_sq,
-        })
+        self.search::<NEXT>(&query, cell, &mut best);
+        best
     }
 
     /// Descends the nearer child first and the farther one only if its cell can hold something closer.
-    fn search(&self, query: &[f32; 3], cell: Cell, best: &mut Best) {
+    fn search<const NEXT: bool>(&self, query: &[f32; 3], cell: Cell, best: &mut Best) {
         let Cell {
             node,
             start,
@@ -115,8 +135,11 @@ impl KdTree {
                 let d = [p[0] - query[0], p[1] - query[1], p[2] - query[2]];
                 let distance_sq = d[0] * d[0] + d[1] * d[1] + d[2] * d[2];
                 if distance_sq < best.distance_sq && self.indices[start + i] != best.skipped {
+                    best.next_sq = best.distance_sq;
                     best.position = start + i;
                     best.distance_sq = distance_sq;
+                } else if NEXT && distance_sq < best.next_sq {
+                    best.next_sq = distance_sq;
                 }
             }
             return;
@@ -145,10 +168,11 @@ impl KdTree {
         } else {
             (high, low)
         };
-        self.search(query, near, best);
+        self.search::<NEXT>(query, near, best);
         far.offsets[axis] = to_plane;
-        if far.offsets.iter().map(|o| o * o).sum::<f32>() < best.distance_sq {
-            self.search(query, far, best);
+        let limit_sq = if NEXT { best.next_sq } else { best.distance_sq };
+        if far.offsets.iter().map(|o| o * o).sum::<f32>() < limit_sq {
+            self.search::<NEXT>(query, far, best);
         }
     }
 
@@ -187,6 +211,8 @@ impl KdTree {
 struct Best {
     position: usize,
     distance_sq: f32,
+    /// Of the second nearest, if that is looked for.
+    next_sq: f32,
     /// Index of a point that does not count.
     skipped: u32,
 }

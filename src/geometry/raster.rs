@@ -30,6 +30,19 @@ impl BinaryImage {
             && self.pixels[row as usize * self.width + column as usize] != 0
     }
 
+    /// The same in an eighth of the memory, to look at in many places.
+    pub fn packed(&self) -> PackedImage {
+        let mut bits = vec![0; self.pixels.len().div_ceil(64)];
+        for i in (0..self.pixels.len()).filter(|i| self.pixels[*i] != 0) {
+            bits[i / 64] |= 1 << (i % 64);
+        }
+        PackedImage {
+            width: self.width,
+            height: self.height,
+            bits,
+        }
+    }
+
     /// The number of set pixels.
     pub fn num_set(&self) -> usize {
         self.pixels.iter().map(|&p| usize::from(p)).sum()
@@ -80,6 +93,27 @@ impl BinaryImage {
     }
 }
 
+/// A binary image of one bit per pixel.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct PackedImage {
+    width: usize,
+    height: usize,
+    /// Row by row from the top left, the lowest bit first.
+    bits: Vec<u64>,
+}
+
+impl PackedImage {
+    /// True if the pixel is set; pixels outside the image are not.
+    pub fn is_set(&self, column: i32, row: i32) -> bool {
+        // What is below 0 is beyond the other end.
+        let (column, row) = (column as u32 as usize, row as u32 as usize);
+        column < self.width && row < self.height && {
+            let i = row * self.width + column;
+            self.bits[i / 64] >> (i % 64) & 1 == 1
+        }
+    }
+}
+
 #[cfg(test)]
 mod tests {
     use proptest::prelude::*;
@@ -119,6 +153,22 @@ mod tests {
             let slow = slow_spread(&slow_spread(&image, radius as i64, true), radius as i64, false);
             image.close(radius);
             prop_assert_eq!(image, slow);
+        }
+
+        #[test]
+        fn a_packed_image_has_the_same_pixels_set(
+            width in 1_usize..20,
+            height in 1_usize..20,
+            seed in prop::collection::vec(0_u8..2, 400),
+        ) {
+            let image = BinaryImage { width, height, pixels: seed[..width * height].to_vec() };
+            let packed = image.packed();
+            for row in -2..height as i32 + 2 {
+                for column in -2..width as i32 + 2 {
+                    let expected = image.is_set(i64::from(column), i64::from(row));
+                    prop_assert_eq!(packed.is_set(column, row), expected);
+                }
+            }
         }
     }
 }

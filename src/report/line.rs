@@ -1,8 +1,10 @@
 //! The inspection as one line of JSON.
 
+use jiff::Timestamp;
 use serde::Serialize;
 
 use crate::{
+    capture::Captured,
     geometry::rigid::row_major,
     pipeline::{Inspection, Timings, Verdict},
 };
@@ -15,6 +17,8 @@ pub const SCHEMA: u32 = 1;
 pub struct InspectionLine<'a> {
     schema: u32,
     scene: &'a str,
+    #[serde(flatten)]
+    capture: Option<CaptureLine<'a>>,
     status: &'static str,
     part: Option<&'a str>,
     accepted: bool,
@@ -24,6 +28,31 @@ pub struct InspectionLine<'a> {
     pose: Option<PoseLine>,
     ranking: Vec<RankLine<'a>>,
     timings_ms: Option<TimingsLine>,
+}
+
+/// What a line says more of a capture that came from a source.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct CaptureLine<'a> {
+    /// What was opened, as it can be opened again.
+    source: &'a str,
+    number: u64,
+    taken_at: Timestamp,
+    simulated: bool,
+    /// Captures that were dropped since the source was opened, because others were being inspected.
+    dropped: u64,
+}
+
+impl<'a> CaptureLine<'a> {
+    /// Of a capture of this source.
+    pub fn of(source: &'a str, captured: &Captured, num_dropped: u64) -> Self {
+        Self {
+            source,
+            number: captured.number,
+            taken_at: captured.taken_at,
+            simulated: captured.is_simulated,
+            dropped: num_dropped,
+        }
+    }
 }
 
 #[derive(Debug, Serialize)]
@@ -64,6 +93,7 @@ impl<'a> InspectionLine<'a> {
         Self {
             schema: SCHEMA,
             scene,
+            capture: None,
             status: "unreadable",
             part: None,
             accepted: false,
@@ -74,6 +104,12 @@ impl<'a> InspectionLine<'a> {
             ranking: Vec::new(),
             timings_ms: None,
         }
+    }
+
+    /// The same line, of a scene that a source captured.
+    #[must_use]
+    pub fn captured(self, capture: Option<CaptureLine<'a>>) -> Self {
+        Self { capture, ..self }
     }
 
     /// Of a scene by this name.

@@ -14,7 +14,7 @@ pub mod stand_off;
 pub use self::{
     evaluation::evaluation_picture,
     folder::{ReportError, ReportFolder},
-    line::{InspectionLine, SCHEMA},
+    line::{CaptureLine, InspectionLine, SCHEMA},
     pictures::{Picture, stage_pictures, strip, write_png},
     scaling::{TimeCurve, scaling_picture, stacked},
 };

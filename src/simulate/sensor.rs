@@ -294,22 +294,26 @@ fn smooth_noise(camera: &Intrinsics, random: &mut Pcg64) -> Vec<f32> {
                 *value = (f32::from(draw) + 0.5) / 32768.0 - 1.0;
             }
         }
-        for (k, weight) in WEIGHTS.iter().enumerate() {
-            for (value, draw) in row.iter_mut().zip(&draws[k..]) {
-                *value += weight * draw;
-            }
-        }
+        // All five in one pass: this is most of the time that a frame takes.
+        let near = std::array::from_fn(|k| &draws[k..][..width]);
+        add_up(&WEIGHTS, near, row);
     }
+    let scaled = WEIGHTS.map(|weight| scale * weight);
     let mut field = vec![0.0_f32; width * height];
     for (v, row) in field.chunks_exact_mut(width).enumerate() {
-        for (k, weight) in WEIGHTS.iter().enumerate() {
-            let source = &along[(v + k) * width..][..width];
-            for (value, draw) in row.iter_mut().zip(source) {
-                *value += scale * weight * draw;
-            }
-        }
+        let near = std::array::from_fn(|k| &along[(v + k) * width..][..width]);
+        add_up(&scaled, near, row);
     }
     field
+}
+
+/// Puts the weighted sum of five rows, added up from the first to the last, into a sixth.
+fn add_up(weights: &[f32; 5], rows: [&[f32]; 5], sum: &mut [f32]) {
+    let [v, w, x, y, z] = weights;
+    let [a, b, c, d, e] = rows.map(|row| &row[..sum.len()]);
+    for (u, sum) in sum.iter_mut().enumerate() {
+        *sum = v * a[u] + w * b[u] + x * c[u] + y * d[u] + z * e[u];
+    }
 }
 
 #[cfg(test)]

@@ -79,7 +79,7 @@ pub fn frame_of_mesh(setup: &CellSetup, mesh: &TriangleMesh) -> SimulatedFrame {
 }
 
 /// The part's pixels in a picture three times as wide and high: all of them, unless it nearly touches the camera.
-pub(super) fn num_pixels_without_edges(
+fn num_pixels_without_edges(
     part: &TriangleMesh,
     camera_from_part: &RigidTransform,
     camera: &Intrinsics,

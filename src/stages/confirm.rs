@@ -25,7 +25,8 @@ use crate::{
     stages::{
         pose::{
             PoseError, PoseEstimate,
-            quality::Tolerance,
+            closest::Closest,
+            quality::{NUM_LOOKED_FOR, Tolerance},
             refine::{Level, Search, Source, refine},
             uncertainty::uncertainty,
         },
@@ -41,7 +42,7 @@ use crate::{
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct ConfirmParams {
-    /// References looked at, 1..20. Raising it costs about 1.5 ms each and helps parts half hidden.
+    /// References looked at, 1..20. Raising it costs about 1 ms each and helps parts half hidden.
     pub num_references: usize,
     /// Distance from a reference at which a scene point without noise still lies on it, 2..50 mm.
     pub tolerance: Metres,
@@ -101,25 +102,33 @@ const FIRST_OF_A_PIECE: [Level; 2] = [
     },
 ];
 const SECOND: [Level; 1] = [Level {
-    num_surface: 400,
-    num_edges: 128,
+    num_surface: 250,
+    num_edges: 64,
     scale: 0.025,
     max_steps: 8,
     search: Search::Field,
 }];
-const THIRD: [Level; 2] = [
+/// The last steps alone take all points.
+const THIRD: [Level; 3] = [
     Level {
-        num_surface: 1000,
-        num_edges: 256,
+        num_surface: 400,
+        num_edges: 128,
         scale: 0.015,
         max_steps: 10,
         search: Search::Field,
     },
     Level {
+        num_surface: 400,
+        num_edges: 128,
+        scale: 0.01,
+        max_steps: 12,
+        search: Search::Tree,
+    },
+    Level {
         num_surface: 1500,
         num_edges: 256,
         scale: 0.01,
-        max_steps: 15,
+        max_steps: 5,
         search: Search::Tree,
     },
 ];
@@ -245,14 +254,11 @@ impl<'a> Seen<'a> {
         candidate.refined.iterations.extend(last.iterations);
         candidate.refined.stopped = last.stopped;
         candidate.refined.target_from_source = last.target_from_source;
-        let pose = &candidate.refined.target_from_source;
-        candidate.uncertainty = Some(uncertainty(&self.source, &target, pose, &THIRD[1]));
-        (candidate.fit, candidate.evidence) = self.weigh(
-            reference,
-            candidate.view,
-            &last.target_from_source,
-            Search::Tree,
-        );
+        let (source, pose) = (&self.source, &last.target_from_source);
+        let closest = Closest::of_each(&source.surface, &target, pose, Search::Tree);
+        candidate.uncertainty = Some(uncertainty(source, &closest, &target, pose, &THIRD[2]));
+        (candidate.fit, candidate.evidence) =
+            self.weigh(reference, candidate.view, pose, &closest, NUM_LOOKED_FOR);
     }
 }
 
@@ -263,7 +269,7 @@ pub const UNCONFIRMED: f64 = 0.3;
 fn thinned_source(scene: &Scene<'_>, outline: &Outline, params: &ConfirmParams) -> Source {
     let mut rng = Pcg64::seed_from_u64(params.seed);
     let points = &scene.part.cloud.points;
-    let wanted = THIRD[1].num_surface;
+    let wanted = THIRD[2].num_surface;
     let mut surface: Vec<Point3<f32>> = points
         .iter()
         .step_by((points.len() / wanted).max(1))

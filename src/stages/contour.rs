@@ -148,21 +148,22 @@ pub fn lift_border(border: &[Point2<f64>], plane: &PlaneImage) -> Vec<Point3<f64
 fn height_near(plane: &PlaneImage, point: &Point2<f64>) -> Option<f64> {
     let (column, row) = plane.pixel_of(point);
     let (column, row) = (column.round() as i64, row.round() as i64);
-    let mut nearest: Option<(i64, f32)> = None;
-    for dv in -2..=2_i64 {
-        for du in -2..=2_i64 {
-            let (u, v) = (column + du, row + dv);
-            if !plane.image.is_set(u, v) {
-                continue;
-            }
-            let height = plane.heights[v as usize * plane.image.width + u as usize];
-            let distance = du * du + dv * dv;
-            if height.is_finite() && nearest.is_none_or(|n| distance < n.0) {
-                nearest = Some((distance, height));
-            }
-        }
-    }
-    nearest.map(|n| f64::from(n.1))
+    let reading = |du: i64, dv: i64| {
+        let (u, v) = (column + du, row + dv);
+        let height = plane
+            .image
+            .is_set(u, v)
+            .then(|| plane.heights[v as usize * plane.image.width + u as usize])?;
+        height.is_finite().then_some(f64::from(height))
+    };
+    let around = || (-2..=2).flat_map(|dv| (-2..=2).map(move |du| (du, dv)));
+    // A border's own pixels have one, as a rule.
+    reading(0, 0).or_else(|| {
+        around()
+            .filter_map(|(du, dv)| Some((du * du + dv * dv, reading(du, dv)?)))
+            .min_by_key(|(distance, _)| *distance)
+            .map(|(_, height)| height)
+    })
 }
 
 /// The eight neighbours in clockwise order as seen on the picture (row grows downwards), beginning to the right.

@@ -299,22 +299,28 @@ fn placements_of(
 ) -> impl Iterator<Item = Placement> {
     let values = &correlator.values;
     let n = values.len();
-    let strength = |lag: usize| values[lag].norm_sqr();
-    let peak = |away_from: Option<usize>| {
-        (0..n)
-            .filter(|&lag| {
-                let apart = away_from.is_none_or(|other| {
-                    let d = lag.abs_diff(other);
-                    d.min(n - d) > n / 16
-                });
-                apart
-                    && strength(lag) >= strength((lag + 1) % n)
-                    && strength(lag) >= strength((lag + n - 1) % n)
-            })
-            .max_by(|&a, &b| strength(a).total_cmp(&strength(b)))
+    let strengths: Vec<f64> = values.iter().map(Complex::norm_sqr).collect();
+    // With the last one before the first and the first one behind the last.
+    let around = strengths.last().into_iter().chain(&strengths);
+    let neighbours = around.zip(strengths.iter().cycle().skip(1));
+    let peaks: Vec<usize> = strengths
+        .iter()
+        .zip(neighbours)
+        .enumerate()
+        .filter(|(_, (at, (before, after)))| at >= before && at >= after)
+        .map(|(lag, _)| lag)
+        .collect();
+    let highest = |peaks: &mut dyn Iterator<Item = usize>| {
+        peaks.max_by(|&a, &b| strengths[a].total_cmp(&strengths[b]))
     };
-    let first = peak(None);
-    let second = peak(first);
+    let first = highest(&mut peaks.iter().copied());
+    let is_apart = |lag: &usize| {
+        first.is_some_and(|other| {
+            let d = lag.abs_diff(other);
+            d.min(n - d) > n / 16
+        })
+    };
+    let second = highest(&mut peaks.iter().copied().filter(is_apart));
     let power = query_power + seen.signature.lengths.iter().map(|l| l * l).sum::<f64>();
     let placements = [first, second].map(|lag| {
         lag.map(|lag| {
@@ -372,12 +378,12 @@ fn overlap(
             .pixel_of(&(view_plane_from_scene * Point2::new(x, y)))
     };
     let (origin, right, up) = (at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0));
-    let image = &seen.plane.image;
     let is_shared = |p: &&Point2<f64>| {
-        // Half a pixel more, so that cutting off the fraction rounds.
-        let column = origin.0 + (right.0 - origin.0) * p.x + (up.0 - origin.0) * p.y + 0.5;
-        let row = origin.1 + (right.1 - origin.1) * p.x + (up.1 - origin.1) * p.y + 0.5;
-        column >= 0.0 && row >= 0.0 && image.is_set(column as i64, row as i64)
+        let column = origin.0 + (right.0 - origin.0) * p.x + (up.0 - origin.0) * p.y;
+        let row = origin.1 + (right.1 - origin.1) * p.x + (up.1 - origin.1) * p.y;
+        // A pixel more, so that cutting off the fraction is rounding down before the image too.
+        let pixel = |x: f64| (x + 1.5) as i32 - 1;
+        seen.pixels.is_set(pixel(column), pixel(row))
     };
     let shared = scene.points.iter().filter(is_shared).count() as f64 * scene.area_each;
     let scene_area = scene.points.len() as f64 * scene.area_each;

@@ -13,7 +13,8 @@ use crate::{
     error::Advice,
     geometry::{
         cloud::PointCloud, nearest::KdTree, nearest_field::NearestField,
-        outline_field::OutlineField, principal::principal_axes, rigid::RigidTransform,
+        outline_field::OutlineField, principal::principal_axes, raster::PackedImage,
+        rigid::RigidTransform,
     },
     stages::{
         contour::{Contour, ContourParams, find_contour},
@@ -105,6 +106,8 @@ pub struct ReferenceView {
     pub plane_from_part: RigidTransform,
     /// The binary image.
     pub plane: PlaneImage,
+    /// Its pixels alone.
+    pub pixels: PackedImage,
     /// Area of its set pixels, square metres.
     pub image_area: f64,
     /// Its outline and openings.
@@ -165,13 +168,15 @@ impl Reference {
             });
         }
         let tree = KdTree::new(&cloud.points);
+        let field = NearestField::new(&cloud.points, FIELD_CELL, FIELD_BAND);
         let views: Vec<ReferenceView> = viewpoints(&cloud, coverage)
             .ok_or(no_outline)?
             .iter()
-            .filter_map(|viewpoint| ReferenceView::from_viewpoint(&cloud, &tree, viewpoint, params))
+            .filter_map(|viewpoint| {
+                ReferenceView::from_viewpoint(&cloud, &field, viewpoint, params)
+            })
             .collect();
         let literal = LiteralReference::new(&views.first().ok_or(no_outline)?.signature.literal);
-        let field = NearestField::new(&cloud.points, FIELD_CELL, FIELD_BAND);
         Ok(Self {
             name: name.to_owned(),
             cloud,
@@ -242,6 +247,7 @@ impl ReferenceView {
         Self {
             edges: EdgePoints::new(edges, NUM_EDGES),
             spectrum: correlation::spectrum(&signature.rays),
+            pixels: plane.image.packed(),
             image_area: plane.image.num_set() as f64 * plane.pixel.0.powi(2),
             outline_field: OnceLock::new(),
             plane_from_part,
@@ -253,7 +259,7 @@ impl ReferenceView {
 
     fn from_viewpoint(
         cloud: &PointCloud,
-        tree: &KdTree,
+        field: &NearestField,
         viewpoint: &Point3<f64>,
         params: &ReferenceParams,
     ) -> Option<Self> {
@@ -264,7 +270,7 @@ impl ReferenceView {
         let plane = project_weighted(&points, weight, viewpoint, &params.project).ok()?;
         let contour = find_contour(&plane, &params.contour).ok()?;
         let signature = describe(&contour, &params.signature).ok()?;
-        let edges = sheet_edges(&plane, &contour, cloud, tree, viewpoint);
+        let edges = sheet_edges(&plane, &contour, cloud, field, viewpoint);
         Some(Self::new(
             plane.plane_from_camera,
             plane,
@@ -304,13 +310,12 @@ fn sheet_edges(
     plane: &PlaneImage,
     contour: &Contour,
     cloud: &PointCloud,
-    tree: &KdTree,
+    field: &NearestField,
     viewpoint: &Point3<f64>,
 ) -> Vec<Point3<f32>> {
     let cloud_from_plane = plane.plane_from_camera.inverse();
     let is_sheet_edge = |p: &Point3<f32>| {
-        let Some((nearest, normals)) = tree.nearest(p, f32::INFINITY).zip(cloud.normals.as_ref())
-        else {
+        let Some((nearest, normals)) = field.nearest(p).zip(cloud.normals.as_ref()) else {
             return true;
         };
         let towards = (viewpoint - p.cast::<f64>()).normalize();
@@ -364,15 +369,17 @@ pub fn seen_around(cloud: &PointCloud, coverage: Coverage) -> Vec<(Point3<f64>, 
 }
 
 /// Side of a cell of the view's depth buffer, metres: wider than the spacing of a reference cloud.
-const CELL: f64 = 0.015;
+const CELL: f32 = 0.015;
 /// How far behind the nearest surface of a cell a point may lie and still be seen, metres.
-const CELL_DEPTH: f64 = 0.04;
+const CELL_DEPTH: f32 = 0.04;
 
 /// Indices of the points that a camera at `viewpoint` sees, each with the cosine of the angle it is seen at.
 fn visible_from(cloud: &PointCloud, viewpoint: &Point3<f64>) -> Vec<(usize, f64)> {
+    // In f32: all is within metres, and a cell is centimetres.
+    let viewpoint: Point3<f32> = viewpoint.cast();
     let bounds = cloud.bounds();
     let centre = bounds.map_or(Point3::origin(), |(low, high)| {
-        nalgebra::center(&low, &high).cast()
+        nalgebra::center(&low, &high)
     });
     let forward = (centre - viewpoint).normalize();
     let helper = if forward.x.abs() < 0.9 {
@@ -382,30 +389,33 @@ fn visible_from(cloud: &PointCloud, viewpoint: &Point3<f64>) -> Vec<(usize, f64)
     };
     let right = forward.cross(&helper).normalize();
     let down = forward.cross(&right);
-    let radius = bounds.map_or(0.0, |(low, high)| f64::from((high - low).norm()) / 2.0) + CELL;
+    let radius = bounds.map_or(0.0, |(low, high)| (high - low).norm() / 2.0) + CELL;
     let side = (2.0 * radius / CELL).ceil() as usize + 1;
-    let mut nearest = vec![f64::INFINITY; side * side];
-    let candidates: Vec<(usize, f64, usize, f64)> = cloud
+    let mut nearest = vec![f32::INFINITY; side * side];
+    let candidates: Vec<(u32, f32, u32, f32)> = cloud
         .finite()
         .filter_map(|(i, p)| {
-            let p: Point3<f64> = p.cast();
             let facing = match &cloud.normals {
-                Some(normals) => normals[i].cast::<f64>().dot(&(viewpoint - p).normalize()),
+                Some(normals) => normals[i].dot(&(viewpoint - p).normalize()),
                 None => 1.0,
             };
             let d = p - centre;
             let column = ((d.dot(&right) + radius) / CELL) as usize;
             let row = ((d.dot(&down) + radius) / CELL) as usize;
             // Closer than 80° to grazing a depth camera reads next to nothing.
-            (facing > 0.17).then(|| (i, facing, row * side + column, d.dot(&forward)))
+            (facing > 0.17).then(|| {
+                let cell = (row * side + column) as u32;
+                (i as u32, facing, cell, d.dot(&forward))
+            })
         })
         .collect();
     for &(_, _, cell, depth) in &candidates {
-        nearest[cell] = nearest[cell].min(depth);
+        let nearest = &mut nearest[cell as usize];
+        *nearest = nearest.min(depth);
     }
     candidates
         .into_iter()
-        .filter(|&(_, _, cell, depth)| depth <= nearest[cell] + CELL_DEPTH)
-        .map(|(i, facing, ..)| (i, facing))
+        .filter(|&(_, _, cell, depth)| depth <= nearest[cell as usize] + CELL_DEPTH)
+        .map(|(i, facing, ..)| (i as usize, f64::from(facing)))
         .collect()
 }

@@ -11,7 +11,7 @@ use nalgebra::Point3;
 
 use super::segment::EmptyCell;
 use crate::{
-    capture::frame::{DepthFrame, Intrinsics},
+    capture::{DepthFrame, Image, Intrinsics},
     files::Opened,
     geometry::cloud::{Grid, PointCloud, is_finite},
 };
@@ -118,6 +118,14 @@ pub fn scene_from_frame(frame: &DepthFrame) -> SceneCloud {
         intrinsics: Some(*camera),
         edge: PictureEdge::View,
         empty_cell: None,
+    }
+}
+
+/// What a source captured, as a scene.
+pub fn scene_from_image(image: Image) -> SceneCloud {
+    match image {
+        Image::Depth(frame) => scene_from_frame(&frame),
+        Image::Cloud(cloud) => scene_from_cloud(cloud),
     }
 }
 

@@ -15,7 +15,7 @@ use crate::{
 };
 
 /// Long enough for a machine at work with other things; what is waited for comes at once.
-const PATIENCE: Duration = Duration::from_secs(60);
+const PATIENCE: Duration = Duration::from_mins(1);
 
 fn captured(number: u64) -> Captured {
     Captured {

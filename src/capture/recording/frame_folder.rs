@@ -33,7 +33,7 @@ pub(super) fn frames(folder: &Path) -> Result<Frames, CaptureError> {
     Ok(Frames {
         title: format!("Folder {}", file_name(folder)),
         is_simulated: false,
-        frames: frames.collect(),
+        in_order: frames.collect(),
         warnings: Vec::new(),
     })
 }

@@ -42,7 +42,7 @@ pub struct Replay {
 pub(super) struct Frames {
     pub(super) title: String,
     pub(super) is_simulated: bool,
-    pub(super) frames: Vec<Recorded>,
+    pub(super) in_order: Vec<Recorded>,
     pub(super) warnings: Vec<CaptureWarning>,
 }
 
@@ -91,7 +91,7 @@ impl Replay {
         let Frames {
             title,
             is_simulated,
-            frames,
+            in_order: frames,
             warnings,
         } = found;
         if frames.is_empty() {
@@ -112,6 +112,11 @@ impl Replay {
     /// Frames there are.
     pub fn num_frames(&self) -> usize {
         self.frames.len()
+    }
+
+    /// When each frame is due after the first.
+    pub fn due_times(&self) -> &[Duration] {
+        &self.due
     }
 }
 
@@ -144,7 +149,7 @@ fn of_recording(folder: &Path) -> Result<Frames, CaptureError> {
     Ok(Frames {
         title: format!("Recording {}, {}", file_name(folder), list.header.title),
         is_simulated: list.header.simulated,
-        frames: frames.collect(),
+        in_order: frames.collect(),
         warnings: cut_off.into_iter().collect(),
     })
 }
@@ -166,7 +171,9 @@ fn due_times(frames: &[Recorded], pace: Pace) -> Vec<Duration> {
     };
     let after_first = |mut times: Vec<Duration>| {
         let first = times.first().copied().unwrap_or_default();
-        times.iter_mut().for_each(|time| *time -= first);
+        for time in &mut times {
+            *time -= first;
+        }
         times
     };
     match pace {

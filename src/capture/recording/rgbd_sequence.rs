@@ -66,7 +66,7 @@ pub(super) fn frames(folder: &Path, camera: Option<&Path>) -> Result<Frames, Cap
     Ok(Frames {
         title: format!("Sequence {}", file_name(folder)),
         is_simulated: false,
-        frames: frames.collect::<Result<_, _>>()?,
+        in_order: frames.collect::<Result<_, _>>()?,
         warnings,
     })
 }

@@ -15,7 +15,7 @@ mod tests;
 
 use std::{
     collections::{BTreeMap, VecDeque},
-    path::PathBuf,
+    path::{Path, PathBuf},
     sync::Arc,
     thread,
     time::{Duration, Instant},
@@ -127,9 +127,9 @@ impl WatchedFolder {
     }
 
     /// Reads a file that is complete; `None` if there is nothing to say of it, or not yet.
-    fn take(&mut self, path: PathBuf) -> Option<Next> {
-        let read = read_image(&path);
-        let file = self.files.get_mut(&path)?;
+    fn take(&mut self, path: &Path) -> Option<Next> {
+        let read = read_image(path);
+        let file = self.files.get_mut(path)?;
         let is_last_try = file.state == Progress::Doubtful;
         let error = match read {
             Ok((image, warnings)) => {
@@ -137,8 +137,8 @@ impl WatchedFolder {
                 self.number += 1;
                 return Some(Next::Captured(Captured {
                     number: self.number,
-                    name: file_name(&path),
-                    taken_at: written_at(&path).unwrap_or_else(Timestamp::now),
+                    name: file_name(path),
+                    taken_at: written_at(path).unwrap_or_else(Timestamp::now),
                     arrived: Instant::now(),
                     image,
                     is_simulated: false,
@@ -157,7 +157,7 @@ impl WatchedFolder {
             _ if is_last_try => {
                 file.state = Progress::Done;
                 Some(Next::Skipped(Skipped {
-                    name: file_name(&path),
+                    name: file_name(path),
                     error: Arc::new(error),
                 }))
             }
@@ -182,7 +182,7 @@ impl DepthSource for WatchedFolder {
         let until = Instant::now() + wait;
         loop {
             while let Some(path) = self.ready.pop_front() {
-                if let Some(next) = self.take(path) {
+                if let Some(next) = self.take(&path) {
                     return Ok(next);
                 }
             }
@@ -194,9 +194,12 @@ impl DepthSource for WatchedFolder {
             }
             thread::sleep(due.saturating_duration_since(now));
             let begun = Instant::now();
-            let looked = self.look();
+            if let Err(error) = self.look() {
+                // Whoever asks again has waited as long as he thinks fit.
+                self.next_look = None;
+                return Err(error);
+            }
             self.next_look = Some(Instant::now() + LOOK.max(begun.elapsed() * SHARE));
-            looked?;
             if self.ready.is_empty() && Instant::now() >= until {
                 return Ok(Next::NotYet);
             }

@@ -3,7 +3,7 @@
 use nalgebra::{Isometry2, Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use super::{
-    COST_LIMIT, FIRST, FIRST_OF_A_PIECE, Seen,
+    COST_LIMIT, FIRST, FIRST_OF_A_PIECE, HOPELESS, Seen,
     evidence::{Evidence, facing_view},
 };
 use crate::{
@@ -11,6 +11,7 @@ use crate::{
     stages::{
         pose::{
             PoseEstimate, PoseMethod, RunnerUp, Uncertainty,
+            closest::Closest,
             quality::Fit,
             refine::{Level, Refined, Search, cost, refine},
         },
@@ -70,6 +71,9 @@ const POSES_OF_A_PIECE: usize = 8;
 const SAME_PLACE: (f64, f64) = (35.0, 60.0);
 /// Starts of a piece from one place.
 const STARTS_OF_A_PLACE: usize = 2;
+/// Points of the part and of the reference on which the first figures are taken.
+const NUM_MEASURED: usize = 500;
+const NUM_LOOKED_FOR: usize = 700;
 /// Starts of a piece in all.
 const MAX_STARTS: usize = 16;
 
@@ -104,6 +108,7 @@ impl Seen<'_> {
             Some(_) => POSES_OF_A_PIECE,
             None => POSES_OF_A_WHOLE,
         };
+        let least = trials.first()?.cost;
         let mut different: Vec<&Trial> = Vec::new();
         for trial in trials {
             let pose = &trial.refined.target_from_source;
@@ -116,7 +121,10 @@ impl Seen<'_> {
         let mut finer: Vec<Trial> = different
             .into_iter()
             .take(num_poses)
-            .filter_map(|trial| self.finer(reference, trial, levels))
+            .filter_map(|trial| {
+                let may_win = trial.cost < HOPELESS * least;
+                self.finer(reference, trial, if may_win { levels } else { &[] })
+            })
             .collect();
         finer.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         // The cost does not know what hides a piece, the evidence does; for a whole part the cost is enough.
@@ -127,7 +135,7 @@ impl Seen<'_> {
         let mut weighed: Vec<Candidate> = finer
             .iter()
             .take(num_weighed)
-            .map(|trial| self.weighed(reference, trial))
+            .filter_map(|trial| self.weighed(reference, trial))
             .collect();
         weighed.sort_by(|a, b| b.evidence.score().total_cmp(&a.evidence.score()));
         let mut best = weighed.into_iter().next()?;
@@ -149,11 +157,15 @@ impl Seen<'_> {
         Some(finer)
     }
 
-    fn weighed(&self, reference: &Reference, trial: &Trial) -> Candidate {
+    fn weighed(&self, reference: &Reference, trial: &Trial) -> Option<Candidate> {
         let pose = &trial.refined.target_from_source;
         let view = facing_view(reference, pose);
-        let (fit, evidence) = self.weigh(reference, view, pose, Search::Field);
-        Candidate {
+        let surface = &self.source.surface;
+        let measured = &surface[..NUM_MEASURED.min(surface.len())];
+        let target = reference.target(view)?;
+        let closest = Closest::of_each(measured, &target, pose, Search::Field);
+        let (fit, evidence) = self.weigh(reference, view, pose, &closest, NUM_LOOKED_FOR);
+        Some(Candidate {
             refined: trial.refined.clone(),
             cost: trial.cost,
             view,
@@ -161,7 +173,7 @@ impl Seen<'_> {
             evidence,
             runner_up: None,
             uncertainty: None,
-        }
+        })
     }
 
     /// Neighbouring views lead to nearly the same start: one or two of them are enough.

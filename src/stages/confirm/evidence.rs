@@ -27,8 +27,9 @@ use crate::{
     geometry::rigid::RigidTransform,
     stages::{
         pose::{
+            closest::Closest,
             quality::{Fit, look_for, measure_fit},
-            refine::{Search, Source, Target},
+            refine::{Source, Target},
         },
         reference::Reference,
     },
@@ -56,8 +57,6 @@ pub struct Evidence {
     pub facing: f64,
 }
 
-/// Points on which the figures of a fit are taken.
-const NUM_MEASURED: usize = 1000;
 /// Distances beyond this count as this, metres.
 const FAR: f64 = 0.04;
 /// Side of a patch, metres: some 40 points of a door, and less than the radius of anything pressed into a sheet.
@@ -69,31 +68,37 @@ const LEAST_IN_PATCH: f64 = 6.0;
 const NOISE_LEFT: f64 = 0.3;
 
 impl Seen<'_> {
-    /// Takes the figures of one reference at a pose.
+    /// Takes the figures of one reference at a pose, from the closest points of the first of the part's.
     pub(super) fn weigh(
         &self,
         reference: &Reference,
         view: usize,
         target_from_source: &RigidTransform,
-        search: Search,
+        closest: &[Closest],
+        num_looked_for: usize,
     ) -> (Fit, Evidence) {
         let target = reference
             .target(view)
             .expect("what has a pose has a cloud and a view");
         let scene = self.scene;
-        let surface = &self.source.surface;
-        let measured = &surface[..NUM_MEASURED.min(surface.len())];
+        let measured = &self.source.surface[..closest.len()];
         let tolerance = self.tolerance;
         let camera_from_target = target_from_source.inverse();
-        let sight = look_for(&target, &camera_from_target, scene.scene, tolerance);
+        let sight = look_for(
+            &target,
+            &camera_from_target,
+            scene.scene,
+            tolerance,
+            num_looked_for,
+        );
         let fit = Fit {
             sight,
-            ..measure_fit(measured, &target, target_from_source, tolerance, search)
+            ..measure_fit(measured, closest, &target, tolerance)
         };
         let noise = |p: &Point3<f32>| scene.part.noise_at_1m.0 * f64::from(p.z * p.z);
         let noise_sq = measured.iter().map(|p| noise(p).powi(2)).sum::<f64>();
         let noise_sq = noise_sq / measured.len().max(1) as f64;
-        let relief_sq = relief(measured, &target, target_from_source, search).powi(2);
+        let relief_sq = relief(closest, &target).powi(2);
         let evidence = Evidence {
             off: 1.0 - fit.overlap,
             missing: sight.map_or(0.0, |s| {
@@ -113,24 +118,13 @@ impl Seen<'_> {
 }
 
 /// Root mean square of the patches' mean signed distances.
-fn relief(
-    measured: &[Point3<f32>],
-    target: &Target<'_>,
-    target_from_source: &RigidTransform,
-    search: Search,
-) -> f64 {
-    let Some(normals) = target.cloud.normals.as_deref() else {
-        return 0.0;
-    };
-    let moved = target_from_source.cast::<f32>();
-    let mut patches: Vec<([i32; 3], f64)> = measured
+fn relief(closest: &[Closest], target: &Target<'_>) -> f64 {
+    let mut patches: Vec<([i32; 3], f64)> = closest
         .iter()
-        .filter_map(|p| {
-            let at = moved * p;
-            let near = target.nearest(search, &at, (FAR * FAR) as f32)?;
-            let off = normals[near.index].dot(&(at - target.cloud.points[near.index]));
-            let patch = [at.x, at.y, at.z].map(|x| (x / PATCH).floor() as i32);
-            Some((patch, f64::from(off)))
+        .filter_map(|closest| {
+            let near = closest.on_surface(target, FAR * FAR)?;
+            let patch = closest.at.coords.map(|x| (x / PATCH).floor() as i32);
+            Some((patch.into(), near.off))
         })
         .collect();
     patches.sort_by_key(|p| p.0);

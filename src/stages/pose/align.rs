@@ -308,6 +308,29 @@ mod tests {
     }
 
     #[test]
+    fn a_piece_of_a_cloud_of_few_points_is_put_back() {
+        let target = PointCloud::from_points(sheet().points.into_iter().step_by(12));
+        for start in [
+            [3.1, 1.2, -2.0, -0.4, 0.7, 0.1],
+            [0.2, -1.4, 2.9, 0.1, -0.6, 2.0],
+        ] {
+            let truth = from_euler_zyx(start);
+            let mut source = moved(&target, &truth.inverse());
+            // Without the end of the sheet.
+            let keep = |p: &Point3<f32>| (truth * p.cast::<f64>()).x < 0.75;
+            source.points.retain(keep);
+            let found = align(&source, &target, PoseMethod::Global, None).expect("a pose");
+            let centre = truth.inverse() * Point3::new(0.4, 0.3, 0.1);
+            let error = pose_error(&found.target_from_source, &truth, &centre);
+            assert!(
+                error.rotation.degrees() < 0.1 && error.shift.mm() < 1.0,
+                "{error:?} {:?}",
+                found.doubt()
+            );
+        }
+    }
+
+    #[test]
     fn clouds_that_do_not_meet_have_no_pose() {
         let target = sheet();
         let far = RigidTransform::translation(40.0, 0.0, 0.0);

@@ -5,12 +5,14 @@ use nalgebra::Point3;
 /// Points looked at side by side.
 const LANES: usize = 8;
 
-/// A few hundred points in columns of eight: looking at all of them is quicker than a tree, and the processor looks at
-/// several at once.
+/// A few hundred points in columns of eight, which the processor looks at all at once. Neighbours along an outline are
+/// neighbours in a column, so most columns are too far away as a whole.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct EdgePoints {
     /// x, y and z of eight points each; the last group is filled up with points at infinity.
     groups: Vec<[[f32; LANES]; 3]>,
+    /// The least and the greatest x, y and z of eight groups each, filled up likewise.
+    boxes: Vec<[[[f32; LANES]; 3]; 2]>,
     num: usize,
 }
 
@@ -28,8 +30,21 @@ impl EdgePoints {
             }
             columns
         };
+        let bounds = |groups: &[&[Point3<f32>]]| {
+            let mut bounds = [[[f32::INFINITY; LANES]; 3]; 2];
+            for (lane, points) in groups.iter().enumerate() {
+                for axis in 0..3 {
+                    let along = || points.iter().map(|p| p[axis]);
+                    bounds[0][axis][lane] = along().fold(f32::INFINITY, f32::min);
+                    bounds[1][axis][lane] = along().fold(f32::NEG_INFINITY, f32::max);
+                }
+            }
+            bounds
+        };
+        let groups: Vec<&[Point3<f32>]> = kept.chunks(LANES).collect();
         Self {
-            groups: kept.chunks(LANES).map(group).collect(),
+            boxes: groups.chunks(LANES).map(bounds).collect(),
+            groups: groups.into_iter().map(group).collect(),
             num: kept.len(),
         }
     }
@@ -56,28 +71,47 @@ impl EdgePoints {
 
     /// The closest point within reach, with its squared distance.
     pub fn closest(&self, at: &Point3<f32>, reach_sq: f32) -> Option<(Point3<f32>, f32)> {
-        let mut best = [reach_sq; LANES];
-        let mut best_group = [u32::MAX; LANES];
-        for (number, [x, y, z]) in (0_u32..).zip(&self.groups) {
-            let mut distance_sq = [0.0; LANES];
-            for lane in 0..LANES {
-                let (dx, dy, dz) = (x[lane] - at.x, y[lane] - at.y, z[lane] - at.z);
-                distance_sq[lane] = dx * dx + dy * dy + dz * dz;
-            }
-            for lane in 0..LANES {
-                let closer = distance_sq[lane] < best[lane];
-                best[lane] = if closer {
-                    distance_sq[lane]
-                } else {
-                    best[lane]
-                };
-                best_group[lane] = if closer { number } else { best_group[lane] };
+        let mut best = (reach_sq, usize::MAX);
+        for (number, boxes) in self.boxes.iter().enumerate() {
+            let at_least = distances_to_boxes_sq(boxes, at);
+            for (lane, at_least) in at_least.into_iter().enumerate() {
+                if at_least < best.0 {
+                    self.closest_of_group(number * LANES + lane, at, &mut best);
+                }
             }
         }
-        let lane = (0..LANES).min_by(|&a, &b| best[a].total_cmp(&best[b]))?;
-        let group = best_group[lane];
-        (group != u32::MAX).then(|| (self.point(group as usize * LANES + lane), best[lane]))
+        (best.1 != usize::MAX).then(|| (self.point(best.1), best.0))
     }
+
+    /// Betters the squared distance and the number of the closest point so far.
+    fn closest_of_group(&self, group: usize, at: &Point3<f32>, best: &mut (f32, usize)) {
+        let mut distances_sq = [0.0; LANES];
+        for (column, at) in self.groups[group].iter().zip(at.iter()) {
+            for (distance_sq, x) in distances_sq.iter_mut().zip(column) {
+                *distance_sq += (x - at) * (x - at);
+            }
+        }
+        let least = distances_sq.iter().copied().fold(f32::INFINITY, f32::min);
+        if least < best.0 {
+            let lane = distances_sq.iter().position(|d| *d <= least).unwrap_or(0);
+            *best = (least, group * LANES + lane);
+        }
+    }
+}
+
+/// Squared distances to eight boxes, 0 inside.
+fn distances_to_boxes_sq(boxes: &[[[f32; LANES]; 3]; 2], at: &Point3<f32>) -> [f32; LANES] {
+    let [low, high] = boxes;
+    let mut distances_sq = [0.0; LANES];
+    for axis in 0..3 {
+        for lane in 0..LANES {
+            let (under, over) = (low[axis][lane] - at[axis], at[axis] - high[axis][lane]);
+            let beyond = if under > over { under } else { over };
+            let beyond = if beyond > 0.0 { beyond } else { 0.0 };
+            distances_sq[lane] += beyond * beyond;
+        }
+    }
+    distances_sq
 }
 
 #[cfg(test)]

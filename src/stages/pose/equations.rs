@@ -2,7 +2,10 @@
 
 use nalgebra::{Matrix3, Matrix6, Point3, Vector3, Vector6};
 
-use super::refine::{Level, Source, Target};
+use super::{
+    closest::Followed,
+    refine::{Level, Source, Target},
+};
 use crate::geometry::rigid::RigidTransform;
 
 /// Say of all edge pairs against all surface pairs. Edges fix two shifts and a turn, the surface the other three; by
@@ -47,6 +50,7 @@ impl Equations {
         target: &Target<'_>,
         pose: &RigidTransform,
         level: &Level,
+        followed: &mut Followed,
     ) -> Self {
         let mut sums = Self::default();
         let moved = pose.cast::<f32>();
@@ -55,9 +59,9 @@ impl Equations {
         let per_scale_sq = 1.0 / (level.scale * level.scale);
         let surface = &source.surface[..level.num_surface.min(source.surface.len())];
         let normals = target.cloud.normals.as_deref().unwrap_or_default();
-        for p in surface {
+        for (i, p) in surface.iter().enumerate() {
             let at = moved * p;
-            let Some(n) = target.nearest(level.search, &at, reach_sq) else {
+            let Some(n) = followed.nearest(i, &at, target, level.search, reach_sq) else {
                 continue;
             };
             let away: Vector3<f64> = (target.cloud.points[n.index] - at).cast();

@@ -10,13 +10,16 @@
 //! Known limits: a shift between clouds that share less than about half of their surface is only found if it is small
 //! against their size, since starts put centre on centre.
 
-use nalgebra::{Point3, Translation3, Unit, UnitQuaternion};
+mod aside;
+
+use nalgebra::Point3;
 use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
 use super::{
     MIN_POINTS, PoseError, PoseEstimate, PoseMethod, RunnerUp,
     centred::Centred,
+    closest::Closest,
     prepared::PreparedTarget,
     quality::{Tolerance, measure_fit},
     refine::{Level, Refined, Search, Source, Target, cost, refine},
@@ -32,15 +35,8 @@ use crate::{
     units::Metres,
 };
 
-/// Points of the source used in the last refinement.
-const NUM_SOURCE_POINTS: usize = 2_000;
 /// Trials that are refined on the fine likeness: the best, and two to compare it with.
 const NUM_FINISHED: usize = 3;
-/// A pose is put aside so many times either way, by so many extents of the target each.
-const SLIDES: i32 = 10;
-const SLIDE: f64 = 0.06;
-/// So often at most: each time costs as much as the race.
-const MOST_ROUNDS: usize = 4;
 /// Share of the source that lies on the target where nothing is left to be found elsewhere.
 const COMPLETE: f64 = 0.99;
 /// Principal variances that differ by less than this share are those of the same whole thing.
@@ -61,7 +57,7 @@ struct Round {
     num_kept: usize,
 }
 
-/// From what a start is off by, some 35°, to what the fine likeness closes.
+/// From what a start is off by, some 40°, to what the fine likeness closes.
 const RACE: [Round; 4] = [
     Round {
         num_points: 80,
@@ -152,7 +148,8 @@ impl<'a> GlobalSearch<'a> {
         prepared: &'a PreparedTarget,
         is_cancelled: &'a dyn Fn() -> bool,
     ) -> Self {
-        let step = source.points.len().div_ceil(NUM_SOURCE_POINTS).max(1);
+        let num_wanted = prepared.finest().num_surface;
+        let step = source.points.len().div_ceil(num_wanted).max(1);
         let some = source.points.iter().step_by(step).copied().collect();
         let all = PointCloud::from_points(source.points.iter().copied());
         let even = downsample(&all, Metres(prepared.coarse_target().spacing)).points;
@@ -196,8 +193,10 @@ impl<'a> GlobalSearch<'a> {
         trials.truncate(NUM_FINISHED);
         let (extent, target) = (self.prepared.extent(), self.prepared.target());
         let finest = self.prepared.finest().scale;
-        let levels: Vec<Level> = std::iter::successors(Some(0.03 * extent), |s| Some(s / 2.0))
-            .take_while(|scale| *scale > finest)
+        // One at least, however few points there are: what poses cost is compared after the same refinement only.
+        let coarsest = (0.03 * extent).max(finest);
+        let levels: Vec<Level> = std::iter::successors(Some(coarsest), |s| Some(s / 2.0))
+            .take_while(|scale| *scale >= finest)
             .map(|scale| Level {
                 num_surface: 600,
                 num_edges: 0,
@@ -206,85 +205,9 @@ impl<'a> GlobalSearch<'a> {
                 search: Search::Field,
             })
             .collect();
-        let trials = if levels.is_empty() {
-            trials
-        } else {
-            self.further(trials, &self.source, &target, &levels, 0.05 * extent)?
-        };
+        let limit = (0.05 * extent).max(2.0 * finest);
+        let trials = self.further(trials, &self.source, &target, &levels, limit)?;
         Ok(self.distinct(trials))
-    }
-
-    /// Tries the best elsewhere, as long as something better is found and there is something to be found.
-    ///
-    /// Half a part lies on a whole one in many places: a sheet slides along itself, the bars of a grille lie on the next
-    /// ones, and both fit nearly as well the other way round.
-    fn put_aside(&self, finished: &mut Vec<Trial>) -> Result<(), PoseError> {
-        for round in 0..MOST_ROUNDS {
-            let Some(best) = finished.first() else {
-                return Ok(());
-            };
-            let before = best.cost;
-            let mut aside = self.slid(&best.refined.target_from_source);
-            if round > 0 {
-                for axis in 0..3 {
-                    aside.extend(self.slid(&self.half_turned(best, axis)));
-                }
-            }
-            aside.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-            let mut aside = self.distinct(aside);
-            aside.truncate(NUM_FINISHED);
-            for trial in &mut aside {
-                trial
-                    .refined
-                    .iterations
-                    .clone_from(&best.refined.iterations);
-            }
-            finished.extend(self.finish(aside)?);
-            finished.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-            *finished = self.distinct(std::mem::take(finished));
-            let best = &finished[0];
-            let is_done = self.overlap(best) >= COMPLETE || (round > 0 && best.cost >= before);
-            if is_done {
-                break;
-            }
-        }
-        Ok(())
-    }
-
-    /// A pose put aside along the target's two longest axes: the cheapest places.
-    fn slid(&self, pose: &RigidTransform) -> Vec<Trial> {
-        let (extent, target) = (self.prepared.extent(), self.prepared.target());
-        let level = Level {
-            num_surface: 120,
-            num_edges: 0,
-            scale: 0.0,
-            max_steps: 0,
-            search: Search::Field,
-        };
-        let axes = &self.prepared.axes.axes;
-        let steps = || (-SLIDES..=SLIDES).map(|i| f64::from(i) * SLIDE * extent);
-        let mut slid: Vec<Trial> = steps()
-            .flat_map(|a| steps().map(move |b| (a, b)))
-            .map(|(a, b)| {
-                let shift = axes.column(0) * a + axes.column(1) * b;
-                let aside = Translation3::from(shift) * pose;
-                let mut trial = Trial::unrefined(aside);
-                trial.cost = cost(&self.source, &target, &aside, &level, 0.04 * extent);
-                trial
-            })
-            .collect();
-        slid.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-        slid.truncate(20 * NUM_FINISHED);
-        slid
-    }
-
-    /// The source turned by half a turn about one of the target's axes, its middle where it was.
-    fn half_turned(&self, trial: &Trial, axis: usize) -> RigidTransform {
-        let pose = trial.refined.target_from_source;
-        let middle = pose * self.axes.mean;
-        let about = Unit::new_normalize(self.prepared.axes.axes.column(axis).into_owned());
-        let turn = UnitQuaternion::from_axis_angle(&about, std::f64::consts::PI);
-        Translation3::from(middle.coords) * turn * Translation3::from(-middle.coords) * pose
     }
 
     /// Takes every trial through the levels and sorts them by what they then cost, each distance cut off at `limit`.
@@ -340,7 +263,8 @@ impl<'a> GlobalSearch<'a> {
         };
         let pose = &trial.refined.target_from_source;
         let target = self.prepared.target();
-        measure_fit(some, &target, pose, tolerance, Search::Field).overlap
+        let closest = Closest::of_each(some, &target, pose, Search::Field);
+        measure_fit(some, &closest, &target, tolerance).overlap
     }
 
     /// The best, refined to the end.

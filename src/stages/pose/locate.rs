@@ -4,7 +4,8 @@ use nalgebra::Point3;
 
 use super::{
     AlignParams, PoseError, PoseEstimate, align_to,
-    quality::{Fit, Tolerance, look_for, measure_fit},
+    closest::Closest,
+    quality::{Fit, NUM_LOOKED_FOR, Tolerance, look_for, measure_fit},
     refine::Search,
 };
 use crate::{
@@ -33,9 +34,10 @@ pub fn locate(
         noise_at_1m: part.noise_at_1m,
     };
     let pose = &estimate.target_from_source;
+    let closest = Closest::of_each(&measured, &target, pose, Search::Tree);
     estimate.fit = Fit {
-        sight: look_for(&target, &pose.inverse(), scene, tolerance),
-        ..measure_fit(&measured, &target, pose, tolerance, Search::Tree)
+        sight: look_for(&target, &pose.inverse(), scene, tolerance, NUM_LOOKED_FOR),
+        ..measure_fit(&measured, &closest, &target, tolerance)
     };
     Ok(estimate)
 }

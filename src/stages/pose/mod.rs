@@ -6,6 +6,7 @@
 
 mod align;
 mod centred;
+pub mod closest;
 pub mod displacements;
 pub mod edge_points;
 mod equations;

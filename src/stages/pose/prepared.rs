@@ -5,6 +5,7 @@ use nalgebra::Point3;
 use super::{
     PoseError, PoseEstimate, PoseMethod, RunnerUp,
     centred::Centred,
+    closest::Closest,
     edge_points::EdgePoints,
     quality::{Tolerance, measure_fit},
     refine::{Level, Refined, Search, Source, Target},
@@ -124,25 +125,17 @@ impl PreparedTarget {
             base: Metres(3.0 * self.spacing()),
             noise_at_1m: Metres(0.0),
         };
-        let fit = measure_fit(
-            &measured.surface,
-            &self.target(),
-            &refined.target_from_source,
-            tolerance,
-            Search::Tree,
-        );
+        let (target, pose) = (self.target(), &refined.target_from_source);
+        let closest = Closest::of_each(&measured.surface, &target, pose, Search::Tree);
+        let fit = measure_fit(&measured.surface, &closest, &target, tolerance);
+        let uncertainty = uncertainty(&measured, &closest, &target, pose, &self.finest());
         PoseEstimate {
             target_from_source: refined.target_from_source,
             method,
             stopped: refined.stopped,
             iterations: refined.iterations,
             fit,
-            uncertainty: Some(uncertainty(
-                &measured,
-                &self.target(),
-                &refined.target_from_source,
-                &self.finest(),
-            )),
+            uncertainty: Some(uncertainty),
             runner_up,
         }
     }

@@ -6,7 +6,7 @@
 
 use nalgebra::Point3;
 
-use super::refine::{Search, Target};
+use super::{closest::Closest, refine::Target};
 use crate::{
     geometry::{cloud::is_finite, rigid::RigidTransform},
     stages::scene::SceneCloud,
@@ -69,27 +69,24 @@ impl Tolerance {
     }
 }
 
-/// Distances of source points to the target at a pose. With the field as search, points beyond its band count as
-/// being at its edge, so E is a lower bound.
+/// Distances of source points to the target, from the closest points of the first of them. If those were looked up in
+/// the field, points beyond its band count as being at its edge, so E is a lower bound.
 pub fn measure_fit(
     source: &[Point3<f32>],
+    closest: &[Closest],
     target: &Target<'_>,
-    target_from_source: &RigidTransform,
     tolerance: Tolerance,
-    search: Search,
 ) -> Fit {
-    let moved = target_from_source.cast::<f32>();
     let normals = target.cloud.normals.as_deref().unwrap_or_default();
     let (mut sum_sq, mut inlier_sum_sq, mut num_inliers) = (0.0, 0.0, 0.0_f64);
-    for p in source {
-        let at = moved * p;
-        let Some(n) = target.nearest(search, &at, f32::INFINITY) else {
+    for (p, closest) in source.iter().zip(closest) {
+        let Some(n) = closest.target else {
             sum_sq += FAR_OFF_SQ;
             continue;
         };
         sum_sq += f64::from(n.distance_sq);
         if f64::from(n.distance_sq) < tolerance.at_depth(f64::from(p.z)).powi(2) {
-            let away = target.cloud.points[n.index] - at;
+            let away = target.cloud.points[n.index] - closest.at;
             // Along the normal: beside it the closest point of a sampled target is a matter of spacing.
             let off = normals
                 .get(n.index)
@@ -98,7 +95,7 @@ pub fn measure_fit(
             num_inliers += 1.0;
         }
     }
-    let num = source.len().max(1) as f64;
+    let num = source.len().min(closest.len()).max(1) as f64;
     Fit {
         e_m2: sum_sq / num,
         rms_m: (inlier_sum_sq / num_inliers.max(1.0)).sqrt(),
@@ -110,24 +107,25 @@ pub fn measure_fit(
 /// Squared distance that a point beyond the field's band counts with, square metres.
 const FAR_OFF_SQ: f64 = 0.0064;
 
-/// Points of the target that are looked for.
-const NUM_LOOKED_FOR: usize = 2000;
+/// Points of the target that are looked for at a pose that is the last word.
+pub const NUM_LOOKED_FOR: usize = 2000;
 /// A surface seen at a flatter angle than this (cosine) is often lost by the camera, so its absence says nothing.
 const LEAST_FACING: f64 = 0.3;
 /// Pixels around the expected one that may show the surface: the pose is not perfect and edges are ragged.
 const PIXEL_REACH: i64 = 2;
 
-/// Looks for the target in the scene's depth image; `None` when the scene has none.
+/// Looks for some of the target's points in the scene's depth image; `None` when the scene has none.
 pub fn look_for(
     target: &Target<'_>,
     camera_from_target: &RigidTransform,
     scene: &SceneCloud,
     tolerance: Tolerance,
+    num_looked_for: usize,
 ) -> Option<Sight> {
     let camera = scene.intrinsics?;
     let normals = target.cloud.normals.as_deref()?;
     let points = &scene.cloud.points;
-    let step = (target.cloud.points.len() / NUM_LOOKED_FOR).max(1);
+    let step = (target.cloud.points.len() / num_looked_for).max(1);
     let [
         mut confirmed,
         mut missing,

@@ -9,7 +9,9 @@
 
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3, Vector6};
 
-use super::{Iteration, Phase, Stopped, edge_points::EdgePoints, equations::Equations};
+use super::{
+    Iteration, Phase, Stopped, closest::Followed, edge_points::EdgePoints, equations::Equations,
+};
 use crate::geometry::{
     cloud::PointCloud,
     nearest::{KdTree, Neighbour},
@@ -98,11 +100,12 @@ pub fn refine(
     let mut pose = *start;
     let mut iterations = Vec::new();
     let mut stopped = Stopped::IterationLimit;
+    let mut followed = Followed::default();
     for level in levels {
         stopped = Stopped::IterationLimit;
         let mut before: Option<Step> = None;
         for _ in 0..level.max_steps {
-            let equations = Equations::at(source, target, &pose, level);
+            let equations = Equations::at(source, target, &pose, level, &mut followed);
             iterations.push(Iteration {
                 phase: Phase::Refinement,
                 e_m2: equations.e_m2(),

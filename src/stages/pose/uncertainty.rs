@@ -21,6 +21,7 @@ use std::collections::BTreeMap;
 use nalgebra::{Matrix3, Matrix6, Point3, Vector3, Vector6};
 
 use super::{
+    closest::Closest,
     equations::edge_share,
     refine::{Level, Source, Target},
 };
@@ -55,36 +56,32 @@ impl Uncertainty {
 const LOOSE: Radians = Radians(0.01);
 /// 95 % of a normal distribution in three dimensions lies within this squared distance, in standard deviations.
 const WITHIN_SQ: f64 = 7.815;
-/// Side of a patch, in root mean square distances of the points from their middle: some fifty on a part.
+/// Side of a patch, in root mean square distances of the points from their middle: some forty on a part.
 const PATCH: f64 = 0.4;
 /// Neighbours that a normal is the mean of, about, and the radius they lie within, in spacings.
 const NORMAL_NEIGHBOURS: f64 = 28.0;
 const NORMAL_RADIUS: f64 = 3.0;
 
-/// The bounds of a pose that a refinement at this level ended at.
+/// The bounds of a pose that a refinement at this level ended at, from the closest points of the source's surface.
 pub fn uncertainty(
     source: &Source,
+    closest: &[Closest],
     target: &Target<'_>,
     pose: &RigidTransform,
     level: &Level,
 ) -> Uncertainty {
-    let moved = pose.cast::<f32>();
     let reach_sq = (3.0 * level.scale).powi(2) as f32;
     let per_scale_sq = 1.0 / (level.scale * level.scale);
-    let normals = target.cloud.normals.as_deref().unwrap_or_default();
-    let surface = &source.surface[..level.num_surface.min(source.surface.len())];
-    let pairs: Vec<Pair> = surface
+    let closest = &closest[..level.num_surface.min(closest.len())];
+    let pairs: Vec<Pair> = closest
         .iter()
-        .filter_map(|p| {
-            let at = moved * p;
-            let nearest = target.nearest(level.search, &at, reach_sq)?;
-            let normal: Vector3<f64> = normals.get(nearest.index)?.cast();
-            let away: Vector3<f64> = (target.cloud.points[nearest.index] - at).cast();
+        .filter_map(|closest| {
+            let near = closest.on_surface(target, f64::from(reach_sq))?;
             Some(Pair {
-                at: at.cast(),
-                normal,
-                off: normal.dot(&away),
-                weight: (-f64::from(nearest.distance_sq) * per_scale_sq).exp(),
+                at: closest.at.cast(),
+                normal: near.normal,
+                off: near.off,
+                weight: (-near.distance_sq * per_scale_sq).exp(),
             })
         })
         .collect();
@@ -116,13 +113,14 @@ pub fn uncertainty(
         }
     }
     let edges = &source.edges[..level.num_edges.min(source.edges.len())];
+    let moved = pose.cast::<f32>();
     for p in edges {
         let at = moved * p;
         let Some((closest, distance_sq)) = target.edges.closest(&at, reach_sq) else {
             continue;
         };
         let weight =
-            edge_share(surface.len(), edges.len()) * (-f64::from(distance_sq) * per_scale_sq).exp();
+            edge_share(closest.len(), edges.len()) * (-f64::from(distance_sq) * per_scale_sq).exp();
         let away: Vector3<f64> = (closest - at).cast();
         for axis in 0..3 {
             sums.add(

@@ -118,14 +118,16 @@ fn connect_pixels(
     let mut forest = Forest {
         parents: Vec::new(),
     };
+    let mut rest: Vec<u32> = Vec::new();
     for row in 0..height {
         let start = row * width;
         let mut previous: Option<usize> = None;
         let mut last_meeting = (NO_RUN, NO_RUN);
-        for i in start..start + width {
-            if labels[i] != PointLabel::Rest {
-                continue;
-            }
+        let first = rest.len();
+        let is_rest = |(_, label): &(u32, &PointLabel)| **label == PointLabel::Rest;
+        let in_row = (start as u32..).zip(&labels[start..start + width]);
+        rest.extend(in_row.filter(is_rest).map(|(i, _)| i));
+        for i in rest[first..].iter().map(|i| *i as usize) {
             let run = previous
                 .filter(|&p| i - p <= BRIDGED_PIXELS + 1 && link.joins(&points[p], &points[i]))
                 .map(|p| run_of[p]);
@@ -151,13 +153,13 @@ fn connect_pixels(
     }
     let mut group_of_root = vec![NO_RUN; forest.parents.len()];
     let mut groups: Vec<Vec<u32>> = Vec::new();
-    for (i, &run) in run_of.iter().enumerate().filter(|(_, run)| **run != NO_RUN) {
-        let root = forest.root(run) as usize;
+    for i in rest {
+        let root = forest.root(run_of[i as usize]) as usize;
         if group_of_root[root] == NO_RUN {
             group_of_root[root] = groups.len() as u32;
             groups.push(Vec::new());
         }
-        groups[group_of_root[root] as usize].push(i as u32);
+        groups[group_of_root[root] as usize].push(i);
     }
     groups
 }

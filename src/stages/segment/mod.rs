@@ -221,7 +221,8 @@ const MIN_POINTS: usize = 200;
 
 /// Finds the background planes and the part before them.
 pub fn segment(scene: &SceneCloud, params: &SegmentParams) -> Segmentation {
-    let found = scene.cloud.num_finite();
+    // The rest need not be counted.
+    let found = scene.cloud.finite().take(MIN_POINTS).count();
     if found < MIN_POINTS {
         return Segmentation {
             labels: label_readings(&scene.cloud.points),

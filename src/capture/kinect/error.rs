@@ -1,0 +1,368 @@
+//! Why there is no picture from a Kinect, and what to do about it.
+
+use std::path::PathBuf;
+
+use thiserror::Error;
+
+use super::{
+    failure::{Failed, NoContext},
+    search,
+};
+use crate::{capture::Recovery, error::Advice};
+
+/// Why a Kinect cannot be used, or gives nothing more.
+#[derive(Debug, Error)]
+pub enum KinectError {
+    /// The system has no libfreenect.
+    #[error("libfreenect is not installed (looked for {})", tried.join(", "))]
+    NoLibrary {
+        /// The names that were looked for.
+        tried: Vec<&'static str>,
+    },
+    /// The place that a setting names has none.
+    #[error("{}: no libfreenect there", path.display())]
+    LibraryNotAt {
+        /// The file or folder, as it was given.
+        path: PathBuf,
+    },
+    /// There is one and the system cannot load it.
+    #[error("{library} cannot be loaded: {reason}")]
+    LibraryUnusable {
+        /// Its name or path.
+        library: String,
+        /// The system's words.
+        reason: String,
+    },
+    /// It is another version, or no libfreenect at all.
+    #[error("{library} has no function {symbol}: not libfreenect 0.5")]
+    MissingSymbol {
+        /// Its name or path.
+        library: String,
+        /// The function.
+        symbol: &'static str,
+    },
+    /// The library cannot speak to USB.
+    #[error("libfreenect cannot start: USB error {code}")]
+    NoUsb {
+        /// libusb's code.
+        code: i32,
+    },
+    /// Nothing is plugged in.
+    #[error("no Kinect is plugged in")]
+    NoDevice,
+    /// Another one than the one asked for is plugged in.
+    #[error("no Kinect with serial number {serial} is plugged in{}", others(found))]
+    NoSuchSerial {
+        /// The one asked for.
+        serial: String,
+        /// Those there are.
+        found: Vec<String>,
+    },
+    /// The system does not let this user open it.
+    #[error("a Kinect is plugged in, and the system does not permit to open it")]
+    NoPermission {
+        /// The udev rule that should permit it, if there is one.
+        rule: Option<&'static str>,
+    },
+    /// Another program, or a driver of the system, has it.
+    #[error("the Kinect is in use by another program")]
+    Busy,
+    /// This program has it.
+    #[error("the Kinect is in use by Partsight itself")]
+    InUse,
+    /// It does not open, for no reason that is known here.
+    #[error("the Kinect does not open{}", words(said))]
+    NotOpened {
+        /// What the library says.
+        said: Vec<String>,
+    },
+    /// It has no depth in a form that is read here.
+    #[error("the Kinect offers depth in none of the forms that are read (millimetres, 11 bits)")]
+    NoDepthMode,
+    /// It opens, and its stream does not start.
+    #[error("the Kinect does not start{}", words(said))]
+    NotStarted {
+        /// What the library says.
+        said: Vec<String>,
+    },
+    /// It was unplugged, or its power went.
+    #[error("the Kinect is gone{}", words(said))]
+    Lost {
+        /// What the library says.
+        said: Vec<String>,
+    },
+    /// It is there and sends nothing.
+    #[error("the Kinect sent nothing for {seconds} s")]
+    Silent {
+        /// How long.
+        seconds: u64,
+    },
+    /// The library plays recorded sessions, and none is named.
+    #[error("{library} plays recorded sessions, and FAKENECT_PATH names none")]
+    NoSession {
+        /// Its name or path.
+        library: String,
+    },
+    /// The recorded session is damaged.
+    #[error("{}: {what}", path.display())]
+    SessionUnusable {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong with it.
+        what: String,
+    },
+}
+
+/// The udev rules that let a user open a Kinect, as distributions name them.
+const RULES: [&str; 4] = [
+    "/lib/udev/rules.d/60-libfreenect0.5.rules",
+    "/usr/lib/udev/rules.d/60-libfreenect.rules",
+    "/etc/udev/rules.d/51-kinect.rules",
+    "/etc/udev/rules.d/66-kinect.rules",
+];
+
+impl KinectError {
+    /// What helps: a Kinect may be plugged in, let go or permitted at any time, a library does not come by itself.
+    pub(crate) fn recovery(&self) -> Recovery {
+        match self {
+            Self::NoDevice
+            | Self::NoSuchSerial { .. }
+            | Self::NoPermission { .. }
+            | Self::Busy
+            | Self::InUse
+            | Self::NotOpened { .. }
+            | Self::NotStarted { .. }
+            | Self::Lost { .. }
+            | Self::Silent { .. } => Recovery::Reopen,
+            Self::NoLibrary { .. }
+            | Self::LibraryNotAt { .. }
+            | Self::LibraryUnusable { .. }
+            | Self::MissingSymbol { .. }
+            | Self::NoUsb { .. }
+            | Self::NoDepthMode
+            | Self::NoSession { .. }
+            | Self::SessionUnusable { .. } => Recovery::None,
+        }
+    }
+
+    pub(super) fn no_permission() -> Self {
+        let rule = RULES
+            .into_iter()
+            .find(|rule| std::path::Path::new(rule).is_file());
+        Self::NoPermission { rule }
+    }
+
+    pub(super) fn of_start(error: NoContext, library: &str) -> Self {
+        let library = library.to_owned();
+        match error {
+            NoContext::MissingSymbol(symbol) => Self::MissingSymbol { library, symbol },
+            NoContext::InUse => Self::InUse,
+            NoContext::Failed(code) => Self::NoUsb { code },
+        }
+    }
+
+    /// Why a camera that is plugged in does not open. The library gives -1 for everything, and tells the reason in
+    /// words that end with libusb's code, or its name.
+    pub(super) fn of_opening(failed: Failed) -> Self {
+        let says = |code: i32, name: &str| {
+            let tail = format!(": {code}");
+            failed.code == code
+                || failed
+                    .said
+                    .iter()
+                    .any(|line| line.ends_with(&tail) || line.contains(name))
+        };
+        if says(-3, "LIBUSB_ERROR_ACCESS") {
+            Self::no_permission()
+        } else if says(-6, "LIBUSB_ERROR_BUSY") {
+            Self::Busy
+        } else if says(-4, "LIBUSB_ERROR_NO_DEVICE") {
+            Self::Lost { said: failed.said }
+        } else {
+            Self::NotOpened { said: failed.said }
+        }
+    }
+}
+
+fn others(found: &[String]) -> String {
+    if found.is_empty() {
+        String::new()
+    } else {
+        format!(", only {}", found.join(", "))
+    }
+}
+
+fn words(said: &[String]) -> String {
+    said.first()
+        .map(|first| format!(": {first}"))
+        .unwrap_or_default()
+}
+
+const INSTALL: &str = if cfg!(target_os = "macos") {
+    "brew install libfreenect"
+} else if cfg!(windows) {
+    "put freenect.dll 0.5 and libusb-1.0.dll beside the program"
+} else {
+    "sudo apt-get install libfreenect0.5"
+};
+
+impl Advice for KinectError {
+    fn advice(&self) -> String {
+        match self {
+            Self::NoLibrary { .. } => format!(
+                "Install it ({INSTALL}), or set {} to the folder that holds it",
+                search::VARIABLE
+            ),
+            Self::LibraryNotAt { .. } => format!(
+                "Correct the source's library option or {}, or leave both out to use the system's libfreenect",
+                search::VARIABLE
+            ),
+            Self::LibraryUnusable { .. } => format!(
+                "Install the libfreenect of this system with all that it needs ({INSTALL})"
+            ),
+            Self::MissingSymbol { .. } => format!("Install libfreenect 0.5 ({INSTALL})"),
+            Self::NoUsb { .. } => {
+                "Check that this computer has USB and that the user may use it, then start again".into()
+            }
+            Self::NoDevice => {
+                "Plug the Kinect in, and its own power supply too: without it only its motor is seen".into()
+            }
+            Self::NoSuchSerial { .. } => {
+                "Plug that one in, or choose the source without a serial number to take whichever is there".into()
+            }
+            Self::NoPermission { rule: Some(rule) } => format!(
+                "Add your user to the group plugdev, log in anew and plug the Kinect in again, so that {rule} applies to it"
+            ),
+            Self::NoPermission { rule: None } => format!(
+                "Install the udev rule that permits it ({INSTALL}), then plug the Kinect in again"
+            ),
+            Self::Busy => "Close the other program that shows the Kinect's picture, then try again".into(),
+            Self::InUse => "Use the Kinect where it is open already, or close it there first".into(),
+            Self::NotOpened { .. } => "Unplug the Kinect and plug it in again".into(),
+            Self::NoDepthMode => format!("Install another build of libfreenect ({INSTALL})"),
+            Self::NotStarted { .. } => {
+                "Plug the Kinect into another USB socket, with no other camera on the same hub".into()
+            }
+            Self::Lost { .. } => "Check the Kinect's cable and its power supply".into(),
+            Self::Silent { .. } => {
+                "Check the Kinect's power supply, and plug it into a USB socket of the computer itself, not of a hub".into()
+            }
+            Self::NoSession { .. } => {
+                "Set FAKENECT_PATH to a recorded session, or take the fakenect folder out of the library's path to use a Kinect".into()
+            }
+            Self::SessionUnusable { .. } => {
+                "Record the session again, or take what is damaged out of its INDEX.txt".into()
+            }
+        }
+    }
+}
+
+/// What is odd about a Kinect that can be used nevertheless.
+#[derive(Clone, Copy, Debug, PartialEq, Error)]
+pub enum KinectWarning {
+    /// The library does not tell the camera's focal length.
+    #[error("the Kinect's focal length is not known, {pixels:.1} pixels are assumed")]
+    FocalLengthAssumed {
+        /// Along columns and rows.
+        pixels: f64,
+    },
+    /// The library gives steps of disparity and not the values to turn them into lengths.
+    #[error("the Kinect's own calibration is not known, depths are those of a usual one")]
+    DepthScaleAssumed,
+}
+
+impl Advice for KinectWarning {
+    fn advice(&self) -> String {
+        "Use the system's libfreenect 0.5 with a Kinect: it reads these values from the camera"
+            .into()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn failed(said: &str) -> Failed {
+        Failed {
+            code: -1,
+            said: vec![said.into(), "Failed to open camera subdevice".into()],
+        }
+    }
+
+    #[test]
+    fn the_reason_is_found_in_what_the_library_says() {
+        for (said, expected) in [
+            ("Could not open camera: -3", "does not permit"),
+            ("Could not open camera: -4", "is gone"),
+            (
+                "Failed to claim camera interface: LIBUSB_ERROR_BUSY",
+                "another program",
+            ),
+            (
+                "Failed to detach camera kernel driver: LIBUSB_ERROR_ACCESS",
+                "does not permit",
+            ),
+            (
+                "freenect_camera_init(): Failed to fetch const shift for device",
+                "does not open: ",
+            ),
+        ] {
+            let error = KinectError::of_opening(failed(said));
+            assert!(error.to_string().contains(expected), "{said}: {error}");
+            assert_eq!(error.recovery(), Recovery::Reopen);
+        }
+    }
+
+    #[test]
+    fn every_trouble_has_a_sentence_and_an_advice_of_its_own() {
+        let (library, said) = (String::from("libfreenect.so"), Vec::new());
+        let errors = [
+            KinectError::NoLibrary {
+                tried: vec!["libfreenect.so"],
+            },
+            KinectError::LibraryNotAt {
+                path: "/opt".into(),
+            },
+            KinectError::LibraryUnusable {
+                library: library.clone(),
+                reason: "no ELF".into(),
+            },
+            KinectError::MissingSymbol {
+                library: library.clone(),
+                symbol: "freenect_init",
+            },
+            KinectError::NoUsb { code: -99 },
+            KinectError::NoDevice,
+            KinectError::NoSuchSerial {
+                serial: "A".into(),
+                found: vec!["B".into()],
+            },
+            KinectError::NoPermission { rule: None },
+            KinectError::NoPermission {
+                rule: Some(RULES[0]),
+            },
+            KinectError::Busy,
+            KinectError::InUse,
+            KinectError::NotOpened { said: said.clone() },
+            KinectError::NoDepthMode,
+            KinectError::NotStarted { said: said.clone() },
+            KinectError::Lost { said },
+            KinectError::Silent { seconds: 5 },
+            KinectError::NoSession { library },
+            KinectError::SessionUnusable {
+                path: "INDEX.txt".into(),
+                what: "not there".into(),
+            },
+        ];
+        let advice: std::collections::BTreeSet<String> =
+            errors.iter().map(Advice::advice).collect();
+        assert_eq!(advice.len(), errors.len());
+        for error in &errors {
+            let text = format!("{error}. {}", error.advice());
+            assert!(
+                !text.contains('\n') && !error.advice().ends_with('.'),
+                "{text}"
+            );
+        }
+    }
+}

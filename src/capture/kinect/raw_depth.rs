@@ -1,0 +1,72 @@
+//! From the sensor's own steps of disparity to millimetres.
+//!
+//! Only for libraries that do not do it themselves, such as those that play recorded sessions. The sensor compares the
+//! dots that it sees with those of a reference plane at z₀. What lies at z shows them shifted, measured on that plane,
+//! by b·(1 - z₀/z), with b the distance of projector and camera. libfreenect turns this around in
+//! `freenect_raw_to_mm`; each Kinect tells its own z₀, b and pixel size, and the values below are those that
+//! libfreenect took while it could not ask (commit 05cadba). Ours: rounding instead of cutting off.
+
+/// Values that 11 bits can have.
+const NUM_STEPS: u16 = 1 << 11;
+/// The step that stands for no reading.
+const NO_READING: u16 = NUM_STEPS - 1;
+/// Distance of projector and camera, cm.
+const BASELINE: f64 = 7.5;
+/// Distance of the reference plane, cm.
+const REFERENCE_DISTANCE: f64 = 120.0;
+/// One pixel of the 1280 across, on the reference plane, cm.
+const PIXEL_SIZE: f64 = 0.1042;
+/// Disparity of the reference plane, pixels.
+const SHIFT: f64 = 200.0 + 0.375;
+/// Steps a pixel.
+const STEPS_PER_PIXEL: f64 = 4.0;
+/// As far as libfreenect's own millimetres reach.
+const FARTHEST_MM: f64 = 10_000.0;
+
+/// The focal length of the depth camera with those values, in pixels of a frame 640 across: 575.8.
+pub(super) const FOCAL_LENGTH: f64 = REFERENCE_DISTANCE / (2.0 * PIXEL_SIZE);
+
+/// Millimetres of every step; 0 is no reading.
+pub(super) fn millimetres_by_step() -> Vec<u16> {
+    (0..NUM_STEPS).map(millimetres).collect()
+}
+
+fn millimetres(step: u16) -> u16 {
+    let shift = (f64::from(step) / STEPS_PER_PIXEL - SHIFT) * PIXEL_SIZE;
+    let distance_mm = 10.0 * BASELINE * REFERENCE_DISTANCE / (BASELINE - shift);
+    if step == NO_READING || !(distance_mm > 0.0 && distance_mm < FARTHEST_MM) {
+        return 0;
+    }
+    distance_mm.round() as u16
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_reference_plane_is_where_it_is_and_a_step_grows_with_the_square_of_the_distance() {
+        let table = millimetres_by_step();
+        // Step 801.5 is the plane.
+        assert!((1196..=1200).contains(&table[801]) && (1200..=1204).contains(&table[802]));
+        assert!(table[300..1000].is_sorted());
+        // b·z₀ = z²·step, so 4.2 mm at 1.2 m and 16.7 mm at 2.4 m.
+        let near = table[803] - table[801];
+        let far_step = table.iter().position(|&mm| mm > 2400).unwrap();
+        let far = table[far_step + 1] - table[far_step - 1];
+        assert!(
+            (8..=9).contains(&near) && (33..=34).contains(&far),
+            "{near} {far}"
+        );
+    }
+
+    #[test]
+    fn what_is_beyond_all_reach_is_no_reading() {
+        let table = millimetres_by_step();
+        assert_eq!(table[2047], 0);
+        // Behind the step of infinity the formula turns negative.
+        assert!(table[1090..].iter().all(|&mm| mm == 0));
+        assert!(table.iter().all(|&mm| mm < 10_000));
+        assert!((FOCAL_LENGTH - 575.8).abs() < 0.05);
+    }
+}

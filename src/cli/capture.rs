@@ -1,0 +1,154 @@
+//! `partsight capture`: records what a source gives.
+
+use std::{
+    ops::ControlFlow,
+    path::{Path, PathBuf},
+};
+
+use clap::Args;
+
+use super::{
+    Outcome,
+    console::{Advised as _, Console, Table, advised_error},
+    follow::{follow, parse_source},
+};
+use crate::{
+    capture::{CaptureWarning, FeedItem, Recorder, SourceSpec, list},
+    error::Advice as _,
+};
+
+/// Record the frames of a camera, a folder or the simulated cell, to be replayed and inspected later
+#[derive(Debug, Args)]
+#[command(after_help = super::follow::SOURCES)]
+pub(super) struct CaptureArgs {
+    /// What to record, see below
+    #[arg(long, value_name = "SOURCE", value_parser = parse_source, required_unless_present = "list")]
+    source: Option<SourceSpec>,
+    /// Frames to record; without it, until Ctrl-C or the source's end
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
+    frames: Option<u64>,
+    /// Folder of the recording, which is empty or not there yet
+    #[arg(long, value_name = "DIR", required_unless_present = "list")]
+    out: Option<PathBuf>,
+    /// List the sources that can be opened now
+    #[arg(long, conflicts_with_all = ["source", "frames", "out"])]
+    list: bool,
+}
+
+pub(super) fn run(args: &CaptureArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    match (&args.source, &args.out) {
+        (Some(source), Some(out)) => record(source, out, args.frames, console),
+        _ => Ok(show_list(console)),
+    }
+}
+
+fn record(
+    source: &SourceSpec,
+    out: &Path,
+    frames: Option<u64>,
+    console: &mut Console,
+) -> anyhow::Result<Outcome> {
+    let mut recorder: Option<Recorder> = None;
+    let mut outcome = Outcome::Accepted;
+    let mut told: Vec<CaptureWarning> = Vec::new();
+    match frames {
+        Some(frames) => console.start_progress(usize::try_from(frames).unwrap_or(usize::MAX)),
+        None => console.start_counting(),
+    }
+    let status = follow(source, console, |item, status, console| {
+        let captured = match item {
+            FeedItem::Captured(captured) => captured,
+            FeedItem::Skipped(skipped) => {
+                console.warn(
+                    &format_args!("{}: {}", skipped.name, skipped.error),
+                    &*skipped.error,
+                );
+                outcome = Outcome::CouldNotRun;
+                return Ok(ControlFlow::Continue(()));
+            }
+        };
+        for warning in &captured.warnings {
+            if told.contains(warning) {
+                continue;
+            }
+            console.warn(&format_args!("{}: {warning}", captured.name), warning);
+            if warning.is_about_source() {
+                told.push(warning.clone());
+            }
+        }
+        let recorder = match &mut recorder {
+            Some(recorder) => recorder,
+            none => {
+                let title = status.title.clone().unwrap_or_else(|| source.title());
+                let begun =
+                    Recorder::create(out, &title, &source.to_string(), captured.is_simulated);
+                none.insert(begun.advised()?)
+            }
+        };
+        console.begin(&captured.name);
+        recorder.write(&captured).advised()?;
+        console.done();
+        Ok(match frames {
+            Some(frames) if recorder.num_frames() >= frames => ControlFlow::Break(()),
+            _ => ControlFlow::Continue(()),
+        })
+    })?;
+    console.end_progress();
+    let Some(recorder) = recorder else {
+        return Err(advised_error(
+            format!("{} gave no frame", source.title()),
+            "Check that the camera sees something, and record again",
+        ));
+    };
+    let simulated = if status.is_simulated == Some(true) {
+        ", simulated"
+    } else {
+        ""
+    };
+    let num = recorder.num_frames();
+    console.line(&format_args!(
+        "{num} {}{simulated} in {}",
+        if num == 1 { "frame" } else { "frames" },
+        out.display()
+    ));
+    if status.num_dropped > 0 {
+        console.note(&format_args!(
+            "{} frames were dropped: they came faster than they could be written",
+            status.num_dropped
+        ));
+    }
+    if let Some(wanted) = frames.filter(|&wanted| num < wanted) {
+        console.note(&format_args!("{wanted} frames were asked for"));
+    }
+    Ok(outcome)
+}
+
+fn show_list(console: &mut Console) -> Outcome {
+    let mut table = Table::new(&["SOURCE", "WHAT"]);
+    let found = list();
+    for listed in &found {
+        if let Some(spec) = &listed.spec {
+            table.row([spec.to_string(), listed.title.clone()]);
+        }
+    }
+    for (pattern, what) in [
+        (
+            "recording:DIR",
+            "A recording, an RGB-D sequence, or a folder of clouds",
+        ),
+        (
+            "watch:DIR",
+            "A folder that another program saves captures into",
+        ),
+    ] {
+        table.row([pattern.to_owned(), what.to_owned()]);
+    }
+    table.show(console);
+    for listed in &found {
+        if let Some(trouble) = &listed.trouble {
+            console.note(&format_args!("{}: {trouble}", listed.title));
+            console.note(&format_args!("  to do: {}", trouble.advice()));
+        }
+    }
+    Outcome::Accepted
+}

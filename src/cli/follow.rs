@@ -1,0 +1,89 @@
+//! Following a source from a command: until it ends, there is enough, or Ctrl-C.
+
+use std::{ops::ControlFlow, time::Duration};
+
+use super::{
+    console::{Advised as _, Console, advised_error},
+    interrupt::Interrupt,
+};
+use crate::{
+    capture::{Delivery, Feed, FeedItem, FeedState, FeedStatus, Pace, SourceSpec},
+    error::Advice as _,
+};
+
+/// How long nothing need come before it is looked whether Ctrl-C was pressed.
+const TURN: Duration = Duration::from_millis(100);
+
+/// A source on the command line.
+pub(super) fn parse_source(text: &str) -> Result<SourceSpec, String> {
+    let spec = text.parse::<SourceSpec>();
+    // A recording gives every frame as fast as it is taken, unless it says its pace: then a replay is exact.
+    spec.map(|spec| spec.paced(Pace::Step))
+        .map_err(|error| format!("{error}\n  to do: {}", error.advice()))
+}
+
+/// Hands what a source gives to `each` until that breaks off, the source ends, or Ctrl-C. How the feed was at the end.
+pub(super) fn follow(
+    spec: &SourceSpec,
+    console: &mut Console,
+    mut each: impl FnMut(FeedItem, &FeedStatus, &mut Console) -> anyhow::Result<ControlFlow<()>>,
+) -> anyhow::Result<FeedStatus> {
+    let interrupt = Interrupt::listen()?;
+    let feed = Feed::start(spec.clone(), Delivery::suiting(spec), || ()).advised()?;
+    let mut lost: Option<String> = None;
+    while !interrupt.came() {
+        // Asked before: what was put there before the end is taken yet.
+        let status = feed.status();
+        match feed.wait(TURN) {
+            Some(item) => {
+                if lost.take().is_some() {
+                    console.note(&format_args!("{} is there again", spec.title()));
+                }
+                if each(item, &feed.status(), console)?.is_break() {
+                    break;
+                }
+            }
+            None => match status.state {
+                FeedState::Failed(error) => {
+                    return Err(advised_error(error.to_string(), error.advice()));
+                }
+                FeedState::Lost { error, .. } => {
+                    // Once for each cause, not once for each retry.
+                    let words = error.to_string();
+                    if lost.as_ref() != Some(&words) {
+                        console.warn(
+                            &format_args!("{words}; looked for again until Ctrl-C"),
+                            &*error,
+                        );
+                        lost = Some(words);
+                    }
+                }
+                state if state.is_over() => break,
+                _ => {}
+            },
+        }
+    }
+    Ok(feed.status())
+}
+
+/// What the help says of sources.
+pub(super) const SOURCES: &str = "\
+Sources:
+  simulated                 the simulated cell, where the eight parts come one after the other
+  simulated:fender          one part hanging still; also hood, wheel, box, ... and empty
+                            options: side=right model=3 pose=facing|placed|hard|\"rx ry rz x y z\" noise=2
+                            clutter=none|on-floor|in-front seed=7 fps=30, and every=8 (seconds) of the line
+  recording:DIR             a recording; an RGB-D sequence with its depth.txt; a folder of clouds or depth images
+                            options: pace=step|as-taken|10 (frames a second) camera=intrinsics.json
+  watch:DIR                 new files in a folder, each once it is complete; option: from=all for those there, too
+  kinect   kinect:SERIAL    a Kinect
+Options stand before the colon: simulated,side=right,noise=2:fender
+
+Examples:
+  partsight capture --list
+  partsight capture --source simulated --frames 300 --out tried
+  partsight capture --source kinect --out monday
+  partsight inspect --source recording:monday
+  partsight inspect --source watch:/mnt/scanner --json >> verdicts.jsonl
+
+A recording is whole after every frame: Ctrl-C ends it, and what was cut off opens up to its last whole frame.";

@@ -1,0 +1,198 @@
+use super::*;
+use crate::error::Advice as _;
+use crate::files::{Opened, crc32, open};
+
+fn frame() -> DepthFrame {
+    DepthFrame {
+        intrinsics: Intrinsics {
+            width: 3,
+            height: 2,
+            fx: 500.0,
+            fy: 501.5,
+            cx: 1.0,
+            cy: 0.5,
+        },
+        metres_per_unit: 0.001,
+        depth: vec![0, 1, 256, 1000, 65_535, 700],
+    }
+}
+
+#[test]
+fn a_frame_survives_being_written_and_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("frame.png");
+    write_depth_png(&path, &frame()).unwrap();
+    assert_eq!(open(&path).unwrap(), Opened::Depth(frame()));
+}
+
+#[test]
+fn missing_intrinsics_are_asked_for_with_an_example_that_works() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("frame.png");
+    write_depth_png(&path, &frame()).unwrap();
+    std::fs::remove_file(intrinsics_path(&path)).unwrap();
+    let error = open(&path).unwrap_err();
+    assert!(matches!(error, FileError::MissingIntrinsics { .. }));
+    let advice = error.advice();
+    let example = advice.get(advice.find('{').unwrap()..).unwrap();
+    let parsed: DepthCamera = serde_json::from_str(example).unwrap();
+    assert_eq!(parsed.intrinsics, Intrinsics::KINECT);
+}
+
+#[test]
+fn intrinsics_that_cannot_be_are_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("frame.png");
+    write_depth_png(&path, &frame()).unwrap();
+    let json = intrinsics_path(&path);
+    let good = std::fs::read_to_string(&json).unwrap();
+    for (from, to) in [
+        ("500.0", "0.0"),
+        ("501.5", "-1.0"),
+        ("0.001", "0"),
+        ("\"width\": 3", "\"width\": 4"),
+        ("\"fx\"", "\"focal\""),
+        ("0.5", "1e999"),
+        ("{", ""),
+    ] {
+        let bad = good.replacen(from, to, 1);
+        assert_ne!(bad, good);
+        std::fs::write(&json, bad).unwrap();
+        let error = open(&path).unwrap_err();
+        assert!(
+            matches!(error, FileError::BadIntrinsics { .. }),
+            "{from} -> {to}: {error}"
+        );
+    }
+}
+
+#[test]
+fn the_images_of_a_folder_may_share_a_camera() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("frame.png");
+    write_depth_png(&path, &frame()).unwrap();
+    let shared = folder.path().join(FOLDER_CAMERA);
+    std::fs::rename(intrinsics_path(&path), &shared).unwrap();
+    assert_eq!(open(&path).unwrap(), Opened::Depth(frame()));
+    let mut other = DepthCamera::of(&frame());
+    other.intrinsics.fx = 600.0;
+    write_camera(&intrinsics_path(&path), &other).unwrap();
+    let Opened::Depth(own) = open(&path).unwrap() else {
+        panic!("a depth image");
+    };
+    assert_eq!(DepthCamera::of(&own), other);
+}
+
+#[test]
+fn other_kinds_of_png_are_named() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("picture.png");
+    for (kind, num_bytes, word) in [
+        (ExtendedColorType::L8, 1, "8 bits"),
+        (ExtendedColorType::Rgb8, 3, "colour"),
+        (ExtendedColorType::Rgb16, 6, "16-bit colour"),
+    ] {
+        let mut png = Vec::new();
+        PngEncoder::new(&mut png)
+            .write_image(&vec![9; num_bytes], 1, 1, kind)
+            .unwrap();
+        std::fs::write(&path, png).unwrap();
+        let error = open(&path).unwrap_err();
+        assert!(
+            matches!(&error, FileError::WrongPngKind { found, .. } if found.contains(word)),
+            "{error}"
+        );
+    }
+}
+
+#[test]
+fn a_frame_without_a_reading_has_no_points() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("frame.png");
+    write_depth_png(
+        &path,
+        &DepthFrame {
+            depth: vec![0; 6],
+            ..frame()
+        },
+    )
+    .unwrap();
+    assert!(matches!(
+        open(&path),
+        Err(FileError::NoPoints { found: 6, .. })
+    ));
+}
+
+#[test]
+fn an_image_larger_than_its_bytes_could_hold_takes_no_memory() {
+    // A correct header of 7000×7000 pixels over the data of six.
+    let png = with_header(|header| {
+        header[..4].copy_from_slice(&7000_u32.to_be_bytes());
+        header[4..8].copy_from_slice(&7000_u32.to_be_bytes());
+    });
+    assert!(matches!(decoded(&png), Err(FileError::Truncated { .. })));
+}
+
+/// A PNG of six pixels whose header was changed and made consistent again.
+fn with_header(change: impl FnOnce(&mut [u8])) -> Vec<u8> {
+    let mut png = Vec::new();
+    PngEncoder::new(&mut png)
+        .write_image(&[0; 12], 3, 2, ExtendedColorType::L16)
+        .unwrap();
+    change(&mut png[16..29]);
+    let checksum = crc32(&png[12..29]);
+    png[29..33].copy_from_slice(&checksum.to_be_bytes());
+    png
+}
+
+fn decoded(png: &[u8]) -> Result<((usize, usize), Vec<u16>), FileError> {
+    decode(Source {
+        path: Path::new("test.png"),
+        bytes: png,
+    })
+}
+
+#[test]
+fn a_size_beyond_all_cameras_is_too_large_as_in_other_formats() {
+    let png = with_header(|header| {
+        header[..4].copy_from_slice(&(1_u32 << 16).to_be_bytes());
+        header[4..8].copy_from_slice(&(1_u32 << 15).to_be_bytes());
+    });
+    assert!(matches!(
+        decoded(&png),
+        Err(FileError::TooLarge { what: "pixels", found, .. }) if found == 1 << 31
+    ));
+}
+
+#[test]
+fn a_palette_is_named_and_a_cut_image_invents_no_number() {
+    let palette = with_header(|header| header[8..10].copy_from_slice(&[8, PALETTE]));
+    let error = decoded(&palette).unwrap_err();
+    assert!(
+        error.to_string().contains("an 8-bit PNG with a palette"),
+        "{error}"
+    );
+    let whole = with_header(|_| {});
+    for length in [9, 20, whole.len() - 20] {
+        let error = decoded(&whole[..length]).unwrap_err();
+        assert!(
+            error.to_string().contains("expected the end of the"),
+            "{error}"
+        );
+    }
+}
+
+#[test]
+fn a_camera_is_no_capture_and_nothing_else_is_overwritten_by_one() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("frame.png");
+    write_depth_png(&path, &frame()).unwrap();
+    let json = intrinsics_path(&path);
+    let error = open(&json).unwrap_err();
+    assert!(matches!(&error, FileError::IsIntrinsics { image, .. } if *image == path));
+    write_depth_png(&path, &frame()).expect("a camera may be replaced by a camera");
+    std::fs::write(&json, "{\"shift\": 3}").unwrap();
+    let error = write_depth_png(&path, &frame()).unwrap_err();
+    assert!(matches!(error, FileError::ForeignSidecar { .. }));
+    assert_eq!(std::fs::read_to_string(&json).unwrap(), "{\"shift\": 3}");
+}

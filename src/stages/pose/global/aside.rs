@@ -1,0 +1,93 @@
+//! What else a pose may be: the best one put aside, and tried there.
+//!
+//! Half a part lies on a whole one in many places: a sheet slides along itself, the bars of a grille lie on the next
+//! ones, and both fit nearly as well the other way round.
+
+use nalgebra::{Translation3, Unit, UnitQuaternion};
+
+use super::{COMPLETE, GlobalSearch, NUM_FINISHED, Trial};
+use crate::{
+    geometry::rigid::RigidTransform,
+    stages::pose::{
+        PoseError,
+        refine::{Level, Search, cost},
+    },
+};
+
+/// A pose is put aside so many times either way, by so many extents of the target each.
+const SLIDES: i32 = 10;
+const SLIDE: f64 = 0.06;
+/// So often at most: each time costs as much as the race.
+const MOST_ROUNDS: usize = 4;
+
+impl GlobalSearch<'_> {
+    /// Tries the best elsewhere, as long as something better is found and there is something to be found.
+    pub(super) fn put_aside(&self, finished: &mut Vec<Trial>) -> Result<(), PoseError> {
+        for round in 0..MOST_ROUNDS {
+            let Some(best) = finished.first() else {
+                return Ok(());
+            };
+            let before = best.cost;
+            let mut aside = self.slid(&best.refined.target_from_source);
+            if round > 0 {
+                for axis in 0..3 {
+                    aside.extend(self.slid(&self.half_turned(best, axis)));
+                }
+            }
+            aside.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+            let mut aside = self.distinct(aside);
+            aside.truncate(NUM_FINISHED);
+            for trial in &mut aside {
+                trial
+                    .refined
+                    .iterations
+                    .clone_from(&best.refined.iterations);
+            }
+            finished.extend(self.finish(aside)?);
+            finished.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+            *finished = self.distinct(std::mem::take(finished));
+            let best = &finished[0];
+            let is_done = self.overlap(best) >= COMPLETE || (round > 0 && best.cost >= before);
+            if is_done {
+                break;
+            }
+        }
+        Ok(())
+    }
+
+    /// A pose put aside along the target's two longest axes: the cheapest places.
+    fn slid(&self, pose: &RigidTransform) -> Vec<Trial> {
+        let (extent, target) = (self.prepared.extent(), self.prepared.target());
+        let level = Level {
+            num_surface: 120,
+            num_edges: 0,
+            scale: 0.0,
+            max_steps: 0,
+            search: Search::Field,
+        };
+        let axes = &self.prepared.axes.axes;
+        let steps = || (-SLIDES..=SLIDES).map(|i| f64::from(i) * SLIDE * extent);
+        let mut slid: Vec<Trial> = steps()
+            .flat_map(|a| steps().map(move |b| (a, b)))
+            .map(|(a, b)| {
+                let shift = axes.column(0) * a + axes.column(1) * b;
+                let aside = Translation3::from(shift) * pose;
+                let mut trial = Trial::unrefined(aside);
+                trial.cost = cost(&self.source, &target, &aside, &level, 0.04 * extent);
+                trial
+            })
+            .collect();
+        slid.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        slid.truncate(20 * NUM_FINISHED);
+        slid
+    }
+
+    /// The source turned by half a turn about one of the target's axes, its middle where it was.
+    fn half_turned(&self, trial: &Trial, axis: usize) -> RigidTransform {
+        let pose = trial.refined.target_from_source;
+        let middle = pose * self.axes.mean;
+        let about = Unit::new_normalize(self.prepared.axes.axes.column(axis).into_owned());
+        let turn = UnitQuaternion::from_axis_angle(&about, std::f64::consts::PI);
+        Translation3::from(middle.coords) * turn * Translation3::from(-middle.coords) * pose
+    }
+}

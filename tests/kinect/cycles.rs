@@ -1,0 +1,76 @@
+//! Opening and closing a thousand times.
+
+use std::{ffi::OsStr, fs};
+
+use partsight::capture::DepthSource;
+
+use crate::{
+    fakenect, next_capture, open_kinect,
+    own_process::{self, is_own},
+    session,
+};
+
+const NUM_CYCLES: usize = 1000;
+/// By then the allocator and the libraries have what they keep.
+const NUM_WARM_UP: usize = 50;
+/// A frame lost in each cycle would be 600 000 kB, a hundred bytes 100.
+const MOST_GROWTH_KB: u64 = 100;
+
+/// What a process holds.
+#[derive(Debug)]
+struct Held {
+    memory_kb: u64,
+    num_threads: u64,
+    num_files: usize,
+}
+
+impl Held {
+    fn now() -> Self {
+        let status = fs::read_to_string("/proc/self/status").expect("of this process");
+        let number = |name: &str| {
+            let line = status
+                .lines()
+                .find_map(|line| line.strip_prefix(name))
+                .expect("a line");
+            let digits = line.trim().split(' ').next().expect("a number");
+            digits.parse().expect("a number")
+        };
+        Self {
+            memory_kb: number("VmRSS:"),
+            num_threads: number("Threads:"),
+            num_files: fs::read_dir("/proc/self/fd")
+                .expect("of this process")
+                .count(),
+        }
+    }
+}
+
+#[test]
+fn a_thousand_times_opened_and_closed_leaks_nothing() {
+    let test = "cycles::a_thousand_times_opened_and_closed_leaks_nothing";
+    if !is_own(test) {
+        let Some(library) = fakenect() else { return };
+        let folder = tempfile::tempdir().expect("a folder");
+        session::write_endless(folder.path(), &session::frames()[1]);
+        let environment: [(&str, &OsStr); 4] = [
+            // Buffers of frames go back to the system at once, so that one more or less at hand is no growth.
+            ("MALLOC_MMAP_THRESHOLD_", OsStr::new("65536")),
+            ("MALLOC_ARENA_MAX", OsStr::new("1")),
+            ("PARTSIGHT_FREENECT", library.as_os_str()),
+            ("FAKENECT_PATH", folder.path().as_os_str()),
+        ];
+        return own_process::run(test, &environment);
+    }
+    let cycle = || {
+        let mut kinect: Box<dyn DepthSource> = open_kinect().expect("a session");
+        next_capture(kinect.as_mut()).expect("a frame");
+    };
+    (0..NUM_WARM_UP).for_each(|_| cycle());
+    let before = Held::now();
+    (0..NUM_CYCLES).for_each(|_| cycle());
+    let after = Held::now();
+    println!("figures: {before:?}, after {NUM_CYCLES} cycles {after:?}");
+    assert_eq!(after.num_files, before.num_files);
+    assert_eq!(after.num_threads, before.num_threads);
+    assert!(after.memory_kb <= before.memory_kb + MOST_GROWTH_KB);
+}

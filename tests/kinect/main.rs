@@ -1,0 +1,91 @@
+//! A Kinect without a Kinect: a recorded session played by the fakenect build of libfreenect, a library made here that
+//! behaves as the real one does when a camera is there or something is wrong, and the system's libfreenect itself.
+//!
+//! A library once loaded stays in its process with all its state, so every test has a process of its own. Without the
+//! libraries (`apt-get install libfreenect0.5`) or a C compiler the tests say that they were skipped; with
+//! `PARTSIGHT_REQUIRE_KINECT=1` that is a failure.
+
+#![cfg(target_os = "linux")]
+
+mod camera;
+mod cycles;
+mod own_process;
+mod played;
+mod session;
+mod system;
+
+use std::{
+    path::PathBuf,
+    time::{Duration, Instant},
+};
+
+use partsight::capture::{
+    CaptureError, Captured, DepthSource, KinectError, KinectSpec, Next, SourceSpec, open,
+};
+
+/// Longer than any step of a test takes, so that only one that hangs comes to its end.
+const PATIENCE: Duration = Duration::from_mins(1);
+
+/// The Kinect that the environment provides.
+fn open_kinect() -> Result<Box<dyn DepthSource>, CaptureError> {
+    open(&SourceSpec::Kinect(KinectSpec::default()))
+}
+
+/// Why it does not open.
+fn trouble() -> KinectError {
+    trouble_of(open_kinect().err().expect("does not open"))
+}
+
+fn trouble_of(error: CaptureError) -> KinectError {
+    match error {
+        CaptureError::Kinect(error) => error,
+        other => panic!("{other}"),
+    }
+}
+
+/// The next capture; `None` at the end of the session.
+fn next_capture(source: &mut dyn DepthSource) -> Option<Captured> {
+    let start = Instant::now();
+    while start.elapsed() < PATIENCE {
+        match source.next(Duration::from_millis(20)).expect("no trouble") {
+            Next::Captured(captured) => return Some(captured),
+            Next::End => return None,
+            Next::NotYet => {}
+            Next::Skipped(skipped) => panic!("{skipped:?}"),
+        }
+    }
+    panic!("nothing came");
+}
+
+/// What is missing for a test, said aloud.
+#[expect(
+    clippy::print_stdout,
+    reason = "a test that checks nothing must say so"
+)]
+fn skipped(what: &str) {
+    let text = format!("skipped: {what}");
+    let is_required =
+        std::env::var_os("PARTSIGHT_REQUIRE_KINECT").is_some_and(|value| value == "1");
+    assert!(!is_required, "PARTSIGHT_REQUIRE_KINECT=1, and {text}");
+    println!("{text}");
+}
+
+/// The folder with the fakenect build; `None`, with a word about it, where there is none.
+fn fakenect() -> Option<PathBuf> {
+    let lib = PathBuf::from("/usr/lib");
+    let of_machine = format!("{}-linux-gnu/fakenect", std::env::consts::ARCH);
+    let folders = [
+        lib.join(of_machine),
+        lib.join("fakenect"),
+        "/usr/lib64/fakenect".into(),
+    ];
+    let folder = folders
+        .into_iter()
+        .find(|folder| folder.join("libfreenect.so.0.5").is_file());
+    if folder.is_none() {
+        skipped(
+            "the fakenect build of libfreenect is not installed (apt-get install libfreenect0.5)",
+        );
+    }
+    folder
+}

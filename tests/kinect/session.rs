@@ -1,0 +1,88 @@
+//! Writes a session as libfreenect's `fakenect-record` does.
+
+use std::{fs, path::Path};
+
+use partsight::{
+    capture::frame::{DepthFrame, Intrinsics},
+    simulate::{CellSetup, PartKind, PartPose, Placement, Side, Subject, frame},
+};
+
+/// A Kinect's distance of projector and camera, cm.
+const BASELINE: f64 = 7.5;
+/// Distance of its reference plane, cm.
+const REFERENCE: f64 = 120.0;
+/// A pixel of the 1280 across on that plane, cm.
+const PIXEL: f64 = 0.1042;
+/// No reading.
+const NOTHING: u16 = 2047;
+
+/// The camera with those values.
+pub(crate) const CAMERA: Intrinsics = Intrinsics {
+    width: 640,
+    height: 480,
+    fx: 575.8157,
+    fy: 575.8157,
+    cx: 320.0,
+    cy: 240.0,
+};
+
+/// What such a camera sees of the simulated cell: a fender, nothing, a front door.
+pub(crate) fn frames() -> Vec<DepthFrame> {
+    let part = |kind| {
+        let mut setup = CellSetup::with_part(kind, Side::Left, 0, 5);
+        setup.pose = PartPose::Drawn(Placement::facing());
+        setup
+    };
+    let setups = [
+        part(PartKind::Fender),
+        CellSetup::new(Subject::Nothing, 6),
+        part(PartKind::FrontDoor),
+    ];
+    let seen = setups.into_iter().map(|mut setup| {
+        setup.intrinsics = CAMERA;
+        frame(&setup).frame
+    });
+    seen.collect()
+}
+
+/// One frame, so often that no test comes to its end.
+pub(crate) fn write_endless(folder: &Path, frame: &DepthFrame) {
+    write(folder, std::slice::from_ref(frame), 0.0);
+    let index = folder.join("INDEX.txt");
+    let line = fs::read_to_string(&index).expect("an index");
+    fs::write(&index, line.repeat(20_000)).expect("written");
+}
+
+/// The frames in steps of disparity, so many seconds apart.
+pub(crate) fn write(folder: &Path, frames: &[DepthFrame], apart: f64) {
+    let mut index = String::new();
+    for (k, frame) in frames.iter().enumerate() {
+        let seconds = 1_290_000_000.0 + apart * k as f64;
+        let name = format!("d-{seconds:.6}-{}.pgm", 2_000_000 * (k + 1));
+        let mut bytes = b"P5 640 480 65535\n".to_vec();
+        for &value in &frame.depth {
+            let millimetres = f64::from(value) * frame.metres_per_unit * 1000.0;
+            bytes.extend(step(millimetres).to_ne_bytes());
+        }
+        fs::write(folder.join(&name), bytes).expect("written");
+        index += &name;
+        index.push('\n');
+    }
+    fs::write(folder.join("INDEX.txt"), index).expect("written");
+}
+
+/// The step of disparity that a Kinect gives for what is so far away; 0 is no reading.
+pub(crate) fn step(millimetres: f64) -> u16 {
+    let shift = BASELINE * (1.0 - REFERENCE / (millimetres / 10.0));
+    let step = 4.0 * (shift / PIXEL + 0.375) + 800.0;
+    if millimetres > 0.0 && step >= 0.0 && step < f64::from(NOTHING) {
+        step.round() as u16
+    } else {
+        NOTHING
+    }
+}
+
+/// How far apart two steps are at that distance, mm.
+pub(crate) fn step_width(millimetres: f64) -> f64 {
+    millimetres.powi(2) * PIXEL / (4.0 * 10.0 * BASELINE * REFERENCE)
+}

@@ -1,0 +1,250 @@
+//! Sources from end to end: recorded, replayed, watched and followed by the built program.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::{Child, Command, Output, Stdio},
+    thread,
+    time::{Duration, Instant},
+};
+
+use serde_json::Value;
+
+/// Long enough for a machine at work with other things; what is waited for comes at once.
+const PATIENCE: Duration = Duration::from_mins(2);
+
+struct Workplace {
+    folder: tempfile::TempDir,
+}
+
+impl Workplace {
+    fn new() -> Self {
+        Self {
+            folder: tempfile::tempdir().expect("a folder"),
+        }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn command(&self, args: &[&str]) -> Command {
+        let mut command = Command::new(env!("CARGO_BIN_EXE_partsight"));
+        command
+            .args(args)
+            .current_dir(self.folder.path())
+            .env_remove("DISPLAY")
+            .env_remove("WAYLAND_DISPLAY")
+            .env("XDG_DATA_HOME", self.path("data"))
+            .env("HOME", self.folder.path());
+        command
+    }
+
+    /// Runs to the end: the exit code, the lines of the answer, and the messages.
+    fn run(&self, args: &[&str]) -> (Option<i32>, Vec<String>, String) {
+        answer_of(&self.command(args).output().expect("starts"))
+    }
+
+    /// Starts what goes on until it is interrupted.
+    fn start(&self, args: &[&str]) -> Child {
+        self.command(args)
+            .stdout(Stdio::piped())
+            .stderr(Stdio::piped())
+            .spawn()
+            .expect("starts")
+    }
+}
+
+fn answer_of(output: &Output) -> (Option<i32>, Vec<String>, String) {
+    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
+    let lines = text(&output.stdout).lines().map(str::to_owned).collect();
+    (output.status.code(), lines, text(&output.stderr))
+}
+
+/// The verdict alone: without times, and without what says how it was captured.
+fn verdict(line: &str) -> Value {
+    let mut line: Value = serde_json::from_str(line).expect("a line of JSON");
+    let fields = line.as_object_mut().expect("an object");
+    for field in ["timings_ms", "taken_at", "source", "number", "dropped"] {
+        assert!(fields.remove(field).is_some(), "{field} is missing");
+    }
+    line
+}
+
+fn wait_until(what: impl Fn() -> bool) {
+    let until = Instant::now() + PATIENCE;
+    while !what() {
+        assert!(Instant::now() < until, "it took too long");
+        thread::sleep(Duration::from_millis(20));
+    }
+}
+
+fn num_lines(path: &Path) -> usize {
+    fs::read(path).map_or(0, |bytes| {
+        String::from_utf8_lossy(&bytes).matches('\n').count()
+    })
+}
+
+/// As Ctrl-C does.
+#[cfg(unix)]
+fn interrupt(child: &Child) {
+    let sent = Command::new("kill")
+        .args(["-INT", &child.id().to_string()])
+        .status();
+    assert!(sent.expect("kill is there").success());
+}
+
+#[test]
+fn a_recording_gives_the_same_verdicts_as_the_cell_itself_bit_for_bit() {
+    let place = Workplace::new();
+    let cell = "simulated,fps=4,noise=1.5:fender";
+    let (code, out, err) = place.run(&[
+        "capture", "--source", cell, "--frames", "6", "--out", "tried",
+    ]);
+    assert_eq!(code, Some(0), "{err}");
+    assert_eq!(out, ["6 frames, simulated in tried"]);
+    let replay = || {
+        let (code, out, err) = place.run(&["inspect", "--source", "recording:tried", "--json"]);
+        assert_eq!(code, Some(0), "{err}");
+        assert!(err.contains("6 inspected, 0 dropped"), "{err}");
+        assert!(err.contains("Simulated: no camera is read"), "{err}");
+        out.iter().map(|line| verdict(line)).collect::<Vec<_>>()
+    };
+    let first = replay();
+    assert_eq!(first.len(), 6);
+    assert_eq!(first, replay());
+    for line in &first {
+        assert_eq!(line["simulated"], true);
+        assert_eq!(line["part"], "fender");
+    }
+    // The frames of a live cell are dropped as it pleases the machine; those that were seen both times agree.
+    let (_, direct, err) = place.run(&["inspect", "--source", cell, "--frames", "3", "--json"]);
+    let direct: Vec<Value> = direct.iter().map(|line| verdict(line)).collect();
+    assert_eq!(direct.len(), 3, "{err}");
+    let mut num_agreeing = 0;
+    for line in &direct {
+        assert_eq!(line["simulated"], true);
+        if let Some(same) = first.iter().find(|other| other["scene"] == line["scene"]) {
+            assert_eq!(same, line);
+            num_agreeing += 1;
+        }
+    }
+    assert!(num_agreeing >= 1, "{direct:?}");
+    // The images of a recording are captures of their own.
+    let (_, files, _) = place.run(&["inspect", "tried/frame-000001.png", "--json"]);
+    let file: Value = serde_json::from_str(&files[0]).expect("a line of JSON");
+    assert_eq!(file["pose"], first[0]["pose"]);
+    assert_eq!(
+        file.get("simulated"),
+        None,
+        "a file does not say where it is from"
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn ctrl_c_ends_a_recording_that_is_whole() {
+    let place = Workplace::new();
+    let list = place.path("tried/recording.jsonl");
+    let recording = place.start(&["capture", "--source", "simulated,fps=50", "--out", "tried"]);
+    wait_until(|| num_lines(&list) > 3);
+    interrupt(&recording);
+    let (code, out, err) = answer_of(&recording.wait_with_output().expect("it ends"));
+    assert_eq!(code, Some(0), "{err}");
+    let num = num_lines(&list) - 1;
+    assert!(
+        out[0].starts_with(&format!("{num} frames, simulated")),
+        "{out:?}"
+    );
+    let (_, copied, err) = place.run(&["capture", "--source", "recording:tried", "--out", "copy"]);
+    assert!(
+        copied[0].starts_with(&format!("{num} frames")),
+        "{copied:?} {err}"
+    );
+    let (code, _, err) = place.run(&["capture", "--source", "recording:tried", "--out", "copy"]);
+    assert_eq!(code, Some(2));
+    assert!(err.contains("not empty") && err.contains("to do"), "{err}");
+}
+
+#[cfg(unix)]
+#[test]
+fn a_watched_folder_is_followed_until_ctrl_c() {
+    let place = Workplace::new();
+    let simulate = |name: &str| {
+        let (code, _, err) = place.run(&[
+            "simulate",
+            "--part",
+            "fender",
+            "--placement",
+            "facing",
+            "--out",
+            name,
+        ]);
+        assert_eq!(code, Some(0), "{err}");
+    };
+    simulate("one.pcd");
+    let verdicts = place.path("verdicts.jsonl");
+    let messages = place.path("messages.txt");
+    let said = |words: &str| fs::read_to_string(&messages).is_ok_and(|text| text.contains(words));
+    let following = place
+        .command(&["inspect", "--source", "watch,from=all:scans", "--json"])
+        .stdout(fs::File::create(&verdicts).expect("a file"))
+        .stderr(fs::File::create(&messages).expect("a file"))
+        .spawn()
+        .expect("starts");
+    wait_until(|| said("the folder is not there"));
+    fs::create_dir(place.path("scans")).expect("a folder");
+    fs::rename(place.path("one.pcd"), place.path("scans/one.pcd")).expect("renamed");
+    wait_until(|| num_lines(&verdicts) == 1);
+    fs::write(place.path("scans/broken.pcd"), "# .PCD v0.7\n").expect("written");
+    wait_until(|| num_lines(&verdicts) == 2);
+    interrupt(&following);
+    let (code, _, _) = answer_of(&following.wait_with_output().expect("it ends"));
+    assert_eq!(code, Some(2));
+    assert!(said("1 inspected, 0 dropped, 1 could not be read"));
+    let lines = fs::read_to_string(&verdicts).expect("verdicts");
+    let lines: Vec<Value> = lines
+        .lines()
+        .map(|line| serde_json::from_str(line).expect("a line of JSON"))
+        .collect();
+    assert_eq!(
+        (&lines[0]["scene"], &lines[0]["part"]),
+        (&"one.pcd".into(), &"fender".into())
+    );
+    assert_eq!(
+        (&lines[0]["simulated"], &lines[0]["number"]),
+        (&false.into(), &1.into())
+    );
+    assert_eq!(
+        (&lines[1]["scene"], &lines[1]["status"]),
+        (&"broken.pcd".into(), &"unreadable".into())
+    );
+}
+
+#[test]
+fn what_cannot_be_opened_is_said_with_what_to_do() {
+    let place = Workplace::new();
+    for (source, words) in [
+        ("recording:missing", "the folder is not there"),
+        ("recording:.", "no recording, and no file of a camera"),
+    ] {
+        let (code, out, err) = place.run(&["inspect", "--source", source, "--json"]);
+        assert_eq!((code, out.len()), (Some(2), 0), "{err}");
+        assert!(
+            err.contains(words) && err.contains("to do"),
+            "{source}: {err}"
+        );
+    }
+    let (code, _, err) = place.run(&["inspect", "--source", "camera"]);
+    assert_eq!(code, Some(2));
+    assert!(
+        err.contains("is no source") && err.contains("capture --list"),
+        "{err}"
+    );
+    let (code, out, _) = place.run(&["capture", "--list"]);
+    assert_eq!(code, Some(0));
+    assert!(
+        out.iter().any(|line| line.starts_with("simulated ")),
+        "{out:?}"
+    );
+}
