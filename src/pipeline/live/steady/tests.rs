@@ -71,6 +71,9 @@ impl Hanging {
     }
 }
 
+/// How far a part is from its rest after so many seconds.
+type Motion = Box<dyn Fn(f64) -> RigidTransform>;
+
 fn shifted(x: f64, y: f64, z: f64) -> RigidTransform {
     RigidTransform::from_parts(Translation3::new(x, y, z), UnitQuaternion::identity())
 }
@@ -116,8 +119,7 @@ fn what_drifts_swings_or_turns_slowly_is_never_steady() {
     };
     let swing =
         |phase: f64| move |t: f64| shifted(0.004 * (TAU * (t / 1.6 + phase)).sin(), 0.0, 0.0);
-    type Moved<'a> = (&'a str, PartKind, f64, Box<dyn Fn(f64) -> RigidTransform>);
-    let cases: [Moved<'_>; 7] = [
+    let cases: [(&str, PartKind, f64, Motion); 7] = [
         (
             "right",
             PartKind::Grille,
@@ -201,9 +203,8 @@ fn a_gap_in_time_and_another_picture_begin_anew_and_a_cloud_without_rows_is_neve
 /// Prints what the thresholds are chosen by.
 #[test]
 #[ignore = "a table for whoever chooses the thresholds"]
-#[expect(clippy::print_stdout, reason = "a table")]
 fn table() {
-    let cases: [(&str, Box<dyn Fn(f64) -> RigidTransform>); 7] = [
+    let cases: [(&str, Motion); 7] = [
         ("still", Box::new(|_| RigidTransform::identity())),
         ("right 10 mm/s", Box::new(|t| shifted(0.01 * t, 0.0, 0.0))),
         ("right 5 mm/s", Box::new(|t| shifted(0.005 * t, 0.0, 0.0))),
