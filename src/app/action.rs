@@ -17,13 +17,17 @@ use super::{
     },
     job::{Answer, Outcome, Request, Trouble},
     lane::Lane,
+    live::{self, LiveAction},
     shelf::LibraryShown,
     source::{CellChoice, Origin, SceneSource, file_name},
     state::{HelpPage, Notice, NoticeKind, Shown, Source, StagePanel, State, Workspace},
     worker::News,
     writing::WriteRequest,
 };
-use crate::stages::segment::EmptyCell;
+use crate::{
+    capture::{Pace, RecordingSpec, SourceSpec, WatchedFrom, WatchedSpec},
+    stages::segment::EmptyCell,
+};
 
 /// Something that happened.
 #[derive(Debug)]
@@ -68,6 +72,8 @@ pub enum Action {
     Quit,
     /// Put the pose on the clipboard, row after row.
     CopyPose,
+    /// Of the source and of following it.
+    Live(LiveAction),
     /// Of the Inspect workspace.
     Inspect(InspectAction),
     /// Of the Enrol workspace.
@@ -87,6 +93,12 @@ pub enum Action {
 pub enum Ask {
     /// A captured scene to open.
     Scene,
+    /// The folder of a recording to play.
+    Recording,
+    /// A folder to watch for captures.
+    WatchedFolder,
+    /// The folder that the source is recorded in.
+    RecordTo,
     /// The folder of another library.
     Library,
     /// The folder that the report of the inspection in front goes to.
@@ -136,41 +148,28 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::Capture => return Some(capture(state)),
         Action::UseCell(choice) => {
             state.source = Source::Cell(choice);
-            return Some(capture(state));
+            return live::source_changed(state);
         }
-        Action::TakeEmptyCell => take_empty_cell(state),
+        Action::TakeEmptyCell => {
+            take_empty_cell(state);
+            return live::start_anew(state);
+        }
         Action::ForgetEmptyCell => {
             state.empty_cell = None;
             notify(state, Notice::done("The empty cell is forgotten"));
+            return live::start_anew(state);
         }
         Action::Ask(Ask::Scene) if state.workspace == Workspace::Enrol => {
             return Some(Effect::ShowDialog(Ask::Part));
         }
         Action::Ask(ask) => return Some(Effect::ShowDialog(ask)),
-        Action::Chosen(Ask::CasesFolder, path) => {
-            return compare::apply(state, CompareAction::Folder(path));
-        }
-        Action::Chosen(Ask::EarlierRun, path) => {
-            return compare::apply(state, CompareAction::Earlier(path));
-        }
-        Action::Chosen(Ask::Scene | Ask::Part, path) | Action::Open(path) => {
-            state.source = Source::File(path);
-            return Some(capture(state));
-        }
-        Action::Chosen(Ask::Library, path) => {
-            state.chosen_library = Some(path);
-            return Some(open_library(state));
-        }
-        Action::Chosen(Ask::ReportFolder, folder) => return export(state, folder),
-        Action::Chosen(Ask::HistoryCsv, path) => return Some(history::export(state, path)),
+        Action::Chosen(ask, path) => return chosen(state, ask, path),
+        Action::Open(path) => return chosen(state, Ask::Scene, path),
         Action::UseFoundLibrary => {
             state.chosen_library = None;
             return Some(open_library(state));
         }
-        Action::Chosen(Ask::Picture, path) => state.inspect.picture_to = Some(path),
-        Action::Chosen(Ask::Align(ask), path) => {
-            return align::apply(state, AlignAction::Chosen(ask, path));
-        }
+        Action::Cancel(Lane::Live) => return None,
         Action::Cancel(lane) => {
             state.works.remove(&lane);
             return Some(Effect::CancelWork(lane));
@@ -208,6 +207,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
             );
             return Some(Effect::CopyText(text));
         }
+        Action::Live(action) => return live::apply(state, action),
         Action::Inspect(action) => return inspect::state::apply(state, action),
         Action::Enrol(action) => return enrol::apply(state, action),
         Action::Compare(action) => return compare::apply(state, action),
@@ -218,8 +218,48 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
     None
 }
 
-/// Asks for a scene from the source: to be inspected, or to be enrolled while that is in front.
-fn capture(state: &mut State) -> Effect {
+/// What follows from the file or folder that was chosen.
+fn chosen(state: &mut State, ask: Ask, path: PathBuf) -> Option<Effect> {
+    match ask {
+        Ask::CasesFolder => compare::apply(state, CompareAction::Folder(path)),
+        Ask::EarlierRun => compare::apply(state, CompareAction::Earlier(path)),
+        Ask::Scene | Ask::Part => {
+            state.source = Source::File(path);
+            Some(capture(state))
+        }
+        Ask::Recording => {
+            let spec = SourceSpec::Recording(RecordingSpec {
+                folder: path,
+                pace: Some(Pace::AsTaken),
+                camera: None,
+            });
+            live::apply(state, LiveAction::Use(spec))
+        }
+        Ask::WatchedFolder => {
+            let spec = SourceSpec::Watched(WatchedSpec {
+                folder: path,
+                from: WatchedFrom::default(),
+            });
+            live::apply(state, LiveAction::Use(spec))
+        }
+        Ask::RecordTo => live::apply(state, LiveAction::Record(path)),
+        Ask::Library => {
+            state.chosen_library = Some(path);
+            Some(open_library(state))
+        }
+        Ask::ReportFolder => export(state, path),
+        Ask::HistoryCsv => Some(history::export(state, path)),
+        Ask::Picture => {
+            state.inspect.picture_to = Some(path);
+            None
+        }
+        Ask::Align(ask) => align::apply(state, AlignAction::Chosen(ask, path)),
+    }
+}
+
+/// Asks for a scene from the source: to be inspected, or to be enrolled while that is in front. To be inspected it is a
+/// single one, and ends following the source.
+pub(super) fn capture(state: &mut State) -> Effect {
     let (source, what) = match &state.source {
         Source::Cell(choice) => {
             state.num_captures += 1;
@@ -233,6 +273,13 @@ fn capture(state: &mut State) -> Effect {
             SceneSource::File(path.clone()),
             format!("Opening {}", file_name(path)),
         ),
+        Source::Camera(spec) => {
+            let what = match **spec {
+                SourceSpec::Watched(_) => "Waiting for a new file".to_owned(),
+                _ => "Capturing".to_owned(),
+            };
+            (SceneSource::Camera(spec.clone()), what)
+        }
     };
     if state.workspace == Workspace::Enrol {
         return enrol::take(state, source, what);
@@ -285,6 +332,9 @@ fn export(state: &mut State, folder: PathBuf) -> Option<Effect> {
 
 /// Inspects the scene in front again: something that its result rests on has changed.
 pub(super) fn inspect_again(state: &mut State) -> Option<Effect> {
+    if state.is_live() {
+        return live::start_anew(state);
+    }
     let shown = &state.shown.as_ref()?.inspected;
     let request = InspectRequest {
         source: SceneSource::AtHand(Arc::clone(&shown.scene), shown.origin.clone()),
@@ -325,6 +375,7 @@ fn hear(state: &mut State, lane: Lane, news: News<Outcome>) -> Option<Effect> {
 fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> Option<Effect> {
     match outcome {
         Ok(Answer::Inspected(inspected)) => show(state, generation, inspected),
+        Ok(Answer::Live(answer)) => live::hear(state, Ok(answer)),
         Ok(Answer::Enrol(answer)) => return enrol::hear(state, Ok(answer)),
         Ok(Answer::Compare(answer)) => return compare::hear(state, Ok(answer)),
         Ok(Answer::Align(answer)) => return align::hear(state, Ok(answer)),
@@ -340,6 +391,7 @@ fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> 
                 Lane::Compare => return compare::hear(state, Err(trouble)),
                 Lane::Align => return align::hear(state, Err(trouble)),
                 Lane::Inspect => without_scene(state),
+                Lane::Live => live::hear(state, Err(trouble)),
                 Lane::Write => {}
             }
         }
@@ -368,6 +420,7 @@ fn show(state: &mut State, generation: u64, inspected: Arc<Inspected>) {
         generation,
         inspected,
         is_past,
+        session: None,
     });
 }
 
@@ -428,6 +481,10 @@ mod tests {
     impl Desk<Outcome> for NobodysDesk {
         fn progress(&self, _done: usize, _total: usize) {}
         fn partly(&self, _outcome: Outcome) {}
+        fn stands(&self, _outcome: Outcome) {}
+        fn is_followed(&self) -> bool {
+            true
+        }
     }
 
     fn done(generation: u64, outcome: Outcome) -> Action {

@@ -6,9 +6,11 @@ use egui::{
 
 use super::{
     action::{Action, Ask},
+    live::{self, LiveAction},
     shelf::LibraryShown,
-    source::{CellChoice, file_name},
-    state::{Source, StagePanel, State},
+    source::file_name,
+    source_menu,
+    state::{StagePanel, State, Workspace},
     theme::{ROUNDING, Theme, font, space},
 };
 
@@ -35,7 +37,7 @@ pub(super) fn top_bar(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut V
                 let name = RichText::new("Partsight").font(font::body_strong());
                 ui.label(name);
                 ui.add_space(space::LARGE);
-                source_menu(ui, state, actions);
+                source_menu::ui(ui, state, actions);
                 let capture = RichText::new("Capture").font(font::body_strong());
                 let key = RichText::new("Space").font(font::small());
                 let capture = Button::new(capture.color(theme.on_accent))
@@ -44,6 +46,7 @@ pub(super) fn top_bar(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut V
                 if labelled(ui, capture, "Capture").clicked() {
                     actions.push(Action::Capture);
                 }
+                live_button(ui, state, theme, actions);
                 let key = RichText::new("Ctrl O").font(font::small());
                 let open = Button::new("Open…").shortcut_text(key.color(theme.weak_text));
                 if labelled(ui, open, "Open…").clicked() {
@@ -59,69 +62,40 @@ pub(super) fn top_bar(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut V
         });
 }
 
+/// Follows the source, or stops.
+fn live_button(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+    let is_live = state.is_live();
+    let colour = if is_live { theme.on_accent } else { theme.text };
+    let key = if is_live {
+        theme.on_accent
+    } else {
+        theme.weak_text
+    };
+    let text = RichText::new("Live")
+        .font(font::body_strong())
+        .color(colour);
+    let key = RichText::new("L").font(font::small()).color(key);
+    let button = Button::selectable(is_live, text)
+        .frame_when_inactive(true)
+        .shortcut_text(key)
+        .min_size(Vec2::splat(space::TARGET));
+    let response = ui.add(button);
+    response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, is_live, "Live"));
+    let says = if is_live {
+        "Stop following the source (L)"
+    } else {
+        "Follow the source: every frame that can be is inspected (L)"
+    };
+    if response.on_hover_text(says).clicked() {
+        actions.push(Action::Live(LiveAction::Toggle));
+    }
+}
+
 /// A button that is called by its text alone, whatever shortcut it shows.
 pub(super) fn labelled(ui: &mut Ui, button: Button<'_>, label: &str) -> egui::Response {
     let response = ui.add(button.min_size(Vec2::splat(space::TARGET)));
     response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, label));
     response
-}
-
-fn source_menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
-    let now = match &state.source {
-        Source::Cell(CellChoice::InTurn) => "Simulated cell".to_owned(),
-        Source::Cell(choice) => format!("Simulated · {}", choice.title()),
-        Source::File(path) => shortened(&file_name(path), 24),
-    };
-    ui.menu_button(format!("Source · {now} ▼"), |ui| {
-        ui.set_min_width(220.0);
-        ui.label(RichText::new("Simulated cell").font(font::heading()));
-        for choice in CellChoice::all() {
-            let is_chosen = state.source == Source::Cell(choice);
-            if ui.selectable_label(is_chosen, choice.title()).clicked() {
-                actions.push(Action::UseCell(choice));
-                ui.close();
-            }
-        }
-        ui.separator();
-        if ui.button("Open a file…").clicked() {
-            actions.push(Action::Ask(Ask::Scene));
-            ui.close();
-        }
-        ui.separator();
-        empty_cell_entries(ui, state, actions);
-        if !state.recent.is_empty() {
-            ui.label(RichText::new("Recent files").font(font::heading()));
-        }
-        for path in &state.recent {
-            let is_chosen = matches!(&state.source, Source::File(file) if file == path);
-            let name = shortened(&file_name(path), 34);
-            let entry = ui.selectable_label(is_chosen, name);
-            if entry.on_hover_text(path.display().to_string()).clicked() {
-                actions.push(Action::Open(path.clone()));
-                ui.close();
-            }
-        }
-    })
-    .response
-    .on_hover_text("Where Capture takes a scene from");
-}
-
-/// Taking and forgetting the empty cell.
-fn empty_cell_entries(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
-    ui.label(RichText::new("Empty cell").font(font::heading()));
-    let take = Button::new("Take the empty cell");
-    let take = ui.add_enabled(state.shown.is_some(), take).on_hover_text(
-        "The scene in front shows the cell without a part: what stands in it is not taken for a part from now on",
-    );
-    if take.clicked() {
-        actions.push(Action::TakeEmptyCell);
-        ui.close();
-    }
-    let forget = Button::new("Forget the empty cell");
-    if ui.add_enabled(state.empty_cell.is_some(), forget).clicked() {
-        actions.push(Action::ForgetEmptyCell);
-        ui.close();
-    }
 }
 
 /// The text, its middle left out where it is too long.
@@ -201,6 +175,10 @@ fn library_menu(ui: &mut Ui, state: &State, library: &LibraryShown, actions: &mu
 /// What is being worked on, and the way out.
 fn progress(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
     let Some((lane, work)) = state.work() else {
+        // There the verdict card says it.
+        if state.is_live() && state.workspace != Workspace::Inspect {
+            live::chip(ui, state, theme);
+        }
         return;
     };
     ui.add_space(space::SMALL);

@@ -67,6 +67,17 @@ impl Dialog {
                     .add_filter("Pictures", &["png"])
                     .save_file(),
             ),
+            Ask::Recording => Box::pin(dialog.set_title("Play a recording").pick_folder()),
+            Ask::RecordTo => Box::pin(
+                dialog
+                    .set_title("Folder to record the source in")
+                    .pick_folder(),
+            ),
+            Ask::WatchedFolder => Box::pin(
+                dialog
+                    .set_title("Folder that captures are saved to")
+                    .pick_folder(),
+            ),
             Ask::CasesFolder => Box::pin(dialog.set_title("Folder of kept cases").pick_folder()),
             Ask::EarlierRun => Box::pin(
                 dialog
@@ -125,11 +136,13 @@ fn anything_with_points(dialog: rfd::AsyncFileDialog) -> rfd::AsyncFileDialog {
 /// Where nothing can be asked: files to write go to a folder of their own, files to open can be dropped.
 fn without_dialog(ask: Ask) -> Action {
     let name = match ask {
-        Ask::ReportFolder => "",
+        Ask::ReportFolder | Ask::RecordTo => "",
         Ask::HistoryCsv => "inspections.csv",
         Ask::Picture => "view.png",
         Ask::Align(AlignAsk::TableFile) => "table1.csv",
         Ask::Scene
+        | Ask::Recording
+        | Ask::WatchedFolder
         | Ask::Library
         | Ask::CasesFolder
         | Ask::EarlierRun

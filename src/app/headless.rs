@@ -5,6 +5,7 @@
 //! what a frame costs and to prove what it does not do.
 
 mod cost;
+mod live_cost;
 
 use std::{thread, time::Instant};
 
@@ -17,7 +18,10 @@ use eframe::{
 };
 use egui::{Event, FullOutput, RawInput, Rect, Vec2};
 
-pub use self::cost::{FrameCost, WindowCost, window_cost};
+pub use self::{
+    cost::{FrameCost, WindowCost, window_cost},
+    live_cost::{LiveStretch, live_stretches},
+};
 use super::{
     action::Action,
     viewport::ViewError,

@@ -8,6 +8,7 @@ use super::{
     enrol::{EnrolAnswer, EnrolRequest},
     inspect::work::{InspectRequest, Inspected, inspect},
     lane::Lane,
+    live::{LiveAnswer, LiveRequest},
     shelf::{LibraryShown, Shelf},
     worker::Desk,
     writing::{WriteRequest, Written},
@@ -19,6 +20,8 @@ use crate::error::Advice;
 pub enum Request {
     /// Get a scene and inspect it.
     Inspect(InspectRequest),
+    /// Follow a camera, or let it rest.
+    Live(LiveRequest),
     /// Use another library: the one of this folder, else the one that is found without.
     Library(Option<PathBuf>),
     /// Something of the Enrol workspace.
@@ -36,6 +39,7 @@ impl Request {
     pub fn lane(&self) -> Lane {
         match self {
             Self::Inspect(_) | Self::Library(_) => Lane::Inspect,
+            Self::Live(_) => Lane::Live,
             Self::Enrol(request) => request.lane(),
             Self::Compare(_) => Lane::Compare,
             Self::Align(_) => Lane::Align,
@@ -49,6 +53,8 @@ impl Request {
 pub enum Answer {
     /// A scene with everything that was found in it.
     Inspected(Arc<Inspected>),
+    /// How following a camera stands.
+    Live(LiveAnswer),
     /// The library that is in use now.
     Library(Arc<LibraryShown>),
     /// Something of the Enrol workspace.
@@ -90,6 +96,7 @@ pub fn answer(request: Request, shelf: &Shelf, desk: &dyn Desk<Outcome>) -> Opti
             Ok(inspected) => inspected.map(|found| Ok(Answer::Inspected(Arc::new(found)))),
             Err(error) => Some(Err(Trouble::of(&error))),
         },
+        Request::Live(request) => super::live::answer(&request, shelf, desk),
         Request::Library(given) => Some(match shelf.choose(given) {
             Ok(shelved) => Ok(Answer::Library(Arc::clone(&shelved.shown))),
             Err(error) => Err(Trouble::of(&error)),

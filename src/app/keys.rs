@@ -9,6 +9,7 @@ use super::{
     align,
     bars::labelled,
     compare, enrol, history, inspect,
+    live::LiveAction,
     state::{HelpPage, State, Workspace},
     theme::{Theme, font, space},
 };
@@ -23,13 +24,27 @@ pub(in crate::app) struct Shortcut {
 }
 
 /// The shortcuts of the whole window.
-const SHORTCUTS: [Shortcut; 8] = [
+const SHORTCUTS: [Shortcut; 10] = [
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::Space,
         keys: "Space",
         does: "Capture, and inspect or enrol it",
         action: || Action::Capture,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::L,
+        keys: "L",
+        does: "Live: follow the source, or stop",
+        action: || Action::Live(LiveAction::Toggle),
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::L,
+        keys: "Ctrl L",
+        does: "Record the source, or stop",
+        action: || Action::Live(LiveAction::ToggleRecording),
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,

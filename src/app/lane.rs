@@ -5,6 +5,8 @@
 pub enum Lane {
     /// Captures, opens and inspects scenes.
     Inspect,
+    /// Follows a camera, frame after frame.
+    Live,
     /// Prepares a part to be enrolled.
     Enrol,
     /// Inspects again with other parameters, and runs kept cases.
@@ -19,8 +21,9 @@ pub enum Lane {
 
 impl Lane {
     /// Every lane.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 7] = [
         Self::Inspect,
+        Self::Live,
         Self::Enrol,
         Self::Compare,
         Self::Align,
@@ -32,6 +35,7 @@ impl Lane {
     pub fn name(self) -> &'static str {
         match self {
             Self::Inspect => "inspect",
+            Self::Live => "live",
             Self::Enrol => "enrol",
             Self::Compare => "compare",
             Self::Align => "align",

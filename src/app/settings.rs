@@ -11,10 +11,11 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     job::Trouble,
+    live::LiveState,
     source::CellChoice,
     state::{Source, State, ThemeChoice, UnitSystem, Workspace},
 };
-use crate::{files::write_atomically, pipeline::Recipe};
+use crate::{capture::SourceSpec, files::write_atomically, pipeline::Recipe};
 
 /// The version of the file.
 const SCHEMA: u32 = 1;
@@ -45,6 +46,8 @@ pub struct Settings {
     pub source: RememberedSource,
     /// Parameters of the inspection; none: the program's own, whatever they are in its version.
     pub recipe: Option<Recipe>,
+    /// Frames that depth is averaged over while a source is followed.
+    pub average: usize,
 }
 
 /// A source, as the file has it.
@@ -55,6 +58,8 @@ pub enum RememberedSource {
     Cell(CellChoice),
     /// A file.
     File(PathBuf),
+    /// A camera, a recording, a watched folder, or the simulated cell as somebody has set it up.
+    Camera(SourceSpec),
 }
 
 impl Default for RememberedSource {
@@ -75,6 +80,7 @@ impl Default for Settings {
             window: None,
             source: RememberedSource::default(),
             recipe: None,
+            average: 1,
         }
     }
 }
@@ -93,8 +99,10 @@ impl Settings {
             source: match &state.source {
                 Source::Cell(choice) => RememberedSource::Cell(*choice),
                 Source::File(path) => RememberedSource::File(path.clone()),
+                Source::Camera(spec) => RememberedSource::Camera((**spec).clone()),
             },
             recipe: (*state.recipe != Recipe::default()).then(|| (*state.recipe).clone()),
+            average: state.live.params.average,
         }
     }
 
@@ -103,6 +111,7 @@ impl Settings {
         let has_source = match (&self.source, &state.source) {
             (RememberedSource::Cell(a), Source::Cell(b)) => a == b,
             (RememberedSource::File(a), Source::File(b)) => a == b,
+            (RememberedSource::Camera(a), Source::Camera(b)) => *a == **b,
             _ => false,
         };
         let has_recipe = match &self.recipe {
@@ -116,6 +125,7 @@ impl Settings {
             && self.workspace == state.workspace
             && self.library == state.chosen_library
             && self.recent == state.recent
+            && self.average == state.live.params.average
             && self.window == window
     }
 
@@ -130,8 +140,10 @@ impl Settings {
             source: match self.source {
                 RememberedSource::Cell(choice) => Source::Cell(choice),
                 RememberedSource::File(path) => Source::File(path),
+                RememberedSource::Camera(spec) => Source::Camera(Box::new(spec)),
             },
             recipe: Arc::new(self.recipe.unwrap_or_default()),
+            live: LiveState::averaging(self.average),
             ..State::default()
         }
     }
@@ -244,7 +256,6 @@ pub fn save(path: &Path, settings: &Settings) -> Result<(), Trouble> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::simulate::{PartKind, Side};
 
     fn unusual() -> Settings {
         let mut recipe = Recipe::default();
@@ -255,8 +266,9 @@ mod tests {
             library: Some("/media/stick/reference_parts".into()),
             recent: vec!["a.pcd".into(), "b c.ply".into()],
             window: Some([1024.0, 768.0]),
-            source: RememberedSource::Cell(CellChoice::Part(PartKind::Fender, Side::Right)),
+            source: RememberedSource::Camera("recording,pace=step:a b".parse().expect("a source")),
             recipe: Some(recipe),
+            average: 4,
             ..Settings::default()
         }
     }

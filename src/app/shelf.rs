@@ -1,4 +1,5 @@
-//! The library in use, shared by the threads: loaded when first needed, replaced whole when it was changed.
+//! What the threads share: the library in use, loaded when first needed and replaced whole when it was changed, and the
+//! camera.
 
 use std::{
     path::{Path, PathBuf},
@@ -7,16 +8,20 @@ use std::{
 
 use image::RgbaImage;
 
-use super::{fitted::FittedCache, job::Trouble};
+use super::{camera::Camera, fitted::FittedCache, job::Trouble, live::Tape};
 use crate::{
     error::Advice as _,
     library::{Library, LibraryError, LibraryLoad, LibraryPlace, PartMeta, open_library},
     stages::reference::ReferenceParams,
 };
 
-/// A handle to the library in use; clones share it.
+/// A handle to the library, the camera and the recording in use; clones share them.
 #[derive(Clone, Debug, Default)]
-pub struct Shelf(Arc<Mutex<Choice>>);
+pub struct Shelf {
+    choice: Arc<Mutex<Choice>>,
+    camera: Camera,
+    tape: Tape,
+}
 
 #[derive(Debug, Default)]
 struct Choice {
@@ -80,9 +85,23 @@ impl LibraryShown {
 
 impl Shelf {
     /// The library of this folder, else the one that [`open_library`] finds.
-    pub fn new(given: Option<PathBuf>) -> Self {
+    pub fn new(given: Option<PathBuf>, camera: Camera) -> Self {
         let loaded = None;
-        Self(Arc::new(Mutex::new(Choice { given, loaded })))
+        Self {
+            choice: Arc::new(Mutex::new(Choice { given, loaded })),
+            camera,
+            tape: Tape::default(),
+        }
+    }
+
+    /// The recording that is being made.
+    pub fn tape(&self) -> &Tape {
+        &self.tape
+    }
+
+    /// The camera in use.
+    pub fn camera(&self) -> &Camera {
+        &self.camera
     }
 
     /// The library; loads it if nobody has yet.
@@ -113,7 +132,7 @@ impl Shelf {
 
     fn lock(&self) -> MutexGuard<'_, Choice> {
         // What it holds is only ever replaced whole.
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        self.choice.lock().unwrap_or_else(PoisonError::into_inner)
     }
 }
 

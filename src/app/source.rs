@@ -1,13 +1,18 @@
-//! Where scenes come from: the simulated cell, and files.
+//! Where scenes come from: the simulated cell, files, and cameras.
 
 use std::{
     path::{Path, PathBuf},
     sync::Arc,
 };
 
+use super::{
+    camera::{Camera, CameraError},
+    widgets::sentence,
+};
 use crate::{
+    capture::{self, CaptureWarning, CellScene, Image, SimulatedSpec, SourceSpec},
     error::Advice,
-    files::{self, FileError, FileWarning, Opened},
+    files::{self, FileError, Opened},
     simulate::{CellSetup, ObjectKind, PartKind, PartPose, Placement, Side, Subject, frame},
     stages::{
         scene::{SceneCloud, scene_from_cloud, scene_from_frame},
@@ -63,6 +68,21 @@ impl CellChoice {
         }
     }
 
+    /// The same cell as a camera that goes on by itself.
+    pub fn followed(self) -> SimulatedSpec {
+        let mut spec = SimulatedSpec::default();
+        match self {
+            Self::InTurn => {}
+            Self::Part(kind, side) => {
+                spec.scene = CellScene::Part(kind);
+                spec.side = side;
+            }
+            Self::Foreign(kind) => spec.scene = CellScene::Object(kind),
+            Self::Empty => spec.scene = CellScene::Empty,
+        }
+        spec
+    }
+
     /// What hangs there for the frame of this number, counted from 1.
     pub(super) fn subject(self, number: u64) -> Subject {
         /// The first frame shows a front door, as the first look in a terminal does.
@@ -99,6 +119,13 @@ pub enum Origin {
     },
     /// A file.
     File(PathBuf),
+    /// A frame of a camera, a recording or a watched folder.
+    Frame {
+        /// What a person calls it.
+        name: String,
+        /// True if no camera was read, now or when it was recorded.
+        is_simulated: bool,
+    },
 }
 
 impl Origin {
@@ -107,20 +134,36 @@ impl Origin {
         match self {
             Self::Simulated { number, .. } => format!("Simulated frame {number}"),
             Self::File(path) => file_name(path),
+            Self::Frame {
+                name,
+                is_simulated: true,
+            } if !name.contains("simulated") => format!("{}, simulated", sentence(name)),
+            Self::Frame { name, .. } => sentence(name),
+        }
+    }
+
+    /// True if no camera was read.
+    pub fn is_simulated(&self) -> bool {
+        match self {
+            Self::Simulated { .. } => true,
+            Self::File(_) => false,
+            Self::Frame { is_simulated, .. } => *is_simulated,
         }
     }
 }
 
 impl Origin {
-    /// The same scene again: the frame is simulated as before, the file is read once more.
-    pub fn source(&self) -> SceneSource {
-        match self {
+    /// The same scene again: the frame is simulated as before, the file is read once more. `None` for what a camera
+    /// saw once.
+    pub fn source(&self) -> Option<SceneSource> {
+        Some(match self {
             Self::Simulated { choice, number } => SceneSource::Cell {
                 choice: *choice,
                 number: *number,
             },
             Self::File(path) => SceneSource::File(path.clone()),
-        }
+            Self::Frame { .. } => return None,
+        })
     }
 }
 
@@ -142,6 +185,8 @@ pub enum SceneSource {
     },
     /// A file.
     File(PathBuf),
+    /// The next frame of a camera, a recording or a watched folder.
+    Camera(Box<SourceSpec>),
     /// A scene that is at hand.
     AtHand(Arc<SceneCloud>, Origin),
     /// Another source, whose camera saw this empty cell before.
@@ -155,8 +200,8 @@ pub struct Captured {
     pub scene: Arc<SceneCloud>,
     /// Where it came from.
     pub origin: Origin,
-    /// What was odd about the file.
-    pub warnings: Vec<FileWarning>,
+    /// What was odd about it.
+    pub warnings: Vec<CaptureWarning>,
 }
 
 /// Why there is no scene.
@@ -165,6 +210,9 @@ pub enum SceneError {
     /// The file cannot be read.
     #[error(transparent)]
     File(#[from] FileError),
+    /// The camera has no frame.
+    #[error(transparent)]
+    Camera(#[from] CameraError),
     /// A mesh is nothing that a camera saw.
     #[error("{}: a mesh, expected what a depth camera saw", path.display())]
     MeshIsNoScene {
@@ -177,6 +225,7 @@ impl Advice for SceneError {
     fn advice(&self) -> String {
         match self {
             Self::File(error) => error.advice(),
+            Self::Camera(error) => error.advice(),
             Self::MeshIsNoScene { .. } => {
                 "Open it in the Enrol workspace (2) to enrol it as a reference".into()
             }
@@ -185,8 +234,12 @@ impl Advice for SceneError {
 }
 
 impl SceneSource {
-    /// Captures, reads or hands over the scene.
-    pub fn read(&self) -> Result<Captured, SceneError> {
+    /// Captures, reads or hands over the scene; a frame is waited for until `is_cancelled`.
+    pub fn take(
+        &self,
+        camera: &Camera,
+        is_cancelled: &dyn Fn() -> bool,
+    ) -> Result<Captured, SceneError> {
         match self {
             Self::Cell { choice, number } => {
                 let mut setup = CellSetup::new(choice.subject(*number), *number);
@@ -202,7 +255,7 @@ impl SceneSource {
             }
             Self::File(path) => {
                 let opened = files::open(path)?;
-                let warnings = opened.warnings();
+                let warnings = opened.warnings().into_iter().map(Into::into).collect();
                 let scene = match opened {
                     Opened::Cloud(cloud) => scene_from_cloud(cloud),
                     Opened::Depth(frame) => scene_from_frame(&frame),
@@ -216,8 +269,9 @@ impl SceneSource {
                     warnings,
                 })
             }
+            Self::Camera(spec) => Ok(camera.next(spec, is_cancelled)?.into()),
             Self::Before(cell, source) => {
-                let mut captured = source.read()?;
+                let mut captured = source.take(camera, is_cancelled)?;
                 let mut scene = Arc::unwrap_or_clone(captured.scene);
                 scene.empty_cell = Some(Arc::clone(cell));
                 captured.scene = Arc::new(scene);
@@ -228,6 +282,23 @@ impl SceneSource {
                 origin: origin.clone(),
                 warnings: Vec::new(),
             }),
+        }
+    }
+}
+
+impl From<capture::Captured> for Captured {
+    fn from(frame: capture::Captured) -> Self {
+        let scene = match frame.image {
+            Image::Depth(depth) => scene_from_frame(&depth),
+            Image::Cloud(cloud) => scene_from_cloud(cloud),
+        };
+        Self {
+            scene: Arc::new(scene),
+            origin: Origin::Frame {
+                name: frame.name,
+                is_simulated: frame.is_simulated,
+            },
+            warnings: frame.warnings,
         }
     }
 }
@@ -252,7 +323,9 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("part.obj");
         std::fs::write(&path, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("written");
-        let refused = SceneSource::File(path).read().expect_err("refused");
+        let refused = SceneSource::File(path)
+            .take(&Camera::default(), &|| false)
+            .expect_err("refused");
         assert!(refused.to_string().contains("a mesh") && refused.advice().contains("Enrol"));
     }
 }

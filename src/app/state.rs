@@ -11,10 +11,12 @@ use super::{
     inspect::{state::InspectState, work::Inspected},
     job::{Request, Trouble},
     lane::Lane,
+    live::{self, LiveState},
     shelf::LibraryShown,
     source::CellChoice,
 };
 use crate::{
+    capture::SourceSpec,
     pipeline::{Recipe, Stage},
     stages::segment::EmptyCell,
 };
@@ -56,6 +58,8 @@ pub struct State {
     pub num_captures: u64,
     /// The generation of the newest request.
     pub generation: u64,
+    /// Of the source that is followed.
+    pub live: LiveState,
     /// Of the Inspect workspace.
     pub inspect: InspectState,
     /// Of the Enrol workspace.
@@ -79,13 +83,18 @@ impl State {
         let own = self.workspace.lane();
         let all = self.works.iter().map(|(lane, work)| (*lane, work));
         // Quickly done, and not to be given up half-way.
-        let mut all = all.filter(|(lane, _)| !matches!(lane, Lane::Write | Lane::Library));
+        // A source is followed until it is no longer wanted, which has a button of its own.
+        let mut all =
+            all.filter(|(lane, _)| !matches!(lane, Lane::Write | Lane::Library | Lane::Live));
         let own = own.and_then(|own| self.works.get_key_value(&own).map(|(l, w)| (*l, w)));
         own.or_else(|| all.next())
     }
 
     /// Writes down that the work has begun, and has it done; whatever its lane was at is given up.
     pub(super) fn begin(&mut self, what: impl Into<String>, request: Request) -> Effect {
+        let lane = request.lane();
+        // First: this request's generation is the newest behind this.
+        let stop = matches!(request, Request::Inspect(_)).then(|| live::give_way(self));
         self.generation += 1;
         let work = Work {
             generation: self.generation,
@@ -93,21 +102,27 @@ impl State {
             stage: None,
             progress: None,
         };
-        self.works.insert(request.lane(), work);
-        Effect::Post {
+        self.works.insert(lane, work);
+        let post = Effect::Post {
             generation: self.generation,
             request,
+        };
+        match stop.flatten() {
+            Some(stop) => Effect::Several(vec![stop, post]),
+            None => post,
         }
     }
 }
 
 /// Where Capture takes a scene from.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub enum Source {
     /// The simulated cell.
     Cell(CellChoice),
     /// A file, read again at each capture.
     File(PathBuf),
+    /// A camera, a recording, a watched folder, or the simulated cell as somebody has set it up.
+    Camera(Box<SourceSpec>),
 }
 
 impl Default for Source {
@@ -125,6 +140,8 @@ pub struct Shown {
     pub inspected: Arc<Inspected>,
     /// True if it was taken out of the history.
     pub is_past: bool,
+    /// Of a frame among others: which session of following it belongs to.
+    pub session: Option<u64>,
 }
 
 /// A request at work.

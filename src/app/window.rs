@@ -6,9 +6,10 @@ use eframe::egui_wgpu::RenderState;
 use egui::{CentralPanel, Frame, Ui};
 
 use super::{
-    action::{Action, Effect, apply},
+    action::{Action, Ask, Effect, apply},
     align::AlignPanel,
     bars,
+    camera::Camera,
     compare::{self, CompareState},
     dialog::Dialog,
     enrol::EnrolPanel,
@@ -18,6 +19,7 @@ use super::{
     job::{Outcome, Request, Trouble, answer},
     keys,
     lane::Lane,
+    live::{self, LiveAction},
     memory::Memory,
     notices, rail, settings,
     shelf::Shelf,
@@ -38,6 +40,8 @@ pub struct WindowOptions {
     pub settings: Option<PathBuf>,
     /// The folder of kept cases; without it the user's own.
     pub cases: Option<PathBuf>,
+    /// What opens cameras.
+    pub camera: Camera,
 }
 
 /// The window.
@@ -67,9 +71,10 @@ impl Window {
             scene,
             settings,
             cases,
+            camera,
         } = options;
         let (remembered, trouble) = settings.as_deref().map(settings::load).unwrap_or_default();
-        let shelf = Shelf::new(library.or_else(|| remembered.library.clone()));
+        let shelf = Shelf::new(library.or_else(|| remembered.library.clone()), camera);
         let start = |lane: Lane| {
             let (shelf, repaint) = (shelf.clone(), ctx.clone());
             let worker = Worker::start(
@@ -105,7 +110,12 @@ impl Window {
         };
         window.state.notices.extend(trouble.map(Notice::from));
         window.forget_a_vanished_file();
-        window.act(scene.map_or(Action::Capture, Action::Open), ctx);
+        let first = match (scene, &window.state.source) {
+            (Some(path), _) => Action::Open(path),
+            (None, Source::Camera(spec)) => Action::Live(LiveAction::Use((**spec).clone())),
+            (None, _) => Action::Capture,
+        };
+        window.act(first, ctx);
         Ok(window)
     }
 
@@ -193,14 +203,19 @@ impl Window {
         }
     }
 
-    /// Files dropped onto the window: the first is opened.
+    /// Files dropped onto the window: the first is opened; a folder is played as a recording.
     fn take_drops(&mut self, ctx: &egui::Context) {
         let dropped = ctx.input(|input| {
             let first = input.raw.dropped_files.first();
             first.map(|file| file.path().to_owned())
         });
         if let Some(path) = dropped {
-            self.act(Action::Open(path), ctx);
+            let opened = if path.is_dir() {
+                Action::Chosen(Ask::Recording, path)
+            } else {
+                Action::Open(path)
+            };
+            self.act(opened, ctx);
         }
     }
 
@@ -259,6 +274,7 @@ impl Window {
             Workspace::Compare | Workspace::History => false,
         };
         notices::ui(&ctx, &self.state, theme, &mut actions);
+        live::set_up(&ctx, &self.state, theme, &mut actions);
         keys::help(&ctx, &self.state, theme, &mut actions);
         keys::shortcuts(&ctx, &self.state, view_has_focus, &mut actions);
         for action in actions {

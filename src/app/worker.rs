@@ -22,6 +22,10 @@ pub trait Desk<T>: Watch {
     fn progress(&self, done: usize, total: usize);
     /// Hands over what there is so far; the outcome still follows.
     fn partly(&self, outcome: T);
+    /// Hands over how things stand now, in the place of what was handed over so before and not fetched yet.
+    fn stands(&self, outcome: T);
+    /// True if nothing that [`stands`](Self::stands) handed over waits to be fetched: more would be looked at.
+    fn is_followed(&self) -> bool;
 }
 
 /// What the thread tells the window.
@@ -86,8 +90,12 @@ const MAX_NEWS: usize = 32;
 pub struct Worker<R, T> {
     shared: Arc<Shared<R>>,
     news: Option<Receiver<News<T>>>,
+    standing: Arc<Standing<T>>,
     thread: Option<JoinHandle<()>>,
 }
+
+/// How things stand, for whoever fetches it: the newest alone.
+type Standing<T> = Mutex<Option<(u64, T)>>;
 
 struct Shared<R> {
     slot: Mutex<Slot<R>>,
@@ -119,12 +127,15 @@ impl<R: Send + 'static, T: Send + 'static> Worker<R, T> {
         });
         let (sender, news) = sync_channel(MAX_NEWS);
         let of_thread = Arc::clone(&shared);
+        let standing = Arc::new(Mutex::new(None));
+        let told_standing = Arc::clone(&standing);
         let thread = thread::Builder::new().name(name.into()).spawn(move || {
             while let Some((generation, request)) = of_thread.next() {
                 let desk = Following {
                     generation,
                     newest: &of_thread.newest,
                     news: &sender,
+                    standing: &told_standing,
                     on_news: &on_news,
                 };
                 // What `work` holds (a loaded library) is only ever replaced whole.
@@ -149,6 +160,7 @@ impl<R: Send + 'static, T: Send + 'static> Worker<R, T> {
         Ok(Self {
             shared,
             news: Some(news),
+            standing,
             thread: Some(thread),
         })
     }
@@ -168,7 +180,14 @@ impl<R: Send + 'static, T: Send + 'static> Worker<R, T> {
 
     /// The next news, without waiting; `None` when there are none.
     pub fn try_next(&self) -> Option<News<T>> {
-        self.news.as_ref()?.try_recv().ok()
+        // In this order: what stands now is newer than what was told step by step.
+        self.news.as_ref()?.try_recv().ok().or_else(|| {
+            let (generation, outcome) = held(&self.standing).take()?;
+            Some(News::Partly {
+                generation,
+                outcome,
+            })
+        })
     }
 }
 
@@ -214,6 +233,7 @@ struct Following<'a, T> {
     generation: u64,
     newest: &'a AtomicU64,
     news: &'a SyncSender<News<T>>,
+    standing: &'a Standing<T>,
     on_news: &'a dyn Fn(),
 }
 
@@ -255,6 +275,19 @@ impl<T> Desk<T> for Following<'_, T> {
         });
         (self.on_news)();
     }
+
+    fn stands(&self, outcome: T) {
+        *held(self.standing) = Some((self.generation, outcome));
+        (self.on_news)();
+    }
+
+    fn is_followed(&self) -> bool {
+        held(self.standing).is_none()
+    }
+}
+
+fn held<T>(standing: &Standing<T>) -> MutexGuard<'_, Option<(u64, T)>> {
+    standing.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 fn message_of(panic: &(dyn Any + Send)) -> String {
@@ -322,6 +355,33 @@ mod tests {
         let begun = Instant::now();
         drop(worker);
         assert!(begun.elapsed() < Duration::from_secs(5));
+    }
+
+    #[test]
+    fn of_how_things_stand_only_the_newest_waits() {
+        let (told_all, waits) = (sync_channel::<bool>(1), sync_channel::<()>(1));
+        let (tell, go_on) = (told_all.0, waits.1);
+        let work = move |num: u32, desk: &dyn Desk<u32>| {
+            (1..=num).for_each(|number| desk.stands(number));
+            tell.send(desk.is_followed()).ok()?;
+            go_on.recv().ok()?;
+            tell.send(desk.is_followed()).ok()?;
+            Some(0)
+        };
+        let worker = Worker::start("test", work, || {}).expect("started");
+        worker.request(1, 100);
+        assert!(!told_all.1.recv().expect("told"), "nobody has fetched it");
+        let stands = wait_for(&worker);
+        assert!(matches!(
+            stands,
+            News::Partly {
+                generation: 1,
+                outcome: 100
+            }
+        ));
+        waits.0.send(()).expect("it waits");
+        assert!(told_all.1.recv().expect("told"), "it was fetched");
+        assert!(matches!(wait_for(&worker), News::Done { outcome: 0, .. }));
     }
 
     #[test]

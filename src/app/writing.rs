@@ -90,6 +90,7 @@ fn write_report(folder: &Path, inspected: &Inspected) -> Result<Written, ReportE
     let name = match &inspected.origin {
         Origin::File(path) => path.clone(),
         Origin::Simulated { number, .. } => format!("simulated_{number}").into(),
+        Origin::Frame { name, .. } => name.replace(' ', "_").into(),
     };
     let scene = name.display().to_string();
     let line = InspectionLine::of(&scene, &inspected.inspection).to_json();

@@ -2,6 +2,7 @@
 
 mod calibration;
 mod confusions;
+mod live;
 mod recognition;
 mod registration;
 mod scaling;
@@ -36,6 +37,7 @@ Examples:
   partsight bench registration --poses 125
   partsight bench scaling --plot scaling.png
   partsight bench window
+  partsight bench live --minutes 10
 
 Each part is enrolled from one frontal capture of the standard car, then seen in sets of simulated frames. Without a
 name: a few frames of each part, to time the stages. table1 needs no frames: each part of the library is put where T1..T5 of the
@@ -71,6 +73,9 @@ pub(super) struct BenchArgs {
     /// Of scaling: references at most; ten thousand take below 3 GB
     #[arg(long, value_name = "N", default_value_t = crate::bench::scaling::MOST as u64, value_parser = clap::value_parser!(u64).range(8..=100_000))]
     most: u64,
+    /// Of live: how long
+    #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1440))]
+    minutes: u64,
     /// Of table1: only this part; may be given several times
     #[arg(long, value_name = "NAME")]
     part: Vec<String>,
@@ -92,8 +97,10 @@ enum Bench {
     Registration,
     /// Ranking by 1, 2, 4 and 8 workers over a growing number of references: from where do several pay?
     Scaling,
-    /// Processor time of a frame of the window, at rest and turning; needs no display
+    /// Processor time of a frame of the window, at rest, turning and live; needs no display
     Window,
+    /// The simulated line followed for minutes: rate, latency, the window's thread, memory; needs no display
+    Live,
 }
 
 /// Poses of each part, unless asked for otherwise.
@@ -109,6 +116,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         Bench::Registration => registration::run(args, console),
         Bench::Scaling => scaling::run(args, console),
         Bench::Window => window::run(args, console),
+        Bench::Live => live::run(args, console),
     }
 }
 

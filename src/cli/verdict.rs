@@ -95,7 +95,7 @@ pub(super) fn show_card(
             ""
         };
         let approximate = if inspection.verdict.is_approximate() {
-            "; approximate, since this is another model of the part"
+            "; approximate, since this may be another model of the part"
         } else {
             ""
         };

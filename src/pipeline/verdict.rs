@@ -43,9 +43,9 @@ impl Default for AcceptParams {
             min_score: 0.9,
             min_margin: 0.05,
             unknown_below: 0.5,
-            max_relief: Metres::from_mm(2.0),
-            max_missing: 0.0045,
-            max_outline_shift: Metres::from_mm(5.5),
+            max_relief: Metres::from_mm(4.0),
+            max_missing: 0.008,
+            max_outline_shift: Metres::from_mm(10.0),
         }
     }
 }
@@ -63,7 +63,7 @@ pub enum Verdict {
         margin: f64,
         /// `None` when accepted, else why not.
         rejected: Option<Rejection>,
-        /// True if it is another model of the part, as far as its shape tells: its pose is only about right.
+        /// True if it may be another model of the part, as far as its shape tells: its pose is then only about right.
         is_approximate: bool,
     },
     /// Nothing to recognise.
@@ -83,7 +83,7 @@ impl Verdict {
         )
     }
 
-    /// True if it is another model of the part, so that the pose is only about right.
+    /// True if it may be another model of the part, so that the pose is only about right.
     pub fn is_approximate(&self) -> bool {
         matches!(
             self,
@@ -197,6 +197,48 @@ pub enum Rejection {
     /// The pose could not be estimated.
     #[error("no pose was found: {0}")]
     NoPose(#[from] PoseError),
+    /// It moves, or moved a moment ago.
+    #[error("{part} does not hang still yet")]
+    NotSteady {
+        /// Best match.
+        part: String,
+    },
+    /// It hangs still, and too few frames were seen since.
+    #[error("{part} hangs still, and {num_frames} of {needed} frames were inspected since")]
+    FewFrames {
+        /// Best match.
+        part: String,
+        /// Frames so far.
+        num_frames: usize,
+        /// Frames needed.
+        needed: usize,
+    },
+    /// Frames of a scene that does not move say different things.
+    #[error("{num_agreeing} of {num_frames} frames accept {part}, {needed} are needed")]
+    Undecided {
+        /// The part that most frames name.
+        part: String,
+        /// Frames that accept it.
+        num_agreeing: usize,
+        /// Frames in all.
+        num_frames: usize,
+        /// Frames needed.
+        needed: usize,
+    },
+    /// Frames of a scene that does not move put the part in different places.
+    #[error(
+        "the poses of {part} lie together in {num_agreeing} of {num_frames} frames, {needed} are needed"
+    )]
+    PosesApart {
+        /// The part.
+        part: String,
+        /// Frames whose poses lie together.
+        num_agreeing: usize,
+        /// Frames in all.
+        num_frames: usize,
+        /// Frames needed.
+        needed: usize,
+    },
 }
 
 /// Why nothing could be recognised.
@@ -247,6 +289,14 @@ impl Advice for Rejection {
             }
             Self::Unconfirmed { .. } => "Have the pose estimated too, with --pose global".into(),
             Self::NoPose(error) => error.advice(),
+            Self::NotSteady { .. } => "Let the part hang still for a second".into(),
+            Self::FewFrames { .. } => "Wait a moment".into(),
+            Self::Undecided { .. } => {
+                "Wait a moment; if it stays so, turn the part's face to the camera and take away what stands before it".into()
+            }
+            Self::PosesApart { .. } => {
+                "Hang the part so that nothing can swing, and wait a moment; if it stays so, turn its face to the camera".into()
+            }
         }
     }
 }
@@ -275,7 +325,8 @@ pub(super) fn verdict(
     let accept = &recipe.accept;
     let next = ranking.runner_up();
     let margin = best.score - next.map_or(0.0, |n| n.score);
-    let other_model = best.evidence.filter(|e| is_other_model(e, accept));
+    let unlike = best.evidence.map_or(0.0, |e| unlikeness(&e, accept));
+    let other_model = best.evidence.filter(|_| unlike > 1.0);
     let rejected = match (pose, best.evidence) {
         (Some(Err(error)), _) => Some(Rejection::NoPose(*error)),
         (None, _) if recipe.rank.matcher == Matcher::Paper => Some(Rejection::Unconfirmed {
@@ -300,17 +351,20 @@ pub(super) fn verdict(
         score: best.score,
         margin,
         rejected,
-        is_approximate: other_model.is_some(),
+        is_approximate: unlike > MAY_BE_ANOTHER,
     }
 }
 
-/// True if a part of the same type, but not this one, would leave such evidence.
-fn is_other_model(evidence: &Evidence, accept: &AcceptParams) -> bool {
-    evidence.relief_m > accept.max_relief.0
-        || evidence.missing > accept.max_missing
-        || evidence
-            .outline_shift_m
-            .is_some_and(|shift| shift > accept.max_outline_shift.0)
+/// From this share of what another model is refused at, a pose is called approximate: four fifths of the other models
+/// reach it, and one in thirty of the enrolled ones.
+const MAY_BE_ANOTHER: f64 = 0.55;
+
+/// How much speaks for a part of the same type that is not this one; above 1 it is one.
+fn unlikeness(evidence: &Evidence, accept: &AcceptParams) -> f64 {
+    let relief = evidence.relief_m / accept.max_relief.0;
+    let missing = evidence.missing / accept.max_missing;
+    let outline = evidence.outline_shift_m.unwrap_or(0.0) / accept.max_outline_shift.0;
+    relief.max(missing).max(outline)
 }
 
 /// Of what is hardly seen, more than this score is a good fit.

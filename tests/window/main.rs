@@ -6,6 +6,7 @@ mod compare;
 mod enrol;
 mod history;
 mod inspect;
+mod live;
 mod pictures;
 mod set_up;
 mod view;

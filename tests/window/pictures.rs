@@ -29,7 +29,10 @@ use partsight::{
     pipeline::{Timings, Unwatched},
 };
 
-use super::set_up::{SMALL, USUAL, WindowHarness, act, press, settle};
+use super::{
+    live,
+    set_up::{SMALL, USUAL, WindowHarness, act, press, settle},
+};
 
 /// Pixels that may differ: processors round a point's edge differently, nobody sees it.
 const MAX_DIFFERENT: usize = 400;
@@ -138,6 +141,13 @@ fn compare(harness: &mut WindowHarness, name: &str) {
     // The pointer is no part of the picture.
     harness.remove_cursor();
     settle(harness);
+    compare_as_it_is(harness, name);
+}
+
+/// The same of a window that does not come to rest.
+fn compare_as_it_is(harness: &mut WindowHarness, name: &str) {
+    harness.remove_cursor();
+    harness.run_steps(4);
     let mut picture = harness.render().expect("drawn");
     let timed: Vec<egui::Rect> = harness
         .query_all_by_label_contains(" ms")
@@ -171,6 +181,51 @@ fn inspect_looks_as_it_did() {
     let mut harness = open_drawn(SMALL);
     act(&mut harness, Action::SwitchTheme);
     compare(&mut harness, "inspect_small_light");
+}
+
+#[test]
+fn live_looks_as_it_did() {
+    if !draws_in_software() {
+        return;
+    }
+    let open = |size| {
+        let (options, wire) = live::wired_options();
+        let mut harness = Harness::builder()
+            .with_size(size)
+            .wgpu()
+            .build_eframe(move |cc| {
+                Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), options).expect("threads")
+            });
+        settle(&mut harness);
+        live::toggle(&mut harness);
+        (harness, wire)
+    };
+    let (mut harness, wire) = open(USUAL);
+    live::sees(&mut harness, &wire, [0.0; 16]);
+    compare_as_it_is(&mut harness, "live_steady");
+    let (mut harness, wire) = open(SMALL);
+    let context = harness.ctx.clone();
+    harness.state_mut().act(Action::SwitchTheme, &context);
+    live::sees(
+        &mut harness,
+        &wire,
+        [0.0, 0.02, 0.04, 0.06, 0.08, 0.1, 0.12],
+    );
+    compare_as_it_is(&mut harness, "live_moving_small_light");
+}
+
+#[test]
+fn choosing_a_source_looks_as_it_did() {
+    if !draws_in_software() {
+        return;
+    }
+    let mut harness = open_drawn(SMALL);
+    harness.get_by_label_contains("Source").click();
+    harness.run_steps(6);
+    compare_as_it_is(&mut harness, "source_menu");
+    harness.get_by_label("Set up the cell…").click();
+    harness.run_steps(6);
+    compare_as_it_is(&mut harness, "cell_set_up");
 }
 
 #[test]

@@ -14,7 +14,6 @@ use crate::{
         action::Effect,
         job::Request,
         lane::Lane,
-        source::Origin,
         state::{Shown, State},
     },
     pipeline::Recipe,
@@ -145,9 +144,10 @@ fn study_request(state: &State) -> Option<StudyRequest> {
             CaseScene::AtHand {
                 scene: Arc::clone(&inspected.scene),
                 title: inspected.origin.title(),
-                camera: match inspected.origin {
-                    Origin::Simulated { .. } => CameraKind::Simulated,
-                    Origin::File(_) => CameraKind::Real,
+                camera: if inspected.origin.is_simulated() {
+                    CameraKind::Simulated
+                } else {
+                    CameraKind::Real
                 },
             }
         }

@@ -262,7 +262,11 @@ fn refused(verdict: &Verdict, title_of: &dyn Fn(&str) -> String) -> Option<Strin
             Rejection::Mirrored { part, .. } => {
                 format!("it looks like the mirror image of {}", title_of(part))
             }
-            no_pose @ Rejection::NoPose(_) => no_pose.to_string(),
+            other @ (Rejection::NoPose(_)
+            | Rejection::NotSteady { .. }
+            | Rejection::FewFrames { .. }
+            | Rejection::Undecided { .. }
+            | Rejection::PosesApart { .. }) => other.to_string(),
         },
         Verdict::NoPart(reason) => reason.to_string(),
     })
@@ -340,7 +344,7 @@ mod tests {
 
     fn request(choice: CellChoice) -> StudyRequest {
         let captured = SceneSource::Cell { choice, number: 2 }
-            .read()
+            .take(&crate::app::camera::Camera::default(), &|| false)
             .expect("a scene");
         StudyRequest {
             case: CaseScene::AtHand {

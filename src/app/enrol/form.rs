@@ -17,7 +17,6 @@ use crate::{
         bars::{labelled, shortened},
         inspect::grouped,
         lane::Lane,
-        source::Origin,
         state::State,
         theme::{ROUNDING, Theme, font, space},
         widgets::{Mark, fitted},
@@ -141,7 +140,7 @@ fn stored(
             ui.add(egui::Label::new(text).wrap());
         };
         small(ui, shortened(&draft.subject.origin.title(), 40));
-        if matches!(draft.subject.origin, Origin::Simulated { .. }) {
+        if draft.subject.origin.is_simulated() {
             small(ui, "Simulated: no camera saw it".into());
         }
         let num_kept = draft.selection.indices.len();

@@ -238,7 +238,13 @@ mod tests {
             choice: CellChoice::Part(PartKind::BackDoor, Side::Right),
             number: 5,
         };
-        let read = Subject::read(&source, &EnrolParams::default()).expect("a frame");
+        let read = Subject::read(
+            &source,
+            &EnrolParams::default(),
+            &crate::app::camera::Camera::default(),
+            &|| false,
+        )
+        .expect("a frame");
         read.expect("a subject")
     }
 

@@ -6,7 +6,10 @@ use std::sync::Arc;
 use nalgebra::Point3;
 
 use crate::{
-    app::source::{Origin, SceneError, SceneSource},
+    app::{
+        camera::Camera,
+        source::{Origin, SceneError, SceneSource},
+    },
     files::{self, FileWarning, Opened},
     geometry::{
         cloud::{Grid, PointCloud, is_finite},
@@ -270,9 +273,11 @@ impl Subject {
     pub(super) fn read(
         source: &SceneSource,
         params: &EnrolParams,
+        camera: &Camera,
+        is_cancelled: &dyn Fn() -> bool,
     ) -> Result<Result<Self, EnrolError>, SceneError> {
         let SceneSource::File(path) = source else {
-            let captured = source.read()?;
+            let captured = source.take(camera, is_cancelled)?;
             let usual = Taking::Segmented;
             let (scene, origin) = (captured.scene, captured.origin);
             return Ok(Ok(Self::of_scene(scene, origin, usual, params)));
@@ -397,7 +402,13 @@ mod tests {
             choice: CellChoice::Part(PartKind::Fender, crate::simulate::Side::Left),
             number: 3,
         };
-        let read = Subject::read(&source, &EnrolParams::default()).expect("a frame");
+        let read = Subject::read(
+            &source,
+            &EnrolParams::default(),
+            &Camera::default(),
+            &|| false,
+        )
+        .expect("a frame");
         read.expect("a subject")
     }
 

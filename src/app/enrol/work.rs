@@ -11,10 +11,11 @@ use super::{
 };
 use crate::{
     app::{
+        camera::CameraError,
         job::{Answer, Outcome, Trouble},
         lane::Lane,
         shelf::Shelf,
-        source::{Origin, SceneSource},
+        source::{SceneError, SceneSource},
         worker::Desk,
     },
     library::{
@@ -92,11 +93,13 @@ pub(in crate::app) fn answer(
     match request {
         EnrolRequest::Take { source, recipe } => {
             let params = params_of(&recipe);
-            let subject = match Subject::read(&source, &params) {
-                Ok(Ok(subject)) => Arc::new(subject),
-                Ok(Err(error)) => return Some(Err(Trouble::of(&error))),
-                Err(error) => return Some(Err(Trouble::of(&error))),
-            };
+            let subject =
+                match Subject::read(&source, &params, shelf.camera(), &|| desk.is_cancelled()) {
+                    Ok(Ok(subject)) => Arc::new(subject),
+                    Ok(Err(error)) => return Some(Err(Trouble::of(&error))),
+                    Err(SceneError::Camera(CameraError::Cancelled)) => return None,
+                    Err(error) => return Some(Err(Trouble::of(&error))),
+                };
             let corrections = Corrections::none(subject.usual);
             let selection = Arc::new(Selection::of(&subject, &corrections));
             if desk.is_cancelled() {
@@ -193,7 +196,7 @@ fn enrol(
         from: subject.origin.title(),
         // Whole seconds are enough for people.
         at: Timestamp::from_second(now.as_second()).unwrap_or(now),
-        simulated: matches!(subject.origin, Origin::Simulated { .. }),
+        simulated: subject.origin.is_simulated(),
     };
     match (&subject.matter, taking) {
         (Matter::Mesh(mesh, _), _) => enrol_mesh(mesh, &about, params),

@@ -1,4 +1,9 @@
-//! What a frame of the window costs, at rest and while the view is turned.
+//! What a frame of the window costs, at rest, while the view is turned, and while a source is followed.
+
+use std::{
+    thread,
+    time::{Duration, Instant},
+};
 
 use egui::{Event, Modifiers, PointerButton, Pos2, Vec2};
 use serde::Serialize;
@@ -6,8 +11,8 @@ use serde::Serialize;
 use super::{FrameTime, HeadlessWindow, Pace};
 use crate::{
     app::{
-        WindowOptions, action::Action, align::AlignAction, enrol::EnrolAction, state::Workspace,
-        viewport::ViewError,
+        WindowOptions, action::Action, align::AlignAction, enrol::EnrolAction, live::LiveAction,
+        state::Workspace, viewport::ViewError,
     },
     bench::{process_seconds, quantile},
 };
@@ -84,12 +89,41 @@ pub fn window_cost(num_frames: usize, options: WindowOptions) -> Result<WindowCo
         costs.push(frames(what, &mut window, num_frames, pace, hand));
         window.frame(vec![button(false)], Pace::InStep);
     }
+    costs.push(live(&mut window, num_frames));
     costs.extend(other_workspaces(&mut window, num_frames));
     Ok(WindowCost {
         num_points,
         size: SIZE,
         frames: costs,
     })
+}
+
+/// Frames that show a new result while the simulated cell is followed; those in between are as those at rest.
+fn live(window: &mut HeadlessWindow, num_frames: usize) -> FrameCost {
+    let generation = |window: &HeadlessWindow| {
+        let shown = window.window().state().shown.as_ref();
+        shown.map(|shown| shown.generation)
+    };
+    window.act(Action::Live(LiveAction::Toggle));
+    let cost = measured(
+        "Inspect, live",
+        window,
+        num_frames,
+        Pace::Ahead,
+        |window, _| {
+            let (before, began) = (generation(window), Instant::now());
+            loop {
+                let time = window.frame(Vec::new(), Pace::Ahead);
+                if generation(window) != before || began.elapsed().as_secs() > 10 {
+                    return time;
+                }
+                thread::sleep(Duration::from_millis(2));
+            }
+        },
+    );
+    window.act(Action::Live(LiveAction::Toggle));
+    window.settle();
+    cost
 }
 
 /// Each as full as a person would have it: a part to enrol, a case under the glass, every method run.
@@ -133,10 +167,23 @@ fn frames(
     pace: Pace,
     events: impl Fn(usize) -> Vec<Event>,
 ) -> FrameCost {
+    measured(what, window, num_frames, pace, |window, i| {
+        window.frame(events(i), pace)
+    })
+}
+
+/// As [`frames`], each drawn by `frame`.
+fn measured(
+    what: &'static str,
+    window: &mut HeadlessWindow,
+    num_frames: usize,
+    pace: Pace,
+    frame: impl Fn(&mut HeadlessWindow, usize) -> FrameTime,
+) -> FrameCost {
     /// Frames in which caches fill and the view learns how slow the device is.
     const NUM_FIRST: usize = 12;
     let mut draw = |i| {
-        let time = window.frame(events(i), pace);
+        let time = frame(window, i);
         // Outside the time taken: a device that is behind must not fill the memory.
         window.wait();
         time

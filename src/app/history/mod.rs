@@ -9,7 +9,7 @@ use egui::{CentralPanel, Frame, Key, Margin, Modifiers, Panel, RichText, Ui};
 use self::details::Details;
 pub use self::state::{
     Direction, HistoryAction, HistoryFilter, HistoryState, PastInspection, PastVerdict, apply, csv,
-    export, take_in,
+    export, keep, take_in,
 };
 use super::{
     action::Action,

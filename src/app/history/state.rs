@@ -9,6 +9,7 @@ use crate::{
         action::{Effect, notify},
         inspect::work::{InspectRequest, Inspected},
         job::Request,
+        live,
         source::{Origin, SceneSource, file_name},
         state::{Notice, NoticeKind, Shown, State, Workspace},
         writing::WriteRequest,
@@ -318,12 +319,18 @@ fn open(state: &mut State, number: u64) -> Option<Effect> {
             generation: state.generation,
             inspected,
             is_past: true,
+            session: None,
         });
         state.workspace = Workspace::Inspect;
-        return None;
+        return live::give_way(state);
     }
+    let Some(source) = row.origin.source() else {
+        let notice = not_kept(row);
+        notify(state, notice);
+        return None;
+    };
     let request = InspectRequest {
-        source: row.origin.source(),
+        source,
         recipe: Arc::clone(&row.recipe),
     };
     let what = format!("Opening {}", row.origin.title());
@@ -333,16 +340,38 @@ fn open(state: &mut State, number: u64) -> Option<Effect> {
     Some(effect)
 }
 
+/// What a camera saw once is gone once its points were let go of.
+fn not_kept(row: &PastInspection) -> Notice {
+    Notice {
+        kind: NoticeKind::Look,
+        what: format!(
+            "The points of {} are not kept any more: those of the last {MAX_WHOLE} inspections are",
+            row.origin.title()
+        ),
+        advice: "Record the source (Source menu) to inspect any of its frames again".into(),
+    }
+}
+
 fn inspect_again(state: &mut State, number: u64) -> Option<Effect> {
     let row = state.history.row(number)?;
-    let source = match &row.whole {
-        Some(whole) => SceneSource::AtHand(Arc::clone(&whole.scene), whole.origin.clone()),
-        None => row.origin.source(),
+    let at_hand = row
+        .whole
+        .as_ref()
+        .map(|whole| SceneSource::AtHand(Arc::clone(&whole.scene), whole.origin.clone()));
+    let Some(source) = at_hand.or_else(|| row.origin.source()) else {
+        let notice = not_kept(row);
+        notify(state, notice);
+        return None;
     };
     let what = format!("Inspecting {} again", row.origin.title());
     let recipe = Arc::clone(&state.recipe);
     state.workspace = Workspace::Inspect;
     Some(state.begin(what, Request::Inspect(InspectRequest { source, recipe })))
+}
+
+/// Takes in a verdict that counts, of a source that is followed.
+pub fn keep(state: &mut State, inspected: &Arc<Inspected>) {
+    state.history.add(inspected);
 }
 
 /// Takes in a new result; true if it is a past one that was asked for again.
@@ -391,7 +420,7 @@ pub fn csv(history: &HistoryState) -> String {
             .map_or_else(Default::default, |both| both.map(|x| format!("{x:.4}")));
         let scene = match &row.origin {
             Origin::File(path) => path.display().to_string(),
-            simulated @ Origin::Simulated { .. } => simulated.title(),
+            frame @ (Origin::Simulated { .. } | Origin::Frame { .. }) => frame.title(),
         };
         let reason = row.complaint.as_ref().map_or("", |(reason, _)| reason);
         let pose: Vec<String> = match &row.pose {
@@ -403,7 +432,7 @@ pub fn csv(history: &HistoryState) -> String {
             row.number,
             row.at,
             quoted(&scene),
-            matches!(row.origin, Origin::Simulated { .. }),
+            row.origin.is_simulated(),
             quoted(row.verdict.title()),
             row.part.as_deref().unwrap_or(""),
             quoted(reason),

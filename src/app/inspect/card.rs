@@ -10,15 +10,15 @@ use crate::{
     app::{
         action::{Action, Ask},
         bars::focus_ring,
-        inspect::work::Inspected,
-        source::Origin,
+        inspect::work::{Followed, Inspected},
+        live,
         state::{State, UnitSystem, Workspace},
         theme::{ROUNDING, Theme, font, space},
         widgets::{Mark, heading, mark, row, sentence},
     },
     error::Advice as _,
     geometry::rigid::RigidTransform,
-    pipeline::{Rejection, Verdict},
+    pipeline::{Rejection, Verdict, live::Stillness},
     stages::pose::{PoseEstimate, Uncertainty},
 };
 
@@ -31,12 +31,19 @@ struct Headline {
     /// The part that comes nearest, where none is accepted.
     nearest: Option<String>,
     is_accepted: bool,
+    /// True if it is too early to say.
+    is_open: bool,
     /// Why not, and what to do.
     complaint: Option<(String, String)>,
 }
 
 impl Headline {
     fn of(inspected: &Inspected) -> Self {
+        if let Some(followed) = &inspected.followed
+            && followed.standing.counted().is_none()
+        {
+            return Self::not_yet(inspected, followed);
+        }
         match &inspected.inspection.verdict {
             Verdict::Part { part, rejected, .. } => {
                 let best = inspected.figures.candidates.first();
@@ -46,6 +53,7 @@ impl Headline {
                         title: nearest,
                         nearest: None,
                         is_accepted: true,
+                        is_open: false,
                         complaint: None,
                     },
                     // Of its type beyond doubt.
@@ -53,6 +61,7 @@ impl Headline {
                         title: format!("{nearest}, another model"),
                         nearest: None,
                         is_accepted: false,
+                        is_open: false,
                         complaint: Some((reason.to_string(), reason.advice())),
                     },
                     // No name in large letters that is not certain.
@@ -64,6 +73,7 @@ impl Headline {
                         },
                         nearest: Some(nearest),
                         is_accepted: false,
+                        is_open: false,
                         complaint: Some((reason.to_string(), reason.advice())),
                     },
                 }
@@ -72,8 +82,33 @@ impl Headline {
                 title: "No part".into(),
                 nearest: None,
                 is_accepted: false,
+                is_open: false,
                 complaint: Some((reason.to_string(), reason.advice())),
             },
+        }
+    }
+
+    /// Of a frame whose verdict does not count.
+    fn not_yet(inspected: &Inspected, followed: &Followed) -> Self {
+        let is_part = matches!(inspected.inspection.verdict, Verdict::Part { .. });
+        let nearest = inspected.figures.candidates.first();
+        let (title, complaint) = match followed.stillness {
+            Stillness::Moving => (
+                "Moving",
+                (
+                    "something moves before the camera",
+                    "Let the part hang still for a second",
+                ),
+            ),
+            Stillness::Watching => ("Looking", ("it was not seen long enough", "Wait a moment")),
+            Stillness::Steady { .. } => ("Looking", ("it hangs still", "Wait a moment")),
+        };
+        Self {
+            title: title.into(),
+            nearest: nearest.filter(|_| is_part).map(|best| best.title.clone()),
+            is_accepted: false,
+            is_open: true,
+            complaint: Some((complaint.0.into(), complaint.1.into())),
         }
     }
 }
@@ -98,6 +133,9 @@ pub(super) fn ui(
         let text = "From the history: not what hangs there now";
         let text = RichText::new(text).font(font::body_strong());
         ui.label(text.color(theme.warning));
+    }
+    if state.is_live() {
+        live::card(ui, state, theme, actions);
     }
     let inspection = &inspected.inspection;
     let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
@@ -124,7 +162,7 @@ pub(super) fn ui(
             offset(ui, inspected, pose, state.units, theme);
             fit(ui, pose, state.units, theme);
             if inspection.verdict.is_approximate() {
-                let text = "The pose is approximate: this is another model of the part";
+                let text = "The pose is approximate: this may be another model of the part";
                 ui.label(RichText::new(text).color(theme.warning));
             }
             stand_off::ui(ui, inspected, state.units, theme);
@@ -176,6 +214,8 @@ fn verdict(ui: &mut Ui, headline: &Headline, theme: &Theme) {
     );
     let (sign, word, colour) = if headline.is_accepted {
         (Mark::Good, "Accepted", theme.accepted)
+    } else if headline.is_open {
+        (Mark::Look, "Not accepted yet", theme.warning)
     } else {
         (Mark::Bad, "Not accepted", theme.rejected)
     };
@@ -212,6 +252,8 @@ fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline, theme: &Theme)
     let width = bar.width() * score.clamp(0.0, 1.0) as f32;
     let fill = if headline.is_accepted {
         theme.accepted
+    } else if headline.is_open {
+        theme.warning
     } else {
         theme.rejected
     };
@@ -337,7 +379,7 @@ fn footer(ui: &mut Ui, inspected: &Inspected, theme: &Theme) {
     let ms = inspected.inspection.timings.total.as_secs_f64() * 1000.0;
     row(ui, theme, "time", &format!("{ms:.1} ms"));
     row(ui, theme, "scene", &inspected.origin.title());
-    if matches!(inspected.origin, Origin::Simulated { .. }) {
+    if inspected.origin.is_simulated() {
         row(ui, theme, "camera", "simulated");
     }
 }

@@ -174,7 +174,7 @@ impl InspectPanel {
             segmentation: texture(ctx, "segmentation", figures.segmentation.as_ref()),
             binary: texture(ctx, "binary image", figures.binary.as_ref()),
         });
-        self.view.show(&shown.inspected);
+        self.view.show(shown);
     }
 }
 

@@ -74,6 +74,7 @@ impl SceneFigure {
         if has_deviations {
             points = points.with_deviations(*deviations);
         }
+        let points = points.packed();
         let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
         let camera_from_part = pose.map(PoseEstimate::camera_from_part);
         let axes = camera_from_part.zip(*middle).map(|(pose, middle)| {

@@ -15,8 +15,7 @@ use crate::{
         headless::WorkCounts,
         inspect::work::Inspected,
         job::Trouble,
-        source::Origin,
-        state::{State, ThemeChoice, UnitSystem},
+        state::{Shown, State, ThemeChoice, UnitSystem},
         theme::{ROUNDING, Theme, font, space},
         viewport::{
             Colouring, FitRequest, Legend, TextLabel, ViewCamera, ViewColours, ViewError,
@@ -45,6 +44,8 @@ pub(super) struct SceneView {
     has_focus: bool,
     caption: String,
     origin: Option<String>,
+    /// Of the source followed, whose frame it shows.
+    session: Option<u64>,
     /// Of the view in the last frame, logical pixels.
     size: Vec2,
 }
@@ -65,17 +66,23 @@ impl SceneView {
             has_focus: false,
             caption: String::new(),
             origin: None,
+            session: None,
             size: Vec2::splat(1.0),
         }
     }
 
     /// Takes in a new result: what the worker made of it, and no point of it is gone through.
-    pub(super) fn show(&mut self, inspected: &Inspected) {
+    pub(super) fn show(&mut self, shown: &Shown) {
+        let inspected = &shown.inspected;
         let figures = &inspected.figures;
         self.has_deviations = inspected.view.has_deviations;
         self.scene.points = vec![inspected.view.points.clone()];
         self.placed = None;
-        self.camera.request_fit(FitRequest::Focus);
+        // While a source is followed, a person looks from where they please.
+        if shown.session.is_none() || self.session != shown.session {
+            self.camera.request_fit(FitRequest::Focus);
+        }
+        self.session = shown.session;
         let num_planes = inspected.inspection.segmentation.planes.len();
         self.caption = format!(
             "{} points · part {} · {num_planes} background {} removed",
@@ -83,7 +90,7 @@ impl SceneView {
             grouped(figures.num_part),
             if num_planes == 1 { "plane" } else { "planes" },
         );
-        let is_simulated = matches!(inspected.origin, Origin::Simulated { .. });
+        let is_simulated = inspected.origin.is_simulated();
         let title = inspected.origin.title();
         self.origin = is_simulated.then(|| format!("{title} · no camera was read"));
     }

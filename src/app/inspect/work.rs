@@ -8,17 +8,21 @@ use nalgebra::Point3;
 use super::scene::{Ingredients, SceneFigure};
 use crate::{
     app::{
+        camera::CameraError,
         deviation::deviations,
         figures::Figures,
         shelf::{LibraryShown, Shelf},
         source::{Captured, Origin, SceneError, SceneSource},
     },
+    capture::CaptureWarning,
     error::Advice,
-    files::FileWarning,
-    library::LibraryError,
-    pipeline::{self, Inspection, Recipe, Verdict, Watch},
+    library::{Library, LibraryError},
+    pipeline::{
+        self, Inspection, Recipe, Watch,
+        live::{Standing, Stillness},
+    },
     report::stand_off::{StandOff, StandOffError, stand_off},
-    stages::scene::SceneCloud,
+    stages::{reference::Reference, scene::SceneCloud},
 };
 
 /// Get a scene and inspect it.
@@ -48,7 +52,7 @@ pub struct Inspected {
     /// The library it was compared with.
     pub library: Arc<LibraryShown>,
     /// What was odd about the file.
-    pub warnings: Vec<FileWarning>,
+    pub warnings: Vec<CaptureWarning>,
     /// Middle of the best reference's extent, part space, metres.
     pub middle: Option<Point3<f64>>,
     /// Signed distance of every point of the scene to the best reference at its pose, metres; NaN where there is
@@ -58,6 +62,19 @@ pub struct Inspected {
     pub stand_off: Option<Result<StandOff, StandOffError>>,
     /// What the 3-D view shows.
     pub view: SceneFigure,
+    /// Of a frame among others: what they say together.
+    pub followed: Option<Followed>,
+}
+
+/// What a frame stands for that is one of many.
+#[derive(Clone, Debug)]
+pub struct Followed {
+    /// Whether the scene moves.
+    pub stillness: Stillness,
+    /// What counts.
+    pub standing: Standing,
+    /// Frames that its depth is averaged over.
+    pub num_averaged: usize,
 }
 
 /// Why a scene could not be inspected.
@@ -90,65 +107,118 @@ pub fn inspect(
     if watch.is_cancelled() {
         return Ok(None);
     }
+    let taken = request
+        .source
+        .take(shelf.camera(), &|| watch.is_cancelled());
     let Captured {
         scene,
         origin,
         warnings,
-    } = request.source.read()?;
+    } = match taken {
+        Err(SceneError::Camera(CameraError::Cancelled)) => return Ok(None),
+        taken => taken?,
+    };
     let Some(fitted) = shelved.fitting(&request.recipe, watch) else {
         return Ok(None);
     };
-    let library = &*fitted;
-    let Ok(inspection) = pipeline::run(&scene, library, &request.recipe, watch) else {
+    let Ok(inspection) = pipeline::run(&scene, &fitted, &request.recipe, watch) else {
         return Ok(None);
     };
-    let best = inspection.ranking.entries.first();
-    let best = best.and_then(|best| library.references.get(best.reference));
-    let bounds = best.and_then(|reference| reference.cloud.bounds());
-    let deviations = best.map_or_else(Vec::new, |reference| {
-        deviations(&scene, &inspection, reference)
-    });
-    let middle = bounds.map(|(low, high)| nalgebra::center(&low, &high).cast());
-    let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
-    let is_accepted = matches!(inspection.verdict, Verdict::Part { rejected: None, .. });
-    // Nothing is sprayed at what was not recognised.
-    let sprayed = best.zip(pose).filter(|_| is_accepted);
-    let stand_off = sprayed.map(|(reference, pose)| {
-        stand_off(
-            reference,
-            &pose.camera_from_part(),
-            &request.recipe.stand_off,
-        )
-    });
-    let view = SceneFigure::of(&Ingredients {
-        scene: &scene,
-        inspection: &inspection,
-        reference: best,
-        middle,
-        deviations: &deviations,
-        stand_off: stand_off.as_ref().and_then(|found| found.as_ref().ok()),
-    });
-    let figures = Figures::of(&scene, &inspection, library, &shelved.shown);
-    Ok(Some(Inspected {
-        origin,
-        at: Timestamp::now(),
+    let found = Found {
         scene,
+        origin,
+        warnings,
         recipe: Arc::clone(&request.recipe),
         inspection,
-        figures,
-        library: Arc::clone(&shelved.shown),
-        warnings,
-        middle,
-        deviations,
-        stand_off,
-        view,
-    }))
+        followed: None,
+    };
+    Ok(Some(found.prepared(&fitted, &shelved.shown)))
+}
+
+/// An inspection, before what the panels draw of it is made.
+pub(in crate::app) struct Found {
+    pub(in crate::app) scene: Arc<SceneCloud>,
+    pub(in crate::app) origin: Origin,
+    pub(in crate::app) warnings: Vec<CaptureWarning>,
+    pub(in crate::app) recipe: Arc<Recipe>,
+    pub(in crate::app) inspection: Inspection,
+    pub(in crate::app) followed: Option<Followed>,
+}
+
+impl Found {
+    /// Middle of the best reference's extent, part space, metres.
+    pub(in crate::app) fn middle(
+        inspection: &Inspection,
+        library: &Library,
+    ) -> Option<Point3<f64>> {
+        let (low, high) = best_reference(inspection, library)?.cloud.bounds()?;
+        Some(nalgebra::center(&low, &high).cast())
+    }
+
+    /// Makes what the panels draw: goes through every point.
+    pub(in crate::app) fn prepared(
+        self,
+        library: &Library,
+        shown: &Arc<LibraryShown>,
+    ) -> Inspected {
+        let Self {
+            scene,
+            origin,
+            warnings,
+            recipe,
+            inspection,
+            followed,
+        } = self;
+        let best = best_reference(&inspection, library);
+        let deviations = best.map_or_else(Vec::new, |reference| {
+            deviations(&scene, &inspection, reference)
+        });
+        let middle = Self::middle(&inspection, library);
+        let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+        // Nothing is sprayed at what was not recognised.
+        let sprayed = best.zip(pose).filter(|_| inspection.verdict.is_accepted());
+        let stand_off = sprayed.map(|(reference, pose)| {
+            stand_off(reference, &pose.camera_from_part(), &recipe.stand_off)
+        });
+        let view = SceneFigure::of(&Ingredients {
+            scene: &scene,
+            inspection: &inspection,
+            reference: best,
+            middle,
+            deviations: &deviations,
+            stand_off: stand_off.as_ref().and_then(|found| found.as_ref().ok()),
+        });
+        let figures = Figures::of(&scene, &inspection, library, shown);
+        Inspected {
+            origin,
+            at: Timestamp::now(),
+            scene,
+            recipe,
+            inspection,
+            figures,
+            library: Arc::clone(shown),
+            warnings,
+            middle,
+            deviations,
+            stand_off,
+            view,
+            followed,
+        }
+    }
+}
+
+fn best_reference<'a>(inspection: &Inspection, library: &'a Library) -> Option<&'a Reference> {
+    let best = inspection.ranking.entries.first()?;
+    library.references.get(best.reference)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{app::source::CellChoice, pipeline::Unwatched};
+    use crate::{
+        app::source::CellChoice,
+        pipeline::{Unwatched, Verdict},
+    };
 
     #[test]
     fn a_captured_frame_comes_back_inspected() {

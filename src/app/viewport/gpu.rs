@@ -171,7 +171,7 @@ impl ViewportGpu {
                 ..
             } = &*self.0;
             self.0.num_uploads.fetch_add(1, Ordering::Relaxed);
-            GpuPoints::upload(device, queue, &pipelines.point_table, set)
+            GpuPoints::upload(device, queue, &pipelines.point_table, &set.to_upload())
         })
     }
 

@@ -54,6 +54,39 @@ pub(super) struct PointsUniform {
     pub(super) padding: f32,
 }
 
+/// The points of a set as its tables take them: to be copied and nothing else.
+#[derive(Clone, Debug)]
+pub(super) struct PackedPoints {
+    tables: Vec<PackedTable>,
+}
+
+#[derive(Clone, Debug)]
+struct PackedTable {
+    /// Whole rows, the last one filled up.
+    texels: Vec<GpuPoint>,
+    sample_ends: [u32; NUM_SAMPLES],
+}
+
+impl PackedPoints {
+    /// Goes through every point, leaving out those that are not finite.
+    pub(super) fn of(set: &PointSet) -> Self {
+        let num_points = set.positions().len();
+        let starts = (0..num_points).step_by(POINTS_PER_TABLE);
+        let tables = starts.map(|start| {
+            let end = num_points.min(start + POINTS_PER_TABLE);
+            let (mut texels, sample_ends) = in_samples(set, start..end);
+            texels.resize(texels.len().div_ceil(ROW).max(1) * ROW, GpuPoint::default());
+            PackedTable {
+                texels,
+                sample_ends,
+            }
+        });
+        Self {
+            tables: tables.collect(),
+        }
+    }
+}
+
 /// The points of one set.
 pub(super) struct GpuPoints {
     tables: Vec<Table>,
@@ -66,23 +99,19 @@ struct Table {
 }
 
 impl GpuPoints {
-    /// Copies a set to the GPU, without the points that are not finite.
+    /// Copies a set to the GPU.
     pub(super) fn upload(
         device: &wgpu::Device,
         queue: &wgpu::Queue,
         layout: &wgpu::BindGroupLayout,
-        set: &PointSet,
+        packed: &PackedPoints,
     ) -> Self {
-        let num_points = set.positions().len();
-        let starts = (0..num_points).step_by(POINTS_PER_TABLE);
-        let tables = starts.map(|start| {
-            let end = num_points.min(start + POINTS_PER_TABLE);
-            let (points, sample_ends) = in_samples(set, start..end);
-            let texels = upload_table(device, queue, points);
+        let tables = packed.tables.iter().map(|table| {
+            let texels = upload_table(device, queue, &table.texels);
             let resources = [wgpu::BindingResource::TextureView(&texels)];
             Table {
                 group: pass::bind(device, "view points", layout, &resources),
-                sample_ends,
+                sample_ends: table.sample_ends,
             }
         });
         Self {
@@ -103,10 +132,9 @@ impl GpuPoints {
 fn upload_table(
     device: &wgpu::Device,
     queue: &wgpu::Queue,
-    mut points: Vec<GpuPoint>,
+    texels: &[GpuPoint],
 ) -> wgpu::TextureView {
-    let num_rows = points.len().div_ceil(ROW).max(1);
-    points.resize(num_rows * ROW, GpuPoint::default());
+    let num_rows = texels.len() / ROW;
     let size = wgpu::Extent3d {
         width: ROW as u32,
         height: num_rows as u32,
@@ -129,7 +157,7 @@ fn upload_table(
     };
     queue.write_texture(
         texture.as_image_copy(),
-        bytemuck::cast_slice(&points),
+        bytemuck::cast_slice(texels),
         rows,
         size,
     );

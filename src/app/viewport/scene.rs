@@ -13,6 +13,7 @@ use glam::{Mat4, Vec3};
 
 use super::{
     bounds::Bounds,
+    points::PackedPoints,
     style::{Colouring, Role},
 };
 use crate::{geometry::rigid::RigidTransform, stages::segment::PointLabel};
@@ -33,6 +34,7 @@ pub struct PointSet {
     positions: Arc<[[f32; 3]]>,
     labels: Labels,
     deviations: Option<Arc<[f32]>>,
+    packed: Option<Arc<PackedPoints>>,
     generation: u64,
     bounds: Option<Bounds>,
     focus: Option<Bounds>,
@@ -54,6 +56,7 @@ impl PointSet {
             colouring: None,
             labels: Labels::All(role),
             deviations: None,
+            packed: None,
             generation: next_generation(),
             bounds,
             focus: bounds.filter(|_| role == Role::Part),
@@ -84,8 +87,25 @@ impl PointSet {
             "one deviation per point"
         );
         self.deviations = Some(deviations);
+        self.packed = None;
         self.generation = next_generation();
         self
+    }
+
+    /// Arranges the points as the GPU takes them, as the last step of making the set off the UI thread: showing it is
+    /// then a copy.
+    #[must_use]
+    pub fn packed(mut self) -> Self {
+        self.packed = Some(Arc::new(PackedPoints::of(&self)));
+        self
+    }
+
+    /// The points as the GPU takes them, arranged now if nobody has yet.
+    pub(super) fn to_upload(&self) -> Arc<PackedPoints> {
+        match &self.packed {
+            Some(packed) => Arc::clone(packed),
+            None => Arc::new(PackedPoints::of(self)),
+        }
     }
 
     /// Stands the set elsewhere.

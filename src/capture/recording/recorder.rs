@@ -30,6 +30,8 @@ pub struct Recorder {
     /// Bytes of the manifest's whole lines.
     length: u64,
     num_frames: u64,
+    /// Bytes of all frames.
+    num_bytes: u64,
     /// The camera in the folder's `intrinsics.json`.
     camera: Option<DepthCamera>,
 }
@@ -63,6 +65,7 @@ impl Recorder {
                     .open(folder.join(MANIFEST))?,
                 length: 0,
                 num_frames: 0,
+                num_bytes: 0,
                 camera: None,
             };
             recorder.append(&header)?;
@@ -84,6 +87,11 @@ impl Recorder {
     /// Frames written so far.
     pub fn num_frames(&self) -> u64 {
         self.num_frames
+    }
+
+    /// Bytes of the frames written so far.
+    pub fn num_bytes(&self) -> u64 {
+        self.num_bytes
     }
 
     /// Where it is.
@@ -153,6 +161,7 @@ impl Recorder {
             truth: captured.truth.as_deref().cloned(),
         })?;
         self.num_frames += 1;
+        self.num_bytes += content.len() as u64;
         Ok(())
     }
 

@@ -23,6 +23,7 @@ use nalgebra::Point3;
 pub use self::{
     clusters::Cluster,
     empty_cell::{EmptyCell, EmptyCellError},
+    noise::noise_of_picture,
     planes::BackgroundPlane,
 };
 use crate::{error::Advice, geometry::cloud::PointCloud, stages::scene::SceneCloud, units::Metres};

@@ -22,7 +22,7 @@ const KEPT: f64 = 0.7;
 const KEPT_VARIANCE: f64 = 0.310;
 
 /// Standard deviation of the depth at 1 m; `None` if the scene is no picture or nearly empty.
-pub(super) fn noise_of_picture(scene: &SceneCloud) -> Option<Metres> {
+pub fn noise_of_picture(scene: &SceneCloud) -> Option<Metres> {
     let grid = scene.cloud.grid?;
     let points = &scene.cloud.points;
     let mut squares: Vec<f64> = Vec::new();

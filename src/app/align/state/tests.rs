@@ -39,6 +39,14 @@ impl Watch for Tray {
 }
 
 impl Desk<Outcome> for Tray {
+    fn stands(&self, outcome: Outcome) {
+        self.partly(outcome);
+    }
+
+    fn is_followed(&self) -> bool {
+        true
+    }
+
     fn progress(&self, done: usize, total: usize) {
         self.progress.set((done, total));
     }

@@ -6,6 +6,7 @@ use super::*;
 use crate::{
     app::{
         action::{self, Action},
+        camera::Camera,
         enrol::{selection::PixelBox, subject::Fate},
         job::{Outcome, answer},
         shelf::Shelf,
@@ -25,6 +26,14 @@ struct Tray(Mutex<Vec<Outcome>>);
 impl Watch for Tray {}
 
 impl Desk<Outcome> for Tray {
+    fn stands(&self, outcome: Outcome) {
+        self.partly(outcome);
+    }
+
+    fn is_followed(&self) -> bool {
+        true
+    }
+
     fn progress(&self, _done: usize, _total: usize) {}
     fn partly(&self, outcome: Outcome) {
         self.0.lock().expect("whole").push(outcome);
@@ -46,7 +55,7 @@ impl Bench {
                 workspace: Workspace::Enrol,
                 ..State::default()
             },
-            shelf: Shelf::new(Some(folder.path().to_owned())),
+            shelf: Shelf::new(Some(folder.path().to_owned()), Camera::default()),
             folder,
         }
     }

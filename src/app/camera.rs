@@ -1,0 +1,196 @@
+//! The camera in use, shared by the threads: at most one is open.
+//!
+//! A source that goes on by itself is closed as soon as nobody wants its frames. A recording or a watched folder stays
+//! open in between: the next frame that is asked for is the next one there.
+
+use std::{
+    fmt,
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+    time::Duration,
+};
+
+use crate::{
+    capture::{
+        self, CaptureError, Captured, Delivery, DepthSource, Feed, FeedItem, FeedState, SourceSpec,
+    },
+    error::Advice,
+};
+
+/// A handle to the camera in use; clones share it.
+#[derive(Clone)]
+pub struct Camera {
+    opened: Arc<Mutex<Option<Opened>>>,
+    open: Arc<Open>,
+}
+
+/// How a source is opened.
+type Open = dyn Fn(&SourceSpec) -> Result<Box<dyn DepthSource>, CaptureError> + Send + Sync;
+
+impl Default for Camera {
+    fn default() -> Self {
+        Self::opened_by(capture::open)
+    }
+}
+
+struct Opened {
+    spec: SourceSpec,
+    feed: Arc<Feed>,
+}
+
+/// Why there is no frame.
+#[derive(Debug, thiserror::Error)]
+pub enum CameraError {
+    /// The source says why.
+    #[error(transparent)]
+    Capture(Arc<CaptureError>),
+    /// A recording has no more frames.
+    #[error("{title} has no more frames")]
+    AtItsEnd {
+        /// What a person calls it.
+        title: String,
+    },
+    /// Nobody waits any more.
+    #[error("nobody waits for the frame any more")]
+    Cancelled,
+}
+
+impl Advice for CameraError {
+    fn advice(&self) -> String {
+        match self {
+            Self::Capture(error) => error.advice(),
+            Self::AtItsEnd { .. } => "Capture again to begin at its first frame".into(),
+            Self::Cancelled => "Capture again".into(),
+        }
+    }
+}
+
+/// How long one look for a frame takes, before it is looked whether somebody still waits.
+const TURN: Duration = Duration::from_millis(50);
+
+impl Camera {
+    /// With another way to open a source.
+    pub fn opened_by(
+        open: impl Fn(&SourceSpec) -> Result<Box<dyn DepthSource>, CaptureError> + Send + Sync + 'static,
+    ) -> Self {
+        Self {
+            opened: Arc::default(),
+            open: Arc::new(open),
+        }
+    }
+
+    /// The source at work: as it is, if it is the one that is open, else opened after the other was closed. A frame
+    /// that comes from now on is waited for with [`Feed::wait`].
+    pub fn feed(&self, spec: &SourceSpec) -> Result<Arc<Feed>, CameraError> {
+        let mut opened = self.lock();
+        if let Some(Opened { spec: known, feed }) = &*opened
+            && known == spec
+            && !feed.status().state.is_over()
+        {
+            return Ok(Arc::clone(feed));
+        }
+        // One camera at a time: two handles of one device would refuse each other.
+        *opened = None;
+        let (open, wanted) = (Arc::clone(&self.open), spec.clone());
+        let feed = Feed::start_with(move || open(&wanted), Delivery::suiting(spec), || {})
+            .map_err(|error| CameraError::Capture(Arc::new(error)))?;
+        let feed = Arc::new(feed);
+        *opened = Some(Opened {
+            spec: spec.clone(),
+            feed: Arc::clone(&feed),
+        });
+        Ok(feed)
+    }
+
+    /// The next frame of a source, waited for until nobody wants it.
+    pub fn next(
+        &self,
+        spec: &SourceSpec,
+        is_cancelled: &dyn Fn() -> bool,
+    ) -> Result<Captured, CameraError> {
+        let feed = self.feed(spec)?;
+        let found = wait(&feed, spec, is_cancelled);
+        drop(feed);
+        self.rest();
+        found
+    }
+
+    /// Closes a source that goes on by itself, unless somebody follows it.
+    pub fn rest(&self) {
+        let mut opened = self.lock();
+        let is_idle = |held: &mut Opened| held.spec.is_live() && Arc::strong_count(&held.feed) == 1;
+        let idle = opened.take_if(is_idle);
+        drop(opened);
+        // Waits for the camera's thread.
+        drop(idle);
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Option<Opened>> {
+        // What it holds is only ever replaced whole.
+        self.opened.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+fn wait(
+    feed: &Feed,
+    spec: &SourceSpec,
+    is_cancelled: &dyn Fn() -> bool,
+) -> Result<Captured, CameraError> {
+    loop {
+        if is_cancelled() {
+            return Err(CameraError::Cancelled);
+        }
+        match feed.wait(TURN) {
+            Some(FeedItem::Captured(captured)) => return Ok(captured),
+            Some(FeedItem::Skipped(skipped)) => return Err(CameraError::Capture(skipped.error)),
+            None => match feed.status().state {
+                FeedState::Failed(error) | FeedState::Lost { error, .. } => {
+                    return Err(CameraError::Capture(error));
+                }
+                FeedState::Ended | FeedState::Stopped => {
+                    let title = spec.title();
+                    return Err(CameraError::AtItsEnd { title });
+                }
+                FeedState::Opening | FeedState::Running => {}
+            },
+        }
+    }
+}
+
+impl fmt::Debug for Camera {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let spec = self.lock().as_ref().map(|opened| opened.spec.clone());
+        f.debug_tuple("Camera").field(&spec).finish()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn is_open(camera: &Camera) -> bool {
+        camera.lock().is_some()
+    }
+
+    #[test]
+    fn a_live_camera_is_closed_after_its_frame_unless_somebody_follows_it() {
+        let camera = Camera::default();
+        let spec: SourceSpec = "simulated,fps=1000:empty".parse().expect("a source");
+        let first = camera.next(&spec, &|| false).expect("a frame");
+        assert!(first.is_simulated && !is_open(&camera));
+        let followed = camera.feed(&spec).expect("opened");
+        camera.next(&spec, &|| false).expect("a frame");
+        assert!(is_open(&camera));
+        drop(followed);
+        camera.rest();
+        assert!(!is_open(&camera));
+    }
+
+    #[test]
+    fn who_gives_up_waiting_gets_nothing() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let text = format!("watch:{}", folder.path().display());
+        let spec: SourceSpec = text.parse().expect("a source");
+        let given_up = Camera::default().next(&spec, &|| true);
+        assert!(matches!(given_up, Err(CameraError::Cancelled)));
+    }
+}

@@ -1,0 +1,22 @@
+//! Live: a camera is followed, every frame that can be is inspected, and a verdict counts once the part hangs still.
+//!
+//! The camera's own thread hands over its newest frame, the lane's thread inspects it, and the window shows what stands
+//! then: nobody waits for anybody, and what nobody has time for is dropped.
+
+mod set_up;
+pub mod state;
+mod status;
+mod tape;
+mod work;
+
+pub(super) use self::{
+    set_up::set_up,
+    state::{apply, give_way, hear, source_changed, start_anew},
+    status::{card, chip},
+    work::answer,
+};
+pub use self::{
+    state::{LiveAction, LiveState},
+    tape::{Recorded, Tape},
+    work::{FollowRequest, LiveAnswer, LiveRequest, LiveStatus, LiveTold, SourceState},
+};

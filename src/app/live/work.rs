@@ -1,0 +1,361 @@
+//! What the lane's thread does: takes the newest frame, inspects it, tells how things stand.
+
+use std::{
+    collections::VecDeque,
+    path::{Path, PathBuf},
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use super::tape::Recorded;
+use crate::{
+    app::{
+        inspect::work::{Followed, Found, Inspected},
+        job::{Answer, Outcome, Trouble},
+        shelf::Shelf,
+        source::Captured as Taken,
+        worker::Desk,
+    },
+    capture::{Captured, Feed, FeedItem, FeedState, FrameRate, SourceSpec},
+    pipeline::{
+        self, Recipe, Verdict, Watch,
+        live::{LiveParams, LiveWatch, Standing, Stillness},
+    },
+    stages::segment::EmptyCell,
+};
+
+/// What the lane is asked for.
+#[derive(Clone, Debug)]
+pub enum LiveRequest {
+    /// Follow a source until something else is asked for.
+    Follow(Box<FollowRequest>),
+    /// Let the camera rest.
+    Rest,
+}
+
+/// Which source to follow, and how.
+#[derive(Clone, Debug)]
+pub struct FollowRequest {
+    /// The source.
+    pub spec: SourceSpec,
+    /// All parameters.
+    pub recipe: Arc<Recipe>,
+    /// When a verdict counts.
+    pub params: LiveParams,
+    /// What its camera saw without a part.
+    pub empty_cell: Option<Arc<EmptyCell>>,
+    /// The folder that it is recorded in, if it is.
+    pub record: Option<PathBuf>,
+}
+
+/// What the lane tells.
+#[derive(Clone, Debug)]
+pub enum LiveAnswer {
+    /// How things stand.
+    Stands(Box<LiveTold>),
+    /// A verdict that counts, and was not told before.
+    Counts(Arc<Inspected>),
+    /// It is not recorded any more.
+    NotRecorded(Trouble),
+    /// Something of the source that cannot be read.
+    Skipped(Trouble),
+    /// The source has no more frames.
+    AtItsEnd,
+    /// The camera rests.
+    Rests,
+}
+
+/// How things stand.
+#[derive(Clone, Debug)]
+pub struct LiveTold {
+    /// In figures.
+    pub status: LiveStatus,
+    /// The last frame that everything was made of that the panels draw.
+    pub inspected: Option<Arc<Inspected>>,
+}
+
+/// How things stand, in figures.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LiveStatus {
+    /// Whether frames come.
+    pub source: SourceState,
+    /// Whether the scene moves; `None` of a source whose captures stand for themselves.
+    pub stillness: Option<Stillness>,
+    /// What counts.
+    pub standing: Standing,
+    /// Frames a second that come, and of those the ones that were inspected.
+    pub rates: [Option<f64>; 2],
+    /// From a frame's arrival to its verdict, the median of the last ones.
+    pub latency: Option<Duration>,
+    /// Frames inspected since it began.
+    pub num_inspected: u64,
+    /// Frames dropped for a newer one since it began.
+    pub num_dropped: u64,
+    /// Frames that depth is averaged over.
+    pub num_averaged: usize,
+    /// What was recorded so far, while it is.
+    pub recorded: Option<Recorded>,
+}
+
+/// Whether frames come.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum SourceState {
+    /// It is being opened.
+    Opening,
+    /// They come, or are waited for.
+    Running,
+    /// Not now; it is looked for again by itself.
+    Lost(Trouble),
+}
+
+/// How long one look for a frame takes, before it is looked whether it is still wanted.
+const TURN: Duration = Duration::from_millis(50);
+/// Times that the latency is the median of.
+const NUM_LATENCIES: usize = 15;
+
+/// Does what is asked; `None` when something else was asked for.
+pub(in crate::app) fn answer(
+    request: &LiveRequest,
+    shelf: &Shelf,
+    desk: &dyn Desk<Outcome>,
+) -> Option<Outcome> {
+    let LiveRequest::Follow(request) = request else {
+        shelf.tape().end();
+        shelf.camera().rest();
+        return Some(Ok(Answer::Live(LiveAnswer::Rests)));
+    };
+    // It stays open behind this: whoever asks next may follow the same one.
+    match shelf.camera().feed(&request.spec) {
+        Ok(feed) => Follower::new(request, shelf, desk).follow(&feed),
+        Err(error) => Some(Err(Trouble::of(&error))),
+    }
+}
+
+struct Follower<'a> {
+    shelf: &'a Shelf,
+    desk: &'a dyn Desk<Outcome>,
+    spec: &'a SourceSpec,
+    /// Where it is recorded; not any more after a failure.
+    record: Option<&'a Path>,
+    recorded: Option<Recorded>,
+    recipe: &'a Arc<Recipe>,
+    empty_cell: Option<&'a Arc<EmptyCell>>,
+    /// `None` of a source whose captures stand for themselves.
+    watch: Option<LiveWatch>,
+    rate: FrameRate,
+    latencies: VecDeque<Duration>,
+    standing: Standing,
+    stillness: Option<Stillness>,
+    num_inspected: u64,
+    /// Frames that the source had dropped before.
+    dropped_before: u64,
+    inspected: Option<Arc<Inspected>>,
+    /// The verdict that was told last to count.
+    counted: Option<Verdict>,
+    told: Option<LiveStatus>,
+}
+
+/// Stages are not told one by one: frames come faster than anybody reads.
+struct Quietly<'a>(&'a dyn Desk<Outcome>);
+
+impl Watch for Quietly<'_> {
+    fn is_cancelled(&self) -> bool {
+        self.0.is_cancelled()
+    }
+}
+
+impl<'a> Follower<'a> {
+    fn new(request: &'a FollowRequest, shelf: &'a Shelf, desk: &'a dyn Desk<Outcome>) -> Self {
+        let stands_for_itself = matches!(request.spec, SourceSpec::Watched(_));
+        let watch = (!stands_for_itself).then(|| LiveWatch::new(&request.params));
+        Self {
+            shelf,
+            desk,
+            spec: &request.spec,
+            record: request.record.as_deref(),
+            recorded: None,
+            recipe: &request.recipe,
+            empty_cell: request.empty_cell.as_ref(),
+            stillness: watch.as_ref().map(LiveWatch::stillness),
+            watch,
+            rate: FrameRate::default(),
+            latencies: VecDeque::new(),
+            standing: Standing::Open,
+            num_inspected: 0,
+            dropped_before: 0,
+            inspected: None,
+            counted: None,
+            told: None,
+        }
+    }
+
+    fn follow(mut self, feed: &Feed) -> Option<Outcome> {
+        self.dropped_before = feed.status().num_dropped;
+        loop {
+            if self.desk.is_cancelled() {
+                return None;
+            }
+            match feed.wait(TURN) {
+                Some(FeedItem::Captured(captured)) => {
+                    self.write(&captured, feed);
+                    if let Err(trouble) = self.take(captured)? {
+                        return Some(Err(trouble));
+                    }
+                }
+                Some(FeedItem::Skipped(skipped)) => {
+                    let trouble = Trouble::of(&*skipped.error);
+                    self.tell(LiveAnswer::Skipped(trouble));
+                }
+                None => match feed.status().state {
+                    FeedState::Ended | FeedState::Stopped => {
+                        return Some(Ok(Answer::Live(LiveAnswer::AtItsEnd)));
+                    }
+                    FeedState::Failed(error) => return Some(Err(Trouble::of(&*error))),
+                    FeedState::Opening | FeedState::Running | FeedState::Lost { .. } => {}
+                },
+            }
+            self.tell_how_it_stands(feed);
+        }
+    }
+
+    /// Records the frame before anything else is done with it, if it is to be.
+    fn write(&mut self, captured: &Captured, feed: &Feed) {
+        let tape = self.shelf.tape();
+        match tape.write(self.record, captured, self.spec, &feed.status()) {
+            Ok(recorded) => self.recorded = recorded,
+            Err(error) => {
+                self.record = None;
+                self.recorded = None;
+                self.tell(LiveAnswer::NotRecorded(Trouble::of(&error)));
+            }
+        }
+    }
+
+    /// Inspects a frame; `None` when that was broken off.
+    fn take(&mut self, captured: Captured) -> Option<Result<(), Trouble>> {
+        let shelved = match self.shelf.get() {
+            Ok(shelved) => shelved,
+            Err(error) => return Some(Err(Trouble::of(&error))),
+        };
+        let watching = Quietly(self.desk);
+        let fitted = shelved.fitting(self.recipe, &watching)?;
+        let (arrived, at) = (captured.arrived, seconds(&captured));
+        let Taken {
+            mut scene,
+            origin,
+            warnings,
+        } = captured.into();
+        if let Some(cell) = self.empty_cell {
+            Arc::make_mut(&mut scene).empty_cell = Some(Arc::clone(cell));
+        }
+        if let Some(watch) = &mut self.watch {
+            scene = watch.look(&scene, at);
+        }
+        let mut inspection = pipeline::run(&scene, &fitted, self.recipe, &watching).ok()?;
+        let mut followed = None;
+        if let Some(watch) = &mut self.watch {
+            let middle = Found::middle(&inspection, &fitted);
+            self.standing = watch.judge(&mut inspection, middle, &self.recipe.accept);
+            self.stillness = Some(watch.stillness());
+            followed = Some(Followed {
+                stillness: watch.stillness(),
+                standing: self.standing.clone(),
+                num_averaged: watch.num_averaged(),
+            });
+        }
+        self.num_inspected += 1;
+        self.rate.came(Instant::now());
+        self.latencies.push_front(arrived.elapsed());
+        self.latencies.truncate(NUM_LATENCIES);
+
+        let counts_anew = self.counts_anew(&inspection.verdict);
+        if !counts_anew && !self.desk.is_followed() {
+            // The window has not even shown the one before.
+            return Some(Ok(()));
+        }
+        let found = Found {
+            scene,
+            origin,
+            warnings,
+            recipe: Arc::clone(self.recipe),
+            inspection,
+            followed,
+        };
+        let inspected = Arc::new(found.prepared(&fitted, &shelved.shown));
+        self.inspected = Some(Arc::clone(&inspected));
+        if counts_anew {
+            self.tell(LiveAnswer::Counts(inspected));
+        }
+        Some(Ok(()))
+    }
+
+    /// True if the verdict counts and says something else than the last one that did.
+    fn counts_anew(&mut self, verdict: &Verdict) -> bool {
+        if self.watch.is_none() {
+            return true;
+        }
+        let Some(agreed) = self.standing.counted() else {
+            self.counted = None;
+            return false;
+        };
+        let is_same = self.counted.as_ref().is_some_and(|known| {
+            let name = |verdict: &Verdict| match verdict {
+                Verdict::Part { part, rejected, .. } => Some((part.clone(), rejected.is_none())),
+                Verdict::NoPart(_) => None,
+            };
+            name(known) == name(verdict)
+        });
+        self.counted = Some(agreed.verdict.clone());
+        // An empty cell between two parts is no inspection that anybody looks for later.
+        !is_same && !matches!(verdict, Verdict::NoPart(_))
+    }
+
+    fn tell(&self, answer: LiveAnswer) {
+        self.desk.partly(Ok(Answer::Live(answer)));
+    }
+
+    /// Says how things stand, unless nothing has changed.
+    fn tell_how_it_stands(&mut self, feed: &Feed) {
+        let feed = feed.status();
+        let source = match feed.state {
+            FeedState::Opening => SourceState::Opening,
+            FeedState::Lost { error, .. } => SourceState::Lost(Trouble::of(&*error)),
+            _ => SourceState::Running,
+        };
+        if matches!(source, SourceState::Lost(_)) {
+            // What hangs there when it comes back was not seen to hang still.
+            self.standing = Standing::Open;
+            self.counted = None;
+        }
+        let mut latencies: Vec<Duration> = self.latencies.iter().copied().collect();
+        latencies.sort_unstable();
+        let status = LiveStatus {
+            source,
+            stillness: self.stillness,
+            standing: self.standing.clone(),
+            rates: [feed.rate, self.rate.per_second(Instant::now())],
+            latency: latencies.get(latencies.len() / 2).copied(),
+            num_inspected: self.num_inspected,
+            num_dropped: feed.num_dropped.saturating_sub(self.dropped_before),
+            num_averaged: self.watch.as_ref().map_or(1, LiveWatch::num_averaged),
+            recorded: self.recorded.clone(),
+        };
+        let is_news = self.told.as_ref().is_none_or(|told| {
+            told.num_inspected != status.num_inspected || told.source != status.source
+        });
+        if is_news {
+            self.told = Some(status.clone());
+            let told = LiveTold {
+                status,
+                inspected: self.inspected.clone(),
+            };
+            let told = LiveAnswer::Stands(Box::new(told));
+            self.desk.stands(Ok(Answer::Live(told)));
+        }
+    }
+}
+
+/// The camera's time, from whenever it counts.
+fn seconds(captured: &Captured) -> Duration {
+    Duration::try_from(captured.taken_at.as_duration()).unwrap_or_default()
+}

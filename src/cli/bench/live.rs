@@ -1,0 +1,74 @@
+//! `partsight bench live`.
+
+use std::time::Duration;
+
+use serde::Serialize;
+
+use super::{BenchArgs, write_json};
+use crate::{
+    app::headless::{LiveStretch, live_stretches},
+    cli::{
+        Outcome,
+        console::{Advised as _, Console, Table},
+    },
+};
+
+/// How long a line of the table is.
+const STRETCH: Duration = Duration::from_secs(30);
+
+/// What `--json` writes.
+#[derive(Debug, Serialize)]
+struct LiveFile {
+    schema: u32,
+    simulated: bool,
+    stretches: Vec<LiveStretch>,
+}
+
+/// Follows the simulated line for as long as asked.
+pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let num_stretches = 2 * args.minutes as usize;
+    console.line(&format_args!(
+        "The window without a display follows the simulated line for {} min; a line per {} s.",
+        args.minutes,
+        STRETCH.as_secs()
+    ));
+    console.start_progress(num_stretches);
+    let stretches = live_stretches(num_stretches, STRETCH, |_| console.done()).advised()?;
+    console.end_progress();
+    let mut table = Table::new(&[
+        "until",
+        "captured",
+        "inspected",
+        "latency",
+        "drawn",
+        "window's thread, median",
+        "95 %",
+        "longest",
+        "memory",
+    ]);
+    for stretch in &stretches {
+        table.row([
+            format!("{:.0} s", stretch.until_s),
+            format!("{:.1} /s", stretch.captured_per_s),
+            format!("{:.1} /s", stretch.inspected_per_s),
+            format!("{:.0} ms", stretch.latency_ms),
+            stretch.num_drawn.to_string(),
+            format!("{:.2} ms", stretch.busy_p50_ms),
+            format!("{:.2} ms", stretch.busy_p95_ms),
+            format!("{:.0} ms", stretch.longest_ms),
+            stretch
+                .memory_mb
+                .map_or_else(|| "-".to_owned(), |mb| format!("{mb:.0} MB")),
+        ]);
+    }
+    table.show(console);
+    if let Some(path) = &args.json {
+        let file = LiveFile {
+            schema: 1,
+            simulated: true,
+            stretches,
+        };
+        write_json(path, &file)?;
+    }
+    Ok(Outcome::Accepted)
+}

@@ -1,0 +1,433 @@
+//! One verdict out of those on the last frames.
+//!
+//! A frame's verdict is a guess with a probability; frames of one still scene are guesses with the same systematic
+//! error, so their agreement is no proof, but their disagreement is a warning: a part is accepted only if nearly every
+//! frame accepts it, none accepts another, and their poses lie together. The score is the median, so that it never
+//! says more than a frame at hand.
+
+use std::{collections::VecDeque, time::Duration};
+
+use nalgebra::Point3;
+
+use super::mean_pose::{MeanPose, PoseTolerance, mean_pose};
+use crate::{
+    geometry::rigid::RigidTransform,
+    pipeline::{AcceptParams, Inspection, Rejection, Verdict},
+    units::{Metres, Radians},
+};
+
+/// When frames agree.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ConsensusParams {
+    /// Frames that the verdict rests on at most, 1..60. Raising it makes the verdict and the pose steadier and slower
+    /// to change.
+    pub num_frames: usize,
+    /// Frames that it rests on at least, 1..=`num_frames`. Raising it makes a person wait longer.
+    pub least_frames: usize,
+    /// Share of the frames that must say the same, 0.5..1. Lowering it accepts what some frames do not.
+    pub least_share: f64,
+    /// How far poses may lie apart to be averaged.
+    pub tolerance: PoseTolerance,
+}
+
+impl Default for ConsensusParams {
+    fn default() -> Self {
+        Self {
+            num_frames: 10,
+            least_frames: 5,
+            least_share: 0.8,
+            tolerance: PoseTolerance {
+                shift: Metres::from_mm(6.0),
+                turn: Radians::from_degrees(1.5),
+            },
+        }
+    }
+}
+
+/// A verdict that rests on several frames.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Agreed {
+    /// The verdict; score and margin are medians.
+    pub verdict: Verdict,
+    /// Frames that it rests on.
+    pub num_frames: usize,
+    /// Frames that said the same.
+    pub num_agreeing: usize,
+    /// The mean of the poses that agree; `None` where no part was named or no pose asked for.
+    pub pose: Option<MeanPose>,
+}
+
+/// What one frame said.
+#[derive(Clone, Debug)]
+struct Said {
+    at: Duration,
+    verdict: Verdict,
+    camera_from_part: Option<RigidTransform>,
+    /// Of the part, in its own space.
+    middle: Point3<f64>,
+}
+
+/// What the last frames of a scene said, as long as it does not move.
+#[derive(Debug)]
+pub struct Consensus {
+    params: ConsensusParams,
+    said: VecDeque<Said>,
+}
+
+impl Consensus {
+    /// Before the first frame.
+    pub fn new(params: ConsensusParams) -> Self {
+        Self {
+            params,
+            said: VecDeque::new(),
+        }
+    }
+
+    /// Forgets every frame: the scene has moved.
+    pub fn clear(&mut self) {
+        self.said.clear();
+    }
+
+    /// Takes in what the frame taken at `at` said. `middle` is the named part's, part space, metres.
+    pub fn add(&mut self, at: Duration, inspection: &Inspection, middle: Option<Point3<f64>>) {
+        let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+        self.said.push_back(Said {
+            at,
+            verdict: inspection.verdict.clone(),
+            camera_from_part: pose.map(crate::stages::pose::PoseEstimate::camera_from_part),
+            middle: middle.unwrap_or_else(Point3::origin),
+        });
+        while self.said.len() > self.params.num_frames.max(1) {
+            self.said.pop_front();
+        }
+    }
+
+    /// Frames from `since` on, of those that are needed.
+    pub fn gathered(&self, since: Duration) -> (usize, usize) {
+        let num = self.said.iter().filter(|said| said.at >= since).count();
+        (num, self.least_frames())
+    }
+
+    fn least_frames(&self) -> usize {
+        self.params
+            .least_frames
+            .clamp(1, self.params.num_frames.max(1))
+    }
+
+    /// What the frames from `since` on agree upon; `None` while they are too few.
+    pub fn agreed(&self, since: Duration, accept: &AcceptParams) -> Option<Agreed> {
+        let said: Vec<&Said> = self.said.iter().filter(|said| said.at >= since).collect();
+        if said.len() < self.least_frames() {
+            return None;
+        }
+        let num_frames = said.len();
+        let needed = (self.params.least_share * num_frames as f64).ceil() as usize;
+        let Some(name) = most_named(&said) else {
+            return nothing_named(&said);
+        };
+        let naming: Vec<&Said> = said
+            .iter()
+            .copied()
+            .filter(|said| named(&said.verdict).is_some_and(|(part, ..)| part == name))
+            .collect();
+        let num_empty = said
+            .iter()
+            .filter(|said| named(&said.verdict).is_none())
+            .count();
+        if num_empty > naming.len() {
+            return nothing_named(&said);
+        }
+        let of = |pick: fn(&Verdict) -> Option<f64>| {
+            median(naming.iter().filter_map(|said| pick(&said.verdict)))
+        };
+        let score = of(|verdict| named(verdict).map(|(_, score, _)| score));
+        let margin = of(|verdict| named(verdict).map(|(_, _, margin)| margin));
+        let num_accepting = naming
+            .iter()
+            .filter(|said| said.verdict.is_accepted())
+            .count();
+        let is_contradicted = said.iter().any(|said| {
+            said.verdict.is_accepted()
+                && named(&said.verdict).is_some_and(|(part, ..)| part != name)
+        });
+        let poses: Vec<RigidTransform> = naming
+            .iter()
+            .filter_map(|said| said.camera_from_part)
+            .collect();
+        let middle = naming
+            .last()
+            .map_or_else(Point3::origin, |said| said.middle);
+        let pose = mean_pose(&poses, &middle, self.params.tolerance);
+        let in_place = pose.map(|pose| pose.num_agreeing);
+
+        let undecided = |num_agreeing: usize| Rejection::Undecided {
+            part: name.to_owned(),
+            num_agreeing,
+            num_frames,
+            needed,
+        };
+        let rejected = if num_accepting < needed || is_contradicted {
+            // What most frames complain about says more than that not all of them agree.
+            let mut complaints = naming.iter().filter_map(|said| complaint(&said.verdict));
+            let num_rejecting = naming.len() - num_accepting;
+            let last = complaints.next_back().cloned();
+            let is_common = num_rejecting >= needed && !is_contradicted;
+            Some(
+                last.filter(|_| is_common)
+                    .unwrap_or_else(|| undecided(num_accepting)),
+            )
+        } else if score < accept.min_score || margin < accept.min_margin {
+            Some(undecided(num_accepting))
+        } else if in_place.is_some_and(|num| num < needed) {
+            Some(Rejection::PosesApart {
+                part: name.to_owned(),
+                num_agreeing: in_place.unwrap_or(0),
+                num_frames,
+                needed,
+            })
+        } else {
+            None
+        };
+        let num_approximate = naming
+            .iter()
+            .filter(|said| said.verdict.is_approximate())
+            .count();
+        let is_approximate = 2 * num_approximate >= naming.len();
+        let num_agreeing = match &rejected {
+            None => num_accepting.min(in_place.unwrap_or(num_accepting)),
+            Some(_) => naming.len(),
+        };
+        Some(Agreed {
+            verdict: Verdict::Part {
+                part: name.to_owned(),
+                score,
+                margin,
+                rejected,
+                is_approximate,
+            },
+            num_frames,
+            num_agreeing,
+            pose,
+        })
+    }
+}
+
+/// What was found where most frames found nothing to name.
+fn nothing_named(said: &[&Said]) -> Option<Agreed> {
+    let mut empty = said.iter().filter(|said| named(&said.verdict).is_none());
+    let num_agreeing = empty.clone().count();
+    Some(Agreed {
+        verdict: empty.next_back()?.verdict.clone(),
+        num_frames: said.len(),
+        num_agreeing,
+        pose: None,
+    })
+}
+
+fn named(verdict: &Verdict) -> Option<(&str, f64, f64)> {
+    match verdict {
+        Verdict::Part {
+            part,
+            score,
+            margin,
+            ..
+        } => Some((part, *score, *margin)),
+        Verdict::NoPart(_) => None,
+    }
+}
+
+fn complaint(verdict: &Verdict) -> Option<&Rejection> {
+    match verdict {
+        Verdict::Part { rejected, .. } => rejected.as_ref(),
+        Verdict::NoPart(_) => None,
+    }
+}
+
+/// The part that most frames name; of several the one named first.
+fn most_named<'a>(said: &[&'a Said]) -> Option<&'a str> {
+    let names = said.iter().filter_map(|said| named(&said.verdict));
+    let names: Vec<&str> = names.map(|(part, ..)| part).collect();
+    let count = |name: &str| names.iter().filter(|other| **other == name).count();
+    let mut most: Option<(usize, &str)> = None;
+    for name in &names {
+        let num = count(name);
+        if most.is_none_or(|(known, _)| num > known) {
+            most = Some((num, name));
+        }
+    }
+    most.map(|(_, name)| name)
+}
+
+/// The lower one of the two in the middle: never more than half of the frames say less. 0 without any.
+fn median(values: impl Iterator<Item = f64>) -> f64 {
+    let mut values: Vec<f64> = values.collect();
+    values.sort_unstable_by(f64::total_cmp);
+    let middle = values.len().saturating_sub(1) / 2;
+    values.get(middle).copied().unwrap_or(0.0)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{geometry::rigid::from_euler_zyx, stages::pose::PoseError};
+
+    fn part(name: &str, score: f64, rejected: Option<Rejection>) -> Verdict {
+        Verdict::Part {
+            part: name.into(),
+            score,
+            margin: 0.5,
+            rejected,
+            is_approximate: false,
+        }
+    }
+
+    fn unlike(name: &str) -> Rejection {
+        Rejection::Unknown {
+            nearest: name.into(),
+            score: 0.2,
+        }
+    }
+
+    fn consensus(frames: impl IntoIterator<Item = (Verdict, f64)>) -> Consensus {
+        let mut all = Consensus::new(ConsensusParams::default());
+        for (number, (verdict, x)) in frames.into_iter().enumerate() {
+            all.said.push_back(Said {
+                at: Duration::from_millis(33 * number as u64),
+                verdict,
+                camera_from_part: Some(from_euler_zyx([0.0, 0.0, 0.0, x, 0.0, 1.2])),
+                middle: Point3::origin(),
+            });
+        }
+        all
+    }
+
+    fn agreed(frames: impl IntoIterator<Item = (Verdict, f64)>) -> Option<Agreed> {
+        consensus(frames).agreed(Duration::ZERO, &AcceptParams::default())
+    }
+
+    #[test]
+    fn frames_that_agree_are_accepted_with_the_median_score_and_the_mean_pose() {
+        let frames = (0..10).map(|i| {
+            (
+                part("door", 0.95 + 0.001 * f64::from(i), None),
+                0.0005 * f64::from(i % 3),
+            )
+        });
+        let found = agreed(frames).expect("enough frames");
+        assert_eq!((found.num_frames, found.num_agreeing), (10, 10));
+        let Verdict::Part {
+            score,
+            rejected: None,
+            ..
+        } = found.verdict
+        else {
+            panic!("{:?}", found.verdict);
+        };
+        assert!((score - 0.954).abs() < 1e-9);
+        let pose = found.pose.expect("a pose");
+        assert!((pose.camera_from_part.translation.x - 0.000_45).abs() < 1e-9);
+    }
+
+    #[test]
+    fn too_few_frames_say_nothing_and_those_from_before_do_not_count() {
+        let frames = || (0..4).map(|_| (part("door", 0.99, None), 0.0));
+        assert_eq!(agreed(frames()), None);
+        let seven = consensus((0..7).map(|_| (part("door", 0.99, None), 0.0)));
+        let since = Duration::from_millis(33 * 3);
+        assert_eq!(seven.agreed(since, &AcceptParams::default()), None);
+        assert_eq!(seven.gathered(since), (4, 5));
+    }
+
+    #[test]
+    fn one_frame_that_accepts_another_part_is_enough_to_reject() {
+        let mut frames: Vec<_> = (0..10).map(|_| (part("door", 0.99, None), 0.0)).collect();
+        frames[3].0 = part("fender", 0.93, None);
+        let found = agreed(frames).expect("enough frames");
+        let expected = Rejection::Undecided {
+            part: "door".into(),
+            num_agreeing: 9,
+            num_frames: 10,
+            needed: 8,
+        };
+        assert_eq!(complaint(&found.verdict), Some(&expected));
+        // One that only names it, without accepting it, is a bad frame among good ones.
+        let mut frames: Vec<_> = (0..10).map(|_| (part("door", 0.99, None), 0.0)).collect();
+        frames[3].0 = part("fender", 0.4, Some(unlike("fender")));
+        assert!(agreed(frames).expect("enough frames").verdict.is_accepted());
+    }
+
+    #[test]
+    fn too_many_rejections_are_a_rejection_by_what_most_of_them_say() {
+        let mix = |num_rejecting: usize| {
+            (0..10).map(move |i| {
+                let rejected = (i < num_rejecting).then(|| unlike("door"));
+                (part("door", 0.97, rejected), 0.0)
+            })
+        };
+        assert!(agreed(mix(2)).expect("enough").verdict.is_accepted());
+        let split = agreed(mix(4)).expect("enough");
+        assert!(matches!(
+            complaint(&split.verdict),
+            Some(Rejection::Undecided {
+                num_agreeing: 6,
+                ..
+            })
+        ));
+        let most = agreed(mix(9)).expect("enough");
+        assert_eq!(complaint(&most.verdict), Some(&unlike("door")));
+    }
+
+    #[test]
+    fn scattered_poses_are_not_accepted() {
+        let frames = (0..10).map(|i| (part("door", 0.99, None), 0.01 * f64::from(i % 2)));
+        let found = agreed(frames).expect("enough frames");
+        assert!(matches!(
+            complaint(&found.verdict),
+            Some(Rejection::PosesApart {
+                num_agreeing: 5,
+                num_frames: 10,
+                ..
+            })
+        ));
+    }
+
+    #[test]
+    fn a_median_below_the_threshold_is_not_accepted_though_frames_were() {
+        // As when the threshold was raised between two frames.
+        let frames = (0..10).map(|_| (part("door", 0.85, None), 0.0));
+        assert!(!agreed(frames).expect("enough frames").verdict.is_accepted());
+    }
+
+    #[test]
+    fn an_empty_cell_stays_one_and_a_part_beside_it_is_undecided() {
+        let no_part = || Verdict::NoPart(crate::pipeline::Unrecognisable::EmptyLibrary);
+        let found = agreed((0..6).map(|_| (no_part(), 0.0))).expect("enough frames");
+        assert_eq!((found.verdict.clone(), found.num_agreeing), (no_part(), 6));
+        let half = |i: usize| {
+            if i < 5 {
+                no_part()
+            } else {
+                part("door", 0.99, None)
+            }
+        };
+        let found = agreed((0..10).map(|i| (half(i), 0.0))).expect("enough frames");
+        assert!(!found.verdict.is_accepted());
+    }
+
+    #[test]
+    fn no_pose_where_none_was_found_rejects_as_the_frames_do() {
+        let no_pose = Rejection::NoPose(PoseError::NoReferenceCloud);
+        let frames = (0..6).map(|_| (part("door", 0.99, Some(no_pose.clone())), 0.0));
+        let mut all = consensus(frames);
+        all.said
+            .iter_mut()
+            .for_each(|said| said.camera_from_part = None);
+        let found = all
+            .agreed(Duration::ZERO, &AcceptParams::default())
+            .expect("enough");
+        assert_eq!(
+            (complaint(&found.verdict), found.pose),
+            (Some(&no_pose), None)
+        );
+    }
+}

@@ -1,0 +1,161 @@
+//! The mean of several estimates of one pose, outliers left out.
+//!
+//! Rotations are averaged as the unit quaternion that maximises Σ (q·qᵢ)², the eigenvector of Σ qᵢqᵢᵀ with the largest
+//! eigenvalue, for which q and -q are the same: F. L. Markley, Y. Cheng, J. L. Crassidis and Y. Oshman, "Averaging
+//! Quaternions", Journal of Guidance, Control, and Dynamics 30(4), 2007. Positions are averaged at the part's middle,
+//! where a small turn moves nothing. Which estimates belong together is decided by the one that most others are near.
+
+use nalgebra::{Matrix4, Point3, Quaternion, Translation3, UnitQuaternion, Vector3};
+
+use crate::{
+    geometry::rigid::{RigidTransform, pose_error},
+    units::{Metres, Radians},
+};
+
+/// How far estimates of the same pose may be apart.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PoseTolerance {
+    /// At the part's middle, 1..20 mm. Raising it averages what is not the same.
+    pub shift: Metres,
+    /// 0.2..5°. Raising it averages what is not the same.
+    pub turn: Radians,
+}
+
+/// A pose that several estimates agree upon.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct MeanPose {
+    /// Takes part space into camera space.
+    pub camera_from_part: RigidTransform,
+    /// Estimates that it is the mean of.
+    pub num_agreeing: usize,
+    /// Root mean square distance of their middles from the mean's.
+    pub shift_rms: Metres,
+    /// Root mean square angle between them and the mean.
+    pub turn_rms: Radians,
+}
+
+/// The mean of the largest group of estimates that agree; `middle` is the part's, part space, metres. `None` without
+/// any.
+pub fn mean_pose(
+    estimates: &[RigidTransform],
+    middle: &Point3<f64>,
+    tolerance: PoseTolerance,
+) -> Option<MeanPose> {
+    let is_near = |a: &RigidTransform, b: &RigidTransform| {
+        let apart = pose_error(a, b, middle);
+        apart.shift <= tolerance.shift && apart.rotation <= tolerance.turn
+    };
+    let num_near = |pose: &RigidTransform| {
+        estimates
+            .iter()
+            .filter(|other| is_near(pose, other))
+            .count()
+    };
+    // The first of equals, so that the same estimates always have the same mean.
+    let mut centre: Option<(usize, &RigidTransform)> = None;
+    for pose in estimates {
+        let num = num_near(pose);
+        if centre.is_none_or(|(most, _)| num > most) {
+            centre = Some((num, pose));
+        }
+    }
+    let (_, centre) = centre?;
+    let group: Vec<&RigidTransform> = estimates
+        .iter()
+        .filter(|pose| is_near(centre, pose))
+        .collect();
+    let num = group.len() as f64;
+    let rotation = mean_rotation(group.iter().map(|pose| pose.rotation))?;
+    let at = group
+        .iter()
+        .map(|pose| (*pose * middle).coords)
+        .sum::<Vector3<f64>>()
+        / num;
+    let shift = at - rotation * middle.coords;
+    let camera_from_part = RigidTransform::from_parts(Translation3::from(shift), rotation);
+    let squares = group.iter().map(|pose| {
+        let off = pose_error(pose, &camera_from_part, middle);
+        (off.shift.0.powi(2), off.rotation.0.powi(2))
+    });
+    let (shifts, turns) = squares.fold((0.0, 0.0), |(s, t), (shift, turn)| (s + shift, t + turn));
+    Some(MeanPose {
+        camera_from_part,
+        num_agreeing: group.len(),
+        shift_rms: Metres((shifts / num).sqrt()),
+        turn_rms: Radians((turns / num).sqrt()),
+    })
+}
+
+/// `None` without any rotation.
+fn mean_rotation(
+    rotations: impl Iterator<Item = UnitQuaternion<f64>>,
+) -> Option<UnitQuaternion<f64>> {
+    let sum = rotations.fold(Matrix4::zeros(), |sum, q| {
+        sum + q.coords * q.coords.transpose()
+    });
+    let eigen = sum.symmetric_eigen();
+    let largest = eigen.eigenvalues.imax();
+    let coords = eigen.eigenvectors.column(largest).into_owned();
+    (eigen.eigenvalues[largest] > 0.0)
+        .then(|| UnitQuaternion::from_quaternion(Quaternion::from_vector(coords)))
+}
+
+#[cfg(test)]
+mod tests {
+    use rand::{RngExt as _, SeedableRng as _};
+    use rand_pcg::Pcg64;
+
+    use super::*;
+    use crate::geometry::rigid::from_euler_zyx;
+
+    const TOLERANCE: PoseTolerance = PoseTolerance {
+        shift: Metres(0.006),
+        turn: Radians(0.02),
+    };
+
+    fn noisy(truth: &RigidTransform, num: usize, random: &mut Pcg64) -> Vec<RigidTransform> {
+        let mut draw = |width: f64| width * (2.0 * random.random::<f64>() - 1.0);
+        (0..num)
+            .map(|_| {
+                let [a, b, c] = std::array::from_fn(|_| draw(0.004));
+                let [x, y, z] = std::array::from_fn(|_| draw(0.001));
+                truth * from_euler_zyx([a, b, c, x, y, z])
+            })
+            .collect()
+    }
+
+    #[test]
+    fn the_mean_is_nearer_to_the_truth_than_the_estimates_and_outliers_do_not_pull_it() {
+        let middle = Point3::new(0.1, -0.2, 0.05);
+        let (mut of_means, mut of_estimates) = (0.0, 0.0);
+        for seed in 0..20 {
+            let mut random = Pcg64::seed_from_u64(seed);
+            let truth = from_euler_zyx([0.2, -0.1, 3.1, 0.1, 0.0, 1.3]);
+            let good = noisy(&truth, 9, &mut random);
+            let mut estimates = good.clone();
+            estimates.insert(3, truth * from_euler_zyx([0.0, 0.0, 3.1, 0.3, 0.0, 0.0]));
+            estimates.insert(0, truth * from_euler_zyx([0.0, 0.0, 0.0, 0.02, 0.0, 0.0]));
+            let mean = mean_pose(&estimates, &middle, TOLERANCE).expect("a mean");
+            assert_eq!(mean.num_agreeing, 9);
+            assert!(mean.shift_rms.0 > 0.0003 && mean.turn_rms.0 > 0.001);
+            let off = |pose: &RigidTransform| {
+                let off = pose_error(pose, &truth, &middle);
+                off.shift.0 / 0.001 + off.rotation.0 / 0.004
+            };
+            of_means += off(&mean.camera_from_part);
+            of_estimates += good.iter().map(off).sum::<f64>() / 9.0;
+        }
+        // A mean of nine is a third as far off.
+        let gain = of_means / of_estimates;
+        assert!(gain < 0.45, "{gain}");
+    }
+
+    #[test]
+    fn the_two_signs_of_a_quaternion_are_one_rotation() {
+        let q = UnitQuaternion::from_euler_angles(0.3, 0.2, -2.9);
+        let minus = UnitQuaternion::new_unchecked(-q.into_inner());
+        let mean = mean_rotation([q, minus, q].into_iter()).expect("a mean");
+        assert!(mean.angle_to(&q) < 1e-9);
+        assert!(mean_pose(&[], &Point3::origin(), TOLERANCE).is_none());
+    }
+}

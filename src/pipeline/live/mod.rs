@@ -1,0 +1,206 @@
+//! Frame after frame of one camera: when a verdict counts, and what it rests on.
+//!
+//! ```text
+//! frame ─► SteadyWatch ─► DepthAverage ─► pipeline::run ─► Consensus ─► Standing
+//!          does it move?   less noise      as ever         one verdict of many
+//! ```
+//!
+//! A verdict on a part that swings, or that is just being hung, is worth nothing to a robot. So every frame is looked
+//! at, but none counts until nothing has moved for a while and the last frames agree.
+
+mod average;
+mod consensus;
+mod mean_pose;
+mod steady;
+
+use std::{sync::Arc, time::Duration};
+
+use nalgebra::Point3;
+
+pub use self::{
+    average::{DepthAverage, MAX_AVERAGED},
+    consensus::{Agreed, Consensus, ConsensusParams},
+    mean_pose::{MeanPose, PoseTolerance, mean_pose},
+    steady::{SteadyParams, SteadyWatch, Stillness},
+};
+use super::{AcceptParams, Inspection, Rejection, Verdict};
+use crate::stages::scene::SceneCloud;
+
+/// How frames are followed.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LiveParams {
+    /// When the scene stands still.
+    pub steady: SteadyParams,
+    /// Frames that depth is averaged over, 1..=[`MAX_AVERAGED`]; 1 leaves it as it is. Raising it lowers the noise and
+    /// takes a few milliseconds more a frame.
+    pub average: usize,
+    /// When frames agree.
+    pub consensus: ConsensusParams,
+}
+
+impl Default for LiveParams {
+    fn default() -> Self {
+        Self {
+            steady: SteadyParams::default(),
+            average: 1,
+            consensus: ConsensusParams::default(),
+        }
+    }
+}
+
+/// What is to be thought of the scene after a frame.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub enum Standing {
+    /// No verdict counts: something moves, or too little was seen to say that nothing does.
+    #[default]
+    Open,
+    /// It stands still, and more frames are needed.
+    Gathering {
+        /// Frames so far.
+        num_frames: usize,
+        /// Frames needed.
+        needed: usize,
+    },
+    /// The verdict that counts.
+    Counted(Box<Agreed>),
+}
+
+impl Standing {
+    /// The verdict that counts.
+    pub fn counted(&self) -> Option<&Agreed> {
+        match self {
+            Self::Counted(agreed) => Some(agreed),
+            Self::Open | Self::Gathering { .. } => None,
+        }
+    }
+}
+
+/// Follows one camera. The same frames at the same times always lead to the same verdicts.
+#[derive(Debug)]
+pub struct LiveWatch {
+    steady: SteadyWatch,
+    average: DepthAverage,
+    consensus: Consensus,
+    last_at: Duration,
+}
+
+impl LiveWatch {
+    /// Before the first frame.
+    pub fn new(params: &LiveParams) -> Self {
+        Self {
+            steady: SteadyWatch::new(params.steady.clone()),
+            average: DepthAverage::over(params.average),
+            consensus: Consensus::new(params.consensus.clone()),
+            last_at: Duration::ZERO,
+        }
+    }
+
+    /// What the frames so far say of the scene.
+    pub fn stillness(&self) -> Stillness {
+        self.steady.stillness()
+    }
+
+    /// Frames that the depth of the next scene is averaged over.
+    pub fn num_averaged(&self) -> usize {
+        self.average.len()
+    }
+
+    /// Takes in a frame, and gives the scene to be inspected: the frame as it came, or averaged with the ones before
+    /// while nothing moves. `at` is the camera's time, from any moment on.
+    pub fn look(&mut self, scene: &Arc<SceneCloud>, at: Duration) -> Arc<SceneCloud> {
+        let run = self.steady.run();
+        let stillness = self.steady.see(scene, at);
+        self.last_at = at;
+        if self.steady.run() != run {
+            self.average.clear();
+            self.consensus.clear();
+        }
+        self.average.add(scene);
+        if stillness.is_steady() {
+            self.average.mean().unwrap_or_else(|| Arc::clone(scene))
+        } else {
+            Arc::clone(scene)
+        }
+    }
+
+    /// Takes in what was found in the scene that [`look`](Self::look) gave last, and puts what counts in its place: the
+    /// verdict and the mean pose of all frames, or why the frame's own verdict does not count. `middle` is the named
+    /// part's, part space, metres.
+    pub fn judge(
+        &mut self,
+        inspection: &mut Inspection,
+        middle: Option<Point3<f64>>,
+        accept: &AcceptParams,
+    ) -> Standing {
+        self.consensus.add(self.last_at, inspection, middle);
+        let standing = match self.steady.stillness() {
+            Stillness::Watching | Stillness::Moving => Standing::Open,
+            Stillness::Steady { since, .. } => {
+                if let Some(agreed) = self.consensus.agreed(since, accept) {
+                    Standing::Counted(Box::new(unless_out_of_line(agreed, inspection)))
+                } else {
+                    let (num_frames, needed) = self.consensus.gathered(since);
+                    Standing::Gathering { num_frames, needed }
+                }
+            }
+        };
+        standing.put_into(inspection);
+        standing
+    }
+}
+
+impl Standing {
+    /// Nobody who is handed the inspection must take a single frame's verdict for one that counts.
+    fn put_into(&self, inspection: &mut Inspection) {
+        match self {
+            Self::Counted(agreed) => {
+                inspection.verdict = agreed.verdict.clone();
+                if let (Some(Ok(pose)), Some(mean)) = (&mut inspection.pose, &agreed.pose) {
+                    pose.target_from_source = mean.camera_from_part.inverse();
+                }
+            }
+            Self::Open | Self::Gathering { .. } => {
+                if let Verdict::Part { part, rejected, .. } = &mut inspection.verdict
+                    && rejected.is_none()
+                {
+                    let part = part.clone();
+                    *rejected = Some(match *self {
+                        Self::Gathering { num_frames, needed } => Rejection::FewFrames {
+                            part,
+                            num_frames,
+                            needed,
+                        },
+                        _ => Rejection::NotSteady { part },
+                    });
+                }
+            }
+        }
+    }
+}
+
+/// What was agreed upon, not accepted where this frame is one of the few that take the part for another or find no
+/// pose: what the frame holds besides the verdict would be of something else.
+fn unless_out_of_line(mut agreed: Agreed, inspection: &Inspection) -> Agreed {
+    let best = inspection.ranking.entries.first();
+    if let Verdict::Part {
+        part,
+        rejected: rejected @ None,
+        ..
+    } = &mut agreed.verdict
+    {
+        let is_in_line =
+            best.is_some_and(|best| best.part == *part) && !matches!(inspection.pose, Some(Err(_)));
+        if !is_in_line {
+            *rejected = Some(Rejection::Undecided {
+                part: part.clone(),
+                num_agreeing: agreed.num_agreeing,
+                num_frames: agreed.num_frames,
+                needed: agreed.num_frames,
+            });
+        }
+    }
+    agreed
+}
+
+#[cfg(test)]
+mod tests;

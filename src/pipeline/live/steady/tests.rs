@@ -1,0 +1,264 @@
+//! On frames of the simulated cell: what stands still, what swings, and nothing but noise between them.
+
+use std::f64::consts::TAU;
+
+use nalgebra::{Translation3, UnitQuaternion, Vector3};
+
+use super::*;
+use crate::{
+    capture::frame::Intrinsics,
+    geometry::{mesh::TriangleMesh, rigid::RigidTransform},
+    simulate::{
+        CellSetup, Clutter, PartKind, PartPose, Placement, SensorNoise, Side, frame_of_mesh,
+    },
+    stages::scene::scene_from_frame,
+};
+
+const FRAME: Duration = Duration::from_micros(33_333);
+
+/// A part before the camera, at rest where its seed puts it.
+struct Hanging {
+    setup: CellSetup,
+    mesh: TriangleMesh,
+    at_rest: RigidTransform,
+}
+
+impl Hanging {
+    fn new(kind: PartKind, noise: f64, seed: u64) -> Self {
+        let mut setup = CellSetup::with_part(kind, Side::Left, 0, seed);
+        setup.noise.multiplier = noise;
+        let mesh = setup.subject.mesh();
+        let at_rest = Placement::facing()
+            .draw(&mesh, &Intrinsics::KINECT, seed)
+            .camera_from_part;
+        Self {
+            setup,
+            mesh,
+            at_rest,
+        }
+    }
+
+    /// The frame of this number, the part moved by this from its rest.
+    fn frame(&self, number: u64, moved: &RigidTransform) -> SceneCloud {
+        let mut setup = self.setup;
+        setup.pose = PartPose::Fixed(moved * self.at_rest);
+        setup.noise = SensorNoise {
+            seed: setup.seed * 10_000 + number,
+            ..setup.noise
+        };
+        scene_from_frame(&frame_of_mesh(&setup, &self.mesh).frame)
+    }
+
+    /// What is said of every frame.
+    fn watched(&self, num_frames: u64, moved: impl Fn(f64) -> RigidTransform) -> Vec<Stillness> {
+        self.watched_every(FRAME, num_frames, moved)
+    }
+
+    /// The same, with frames so far apart.
+    fn watched_every(
+        &self,
+        apart: Duration,
+        num_frames: u64,
+        moved: impl Fn(f64) -> RigidTransform,
+    ) -> Vec<Stillness> {
+        let mut watch = SteadyWatch::new(SteadyParams::default());
+        (0..num_frames)
+            .map(|number| {
+                let at = apart * number as u32;
+                watch.see(&self.frame(number, &moved(at.as_secs_f64())), at)
+            })
+            .collect()
+    }
+}
+
+/// How far a part is from its rest after so many seconds.
+type Motion = Box<dyn Fn(f64) -> RigidTransform>;
+
+fn shifted(x: f64, y: f64, z: f64) -> RigidTransform {
+    RigidTransform::from_parts(Translation3::new(x, y, z), UnitQuaternion::identity())
+}
+
+#[test]
+fn noise_alone_is_steady_from_the_first_frame_on() {
+    for (kind, noise, clutter, seed) in [
+        (PartKind::FrontDoor, 1.0, Clutter::None, 1),
+        (PartKind::Grille, 1.0, Clutter::InFront, 2),
+        (PartKind::FrontBumper, 3.0, Clutter::OnFloor, 3),
+    ] {
+        let mut hanging = Hanging::new(kind, noise, seed);
+        hanging.setup.clutter = clutter;
+        let said = hanging.watched(45, |_| RigidTransform::identity());
+        assert!(
+            said[..20].iter().all(|s| *s == Stillness::Watching),
+            "{said:?}"
+        );
+        assert!(
+            said[32..].iter().all(|s| s.is_steady()),
+            "{kind} at {noise}: {said:?}"
+        );
+        let Some(Stillness::Steady { since, lasting }) = said.last() else {
+            panic!("{said:?}");
+        };
+        assert_eq!((*since, *lasting), (Duration::ZERO, FRAME * 44));
+    }
+}
+
+#[test]
+fn a_slow_camera_is_steady_too_after_more_time() {
+    let hanging = Hanging::new(PartKind::Grille, 1.0, 4);
+    let apart = Duration::from_millis(125);
+    let said = hanging.watched_every(apart, 30, |_| RigidTransform::identity());
+    assert!(said[18..].iter().all(|s| s.is_steady()), "{said:?}");
+}
+
+#[test]
+fn what_drifts_swings_or_turns_slowly_is_never_steady() {
+    let turned = |angle: f64| {
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), angle);
+        RigidTransform::from_parts(Translation3::identity(), turn)
+    };
+    let swing =
+        |phase: f64| move |t: f64| shifted(0.004 * (TAU * (t / 1.6 + phase)).sin(), 0.0, 0.0);
+    let cases: [(&str, PartKind, f64, Motion); 7] = [
+        (
+            "right",
+            PartKind::Grille,
+            1.0,
+            Box::new(|t| shifted(0.01 * t, 0.0, 0.0)),
+        ),
+        (
+            "right",
+            PartKind::FrontDoor,
+            3.0,
+            Box::new(|t| shifted(0.01 * t, 0.0, 0.0)),
+        ),
+        (
+            "down",
+            PartKind::FrontDoor,
+            1.0,
+            Box::new(|t| shifted(0.0, 0.01 * t, 0.0)),
+        ),
+        (
+            "away",
+            PartKind::Grille,
+            1.0,
+            Box::new(|t| shifted(0.0, 0.0, 0.01 * t)),
+        ),
+        ("swing", PartKind::FrontDoor, 1.0, Box::new(swing(0.0))),
+        ("swing", PartKind::FrontBumper, 1.0, Box::new(swing(0.2))),
+        (
+            "turn",
+            PartKind::FrontDoor,
+            1.0,
+            Box::new(move |t| turned(0.5_f64.to_radians() * t)),
+        ),
+    ];
+    for (name, kind, noise, moved) in cases {
+        let said = Hanging::new(kind, noise, 5).watched(40, moved);
+        let steady = said.iter().filter(|s| s.is_steady()).count();
+        assert_eq!(steady, 0, "{name} of {kind} at noise {noise}: {said:?}");
+    }
+}
+
+#[test]
+fn motion_after_a_rest_is_said_at_once_and_creeping_within_seconds() {
+    let hanging = Hanging::new(PartKind::Fender, 1.0, 6);
+    // Pushed at 30 cm/s after 36 frames.
+    let pushed = |t: f64| shifted(0.3 * (t - 36.0 / 30.0).max(0.0), 0.0, 0.0);
+    let said = hanging.watched(40, pushed);
+    assert!(said[35].is_steady());
+    assert_eq!(said[38], Stillness::Moving, "{said:?}");
+    let creeping = |t: f64| shifted(0.001 * t, 0.0, 0.0);
+    let said = hanging.watched_every(Duration::from_millis(100), 70, creeping);
+    assert!(said.contains(&Stillness::Moving), "{said:?}");
+}
+
+#[test]
+fn a_gap_in_time_and_another_picture_begin_anew_and_a_cloud_without_rows_is_never_steady() {
+    let hanging = Hanging::new(PartKind::Fender, 1.0, 7);
+    let scene = hanging.frame(0, &RigidTransform::identity());
+    let mut watch = SteadyWatch::new(SteadyParams::default());
+    let seconds = Duration::from_secs_f64;
+    for number in 0..40 {
+        watch.see(&scene, seconds(0.04 * f64::from(number)));
+    }
+    assert!(watch.stillness().is_steady());
+    let run = watch.run();
+    assert_eq!(watch.see(&scene, seconds(60.0)), Stillness::Watching);
+    assert!(watch.run() > run);
+    // A clock that was set back.
+    for number in 0..40 {
+        watch.see(&scene, seconds(61.0 + 0.04 * f64::from(number)));
+    }
+    assert!(watch.stillness().is_steady());
+    assert_eq!(watch.see(&scene, seconds(1.0)), Stillness::Watching);
+    let mut bare = scene;
+    bare.cloud.grid = None;
+    for number in 0..40 {
+        let said = watch.see(&bare, seconds(1.0 + 0.04 * f64::from(number)));
+        assert_eq!(said, Stillness::Watching);
+    }
+}
+
+/// Prints what the thresholds are chosen by.
+#[test]
+#[ignore = "a table for whoever chooses the thresholds"]
+fn table() {
+    let cases: [(&str, Motion); 7] = [
+        ("still", Box::new(|_| RigidTransform::identity())),
+        ("right 10 mm/s", Box::new(|t| shifted(0.01 * t, 0.0, 0.0))),
+        ("right 5 mm/s", Box::new(|t| shifted(0.005 * t, 0.0, 0.0))),
+        ("down 10 mm/s", Box::new(|t| shifted(0.0, 0.01 * t, 0.0))),
+        ("away 10 mm/s", Box::new(|t| shifted(0.0, 0.0, 0.01 * t))),
+        (
+            "swing 4 mm 1.6 s",
+            Box::new(|t| shifted(0.004 * (TAU * t / 1.6).sin(), 0.0, 0.0)),
+        ),
+        (
+            "turn 0.5°/s",
+            Box::new(|t| {
+                RigidTransform::from_parts(
+                    Translation3::identity(),
+                    UnitQuaternion::from_axis_angle(&Vector3::y_axis(), 0.5_f64.to_radians() * t),
+                )
+            }),
+        ),
+    ];
+    for kind in [PartKind::FrontDoor, PartKind::Grille, PartKind::FrontBumper] {
+        for noise in [0.0, 1.0, 3.0] {
+            let hanging = Hanging::new(kind, noise, 5);
+            for (name, moved) in &cases {
+                let mut watch = SteadyWatch::new(SteadyParams {
+                    max_changed: 1.0,
+                    ..SteadyParams::default()
+                });
+                let mut shares = Vec::new();
+                let mut at_once = 0.0_f64;
+                let mut restless = 0.0_f64;
+                for number in 0..34_u64 {
+                    let at = FRAME * number as u32;
+                    let scene = hanging.frame(number, &moved(at.as_secs_f64()));
+                    if let (Some(spell), Some(grid)) = (watch.spells.back(), scene.cloud.grid) {
+                        at_once = at_once.max(watch.off_share(spell, &samples(&scene, grid)));
+                    }
+                    let before = watch.spells.len();
+                    watch.see(&scene, at);
+                    if watch.spells.len() != before {
+                        let Some(new) = watch.spells.back() else {
+                            shares.push(1.0);
+                            continue;
+                        };
+                        restless = restless.max(watch.restless_share(new));
+                        for old in watch.spells.iter().rev().skip(1) {
+                            shares.push((watch.changed_share(old, new) * 1e5).round() / 1e5);
+                        }
+                    }
+                }
+                println!(
+                    "{kind:<18} {noise} {name:<18} noise {:.4} at once {at_once:.5} restless {restless:.4} changed {shares:?}",
+                    watch.noise
+                );
+            }
+        }
+    }
+}

@@ -1,0 +1,176 @@
+//! The whole way, on frames of the simulated cell against the shipped parts.
+
+use nalgebra::{Translation3, UnitQuaternion};
+
+use super::*;
+use crate::{
+    capture::frame::{DepthFrame, Intrinsics},
+    geometry::{mesh::TriangleMesh, rigid::RigidTransform},
+    library::{Library, open_library},
+    pipeline::{Recipe, Unwatched, run},
+    simulate::{CellSetup, PartKind, PartPose, Placement, SensorNoise, Side, frame_of_mesh},
+    stages::{reference::ReferenceParams, scene::scene_from_frame},
+};
+
+const FRAME: Duration = Duration::from_micros(33_333);
+
+struct Cell {
+    setup: CellSetup,
+    mesh: TriangleMesh,
+    at_rest: RigidTransform,
+}
+
+impl Cell {
+    fn with(kind: PartKind, seed: u64) -> Self {
+        let setup = CellSetup::with_part(kind, Side::Left, 0, seed);
+        let mesh = setup.subject.mesh();
+        let at_rest = Placement::facing()
+            .draw(&mesh, &Intrinsics::KINECT, seed)
+            .camera_from_part;
+        Self {
+            setup,
+            mesh,
+            at_rest,
+        }
+    }
+
+    fn depth(&self, noise: SensorNoise, moved: &RigidTransform) -> DepthFrame {
+        let mut setup = self.setup;
+        setup.pose = PartPose::Fixed(moved * self.at_rest);
+        setup.noise = noise;
+        frame_of_mesh(&setup, &self.mesh).frame
+    }
+
+    fn scene(&self, number: u64, x: f64) -> Arc<SceneCloud> {
+        let noise = SensorNoise::kinect(self.setup.seed * 1000 + number);
+        Arc::new(scene_from_frame(&self.depth(noise, &aside(x))))
+    }
+}
+
+fn aside(x: f64) -> RigidTransform {
+    RigidTransform::from_parts(Translation3::new(x, 0.0, 0.0), UnitQuaternion::identity())
+}
+
+fn shipped() -> Library {
+    let place = open_library(Some(std::path::Path::new("reference_parts"))).expect("shipped");
+    let load = place.load(&ReferenceParams::default()).expect("loaded");
+    load.library
+}
+
+#[test]
+fn a_part_is_accepted_once_it_hangs_still_and_no_longer_when_it_moves() {
+    let library = shipped();
+    let recipe = Recipe::default();
+    let cell = Cell::with(PartKind::Fender, 3);
+    let follow = || {
+        let mut watch = LiveWatch::new(&LiveParams::default());
+        let said = (0..52_u64).map(|number| {
+            // Still, then away at 20 cm/s.
+            let x = if number < 40 {
+                0.0
+            } else {
+                0.2 / 30.0 * (number - 39) as f64
+            };
+            let scene = watch.look(&cell.scene(number, x), FRAME * number as u32);
+            // Every frame is looked at, not every one can be inspected in time.
+            if number % 4 != 0 && number < 40 {
+                return None;
+            }
+            let mut inspection = run(&scene, &library, &recipe, &Unwatched).expect("not cancelled");
+            let own = inspection.verdict.is_accepted();
+            let standing = watch.judge(&mut inspection, None, &recipe.accept);
+            Some((number, own, standing, inspection.verdict))
+        });
+        said.flatten().collect::<Vec<_>>()
+    };
+    let said = follow();
+    for (number, own, standing, verdict) in &said {
+        match number {
+            0..=23 => {
+                assert!(*own, "frame {number} by itself");
+                assert!(!verdict.is_accepted(), "{number}: {standing:?}");
+            }
+            36..=39 => {
+                let agreed = standing.counted().expect("counted");
+                assert!(
+                    agreed.num_frames >= 5 && verdict.is_accepted(),
+                    "{standing:?}"
+                );
+            }
+            41.. => assert!(!verdict.is_accepted(), "{number}: {standing:?}"),
+            // About to count; the first frame on its way.
+            24..=35 | 40 => {}
+        }
+    }
+    // The same frames again: the same verdicts, bit for bit.
+    assert_eq!(follow(), said);
+}
+
+#[test]
+fn an_averaged_depth_is_nearer_to_the_truth_and_has_nothing_between_surfaces() {
+    let cell = Cell::with(PartKind::FrontDoor, 4);
+    let truth = cell.depth(SensorNoise::none(), &aside(0.0));
+    let errors = |num: usize| depth_errors(&cell, &truth, num);
+    let [one, four, sixteen] = [1, 4, 16].map(errors);
+    // Independent errors fall with the root of their number; half of that is kept in hand.
+    assert!(four.rms < 0.62 * one.rms, "{four:?} of {one:?}");
+    assert!(sixteen.rms < 0.40 * one.rms, "{sixteen:?} of {one:?}");
+    // What is left at the outline, and of holes, is no more than in a single frame.
+    assert!(
+        sixteen.share_between <= one.share_between,
+        "{sixteen:?} of {one:?}"
+    );
+    assert!(
+        sixteen.share_read >= one.share_read,
+        "{sixteen:?} of {one:?}"
+    );
+}
+
+/// Prints what averaging does, for the documentation.
+#[test]
+#[ignore = "a table"]
+fn table_of_averages() {
+    for kind in [PartKind::FrontDoor, PartKind::Grille] {
+        let cell = Cell::with(kind, 4);
+        let truth = cell.depth(SensorNoise::none(), &aside(0.0));
+        for num in [1, 2, 4, 8, 16] {
+            println!("{kind} {num:>2} {:?}", depth_errors(&cell, &truth, num));
+        }
+    }
+}
+
+#[derive(Debug)]
+struct DepthErrors {
+    /// Of what lies on its surface, metres.
+    rms: f64,
+    /// Share of the readings further off than that.
+    share_between: f64,
+    /// Share of the pixels with a reading.
+    share_read: f64,
+}
+
+fn depth_errors(cell: &Cell, truth: &DepthFrame, num_frames: usize) -> DepthErrors {
+    /// Further off than this a reading is not on its surface, metres at 1 m.
+    const OFF: f64 = 0.012;
+    let mut average = DepthAverage::over(num_frames);
+    (0..num_frames as u64).for_each(|number| average.add(&cell.scene(number, 0.0)));
+    let mean = average.mean().expect("frames");
+    let (mut sum_sq, mut num_on, mut num_off) = (0.0, 0.0, 0.0_f64);
+    for (p, units) in mean.cloud.points.iter().zip(&truth.depth) {
+        let true_z = f64::from(*units) * truth.metres_per_unit;
+        if p.z > 0.0 && true_z > 0.0 {
+            let off = f64::from(p.z) - true_z;
+            if off.abs() < OFF * true_z * true_z {
+                sum_sq += off * off;
+                num_on += 1.0;
+            } else {
+                num_off += 1.0;
+            }
+        }
+    }
+    DepthErrors {
+        rms: f64::sqrt(sum_sq / num_on),
+        share_between: num_off / (num_on + num_off),
+        share_read: (num_on + num_off) / truth.depth.len() as f64,
+    }
+}

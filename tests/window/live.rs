@@ -1,0 +1,384 @@
+//! Following a source, with a camera that gives a frame when the test wants one: no clock decides.
+
+use std::{
+    sync::{
+        Arc, Mutex,
+        mpsc::{Receiver, RecvTimeoutError, Sender, channel},
+    },
+    time::{Duration, Instant},
+};
+
+use egui::Key;
+use egui_kittest::kittest::Queryable as _;
+use jiff::{SignedDuration, Timestamp};
+use nalgebra::Translation3;
+use partsight::{
+    app::{
+        WindowOptions,
+        action::Action,
+        camera::Camera,
+        history::PastVerdict,
+        live::{LiveAction, SourceState},
+        source::CellChoice,
+        state::{Source, State, Workspace},
+    },
+    capture::{CaptureError, Captured, DepthSource, Image, Next},
+    simulate::{
+        CellSetup, PartKind, PartModel, PartPose, Placement, SensorNoise, Side, frame_of_mesh,
+    },
+};
+
+use super::set_up::{USUAL, WindowHarness, act, open, open_with, settle, wait_until};
+
+/// Between two frames, by the camera's clock: as a slow one.
+const APART: i64 = 150;
+
+/// The test's end of the wire.
+type Wire = Sender<Step>;
+
+/// What the camera does next.
+pub(crate) enum Step {
+    /// It sees the fender, so far to the right of its place, metres.
+    Fender(f64),
+    /// It is unplugged until the next step.
+    Unplugged,
+    /// It has no more frames.
+    End,
+}
+
+/// The camera's end of the wire.
+struct Wired {
+    steps: Arc<Mutex<Receiver<Step>>>,
+    number: u64,
+    mesh: PartModel,
+}
+
+impl DepthSource for Wired {
+    fn title(&self) -> String {
+        "wired camera".into()
+    }
+
+    fn is_simulated(&self) -> bool {
+        true
+    }
+
+    fn next(&mut self, wait: Duration) -> Result<Next, CaptureError> {
+        let step = self.steps.lock().expect("no panic").recv_timeout(wait);
+        match step {
+            Err(RecvTimeoutError::Timeout) => Ok(Next::NotYet),
+            Err(RecvTimeoutError::Disconnected) | Ok(Step::End) => Ok(Next::End),
+            Ok(Step::Unplugged) => Err(CaptureError::FolderGone {
+                path: "wired camera".into(),
+                may_come: true,
+            }),
+            Ok(Step::Fender(x)) => {
+                self.number += 1;
+                Ok(Next::Captured(self.frame(x)))
+            }
+        }
+    }
+}
+
+impl Wired {
+    fn frame(&self, x: f64) -> Captured {
+        let mut setup = CellSetup::with_part(PartKind::Fender, Side::Left, 0, 3);
+        let mesh = self.mesh.mesh();
+        let placed = Placement::facing().draw(mesh, &setup.intrinsics, 3);
+        let aside = Translation3::new(x, 0.0, 0.0);
+        setup.pose = PartPose::Fixed(aside * placed.camera_from_part);
+        setup.noise = SensorNoise::kinect(self.number);
+        let at = SignedDuration::from_millis(APART * self.number as i64);
+        Captured {
+            number: self.number,
+            name: format!("wired frame {}", self.number),
+            taken_at: Timestamp::UNIX_EPOCH + at,
+            arrived: Instant::now(),
+            image: Image::Depth(frame_of_mesh(&setup, mesh).frame),
+            is_simulated: true,
+            truth: None,
+            warnings: Vec::new(),
+        }
+    }
+}
+
+/// A window whose every camera is this wire.
+fn wired() -> (WindowHarness, Wire) {
+    let (options, wire) = wired_options();
+    (open_with(USUAL, options), wire)
+}
+
+/// What to open such a window with, and the wire.
+pub(crate) fn wired_options() -> (WindowOptions, Wire) {
+    let (sender, steps) = channel();
+    let steps = Arc::new(Mutex::new(steps));
+    let camera = Camera::opened_by(move |_| {
+        Ok(Box::new(Wired {
+            steps: Arc::clone(&steps),
+            number: 0,
+            mesh: PartModel::new(PartKind::Fender, Side::Left, 0),
+        }))
+    });
+    let options = WindowOptions {
+        camera,
+        ..WindowOptions::default()
+    };
+    (options, sender)
+}
+
+fn num_inspected(state: &State) -> u64 {
+    state
+        .live
+        .status
+        .as_ref()
+        .map_or(0, |status| status.num_inspected)
+}
+
+fn says(harness: &WindowHarness, text: &str) -> bool {
+    harness.query_all_by_label_contains(text).next().is_some()
+}
+
+/// One frame after the other, each once the one before was inspected and is shown.
+pub(crate) fn sees(
+    harness: &mut WindowHarness,
+    wire: &Wire,
+    places: impl IntoIterator<Item = f64>,
+) {
+    for x in places {
+        let before = num_inspected(harness.state().state());
+        wire.send(Step::Fender(x)).expect("the camera is open");
+        wait_until(harness, |state| num_inspected(state) > before);
+        harness.step();
+    }
+}
+
+pub(crate) fn toggle(harness: &mut WindowHarness) {
+    harness.get_by_label("Live").click();
+    harness.step();
+    harness.step();
+}
+
+#[test]
+fn a_part_counts_once_it_hangs_still_and_no_longer_when_it_moves() {
+    let (mut harness, wire) = wired();
+    toggle(&mut harness);
+    assert!(harness.state().state().is_live());
+    sees(&mut harness, &wire, [0.0; 4]);
+    assert!(says(&harness, "Live · looking") && says(&harness, "Not accepted yet"));
+    assert!(harness.query_by_label("Accepted").is_none());
+    assert!(says(&harness, "Wired frame 4, simulated"));
+
+    sees(&mut harness, &wire, [0.0; 12]);
+    assert!(says(&harness, "Live · steady for"), "no longer looked at");
+    assert!(says(&harness, "frames agree"));
+    harness.get_by_label("Accepted");
+    harness.get_by_label("Fender, left");
+    // One verdict that counts is one inspection to look up, however many frames it rests on.
+    let history = &harness.state().state().history;
+    assert_eq!(
+        history.num_rows(),
+        2,
+        "the first frame of the window, and this one"
+    );
+    let newest = history.row(2).expect("kept");
+    assert_eq!(newest.verdict, PastVerdict::Accepted);
+    assert!(newest.origin.is_simulated());
+
+    sees(&mut harness, &wire, [0.03, 0.06]);
+    assert!(says(&harness, "Live · moving") && says(&harness, "Moving"));
+    assert!(harness.query_by_label("Accepted").is_none());
+    // A robot that reads the pose on the clipboard must find none that counts.
+    let shown = harness.state().state().shown.as_ref().expect("shown");
+    assert!(!shown.inspected.inspection.verdict.is_accepted());
+
+    // It hangs still again, elsewhere: another verdict.
+    sees(&mut harness, &wire, [0.06; 22]);
+    harness.get_by_label("Accepted");
+    assert_eq!(harness.state().state().history.num_rows(), 3);
+    toggle(&mut harness);
+    settle(&mut harness);
+    assert!(!harness.state().state().is_live());
+}
+
+#[test]
+fn the_view_stays_where_a_person_has_turned_it_and_each_frame_is_shown() {
+    let (mut harness, wire) = wired();
+    toggle(&mut harness);
+    sees(&mut harness, &wire, [0.0]);
+    let first = harness.state().state().shown.clone().expect("shown");
+    sees(&mut harness, &wire, [0.0]);
+    let second = harness.state().state().shown.clone().expect("shown");
+    assert!(!Arc::ptr_eq(&first.inspected, &second.inspected));
+    assert!(first.generation != second.generation && first.session == second.session);
+    // Another workspace keeps what it has in hand, and says how live stands.
+    act_live(&mut harness, Action::GoTo(Workspace::History));
+    sees(&mut harness, &wire, [0.0]);
+    let third = harness.state().state().shown.clone().expect("shown");
+    assert!(Arc::ptr_eq(&second.inspected, &third.inspected));
+    assert!(says(&harness, "Live · looking"));
+}
+
+/// As [`act`], while a source is followed, which never settles.
+fn act_live(harness: &mut WindowHarness, action: Action) {
+    let context = harness.ctx.clone();
+    harness.state_mut().act(action, &context);
+    harness.run_steps(2);
+}
+
+#[test]
+fn a_lost_source_is_a_notice_until_it_comes_back_by_itself() {
+    let (mut harness, wire) = wired();
+    toggle(&mut harness);
+    sees(&mut harness, &wire, [0.0; 16]);
+    harness.get_by_label("Accepted");
+    wire.send(Step::Unplugged).expect("the camera is open");
+    let is_lost = |state: &State| {
+        let status = state.live.status.as_ref();
+        status.is_some_and(|status| matches!(status.source, SourceState::Lost(_)))
+    };
+    wait_until(&mut harness, is_lost);
+    harness.run_steps(2);
+    assert_eq!(harness.state().state().notices.len(), 1);
+    assert!(says(&harness, "lost, looking for it"));
+    assert!(says(&harness, "the folder is not there"));
+
+    sees(&mut harness, &wire, [0.0]);
+    assert!(says(&harness, "The source is there again"));
+    assert!(!says(&harness, "the folder is not there"));
+    assert!(harness.state().state().is_live());
+}
+
+#[test]
+fn following_ends_from_any_state() {
+    let (mut harness, wire) = wired();
+    // While it is being opened.
+    toggle(&mut harness);
+    toggle(&mut harness);
+    settle(&mut harness);
+    assert!(!harness.state().state().is_live());
+    // While frames come: one frame is captured instead.
+    toggle(&mut harness);
+    sees(&mut harness, &wire, [0.0; 2]);
+    harness.key_press(Key::Space);
+    settle(&mut harness);
+    assert!(!harness.state().state().is_live());
+    harness.get_by_label("Simulated frame 2");
+    // While it is lost; the notice goes with it.
+    harness.key_press(Key::L);
+    harness.run_steps(2);
+    sees(&mut harness, &wire, [0.0]);
+    wire.send(Step::Unplugged).expect("the camera is open");
+    wait_until(&mut harness, |state| !state.notices.is_empty());
+    harness.key_press(Key::L);
+    settle(&mut harness);
+    assert!(!harness.state().state().is_live());
+    assert!(harness.state().state().notices.is_empty());
+    // At the source's own end.
+    toggle(&mut harness);
+    wire.send(Step::End).expect("the camera is open");
+    wait_until(&mut harness, |state| !state.is_live());
+    settle(&mut harness);
+    assert!(says(&harness, "has no more frames"));
+    // And the window can be closed while it goes on.
+    toggle(&mut harness);
+    sees(&mut harness, &wire, [0.0]);
+    drop(harness);
+}
+
+#[test]
+fn another_source_is_followed_at_once_and_changed_parameters_count_anew() {
+    let (mut harness, wire) = wired();
+    toggle(&mut harness);
+    sees(&mut harness, &wire, [0.0; 16]);
+    harness.get_by_label("Accepted");
+    act_live(&mut harness, Action::Live(LiveAction::Average(4)));
+    sees(&mut harness, &wire, [0.0]);
+    assert!(harness.query_by_label("Accepted").is_none());
+    assert_eq!(num_inspected(harness.state().state()), 1);
+    sees(&mut harness, &wire, [0.0; 15]);
+    assert!(says(&harness, "depth of 4"));
+    harness.get_by_label("Accepted");
+
+    let choice = CellChoice::Part(PartKind::Grille, Side::Left);
+    act_live(&mut harness, Action::UseCell(choice));
+    assert!(harness.state().state().is_live());
+    assert_eq!(harness.state().state().source, Source::Cell(choice));
+}
+
+#[test]
+fn a_recording_is_made_and_plays_as_what_it_was() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let (mut harness, wire) = wired();
+    toggle(&mut harness);
+    let parent = folder.path().to_owned();
+    act_live(&mut harness, Action::Live(LiveAction::Record(parent)));
+    sees(&mut harness, &wire, [0.0; 22]);
+    assert!(says(&harness, "Stop recording · 22 frames"));
+    harness.get_by_label("Accepted");
+    harness.get_by_label_contains("Stop recording").click();
+    harness.run_steps(4);
+    assert!(harness.state().state().live.recording.is_none());
+    assert!(says(&harness, "Recorded 22 frames"));
+    // What comes now is in no recording.
+    sees(&mut harness, &wire, [0.0]);
+    toggle(&mut harness);
+    settle(&mut harness);
+    drop(harness);
+
+    let recording = std::fs::read_dir(folder.path()).expect("read");
+    let recording = recording.map(|entry| entry.expect("read").path());
+    let recording: Vec<_> = recording.collect();
+    assert_eq!(recording.len(), 1, "{recording:?}");
+    let mut harness = open();
+    let spec = format!("recording,pace=step:{}", recording[0].display());
+    let spec = spec.parse().expect("a source");
+    // Step by step: each capture is the next frame.
+    act(&mut harness, Action::Live(LiveAction::Use(spec)));
+    assert!(says(&harness, "wired frame 1") || says(&harness, "Wired frame 1"));
+    harness.get_by_label("Accepted");
+    harness.get_by_label("Capture").click();
+    settle(&mut harness);
+    assert!(says(&harness, "Wired frame 2, simulated"));
+    // Played: frame after frame, to the end, and what hung still counts.
+    toggle(&mut harness);
+    wait_until(&mut harness, |state| !state.is_live());
+    settle(&mut harness);
+    assert!(says(&harness, "has no more frames"));
+    let history = &harness.state().state().history;
+    assert_eq!(
+        history.num_rows(),
+        4,
+        "the first frame, two captures, and this"
+    );
+    let newest = history.row(4).expect("kept");
+    assert_eq!(newest.verdict, PastVerdict::Accepted);
+    assert!(newest.origin.is_simulated());
+}
+
+#[test]
+fn a_single_file_is_not_followed_and_that_is_said() {
+    let mut harness = open();
+    act(&mut harness, Action::Open("missing.pcd".into()));
+    let before = harness.state().state().notices.len();
+    toggle(&mut harness);
+    assert!(!harness.state().state().is_live());
+    assert_eq!(harness.state().state().notices.len(), before + 1);
+    assert!(says(&harness, "A single file cannot be followed"));
+}
+
+#[test]
+fn the_cell_can_be_set_up_and_is_captured_as_it_is() {
+    let mut harness = open();
+    harness.get_by_label_contains("Source").click();
+    harness.run_steps(4);
+    harness.get_by_label("Set up the cell…").click();
+    harness.run_steps(4);
+    harness.get_by_label("A plank in front").click();
+    harness.run_steps(2);
+    harness.get_by_label("Use it").click();
+    settle(&mut harness);
+    let Source::Camera(spec) = &harness.state().state().source else {
+        panic!("not set up");
+    };
+    assert_eq!(spec.to_string(), "simulated,clutter=in-front");
+    assert!(says(&harness, "simulated frame 1") || says(&harness, "Simulated frame 1"));
+}
