@@ -123,14 +123,14 @@ const THIRD: [Level; 3] = [
         num_surface: 400,
         num_edges: 128,
         scale: 0.01,
-        max_steps: 12,
+        max_steps: 15,
         search: Search::Tree,
     },
     Level {
         num_surface: 1500,
         num_edges: 256,
         scale: 0.01,
-        max_steps: 5,
+        max_steps: 15,
         search: Search::Tree,
     },
 ];

@@ -291,6 +291,8 @@ fn another_source_is_followed_at_once_and_changed_parameters_count_anew() {
     sees(&mut harness, &wire, [0.0; 16]);
     harness.get_by_label("Accepted");
     act_live(&mut harness, Action::Live(LiveAction::Average(4)));
+    // A frame that comes before would be taken by who followed until now.
+    wait_until(&mut harness, |state| state.live.status.is_some());
     sees(&mut harness, &wire, [0.0]);
     assert!(harness.query_by_label("Accepted").is_none());
     assert_eq!(num_inspected(harness.state().state()), 1);
@@ -311,6 +313,7 @@ fn a_recording_is_made_and_plays_as_what_it_was() {
     toggle(&mut harness);
     let parent = folder.path().to_owned();
     act_live(&mut harness, Action::Live(LiveAction::Record(parent)));
+    wait_until(&mut harness, |state| state.live.status.is_some());
     sees(&mut harness, &wire, [0.0; 22]);
     assert!(says(&harness, "Stop recording · 22 frames"));
     harness.get_by_label("Accepted");
@@ -319,6 +322,7 @@ fn a_recording_is_made_and_plays_as_what_it_was() {
     assert!(harness.state().state().live.recording.is_none());
     assert!(says(&harness, "Recorded 22 frames"));
     // What comes now is in no recording.
+    wait_until(&mut harness, |state| state.live.status.is_some());
     sees(&mut harness, &wire, [0.0]);
     toggle(&mut harness);
     settle(&mut harness);
