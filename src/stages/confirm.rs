@@ -73,6 +73,8 @@ pub struct Scene<'a> {
     pub query: Query<'a>,
 }
 
+/// Steps below a twentieth of a millimetre at the last scale say nothing: the bounds of a pose are a millimetre and more.
+const SETTLED: f64 = 0.005;
 /// From coarse to fine: the first levels are run for every placement, the next for the best of each reference,
 /// the last for the winner. Scales begin at what a placement is off by.
 const FIRST: [Level; 2] = [
@@ -81,6 +83,7 @@ const FIRST: [Level; 2] = [
         num_edges: 48,
         scale: 0.04,
         max_steps: 5,
+        settled: SETTLED,
         search: Search::Field,
     },
     Level {
@@ -88,6 +91,7 @@ const FIRST: [Level; 2] = [
         num_edges: 48,
         scale: 0.02,
         max_steps: 4,
+        settled: SETTLED,
         search: Search::Field,
     },
 ];
@@ -108,6 +112,7 @@ const SECOND: [Level; 1] = [Level {
     num_edges: 64,
     scale: 0.025,
     max_steps: 8,
+    settled: SETTLED,
     search: Search::Field,
 }];
 /// The last steps alone take all points.
@@ -117,6 +122,7 @@ const THIRD: [Level; 3] = [
         num_edges: 128,
         scale: 0.015,
         max_steps: 10,
+        settled: SETTLED,
         search: Search::Field,
     },
     Level {
@@ -124,6 +130,7 @@ const THIRD: [Level; 3] = [
         num_edges: 128,
         scale: 0.01,
         max_steps: 15,
+        settled: SETTLED,
         search: Search::Tree,
     },
     Level {
@@ -131,6 +138,7 @@ const THIRD: [Level; 3] = [
         num_edges: 256,
         scale: 0.01,
         max_steps: 15,
+        settled: SETTLED,
         search: Search::Tree,
     },
 ];

@@ -106,7 +106,9 @@ struct Borders {
 /// A straight piece of a border.
 struct Piece {
     from: Point2<f64>,
-    to: Point2<f64>,
+    along: Vector2<f64>,
+    /// One over the squared length: there is a division per piece, not per question.
+    per_length_sq: f64,
     /// Whether its border is wide enough to be followed at any distance.
     is_wide: bool,
 }
@@ -121,7 +123,8 @@ impl Borders {
             let next = corners.iter().cycle().skip(1);
             pieces.extend(corners.iter().zip(next).map(|(from, to)| Piece {
                 from: *from,
-                to: *to,
+                along: to - from,
+                per_length_sq: 1.0 / (to - from).norm_squared().max(1e-12),
                 is_wide,
             }));
         }
@@ -132,14 +135,20 @@ impl Borders {
     /// border to be followed.
     fn off(&self, at: &Point2<f64>) -> Option<(Vector2<f64>, f64)> {
         let apart = |piece: &Piece| {
-            let along = piece.to - piece.from;
-            let share = (at - piece.from).dot(&along) / along.norm_squared().max(1e-12);
-            at - (piece.from + along * share.clamp(0.0, 1.0))
+            let from_start = at - piece.from;
+            let share = from_start.dot(&piece.along) * piece.per_length_sq;
+            from_start - piece.along * share.clamp(0.0, 1.0)
         };
-        let apart = self.pieces.iter().map(|piece| (piece, apart(piece)));
-        let (piece, apart) =
-            apart.min_by(|a, b| a.1.norm_squared().total_cmp(&b.1.norm_squared()))?;
-        let along = (piece.to - piece.from).try_normalize(1e-9)?;
+        let (mut nearest, mut least_sq) = (None, f64::INFINITY);
+        for piece in &self.pieces {
+            let distance_sq = apart(piece).norm_squared();
+            if distance_sq < least_sq {
+                (nearest, least_sq) = (Some(piece), distance_sq);
+            }
+        }
+        let piece = nearest?;
+        let apart = apart(piece);
+        let along = piece.along.try_normalize(1e-9)?;
         let normal = Vector2::new(along.y, -along.x);
         (piece.is_wide && apart.norm() < FAR).then(|| (normal, apart.dot(&normal)))
     }

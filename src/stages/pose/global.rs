@@ -22,7 +22,7 @@ use super::{
     closest::Closest,
     prepared::PreparedTarget,
     quality::{Tolerance, measure_fit},
-    refine::{Level, Refined, Search, Source, Target, cost, refine},
+    refine::{Level, Refined, SETTLED, Search, Source, Target, cost, refine},
     starts::{all_round, along_axes},
 };
 use crate::{
@@ -178,6 +178,7 @@ impl<'a> GlobalSearch<'a> {
                 num_edges: 0,
                 scale: round.scale * extent,
                 max_steps: round.max_steps,
+                settled: SETTLED,
                 search: Search::Field,
             };
             trials = self.further(trials, &self.coarse, &target, &[level], 2.0 * level.scale)?;
@@ -202,6 +203,7 @@ impl<'a> GlobalSearch<'a> {
                 num_edges: 0,
                 scale,
                 max_steps: 7,
+                settled: SETTLED,
                 search: Search::Field,
             })
             .collect();

@@ -8,7 +8,7 @@ use super::{
     closest::Closest,
     edge_points::EdgePoints,
     quality::{Tolerance, measure_fit},
-    refine::{Level, Refined, Search, Source, Target},
+    refine::{Level, Refined, SETTLED, Search, Source, Target},
     uncertainty::uncertainty,
 };
 use crate::{
@@ -147,6 +147,7 @@ impl PreparedTarget {
             num_edges: 0,
             scale: (1.5 * self.spacing()).min(0.1 * self.extent()),
             max_steps: 40,
+            settled: SETTLED,
             search: Search::Tree,
         }
     }

@@ -75,9 +75,17 @@ pub struct Level {
     pub scale: f64,
     /// Most steps.
     pub max_steps: usize,
+    /// A shift below this share of the scale, with as little a turn, ends the level.
+    pub settled: f64,
     /// How closest points are found.
     pub search: Search,
 }
+
+/// What ends a level where a pose is to be as exact as the clouds are: a fiftieth of a millimetre on a part, more on a
+/// scan of a street.
+pub const SETTLED: f64 = 0.002;
+/// The turn that counts as much as a shift by the whole scale, radians: a part is some metres long at most.
+const TURN_PER_SCALE: f64 = 0.025;
 
 /// A pose that a refinement ended at.
 #[derive(Clone, Debug)]
@@ -135,10 +143,8 @@ pub fn refine(
                 support: equations.support(),
             });
             pose = applied(&(twist * stretch), &pose);
-            // A five-hundredth of what the level can tell apart: a fiftieth of a millimetre on a part, more on a scan of
-            // a street.
-            let shift_settled = (0.002 * level.scale).max(1e-5);
-            if twist.fixed_rows::<3>(0).norm() < 5e-5
+            let shift_settled = (level.settled * level.scale).max(1e-5);
+            if twist.fixed_rows::<3>(0).norm() < TURN_PER_SCALE * level.settled
                 && twist.fixed_rows::<3>(3).norm() < shift_settled
             {
                 stopped = Stopped::Converged;

@@ -10,7 +10,7 @@ use crate::{
     geometry::rigid::RigidTransform,
     stages::pose::{
         PoseError,
-        refine::{Level, Search, cost},
+        refine::{Level, SETTLED, Search, cost},
     },
 };
 
@@ -63,6 +63,7 @@ impl GlobalSearch<'_> {
             num_edges: 0,
             scale: 0.0,
             max_steps: 0,
+            settled: SETTLED,
             search: Search::Field,
         };
         let axes = &self.prepared.axes.axes;
