@@ -10,6 +10,7 @@ use super::{
     bars::labelled,
     compare, enrol, history, inspect,
     live::LiveAction,
+    roles::RoleAction,
     state::{HelpPage, State, Workspace},
     theme::{Theme, font, space},
 };
@@ -24,7 +25,7 @@ pub(in crate::app) struct Shortcut {
 }
 
 /// The shortcuts of the whole window.
-const SHORTCUTS: [Shortcut; 10] = [
+const SHORTCUTS: [Shortcut; 11] = [
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::Space,
@@ -73,6 +74,13 @@ const SHORTCUTS: [Shortcut; 10] = [
         keys: "T",
         does: "Dark or light",
         action: || Action::SwitchTheme,
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::K,
+        keys: "Ctrl K",
+        does: "Operator's or engineer's view",
+        action: || Action::Role(RoleAction::Switch),
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
@@ -147,6 +155,10 @@ pub(super) fn shortcuts(
     space_is_free: bool,
     actions: &mut Vec<Action>,
 ) {
+    if state.roles.asked.is_some() {
+        // Digits are those of a PIN.
+        return;
+    }
     let is_pressing = !space_is_free && ctx.memory(|memory| memory.focused().is_some());
     let is_writing = ctx.text_edit_focused();
     for shortcut in of_workspace(state.workspace).iter().chain(&SHORTCUTS) {

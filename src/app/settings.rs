@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     job::Trouble,
     live::LiveState,
+    roles::{LOCK_AFTER, Pin, RoleState, is_operators},
     source::CellChoice,
     state::{Source, State, ThemeChoice, UnitSystem, Workspace},
 };
@@ -48,6 +49,10 @@ pub struct Settings {
     pub recipe: Option<Recipe>,
     /// Frames that depth is averaged over while a source is followed.
     pub average: usize,
+    /// Minutes without a hand on the window until it is the operator's again.
+    pub lock_after: u32,
+    /// What the engineer's view asks for; none: nothing.
+    pub pin: Option<Pin>,
 }
 
 /// A source, as the file has it.
@@ -81,6 +86,8 @@ impl Default for Settings {
             source: RememberedSource::default(),
             recipe: None,
             average: 1,
+            lock_after: LOCK_AFTER[1],
+            pin: None,
         }
     }
 }
@@ -103,6 +110,8 @@ impl Settings {
             },
             recipe: (*state.recipe != Recipe::default()).then(|| (*state.recipe).clone()),
             average: state.live.params.average,
+            lock_after: state.roles.lock_after,
+            pin: state.roles.pin.clone(),
         }
     }
 
@@ -126,6 +135,8 @@ impl Settings {
             && self.library == state.chosen_library
             && self.recent == state.recent
             && self.average == state.live.params.average
+            && self.lock_after == state.roles.lock_after
+            && self.pin == state.roles.pin
             && self.window == window
     }
 
@@ -134,7 +145,10 @@ impl Settings {
         State {
             theme: self.theme,
             units: self.units,
-            workspace: self.workspace,
+            workspace: match &self.pin {
+                Some(_) if !is_operators(self.workspace) => Workspace::Inspect,
+                _ => self.workspace,
+            },
             chosen_library: self.library,
             recent: self.recent,
             source: match self.source {
@@ -144,6 +158,7 @@ impl Settings {
             },
             recipe: Arc::new(self.recipe.unwrap_or_default()),
             live: LiveState::averaging(self.average),
+            roles: RoleState::starting(self.pin, self.lock_after),
             ..State::default()
         }
     }
@@ -269,6 +284,8 @@ mod tests {
             source: RememberedSource::Camera("recording,pace=step:a b".parse().expect("a source")),
             recipe: Some(recipe),
             average: 4,
+            lock_after: 15,
+            pin: Some(Pin::of("4711")),
             ..Settings::default()
         }
     }

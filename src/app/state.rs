@@ -12,6 +12,7 @@ use super::{
     job::{Request, Trouble},
     lane::Lane,
     live::{self, LiveState},
+    roles::RoleState,
     shelf::LibraryShown,
     source::CellChoice,
 };
@@ -58,6 +59,8 @@ pub struct State {
     pub num_captures: u64,
     /// The generation of the newest request.
     pub generation: u64,
+    /// Whose window it is.
+    pub roles: RoleState,
     /// Of the source that is followed.
     pub live: LiveState,
     /// Of the Inspect workspace.

@@ -8,5 +8,6 @@ mod history;
 mod inspect;
 mod live;
 mod pictures;
+mod roles;
 mod set_up;
 mod view;
