@@ -39,6 +39,7 @@ mod scalar;
 mod source;
 mod stl;
 mod surface;
+mod text;
 mod write;
 pub mod xyz;
 
@@ -53,6 +54,7 @@ pub use self::open::{FileWarning, Opened, open};
 pub use self::pcd::write_pcd;
 pub use self::ply::write_ply;
 pub(crate) use self::source::read_bytes;
+pub(crate) use self::text::read_text;
 pub use self::write::{save_cloud, write_atomically};
 pub use self::xyz::write_xyz;
 

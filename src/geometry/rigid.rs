@@ -27,6 +27,59 @@ pub fn row_major(transform: &RigidTransform) -> [f64; 16] {
     std::array::from_fn(|i| matrix[(i / 4, i % 4)])
 }
 
+/// A matrix that is no rigid transform.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum NotRigid {
+    /// A number that is not finite.
+    #[error("a number is not finite")]
+    NotFinite,
+    /// The last row is another than 0 0 0 1.
+    #[error("the last row is {row:?}, expected 0 0 0 1")]
+    LastRow {
+        /// What it is.
+        row: [f64; 4],
+    },
+    /// The nine numbers of the rotation mirror what they turn.
+    #[error("it mirrors: the determinant of the rotation is {determinant:.3}, expected 1")]
+    Mirrors {
+        /// Of the 3×3 block.
+        determinant: f64,
+    },
+    /// The nine numbers of the rotation stretch or shear what they turn.
+    #[error("its rotation stretches or shears by {by:.4}, at most {limit} is taken for rounding")]
+    Stretches {
+        /// Largest number of RᵀR - I, without its sign.
+        by: f64,
+        /// What was allowed.
+        limit: f64,
+    },
+}
+
+/// The transform of a 4×4 matrix, 16 numbers row after row; lengths in metres.
+///
+/// Its rotation may be rounded: RᵀR may be off the identity by `limit` in each number, and the nearest rotation is taken.
+pub fn from_row_major(m: &[f64; 16], limit: f64) -> Result<RigidTransform, NotRigid> {
+    if m.iter().any(|x| !x.is_finite()) {
+        return Err(NotRigid::NotFinite);
+    }
+    let row = [m[12], m[13], m[14], m[15]];
+    if row.iter().zip([0.0, 0.0, 0.0, 1.0]).any(|(x, e)| (x - e).abs() > 1e-9) {
+        return Err(NotRigid::LastRow { row });
+    }
+    let rotation = Matrix3::new(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]);
+    let by = (rotation.transpose() * rotation - Matrix3::identity()).amax();
+    if !(by <= limit) {
+        return Err(NotRigid::Stretches { by, limit });
+    }
+    let determinant = rotation.determinant();
+    let nearest = rotation_nearest_to(&rotation).filter(|_| determinant > 0.0);
+    let rotation = nearest.ok_or(NotRigid::Mirrors { determinant })?;
+    Ok(Isometry3::from_parts(
+        Translation3::new(m[3], m[7], m[11]),
+        rotation,
+    ))
+}
+
 /// How far two poses of the same thing are apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoseError {
