@@ -2,6 +2,7 @@
 //!
 //! The window, the command line and the tests are three callers of [`run`].
 
+mod identity;
 pub mod live;
 mod verdict;
 mod watch;

@@ -27,54 +27,27 @@ pub fn row_major(transform: &RigidTransform) -> [f64; 16] {
     std::array::from_fn(|i| matrix[(i / 4, i % 4)])
 }
 
-/// A matrix that is no rigid transform.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum NotRigid {
-    /// A number that is not finite.
-    #[error("a number is not finite")]
-    NotFinite,
-    /// The last row is another than 0 0 0 1.
-    #[error("the last row is {row:?}, expected 0 0 0 1")]
-    LastRow {
-        /// What it is.
-        row: [f64; 4],
-    },
-    /// The nine numbers of the rotation mirror what they turn.
-    #[error("it mirrors: the determinant of the rotation is {determinant:.3}, expected 1")]
-    Mirrors {
-        /// Of the 3×3 block.
-        determinant: f64,
-    },
-    /// The nine numbers of the rotation stretch or shear what they turn.
-    #[error("its rotation stretches or shears by {by:.4}, at most {limit} is taken for rounding")]
-    Stretches {
-        /// Largest number of RᵀR - I, without its sign.
-        by: f64,
-        /// What was allowed.
-        limit: f64,
-    },
-}
-
-/// The transform of a 4×4 matrix, 16 numbers row after row; lengths in metres.
-///
-/// Its rotation may be rounded: RᵀR may be off the identity by `limit` in each number, and the nearest rotation is taken.
-pub fn from_row_major(m: &[f64; 16], limit: f64) -> Result<RigidTransform, NotRigid> {
-    if m.iter().any(|x| !x.is_finite()) {
-        return Err(NotRigid::NotFinite);
-    }
-    let row = [m[12], m[13], m[14], m[15]];
-    if row.iter().zip([0.0, 0.0, 0.0, 1.0]).any(|(x, e)| (x - e).abs() > 1e-9) {
-        return Err(NotRigid::LastRow { row });
-    }
+/// The transform of a 4×4 matrix, row after row. `None` if its rotation is off one by more than `tolerance` (Frobenius
+/// norm of RᵀR - 1), if it mirrors, does not end in 0 0 0 1, or is not finite.
+pub fn from_row_major(m: &[f64; 16], tolerance: f64) -> Option<RigidTransform> {
+    /// Below this the numbers are a rotation to the last digits, and are taken as they are.
+    const EXACT: f64 = 1e-9;
     let rotation = Matrix3::new(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]);
-    let by = (rotation.transpose() * rotation - Matrix3::identity()).amax();
-    if !(by <= limit) {
-        return Err(NotRigid::Stretches { by, limit });
+    let off = (rotation.transpose() * rotation - Matrix3::identity()).norm();
+    let last = [m[12], m[13], m[14], m[15] - 1.0];
+    let is_rigid = off < tolerance
+        && rotation.determinant() > 0.0
+        && last.iter().all(|x| x.abs() < tolerance)
+        && [m[3], m[7], m[11]].iter().all(|x| x.is_finite());
+    if !is_rigid {
+        return None;
     }
-    let determinant = rotation.determinant();
-    let nearest = rotation_nearest_to(&rotation).filter(|_| determinant > 0.0);
-    let rotation = nearest.ok_or(NotRigid::Mirrors { determinant })?;
-    Ok(Isometry3::from_parts(
+    let rotation = if off < EXACT {
+        UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation))
+    } else {
+        rotation_nearest_to(&rotation)?
+    };
+    Some(Isometry3::from_parts(
         Translation3::new(m[3], m[7], m[11]),
         rotation,
     ))

@@ -14,8 +14,7 @@ pub fn serialize<S: Serializer>(
 
 /// Reads the matrix; one that also stretches, mirrors or is not finite is refused.
 pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<RigidTransform, D::Error> {
-    let m = <[f64; 16]>::deserialize(deserializer)?;
-    from_row_major(&m, 1e-6).map_err(|error| {
-        serde::de::Error::custom(format_args!("the 16 numbers are not a rigid transform: {error}"))
-    })
+    let numbers = <[f64; 16]>::deserialize(deserializer)?;
+    from_row_major(&numbers, 1e-6)
+        .ok_or_else(|| serde::de::Error::custom("the 16 numbers are not a rigid transform"))
 }

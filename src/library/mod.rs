@@ -17,6 +17,7 @@
 mod enrol;
 mod entry;
 mod error;
+mod identity;
 mod likeness;
 mod load;
 mod name;

@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::SCHEMA_VERSION;
-use crate::{error::Advice, files::FileError, geometry::rigid::NotRigid};
+use crate::{error::Advice, files::FileError};
 
 /// Why a calibration file cannot be read or written.
 #[derive(Debug, thiserror::Error)]
@@ -28,14 +28,12 @@ pub enum CalibrationError {
         found: String,
     },
     /// A matrix that is no place of a camera.
-    #[error("{}: {key} is not a rigid transform: {reason}", path.display())]
+    #[error("{}: {key} is not a rigid transform: it stretches, mirrors, is not finite or does not end in 0 0 0 1", path.display())]
     NotRigid {
         /// The file.
         path: PathBuf,
         /// The matrix.
         key: &'static str,
-        /// What is wrong with it.
-        reason: NotRigid,
     },
     /// The system does not say where a user's data belong.
     #[error("this system names no folder for a user's data")]

@@ -154,10 +154,9 @@ fn parse(text: &str, path: &Path) -> Result<Loaded, CalibrationError> {
     let read: Text = toml::from_str(text).map_err(no_toml)?;
     let rigid = |key: &'static str, rows: &Matrix| {
         let numbers: [f64; 16] = std::array::from_fn(|i| rows[i / 4][i % 4]);
-        from_row_major(&numbers, ROUNDING).map_err(|reason| CalibrationError::NotRigid {
+        from_row_major(&numbers, ROUNDING).ok_or_else(|| CalibrationError::NotRigid {
             path: path.to_owned(),
             key,
-            reason,
         })
     };
     let needed = |key: &'static str, rows: &Option<Matrix>| match rows {
