@@ -9,7 +9,7 @@ mod watch;
 
 use crate::{
     library::Library,
-    report::stand_off::StandOffParams,
+    robot::stand_off::StandOffParams,
     stages::{
         confirm::{ConfirmParams, Scene, UNCONFIRMED, confirm},
         contour::{Contour, ContourParams, find_contour},

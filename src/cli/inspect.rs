@@ -11,11 +11,12 @@ use clap::Args;
 
 use super::{
     LibraryChoice, Outcome,
+    calibrate::CalibrationChoice,
     console::{Advised as _, Console},
     follow::{follow, parse_source},
     input::open_scene,
     recipe::RecipeChoice,
-    verdict::{complaint, outcome_of, place_of, show_card},
+    verdict::{complaint, outcome_of, place_of, show_card, show_in_robot},
 };
 use crate::{
     capture::{FeedItem, SourceSpec},
@@ -23,6 +24,7 @@ use crate::{
     library::Library,
     pipeline::{self, Inspection, Recipe, Unwatched, Verdict},
     report::{CaptureLine, InspectionLine, ReportFolder, stage_pictures},
+    robot::RobotFrame,
     stages::{
         scene::{SceneCloud, scene_from_image},
         segment::{EmptyCell, EmptyCellError},
@@ -39,6 +41,7 @@ Examples:
   partsight inspect misread.pcd --report why/
   partsight inspect door.pcd --empty-cell cell.pcd
   partsight inspect door.pcd --matcher paper --pose icp-ga
+  partsight inspect door.pcd --json --calibration cell.toml
   partsight inspect --source simulated
   partsight inspect --source watch:/mnt/scanner --json
 
@@ -66,6 +69,8 @@ pub(super) struct InspectArgs {
     /// What the same camera saw without a part: what stood there then is not taken for one
     #[arg(long, value_name = "FILE")]
     empty_cell: Option<PathBuf>,
+    #[command(flatten)]
+    calibration: CalibrationChoice,
     /// Write one line of JSON per file, and nothing else, to standard output
     #[arg(long)]
     json: bool,
@@ -77,6 +82,7 @@ pub(super) struct InspectArgs {
 pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let library = args.library.load_some(console)?.library;
     let recipe = args.recipe.recipe();
+    let robot = args.calibration.frame(console)?;
     let telling = match (args.json, args.files.as_slice()) {
         (true, _) => Telling::Json,
         (false, []) => Telling::Rows(Columns::for_captures(&library)),
@@ -100,6 +106,7 @@ pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<O
         library,
         recipe,
         empty_cell,
+        robot,
         telling,
         report,
     };
@@ -121,6 +128,7 @@ struct Inspector {
     library: Library,
     recipe: Recipe,
     empty_cell: Option<Arc<EmptyCell>>,
+    robot: Option<RobotFrame>,
     telling: Telling,
     report: Option<ReportFolder>,
 }
@@ -171,6 +179,7 @@ impl Inspector {
             library,
             recipe,
             empty_cell,
+            robot,
             telling,
             report,
         } = self;
@@ -182,8 +191,11 @@ impl Inspector {
         scene.empty_cell.clone_from(empty_cell);
         let inspection = pipeline::run(&scene, library, recipe, &Unwatched)?;
         let line = InspectionLine::of(&name, &inspection).captured(capture);
-        let line = line.to_json();
+        let line = line.in_robot(robot.as_ref(), &inspection).to_json();
         telling.inspected(&name, &line, &inspection, library, console);
+        if let (Telling::Card, Some(robot)) = (telling, robot) {
+            show_in_robot(robot, &inspection, library, console);
+        }
         if let Some(report) = report {
             let pictures = stage_pictures(&scene, &inspection);
             report.write(path, &line, &pictures).advised()?;

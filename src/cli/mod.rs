@@ -5,6 +5,7 @@
 
 mod align;
 mod bench;
+mod calibrate;
 mod capture;
 mod console;
 mod enrol;
@@ -69,6 +70,7 @@ enum Command {
     Enrol(enrol::EnrolArgs),
     Library(library::LibraryArgs),
     Align(align::AlignArgs),
+    Calibrate(calibrate::CalibrateArgs),
     Simulate(simulate::SimulateArgs),
     Bench(bench::BenchArgs),
     Evaluate(evaluate::EvaluateArgs),
@@ -116,6 +118,7 @@ pub fn run(cli: Cli) -> Outcome {
         Some(Command::Enrol(args)) => enrol::run(&args, &mut console),
         Some(Command::Library(args)) => library::run(&args, &mut console),
         Some(Command::Align(args)) => align::run(&args, &mut console),
+        Some(Command::Calibrate(args)) => calibrate::run(&args, &mut console),
         Some(Command::Simulate(args)) => simulate::run(&args, &mut console),
         Some(Command::Bench(args)) => bench::run(&args, &mut console),
         Some(Command::Evaluate(args)) => evaluate::run(&args, &mut console),

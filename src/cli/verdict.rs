@@ -5,6 +5,7 @@ use crate::{
     error::Advice,
     library::Library,
     pipeline::{Inspection, Verdict},
+    robot::RobotFrame,
     stages::pose::Uncertainty,
     units::Metres,
 };
@@ -37,6 +38,29 @@ pub(super) fn place_of(inspection: &Inspection, library: &Library) -> Option<([f
         [middle.x, middle.y, middle.z].map(|m| Metres(m).mm()),
         [rx, ry, rz].map(f64::to_degrees),
     ))
+}
+
+/// The part's middle in the robot's base frame, if it is known where that is.
+pub(super) fn show_in_robot(
+    robot: &RobotFrame,
+    inspection: &Inspection,
+    library: &Library,
+    console: &mut Console,
+) {
+    let Some(([x, y, z], _)) = place_of(inspection, library) else {
+        return;
+    };
+    let middle = robot.robot_from_camera * nalgebra::Point3::new(x, y, z).map(|mm| mm / 1000.0);
+    let [x, y, z] = [middle.x, middle.y, middle.z].map(|m| Metres(m).mm());
+    let caution = if inspection.verdict.is_accepted() {
+        ""
+    } else {
+        "; not accepted, so nothing to move to"
+    };
+    console.line(&format_args!(
+        "  {:<9} middle at x {x:.1}  y {y:.1}  z {z:.1} mm in the robot's base frame, by {}{caution}",
+        "robot", robot.name
+    ));
 }
 
 /// All about one inspection, a line for each thing.

@@ -23,6 +23,7 @@
 //! for an OBJ without faces; none of the last two can say which line is wrong.
 
 mod cause;
+mod cells;
 mod checksum;
 mod counting_order;
 mod depth_camera;
@@ -44,6 +45,7 @@ mod write;
 pub mod xyz;
 
 pub(crate) use self::cause::{advice_on, words_of};
+pub(crate) use self::cells::{cells, content_lines, number_in};
 pub(crate) use self::checksum::crc32;
 pub(crate) use self::counting_order::in_counting_order;
 pub use self::depth_camera::DepthCamera;

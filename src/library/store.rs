@@ -298,7 +298,7 @@ impl LibraryFolder {
     }
 
     /// Runs one change while no other writer is at work.
-    fn writing<T>(&self, change: impl FnOnce() -> io::Result<T>) -> Result<T, LibraryError> {
+    pub(super) fn writing<T>(&self, change: impl FnOnce() -> io::Result<T>) -> Result<T, LibraryError> {
         let locked = || -> io::Result<T> {
             let lock = File::create(self.path.join(LOCK))?;
             match lock.lock() {
@@ -315,7 +315,7 @@ impl LibraryFolder {
     }
 
     /// Finishes what an interrupted writer left. Only under the lock: another writer's folders are not leftovers.
-    fn tidy_up(&self) -> io::Result<()> {
+    pub(super) fn tidy_up(&self) -> io::Result<()> {
         for found in fs::read_dir(&self.path)? {
             let path = found?.path();
             let Some(file_name) = path.file_name().and_then(|n| n.to_str()) else {

@@ -7,6 +7,7 @@ use crate::{
     capture::Captured,
     geometry::rigid::row_major,
     pipeline::{Inspection, Timings, Verdict},
+    robot::RobotFrame,
 };
 
 /// The version of the JSON lines.
@@ -28,8 +29,20 @@ pub struct InspectionLine<'a> {
     /// What was taken for the part reaches the picture's edge: some of it may be missing.
     touches_edge: bool,
     pose: Option<PoseLine>,
+    /// The same pose for the robot, if a calibration says where the camera sits.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    robot: Option<RobotLine<'a>>,
     ranking: Vec<RankLine<'a>>,
     timings_ms: Option<TimingsLine>,
+}
+
+/// Poses in the robot's base frame; see [`crate::robot`] for what each of them is.
+#[derive(Debug, Serialize)]
+struct RobotLine<'a> {
+    calibration: &'a str,
+    robot_from_camera: [f64; 16],
+    robot_from_part: [f64; 16],
+    robot_offset: [f64; 16],
 }
 
 /// What a line says more of a capture that came from a source.
@@ -104,6 +117,7 @@ impl<'a> InspectionLine<'a> {
             reason: Some(reason.to_string()),
             touches_edge: false,
             pose: None,
+            robot: None,
             ranking: Vec::new(),
             timings_ms: None,
         }
@@ -113,6 +127,22 @@ impl<'a> InspectionLine<'a> {
     #[must_use]
     pub fn captured(self, capture: Option<CaptureLine<'a>>) -> Self {
         Self { capture, ..self }
+    }
+
+    /// The same line with its pose in the robot's base frame; without a pose or a frame it stays as it is.
+    #[must_use]
+    pub fn in_robot(self, frame: Option<&'a RobotFrame>, inspection: &Inspection) -> Self {
+        let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+        let robot = frame.zip(pose).map(|(frame, pose)| {
+            let camera_from_part = pose.camera_from_part();
+            RobotLine {
+                calibration: &frame.name,
+                robot_from_camera: row_major(&frame.robot_from_camera),
+                robot_from_part: row_major(&frame.robot_from_part(&camera_from_part)),
+                robot_offset: row_major(&frame.robot_offset(&camera_from_part)),
+            }
+        });
+        Self { robot, ..self }
     }
 
     /// Of a scene by this name.

@@ -11,7 +11,8 @@ mod line;
 mod pictures;
 mod scaling;
 mod score_plots;
-pub mod stand_off;
+
+pub use crate::robot::stand_off;
 
 pub use self::{
     contenders::contenders_picture,

@@ -21,13 +21,20 @@ pub mod calibration;
 mod convention;
 mod euler;
 pub mod hand_eye;
+pub mod pairs;
+pub mod part_target;
+mod ray;
 mod robot_pose;
+pub mod spray;
+pub mod stand_off;
+mod written;
 
 use crate::geometry::rigid::RigidTransform;
 
 pub use self::{
     convention::Convention,
     robot_pose::{ConventionError, GimbalLock, RobotPose, RobotValue, Unit},
+    written::{WrittenPose, WrittenPoseError, parse_written_pose},
 };
 
 /// Where the camera stands in the robot's base frame, and by which calibration.

@@ -7,7 +7,7 @@ use crate::{
     app::viewport::{Line, LineSet, PointSet, Role, furniture},
     geometry::rigid::RigidTransform,
     pipeline::Inspection,
-    report::stand_off::{NozzleRay, StandOff},
+    robot::stand_off::{NozzleRay, StandOff},
     stages::{
         contour::lift_border,
         pose::PoseEstimate,

@@ -21,7 +21,7 @@ use crate::{
         self, Inspection, Recipe, Watch,
         live::{Standing, Stillness},
     },
-    report::stand_off::{StandOff, StandOffError, stand_off},
+    robot::stand_off::{StandOff, StandOffError, stand_off},
     stages::{reference::Reference, scene::SceneCloud},
 };
 

@@ -78,6 +78,23 @@ impl CellCalibration {
         Ok(())
     }
 
+    /// As [`Self::save`]; what was at that path before is kept beside it, and where is told.
+    pub fn save_keeping_former(&self, path: &Path) -> Result<Option<PathBuf>, CalibrationError> {
+        let former = match read_text(path, MAX_BYTES) {
+            Ok(text) if text != self.to_text() => Some(text),
+            Ok(_) | Err(FileError::NotFound { .. }) => None,
+            Err(error) => return Err(error.into()),
+        };
+        let kept = former.map(|text| {
+            let kept = path.with_extension("former.toml");
+            write_atomically(&kept, |writer| writer.write_all(text.as_bytes()))?;
+            Ok::<_, FileError>(kept)
+        });
+        let kept = kept.transpose()?;
+        self.save(path)?;
+        Ok(kept)
+    }
+
     /// The content of its file.
     pub fn to_text(&self) -> String {
         let quoted = |text: &str| toml::Value::from(text).to_string();

@@ -12,7 +12,10 @@ mod tests;
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::hand_eye::{Bounds, HandEye, Mount};
+use super::{
+    RobotFrame,
+    hand_eye::{Bounds, HandEye, Mount},
+};
 use crate::{
     error::Advice,
     files::crc32,
@@ -196,6 +199,19 @@ impl CellCalibration {
                 Ok(robot_from_flange * flange_from_camera)
             }
         }
+    }
+
+    /// The camera's frame for this capture; `given` is `robot_from_flange` at it.
+    pub fn frame(&self, given: Option<&RigidTransform>) -> Result<RobotFrame, NoRobotPose> {
+        Ok(RobotFrame {
+            robot_from_camera: self.robot_from_camera(given)?,
+            name: self.shown_with_identity(),
+        })
+    }
+
+    /// Its name and identity, for people.
+    pub fn shown_with_identity(&self) -> String {
+        format!("{} ({})", self.shown_name(), self.identity())
     }
 
     /// Eight hexadecimal digits by which its numbers are known: the same for the same camera at the same place.
