@@ -208,7 +208,7 @@ fn robot_pose(text: &str) -> Result<WrittenPose, String> {
 }
 
 /// A convention on the command line.
-fn convention(text: &str) -> Result<Convention, String> {
+pub(super) fn convention(text: &str) -> Result<Convention, String> {
     Convention::by_name(text).ok_or_else(|| {
         format!("expected one of {}", Convention::ALL.map(Convention::name).join(", "))
     })

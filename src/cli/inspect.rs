@@ -1,5 +1,7 @@
 //! `partsight inspect`: which part is it, and where?
 
+mod spray;
+
 use std::{
     fmt::Display,
     ops::ControlFlow,
@@ -42,6 +44,7 @@ Examples:
   partsight inspect door.pcd --empty-cell cell.pcd
   partsight inspect door.pcd --matcher paper --pose icp-ga
   partsight inspect door.pcd --json --calibration cell.toml
+  partsight inspect door.pcd --calibration cell.toml --spray path.csv --spray-as kuka
   partsight inspect --source simulated
   partsight inspect --source watch:/mnt/scanner --json
 
@@ -71,6 +74,8 @@ pub(super) struct InspectArgs {
     empty_cell: Option<PathBuf>,
     #[command(flatten)]
     calibration: CalibrationChoice,
+    #[command(flatten)]
+    spray: spray::SprayChoice,
     /// Write one line of JSON per file, and nothing else, to standard output
     #[arg(long)]
     json: bool,
@@ -80,9 +85,11 @@ pub(super) struct InspectArgs {
 }
 
 pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    let library = args.library.load_some(console)?.library;
+    let (place, load) = args.library.load_placed(console)?;
     let recipe = args.recipe.recipe();
     let robot = args.calibration.frame(console)?;
+    let spray = args.spray.start(&args.files, robot.as_ref(), place, &load)?;
+    let library = load.library;
     let telling = match (args.json, args.files.as_slice()) {
         (true, _) => Telling::Json,
         (false, []) => Telling::Rows(Columns::for_captures(&library)),
@@ -107,6 +114,7 @@ pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<O
         recipe,
         empty_cell,
         robot,
+        spray,
         telling,
         report,
     };
@@ -129,6 +137,7 @@ struct Inspector {
     recipe: Recipe,
     empty_cell: Option<Arc<EmptyCell>>,
     robot: Option<RobotFrame>,
+    spray: Option<spray::SprayFile>,
     telling: Telling,
     report: Option<ReportFolder>,
 }
@@ -180,6 +189,7 @@ impl Inspector {
             recipe,
             empty_cell,
             robot,
+            spray,
             telling,
             report,
         } = self;
@@ -191,10 +201,20 @@ impl Inspector {
         scene.empty_cell.clone_from(empty_cell);
         let inspection = pipeline::run(&scene, library, recipe, &Unwatched)?;
         let line = InspectionLine::of(&name, &inspection).captured(capture);
-        let line = line.in_robot(robot.as_ref(), &inspection).to_json();
+        let robot = robot.as_ref();
+        let line = line.in_robot(robot, &inspection).to_json();
         telling.inspected(&name, &line, &inspection, library, console);
         if let (Telling::Card, Some(robot)) = (telling, robot) {
             show_in_robot(robot, &inspection, library, console);
+        }
+        if let (Some(spray), Some(robot)) = (spray, robot) {
+            let seen = spray::Seen {
+                scene: &name,
+                inspection: &inspection,
+                library,
+                params: &recipe.stand_off,
+            };
+            return Ok(outcome_of(&inspection).max(spray.write(&seen, robot, console)?));
         }
         if let Some(report) = report {
             let pictures = stage_pictures(&scene, &inspection);

@@ -198,8 +198,13 @@ impl LibraryChoice {
         Ok((place, load))
     }
 
-    /// As [`Self::load`]; a library without parts is an error.
+    /// The parts of a library; one without parts is an error.
     fn load_some(&self, console: &mut Console) -> anyhow::Result<LibraryLoad> {
+        self.load_placed(console).map(|(_, load)| load)
+    }
+
+    /// As [`Self::load`]; a library without parts is an error.
+    fn load_placed(&self, console: &mut Console) -> anyhow::Result<(LibraryPlace, LibraryLoad)> {
         let (place, load) = self.load(console)?;
         if load.parts.is_empty() {
             let advice = place
@@ -211,7 +216,7 @@ impl LibraryChoice {
                 advice,
             ));
         }
-        Ok(load)
+        Ok((place, load))
     }
 }
 

@@ -5,10 +5,10 @@ use std::{fmt::Write as _, fs, path::{Path, PathBuf}};
 use jiff::Timestamp;
 use serde::Deserialize;
 
-use super::{CalibrationError, CameraPlace, CellCalibration, Origin};
+use super::{CalibrationError, CameraPlace, CellCalibration, Origin, numbers_text};
 use crate::{
-    files::{FileError, read_text, write_atomically},
-    geometry::rigid::{RigidTransform, from_row_major, row_major},
+    files::{FileError, crc32, read_text, write_atomically},
+    geometry::rigid::{from_row_major, row_major},
     robot::hand_eye::Mount,
 };
 
@@ -110,37 +110,35 @@ impl CellCalibration {
             self.camera.mount().describe(),
             quoted(mount),
         );
-        let mut matrix = |name: &str, transform: &RigidTransform| {
+        let mut checked = String::new();
+        for (name, transform) in self.matrices() {
+            let numbers = row_major(transform);
             // Writing to memory does not fail.
             let _ = writeln!(text, "{name} = [");
-            for row in row_major(transform).chunks(4) {
-                // Nanometres and nanoradians; adding 0 takes the sign off a zero.
-                let numbers: Vec<String> =
-                    row.iter().map(|x| format!("{:12.9}", (x * 1e9).round() / 1e9 + 0.0)).collect();
-                let _ = writeln!(text, "  [{}],", numbers.join(", "));
+            for row in numbers.chunks(4) {
+                let row: Vec<String> = row.iter().map(|x| written(*x)).collect();
+                let _ = writeln!(text, "  [{}],", row.join(", "));
             }
             text += "]\n";
-        };
-        match &self.camera {
-            CameraPlace::Fixed { robot_from_camera } => matrix("robot_from_camera", robot_from_camera),
-            CameraPlace::OnFlange {
-                flange_from_camera,
-                capture_pose,
-            } => {
-                matrix("flange_from_camera", flange_from_camera);
-                if let Some(pose) = capture_pose {
-                    matrix("robot_from_flange", pose);
-                }
-            }
+            checked += &numbers_text(name, &numbers, DECIMALS);
         }
         let _ = write!(
             text,
             "# Of the numbers above; without this line, or with another one, they count as entered by hand.\nchecksum = {}\n\n[origin]\n{}",
-            quoted(&self.identity()),
+            quoted(&format!("{:08x}", crc32(checked.as_bytes()))),
             toml::to_string(&self.origin).expect("numbers and text have a TOML form")
         );
         text
     }
+}
+
+/// Digits behind the point: a picometre, so that reading back changes nothing that anybody sees.
+const DECIMALS: usize = 12;
+
+/// A number of a matrix; adding 0 takes the sign off a zero.
+fn written(number: f64) -> String {
+    let rounded = (number * 1e12).round() / 1e12 + 0.0;
+    format!("{rounded:15.DECIMALS$}")
 }
 
 fn parse(text: &str, path: &Path) -> Result<Loaded, CalibrationError> {
@@ -169,8 +167,9 @@ fn parse(text: &str, path: &Path) -> Result<Loaded, CalibrationError> {
         });
     }
     let read: Text = toml::from_str(text).map_err(no_toml)?;
+    let numbers_of = |rows: &Matrix| -> [f64; 16] { std::array::from_fn(|i| rows[i / 4][i % 4]) };
     let rigid = |key: &'static str, rows: &Matrix| {
-        let numbers: [f64; 16] = std::array::from_fn(|i| rows[i / 4][i % 4]);
+        let numbers = numbers_of(rows);
         from_row_major(&numbers, ROUNDING).ok_or_else(|| CalibrationError::NotRigid {
             path: path.to_owned(),
             key,
@@ -199,9 +198,17 @@ fn parse(text: &str, path: &Path) -> Result<Loaded, CalibrationError> {
         origin: read.origin,
         made_at: read.made_at,
     };
+    let checked: String = [
+        ("robot_from_camera", &read.robot_from_camera),
+        ("flange_from_camera", &read.flange_from_camera),
+        ("robot_from_flange", &read.robot_from_flange),
+    ]
+    .into_iter()
+    .filter_map(|(name, rows)| Some(numbers_text(name, &numbers_of(rows.as_ref()?), DECIMALS)))
+    .collect();
     let is_calculated = matches!(calibration.origin, Origin::HandEye(_));
     let is_edited = match &read.checksum {
-        Some(written) => *written != calibration.identity(),
+        Some(written) => *written != format!("{:08x}", crc32(checked.as_bytes())),
         None => is_calculated,
     };
     if is_edited {

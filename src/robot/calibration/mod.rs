@@ -216,22 +216,28 @@ impl CellCalibration {
 
     /// Eight hexadecimal digits by which its numbers are known: the same for the same camera at the same place.
     pub fn identity(&self) -> String {
-        let mut text = format!("{:?}", self.camera.mount());
-        let mut add = |transform: &RigidTransform| {
-            for number in row_major(transform) {
-                // Nanometres and nanoradians, as they are written.
-                text += &format!(" {:.9}", number + 0.0);
+        // Tenths of micrometres: what reading a file back changes is far below them.
+        let text: Vec<String> = self
+            .matrices()
+            .into_iter()
+            .map(|(name, transform)| numbers_text(name, &row_major(transform), 7))
+            .collect();
+        format!("{:08x}", crc32(text.concat().as_bytes()))
+    }
+
+    /// Its transforms by name.
+    fn matrices(&self) -> Vec<(&'static str, &RigidTransform)> {
+        match &self.camera {
+            CameraPlace::Fixed { robot_from_camera } => vec![("robot_from_camera", robot_from_camera)],
+            CameraPlace::OnFlange {
+                flange_from_camera,
+                capture_pose,
+            } => {
+                let arm = capture_pose.iter().map(|pose| ("robot_from_flange", pose));
+                let camera = std::iter::once(("flange_from_camera", flange_from_camera));
+                camera.chain(arm).collect()
             }
-        };
-        add(self.camera.mount_from_camera());
-        if let CameraPlace::OnFlange {
-            capture_pose: Some(pose),
-            ..
-        } = &self.camera
-        {
-            add(pose);
         }
-        format!("{:08x}", crc32(text.as_bytes()))
     }
 
     /// Its name, or what stands for it where it has none.
@@ -242,4 +248,16 @@ impl CellCalibration {
             &self.name
         }
     }
+}
+
+/// A matrix as text, to be known by its checksum.
+fn numbers_text(name: &str, numbers: &[f64; 16], decimals: usize) -> String {
+    let unit = 10_f64.powi(-(decimals as i32));
+    let mut text = name.to_owned();
+    for number in numbers {
+        // Adding 0 takes the sign off a zero.
+        let rounded = (number / unit).round() * unit + 0.0;
+        text += &format!(" {rounded:.decimals$}");
+    }
+    text
 }

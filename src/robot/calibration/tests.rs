@@ -63,7 +63,7 @@ fn what_is_written_is_read_again() {
         assert_eq!((&read.origin, read.made_at), (&written.origin, at()));
         assert_eq!(read.identity(), written.identity());
         assert!(is_near(read.camera.mount_from_camera(), written.camera.mount_from_camera()));
-        assert_eq!(saved(&read).calibration.to_text(), read.to_text());
+        assert!(!saved(&read).is_edited);
     }
 }
 
@@ -126,7 +126,7 @@ fn a_hand_eye_calibration_keeps_its_figures_until_its_numbers_are_edited() {
     assert!(calibration.origin.describe().contains("4 pairs from pairs.csv"));
 
     let x_shift = written.camera.mount_from_camera().translation.vector.x;
-    let (from, to) = (format!("{x_shift:.9}"), format!("{:.9}", x_shift + 0.01));
+    let (from, to) = (format!("{x_shift:.12}"), format!("{:.12}", x_shift + 0.01));
     let text = written.to_text();
     assert!(text.contains(&from), "{text}");
     let edited = load_text(&text.replace(&from, &to)).expect("read");

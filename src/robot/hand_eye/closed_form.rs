@@ -12,9 +12,16 @@ use crate::geometry::rigid::rotation_nearest_to;
 /// Singular values below this share of the largest are noise of the arithmetic: the shift along them is left at 0.
 const NEGLIGIBLE: f64 = 1e-9;
 
+/// X and Z in closed form.
+pub(super) struct ClosedForm {
+    pub(super) unknowns: Unknowns,
+    /// How far the next best rotation is behind, 0..1: at 0 another one fits as well.
+    pub(super) lead: f64,
+}
+
 /// X and Z of at least three equations; `None` if they say too little for any answer. Nothing is known of how well the
 /// answer is held.
-pub(super) fn solve(equations: &[Equation]) -> Option<Unknowns> {
+pub(super) fn solve(equations: &[Equation]) -> Option<ClosedForm> {
     if equations.len() < LEAST_PAIRS {
         return None;
     }
@@ -26,6 +33,10 @@ pub(super) fn solve(equations: &[Equation]) -> Option<Unknowns> {
     }
     let svd = mean.svd(true, true);
     let largest = svd.singular_values.imax();
+    let first = svd.singular_values[largest];
+    let others = svd.singular_values.iter().enumerate();
+    let others = others.filter(|(i, _)| *i != largest).map(|(_, s)| *s);
+    let lead = 1.0 - others.fold(0.0, f64::max) / first.max(f64::MIN_POSITIVE);
     let x = Matrix3::from_iterator(svd.v_t?.row(largest).iter().copied());
     let z = Matrix3::from_iterator(svd.u?.column(largest).iter().copied());
     // The signs of both are free together, and only one of them makes rotations.
@@ -48,9 +59,12 @@ pub(super) fn solve(equations: &[Equation]) -> Option<Unknowns> {
     let least = NEGLIGIBLE * svd.singular_values.max();
     let shifts = svd.solve(&sides, least).ok()?;
     let shift = |at: usize| -> Vector3<f64> { shifts.fixed_rows::<3>(at).into_owned() };
-    Some(Unknowns {
-        mount_from_camera: Isometry3::from_parts(Translation3::from(shift(0)), x),
-        anchor_from_target: Isometry3::from_parts(Translation3::from(shift(3)), z),
+    Some(ClosedForm {
+        unknowns: Unknowns {
+            mount_from_camera: Isometry3::from_parts(Translation3::from(shift(0)), x),
+            anchor_from_target: Isometry3::from_parts(Translation3::from(shift(3)), z),
+        },
+        lead,
     })
 }
 

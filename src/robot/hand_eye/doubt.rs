@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Point3, Translation3};
 
 use super::{
-    Bounds, Equation, PosePair, Residuals, Span, closed_form, refine, rms, suspects::suspects,
+    Bounds, Equation, Mount, PosePair, Residuals, Span, Unknowns, closed_form, refine, rms, suspects::suspects,
 };
 use crate::{
     error::Advice,
@@ -46,6 +46,17 @@ pub enum HandEyeDoubt {
         /// As it would be then.
         then: PoseError,
     },
+    /// What is on the flange would be farther from it than anything is.
+    #[error("{what} would sit {:.0} mm from the flange", distance.mm())]
+    FarFromFlange {
+        /// The camera, or the target.
+        what: &'static str,
+        /// How far.
+        distance: Metres,
+    },
+    /// Half turns about axes at right angles leave several answers.
+    #[error("another place of the camera fits the pairs as well: the turns are half turns about axes at right angles")]
+    SeveralAnswers,
     /// The pairs do not agree, and nobody knows why.
     #[error("the pairs do not agree: {:.1} mm and {:.2}° rms", rms.shift.mm(), rms.rotation.degrees())]
     Disagree {
@@ -109,9 +120,6 @@ pub enum Mistake {
     /// The camera's poses the other way round.
     #[error("the camera's poses went the other way (target_from_camera)")]
     CameraInverted,
-    /// Both.
-    #[error("the poses of robot and camera both went the other way")]
-    BothInverted,
     /// Millimetres that were read as metres.
     #[error("the camera's lengths were a thousandth of what was read")]
     CameraInMillimetres,
@@ -127,6 +135,8 @@ impl HandEyeDoubt {
             Self::FarAway { .. }
             | Self::TurnsDisagree { .. }
             | Self::Mistaken { .. }
+            | Self::FarFromFlange { .. }
+            | Self::SeveralAnswers
             | Self::Disagree { .. }
             | Self::SmallTurns { .. }
             | Self::OneAxis { .. } => true,
@@ -154,13 +164,16 @@ impl Advice for HandEyeDoubt {
                 Mistake::CameraInverted => {
                     "Invert the camera's poses: camera_from_target says where the camera sees the target".into()
                 }
-                Mistake::BothInverted => {
-                    "Invert both: robot_from_flange and camera_from_target are expected".into()
-                }
                 Mistake::CameraInMillimetres | Mistake::CameraInMetres => {
                     "Check the unit of the camera's poses: name the convention that they are written in".into()
                 }
             },
+            Self::FarFromFlange { .. } => {
+                "Check that the robot's poses are robot_from_flange and the camera's camera_from_target, and not both the other way round, and that the unit of the lengths is right".into()
+            }
+            Self::SeveralAnswers => {
+                "Take some pairs with turns of 30° to 90° between them".into()
+            }
             Self::Disagree { .. } => {
                 "Check that the target did not move, that the arm stood still at every capture, and that the controller shows the flange without a tool".into()
             }
@@ -199,6 +212,10 @@ const MUCH_BETTER: f64 = 0.25;
 const LEAST_TURN: Radians = Radians(0.26);
 const LEAST_OTHER_TURN: Radians = Radians(0.07);
 const LEAST_TRAVEL: Metres = Metres(0.05);
+/// Turns of [`LEAST_OTHER_TURN`] give some 0.002.
+const LEAST_LEAD: f64 = 2e-4;
+/// Long enough for a camera on a boom, or the middle of a bumper that the flange holds by its end.
+const FARTHEST_ON_FLANGE: Metres = Metres(1.2);
 /// A tenth of the spray's band.
 const LOOSE: Bounds = Bounds {
     shift: Metres(0.005),
@@ -219,12 +236,16 @@ pub(super) fn doubts(
     residuals: &Residuals,
     span: &Span,
     bounds: Bounds,
+    lead: f64,
+    far: Option<HandEyeDoubt>,
 ) -> Vec<HandEyeDoubt> {
     let mut doubts: Vec<HandEyeDoubt> = far_away(pairs).into_iter().collect();
     if span.largest_turn < LEAST_TURN {
         doubts.push(HandEyeDoubt::SmallTurns { span: *span });
     } else if span.other_turn < LEAST_OTHER_TURN {
         doubts.push(HandEyeDoubt::OneAxis { span: *span });
+    } else if lead < LEAST_LEAD {
+        doubts.push(HandEyeDoubt::SeveralAnswers);
     }
     let suspects = suspects(equations);
     // One pair in three at most is a slip; more is a mistake in all of them.
@@ -232,6 +253,9 @@ pub(super) fn doubts(
     let suspects = suspects.filter(|found| is_few(&found.pairs));
     let rms_of_most = suspects.as_ref().map_or(residuals.rms, |found| found.rms);
     doubts.extend(disagreement(equations, rms_of_most));
+    if !doubts.iter().any(HandEyeDoubt::is_grave) {
+        doubts.extend(far);
+    }
     if let Some(found) = suspects {
         doubts.extend(found.pairs.iter().zip(&found.off).map(|(&i, off)| {
             HandEyeDoubt::Suspect {
@@ -273,6 +297,16 @@ fn far_away(pairs: &[PosePair]) -> Option<HandEyeDoubt> {
     })
 }
 
+/// What is on the flange, if it is too far from it to be true.
+pub(super) fn far_from_flange(mount: Mount, unknowns: &Unknowns) -> Option<HandEyeDoubt> {
+    let (what, on_flange) = match mount {
+        Mount::EyeInHand => ("the camera", &unknowns.mount_from_camera),
+        Mount::EyeToHand => ("the target", &unknowns.anchor_from_target),
+    };
+    let distance = Metres(on_flange.translation.vector.norm());
+    (distance > FARTHEST_ON_FLANGE).then_some(HandEyeDoubt::FarFromFlange { what, distance })
+}
+
 /// Why the pairs do not agree, if they do not.
 fn disagreement(equations: &[Equation], rms: PoseError) -> Option<HandEyeDoubt> {
     if rms.shift <= AGREE.shift && rms.rotation <= AGREE.rotation {
@@ -286,7 +320,7 @@ fn disagreement(equations: &[Equation], rms: PoseError) -> Option<HandEyeDoubt> 
     let as_given = quality(equations, rms);
     let tried = Mistake::ALL.iter().filter_map(|&mistake| {
         let equations = mistake.undone(equations);
-        let fit = refine::refine(&equations, closed_form::solve(&equations)?).unknowns;
+        let fit = refine::refine(&equations, closed_form::solve(&equations)?.unknowns).unknowns;
         let off: Vec<PoseError> = equations.iter().map(|e| e.off(&fit)).collect();
         let then = self::rms(&off);
         Some((quality(&equations, then), mistake, then))
@@ -326,10 +360,9 @@ fn quality(equations: &[Equation], rms: PoseError) -> f64 {
 }
 
 impl Mistake {
-    const ALL: [Self; 5] = [
+    const ALL: [Self; 4] = [
         Self::RobotInverted,
         Self::CameraInverted,
-        Self::BothInverted,
         Self::CameraInMillimetres,
         Self::CameraInMetres,
     ];
@@ -345,7 +378,6 @@ impl Mistake {
             let (g, b) = match self {
                 Self::RobotInverted => (g.inverse(), *b),
                 Self::CameraInverted => (*g, b.inverse()),
-                Self::BothInverted => (g.inverse(), b.inverse()),
                 Self::CameraInMillimetres => (*g, scaled(b, 0.001)),
                 Self::CameraInMetres => (*g, scaled(b, 1000.0)),
             };

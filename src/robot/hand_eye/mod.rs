@@ -26,7 +26,9 @@
 //! turns by half a circle need no care.
 //!
 //! Known limits: what errs alike in every pair, such as a camera's scale or a tool that was measured wrongly, shows in
-//! the residuals only as far as it cannot be mended by X and Z, and is not in the bounds.
+//! the residuals only as far as it cannot be mended by X and Z, and is not in the bounds. With the poses of robot *and*
+//! camera the other way round, X and Z change places and fit as well; what tells is that one of them then lies far from
+//! the flange.
 
 mod closed_form;
 mod doubt;
@@ -255,12 +257,13 @@ pub fn solve(pairs: &[PosePair], mount: Mount) -> Result<HandEye, HandEyeError> 
         })
         .collect();
     let start = closed_form::solve(&equations).ok_or(HandEyeError::Unsolvable)?;
-    let refined = refine::refine(&equations, start);
+    let refined = refine::refine(&equations, start.unknowns);
     let unknowns = refined.unknowns;
     let residuals = residuals(pairs, &equations, &unknowns);
     let span = Span::of(pairs);
     let bounds = refined.bounds(&equations);
-    let doubts = doubt::doubts(pairs, &equations, &residuals, &span, bounds);
+    let far = doubt::far_from_flange(mount, &unknowns);
+    let doubts = doubt::doubts(pairs, &equations, &residuals, &span, bounds, start.lead, far);
     Ok(HandEye {
         mount,
         mount_from_camera: unknowns.mount_from_camera,

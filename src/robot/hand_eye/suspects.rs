@@ -56,9 +56,10 @@ pub(super) fn suspects(equations: &[Equation]) -> Option<Suspects> {
             }
         }
         for _ in 0..=IMPROVEMENTS {
-            let Some(fit) = closed_form::solve(&picked(equations, &chosen)) else {
+            let Some(found) = closed_form::solve(&picked(equations, &chosen)) else {
                 break;
             };
+            let fit = found.unknowns;
             let mut order: Vec<(f64, usize)> = equations
                 .iter()
                 .enumerate()

@@ -135,7 +135,8 @@ fn exact_pairs_give_the_exact_calibration() {
             );
             assert!(target.shift.0 < 1e-7 && target.rotation.0 < 1e-7, "{target:?}");
             assert!(found.residuals.rms.shift.0 < 1e-9);
-            assert!(found.is_usable(), "{:?}", found.doubts);
+            // Three poses drawn at random may turn about nearly one axis.
+            assert!(num == 3 || found.is_usable(), "{:?}", found.doubts);
         }
     });
 }
@@ -174,18 +175,20 @@ fn noisy_pairs_give_a_calibration_that_is_better_than_one_pair() {
 #[test]
 fn bounds_hold_in_at_least_95_of_100_cells() {
     for num_pairs in [4, 8, 20] {
-        let (mut num, mut held, mut looseness) = (0, 0, 0.0);
+        let (mut num, mut held, mut looseness) = (0, [0, 0], 0.0);
         over_cells(150, |cell, random| {
             let pairs = cell.pairs(num_pairs, 0.7, noise(0.8, 0.15), random);
             let found = solve(&pairs, cell.mount).expect("solved");
             let off = cell.off(&found);
             num += 1;
-            held += usize::from(off.shift <= found.bounds.shift && off.rotation <= found.bounds.turn);
+            held[0] += usize::from(off.shift <= found.bounds.shift);
+            held[1] += usize::from(off.rotation <= found.bounds.turn);
             looseness += found.bounds.shift.0 / off.shift.0.max(1e-6) / 300.0;
         });
-        let share = f64::from(u32::try_from(held).unwrap()) / f64::from(num);
-        println!("{num_pairs} pairs: {share:.3} held, {looseness:.1} times wider on average");
-        assert!(share > 0.94, "{num_pairs} pairs: {share}");
+        let shares = held.map(|held| held as f64 / f64::from(num));
+        println!("{num_pairs} pairs: {shares:.3?} held, {looseness:.1} times wider on average");
+        // Of 300 cells, 95 in 100 less two standard deviations.
+        assert!(shares.iter().all(|share| *share > 0.925), "{num_pairs} pairs: {shares:?}");
         // Bounds that hold because they are absurd would be no bounds.
         assert!(looseness < 12.0, "{num_pairs} pairs: {looseness}");
     }
@@ -203,7 +206,7 @@ fn refining_beats_the_closed_form() {
                 camera_from_target: pair.camera_from_target,
             })
             .collect();
-        let start = closed_form::solve(&equations).expect("solved");
+        let start = closed_form::solve(&equations).expect("solved").unknowns;
         let at = Point3::new(0.0, 0.0, 1.2);
         closed.push(pose_error(&start.mount_from_camera, &cell.mount_from_camera, &at));
         refined.push(cell.off(&solve(&pairs, cell.mount).expect("solved")));
@@ -223,7 +226,7 @@ fn half_turns_are_turns_like_any_other() {
             [half, 0.0, 0.0, 0.1, 0.0, 1.1],
             [0.0, half, 0.0, 0.0, 0.1, 1.3],
             [0.0, 0.0, half, -0.1, 0.0, 1.2],
-            [half, 0.0, half / 2.0, 0.0, -0.1, 1.2],
+            [half, 0.3, half / 2.0, 0.0, -0.1, 1.2],
         ]
         .into_iter()
         .enumerate()
@@ -236,6 +239,22 @@ fn half_turns_are_turns_like_any_other() {
         let found = solve(&pairs, cell.mount).expect("solved");
         let off = cell.off(&found);
         assert!(off.shift.mm() < 2.5 && off.rotation.degrees() < 0.2, "{off:?}");
+    });
+}
+
+#[test]
+fn half_turns_about_axes_at_right_angles_alone_have_several_answers() {
+    over_cells(10, |cell, _| {
+        let half = std::f64::consts::PI;
+        let turns = [[0.0, 0.0], [half, 0.0], [0.0, half], [half, half]];
+        let pairs: Vec<PosePair> = (0..8)
+            .map(|i| {
+                let [rx, ry] = turns[i % 4];
+                cell.pair(i, from_euler_zyx([rx, ry, 0.0, 0.03 * i as f64, 0.1, 1.2]))
+            })
+            .collect();
+        let found = solve(&pairs, cell.mount).expect("a result");
+        assert_eq!(found.doubts.first(), Some(&HandEyeDoubt::SeveralAnswers), "{:?}", found.doubts);
     });
 }
 
@@ -349,7 +368,9 @@ fn sound_pairs_are_not_suspected() {
     over_cells(150, |cell, random| {
         let found = solve(&cell.pairs(12, 0.7, noise(1.0, 0.2), random), cell.mount);
         let found = found.expect("solved");
-        suspected += usize::from(!found.doubts.is_empty());
+        let is_suspect = |doubt: &HandEyeDoubt| matches!(doubt, HandEyeDoubt::Suspect { .. });
+        suspected += usize::from(found.doubts.iter().any(is_suspect));
+        assert!(found.is_usable(), "{:?}", found.doubts);
     });
     assert!(suspected <= 3, "{suspected} of 300");
 }
@@ -365,7 +386,6 @@ fn poses_the_wrong_way_round_are_told() {
         for (wrong, expected) in [
             ([true, false], Mistake::RobotInverted),
             ([false, true], Mistake::CameraInverted),
-            ([true, true], Mistake::BothInverted),
         ] {
             let mut pairs = sound.clone();
             for pair in &mut pairs {
@@ -382,6 +402,29 @@ fn poses_the_wrong_way_round_are_told() {
                 "{expected:?}: {doubt:?}"
             );
         }
+    });
+}
+
+#[test]
+fn both_poses_the_wrong_way_round_put_something_far_from_the_flange() {
+    over_cells(20, |mut cell, random| {
+        let far = from_euler_zyx([0.4, 0.2, -1.0, 1.4, -0.6, 0.9]);
+        match cell.mount {
+            Mount::EyeToHand => cell.mount_from_camera = far,
+            Mount::EyeInHand => cell.anchor_from_target = far,
+        }
+        let mut pairs = cell.pairs(10, 0.7, noise(0.5, 0.1), random);
+        assert!(solve(&pairs, cell.mount).expect("solved").is_usable());
+        for pair in &mut pairs {
+            pair.robot_from_flange.inverse_mut();
+            pair.camera_from_target.inverse_mut();
+        }
+        let found = solve(&pairs, cell.mount).expect("solved");
+        assert!(
+            matches!(found.doubts.first(), Some(HandEyeDoubt::FarFromFlange { .. })),
+            "{:?}",
+            found.doubts
+        );
     });
 }
 

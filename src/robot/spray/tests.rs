@@ -98,7 +98,8 @@ fn a_path_in_another_frame_lies_off_the_reference() {
         bands.iter().filter(|band| **band == Band::Inside).count()
     };
     assert_eq!(inside(&path()), 27);
-    let moved = path().points().iter().map(|point| PathPoint {
+    let path = path();
+    let moved = path.points().iter().map(|point| PathPoint {
         nozzle: point.nozzle + Vector3::new(0.0, 0.0, -1.2),
         ..*point
     });
