@@ -28,9 +28,7 @@ pub(super) fn complaint(inspection: &Inspection) -> Option<(String, String)> {
 /// Where the part is: the middle of its reference's extent (x, y, z in mm) and its turn (rx, ry, rz in degrees).
 pub(super) fn place_of(inspection: &Inspection, library: &Library) -> Option<([f64; 3], [f64; 3])> {
     let pose = inspection.pose.as_ref()?.as_ref().ok()?.camera_from_part();
-    let reference = &library.references[inspection.ranking.entries.first()?.reference];
-    let (low, high) = reference.cloud.bounds()?;
-    let middle = pose * nalgebra::center(&low, &high).cast::<f64>();
+    let middle = pose * inspection.best_reference(library)?.middle()?;
     // nalgebra's angles are those of Rz·Ry·Rx.
     let (rx, ry, rz) = pose.rotation.euler_angles();
     Some((

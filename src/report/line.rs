@@ -1,6 +1,7 @@
 //! The inspection as one line of JSON.
 
 use jiff::Timestamp;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::{
@@ -78,15 +79,32 @@ struct RankLine<'a> {
     distance: f64,
 }
 
-#[derive(Debug, Serialize)]
-struct TimingsLine {
-    segment: f64,
-    project: f64,
-    contour: f64,
-    signature: f64,
-    rank: f64,
-    pose: f64,
-    total: f64,
+/// How long each stage took, milliseconds.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct TimingsLine {
+    /// Segmentation.
+    pub segment: f64,
+    /// Projection.
+    pub project: f64,
+    /// Contour.
+    pub contour: f64,
+    /// Signature.
+    pub signature: f64,
+    /// Ranking.
+    pub rank: f64,
+    /// Pose, confirmation of the best few included.
+    pub pose: f64,
+    /// From the scene's points to the verdict.
+    pub total: f64,
+}
+
+/// `ok`, `unknown` or `no_part`.
+pub(super) fn status_of(verdict: &Verdict) -> &'static str {
+    match verdict {
+        Verdict::Part { .. } if verdict.is_unknown() => "unknown",
+        Verdict::Part { .. } => "ok",
+        Verdict::NoPart(_) => "no_part",
+    }
 }
 
 impl<'a> InspectionLine<'a> {
@@ -138,6 +156,7 @@ impl<'a> InspectionLine<'a> {
                 approximate: inspection.verdict.is_approximate(),
             });
         let line = Self {
+            status: status_of(&inspection.verdict),
             touches_edge: inspection.touches_edge(),
             pose,
             ranking: ranking.collect(),
@@ -153,11 +172,6 @@ impl<'a> InspectionLine<'a> {
                 rejected,
                 ..
             } => Self {
-                status: if inspection.verdict.is_unknown() {
-                    "unknown"
-                } else {
-                    "ok"
-                },
                 part: Some(part.as_str()).filter(|_| !inspection.verdict.is_unknown()),
                 accepted: rejected.is_none(),
                 score: Some(*score),
@@ -166,7 +180,6 @@ impl<'a> InspectionLine<'a> {
                 ..line
             },
             Verdict::NoPart(reason) => Self {
-                status: "no_part",
                 reason: Some(reason.to_string()),
                 ..line
             },
@@ -182,7 +195,7 @@ impl InspectionLine<'_> {
 }
 
 impl TimingsLine {
-    fn of(timings: &Timings) -> Self {
+    pub(super) fn of(timings: &Timings) -> Self {
         // Whole microseconds: more digits are noise.
         let ms = |d: std::time::Duration| d.as_micros() as f64 / 1000.0;
         Self {
