@@ -19,6 +19,7 @@ use crate::{
         },
         project::{PlaneImage, ProjectParams, project},
         rank::{MatchRanking, Matcher, Query, RankParams, place, rank},
+        reference::Reference,
         scene::SceneCloud,
         segment::{SegmentParams, Segmentation, SegmentedPart, other_parts, segment},
         signature::{FanSignature, SignatureParams, describe},
@@ -251,6 +252,12 @@ impl Inspection {
     pub fn touches_edge(&self) -> bool {
         let part = self.segmentation.part.as_ref();
         part.is_ok_and(|part| part.touches_edge)
+    }
+
+    /// The reference that was ranked first, in the library that was inspected with.
+    pub fn best_reference<'a>(&self, library: &'a Library) -> Option<&'a Reference> {
+        let best = self.ranking.entries.first()?;
+        library.references.get(best.reference)
     }
 
     fn best_score(&self) -> f64 {

@@ -22,10 +22,10 @@ use super::{
     source::{CellChoice, Origin, SceneSource, file_name},
     state::{HelpPage, Notice, NoticeKind, Shown, Source, StagePanel, State, Workspace},
     worker::News,
-    writing::WriteRequest,
 };
 use crate::{
     capture::{Pace, RecordingSpec, SourceSpec, WatchedFrom, WatchedSpec},
+    robot::Convention,
     stages::segment::EmptyCell,
 };
 
@@ -70,7 +70,11 @@ pub enum Action {
     Notify(Notice),
     /// Close the window.
     Quit,
-    /// Put the pose on the clipboard, row after row.
+    /// Tell the robot poses in these numbers.
+    UseConvention(Convention),
+    /// The next of the conventions.
+    NextConvention,
+    /// Put the pose on the clipboard, in the convention that was chosen.
     CopyPose,
     /// Of the source and of following it.
     Live(LiveAction),
@@ -185,6 +189,12 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
             }
         }
         Action::SwitchUnits => state.units = state.units.other(),
+        Action::UseConvention(convention) => state.convention = convention,
+        Action::NextConvention => {
+            let all = Convention::ALL;
+            let place = all.iter().position(|known| *known == state.convention);
+            state.convention = all[place.map_or(0, |place| (place + 1) % all.len())];
+        }
         Action::SwitchTheme => state.theme = state.theme.other(),
         Action::ToggleHelp => {
             state.help = match state.help {
@@ -200,12 +210,15 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::Notify(notice) => notify(state, notice),
         Action::Quit => return Some(Effect::Close),
         Action::CopyPose => {
-            let text = pose_text(state)?;
-            notify(
-                state,
-                Notice::done("Copied camera_from_part: four rows of four numbers, metres"),
-            );
-            return Some(Effect::CopyText(text));
+            let shown = state.shown.as_ref()?;
+            let Some(numbered) = inspect::numbered(state, &shown.inspected) else {
+                notify(state, no_pose());
+                return None;
+            };
+            let title = numbered.pose.convention.title();
+            let what = format!("Copied {} in the numbers of {title}", numbered.name);
+            notify(state, Notice::done(what));
+            return Some(Effect::CopyText(inspect::clipboard_text(&numbered)));
         }
         Action::Live(action) => return live::apply(state, action),
         Action::Inspect(action) => return inspect::state::apply(state, action),
@@ -323,11 +336,22 @@ fn open_library(state: &mut State) -> Effect {
     state.begin("Opening the library", Request::Library(chosen))
 }
 
-/// Writes the report of the inspection in front.
+/// Writes the report of the inspection in front, with a picture of its view where that is in sight.
 fn export(state: &mut State, folder: PathBuf) -> Option<Effect> {
-    let inspected = Arc::clone(&state.shown.as_ref()?.inspected);
-    let request = WriteRequest::Report { folder, inspected };
-    Some(state.begin("Writing the report", Request::Write(request)))
+    if state.workspace == Workspace::Inspect && state.shown.is_some() {
+        // The view hands its picture over with the next frame.
+        state.inspect.report_to = Some(folder);
+        return None;
+    }
+    inspect::state::write_report(state, folder, None)
+}
+
+fn no_pose() -> Notice {
+    Notice {
+        kind: NoticeKind::Look,
+        what: "There is no pose to copy: the part was not accepted".into(),
+        advice: "Do as the card says, and capture again".into(),
+    }
 }
 
 /// Inspects the scene in front again: something that its result rests on has changed.
@@ -442,18 +466,6 @@ pub(super) fn notify(state: &mut State, notice: Notice) {
     state.notices.push(notice);
     let num_over = state.notices.len().saturating_sub(MAX_NOTICES);
     state.notices.drain(..num_over);
-}
-
-/// `camera_from_part` as four rows of numbers, metres.
-fn pose_text(state: &State) -> Option<String> {
-    let inspection = &state.shown.as_ref()?.inspected.inspection;
-    let pose = inspection.pose.as_ref()?.as_ref().ok()?;
-    let numbers = crate::geometry::rigid::row_major(&pose.camera_from_part());
-    let rows = numbers.chunks(4).map(|row| {
-        let cells: Vec<String> = row.iter().map(|x| format!("{x:.6}")).collect();
-        cells.join(" ")
-    });
-    Some(rows.collect::<Vec<_>>().join("\n"))
 }
 
 #[cfg(test)]

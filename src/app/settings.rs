@@ -15,7 +15,7 @@ use super::{
     source::CellChoice,
     state::{Source, State, ThemeChoice, UnitSystem, Workspace},
 };
-use crate::{capture::SourceSpec, files::write_atomically, pipeline::Recipe};
+use crate::{capture::SourceSpec, files::write_atomically, pipeline::Recipe, robot::Convention};
 
 /// The version of the file.
 const SCHEMA: u32 = 1;
@@ -34,6 +34,8 @@ pub struct Settings {
     pub theme: ThemeChoice,
     /// Units that are shown.
     pub units: UnitSystem,
+    /// In which numbers the robot is told a pose.
+    pub convention: Convention,
     /// The workspace in front.
     pub workspace: Workspace,
     /// The library chosen in the window; none: the one found as on the command line.
@@ -74,6 +76,7 @@ impl Default for Settings {
             schema: SCHEMA,
             theme: ThemeChoice::default(),
             units: UnitSystem::default(),
+            convention: Convention::default(),
             workspace: Workspace::default(),
             library: None,
             recent: Vec::new(),
@@ -92,6 +95,7 @@ impl Settings {
             schema: SCHEMA,
             theme: state.theme,
             units: state.units,
+            convention: state.convention,
             workspace: state.workspace,
             library: state.chosen_library.clone(),
             recent: state.recent.clone(),
@@ -122,6 +126,7 @@ impl Settings {
             && has_recipe
             && self.theme == state.theme
             && self.units == state.units
+            && self.convention == state.convention
             && self.workspace == state.workspace
             && self.library == state.chosen_library
             && self.recent == state.recent
@@ -134,6 +139,7 @@ impl Settings {
         State {
             theme: self.theme,
             units: self.units,
+            convention: self.convention,
             workspace: self.workspace,
             chosen_library: self.library,
             recent: self.recent,
@@ -263,6 +269,7 @@ mod tests {
         Settings {
             theme: ThemeChoice::Light,
             units: UnitSystem::MetresRadians,
+            convention: Convention::Staubli,
             library: Some("/media/stick/reference_parts".into()),
             recent: vec!["a.pcd".into(), "b c.ply".into()],
             window: Some([1024.0, 768.0]),

@@ -48,6 +48,8 @@ pub struct Shelved {
 pub struct LibraryShown {
     /// Its folder.
     pub path: PathBuf,
+    /// [`Library::identity`].
+    pub identity: String,
     /// What is written down of every part, in the library's order.
     pub parts: Vec<PartMeta>,
     /// The small pictures of the parts, in the same order, where there is one.
@@ -168,6 +170,7 @@ fn load(given: Option<&Path>) -> Result<Shelved, LibraryError> {
     };
     let shown = Arc::new(LibraryShown {
         path: place.location().into(),
+        identity: library.identity(),
         thumbnails: thumbnails.collect(),
         damaged: damaged.collect(),
         is_fixed,

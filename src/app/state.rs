@@ -18,6 +18,7 @@ use super::{
 use crate::{
     capture::SourceSpec,
     pipeline::{Recipe, Stage},
+    robot::{Convention, RobotFrame},
     stages::segment::EmptyCell,
 };
 
@@ -38,6 +39,10 @@ pub struct State {
     pub units: UnitSystem,
     /// Colours.
     pub theme: ThemeChoice,
+    /// In which numbers the robot is told a pose.
+    pub convention: Convention,
+    /// Where the camera stands in the robot's base frame, if the cell is calibrated.
+    pub robot: Option<Arc<RobotFrame>>,
     /// What a person should know, oldest first.
     pub notices: Vec<Notice>,
     /// The stage that fills the middle, if one is enlarged.

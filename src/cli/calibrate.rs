@@ -17,7 +17,7 @@ use crate::{
     error::Advice as _,
     files::FileError,
     robot::{
-        Convention, RobotFrame, WrittenPose,
+        RobotFrame, WrittenPose,
         calibration::{CalibrationError, CameraPlace, CellCalibration, Loaded, Origin, default_path},
         hand_eye::Mount,
         parse_written_pose,
@@ -36,7 +36,7 @@ Examples:
 
 The calibration is a text file, cell.toml in your data folder without --calibration. inspect takes it from there.
 Conventions: matrix (16 numbers, metres), quaternion-xyzw, rotation-vector, kuka, fanuc, abb, universal-robots,
-yaskawa, staubli, doosan. Units and order of each: partsight calibrate show --as CONVENTION")]
+yaskawa, staubli, doosan. Units and order of each: partsight report --conventions")]
 pub(super) struct CalibrateArgs {
     #[command(subcommand)]
     command: CalibrateCommand,
@@ -205,13 +205,6 @@ fn load(given: Option<&Path>, console: &Console) -> anyhow::Result<(PathBuf, Cel
 /// A pose of the arm or the camera on the command line.
 fn robot_pose(text: &str) -> Result<WrittenPose, String> {
     parse_written_pose(text).map_err(|error| format!("{error}\n  to do: {}", error.advice()))
-}
-
-/// A convention on the command line.
-pub(super) fn convention(text: &str) -> Result<Convention, String> {
-    Convention::by_name(text).ok_or_else(|| {
-        format!("expected one of {}", Convention::ALL.map(Convention::name).join(", "))
-    })
 }
 
 /// Where the camera sits, for a command that inspects.

@@ -16,7 +16,7 @@ use super::{
     calibrate::CalibrationChoice,
     console::{Advised as _, Console},
     follow::{follow, parse_source},
-    input::open_scene,
+    input::{before, open_empty_cell, open_scene},
     recipe::RecipeChoice,
     verdict::{complaint, outcome_of, place_of, show_card, show_in_robot},
 };
@@ -29,7 +29,7 @@ use crate::{
     robot::RobotFrame,
     stages::{
         scene::{SceneCloud, scene_from_image},
-        segment::{EmptyCell, EmptyCellError},
+        segment::EmptyCell,
     },
 };
 
@@ -98,16 +98,11 @@ pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<O
     };
     let report = args.report.as_deref().map(ReportFolder::make);
     let report = report.transpose().advised()?;
-    let empty_cell = match &args.empty_cell {
-        Some(path) => {
-            let (scene, warnings) = open_scene(path).advised()?;
-            for warning in &warnings {
-                console.warn(warning, warning);
-            }
-            Some(Arc::new(EmptyCell::of(&scene).advised()?))
-        }
-        None => None,
-    };
+    let empty_cell = args
+        .empty_cell
+        .as_deref()
+        .map(|path| open_empty_cell(path, console));
+    let empty_cell = empty_cell.transpose()?;
     telling.head(console);
     let mut one = Inspector {
         library,
@@ -194,11 +189,7 @@ impl Inspector {
             report,
         } = self;
         let name = path.display().to_string();
-        if empty_cell.as_ref().is_some_and(|cell| !cell.fits(&scene)) {
-            let other = EmptyCellError::OtherPicture;
-            console.warn(&format_args!("{name}: {other}"), &other);
-        }
-        scene.empty_cell.clone_from(empty_cell);
+        before(&mut scene, empty_cell.as_ref(), &name, console);
         let inspection = pipeline::run(&scene, library, recipe, &Unwatched)?;
         let line = InspectionLine::of(&name, &inspection).captured(capture);
         let robot = robot.as_ref();

@@ -17,6 +17,7 @@ mod inspect;
 mod interrupt;
 mod library;
 mod recipe;
+mod report;
 mod simulate;
 mod verdict;
 
@@ -66,6 +67,7 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Inspect(inspect::InspectArgs),
+    Report(report::ReportArgs),
     Capture(capture::CaptureArgs),
     Enrol(enrol::EnrolArgs),
     Library(library::LibraryArgs),
@@ -114,6 +116,7 @@ pub fn run(cli: Cli) -> Outcome {
             window(&LibraryChoice { library }, cli.open, &mut console)
         }
         Some(Command::Inspect(args)) => inspect::run(&args, &mut console),
+        Some(Command::Report(args)) => report::run(&args, &mut console),
         Some(Command::Capture(args)) => capture::run(&args, &mut console),
         Some(Command::Enrol(args)) => enrol::run(&args, &mut console),
         Some(Command::Library(args)) => library::run(&args, &mut console),

@@ -24,7 +24,6 @@ impl Library {
 
 #[cfg(test)]
 mod tests {
-    use super::*;
     use crate::{library::load::load_shipped, stages::reference::ReferenceParams};
 
     #[test]

@@ -9,6 +9,7 @@ mod folder;
 mod lettering;
 mod line;
 mod pictures;
+pub mod pose_report;
 mod scaling;
 mod score_plots;
 
@@ -18,7 +19,7 @@ pub use self::{
     contenders::contenders_picture,
     evaluation::evaluation_picture,
     folder::{ReportError, ReportFolder},
-    line::{CaptureLine, InspectionLine, SCHEMA},
+    line::{CaptureLine, InspectionLine, SCHEMA, TimingsLine},
     pictures::{Picture, stage_pictures, strip, write_png},
     scaling::{TimeCurve, scaling_picture, stacked},
 };

@@ -194,6 +194,11 @@ impl Convention {
         }
     }
 
+    /// The name and the unit of each number, in their order.
+    pub fn named_units(self) -> impl Iterator<Item = (&'static str, Unit)> {
+        self.names().iter().copied().zip(self.units())
+    }
+
     /// The unit of each number, in their order.
     pub(super) fn units(self) -> Vec<Unit> {
         let length = self.length_unit();

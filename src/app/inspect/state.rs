@@ -1,6 +1,6 @@
 //! What the workspace knows besides the result: what its view shows, and where a picture of it is to go.
 
-use std::{collections::BTreeSet, path::PathBuf};
+use std::{collections::BTreeSet, path::PathBuf, sync::Arc};
 
 use crate::app::{
     action::{Effect, notify},
@@ -56,6 +56,8 @@ pub struct InspectState {
     pub colouring: Option<Colouring>,
     /// Where a picture of the view is to go, until it is taken.
     pub picture_to: Option<PathBuf>,
+    /// The folder that a report is to go to, until a picture of the view is taken for it.
+    pub report_to: Option<PathBuf>,
 }
 
 impl Default for InspectState {
@@ -64,6 +66,7 @@ impl Default for InspectState {
             parts: [ViewPart::Axes, ViewPart::Outline, ViewPart::NozzleMiddle].into(),
             colouring: None,
             picture_to: None,
+            report_to: None,
         }
     }
 }
@@ -75,7 +78,7 @@ pub enum InspectAction {
     Toggle(ViewPart),
     /// Colour the points by this.
     Colour(Colouring),
-    /// The view that [`InspectState::picture_to`] waits for, or why there is none.
+    /// The view that [`InspectState::picture_to`] or [`InspectState::report_to`] waits for, or why there is none.
     Picture(Result<Box<ViewShot>, Trouble>),
 }
 
@@ -90,6 +93,10 @@ pub(in crate::app) fn apply(state: &mut State, action: InspectAction) -> Option<
         }
         InspectAction::Colour(colouring) => own.colouring = Some(colouring),
         InspectAction::Picture(shot) => {
+            if let Some(folder) = own.report_to.take() {
+                // A report without the view is one all the same.
+                return write_report(state, folder, shot.ok());
+            }
             let mut path = own.picture_to.take()?;
             match shot {
                 Ok(shot) => {
@@ -104,6 +111,22 @@ pub(in crate::app) fn apply(state: &mut State, action: InspectAction) -> Option<
         }
     }
     None
+}
+
+/// Writes the report of the inspection in front.
+pub(in crate::app) fn write_report(
+    state: &mut State,
+    folder: PathBuf,
+    shot: Option<Box<ViewShot>>,
+) -> Option<Effect> {
+    let request = WriteRequest::Report {
+        folder,
+        inspected: Arc::clone(&state.shown.as_ref()?.inspected),
+        robot: state.robot.clone(),
+        convention: state.convention,
+        shot,
+    };
+    Some(state.begin("Writing the report", Request::Write(request)))
 }
 
 #[cfg(test)]

@@ -161,7 +161,7 @@ impl SceneView {
 
     /// Hands over the picture that was asked for.
     pub(super) fn picture(&self, ui: &Ui, state: &State, actions: &mut Vec<Action>) {
-        if state.inspect.picture_to.is_some() {
+        if state.inspect.picture_to.is_some() || state.inspect.report_to.is_some() {
             let shot = self.shot(ui.pixels_per_point()).map(Box::new);
             actions.push(Action::Inspect(InspectAction::Picture(shot)));
         }

@@ -22,7 +22,7 @@ use crate::{
         live::{Standing, Stillness},
     },
     robot::stand_off::{StandOff, StandOffError, stand_off},
-    stages::{reference::Reference, scene::SceneCloud},
+    stages::scene::SceneCloud,
 };
 
 /// Get a scene and inspect it.
@@ -151,8 +151,7 @@ impl Found {
         inspection: &Inspection,
         library: &Library,
     ) -> Option<Point3<f64>> {
-        let (low, high) = best_reference(inspection, library)?.cloud.bounds()?;
-        Some(nalgebra::center(&low, &high).cast())
+        inspection.best_reference(library)?.middle()
     }
 
     /// Makes what the panels draw: goes through every point.
@@ -169,7 +168,7 @@ impl Found {
             inspection,
             followed,
         } = self;
-        let best = best_reference(&inspection, library);
+        let best = inspection.best_reference(library);
         let deviations = best.map_or_else(Vec::new, |reference| {
             deviations(&scene, &inspection, reference)
         });
@@ -205,11 +204,6 @@ impl Found {
             followed,
         }
     }
-}
-
-fn best_reference<'a>(inspection: &Inspection, library: &'a Library) -> Option<&'a Reference> {
-    let best = inspection.ranking.entries.first()?;
-    library.references.get(best.reference)
 }
 
 #[cfg(test)]

@@ -8,11 +8,14 @@ use serde::Serialize;
 use super::{
     Console, KeptAs, MountChoice, Outcome,
     captures::{TargetChoice, pairs_of_captures},
-    convention, keep,
+    keep,
     show::matrix,
 };
 use crate::{
-    cli::console::{Advised as _, Table, advised_error},
+    cli::{
+        console::{Advised as _, Table, advised_error},
+        report::parse_convention,
+    },
     error::Advice as _,
     geometry::rigid::row_major,
     report::SCHEMA,
@@ -58,10 +61,10 @@ pub(super) struct HandEyeArgs {
     #[command(flatten)]
     targets: TargetChoice,
     /// Convention of the robot's poses, where the file does not say it
-    #[arg(long, value_name = "CONVENTION", value_parser = convention)]
+    #[arg(long, value_name = "CONVENTION", value_parser = parse_convention)]
     robot_convention: Option<Convention>,
     /// Convention of the camera's poses, where the file does not say it
-    #[arg(long, value_name = "CONVENTION", value_parser = convention, conflicts_with = "captures")]
+    #[arg(long, value_name = "CONVENTION", value_parser = parse_convention, conflicts_with = "captures")]
     camera_convention: Option<Convention>,
     /// Leave these pairs out: their names, or the numbers of their lines
     #[arg(long, value_name = "NAME,...", value_delimiter = ',')]

@@ -5,8 +5,9 @@ use std::path::PathBuf;
 use clap::Args;
 use serde::Serialize;
 
-use super::{Console, Outcome, convention, load};
+use super::{Console, Outcome, load};
 use crate::{
+    cli::report::parse_convention,
     geometry::rigid::{RigidTransform, row_major},
     report::SCHEMA,
     robot::{
@@ -27,7 +28,7 @@ pub(super) struct ShowArgs {
     #[arg(long, value_name = "FILE")]
     calibration: Option<PathBuf>,
     /// Also in this convention
-    #[arg(long = "as", value_name = "CONVENTION", value_parser = convention)]
+    #[arg(long = "as", value_name = "CONVENTION", value_parser = parse_convention)]
     convention: Option<Convention>,
     /// Write one line of JSON, and nothing else, to standard output
     #[arg(long)]

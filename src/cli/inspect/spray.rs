@@ -8,8 +8,8 @@ use jiff::Timestamp;
 use crate::{
     cli::{
         Outcome,
-        calibrate::convention,
         console::{Advised as _, Console, advised_error},
+        report::parse_convention,
     },
     library::{Library, LibraryLoad, LibraryPlace, PartName},
     pipeline::Inspection,
@@ -28,7 +28,7 @@ pub(super) struct SprayChoice {
     #[arg(long, value_name = "FILE")]
     spray: Option<PathBuf>,
     /// The convention of its poses
-    #[arg(long, value_name = "CONVENTION", default_value = "matrix", value_parser = convention, requires = "spray")]
+    #[arg(long, value_name = "CONVENTION", default_value = "matrix", value_parser = parse_convention, requires = "spray")]
     spray_as: Convention,
 }
 

@@ -210,7 +210,7 @@ proptest! {
         first in -PI..PI,
         last in -PI..PI,
         side in 0..4_usize,
-        exponent in 3.0..12.0,
+        exponent in 3.0..12.0_f64,
         shift in shifts(),
     ) {
         // As near as a picometre a metre, and exactly on it at the end of the range.
@@ -240,7 +240,7 @@ proptest! {
     #[test]
     fn a_small_turn_does_not_vanish(
         axis in prop::array::uniform3(-1.0..1.0).prop_filter("an axis", |a: &[f64; 3]| a.iter().map(|x| x * x).sum::<f64>() > 0.01),
-        exponent in -14.0..-2.0,
+        exponent in -14.0..-2.0_f64,
     ) {
         let vector = axis.map(|a| a * 10_f64.powf(exponent));
         let pose = Convention::RotationVector.read(&[0.0, 0.0, 0.0, vector[0], vector[1], vector[2]]).expect("a pose");
