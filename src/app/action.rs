@@ -18,6 +18,7 @@ use super::{
     job::{Answer, Outcome, Request, Trouble},
     lane::Lane,
     live::{self, LiveAction},
+    robot::{self, RobotAction},
     shelf::LibraryShown,
     source::{CellChoice, Origin, SceneSource, file_name},
     state::{HelpPage, Notice, NoticeKind, Shown, Source, StagePanel, State, Workspace},
@@ -88,6 +89,8 @@ pub enum Action {
     Align(AlignAction),
     /// Of the History workspace.
     History(HistoryAction),
+    /// Of the robot's cell.
+    Robot(RobotAction),
     /// A thread has news.
     Hear(Lane, News<Outcome>),
 }
@@ -119,6 +122,14 @@ pub enum Ask {
     Align(AlignAsk),
     /// A scene, a whole cloud or a mesh to enrol.
     Part,
+    /// A calibration of the robot's cell.
+    Calibration,
+    /// A file of robot and camera poses.
+    Pairs,
+    /// Where the spray path of the inspection in front goes.
+    SprayPath,
+    /// The spray path of the enrolled part that is looked at.
+    PartPath,
 }
 
 /// What is to be done outside the state.
@@ -184,6 +195,8 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::CloseTop => {
             if state.help == HelpPage::Open {
                 state.help = HelpPage::Closed;
+            } else if state.cell.dialog.is_some() {
+                state.cell.dialog = None;
             } else {
                 state.enlarged = None;
             }
@@ -226,6 +239,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::Compare(action) => return compare::apply(state, action),
         Action::Align(action) => return align::apply(state, action),
         Action::History(action) => return history::apply(state, action),
+        Action::Robot(action) => return robot::apply(state, action),
         Action::Hear(lane, news) => return hear(state, lane, news),
     }
     None
@@ -267,6 +281,10 @@ fn chosen(state: &mut State, ask: Ask, path: PathBuf) -> Option<Effect> {
             None
         }
         Ask::Align(ask) => align::apply(state, AlignAction::Chosen(ask, path)),
+        Ask::Calibration => robot::apply(state, RobotAction::Load(path)),
+        Ask::PartPath => enrol::apply(state, EnrolAction::StorePath(path)),
+        Ask::SprayPath => inspect::state::write_spray_path(state, path),
+        Ask::Pairs => robot::apply(state, RobotAction::Pairs(path)),
     }
 }
 
@@ -407,7 +425,9 @@ fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> 
             use_library(state, &library);
             return inspect_again(state);
         }
+        Ok(Answer::Robot(answer)) => return robot::hear(state, Ok(answer)),
         Ok(Answer::Written(written)) => notify(state, Notice::done(written.what)),
+        Err(trouble) if lane == Lane::Robot => return robot::hear(state, Err(trouble)),
         Err(trouble) => {
             notify(state, trouble.clone().into());
             match lane {
@@ -416,7 +436,7 @@ fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> 
                 Lane::Align => return align::hear(state, Err(trouble)),
                 Lane::Inspect => without_scene(state),
                 Lane::Live => live::hear(state, Err(trouble)),
-                Lane::Write => {}
+                Lane::Write | Lane::Robot => {}
             }
         }
     }

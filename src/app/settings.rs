@@ -12,6 +12,7 @@ use serde::{Deserialize, Serialize};
 use super::{
     job::Trouble,
     live::LiveState,
+    robot::{RememberedCell, RobotState},
     source::CellChoice,
     state::{Source, State, ThemeChoice, UnitSystem, Workspace},
 };
@@ -50,6 +51,8 @@ pub struct Settings {
     pub recipe: Option<Recipe>,
     /// Frames that depth is averaged over while a source is followed.
     pub average: usize,
+    /// Which calibration of the robot's cell is used.
+    pub cell: RememberedCell,
 }
 
 /// A source, as the file has it.
@@ -84,6 +87,7 @@ impl Default for Settings {
             source: RememberedSource::default(),
             recipe: None,
             average: 1,
+            cell: RememberedCell::default(),
         }
     }
 }
@@ -107,6 +111,7 @@ impl Settings {
             },
             recipe: (*state.recipe != Recipe::default()).then(|| (*state.recipe).clone()),
             average: state.live.params.average,
+            cell: state.cell.remembered.clone(),
         }
     }
 
@@ -131,6 +136,7 @@ impl Settings {
             && self.library == state.chosen_library
             && self.recent == state.recent
             && self.average == state.live.params.average
+            && self.cell == state.cell.remembered
             && self.window == window
     }
 
@@ -150,6 +156,10 @@ impl Settings {
             },
             recipe: Arc::new(self.recipe.unwrap_or_default()),
             live: LiveState::averaging(self.average),
+            cell: RobotState {
+                remembered: self.cell,
+                ..RobotState::default()
+            },
             ..State::default()
         }
     }
@@ -276,6 +286,7 @@ mod tests {
             source: RememberedSource::Camera("recording,pace=step:a b".parse().expect("a source")),
             recipe: Some(recipe),
             average: 4,
+            cell: RememberedCell::File("/media/stick/cell.toml".into()),
             ..Settings::default()
         }
     }

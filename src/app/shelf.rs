@@ -11,7 +11,7 @@ use image::RgbaImage;
 use super::{camera::Camera, fitted::FittedCache, job::Trouble, live::Tape};
 use crate::{
     error::Advice as _,
-    library::{Library, LibraryError, LibraryLoad, LibraryPlace, PartMeta, open_library},
+    library::{Library, LibraryError, LibraryLoad, LibraryPlace, PartMeta, SprayPath, open_library},
     stages::reference::ReferenceParams,
 };
 
@@ -54,6 +54,8 @@ pub struct LibraryShown {
     pub parts: Vec<PartMeta>,
     /// The small pictures of the parts, in the same order, where there is one.
     pub thumbnails: Vec<Option<RgbaImage>>,
+    /// The spray paths of the parts, in the same order, where one is stored.
+    pub spray_paths: Vec<Option<SprayPath>>,
     /// The parts that could not be loaded.
     pub damaged: Vec<Damaged>,
     /// Why it cannot be changed at all, if so.
@@ -155,7 +157,18 @@ fn load(given: Option<&Path>) -> Result<Shelved, LibraryError> {
         warnings,
     } = place.load(&ReferenceParams::default())?;
     let troubles = problems.iter().map(Trouble::of);
-    let troubles = troubles.chain(warnings.iter().map(Trouble::of)).collect();
+    let mut troubles: Vec<Trouble> = troubles.chain(warnings.iter().map(Trouble::of)).collect();
+    let mut spray_paths = Vec::with_capacity(parts.len());
+    for part in &parts {
+        let stored = part.spray.as_ref().map(|_| place.spray_path(part.name.as_str()));
+        spray_paths.push(match stored.transpose() {
+            Ok(path) => path.flatten(),
+            Err(error) => {
+                troubles.push(Trouble::of(&error));
+                None
+            }
+        });
+    }
     let thumbnails = parts.iter().map(|part| place.thumbnail(part.name.as_str()));
     let damaged = problems.iter().map(|problem| Damaged {
         entry: problem.entry.clone(),
@@ -173,6 +186,7 @@ fn load(given: Option<&Path>) -> Result<Shelved, LibraryError> {
         identity: library.identity(),
         thumbnails: thumbnails.collect(),
         damaged: damaged.collect(),
+        spray_paths,
         is_fixed,
         parts,
         troubles,

@@ -12,6 +12,7 @@ use super::{
     job::{Request, Trouble},
     lane::Lane,
     live::{self, LiveState},
+    robot::RobotState,
     shelf::LibraryShown,
     source::CellChoice,
 };
@@ -43,6 +44,8 @@ pub struct State {
     pub convention: Convention,
     /// Where the camera stands in the robot's base frame, if the cell is calibrated.
     pub robot: Option<Arc<RobotFrame>>,
+    /// The cell's calibration, and the dialog about it.
+    pub cell: RobotState,
     /// What a person should know, oldest first.
     pub notices: Vec<Notice>,
     /// The stage that fills the middle, if one is enlarged.
@@ -90,7 +93,7 @@ impl State {
         // Quickly done, and not to be given up half-way.
         // A source is followed until it is no longer wanted, which has a button of its own.
         let mut all =
-            all.filter(|(lane, _)| !matches!(lane, Lane::Write | Lane::Library | Lane::Live));
+            all.filter(|(lane, _)| !matches!(lane, Lane::Write | Lane::Library | Lane::Live | Lane::Robot));
         let own = own.and_then(|own| self.works.get_key_value(&own).map(|(l, w)| (*l, w)));
         own.or_else(|| all.next())
     }

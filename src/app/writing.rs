@@ -21,7 +21,7 @@ use crate::{
         pose_report::{PdfPictures, PoseReport, ReportSubject, SeenBy, append_csv, pose_pdf},
         stage_pictures,
     },
-    robot::{Convention, RobotFrame},
+    robot::{Convention, RobotFrame, spray::SprayExport},
 };
 
 /// What is to be written.
@@ -46,6 +46,17 @@ pub enum WriteRequest {
         convention: Convention,
         /// The 3-D view, if it was in sight.
         shot: Option<Box<ViewShot>>,
+    },
+    /// A spray path for the robot, as CSV or JSON.
+    SprayPath {
+        /// Where to.
+        path: PathBuf,
+        /// The inspection with the path.
+        inspected: Arc<Inspected>,
+        /// Where the camera stands.
+        robot: Arc<RobotFrame>,
+        /// In which numbers the robot is told the nozzle's poses.
+        convention: Convention,
     },
     /// A picture of a 3-D view, as a PNG.
     Picture {
@@ -86,6 +97,12 @@ pub(super) fn answer(request: &WriteRequest) -> Result<Written, Trouble> {
             let report = report_of(inspected, robot.as_deref(), *convention);
             write_report(folder, inspected, &report, shot.as_deref())
         }
+        WriteRequest::SprayPath {
+            path,
+            inspected,
+            robot,
+            convention,
+        } => write_spray_path(path, inspected, robot, *convention),
         WriteRequest::Picture { path, shot } => {
             let picture = shot.take().map_err(|error| Trouble::of(&error))?;
             let mut png = Cursor::new(Vec::new());
@@ -101,6 +118,45 @@ pub(super) fn answer(request: &WriteRequest) -> Result<Written, Trouble> {
             })
         }
     }
+}
+
+/// As `partsight inspect --spray` does.
+fn write_spray_path(
+    path: &Path,
+    inspected: &Inspected,
+    robot: &RobotFrame,
+    convention: Convention,
+) -> Result<Written, Trouble> {
+    let first = inspected.inspection.ranking.entries.first();
+    let part = first.and_then(|first| inspected.library.parts.get(first.reference));
+    let (Some(carried), Some(part)) = (&inspected.spray, part) else {
+        return Err(Trouble {
+            what: "There is no spray path over what is in front".into(),
+            advice: "Store one with the part, and capture a part that is accepted".into(),
+        });
+    };
+    let export = SprayExport {
+        path: carried,
+        part: part.name.as_str(),
+        scene: &scene_name(&inspected.origin).display().to_string(),
+        frame: robot,
+        convention,
+        params: &inspected.recipe.stand_off,
+        is_stored: true,
+        is_simulated: inspected.origin.is_simulated() || part.simulated,
+        at: inspected.at,
+    };
+    export.save(path).map_err(|error| Trouble::of(&error))?;
+    Ok(Written {
+        what: format!(
+            "Wrote {}: {} of {} points within the band, as {}",
+            path.display(),
+            carried.num_inside(),
+            carried.points.len(),
+            convention.title()
+        ),
+        path: path.to_owned(),
+    })
 }
 
 /// The pose report of what the window shows.

@@ -32,6 +32,7 @@ use self::console::{Advised as _, Console, advised_error};
 use crate::{
     app,
     library::{LibraryFolder, LibraryLoad, LibraryPlace, open_library},
+    robot::calibration::default_path,
     stages::{pose::PoseMethod, reference::ReferenceParams},
 };
 
@@ -148,6 +149,7 @@ fn window(
     let options = app::WindowOptions {
         library: library.library.clone(),
         settings: app::settings::users_file(),
+        cell: default_path().ok(),
         scene,
         ..app::WindowOptions::default()
     };

@@ -8,5 +8,6 @@ mod history;
 mod inspect;
 mod live;
 mod pictures;
+pub(crate) mod robot;
 mod set_up;
 mod view;

@@ -23,16 +23,22 @@ pub enum ViewPart {
     NozzleMiddle,
     /// The taught nozzle that is furthest off its distance.
     NozzleWorst,
+    /// The part's stored spray path, carried to where it hangs now.
+    SprayPath,
+    /// The axes of the robot's base.
+    RobotBase,
 }
 
 impl ViewPart {
     /// All of them, in the order of the menu.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 7] = [
         Self::Outline,
         Self::NozzleMiddle,
         Self::NozzleWorst,
+        Self::SprayPath,
         Self::Axes,
         Self::Camera,
+        Self::RobotBase,
     ];
 
     /// What a person calls it.
@@ -43,6 +49,8 @@ impl ViewPart {
             Self::Outline => "Enrolled contour",
             Self::NozzleMiddle => "Nozzle over the middle",
             Self::NozzleWorst => "Nozzle at the worst spot",
+            Self::SprayPath => "Spray path",
+            Self::RobotBase => "Robot base",
         }
     }
 }
@@ -63,7 +71,14 @@ pub struct InspectState {
 impl Default for InspectState {
     fn default() -> Self {
         Self {
-            parts: [ViewPart::Axes, ViewPart::Outline, ViewPart::NozzleMiddle].into(),
+            parts: [
+                ViewPart::Axes,
+                ViewPart::Outline,
+                ViewPart::NozzleMiddle,
+                ViewPart::SprayPath,
+                ViewPart::RobotBase,
+            ]
+            .into(),
             colouring: None,
             picture_to: None,
             report_to: None,
@@ -127,6 +142,19 @@ pub(in crate::app) fn write_report(
         shot,
     };
     Some(state.begin("Writing the report", Request::Write(request)))
+}
+
+/// Writes the spray path of the inspection in front for the robot; nothing without a path or a calibrated cell.
+pub(in crate::app) fn write_spray_path(state: &mut State, path: PathBuf) -> Option<Effect> {
+    let inspected = &state.shown.as_ref()?.inspected;
+    inspected.spray.as_ref()?;
+    let request = WriteRequest::SprayPath {
+        path,
+        inspected: Arc::clone(inspected),
+        robot: state.robot.clone()?,
+        convention: state.convention,
+    };
+    Some(state.begin("Writing the spray path", Request::Write(request)))
 }
 
 #[cfg(test)]

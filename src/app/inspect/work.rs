@@ -21,7 +21,10 @@ use crate::{
         self, Inspection, Recipe, Watch,
         live::{Standing, Stillness},
     },
-    robot::stand_off::{StandOff, StandOffError, stand_off},
+    robot::{
+        spray::{CarriedPath, carry},
+        stand_off::{StandOff, StandOffError, stand_off},
+    },
     stages::scene::SceneCloud,
 };
 
@@ -60,6 +63,8 @@ pub struct Inspected {
     pub deviations: Vec<f32>,
     /// The nozzle's stand-off over the best reference at its pose; `None` where none is accepted.
     pub stand_off: Option<Result<StandOff, StandOffError>>,
+    /// The part's stored spray path, carried to where it hangs now; `None` where none is stored or nothing accepted.
+    pub spray: Option<CarriedPath>,
     /// What the 3-D view shows.
     pub view: SceneFigure,
     /// Of a frame among others: what they say together.
@@ -179,6 +184,12 @@ impl Found {
         let stand_off = sprayed.map(|(reference, pose)| {
             stand_off(reference, &pose.camera_from_part(), &recipe.stand_off)
         });
+        let spray = sprayed.and_then(|(_, pose)| {
+            let first = inspection.ranking.entries.first()?;
+            let path = shown.spray_paths.get(first.reference)?.as_ref()?;
+            let seen = &inspection.segmentation.part.as_ref().ok()?.cloud;
+            Some(carry(path, &pose.camera_from_part(), seen, &recipe.stand_off))
+        });
         let view = SceneFigure::of(&Ingredients {
             scene: &scene,
             inspection: &inspection,
@@ -186,6 +197,7 @@ impl Found {
             middle,
             deviations: &deviations,
             stand_off: stand_off.as_ref().and_then(|found| found.as_ref().ok()),
+            spray: spray.as_ref(),
         });
         let figures = Figures::of(&scene, &inspection, library, shown);
         Inspected {
@@ -200,6 +212,7 @@ impl Found {
             middle,
             deviations,
             stand_off,
+            spray,
             view,
             followed,
         }

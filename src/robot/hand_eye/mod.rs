@@ -147,7 +147,7 @@ impl Advice for HandEyeError {
             Self::TooManyPairs { .. } => "Leave out all but a few dozen well spread pairs".into(),
             Self::NotFinite { pair } => format!("Correct the numbers of {pair}, or leave it out"),
             Self::Unsolvable => {
-                "Move the arm between the captures: turn the flange about two different axes by at least 30°".into()
+                "Move the arm between the captures: turn the flange about two different axes by 30° to 90°".into()
             }
         }
     }

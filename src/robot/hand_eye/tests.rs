@@ -161,8 +161,8 @@ fn accuracy(num_pairs: usize, noise: Noise) -> [PoseError; 2] {
 #[test]
 fn noisy_pairs_give_a_calibration_that_is_better_than_one_pair() {
     for (mm, degrees, rms_mm, rms_degrees, worst_mm, worst_degrees) in [
-        (0.5, 0.1, 1.2, 0.09, 3.5, 0.25),
-        (2.0, 0.5, 5.5, 0.45, 18.0, 1.2),
+        (0.5, 0.1, 1.2, 0.08, 3.0, 0.25),
+        (2.0, 0.5, 4.5, 0.35, 12.0, 1.1),
     ] {
         let [rms, worst] = accuracy(12, noise(mm, degrees));
         let text = format!("{mm} mm {degrees}°: rms {rms:?}, worst {worst:?}");
@@ -244,17 +244,25 @@ fn half_turns_are_turns_like_any_other() {
 
 #[test]
 fn half_turns_about_axes_at_right_angles_alone_have_several_answers() {
-    over_cells(10, |cell, _| {
+    over_cells(10, |cell, random| {
         let half = std::f64::consts::PI;
         let turns = [[0.0, 0.0], [half, 0.0], [0.0, half], [half, half]];
         let pairs: Vec<PosePair> = (0..8)
             .map(|i| {
                 let [rx, ry] = turns[i % 4];
-                cell.pair(i, from_euler_zyx([rx, ry, 0.0, 0.03 * i as f64, 0.1, 1.2]))
+                let seen = from_euler_zyx([rx, ry, 0.0, 0.03 * i as f64, 0.1, 1.2]);
+                let mut pair = cell.pair(i, seen);
+                pair.camera_from_target = disturbed(&seen, noise(0.2, 0.05), random);
+                pair
             })
             .collect();
-        let found = solve(&pairs, cell.mount).expect("a result");
-        assert_eq!(found.doubts.first(), Some(&HandEyeDoubt::SeveralAnswers), "{:?}", found.doubts);
+        // Which of the answers comes out is chance, and may be none at all.
+        match solve(&pairs, cell.mount) {
+            Ok(found) => {
+                assert_eq!(found.doubts.first(), Some(&HandEyeDoubt::SeveralAnswers));
+            }
+            Err(error) => assert_eq!(error, HandEyeError::Unsolvable),
+        }
     });
 }
 

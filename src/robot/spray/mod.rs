@@ -95,6 +95,18 @@ impl Band {
     }
 }
 
+impl CarriedPoint {
+    /// The nozzle's mouth, camera space, metres.
+    pub fn mouth(&self) -> Point3<f64> {
+        self.camera_from_nozzle.translation.vector.into()
+    }
+
+    /// The way it points, camera space, unit length.
+    pub fn direction(&self) -> Vector3<f64> {
+        self.camera_from_nozzle * Vector3::z()
+    }
+}
+
 impl CarriedPath {
     /// Points within the band.
     pub fn num_inside(&self) -> usize {
