@@ -11,7 +11,9 @@ use image::RgbaImage;
 use super::{camera::Camera, fitted::FittedCache, job::Trouble, live::Tape};
 use crate::{
     error::Advice as _,
-    library::{Library, LibraryError, LibraryLoad, LibraryPlace, PartMeta, SprayPath, open_library},
+    library::{
+        Library, LibraryError, LibraryLoad, LibraryPlace, PartMeta, SprayPath, open_library,
+    },
     stages::reference::ReferenceParams,
 };
 
@@ -160,7 +162,10 @@ fn load(given: Option<&Path>) -> Result<Shelved, LibraryError> {
     let mut troubles: Vec<Trouble> = troubles.chain(warnings.iter().map(Trouble::of)).collect();
     let mut spray_paths = Vec::with_capacity(parts.len());
     for part in &parts {
-        let stored = part.spray.as_ref().map(|_| place.spray_path(part.name.as_str()));
+        let stored = part
+            .spray
+            .as_ref()
+            .map(|_| place.spray_path(part.name.as_str()));
         spray_paths.push(match stored.transpose() {
             Ok(path) => path.flatten(),
             Err(error) => {

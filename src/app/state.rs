@@ -92,8 +92,9 @@ impl State {
         let all = self.works.iter().map(|(lane, work)| (*lane, work));
         // Quickly done, and not to be given up half-way.
         // A source is followed until it is no longer wanted, which has a button of its own.
-        let mut all =
-            all.filter(|(lane, _)| !matches!(lane, Lane::Write | Lane::Library | Lane::Live | Lane::Robot));
+        let mut all = all.filter(|(lane, _)| {
+            !matches!(lane, Lane::Write | Lane::Library | Lane::Live | Lane::Robot)
+        });
         let own = own.and_then(|own| self.works.get_key_value(&own).map(|(l, w)| (*l, w)));
         own.or_else(|| all.next())
     }

@@ -18,7 +18,9 @@ use crate::{
     files::FileError,
     robot::{
         RobotFrame, WrittenPose,
-        calibration::{CalibrationError, CameraPlace, CellCalibration, Loaded, Origin, default_path},
+        calibration::{
+            CalibrationError, CameraPlace, CellCalibration, Loaded, Origin, default_path,
+        },
         hand_eye::Mount,
         parse_written_pose,
     },
@@ -149,7 +151,10 @@ fn capture_pose(args: &CapturePoseArgs, console: &mut Console) -> anyhow::Result
         CameraPlace::OnFlange { capture_pose, .. } => *capture_pose = Some(args.pose.pose),
         CameraPlace::Fixed { .. } => {
             return Err(advised_error(
-                format!("{}: the camera stands in the cell, and does not move with the arm", path.display()),
+                format!(
+                    "{}: the camera stands in the cell, and does not move with the arm",
+                    path.display()
+                ),
                 "Leave the arm's pose out, or calibrate the cell anew with --mount eye-in-hand",
             ));
         }
@@ -172,7 +177,10 @@ fn keep(
     let former = calibration.save_keeping_former(&path).advised()?;
     console.line(&format_args!("Written to {}", path.display()));
     if let Some(former) = former {
-        console.line(&format_args!("  what was there is kept in {}", former.display()));
+        console.line(&format_args!(
+            "  what was there is kept in {}",
+            former.display()
+        ));
     }
     show::calibration(&calibration, None, console);
     Ok(Outcome::Accepted)
@@ -228,7 +236,10 @@ impl CalibrationChoice {
             let (path, calibration) = load(self.calibration.as_deref(), console)?;
             if given.is_some() && calibration.camera.mount() == Mount::EyeToHand {
                 return Err(advised_error(
-                    format!("{}: the camera stands in the cell: the arm's pose says nothing of it", path.display()),
+                    format!(
+                        "{}: the camera stands in the cell: the arm's pose says nothing of it",
+                        path.display()
+                    ),
                     "Leave --robot-pose out",
                 ));
             }

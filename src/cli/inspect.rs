@@ -88,7 +88,9 @@ pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<O
     let (place, load) = args.library.load_placed(console)?;
     let recipe = args.recipe.recipe();
     let robot = args.calibration.frame(console)?;
-    let spray = args.spray.start(&args.files, robot.as_ref(), place, &load)?;
+    let spray = args
+        .spray
+        .start(&args.files, robot.as_ref(), place, &load)?;
     let library = load.library;
     let telling = match (args.json, args.files.as_slice()) {
         (true, _) => Telling::Json,

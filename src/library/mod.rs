@@ -44,8 +44,8 @@ pub use self::{
     load::{LibraryLoad, StoredPart},
     name::{BadName, PartName},
     part::{
-        CloudCheck, Enrolment, How, MAX_TITLE, Part, PartMeta, PartWords, SCHEMA_VERSION, SprayCheck,
-        StoredLiteral, StoredSignature,
+        CloudCheck, Enrolment, How, MAX_TITLE, Part, PartMeta, PartWords, SCHEMA_VERSION,
+        SprayCheck, StoredLiteral, StoredSignature,
     },
     place::{LibraryPlace, open_library},
     problem::{EntryError, EntryProblem, EntryWarning, Trouble},

@@ -132,7 +132,8 @@ impl SprayCheck {
 
     /// The name of its file in the part's folder; `None` if the checksum is none.
     pub(super) fn file_name(&self) -> Option<String> {
-        let is_checksum = self.crc32.len() == 8 && self.crc32.bytes().all(|c| c.is_ascii_hexdigit());
+        let is_checksum =
+            self.crc32.len() == 8 && self.crc32.bytes().all(|c| c.is_ascii_hexdigit());
         is_checksum.then(|| format!("{SPRAY_PREFIX}{}.csv", self.crc32))
     }
 }

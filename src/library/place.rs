@@ -100,7 +100,8 @@ impl LibraryPlace {
 
     /// The stored spray path of a part; none where none was stored.
     pub fn spray_path(&self, name: &str) -> Result<Option<SprayPath>, SprayPathError> {
-        self.folder().map_or(Ok(None), |folder| folder.spray_path(name))
+        self.folder()
+            .map_or(Ok(None), |folder| folder.spray_path(name))
     }
 
     /// Why it is this one, in words.

@@ -146,7 +146,10 @@ impl Advice for EntryWarning {
                 "Copy the part again from where it was made, or enrol it again".into()
             }
             Trouble::SprayPath { .. } => {
-                format!("Store the path again: partsight library path {} path.csv", self.entry)
+                format!(
+                    "Store the path again: partsight library path {} path.csv",
+                    self.entry
+                )
             }
             Trouble::LeftAside => "Check that the part is the one you want".into(),
         }

@@ -94,11 +94,13 @@ impl SprayPath {
         let columns = Columns::of(heading, path)?;
         let mut points = Vec::new();
         for (line, content) in lines {
-            let point = columns.point(content).map_err(|problem| SprayPathError::Line {
-                path: path.to_owned(),
-                line,
-                problem,
-            })?;
+            let point = columns
+                .point(content)
+                .map_err(|problem| SprayPathError::Line {
+                    path: path.to_owned(),
+                    line,
+                    problem,
+                })?;
             if points.len() == MAX_PATH_POINTS {
                 return Err(SprayPathError::TooMany {
                     path: path.to_owned(),
@@ -183,7 +185,9 @@ impl Columns {
                 cell: cell.to_owned(),
             })? * factor;
             match (*column, self.is_surface) {
-                (Column::Nozzle(axis), false) | (Column::Surface(axis), true) => at[axis] = Some(number),
+                (Column::Nozzle(axis), false) | (Column::Surface(axis), true) => {
+                    at[axis] = Some(number)
+                }
                 (Column::Direction(axis), false) | (Column::Normal(axis), true) => {
                     along[axis] = Some(number);
                 }
@@ -241,6 +245,8 @@ fn column(cell: &str) -> Option<(Column, f64)> {
     }
     let direction = name.strip_prefix("direction_").and_then(axis_of);
     let normal = name.strip_prefix("normal_").and_then(axis_of);
-    let column = direction.map(Column::Direction).or(normal.map(Column::Normal));
+    let column = direction
+        .map(Column::Direction)
+        .or(normal.map(Column::Normal));
     Some((column?, 1.0))
 }

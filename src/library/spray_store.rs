@@ -21,8 +21,8 @@ impl LibraryFolder {
     pub fn spray_path(&self, name: &str) -> Result<Option<SprayPath>, SprayPathError> {
         let library = |error: LibraryError| SprayPathError::Library(Box::new(error));
         let entry = self.entry(name).map_err(library)?;
-        let meta = meta_of(&entry)
-            .map_err(|problem| library(LibraryError::Damaged(Box::new(problem))))?;
+        let meta =
+            meta_of(&entry).map_err(|problem| library(LibraryError::Damaged(Box::new(problem))))?;
         read_spray_path(&entry.path, &meta)
     }
 
@@ -59,9 +59,10 @@ impl LibraryFolder {
             )?;
             for found in fs::read_dir(&folder)? {
                 let found = found?.path();
-                let other = found.file_name().and_then(|n| n.to_str()).filter(|n| {
-                    n.starts_with(SPRAY_PREFIX) && Some(*n) != file_name.as_deref()
-                });
+                let other = found
+                    .file_name()
+                    .and_then(|n| n.to_str())
+                    .filter(|n| n.starts_with(SPRAY_PREFIX) && Some(*n) != file_name.as_deref());
                 if other.is_some() {
                     fs::remove_file(&found)?;
                 }
@@ -108,7 +109,7 @@ mod tests {
 
     fn path(x: f64) -> SprayPath {
         let point = PathPoint {
-            nozzle: Point3::new(x, 0.0, 1.15),
+            nozzle: Point3::new(x, 0.0, 1.0),
             direction: Vector3::z_axis(),
             stand_off: None,
         };
@@ -129,7 +130,9 @@ mod tests {
     fn files_of_paths(folder: &Path) -> usize {
         let listed = fs::read_dir(folder).expect("listed");
         let names = listed.map(|found| found.expect("an entry").file_name());
-        names.filter(|n| n.to_string_lossy().starts_with(SPRAY_PREFIX)).count()
+        names
+            .filter(|n| n.to_string_lossy().starts_with(SPRAY_PREFIX))
+            .count()
     }
 
     #[test]
@@ -137,8 +140,10 @@ mod tests {
         let (folder, library) = library();
         let fender = name("fender");
         assert_eq!(library.spray_path("fender").expect("read"), None);
-        for x in [0.1, 0.2, 0.2] {
-            library.set_spray_path(&fender, Some(&path(x))).expect("stored");
+        for x in [0.1, 0.25, 0.25] {
+            library
+                .set_spray_path(&fender, Some(&path(x)))
+                .expect("stored");
             assert_eq!(library.spray_path("fender").expect("read"), Some(path(x)));
             assert_eq!(files_of_paths(&folder.path().join("fender")), 1);
         }
@@ -155,17 +160,25 @@ mod tests {
     fn a_path_goes_with_its_part() {
         let (folder, library) = library();
         let fender = name("fender");
-        library.set_spray_path(&fender, Some(&path(0.1))).expect("stored");
+        library
+            .set_spray_path(&fender, Some(&path(0.1)))
+            .expect("stored");
         let words = PartWords {
             name: name("mudguard"),
             title: "Mudguard".into(),
             notes: String::new(),
         };
         library.rename(&fender, &words).expect("renamed");
-        assert_eq!(library.spray_path("mudguard").expect("read"), Some(path(0.1)));
+        assert_eq!(
+            library.spray_path("mudguard").expect("read"),
+            Some(path(0.1))
+        );
         let kept = library.remove(&words.name).expect("removed");
         library.restore(&kept).expect("restored");
-        assert_eq!(library.spray_path("mudguard").expect("read"), Some(path(0.1)));
+        assert_eq!(
+            library.spray_path("mudguard").expect("read"),
+            Some(path(0.1))
+        );
         // Copied as people copy a library.
         let stick = tempfile::tempdir().expect("a stick");
         let copy = stick.path().join("mudguard");
@@ -175,16 +188,62 @@ mod tests {
             fs::copy(&from, copy.join(from.file_name().expect("a name"))).expect("copied");
         }
         let copied = open_library(Some(stick.path())).expect("a library");
-        assert_eq!(copied.spray_path("mudguard").expect("read"), Some(path(0.1)));
+        assert_eq!(
+            copied.spray_path("mudguard").expect("read"),
+            Some(path(0.1))
+        );
+    }
+
+    #[test]
+    fn a_part_that_is_enrolled_anew_has_no_path_and_its_former_one_keeps_it() {
+        let (_folder, library) = library();
+        let params = crate::stages::reference::ReferenceParams::default();
+        let stored = library
+            .read("fender", &params)
+            .expect("listed")
+            .expect("read");
+        let about = crate::library::About {
+            name: name("fender"),
+            title: String::new(),
+            notes: String::new(),
+            simulated: true,
+            at: stored.meta.enrolled.at,
+            from: "test".into(),
+        };
+        let anew = crate::library::enrol_whole(
+            &stored.reference.cloud,
+            &about,
+            &crate::library::EnrolParams::default(),
+        )
+        .expect("enrolled");
+        assert!(!library.save(&anew.part).expect("saved").left_path);
+        library
+            .set_spray_path(&name("fender"), Some(&path(0.1)))
+            .expect("stored");
+        let saved = library.save(&anew.part).expect("saved");
+        assert!(saved.left_path);
+        assert_eq!(library.spray_path("fender").expect("read"), None);
+        library
+            .restore(&saved.replaced.expect("kept"))
+            .expect("restored");
+        assert_eq!(library.spray_path("fender").expect("read"), Some(path(0.1)));
     }
 
     #[test]
     fn a_changed_path_is_refused_and_verify_names_it() {
         let (folder, library) = library();
         let fender = name("fender");
-        library.set_spray_path(&fender, Some(&path(0.1))).expect("stored");
+        library
+            .set_spray_path(&fender, Some(&path(0.1)))
+            .expect("stored");
         let params = crate::stages::reference::ReferenceParams::default();
-        assert!(library.verify(&params).expect("verified").warnings.is_empty());
+        assert!(
+            library
+                .verify(&params)
+                .expect("verified")
+                .warnings
+                .is_empty()
+        );
         let part = folder.path().join("fender");
         let listed = fs::read_dir(&part).expect("listed");
         let mut files = listed.map(|found| found.expect("an entry").path());
@@ -193,11 +252,21 @@ mod tests {
             .expect("a path");
         let text = fs::read_to_string(&file).expect("text");
         fs::write(&file, text.replacen("100.000", "100.001", 1)).expect("written");
-        assert!(matches!(library.spray_path("fender"), Err(SprayPathError::Changed { .. })));
+        assert!(matches!(
+            library.spray_path("fender"),
+            Err(SprayPathError::Changed { .. })
+        ));
         let load = library.verify(&params).expect("verified");
         assert_eq!(load.library.references.len(), 8);
-        assert!(load.warnings[0].to_string().contains("spray path"), "{}", load.warnings[0]);
+        assert!(
+            load.warnings[0].to_string().contains("spray path"),
+            "{}",
+            load.warnings[0]
+        );
         fs::remove_file(&file).expect("removed");
-        assert!(matches!(library.spray_path("fender"), Err(SprayPathError::File(_))));
+        assert!(matches!(
+            library.spray_path("fender"),
+            Err(SprayPathError::File(_))
+        ));
     }
 }

@@ -53,7 +53,8 @@ pub fn seen_part(inspection: &Inspection, library: &Library) -> Result<SeenPart,
             ..
         } => part,
         Verdict::Part {
-            rejected: Some(why), ..
+            rejected: Some(why),
+            ..
         } => {
             return Err(NoTarget::NotAccepted {
                 reason: why.to_string(),

@@ -4,7 +4,10 @@ use nalgebra::{Point3, Vector3};
 
 use crate::{
     geometry::{
-        cloud::PointCloud, nearest::{KdTree, Neighbour}, nearest_field::NearestField, normals::estimate_normals,
+        cloud::PointCloud,
+        nearest::{KdTree, Neighbour},
+        nearest_field::NearestField,
+        normals::estimate_normals,
         voxel::downsample,
     },
     stages::reference::{Reference, SPACING},
@@ -92,7 +95,11 @@ impl Ray {
     }
 
     /// Where the ray goes through the face of the surface, nearest to `expected`: how far along, and the normal there.
-    pub(super) fn meets(&self, surface: &Surface<'_>, expected: f32) -> Option<(f32, Vector3<f32>)> {
+    pub(super) fn meets(
+        &self,
+        surface: &Surface<'_>,
+        expected: f32,
+    ) -> Option<(f32, Vector3<f32>)> {
         let num_steps = (2.0 * REACH / STEP) as usize;
         let mut before: Option<f32> = None;
         let mut best: Option<(f32, Vector3<f32>)> = None;

@@ -2,7 +2,11 @@
 //! matrix.
 
 use super::{Convention, ConventionError};
-use crate::{error::Advice, files::{cells, number_in}, geometry::rigid::RigidTransform};
+use crate::{
+    error::Advice,
+    files::{cells, number_in},
+    geometry::rigid::RigidTransform,
+};
 
 /// A pose that a person wrote, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]

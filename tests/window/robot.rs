@@ -65,7 +65,9 @@ pub(crate) fn pairs(turns: &[[f64; 3]]) -> String {
         let arm = robot_from_camera() * seen * flange_from_target.inverse();
         let mut numbers = Convention::Kuka.write(&arm).numbers();
         // As a controller shows them, and a camera that errs by a few tenths of a millimetre.
-        numbers.iter_mut().for_each(|x| *x = (*x * 10.0).round() / 10.0);
+        numbers
+            .iter_mut()
+            .for_each(|x| *x = (*x * 10.0).round() / 10.0);
         numbers.extend(Convention::RotationVector.write(&seen).numbers());
         let numbers: Vec<String> = numbers.iter().map(ToString::to_string).collect();
         text += &format!("p{}, {}\n", i + 1, numbers.join(", "));
@@ -101,7 +103,9 @@ fn numbers_typed_by_hand_are_used_remembered_and_forgotten() {
     press(&mut harness, "Use it");
     let frame = state(&harness).robot.clone().expect("a frame");
     assert!(frame.name.starts_with("Cell 2 ("), "{}", frame.name);
-    assert!((frame.robot_from_camera.translation.vector - Vector3::new(1.2, -0.4, 1.9)).norm() < 1e-9);
+    assert!(
+        (frame.robot_from_camera.translation.vector - Vector3::new(1.2, -0.4, 1.9)).norm() < 1e-9
+    );
     harness.get_by_label("entered by hand");
     press(&mut harness, "Close");
     assert!(state(&harness).cell.dialog.is_none());
@@ -124,14 +128,17 @@ fn pairs_are_calculated_shown_corrected_and_used() {
     let folder = tempfile::tempdir().expect("a folder");
     let file = folder.path().join("pairs.csv");
     // The fourth is 60 mm aside.
-    let text = pairs(&TURNS).lines().map(|line| match line.strip_prefix("p4, ") {
-        Some(rest) => {
-            let (x, rest) = rest.split_once(',').expect("numbers");
-            let x: f64 = x.parse().expect("a number");
-            format!("p4, {},{rest}\n", x + 60.0)
-        }
-        None => format!("{line}\n"),
-    });
+    let sound = pairs(&TURNS);
+    let text = sound
+        .lines()
+        .map(|line| match line.strip_prefix("p4, ") {
+            Some(rest) => {
+                let (x, rest) = rest.split_once(',').expect("numbers");
+                let x: f64 = x.parse().expect("a number");
+                format!("p4, {},{rest}\n", x + 60.0)
+            }
+            None => format!("{line}\n"),
+        });
     fs::write(&file, text.collect::<String>()).expect("written");
     let mut harness = open_with(USUAL, own(folder.path()));
     act(&mut harness, Action::Chosen(Ask::Pairs, file));
@@ -140,7 +147,11 @@ fn pairs_are_calculated_shown_corrected_and_used() {
     assert!(harness.query_by_label_contains("is suspect").is_none());
     harness.get_by_label("left out");
     press(&mut harness, "Use it");
-    let found = &state(&harness).robot.as_ref().expect("a frame").robot_from_camera;
+    let found = &state(&harness)
+        .robot
+        .as_ref()
+        .expect("a frame")
+        .robot_from_camera;
     let off = (found.translation.vector - robot_from_camera().translation.vector).norm();
     assert!(off < 0.002, "{off}");
     harness.get_by_label("7 pairs of pairs.csv");
@@ -184,7 +195,14 @@ fn without_a_folder_of_its_own_a_window_says_so() {
 
 /// A path over the shipped front door, which hung square on, 1.3 m before the camera; its last point lies beside it.
 pub(crate) fn door_path() -> SprayPath {
-    let at = [[-0.3, -0.05], [-0.15, 0.0], [0.0, 0.1], [0.15, 0.1], [0.3, 0.1], [1.5, 0.1]];
+    let at = [
+        [-0.3, -0.05],
+        [-0.15, 0.0],
+        [0.0, 0.1],
+        [0.15, 0.1],
+        [0.3, 0.1],
+        [1.5, 0.1],
+    ];
     let points = at.map(|[x, y]| PathPoint {
         nozzle: Point3::new(x, y, 1.12),
         direction: Vector3::z_axis(),
@@ -228,7 +246,8 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
 
     // Stored in the shelf of enrolled parts, as a file from elsewhere.
     let file = folder.path().join("path.csv");
-    let mut text = String::from("nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z\n");
+    let mut text =
+        String::from("nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z\n");
     for point in door_path().points() {
         let mm = point.nozzle.coords * 1000.0;
         text += &format!("{},{},{},0,0,1\n", mm.x, mm.y, mm.z);
@@ -238,7 +257,13 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
     act(&mut harness, Action::Enrol(EnrolAction::Open(door)));
     act(&mut harness, Action::Chosen(Ask::PartPath, file));
     harness.get_by_label_contains("spray path of 6 points");
-    assert_eq!(library.spray_path("front_door").expect("read").map(|p| p.points().len()), Some(6));
+    assert_eq!(
+        library
+            .spray_path("front_door")
+            .expect("read")
+            .map(|p| p.points().len()),
+        Some(6)
+    );
 
     act(&mut harness, Action::GoTo(Workspace::Inspect));
     let inspected = shown(&harness);
@@ -246,7 +271,10 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
     assert_eq!(carried.points.len(), 6);
     assert!(carried.points[5].meets.is_none());
     let figure = inspected.view.spray.as_ref().expect("drawn");
-    assert_eq!((figure.num_points, figure.num_inside), (6, carried.num_inside()));
+    assert_eq!(
+        (figure.num_points, figure.num_inside),
+        (6, carried.num_inside())
+    );
     assert!(carried.num_inside() >= 3, "{carried:?}");
 
     // Without a calibrated cell there is nothing to export.
@@ -269,8 +297,16 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
     act(&mut harness, Action::Chosen(Ask::SprayPath, out.clone()));
     let text = fs::read_to_string(&out).expect("written");
     assert!(text.contains("FANUC") || text.contains("fanuc"), "{text}");
-    assert!(text.contains("SIMULATED") && text.contains("Cell 2 ("), "{text}");
-    assert_eq!(text.lines().filter(|line| line.starts_with(char::is_numeric)).count(), 6);
+    assert!(
+        text.contains("SIMULATED") && text.contains("Cell 2 ("),
+        "{text}"
+    );
+    assert_eq!(
+        text.lines()
+            .filter(|line| line.starts_with(char::is_numeric))
+            .count(),
+        6
+    );
 
     // Taken back as any change of the library.
     act(&mut harness, Action::Enrol(EnrolAction::Undo));

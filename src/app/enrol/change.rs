@@ -7,7 +7,10 @@ use crate::{
         job::Trouble,
         shelf::{LibraryShown, Shelf},
     },
-    library::{Enrolled, LibraryError, LibraryFolder, Part, PartMeta, PartName, PartWords, SprayPath},
+    library::{
+        Enrolled, LibraryError, LibraryFolder, Part, PartMeta, PartName, PartWords, Saved,
+        SprayPath,
+    },
 };
 
 /// A change of the library.
@@ -79,9 +82,16 @@ fn make(
     Ok(match change {
         LibraryChange::Save(enrolled, words) => {
             let part = described(&enrolled.part, words);
-            let replaced = folder.save(&part)?.replaced;
+            let Saved {
+                replaced,
+                left_path,
+                ..
+            } = folder.save(&part)?;
             let title = part.meta.shown_title();
             let what = match &replaced {
+                Some(_) if left_path => format!(
+                    "Saved {title}; the former one is kept in the library's trash, and its spray path with it: store one for the new frame"
+                ),
                 Some(_) => format!("Saved {title}; the former one is kept in the library's trash"),
                 None => format!("Saved {title}"),
             };
@@ -122,7 +132,10 @@ fn make(
             folder.set_spray_path(name, path.as_ref())?;
             let title = title_of(name);
             let what = match path {
-                Some(path) => format!("Stored a spray path of {} points with {title}", path.points().len()),
+                Some(path) => format!(
+                    "Stored a spray path of {} points with {title}",
+                    path.points().len()
+                ),
                 None => format!("Took the spray path of {title} away"),
             };
             let back = LibraryChange::SetPath(name.clone(), former);

@@ -46,7 +46,10 @@ pub(super) fn ui(
         for part in ViewPart::ALL {
             let mut is_shown = state.inspect.parts.contains(&part);
             let choice = egui::Checkbox::new(&mut is_shown, part.title());
-            if ui.add_enabled(is_there(state, figure, part), choice).clicked() {
+            if ui
+                .add_enabled(is_there(state, figure, part), choice)
+                .clicked()
+            {
                 actions.push(Action::Inspect(InspectAction::Toggle(part)));
             }
         }

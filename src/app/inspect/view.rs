@@ -216,7 +216,10 @@ impl SceneView {
                         lines.push(spray.lines.clone());
                         labels.push(TextLabel {
                             at: spray.start,
-                            text: format!("Spray path · {} of {} in the band", spray.num_inside, spray.num_points),
+                            text: format!(
+                                "Spray path · {} of {} in the band",
+                                spray.num_inside, spray.num_points
+                            ),
                         });
                     }
                 }

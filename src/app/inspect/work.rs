@@ -188,7 +188,12 @@ impl Found {
             let first = inspection.ranking.entries.first()?;
             let path = shown.spray_paths.get(first.reference)?.as_ref()?;
             let seen = &inspection.segmentation.part.as_ref().ok()?.cloud;
-            Some(carry(path, &pose.camera_from_part(), seen, &recipe.stand_off))
+            Some(carry(
+                path,
+                &pose.camera_from_part(),
+                seen,
+                &recipe.stand_off,
+            ))
         });
         let view = SceneFigure::of(&Ingredients {
             scene: &scene,

@@ -17,12 +17,7 @@ use crate::{
     robot::Convention,
 };
 
-pub(super) fn ui(
-    ui: &mut Ui,
-    dialog: &mut RobotDialog,
-    theme: &Theme,
-    caused: &mut Vec<Action>,
-) {
+pub(super) fn ui(ui: &mut Ui, dialog: &mut RobotDialog, theme: &Theme, caused: &mut Vec<Action>) {
     mounts(ui, dialog);
     ui.add_space(space::SMALL);
     ui.horizontal(|ui| {
@@ -35,7 +30,11 @@ pub(super) fn ui(
     let transform = dialog.mount.camera_transform();
     let label = ui.label(format!("{transform}: where the camera's frame stands"));
     let hint = dialog.convention.names().join("  ");
-    let rows = if dialog.convention == Convention::Matrix { 4 } else { 1 };
+    let rows = if dialog.convention == Convention::Matrix {
+        4
+    } else {
+        1
+    };
     ui.add(
         egui::TextEdit::multiline(&mut dialog.numbers)
             .hint_text(hint)

@@ -24,12 +24,7 @@ const WIDTH: f32 = 640.0;
 const MARGIN: f32 = 220.0;
 
 /// Draws it while it is open.
-pub(in crate::app) fn ui(
-    ctx: &Context,
-    state: &State,
-    theme: &Theme,
-    actions: &mut Vec<Action>,
-) {
+pub(in crate::app) fn ui(ctx: &Context, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
     let Some(known) = &state.cell.dialog else {
         return;
     };

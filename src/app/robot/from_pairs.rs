@@ -38,7 +38,8 @@ pub(super) fn ui(
         match &dialog.pairs {
             Some(path) => ui.label(RichText::new(file_name(path)).color(theme.text)),
             None => ui.label(
-                RichText::new("A table or JSON of robot and camera poses, 8 to 15 pairs").color(theme.weak_text),
+                RichText::new("A table or JSON of robot and camera poses, 8 to 15 pairs")
+                    .color(theme.weak_text),
             ),
         };
         if state.works.contains_key(&Lane::Robot) {
@@ -50,7 +51,11 @@ pub(super) fn ui(
             let text = "A line holds the robot's pose, as the controller shows the flange, then the camera's: where it sees \
                         the target. Lines such as \"# robot: kuka\" and \"# camera: matrix\" at the top name the conventions. \
                         An enrolled part can be the target: partsight calibrate hand-eye --captures";
-            ui.label(RichText::new(text).font(font::small()).color(theme.weak_text));
+            ui.label(
+                RichText::new(text)
+                    .font(font::small())
+                    .color(theme.weak_text),
+            );
         }
         return;
     };
@@ -58,11 +63,21 @@ pub(super) fn ui(
     residuals(ui, &found, dialog, theme);
     figures(ui, &found, theme);
     for doubt in &found.solved.doubts {
-        let sign = if doubt.is_grave() { Mark::Bad } else { Mark::Look };
+        let sign = if doubt.is_grave() {
+            Mark::Bad
+        } else {
+            Mark::Look
+        };
         told(ui, sign, &Trouble::of(doubt), theme);
     }
     let solved = &found.solved;
-    pose(ui, solved.mount.camera_transform(), &solved.mount_from_camera, state.convention, theme);
+    pose(
+        ui,
+        solved.mount.camera_transform(),
+        &solved.mount_from_camera,
+        state.convention,
+        theme,
+    );
     ui.add_space(space::SMALL);
     name(ui, dialog);
     if !solved.is_usable() {
@@ -105,7 +120,11 @@ fn residuals(ui: &mut Ui, found: &SolvedPairs, dialog: &mut RobotDialog, theme: 
                         let off = pairs[place].off;
                         ui.label(format!("{:.2}", off.shift.mm()));
                         ui.label(format!("{:.3}", off.rotation.degrees()));
-                        ui.label(weak(if place == solved.residuals.worst { "worst" } else { "" }));
+                        ui.label(weak(if place == solved.residuals.worst {
+                            "worst"
+                        } else {
+                            ""
+                        }));
                     } else {
                         ui.label(weak("left out"));
                     }
@@ -118,7 +137,11 @@ fn residuals(ui: &mut Ui, found: &SolvedPairs, dialog: &mut RobotDialog, theme: 
 fn figures(ui: &mut Ui, found: &SolvedPairs, theme: &Theme) {
     let solved = &found.solved;
     let rms = &solved.residuals.rms;
-    let text = format!("{:.2} mm and {:.3}°", rms.shift.mm(), rms.rotation.degrees());
+    let text = format!(
+        "{:.2} mm and {:.3}°",
+        rms.shift.mm(),
+        rms.rotation.degrees()
+    );
     row(ui, theme, "rms of the residuals", &text);
     let bounds = &solved.bounds;
     let text = if bounds.shift.0.is_finite() {

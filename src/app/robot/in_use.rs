@@ -47,9 +47,22 @@ pub(super) fn ui(
             }
             let calibration = &in_use.calibration;
             let name = calibration.camera.mount().camera_transform();
-            pose(ui, name, calibration.camera.mount_from_camera(), state.convention, theme);
+            pose(
+                ui,
+                name,
+                calibration.camera.mount_from_camera(),
+                state.convention,
+                theme,
+            );
             if let CameraPlace::OnFlange { capture_pose, .. } = &calibration.camera {
-                arm(ui, capture_pose.as_ref(), state.convention, dialog, theme, caused);
+                arm(
+                    ui,
+                    capture_pose.as_ref(),
+                    state.convention,
+                    dialog,
+                    theme,
+                    caused,
+                );
             }
         }
     }
@@ -66,8 +79,16 @@ pub(super) fn ui(
 
 fn figures(ui: &mut Ui, calibration: &CellCalibration, theme: &Theme) {
     row(ui, theme, "cell", &calibration.shown_with_identity());
-    row(ui, theme, "camera", &sentence(calibration.camera.mount().describe()));
-    let made = calibration.made_at.strftime("%Y-%m-%d %H:%M UTC").to_string();
+    row(
+        ui,
+        theme,
+        "camera",
+        &sentence(calibration.camera.mount().describe()),
+    );
+    let made = calibration
+        .made_at
+        .strftime("%Y-%m-%d %H:%M UTC")
+        .to_string();
     row(ui, theme, "made", &made);
     match &calibration.origin {
         Origin::ByHand => row(ui, theme, "from", "entered by hand"),
@@ -103,7 +124,11 @@ pub(super) fn pose(
     if convention == Convention::Matrix {
         for numbers in written.values.chunks(4) {
             let cells: Vec<String> = numbers.iter().map(|v| format!("{:9.5}", v.value)).collect();
-            ui.label(RichText::new(cells.join("  ")).monospace().color(theme.text));
+            ui.label(
+                RichText::new(cells.join("  "))
+                    .monospace()
+                    .color(theme.text),
+            );
         }
     } else {
         ui.label(RichText::new(written.line()).color(theme.text));
@@ -125,10 +150,18 @@ fn arm(
     caused: &mut Vec<Action>,
 ) {
     match stored {
-        Some(stored) => pose(ui, "robot_from_flange at every capture", stored, convention, theme),
+        Some(stored) => pose(
+            ui,
+            "robot_from_flange at every capture",
+            stored,
+            convention,
+            theme,
+        ),
         None => {
             let unknown = Trouble {
-                what: "where the arm stands at a capture is not known: there is no pose for the robot".into(),
+                what:
+                    "where the arm stands at a capture is not known: there is no pose for the robot"
+                        .into(),
                 advice: "Type the flange's pose as the controller shows it, and store it".into(),
             };
             told(ui, Mark::Look, &unknown, theme);

@@ -199,10 +199,18 @@ pub(in crate::app) fn apply(state: &mut State, action: RobotAction) -> Option<Ef
             };
             *capture_pose = Some(pose);
             let path = in_use.path.clone();
-            return Some(ask(state, "Saving the calibration", RobotRequest::Save { path, calibration }));
+            return Some(ask(
+                state,
+                "Saving the calibration",
+                RobotRequest::Save { path, calibration },
+            ));
         }
         RobotAction::Load(path) => {
-            return Some(ask(state, "Opening the calibration", RobotRequest::Load(path)));
+            return Some(ask(
+                state,
+                "Opening the calibration",
+                RobotRequest::Load(path),
+            ));
         }
         RobotAction::Pairs(path) => {
             let mut dialog = state.cell.dialog.clone();
@@ -231,7 +239,11 @@ pub(in crate::app) fn start(state: &mut State) -> Option<Effect> {
         RememberedCell::Forgotten => return None,
         RememberedCell::File(path) => path.clone(),
     };
-    Some(ask(state, "Opening the calibration", RobotRequest::Load(path)))
+    Some(ask(
+        state,
+        "Opening the calibration",
+        RobotRequest::Load(path),
+    ))
 }
 
 fn ask(state: &mut State, what: &str, request: RobotRequest) -> Effect {
@@ -280,7 +292,11 @@ fn save(state: &mut State, camera: CameraPlace, origin: Origin) -> Option<Effect
         origin,
         made_at: Timestamp::now(),
     });
-    Some(ask(state, "Saving the calibration", RobotRequest::Save { path, calibration }))
+    Some(ask(
+        state,
+        "Saving the calibration",
+        RobotRequest::Save { path, calibration },
+    ))
 }
 
 /// Takes in what the thread tells.
@@ -291,7 +307,10 @@ pub(in crate::app) fn hear(
     match outcome {
         Ok(RobotAnswer::InUse(in_use, former)) => {
             if let Some(former) = former {
-                let what = format!("Saved; the former calibration is kept in {}", former.display());
+                let what = format!(
+                    "Saved; the former calibration is kept in {}",
+                    former.display()
+                );
                 notify(state, Notice::done(what));
             }
             state.cell.remembered = if Some(&in_use.path) == state.cell.usual.as_ref() {
@@ -360,8 +379,13 @@ mod tests {
             dialog.convention = Convention::Kuka;
             dialog.numbers = "1200 -400 1900 10 20 three".into();
         });
-        assert!(apply(&mut state, RobotAction::UseTyped).is_none(), "no pose");
-        edited(&mut state, |dialog| dialog.numbers = "1200 -400 1900 10 20 30".into());
+        assert!(
+            apply(&mut state, RobotAction::UseTyped).is_none(),
+            "no pose"
+        );
+        edited(&mut state, |dialog| {
+            dialog.numbers = "1200 -400 1900 10 20 30".into()
+        });
         let saved = super::super::work::answer(request(apply(&mut state, RobotAction::UseTyped)));
         let Ok(crate::app::job::Answer::Robot(answer)) = saved else {
             panic!("{saved:?}");
@@ -386,7 +410,10 @@ mod tests {
         let calibration = CellCalibration {
             name: String::new(),
             notes: String::new(),
-            camera: CameraPlace::on(Mount::EyeInHand, crate::geometry::rigid::RigidTransform::identity()),
+            camera: CameraPlace::on(
+                Mount::EyeInHand,
+                crate::geometry::rigid::RigidTransform::identity(),
+            ),
             origin: Origin::ByHand,
             made_at: Timestamp::UNIX_EPOCH,
         };
@@ -397,9 +424,16 @@ mod tests {
         };
         hear(&mut state, Ok(RobotAnswer::InUse(Arc::new(in_use), None)));
         assert!(state.robot.is_none() && state.cell.in_use.is_some());
-        assert_eq!(state.cell.remembered, RememberedCell::File("cell.toml".into()));
-        edited(&mut state, |dialog| dialog.arm = "fanuc 900 0 1100 0 90 0".into());
-        let RobotRequest::Save { calibration, .. } = request(apply(&mut state, RobotAction::StoreArm)) else {
+        assert_eq!(
+            state.cell.remembered,
+            RememberedCell::File("cell.toml".into())
+        );
+        edited(&mut state, |dialog| {
+            dialog.arm = "fanuc 900 0 1100 0 90 0".into()
+        });
+        let RobotRequest::Save { calibration, .. } =
+            request(apply(&mut state, RobotAction::StoreArm))
+        else {
             panic!("not saved");
         };
         assert!(calibration.frame(None).is_ok());
@@ -409,11 +443,25 @@ mod tests {
     fn pairs_are_calculated_anew_when_the_mount_or_what_counts_changes() {
         let mut state = State::default();
         let asked = request(apply(&mut state, RobotAction::Pairs("pairs.csv".into())));
-        assert!(matches!(asked, RobotRequest::Solve { mount: Mount::EyeToHand, .. }));
+        assert!(matches!(
+            asked,
+            RobotRequest::Solve {
+                mount: Mount::EyeToHand,
+                ..
+            }
+        ));
         assert!(edited(&mut state, |dialog| dialog.name = "x".into()).is_none());
         let asked = request(edited(&mut state, |dialog| dialog.mount = Mount::EyeInHand));
-        assert!(matches!(asked, RobotRequest::Solve { mount: Mount::EyeInHand, .. }));
-        let asked = request(edited(&mut state, |dialog| dialog.left_out = vec!["line 3".into()]));
+        assert!(matches!(
+            asked,
+            RobotRequest::Solve {
+                mount: Mount::EyeInHand,
+                ..
+            }
+        ));
+        let asked = request(edited(&mut state, |dialog| {
+            dialog.left_out = vec!["line 3".into()]
+        }));
         assert!(matches!(asked, RobotRequest::Solve { left_out, .. } if left_out == ["line 3"]));
         // What was calculated for something else is not there to be used.
         assert!(apply(&mut state, RobotAction::UseSolved).is_none());

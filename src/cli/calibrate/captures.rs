@@ -117,12 +117,19 @@ fn is_capture(path: &Path) -> bool {
 }
 
 fn file_name(path: &Path) -> String {
-    path.file_name().unwrap_or_default().to_string_lossy().into_owned()
+    path.file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned()
 }
 
 /// The pairs of the reference that most captures show: each reference has a frame of its own.
 fn of_one_part(seen: Vec<(PosePair, SeenPart)>, console: &Console) -> Vec<PosePair> {
-    let count = |reference: usize| seen.iter().filter(|(_, part)| part.reference == reference).count();
+    let count = |reference: usize| {
+        seen.iter()
+            .filter(|(_, part)| part.reference == reference)
+            .count()
+    };
     let most = seen.iter().max_by_key(|(_, part)| count(part.reference));
     let Some((reference, name)) = most.map(|(_, part)| (part.reference, part.part.clone())) else {
         return Vec::new();
@@ -133,7 +140,10 @@ fn of_one_part(seen: Vec<(PosePair, SeenPart)>, console: &Console) -> Vec<PosePa
         if part.reference == reference {
             pairs.push(pair);
         } else {
-            console.note(&format_args!("left out {}: it shows {}", pair.name, part.part));
+            console.note(&format_args!(
+                "left out {}: it shows {}",
+                pair.name, part.part
+            ));
         }
     }
     pairs

@@ -189,8 +189,16 @@ fn show(solved: &HandEye, console: &mut Console) {
             solved.bounds.turn.degrees()
         ));
     }
-    matrix(solved.mount.target_transform(), &solved.anchor_from_target, console);
-    matrix(solved.mount.camera_transform(), &solved.mount_from_camera, console);
+    matrix(
+        solved.mount.target_transform(),
+        &solved.anchor_from_target,
+        console,
+    );
+    matrix(
+        solved.mount.camera_transform(),
+        &solved.mount_from_camera,
+        console,
+    );
 }
 
 /// The line of `calibrate hand-eye --json`.

@@ -97,14 +97,19 @@ pub(super) fn calibration(
     line("from", &shown.origin.describe());
     if let Origin::HandEye(fit) = &shown.origin {
         if let (Some(mm), Some(degrees)) = (fit.bound_mm, fit.bound_degrees) {
-            let text = format!("off by less than {mm:.2} mm where the targets stood and {degrees:.3}° in 95 of 100 cases");
+            let text = format!(
+                "off by less than {mm:.2} mm where the targets stood and {degrees:.3}° in 95 of 100 cases"
+            );
             line("bounds", &text);
         }
         for doubt in &fit.doubts {
             line("doubt", doubt);
         }
     }
-    line("made", &shown.made_at.strftime("%Y-%m-%d %H:%M UTC").to_string());
+    line(
+        "made",
+        &shown.made_at.strftime("%Y-%m-%d %H:%M UTC").to_string(),
+    );
     let name = shown.camera.mount().camera_transform();
     pose(name, shown.camera.mount_from_camera(), convention, console);
     match &shown.camera {
@@ -128,7 +133,11 @@ fn pose(
     matrix(name, transform, console);
     if let Some(convention) = convention {
         let written = convention.write(transform);
-        console.line(&format_args!("  {}: {}", convention.title(), written.line()));
+        console.line(&format_args!(
+            "  {}: {}",
+            convention.title(),
+            written.line()
+        ));
         console.line(&format_args!("    {}", written.meaning));
         if let Some(note) = written.gimbal_note {
             console.line(&format_args!("    {note}"));

@@ -77,7 +77,11 @@ impl SprayChoice {
             file: file.clone(),
             convention: self.spray_as,
             place,
-            parts: load.parts.iter().map(|meta| (meta.name.clone(), meta.simulated)).collect(),
+            parts: load
+                .parts
+                .iter()
+                .map(|meta| (meta.name.clone(), meta.simulated))
+                .collect(),
         }))
     }
 }
@@ -103,7 +107,11 @@ impl SprayFile {
         let part = inspection.segmentation.part.as_ref().ok();
         let (Some((pose, first)), Some(part)) = (found, part) else {
             let former = std::fs::remove_file(&self.file).is_ok();
-            let former = if former { "; the former one was taken away" } else { "" };
+            let former = if former {
+                "; the former one was taken away"
+            } else {
+                ""
+            };
             console.note(&format_args!(
                 "no spray path was written, since the part was not accepted with a pose{former}"
             ));

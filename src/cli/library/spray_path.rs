@@ -52,7 +52,10 @@ pub(super) fn run(
 ) -> anyhow::Result<Outcome> {
     let PathArgs { name, file, remove } = args;
     if *remove {
-        choice.open_to_change()?.set_spray_path(name, None).advised()?;
+        choice
+            .open_to_change()?
+            .set_spray_path(name, None)
+            .advised()?;
         console.line(&format_args!("{name} has no spray path now"));
         return Ok(Outcome::Accepted);
     }
@@ -67,7 +70,10 @@ pub(super) fn run(
         return Ok(Outcome::Accepted);
     };
     let path = SprayPath::read(file).advised()?;
-    choice.open_to_change()?.set_spray_path(name, Some(&path)).advised()?;
+    choice
+        .open_to_change()?
+        .set_spray_path(name, Some(&path))
+        .advised()?;
     console.line(&format_args!("Stored {} with {name}", file.display()));
     let num_before = tell(name, &path, &reference, console);
     if 2 * num_before < path.points().len() {

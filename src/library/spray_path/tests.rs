@@ -45,18 +45,33 @@ fn what_is_no_path_is_named() {
     for (text, expected) in [
         (String::new(), "no heading"),
         ("1,2,3,4,5,6\n".into(), "no heading"),
-        ("x,y,z,normal_x,normal_y,normal_z\n1,2,3,0,0,1\n".into(), "does not name all columns"),
+        (
+            "x,y,z,normal_x,normal_y,normal_z\n1,2,3,0,0,1\n".into(),
+            "does not name all columns",
+        ),
         (HEAD.into(), "no points"),
-        (format!("{HEAD}1,2,3,0,0,1\n1,2,3,0,0\n"), "line 3: fewer numbers"),
-        (format!("{HEAD}1,two,3,0,0,1\n"), "line 2: \"two\" in column 2"),
-        (format!("{HEAD}1,nan,3,0,0,1\n"), "line 2: \"nan\" in column 2"),
+        (
+            format!("{HEAD}1,2,3,0,0,1\n1,2,3,0,0\n"),
+            "line 3: fewer numbers",
+        ),
+        (
+            format!("{HEAD}1,two,3,0,0,1\n"),
+            "line 2: \"two\" in column 2",
+        ),
+        (
+            format!("{HEAD}1,nan,3,0,0,1\n"),
+            "line 2: \"nan\" in column 2",
+        ),
         (format!("{HEAD}1,2,3,0,0,0\n"), "no length"),
         (format!("{HEAD}1,2,30000,0,0,1\n"), "30 m from"),
         (
             "x_mm,y_mm,z_mm,normal_x,normal_y,normal_z,stand_off_m\n1,2,3,0,0,1,150\n".into(),
             "150000.0 mm",
         ),
-        (format!("{HEAD}{}", "1,2,3,0,0,1\n".repeat(MAX_PATH_POINTS + 1)), "more than"),
+        (
+            format!("{HEAD}{}", "1,2,3,0,0,1\n".repeat(MAX_PATH_POINTS + 1)),
+            "more than",
+        ),
     ] {
         let error = parse(&text).expect_err(expected);
         assert!(error.to_string().contains(expected), "{error}");

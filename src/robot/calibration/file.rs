@@ -1,6 +1,10 @@
 //! A calibration as a text file that a person can read and mend.
 
-use std::{fmt::Write as _, fs, path::{Path, PathBuf}};
+use std::{
+    fmt::Write as _,
+    fs,
+    path::{Path, PathBuf},
+};
 
 use jiff::Timestamp;
 use serde::Deserialize;
@@ -67,7 +71,10 @@ impl CellCalibration {
 
     /// Writes a calibration, whole or not at all; the folder is made where it is missing.
     pub fn save(&self, path: &Path) -> Result<(), CalibrationError> {
-        if let Some(folder) = path.parent().filter(|folder| !folder.as_os_str().is_empty()) {
+        if let Some(folder) = path
+            .parent()
+            .filter(|folder| !folder.as_os_str().is_empty())
+        {
             fs::create_dir_all(folder).map_err(|source| FileError::Write {
                 path: path.to_owned(),
                 source,

@@ -228,7 +228,9 @@ impl CellCalibration {
     /// Its transforms by name.
     fn matrices(&self) -> Vec<(&'static str, &RigidTransform)> {
         match &self.camera {
-            CameraPlace::Fixed { robot_from_camera } => vec![("robot_from_camera", robot_from_camera)],
+            CameraPlace::Fixed { robot_from_camera } => {
+                vec![("robot_from_camera", robot_from_camera)]
+            }
             CameraPlace::OnFlange {
                 flange_from_camera,
                 capture_pose,

@@ -62,7 +62,10 @@ fn what_is_written_is_read_again() {
         assert_eq!((&read.name, &read.notes), (&written.name, &written.notes));
         assert_eq!((&read.origin, read.made_at), (&written.origin, at()));
         assert_eq!(read.identity(), written.identity());
-        assert!(is_near(read.camera.mount_from_camera(), written.camera.mount_from_camera()));
+        assert!(is_near(
+            read.camera.mount_from_camera(),
+            written.camera.mount_from_camera()
+        ));
         assert!(!saved(&read).is_edited);
     }
 }
@@ -75,9 +78,15 @@ fn a_camera_on_the_flange_needs_the_arms_pose() {
     assert_eq!(on_flange(None).robot_from_camera(None), Err(NoRobotPose));
     assert_eq!(on_flange(Some(pose)).robot_from_camera(None), Ok(pose * x));
     // The one of this capture counts.
-    assert_eq!(on_flange(Some(pose)).robot_from_camera(Some(&other)), Ok(other * x));
+    assert_eq!(
+        on_flange(Some(pose)).robot_from_camera(Some(&other)),
+        Ok(other * x)
+    );
     let in_cell = fixed();
-    assert_eq!(in_cell.robot_from_camera(None), Ok(*in_cell.camera.mount_from_camera()));
+    assert_eq!(
+        in_cell.robot_from_camera(None),
+        Ok(*in_cell.camera.mount_from_camera())
+    );
 }
 
 #[test]
@@ -92,7 +101,10 @@ fn the_identity_is_that_of_the_numbers() {
         robot_from_camera.translation.vector.x += 1e-6;
     }
     assert_ne!(moved.identity(), fixed().identity());
-    assert_ne!(on_flange(None).identity(), on_flange(Some(RigidTransform::identity())).identity());
+    assert_ne!(
+        on_flange(None).identity(),
+        on_flange(Some(RigidTransform::identity())).identity()
+    );
 }
 
 #[test]
@@ -123,7 +135,12 @@ fn a_hand_eye_calibration_keeps_its_figures_until_its_numbers_are_edited() {
     } = saved(&written);
     assert!(!is_edited);
     assert_eq!(calibration.origin, written.origin);
-    assert!(calibration.origin.describe().contains("4 pairs from pairs.csv"));
+    assert!(
+        calibration
+            .origin
+            .describe()
+            .contains("4 pairs from pairs.csv")
+    );
 
     let x_shift = written.camera.mount_from_camera().translation.vector.x;
     let (from, to) = (format!("{x_shift:.12}"), format!("{:.12}", x_shift + 0.01));
@@ -137,7 +154,9 @@ fn a_hand_eye_calibration_keeps_its_figures_until_its_numbers_are_edited() {
 #[test]
 fn numbers_with_four_digits_are_taken_and_others_refused() {
     let rows = |rows: &str| {
-        format!("schema_version = 1\nmount = \"eye_to_hand\"\nmade_at = \"2026-03-04T05:06:07Z\"\nrobot_from_camera = [{rows}]\n[origin]\nkind = \"by_hand\"\n")
+        format!(
+            "schema_version = 1\nmount = \"eye_to_hand\"\nmade_at = \"2026-03-04T05:06:07Z\"\nrobot_from_camera = [{rows}]\n[origin]\nkind = \"by_hand\"\n"
+        )
     };
     let rounded = load_text(&rows(
         "[0.7071, -0.7071, 0, 1], [0.7071, 0.7071, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]",
@@ -152,7 +171,10 @@ fn numbers_with_four_digits_are_taken_and_others_refused() {
         "[1, 0, 0, nan], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]",
     ] {
         let error = load_text(&rows(text)).expect_err(text);
-        assert!(matches!(error, CalibrationError::NotRigid { .. }), "{error}");
+        assert!(
+            matches!(error, CalibrationError::NotRigid { .. }),
+            "{error}"
+        );
         assert!(error.to_string().contains("robot_from_camera"), "{error}");
     }
 }
@@ -161,9 +183,15 @@ fn numbers_with_four_digits_are_taken_and_others_refused() {
 fn what_is_no_calibration_is_refused_in_words() {
     let sound = fixed().to_text();
     for (text, expected) in [
-        (sound.replace("schema_version = 1", "schema_version = 9"), "newer version"),
+        (
+            sound.replace("schema_version = 1", "schema_version = 9"),
+            "newer version",
+        ),
         (sound.replace("eye_to_hand", "eye_on_foot"), "eye_on_foot"),
-        (sound.replace("eye_to_hand", "eye_in_hand"), "flange_from_camera is missing"),
+        (
+            sound.replace("eye_to_hand", "eye_in_hand"),
+            "flange_from_camera is missing",
+        ),
         (sound.replace("schema_version = 1", ""), "schema_version"),
         ("[[[".into(), "line 1"),
         ("a\u{0}b".into(), "no calibration"),
@@ -173,5 +201,9 @@ fn what_is_no_calibration_is_refused_in_words() {
         assert!(!error.advice().is_empty());
     }
     let missing = CellCalibration::load(Path::new("no/such/cell.toml")).expect_err("missing");
-    assert!(missing.advice().contains("partsight calibrate"), "{}", missing.advice());
+    assert!(
+        missing.advice().contains("partsight calibrate"),
+        "{}",
+        missing.advice()
+    );
 }

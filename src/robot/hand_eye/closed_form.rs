@@ -41,7 +41,10 @@ pub(super) fn solve(equations: &[Equation]) -> Option<ClosedForm> {
     let z = Matrix3::from_iterator(svd.u?.column(largest).iter().copied());
     // The signs of both are free together, and only one of them makes rotations.
     let sign = x.determinant().signum();
-    let (x, z) = (rotation_nearest_to(&(x * sign))?, rotation_nearest_to(&(z * sign))?);
+    let (x, z) = (
+        rotation_nearest_to(&(x * sign))?,
+        rotation_nearest_to(&(z * sign))?,
+    );
 
     // Gᵢ (X t_Bᵢ + t_X) + t_Gᵢ = t_Z, three rows for each pair.
     let mut rows = DMatrix::<f64>::zeros(3 * equations.len(), 6);

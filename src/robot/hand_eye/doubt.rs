@@ -3,7 +3,8 @@
 use nalgebra::{Isometry3, Point3, Translation3};
 
 use super::{
-    Bounds, Equation, Mount, PosePair, Residuals, Span, Unknowns, closed_form, refine, rms, suspects::suspects,
+    Bounds, Equation, Mount, PosePair, Residuals, Span, Unknowns, closed_form, refine, rms,
+    suspects::suspects,
 };
 use crate::{
     error::Advice,
@@ -55,7 +56,9 @@ pub enum HandEyeDoubt {
         distance: Metres,
     },
     /// Half turns about axes at right angles leave several answers.
-    #[error("another place of the camera fits the pairs as well: the turns are half turns about axes at right angles")]
+    #[error(
+        "another place of the camera fits the pairs as well: the turns are half turns about axes at right angles"
+    )]
     SeveralAnswers,
     /// The pairs do not agree, and nobody knows why.
     #[error("the pairs do not agree: {:.1} mm and {:.2}° rms", rms.shift.mm(), rms.rotation.degrees())]
@@ -115,7 +118,9 @@ pub enum HandEyeDoubt {
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum Mistake {
     /// The robot's poses the other way round, or the other mount.
-    #[error("the robot's poses went the other way (flange_from_robot), or the camera sat on the other mount")]
+    #[error(
+        "the robot's poses went the other way (flange_from_robot), or the camera sat on the other mount"
+    )]
     RobotInverted,
     /// The camera's poses the other way round.
     #[error("the camera's poses went the other way (target_from_camera)")]
@@ -257,13 +262,17 @@ pub(super) fn doubts(
         doubts.extend(far);
     }
     if let Some(found) = suspects {
-        doubts.extend(found.pairs.iter().zip(&found.off).map(|(&i, off)| {
-            HandEyeDoubt::Suspect {
-                pair: pairs[i].name.clone(),
-                off: *off,
-                others: found.rms,
-            }
-        }));
+        doubts.extend(
+            found
+                .pairs
+                .iter()
+                .zip(&found.off)
+                .map(|(&i, off)| HandEyeDoubt::Suspect {
+                    pair: pairs[i].name.clone(),
+                    off: *off,
+                    others: found.rms,
+                }),
+        );
     }
     if !(bounds.shift <= LOOSE.shift && bounds.turn <= LOOSE.turn)
         && !doubts.iter().any(HandEyeDoubt::is_grave)
@@ -288,7 +297,8 @@ fn far_away(pairs: &[PosePair]) -> Option<HandEyeDoubt> {
             (pair, "the target", &pair.camera_from_target),
         ]
     });
-    let distances = positions.map(|(pair, what, pose)| (pair, what, pose.translation.vector.norm()));
+    let distances =
+        positions.map(|(pair, what, pose)| (pair, what, pose.translation.vector.norm()));
     let (pair, what, distance) = distances.max_by(|a, b| a.2.total_cmp(&b.2))?;
     (distance > FARTHEST.0).then(|| HandEyeDoubt::FarAway {
         pair: pair.name.clone(),
@@ -351,10 +361,16 @@ fn turns_apart(equations: &[Equation]) -> Radians {
 
 /// How badly equations agree, whatever their unit of length: beside how far apart the targets stood.
 fn quality(equations: &[Equation], rms: PoseError) -> f64 {
-    let positions = || equations.iter().map(|e| Point3::from(e.camera_from_target.translation.vector));
+    let positions = || {
+        equations
+            .iter()
+            .map(|e| Point3::from(e.camera_from_target.translation.vector))
+    };
     let middle = positions().fold(nalgebra::Vector3::zeros(), |sum, p| sum + p.coords)
         / equations.len().max(1) as f64;
-    let spread_sq = positions().map(|p| (p.coords - middle).norm_squared()).sum::<f64>();
+    let spread_sq = positions()
+        .map(|p| (p.coords - middle).norm_squared())
+        .sum::<f64>();
     let spread = (spread_sq / equations.len().max(1) as f64).sqrt();
     rms.shift.0 / spread.max(f64::MIN_POSITIVE) + rms.rotation.0
 }

@@ -263,7 +263,9 @@ pub fn solve(pairs: &[PosePair], mount: Mount) -> Result<HandEye, HandEyeError> 
     let span = Span::of(pairs);
     let bounds = refined.bounds(&equations);
     let far = doubt::far_from_flange(mount, &unknowns);
-    let doubts = doubt::doubts(pairs, &equations, &residuals, &span, bounds, start.lead, far);
+    let doubts = doubt::doubts(
+        pairs, &equations, &residuals, &span, bounds, start.lead, far,
+    );
     Ok(HandEye {
         mount,
         mount_from_camera: unknowns.mount_from_camera,

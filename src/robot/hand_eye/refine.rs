@@ -110,7 +110,11 @@ impl Unknowns {
 }
 
 /// Turn, and shift divided by the lever.
-fn residual(equation: &Equation, unknowns: &Unknowns, lever: f64) -> (Isometry3<f64>, SVector<f64, 6>) {
+fn residual(
+    equation: &Equation,
+    unknowns: &Unknowns,
+    lever: f64,
+) -> (Isometry3<f64>, SVector<f64, 6>) {
     let seen = unknowns.mount_from_camera * equation.camera_from_target;
     let error = unknowns
         .anchor_from_target
@@ -170,7 +174,11 @@ fn jacobian(equation: &Equation, error: &Isometry3<f64>, lever: f64) -> Jacobian
     };
     put(0, 0, (Matrix3::identity() + half) * turned);
     // φ × t is -[t]× φ.
-    put(3, 0, -(error_rotation * turned * seen.cross_matrix()) / lever);
+    put(
+        3,
+        0,
+        -(error_rotation * turned * seen.cross_matrix()) / lever,
+    );
     put(3, 3, error_rotation * turned / lever);
     put(0, 6, -(Matrix3::identity() - half));
     put(3, 6, shift.cross_matrix() / lever);

@@ -9,7 +9,10 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
 use super::{Equation, LEAST_PAIRS, Unknowns, closed_form, refine, rms};
-use crate::{geometry::rigid::PoseError, units::{Metres, Radians}};
+use crate::{
+    geometry::rigid::PoseError,
+    units::{Metres, Radians},
+};
 
 /// With fewer pairs nobody can say which one is wrong.
 const LEAST_TO_TELL: usize = 6;

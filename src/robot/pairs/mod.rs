@@ -75,19 +75,26 @@ pub fn read_pairs(path: &Path, given: PairConventions) -> Result<Pairs, PairsErr
         return json::pairs(&text, path, given);
     }
     let (robot, camera) = conventions(&text, path, given)?;
-    let rows = rows(&text, path, robot.names().len() + camera.names().len(), || {
-        format!(
-            "{} of the robot's pose ({}), then {} of the camera's ({})",
-            robot.names().len(),
-            robot.names().join(" "),
-            camera.names().len(),
-            camera.names().join(" ")
-        )
-    })?;
+    let rows = rows(
+        &text,
+        path,
+        robot.names().len() + camera.names().len(),
+        || {
+            format!(
+                "{} of the robot's pose ({}), then {} of the camera's ({})",
+                robot.names().len(),
+                robot.names().join(" "),
+                camera.names().len(),
+                camera.names().join(" ")
+            )
+        },
+    )?;
     let pairs = rows.into_iter().map(|row| {
         let (arm, seen) = row.numbers.split_at(robot.names().len());
         let pose = |convention: Convention, numbers: &[f64]| {
-            convention.read(numbers).map_err(|error| row.problem(path, LineProblem::Pose(error)))
+            convention
+                .read(numbers)
+                .map_err(|error| row.problem(path, LineProblem::Pose(error)))
         };
         Ok(PosePair {
             name: row.name(),
@@ -136,7 +143,11 @@ fn conventions(
 ) -> Result<(Convention, Convention), PairsError> {
     let (mut robot, mut camera) = (None, None);
     for (i, line) in text.lines().enumerate() {
-        let Some((key, rest)) = line.trim().strip_prefix('#').and_then(|c| c.split_once(':')) else {
+        let Some((key, rest)) = line
+            .trim()
+            .strip_prefix('#')
+            .and_then(|c| c.split_once(':'))
+        else {
             continue;
         };
         let slot = match key.trim().to_lowercase().as_str() {
@@ -149,12 +160,17 @@ fn conventions(
         *slot = Some(named.ok_or_else(|| PairsError::Line {
             path: path.to_owned(),
             place: format!("line {}", i + 1),
-            problem: LineProblem::NoSuchConvention { name: name.to_owned() },
+            problem: LineProblem::NoSuchConvention {
+                name: name.to_owned(),
+            },
         })?);
     }
-    let robot = given.robot.or(robot).ok_or_else(|| PairsError::NoConvention {
-        path: path.to_owned(),
-    })?;
+    let robot = given
+        .robot
+        .or(robot)
+        .ok_or_else(|| PairsError::NoConvention {
+            path: path.to_owned(),
+        })?;
     let camera = given.camera.or(camera).unwrap_or(Convention::Matrix);
     Ok((robot, camera))
 }
@@ -211,14 +227,27 @@ fn rows(
         for (column, cell) in cells.iter().enumerate().skip(usize::from(has_name)) {
             let number = number_in(content, cell).ok_or_else(|| {
                 let cell = (*cell).to_owned();
-                row.problem(path, LineProblem::NoNumber { column: column + 1, cell })
+                row.problem(
+                    path,
+                    LineProblem::NoNumber {
+                        column: column + 1,
+                        cell,
+                    },
+                )
             })?;
             row.numbers.push(number);
         }
         if row.numbers.len() != needed {
             let found = row.numbers.len();
             let expected = expected();
-            return Err(row.problem(path, LineProblem::Count { found, needed, expected }));
+            return Err(row.problem(
+                path,
+                LineProblem::Count {
+                    found,
+                    needed,
+                    expected,
+                },
+            ));
         }
         rows.push(row);
     }

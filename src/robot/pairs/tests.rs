@@ -33,7 +33,10 @@ fn every_way_to_write_a_table_says_the_same() {
         "# robot: kuka\n# camera: rotation-vector\n\"p1\";1450,5;-310;890,5;10;20;30;0,1;-0,03;1,2;0;0;0,5;;\n# the end\n",
     ] {
         let read = pairs(text).expect(text);
-        assert_eq!((read.robot, read.camera), (Convention::Kuka, Convention::RotationVector));
+        assert_eq!(
+            (read.robot, read.camera),
+            (Convention::Kuka, Convention::RotationVector)
+        );
         assert_eq!(read.pairs.len(), 1, "{text}");
         assert!(is_near(&read.pairs[0].robot_from_flange, &arm), "{text}");
         assert!(is_near(&read.pairs[0].camera_from_target, &seen), "{text}");
@@ -67,27 +70,54 @@ fn poses_of_the_arm_name_their_captures() {
     assert_eq!(robot, Convention::Fanuc);
     assert_eq!(poses[0].capture.as_deref(), Some("a.pcd"));
     assert_eq!(poses[0].place, "a.pcd (line 3)");
-    assert_eq!((poses[1].capture.as_deref(), poses[1].place.as_str()), (None, "line 4"));
-    assert!((poses[0].robot_from_flange.rotation.angle() - std::f64::consts::FRAC_PI_2).abs() < 1e-9);
+    assert_eq!(
+        (poses[1].capture.as_deref(), poses[1].place.as_str()),
+        (None, "line 4")
+    );
+    assert!(
+        (poses[0].robot_from_flange.rotation.angle() - std::f64::consts::FRAC_PI_2).abs() < 1e-9
+    );
 }
 
 #[test]
 fn what_is_wrong_is_named_with_its_line() {
     for (text, expected) in [
         ("1 2 3\n", "nothing says in which convention"),
-        ("# robot: kukka\n1 2 3\n", "line 1: no convention is called \"kukka\""),
-        ("# robot: kuka\n# camera: kuka\n1 2 3 4 5 6 7 8 9 10 11\n", "line 3: 11 numbers, expected 12"),
-        ("# robot: kuka\n# camera: kuka\n\np1 1 2 3 4 5 6 7 8 nine 10 11 12\n", "line 4: \"nine\" in column 10"),
-        ("# robot: kuka\n# camera: abb\n1 2 3 4 5 6 7 8 9 1 1 0 0\n", "line 3: the quaternion's length is 1.4142"),
+        (
+            "# robot: kukka\n1 2 3\n",
+            "line 1: no convention is called \"kukka\"",
+        ),
+        (
+            "# robot: kuka\n# camera: kuka\n1 2 3 4 5 6 7 8 9 10 11\n",
+            "line 3: 11 numbers, expected 12",
+        ),
+        (
+            "# robot: kuka\n# camera: kuka\n\np1 1 2 3 4 5 6 7 8 nine 10 11 12\n",
+            "line 4: \"nine\" in column 10",
+        ),
+        (
+            "# robot: kuka\n# camera: abb\n1 2 3 4 5 6 7 8 9 1 1 0 0\n",
+            "line 3: the quaternion's length is 1.4142",
+        ),
         ("# robot: kuka\n# nothing\n", "no poses"),
-        ("{\"robot\": \"kuka\"}", "no JSON of pairs: missing field `pairs`"),
+        (
+            "{\"robot\": \"kuka\"}",
+            "no JSON of pairs: missing field `pairs`",
+        ),
         ("{\"robot\": \"kuka\", \"pairs\": []}", "no poses"),
-        ("{\"robot\": \"kuka\", \"pairs\": [{\"robot\": [1], \"camera\": []}]}", "pair 1: KUKA A B C has 6 numbers"),
+        (
+            "{\"robot\": \"kuka\", \"pairs\": [{\"robot\": [1], \"camera\": []}]}",
+            "pair 1: KUKA A B C has 6 numbers",
+        ),
     ] {
         let error = pairs(text).expect_err(text);
         assert!(error.to_string().contains(expected), "{error}");
         assert!(!error.advice().is_empty());
     }
     let error = pairs("1 2 3\n").expect_err("no convention");
-    assert!(error.advice().contains("# robot: kuka"), "{}", error.advice());
+    assert!(
+        error.advice().contains("# robot: kuka"),
+        "{}",
+        error.advice()
+    );
 }

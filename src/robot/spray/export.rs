@@ -8,8 +8,8 @@ use serde::Serialize;
 use super::{Band, CarriedPath, MOST_TILT};
 use crate::{
     files::{FileError, write_atomically},
-    robot::{Convention, RobotFrame, RobotPose},
     robot::stand_off::StandOffParams,
+    robot::{Convention, RobotFrame, RobotPose},
 };
 
 /// The version of both files.
@@ -50,7 +50,9 @@ pub enum SprayFormat {
 impl SprayFormat {
     /// As the name of a file ends; a table unless it ends in `.json`.
     pub fn of(path: &Path) -> Self {
-        let is_json = path.extension().is_some_and(|e| e.eq_ignore_ascii_case("json"));
+        let is_json = path
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("json"));
         if is_json { Self::Json } else { Self::Csv }
     }
 }
@@ -198,7 +200,8 @@ impl SprayExport<'_> {
             num_inside: self.path.num_inside(),
             points: points.collect(),
         };
-        let mut text = serde_json::to_string_pretty(&json).expect("numbers and text have a JSON form");
+        let mut text =
+            serde_json::to_string_pretty(&json).expect("numbers and text have a JSON form");
         text.push('\n');
         text
     }

@@ -115,7 +115,10 @@ impl CarriedPath {
 
     /// Points of this kind.
     pub fn count(&self, band: Band) -> usize {
-        self.points.iter().filter(|point| point.band == band).count()
+        self.points
+            .iter()
+            .filter(|point| point.band == band)
+            .count()
     }
 
     /// True if every point is inside.
@@ -176,7 +179,11 @@ pub fn default_path(reference: &Reference, params: &StandOffParams) -> Option<Sp
         .points
         .iter()
         .zip(cloud.normals.as_ref()?)
-        .min_by(|a, b| (a.0 - middle).norm_squared().total_cmp(&(b.0 - middle).norm_squared()))?;
+        .min_by(|a, b| {
+            (a.0 - middle)
+                .norm_squared()
+                .total_cmp(&(b.0 - middle).norm_squared())
+        })?;
     let normal = nalgebra::Unit::try_new(normal.cast::<f64>(), 1e-6)?;
     SprayPath::new(vec![PathPoint {
         nozzle: at.cast::<f64>() + normal.into_inner() * params.taught.0,
@@ -190,7 +197,11 @@ fn tool_frame(point: &PathPoint) -> RigidTransform {
     /// Cosine of 20°.
     const ALONG: f64 = 0.94;
     let z = point.direction.into_inner();
-    let near = if z.x.abs() < ALONG { Vector3::x() } else { Vector3::y() };
+    let near = if z.x.abs() < ALONG {
+        Vector3::x()
+    } else {
+        Vector3::y()
+    };
     let x = (near - z * z.dot(&near)).normalize();
     let axes = Matrix3::from_columns(&[x, z.cross(&x), z]);
     let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));

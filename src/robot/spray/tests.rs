@@ -39,9 +39,9 @@ fn before(x: f64, y: f64, distance: f64) -> PathPoint {
 }
 
 fn path() -> SprayPath {
-    let rows = [-0.2, 0.0, 0.2].into_iter().flat_map(|y| {
-        (0..9).map(move |i| before(0.09 * f64::from(i) - 0.36, y, 0.15))
-    });
+    let rows = [-0.2, 0.0, 0.2]
+        .into_iter()
+        .flat_map(|y| (0..9).map(move |i| before(0.09 * f64::from(i) - 0.36, y, 0.15)));
     SprayPath::new(rows.collect()).expect("points")
 }
 
@@ -81,7 +81,12 @@ fn a_part_that_is_elsewhere_than_its_pose_says_is_noticed() {
         let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), tilt);
         let truly = Translation3::new(0.0, 0.0, z) * middle * turn * middle.inverse();
         let path = SprayPath::new(vec![before(0.0, 0.0, 0.15)]).expect("a point");
-        let carried = carry(&path, &RigidTransform::identity(), &seen_at(&truly), &params);
+        let carried = carry(
+            &path,
+            &RigidTransform::identity(),
+            &seen_at(&truly),
+            &params,
+        );
         assert_eq!(carried.points[0].band, expected, "{z} {tilt}: {carried:?}");
     }
     let path = SprayPath::new(vec![before(0.6, 0.0, 0.15)]).expect("a point");
@@ -163,12 +168,21 @@ fn every_line_of_an_export_reads_back_to_the_nozzle_in_the_robots_frame() {
             at: Timestamp::UNIX_EPOCH,
         };
         let csv = export.csv();
-        for word in [convention.meaning(), "robot's base frame", "Cell 2 (00112233)", "SIMULATED", "27 of 27 inside"] {
+        for word in [
+            convention.meaning(),
+            "robot's base frame",
+            "Cell 2 (00112233)",
+            "SIMULATED",
+            "27 of 27 inside",
+        ] {
             assert!(csv.contains(word), "{word}: {csv}");
         }
         let mut lines = csv.lines().filter(|line| !line.starts_with('#'));
         let heading = lines.next().expect("a heading");
-        assert!(heading.ends_with(",stand_off_mm,tilt_deg,band"), "{heading}");
+        assert!(
+            heading.ends_with(",stand_off_mm,tilt_deg,band"),
+            "{heading}"
+        );
         let num = convention.names().len();
         let json: serde_json::Value = serde_json::from_str(&export.json()).expect("JSON");
         for (i, (line, point)) in lines.zip(&carried.points).enumerate() {
@@ -179,7 +193,10 @@ fn every_line_of_an_export_reads_back_to_the_nozzle_in_the_robots_frame() {
             let text = format!("{} {}", convention.name(), cells[1..=num].join(" "));
             let read = parse_written_pose(&text).expect("a pose").pose;
             let expected = frame.robot_from_camera * pose * point.part_from_nozzle;
-            assert!((read.translation.vector - expected.translation.vector).norm() < 2e-6, "{line}");
+            assert!(
+                (read.translation.vector - expected.translation.vector).norm() < 2e-6,
+                "{line}"
+            );
             assert!(read.rotation.angle_to(&expected.rotation) < 1e-5, "{line}");
             let numbers: Vec<f64> = json["points"][i]["robot_from_nozzle"]["values"]
                 .as_array()
