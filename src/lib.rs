@@ -11,6 +11,7 @@ pub mod geometry;
 pub mod library;
 pub mod pipeline;
 pub mod report;
+pub mod robot;
 pub mod simulate;
 pub mod stages;
 pub mod units;

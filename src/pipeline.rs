@@ -2,13 +2,14 @@
 //!
 //! The window, the command line and the tests are three callers of [`run`].
 
+mod identity;
 pub mod live;
 mod verdict;
 mod watch;
 
 use crate::{
     library::Library,
-    report::stand_off::StandOffParams,
+    robot::stand_off::StandOffParams,
     stages::{
         confirm::{ConfirmParams, Scene, UNCONFIRMED, confirm},
         contour::{Contour, ContourParams, find_contour},
@@ -18,6 +19,7 @@ use crate::{
         },
         project::{PlaneImage, ProjectParams, project},
         rank::{MatchRanking, Matcher, Query, RankParams, place, rank},
+        reference::Reference,
         scene::SceneCloud,
         segment::{SegmentParams, Segmentation, SegmentedPart, other_parts, segment},
         signature::{FanSignature, SignatureParams, describe},
@@ -250,6 +252,12 @@ impl Inspection {
     pub fn touches_edge(&self) -> bool {
         let part = self.segmentation.part.as_ref();
         part.is_ok_and(|part| part.touches_edge)
+    }
+
+    /// The reference that was ranked first, in the library that was inspected with.
+    pub fn best_reference<'a>(&self, library: &'a Library) -> Option<&'a Reference> {
+        let best = self.ranking.entries.first()?;
+        library.references.get(best.reference)
     }
 
     fn best_score(&self) -> f64 {

@@ -18,15 +18,16 @@ use super::{
     job::{Answer, Outcome, Request, Trouble},
     lane::Lane,
     live::{self, LiveAction},
+    robot::{self, RobotAction},
     roles::{self, RoleAction},
     shelf::LibraryShown,
     source::{CellChoice, Origin, SceneSource, file_name},
     state::{HelpPage, Notice, NoticeKind, Shown, Source, StagePanel, State, Workspace},
     worker::News,
-    writing::WriteRequest,
 };
 use crate::{
     capture::{Pace, RecordingSpec, SourceSpec, WatchedFrom, WatchedSpec},
+    robot::Convention,
     stages::segment::EmptyCell,
 };
 
@@ -71,7 +72,11 @@ pub enum Action {
     Notify(Notice),
     /// Close the window.
     Quit,
-    /// Put the pose on the clipboard, row after row.
+    /// Tell the robot poses in these numbers.
+    UseConvention(Convention),
+    /// The next of the conventions.
+    NextConvention,
+    /// Put the pose on the clipboard, in the convention that was chosen.
     CopyPose,
     /// Of the source and of following it.
     Live(LiveAction),
@@ -87,6 +92,8 @@ pub enum Action {
     Align(AlignAction),
     /// Of the History workspace.
     History(HistoryAction),
+    /// Of the robot's cell.
+    Robot(RobotAction),
     /// A thread has news.
     Hear(Lane, News<Outcome>),
 }
@@ -118,6 +125,14 @@ pub enum Ask {
     Align(AlignAsk),
     /// A scene, a whole cloud or a mesh to enrol.
     Part,
+    /// A calibration of the robot's cell.
+    Calibration,
+    /// A file of robot and camera poses.
+    Pairs,
+    /// Where the spray path of the inspection in front goes.
+    SprayPath,
+    /// The spray path of the enrolled part that is looked at.
+    PartPath,
 }
 
 /// What is to be done outside the state.
@@ -184,11 +199,19 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::CloseTop => {
             if state.help == HelpPage::Open {
                 state.help = HelpPage::Closed;
+            } else if state.cell.dialog.is_some() {
+                state.cell.dialog = None;
             } else {
                 state.enlarged = None;
             }
         }
         Action::SwitchUnits => state.units = state.units.other(),
+        Action::UseConvention(convention) => state.convention = convention,
+        Action::NextConvention => {
+            let all = Convention::ALL;
+            let place = all.iter().position(|known| *known == state.convention);
+            state.convention = all[place.map_or(0, |place| (place + 1) % all.len())];
+        }
         Action::SwitchTheme => state.theme = state.theme.other(),
         Action::ToggleHelp => {
             state.help = match state.help {
@@ -204,12 +227,15 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::Notify(notice) => notify(state, notice),
         Action::Quit => return Some(Effect::Close),
         Action::CopyPose => {
-            let text = pose_text(state)?;
-            notify(
-                state,
-                Notice::done("Copied camera_from_part: four rows of four numbers, metres"),
-            );
-            return Some(Effect::CopyText(text));
+            let shown = state.shown.as_ref()?;
+            let Some(numbered) = inspect::numbered(state, &shown.inspected) else {
+                notify(state, no_pose());
+                return None;
+            };
+            let title = numbered.pose.convention.title();
+            let what = format!("Copied {} in the numbers of {title}", numbered.name);
+            notify(state, Notice::done(what));
+            return Some(Effect::CopyText(inspect::clipboard_text(&numbered)));
         }
         Action::Role(action) => return roles::apply(state, action),
         Action::Live(action) => return live::apply(state, action),
@@ -218,6 +244,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::Compare(action) => return compare::apply(state, action),
         Action::Align(action) => return align::apply(state, action),
         Action::History(action) => return history::apply(state, action),
+        Action::Robot(action) => return robot::apply(state, action),
         Action::Hear(lane, news) => return hear(state, lane, news),
     }
     None
@@ -259,6 +286,10 @@ fn chosen(state: &mut State, ask: Ask, path: PathBuf) -> Option<Effect> {
             None
         }
         Ask::Align(ask) => align::apply(state, AlignAction::Chosen(ask, path)),
+        Ask::Calibration => robot::apply(state, RobotAction::Load(path)),
+        Ask::PartPath => enrol::apply(state, EnrolAction::StorePath(path)),
+        Ask::SprayPath => inspect::state::write_spray_path(state, path),
+        Ask::Pairs => robot::apply(state, RobotAction::Pairs(path)),
     }
 }
 
@@ -328,11 +359,22 @@ fn open_library(state: &mut State) -> Effect {
     state.begin("Opening the library", Request::Library(chosen))
 }
 
-/// Writes the report of the inspection in front.
+/// Writes the report of the inspection in front, with a picture of its view where that is in sight.
 fn export(state: &mut State, folder: PathBuf) -> Option<Effect> {
-    let inspected = Arc::clone(&state.shown.as_ref()?.inspected);
-    let request = WriteRequest::Report { folder, inspected };
-    Some(state.begin("Writing the report", Request::Write(request)))
+    if state.workspace == Workspace::Inspect && state.shown.is_some() {
+        // The view hands its picture over with the next frame.
+        state.inspect.report_to = Some(folder);
+        return None;
+    }
+    inspect::state::write_report(state, folder, None)
+}
+
+fn no_pose() -> Notice {
+    Notice {
+        kind: NoticeKind::Look,
+        what: "There is no pose to copy: the part was not accepted".into(),
+        advice: "Do as the card says, and capture again".into(),
+    }
 }
 
 /// Inspects the scene in front again: something that its result rests on has changed.
@@ -388,7 +430,9 @@ fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> 
             use_library(state, &library);
             return inspect_again(state);
         }
+        Ok(Answer::Robot(answer)) => return robot::hear(state, Ok(answer)),
         Ok(Answer::Written(written)) => notify(state, Notice::done(written.what)),
+        Err(trouble) if lane == Lane::Robot => return robot::hear(state, Err(trouble)),
         Err(trouble) => {
             notify(state, trouble.clone().into());
             match lane {
@@ -397,7 +441,7 @@ fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> 
                 Lane::Align => return align::hear(state, Err(trouble)),
                 Lane::Inspect => without_scene(state),
                 Lane::Live => live::hear(state, Err(trouble)),
-                Lane::Write => {}
+                Lane::Write | Lane::Robot => {}
             }
         }
     }
@@ -447,18 +491,6 @@ pub(super) fn notify(state: &mut State, notice: Notice) {
     state.notices.push(notice);
     let num_over = state.notices.len().saturating_sub(MAX_NOTICES);
     state.notices.drain(..num_over);
-}
-
-/// `camera_from_part` as four rows of numbers, metres.
-fn pose_text(state: &State) -> Option<String> {
-    let inspection = &state.shown.as_ref()?.inspected.inspection;
-    let pose = inspection.pose.as_ref()?.as_ref().ok()?;
-    let numbers = crate::geometry::rigid::row_major(&pose.camera_from_part());
-    let rows = numbers.chunks(4).map(|row| {
-        let cells: Vec<String> = row.iter().map(|x| format!("{x:.6}")).collect();
-        cells.join(" ")
-    });
-    Some(rows.collect::<Vec<_>>().join("\n"))
 }
 
 #[cfg(test)]

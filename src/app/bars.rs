@@ -7,6 +7,7 @@ use egui::{
 use super::{
     action::{Action, Ask},
     live::{self, LiveAction},
+    robot::RobotAction,
     shelf::LibraryShown,
     source::file_name,
     source_menu,
@@ -38,6 +39,7 @@ pub(super) fn top_bar(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut V
                 ui.label(name);
                 ui.add_space(space::LARGE);
                 source_menu::ui(ui, state, actions);
+                robot_button(ui, state, theme, actions);
                 let capture = RichText::new("Capture").font(font::body_strong());
                 let key = RichText::new("Space").font(font::small());
                 let capture = Button::new(capture.color(theme.on_accent))
@@ -88,6 +90,20 @@ fn live_button(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Acti
     };
     if response.on_hover_text(says).clicked() {
         actions.push(Action::Live(LiveAction::Toggle));
+    }
+}
+
+/// The cell's calibration: whether there is one, and the dialog about it.
+fn robot_button(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+    let key = RichText::new("B").font(font::small());
+    let button = Button::new("Robot…").shortcut_text(key.color(theme.weak_text));
+    let says = match (&state.robot, &state.cell.in_use) {
+        (Some(robot), _) => format!("Calibrated by {} (B)", robot.name),
+        (None, Some(_)) => "Where the arm stands at a capture is not known (B)".into(),
+        (None, None) => "Where the camera sits in the robot's cell: not calibrated (B)".into(),
+    };
+    if labelled(ui, button, "Robot…").on_hover_text(says).clicked() {
+        actions.push(Action::Robot(RobotAction::Toggle));
     }
 }
 

@@ -97,6 +97,35 @@ impl Dialog {
                     .set_title("Open a cloud or a mesh")
                     .pick_file(),
             ),
+            Ask::Calibration => Box::pin(
+                dialog
+                    .set_title("Load the calibration of the robot's cell")
+                    .add_filter("Calibrations", &["toml"])
+                    .add_filter("All files", &["*"])
+                    .pick_file(),
+            ),
+            Ask::SprayPath => Box::pin(
+                dialog
+                    .set_title("Export the spray path for the robot")
+                    .set_file_name("spray-path.csv")
+                    .add_filter("Comma-separated values", &["csv"])
+                    .add_filter("JSON", &["json"])
+                    .save_file(),
+            ),
+            Ask::PartPath => Box::pin(
+                dialog
+                    .set_title("The nozzle's path over this part")
+                    .add_filter("Tables", &["csv", "txt"])
+                    .add_filter("All files", &["*"])
+                    .pick_file(),
+            ),
+            Ask::Pairs => Box::pin(
+                dialog
+                    .set_title("Pairs of robot and camera poses")
+                    .add_filter("Tables and JSON", &["csv", "txt", "json"])
+                    .add_filter("All files", &["*"])
+                    .pick_file(),
+            ),
             Ask::Part => Box::pin(
                 anything_with_points(dialog)
                     .set_title("Open a scene, a cloud or a mesh to enrol")
@@ -139,6 +168,7 @@ fn without_dialog(ask: Ask) -> Action {
         Ask::ReportFolder | Ask::RecordTo => "",
         Ask::HistoryCsv => "inspections.csv",
         Ask::Picture => "view.png",
+        Ask::SprayPath => "spray-path.csv",
         Ask::Align(AlignAsk::TableFile) => "table1.csv",
         Ask::Scene
         | Ask::Recording
@@ -147,6 +177,9 @@ fn without_dialog(ask: Ask) -> Action {
         | Ask::CasesFolder
         | Ask::EarlierRun
         | Ask::Part
+        | Ask::Calibration
+        | Ask::Pairs
+        | Ask::PartPath
         | Ask::Align(AlignAsk::Source | AlignAsk::Target) => return Action::Notify(never_opened()),
     };
     let folders = directories::UserDirs::new();

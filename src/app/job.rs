@@ -9,6 +9,7 @@ use super::{
     inspect::work::{InspectRequest, Inspected, inspect},
     lane::Lane,
     live::{LiveAnswer, LiveRequest},
+    robot::{RobotAnswer, RobotRequest},
     shelf::{LibraryShown, Shelf},
     worker::Desk,
     writing::{WriteRequest, Written},
@@ -30,6 +31,8 @@ pub enum Request {
     Compare(CompareRequest),
     /// Something of the Align workspace.
     Align(AlignRequest),
+    /// Something of the robot's cell.
+    Robot(RobotRequest),
     /// Write a file.
     Write(WriteRequest),
 }
@@ -43,6 +46,7 @@ impl Request {
             Self::Enrol(request) => request.lane(),
             Self::Compare(_) => Lane::Compare,
             Self::Align(_) => Lane::Align,
+            Self::Robot(_) => Lane::Robot,
             Self::Write(_) => Lane::Write,
         }
     }
@@ -63,6 +67,8 @@ pub enum Answer {
     Compare(CompareAnswer),
     /// Something of the Align workspace.
     Align(AlignAnswer),
+    /// Something of the robot's cell.
+    Robot(RobotAnswer),
     /// What was written.
     Written(Written),
 }
@@ -104,6 +110,7 @@ pub fn answer(request: Request, shelf: &Shelf, desk: &dyn Desk<Outcome>) -> Opti
         Request::Enrol(request) => super::enrol::answer(request, shelf, desk),
         Request::Compare(request) => super::compare::answer(request, shelf, desk),
         Request::Align(request) => super::align::answer(request, shelf, desk),
+        Request::Robot(request) => Some(super::robot::work::answer(request)),
         Request::Write(request) => Some(super::writing::answer(&request).map(Answer::Written)),
     }
 }

@@ -10,6 +10,7 @@ use super::{
     bars::labelled,
     compare, enrol, history, inspect,
     live::LiveAction,
+    robot::RobotAction,
     roles::RoleAction,
     state::{HelpPage, State, Workspace},
     theme::{Theme, font, space},
@@ -25,7 +26,7 @@ pub(in crate::app) struct Shortcut {
 }
 
 /// The shortcuts of the whole window.
-const SHORTCUTS: [Shortcut; 11] = [
+const SHORTCUTS: [Shortcut; 12] = [
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::Space,
@@ -60,6 +61,13 @@ const SHORTCUTS: [Shortcut; 11] = [
         keys: "Ctrl E",
         does: "Export the inspection in front",
         action: || Action::Ask(Ask::ReportFolder),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::B,
+        keys: "B",
+        does: "The robot's cell: where the camera sits",
+        action: || Action::Robot(RobotAction::Toggle),
     },
     Shortcut {
         modifiers: Modifiers::NONE,

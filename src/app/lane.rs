@@ -17,11 +17,13 @@ pub enum Lane {
     Write,
     /// Changes the library: what it began it finishes.
     Library,
+    /// Reads, writes and calculates calibrations of the robot's cell.
+    Robot,
 }
 
 impl Lane {
     /// Every lane.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 8] = [
         Self::Inspect,
         Self::Live,
         Self::Enrol,
@@ -29,6 +31,7 @@ impl Lane {
         Self::Align,
         Self::Write,
         Self::Library,
+        Self::Robot,
     ];
 
     /// The name of its thread.
@@ -41,6 +44,7 @@ impl Lane {
             Self::Align => "align",
             Self::Write => "write",
             Self::Library => "library",
+            Self::Robot => "robot",
         }
     }
 }

@@ -28,6 +28,7 @@ pub mod live;
 mod memory;
 mod notices;
 mod rail;
+pub mod robot;
 pub mod roles;
 pub mod settings;
 pub mod shelf;

@@ -12,11 +12,12 @@ use serde::{Deserialize, Serialize};
 use super::{
     job::Trouble,
     live::LiveState,
+    robot::{RememberedCell, RobotState},
     roles::{LOCK_AFTER, Pin, RoleState, is_operators},
     source::CellChoice,
     state::{Source, State, ThemeChoice, UnitSystem, Workspace},
 };
-use crate::{capture::SourceSpec, files::write_atomically, pipeline::Recipe};
+use crate::{capture::SourceSpec, files::write_atomically, pipeline::Recipe, robot::Convention};
 
 /// The version of the file.
 const SCHEMA: u32 = 1;
@@ -35,6 +36,8 @@ pub struct Settings {
     pub theme: ThemeChoice,
     /// Units that are shown.
     pub units: UnitSystem,
+    /// In which numbers the robot is told a pose.
+    pub convention: Convention,
     /// The workspace in front.
     pub workspace: Workspace,
     /// The library chosen in the window; none: the one found as on the command line.
@@ -53,6 +56,8 @@ pub struct Settings {
     pub lock_after: u32,
     /// What the engineer's view asks for; none: nothing.
     pub pin: Option<Pin>,
+    /// Which calibration of the robot's cell is used.
+    pub cell: RememberedCell,
 }
 
 /// A source, as the file has it.
@@ -79,6 +84,7 @@ impl Default for Settings {
             schema: SCHEMA,
             theme: ThemeChoice::default(),
             units: UnitSystem::default(),
+            convention: Convention::default(),
             workspace: Workspace::default(),
             library: None,
             recent: Vec::new(),
@@ -88,6 +94,7 @@ impl Default for Settings {
             average: 1,
             lock_after: LOCK_AFTER[1],
             pin: None,
+            cell: RememberedCell::default(),
         }
     }
 }
@@ -99,6 +106,7 @@ impl Settings {
             schema: SCHEMA,
             theme: state.theme,
             units: state.units,
+            convention: state.convention,
             workspace: state.workspace,
             library: state.chosen_library.clone(),
             recent: state.recent.clone(),
@@ -112,6 +120,7 @@ impl Settings {
             average: state.live.params.average,
             lock_after: state.roles.lock_after,
             pin: state.roles.pin.clone(),
+            cell: state.cell.remembered.clone(),
         }
     }
 
@@ -131,12 +140,14 @@ impl Settings {
             && has_recipe
             && self.theme == state.theme
             && self.units == state.units
+            && self.convention == state.convention
             && self.workspace == state.workspace
             && self.library == state.chosen_library
             && self.recent == state.recent
             && self.average == state.live.params.average
             && self.lock_after == state.roles.lock_after
             && self.pin == state.roles.pin
+            && self.cell == state.cell.remembered
             && self.window == window
     }
 
@@ -149,6 +160,7 @@ impl Settings {
                 Some(_) if !is_operators(self.workspace) => Workspace::Inspect,
                 _ => self.workspace,
             },
+            convention: self.convention,
             chosen_library: self.library,
             recent: self.recent,
             source: match self.source {
@@ -159,6 +171,10 @@ impl Settings {
             recipe: Arc::new(self.recipe.unwrap_or_default()),
             live: LiveState::averaging(self.average),
             roles: RoleState::starting(self.pin, self.lock_after),
+            cell: RobotState {
+                remembered: self.cell,
+                ..RobotState::default()
+            },
             ..State::default()
         }
     }
@@ -278,6 +294,7 @@ mod tests {
         Settings {
             theme: ThemeChoice::Light,
             units: UnitSystem::MetresRadians,
+            convention: Convention::Staubli,
             library: Some("/media/stick/reference_parts".into()),
             recent: vec!["a.pcd".into(), "b c.ply".into()],
             window: Some([1024.0, 768.0]),
@@ -286,6 +303,7 @@ mod tests {
             average: 4,
             lock_after: 15,
             pin: Some(Pin::of("4711")),
+            cell: RememberedCell::File("/media/stick/cell.toml".into()),
             ..Settings::default()
         }
     }

@@ -11,7 +11,9 @@ use image::RgbaImage;
 use super::{camera::Camera, fitted::FittedCache, job::Trouble, live::Tape};
 use crate::{
     error::Advice as _,
-    library::{Library, LibraryError, LibraryLoad, LibraryPlace, PartMeta, open_library},
+    library::{
+        Library, LibraryError, LibraryLoad, LibraryPlace, PartMeta, SprayPath, open_library,
+    },
     stages::reference::ReferenceParams,
 };
 
@@ -48,10 +50,14 @@ pub struct Shelved {
 pub struct LibraryShown {
     /// Its folder.
     pub path: PathBuf,
+    /// [`Library::identity`].
+    pub identity: String,
     /// What is written down of every part, in the library's order.
     pub parts: Vec<PartMeta>,
     /// The small pictures of the parts, in the same order, where there is one.
     pub thumbnails: Vec<Option<RgbaImage>>,
+    /// The spray paths of the parts, in the same order, where one is stored.
+    pub spray_paths: Vec<Option<SprayPath>>,
     /// The parts that could not be loaded.
     pub damaged: Vec<Damaged>,
     /// Why it cannot be changed at all, if so.
@@ -153,7 +159,21 @@ fn load(given: Option<&Path>) -> Result<Shelved, LibraryError> {
         warnings,
     } = place.load(&ReferenceParams::default())?;
     let troubles = problems.iter().map(Trouble::of);
-    let troubles = troubles.chain(warnings.iter().map(Trouble::of)).collect();
+    let mut troubles: Vec<Trouble> = troubles.chain(warnings.iter().map(Trouble::of)).collect();
+    let mut spray_paths = Vec::with_capacity(parts.len());
+    for part in &parts {
+        let stored = part
+            .spray
+            .as_ref()
+            .map(|_| place.spray_path(part.name.as_str()));
+        spray_paths.push(match stored.transpose() {
+            Ok(path) => path.flatten(),
+            Err(error) => {
+                troubles.push(Trouble::of(&error));
+                None
+            }
+        });
+    }
     let thumbnails = parts.iter().map(|part| place.thumbnail(part.name.as_str()));
     let damaged = problems.iter().map(|problem| Damaged {
         entry: problem.entry.clone(),
@@ -168,8 +188,10 @@ fn load(given: Option<&Path>) -> Result<Shelved, LibraryError> {
     };
     let shown = Arc::new(LibraryShown {
         path: place.location().into(),
+        identity: library.identity(),
         thumbnails: thumbnails.collect(),
         damaged: damaged.collect(),
+        spray_paths,
         is_fixed,
         parts,
         troubles,

@@ -12,6 +12,7 @@ use super::{
     job::{Request, Trouble},
     lane::Lane,
     live::{self, LiveState},
+    robot::RobotState,
     roles::RoleState,
     shelf::LibraryShown,
     source::CellChoice,
@@ -19,6 +20,7 @@ use super::{
 use crate::{
     capture::SourceSpec,
     pipeline::{Recipe, Stage},
+    robot::{Convention, RobotFrame},
     stages::segment::EmptyCell,
 };
 
@@ -39,6 +41,12 @@ pub struct State {
     pub units: UnitSystem,
     /// Colours.
     pub theme: ThemeChoice,
+    /// In which numbers the robot is told a pose.
+    pub convention: Convention,
+    /// Where the camera stands in the robot's base frame, if the cell is calibrated.
+    pub robot: Option<Arc<RobotFrame>>,
+    /// The cell's calibration, and the dialog about it.
+    pub cell: RobotState,
     /// What a person should know, oldest first.
     pub notices: Vec<Notice>,
     /// The stage that fills the middle, if one is enlarged.
@@ -87,8 +95,9 @@ impl State {
         let all = self.works.iter().map(|(lane, work)| (*lane, work));
         // Quickly done, and not to be given up half-way.
         // A source is followed until it is no longer wanted, which has a button of its own.
-        let mut all =
-            all.filter(|(lane, _)| !matches!(lane, Lane::Write | Lane::Library | Lane::Live));
+        let mut all = all.filter(|(lane, _)| {
+            !matches!(lane, Lane::Write | Lane::Library | Lane::Live | Lane::Robot)
+        });
         let own = own.and_then(|own| self.works.get_key_value(&own).map(|(l, w)| (*l, w)));
         own.or_else(|| all.next())
     }

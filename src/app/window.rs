@@ -21,7 +21,7 @@ use super::{
     lane::Lane,
     live::{self, LiveAction},
     memory::Memory,
-    notices, rail,
+    notices, rail, robot,
     roles::{self, RoleAction},
     settings,
     shelf::Shelf,
@@ -42,6 +42,8 @@ pub struct WindowOptions {
     pub settings: Option<PathBuf>,
     /// The folder of kept cases; without it the user's own.
     pub cases: Option<PathBuf>,
+    /// Where the user's own calibration of the robot's cell is; without it none is looked for.
+    pub cell: Option<PathBuf>,
     /// What opens cameras.
     pub camera: Camera,
 }
@@ -75,6 +77,7 @@ impl Window {
             scene,
             settings,
             cases,
+            cell,
             camera,
         } = options;
         let (remembered, trouble) = settings.as_deref().map(settings::load).unwrap_or_default();
@@ -115,6 +118,10 @@ impl Window {
         };
         window.state.notices.extend(trouble.map(Notice::from));
         window.forget_a_vanished_file();
+        window.state.cell.usual = cell;
+        if let Some(effect) = robot::start(&mut window.state) {
+            window.make(effect, ctx);
+        }
         let first = match (scene, &window.state.source) {
             (Some(path), _) => Action::Open(path),
             (None, Source::Camera(spec)) => Action::Live(LiveAction::Use((**spec).clone())),
@@ -281,6 +288,7 @@ impl Window {
         notices::ui(&ctx, &self.state, theme, &mut actions);
         live::set_up(&ctx, &self.state, theme, &mut actions);
         roles::dialog(&ctx, &self.state, theme, &mut actions);
+        robot::ui(&ctx, &self.state, theme, &mut actions);
         keys::help(&ctx, &self.state, theme, &mut actions);
         keys::shortcuts(&ctx, &self.state, view_has_focus, &mut actions);
         for action in actions {

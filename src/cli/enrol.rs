@@ -92,6 +92,12 @@ pub(super) fn run(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Out
     ));
     if let Some(former) = saved.replaced {
         console.line(&format_args!("  the former one in  {}", former.display()));
+        if saved.left_path {
+            console.note(&format_args!(
+                "note: its spray path stays with it, since it is in the former one's frame. To store one: partsight library path {} path.csv",
+                args.name
+            ));
+        }
     }
     let others = folder.load(&ReferenceParams::default()).advised()?.library;
     if let Some(likeness) = most_alike(&enrolled.reference, part.meta.coverage, &others) {

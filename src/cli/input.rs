@@ -1,12 +1,16 @@
 //! What the commands read: scenes and clouds.
 
-use std::path::Path;
+use std::{path::Path, sync::Arc};
 
+use super::console::{Advised as _, Console};
 use crate::{
     error::Advice,
     files::{self, FileError, FileWarning, Opened},
     geometry::cloud::PointCloud,
-    stages::scene::{SceneCloud, cloud_of, scene_from_cloud, scene_from_frame},
+    stages::{
+        scene::{SceneCloud, cloud_of, scene_from_cloud, scene_from_frame},
+        segment::{EmptyCell, EmptyCellError},
+    },
 };
 
 /// Why a file is no input for a command.
@@ -51,6 +55,29 @@ pub(super) fn open_scene(path: &Path) -> Result<(SceneCloud, Vec<FileWarning>), 
         }
     };
     Ok((scene, warnings))
+}
+
+/// Opens what the same camera saw without a part.
+pub(super) fn open_empty_cell(path: &Path, console: &Console) -> anyhow::Result<Arc<EmptyCell>> {
+    let (scene, warnings) = open_scene(path).advised()?;
+    for warning in &warnings {
+        console.warn(warning, warning);
+    }
+    Ok(Arc::new(EmptyCell::of(&scene).advised()?))
+}
+
+/// Lets a scene know what stood in the empty cell, and says so if it is another camera's.
+pub(super) fn before(
+    scene: &mut SceneCloud,
+    cell: Option<&Arc<EmptyCell>>,
+    name: &str,
+    console: &Console,
+) {
+    if cell.is_some_and(|cell| !cell.fits(scene)) {
+        let other = EmptyCellError::OtherPicture;
+        console.warn(&format_args!("{name}: {other}"), &other);
+    }
+    scene.empty_cell = cell.cloned();
 }
 
 /// Opens anything with points: a mesh is sampled evenly.

@@ -1,5 +1,7 @@
 //! `partsight inspect`: which part is it, and where?
 
+mod spray;
+
 use std::{
     fmt::Display,
     ops::ControlFlow,
@@ -11,11 +13,12 @@ use clap::Args;
 
 use super::{
     LibraryChoice, Outcome,
+    calibrate::CalibrationChoice,
     console::{Advised as _, Console},
     follow::{follow, parse_source},
-    input::open_scene,
+    input::{before, open_empty_cell, open_scene},
     recipe::RecipeChoice,
-    verdict::{complaint, outcome_of, place_of, show_card},
+    verdict::{complaint, outcome_of, place_of, show_card, show_in_robot},
 };
 use crate::{
     capture::{FeedItem, SourceSpec},
@@ -23,9 +26,10 @@ use crate::{
     library::Library,
     pipeline::{self, Inspection, Recipe, Unwatched, Verdict},
     report::{CaptureLine, InspectionLine, ReportFolder, stage_pictures},
+    robot::RobotFrame,
     stages::{
         scene::{SceneCloud, scene_from_image},
-        segment::{EmptyCell, EmptyCellError},
+        segment::EmptyCell,
     },
 };
 
@@ -39,6 +43,8 @@ Examples:
   partsight inspect misread.pcd --report why/
   partsight inspect door.pcd --empty-cell cell.pcd
   partsight inspect door.pcd --matcher paper --pose icp-ga
+  partsight inspect door.pcd --json --calibration cell.toml
+  partsight inspect door.pcd --calibration cell.toml --spray path.csv --spray-as kuka
   partsight inspect --source simulated
   partsight inspect --source watch:/mnt/scanner --json
 
@@ -66,6 +72,10 @@ pub(super) struct InspectArgs {
     /// What the same camera saw without a part: what stood there then is not taken for one
     #[arg(long, value_name = "FILE")]
     empty_cell: Option<PathBuf>,
+    #[command(flatten)]
+    calibration: CalibrationChoice,
+    #[command(flatten)]
+    spray: spray::SprayChoice,
     /// Write one line of JSON per file, and nothing else, to standard output
     #[arg(long)]
     json: bool,
@@ -75,8 +85,13 @@ pub(super) struct InspectArgs {
 }
 
 pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    let library = args.library.load_some(console)?.library;
+    let (place, load) = args.library.load_placed(console)?;
     let recipe = args.recipe.recipe();
+    let robot = args.calibration.frame(console)?;
+    let spray = args
+        .spray
+        .start(&args.files, robot.as_ref(), place, &load)?;
+    let library = load.library;
     let telling = match (args.json, args.files.as_slice()) {
         (true, _) => Telling::Json,
         (false, []) => Telling::Rows(Columns::for_captures(&library)),
@@ -85,21 +100,18 @@ pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<O
     };
     let report = args.report.as_deref().map(ReportFolder::make);
     let report = report.transpose().advised()?;
-    let empty_cell = match &args.empty_cell {
-        Some(path) => {
-            let (scene, warnings) = open_scene(path).advised()?;
-            for warning in &warnings {
-                console.warn(warning, warning);
-            }
-            Some(Arc::new(EmptyCell::of(&scene).advised()?))
-        }
-        None => None,
-    };
+    let empty_cell = args
+        .empty_cell
+        .as_deref()
+        .map(|path| open_empty_cell(path, console));
+    let empty_cell = empty_cell.transpose()?;
     telling.head(console);
     let mut one = Inspector {
         library,
         recipe,
         empty_cell,
+        robot,
+        spray,
         telling,
         report,
     };
@@ -121,6 +133,8 @@ struct Inspector {
     library: Library,
     recipe: Recipe,
     empty_cell: Option<Arc<EmptyCell>>,
+    robot: Option<RobotFrame>,
+    spray: Option<spray::SprayFile>,
     telling: Telling,
     report: Option<ReportFolder>,
 }
@@ -171,19 +185,30 @@ impl Inspector {
             library,
             recipe,
             empty_cell,
+            robot,
+            spray,
             telling,
             report,
         } = self;
         let name = path.display().to_string();
-        if empty_cell.as_ref().is_some_and(|cell| !cell.fits(&scene)) {
-            let other = EmptyCellError::OtherPicture;
-            console.warn(&format_args!("{name}: {other}"), &other);
-        }
-        scene.empty_cell.clone_from(empty_cell);
+        before(&mut scene, empty_cell.as_ref(), &name, console);
         let inspection = pipeline::run(&scene, library, recipe, &Unwatched)?;
         let line = InspectionLine::of(&name, &inspection).captured(capture);
-        let line = line.to_json();
+        let robot = robot.as_ref();
+        let line = line.in_robot(robot, &inspection).to_json();
         telling.inspected(&name, &line, &inspection, library, console);
+        if let (Telling::Card, Some(robot)) = (telling, robot) {
+            show_in_robot(robot, &inspection, library, console);
+        }
+        if let (Some(spray), Some(robot)) = (spray, robot) {
+            let seen = spray::Seen {
+                scene: &name,
+                inspection: &inspection,
+                library,
+                params: &recipe.stand_off,
+            };
+            return Ok(outcome_of(&inspection).max(spray.write(&seen, robot, console)?));
+        }
         if let Some(report) = report {
             let pictures = stage_pictures(&scene, &inspection);
             report.write(path, &line, &pictures).advised()?;

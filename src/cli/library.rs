@@ -1,5 +1,7 @@
 //! `partsight library`: what is enrolled.
 
+mod spray_path;
+
 use clap::{Args, Subcommand};
 
 use super::{
@@ -12,7 +14,7 @@ use crate::{
     units::Metres,
 };
 
-/// List, show, check, rename, remove and restore enrolled parts
+/// List, show, check, rename, remove and restore enrolled parts, and store their spray paths
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -22,6 +24,7 @@ Examples:
   partsight library rename front_door --title \"Front door, left\"
   partsight library remove front_door
   partsight library restore front_door
+  partsight library path front_door path.csv
 
 A library is a folder with one folder per part. Copy it to take it along.")]
 pub(super) struct LibraryArgs {
@@ -54,6 +57,7 @@ enum LibraryCommand {
         /// Name of the part
         name: PartName,
     },
+    Path(spray_path::PathArgs),
 }
 
 #[derive(Debug, Args)]
@@ -79,6 +83,7 @@ pub(super) fn run(args: &LibraryArgs, console: &mut Console) -> anyhow::Result<O
         LibraryCommand::Rename(asked) => rename(&args.library, asked, console),
         LibraryCommand::Remove { name } => remove(&args.library, name, console),
         LibraryCommand::Restore { name } => restore(&args.library, name, console),
+        LibraryCommand::Path(asked) => spray_path::run(&args.library, asked, console),
     }
 }
 
@@ -163,6 +168,9 @@ fn show(choice: &LibraryChoice, name: &PartName, console: &mut Console) -> anyho
             ),
         );
         row("views", format!("{} prepared", reference.views.len()));
+    }
+    if let Some(spray) = &meta.spray {
+        row("path", format!("spray path of {} points", spray.num_points));
     }
     row(
         "enrolled",

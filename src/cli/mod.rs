@@ -5,6 +5,7 @@
 
 mod align;
 mod bench;
+mod calibrate;
 mod capture;
 mod console;
 mod enrol;
@@ -16,6 +17,7 @@ mod inspect;
 mod interrupt;
 mod library;
 mod recipe;
+mod report;
 mod simulate;
 mod verdict;
 
@@ -30,6 +32,7 @@ use self::console::{Advised as _, Console, advised_error};
 use crate::{
     app,
     library::{LibraryFolder, LibraryLoad, LibraryPlace, open_library},
+    robot::calibration::default_path,
     stages::{pose::PoseMethod, reference::ReferenceParams},
 };
 
@@ -65,10 +68,12 @@ pub struct Cli {
 #[derive(Debug, Subcommand)]
 enum Command {
     Inspect(inspect::InspectArgs),
+    Report(report::ReportArgs),
     Capture(capture::CaptureArgs),
     Enrol(enrol::EnrolArgs),
     Library(library::LibraryArgs),
     Align(align::AlignArgs),
+    Calibrate(calibrate::CalibrateArgs),
     Simulate(simulate::SimulateArgs),
     Bench(bench::BenchArgs),
     Evaluate(evaluate::EvaluateArgs),
@@ -112,10 +117,12 @@ pub fn run(cli: Cli) -> Outcome {
             window(&LibraryChoice { library }, cli.open, &mut console)
         }
         Some(Command::Inspect(args)) => inspect::run(&args, &mut console),
+        Some(Command::Report(args)) => report::run(&args, &mut console),
         Some(Command::Capture(args)) => capture::run(&args, &mut console),
         Some(Command::Enrol(args)) => enrol::run(&args, &mut console),
         Some(Command::Library(args)) => library::run(&args, &mut console),
         Some(Command::Align(args)) => align::run(&args, &mut console),
+        Some(Command::Calibrate(args)) => calibrate::run(&args, &mut console),
         Some(Command::Simulate(args)) => simulate::run(&args, &mut console),
         Some(Command::Bench(args)) => bench::run(&args, &mut console),
         Some(Command::Evaluate(args)) => evaluate::run(&args, &mut console),
@@ -142,6 +149,7 @@ fn window(
     let options = app::WindowOptions {
         library: library.library.clone(),
         settings: app::settings::users_file(),
+        cell: default_path().ok(),
         scene,
         ..app::WindowOptions::default()
     };
@@ -195,8 +203,13 @@ impl LibraryChoice {
         Ok((place, load))
     }
 
-    /// As [`Self::load`]; a library without parts is an error.
+    /// The parts of a library; one without parts is an error.
     fn load_some(&self, console: &mut Console) -> anyhow::Result<LibraryLoad> {
+        self.load_placed(console).map(|(_, load)| load)
+    }
+
+    /// As [`Self::load`]; a library without parts is an error.
+    fn load_placed(&self, console: &mut Console) -> anyhow::Result<(LibraryPlace, LibraryLoad)> {
         let (place, load) = self.load(console)?;
         if load.parts.is_empty() {
             let advice = place
@@ -208,7 +221,7 @@ impl LibraryChoice {
                 advice,
             ));
         }
-        Ok(load)
+        Ok((place, load))
     }
 }
 

@@ -5,6 +5,7 @@ use crate::{
     error::Advice,
     library::Library,
     pipeline::{Inspection, Verdict},
+    robot::RobotFrame,
     stages::pose::Uncertainty,
     units::Metres,
 };
@@ -28,15 +29,32 @@ pub(super) fn complaint(inspection: &Inspection) -> Option<(String, String)> {
 /// Where the part is: the middle of its reference's extent (x, y, z in mm) and its turn (rx, ry, rz in degrees).
 pub(super) fn place_of(inspection: &Inspection, library: &Library) -> Option<([f64; 3], [f64; 3])> {
     let pose = inspection.pose.as_ref()?.as_ref().ok()?.camera_from_part();
-    let reference = &library.references[inspection.ranking.entries.first()?.reference];
-    let (low, high) = reference.cloud.bounds()?;
-    let middle = pose * nalgebra::center(&low, &high).cast::<f64>();
+    let middle = pose * inspection.best_reference(library)?.middle()?;
     // nalgebra's angles are those of Rz·Ry·Rx.
     let (rx, ry, rz) = pose.rotation.euler_angles();
     Some((
         [middle.x, middle.y, middle.z].map(|m| Metres(m).mm()),
         [rx, ry, rz].map(f64::to_degrees),
     ))
+}
+
+/// The middle of a part that was accepted in the robot's base frame.
+pub(super) fn show_in_robot(
+    robot: &RobotFrame,
+    inspection: &Inspection,
+    library: &Library,
+    console: &mut Console,
+) {
+    let place = place_of(inspection, library).filter(|_| inspection.verdict.is_accepted());
+    let Some(([x, y, z], _)) = place else {
+        return;
+    };
+    let middle = robot.robot_from_camera * nalgebra::Point3::new(x, y, z).map(|mm| mm / 1000.0);
+    let [x, y, z] = [middle.x, middle.y, middle.z].map(|m| Metres(m).mm());
+    console.line(&format_args!(
+        "  {:<9} middle at x {x:.1}  y {y:.1}  z {z:.1} mm in the robot's base frame, by {}",
+        "robot", robot.name
+    ));
 }
 
 /// All about one inspection, a line for each thing.

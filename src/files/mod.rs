@@ -23,6 +23,7 @@
 //! for an OBJ without faces; none of the last two can say which line is wrong.
 
 mod cause;
+mod cells;
 mod checksum;
 mod counting_order;
 mod depth_camera;
@@ -39,10 +40,12 @@ mod scalar;
 mod source;
 mod stl;
 mod surface;
+mod text;
 mod write;
 pub mod xyz;
 
 pub(crate) use self::cause::{advice_on, words_of};
+pub(crate) use self::cells::{cells, content_lines, number_in};
 pub(crate) use self::checksum::crc32;
 pub(crate) use self::counting_order::in_counting_order;
 pub use self::depth_camera::DepthCamera;
@@ -53,6 +56,7 @@ pub use self::open::{FileWarning, Opened, open};
 pub use self::pcd::write_pcd;
 pub use self::ply::write_ply;
 pub(crate) use self::source::read_bytes;
+pub(crate) use self::text::read_text;
 pub use self::write::{save_cloud, write_atomically};
 pub use self::xyz::write_xyz;
 

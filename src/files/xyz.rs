@@ -9,9 +9,9 @@ use std::io::{self, Write};
 
 use nalgebra::Point3;
 
+use super::cells::{cells, number_in};
 use super::error::FileError;
 use super::readings::tidy;
-use super::scalar::parse_real;
 use super::source::Source;
 use crate::geometry::cloud::PointCloud;
 
@@ -83,24 +83,7 @@ fn number_of(line: &str, cell: &str) -> Option<f32> {
     if cell.is_empty() {
         return Some(f32::NAN);
     }
-    let real = if line.contains(';') {
-        parse_real(&cell.replace(',', "."))
-    } else {
-        parse_real(cell)
-    };
-    real.map(|real| real as f32)
-}
-
-/// The cells of a line. Only between semicolons or commas can one be empty.
-fn cells(line: &str) -> Box<dyn Iterator<Item = &str> + '_> {
-    let separator = [';', ',']
-        .into_iter()
-        .find(|&separator| line.contains(separator));
-    match separator {
-        // "1, 2, 3" has commas and spaces; "1,2,3 4" does not occur.
-        Some(separator) => Box::new(line.split(separator).map(str::trim)),
-        None => Box::new(line.split_whitespace()),
-    }
+    number_in(line, cell).map(|real| real as f32)
 }
 
 /// Names, or the number of points. A first line with some numbers in it is a damaged point.

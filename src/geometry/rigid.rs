@@ -27,6 +27,32 @@ pub fn row_major(transform: &RigidTransform) -> [f64; 16] {
     std::array::from_fn(|i| matrix[(i / 4, i % 4)])
 }
 
+/// The transform of a 4×4 matrix, row after row. `None` if its rotation is off one by more than `tolerance` (Frobenius
+/// norm of RᵀR - 1), if it mirrors, does not end in 0 0 0 1, or is not finite.
+pub fn from_row_major(m: &[f64; 16], tolerance: f64) -> Option<RigidTransform> {
+    /// Below this the numbers are a rotation to the last digits, and are taken as they are.
+    const EXACT: f64 = 1e-9;
+    let rotation = Matrix3::new(m[0], m[1], m[2], m[4], m[5], m[6], m[8], m[9], m[10]);
+    let off = (rotation.transpose() * rotation - Matrix3::identity()).norm();
+    let last = [m[12], m[13], m[14], m[15] - 1.0];
+    let is_rigid = off < tolerance
+        && rotation.determinant() > 0.0
+        && last.iter().all(|x| x.abs() < tolerance)
+        && [m[3], m[7], m[11]].iter().all(|x| x.is_finite());
+    if !is_rigid {
+        return None;
+    }
+    let rotation = if off < EXACT {
+        UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(rotation))
+    } else {
+        rotation_nearest_to(&rotation)?
+    };
+    Some(Isometry3::from_parts(
+        Translation3::new(m[3], m[7], m[11]),
+        rotation,
+    ))
+}
+
 /// How far two poses of the same thing are apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct PoseError {

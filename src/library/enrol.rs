@@ -283,6 +283,7 @@ fn assemble(
                 num_points: source.num_points,
                 voxel_mm: source.voxel.map(|v| (v.mm() * 100.0).round() / 100.0),
             },
+            spray: None,
         },
         thumbnail: thumbnail::render(&reference, source.coverage),
         signature,

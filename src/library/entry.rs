@@ -17,6 +17,9 @@ pub(super) const CLOUD: &str = "cloud.ply";
 pub(super) const SIGNATURE: &str = "signature.json";
 pub(super) const THUMBNAIL: &str = "thumbnail.png";
 
+/// How the name of a spray path begins; its checksum follows, so that a new path never stands under an old one's.
+pub(super) const SPRAY_PREFIX: &str = "spray-";
+
 /// How the folder of a part begins that is being written.
 pub(super) const NEW_PREFIX: &str = ".new-";
 

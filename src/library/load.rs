@@ -16,6 +16,7 @@ use super::{
     part::{CloudCheck, PartMeta, SCHEMA_VERSION, StoredSignature},
     problem::{EntryError, EntryProblem, EntryWarning, MAX_POINTS, Trouble},
     shipped::shipped_entries,
+    spray_store::read_spray_path,
     store::LibraryFolder,
 };
 use crate::{
@@ -154,7 +155,14 @@ fn read_entry(
         let cloud = read_cloud(entry, &meta.cloud)?;
         let reference =
             Reference::prepare(meta.part_name().as_str(), cloud, meta.coverage, params)?;
-        let warnings = troubles(entry, &reference, look, params)
+        let mut troubles = troubles(entry, &reference, look, params);
+        if look == Look::Thorough
+            && let Err(error) = read_spray_path(&entry.path, &meta)
+        {
+            let why = error.to_string();
+            troubles.push(Trouble::SprayPath { why });
+        }
+        let warnings = troubles
             .into_iter()
             .map(|trouble| EntryWarning {
                 entry: entry.name.clone(),

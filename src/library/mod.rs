@@ -9,6 +9,7 @@
 //!     cloud.ply       the reference cloud with normals: binary, metres, part space
 //!     signature.json  outline and fan signature of the standard view
 //!     thumbnail.png   for people
+//!     spray-CRC.csv   the nozzle's path over it, if one was stored: part space; part.toml names its checksum
 //!   .trash/           what was removed or replaced; restored, or moved back by hand, it is enrolled again
 //! ```
 //!
@@ -17,6 +18,7 @@
 mod enrol;
 mod entry;
 mod error;
+mod identity;
 mod likeness;
 mod load;
 mod name;
@@ -24,6 +26,8 @@ mod part;
 mod place;
 mod problem;
 mod shipped;
+mod spray_path;
+mod spray_store;
 mod store;
 mod thumbnail;
 mod trash;
@@ -41,11 +45,12 @@ pub use self::{
     name::{BadName, PartName},
     part::{
         CloudCheck, Enrolment, How, MAX_TITLE, Part, PartMeta, PartWords, SCHEMA_VERSION,
-        StoredLiteral, StoredSignature,
+        SprayCheck, StoredLiteral, StoredSignature,
     },
     place::{LibraryPlace, open_library},
     problem::{EntryError, EntryProblem, EntryWarning, Trouble},
     shipped::{EnrolledAt, shipped_enrolled_at},
+    spray_path::{MAX_PATH_POINTS, PathLineProblem, PathPoint, SprayPath, SprayPathError},
     store::{LibraryFolder, Renamed, Restored, Saved},
     trash::Trashed,
 };

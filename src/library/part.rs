@@ -5,7 +5,7 @@ use jiff::Timestamp;
 use nalgebra::Point2;
 use serde::{Deserialize, Serialize};
 
-use super::name::PartName;
+use super::{entry::SPRAY_PREFIX, name::PartName};
 use crate::{
     files::{crc32, write_ply},
     geometry::{cloud::PointCloud, rigid::row_major},
@@ -59,6 +59,9 @@ pub struct PartMeta {
     pub cloud: CloudCheck,
     /// How it came into the library.
     pub enrolled: Enrolment,
+    /// The nozzle's path over it, if one was stored.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub spray: Option<SprayCheck>,
 }
 
 impl PartMeta {
@@ -107,6 +110,32 @@ pub struct CloudCheck {
     pub num_points: usize,
     /// The CRC-32 of the file, in eight hexadecimal digits.
     pub crc32: String,
+}
+
+/// By what a stored spray path is known to be the one that was stored.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+pub struct SprayCheck {
+    /// Its points.
+    pub num_points: usize,
+    /// The CRC-32 of the file, in eight hexadecimal digits; the file is named after it.
+    pub crc32: String,
+}
+
+impl SprayCheck {
+    /// Of a path that is written as this text.
+    pub(super) fn of(text: &str, num_points: usize) -> Self {
+        Self {
+            num_points,
+            crc32: format!("{:08x}", crc32(text.as_bytes())),
+        }
+    }
+
+    /// The name of its file in the part's folder; `None` if the checksum is none.
+    pub(super) fn file_name(&self) -> Option<String> {
+        let is_checksum =
+            self.crc32.len() == 8 && self.crc32.bytes().all(|c| c.is_ascii_hexdigit());
+        is_checksum.then(|| format!("{SPRAY_PREFIX}{}.csv", self.crc32))
+    }
 }
 
 impl CloudCheck {

@@ -13,6 +13,7 @@ use super::{
     load::{LibraryLoad, StoredPart, load_shipped, read_shipped},
     problem::EntryProblem,
     shipped::{shipped_entries, write_shipped},
+    spray_path::{SprayPath, SprayPathError},
     store::LibraryFolder,
 };
 use crate::stages::reference::ReferenceParams;
@@ -95,6 +96,12 @@ impl LibraryPlace {
             image::load_from_memory(entry.shipped_file(THUMBNAIL)?)
         };
         Some(picture.ok()?.into_rgba8())
+    }
+
+    /// The stored spray path of a part; none where none was stored.
+    pub fn spray_path(&self, name: &str) -> Result<Option<SprayPath>, SprayPathError> {
+        self.folder()
+            .map_or(Ok(None), |folder| folder.spray_path(name))
     }
 
     /// Why it is this one, in words.

@@ -128,6 +128,12 @@ pub enum Trouble {
         /// The file.
         file: &'static str,
     },
+    /// The stored spray path cannot be used.
+    #[error("its spray path cannot be used: {why}")]
+    SprayPath {
+        /// Why.
+        why: String,
+    },
     /// An interrupted replacement left the part under another name.
     #[error("an interrupted replacement left it aside; the next enrolment puts it back")]
     LeftAside,
@@ -138,6 +144,12 @@ impl Advice for EntryWarning {
         match self.trouble {
             Trouble::Missing { .. } | Trouble::Stale { .. } => {
                 "Copy the part again from where it was made, or enrol it again".into()
+            }
+            Trouble::SprayPath { .. } => {
+                format!(
+                    "Store the path again: partsight library path {} path.csv",
+                    self.entry
+                )
             }
             Trouble::LeftAside => "Check that the part is the one you want".into(),
         }

@@ -49,6 +49,8 @@ pub struct Saved {
     pub folder: PathBuf,
     /// Where the part of the same name that it replaced lies now, if there was one.
     pub replaced: Option<PathBuf>,
+    /// True if that one has a spray path, which stays with it: it is in the former one's frame.
+    pub left_path: bool,
 }
 
 /// What became of a part that was renamed.
@@ -185,6 +187,7 @@ impl LibraryFolder {
         self.writing(|| {
             self.tidy_up()?;
             let name = part.meta.name.as_str();
+            let former = self.entry(name).ok().and_then(|entry| meta_of(&entry).ok());
             let building = new_folder(&self.path, name)?;
             write_part(building.path(), part)?;
             let replaced = self.put_in_place(building.path(), name, name)?;
@@ -192,6 +195,7 @@ impl LibraryFolder {
             let _ = building.keep();
             Ok(Saved {
                 folder: self.path.join(name),
+                left_path: former.is_some_and(|former| former.spray.is_some()),
                 replaced,
             })
         })
@@ -298,7 +302,10 @@ impl LibraryFolder {
     }
 
     /// Runs one change while no other writer is at work.
-    fn writing<T>(&self, change: impl FnOnce() -> io::Result<T>) -> Result<T, LibraryError> {
+    pub(super) fn writing<T>(
+        &self,
+        change: impl FnOnce() -> io::Result<T>,
+    ) -> Result<T, LibraryError> {
         let locked = || -> io::Result<T> {
             let lock = File::create(self.path.join(LOCK))?;
             match lock.lock() {
@@ -315,7 +322,7 @@ impl LibraryFolder {
     }
 
     /// Finishes what an interrupted writer left. Only under the lock: another writer's folders are not leftovers.
-    fn tidy_up(&self) -> io::Result<()> {
+    pub(super) fn tidy_up(&self) -> io::Result<()> {
         for found in fs::read_dir(&self.path)? {
             let path = found?.path();
             let Some(file_name) = path.file_name().and_then(|n| n.to_str()) else {

@@ -10,6 +10,7 @@ use super::pictures::{Picture, strip, write_png};
 use crate::{
     error::Advice,
     files::{FileError, advice_on, words_of, write_atomically},
+    robot::Convention,
 };
 
 /// Why a report could not be written.
@@ -46,6 +47,8 @@ pub struct ReportFolder {
     path: PathBuf,
     /// Stems that are taken, so that two files of one name in different folders do not overwrite each other.
     taken: BTreeSet<String>,
+    /// Those of the pose reports.
+    taken_poses: BTreeSet<String>,
 }
 
 impl ReportFolder {
@@ -58,6 +61,7 @@ impl ReportFolder {
         Ok(Self {
             path: path.to_owned(),
             taken: BTreeSet::new(),
+            taken_poses: BTreeSet::new(),
         })
     }
 
@@ -84,6 +88,33 @@ impl ReportFolder {
         Ok(json)
     }
 
+    /// Writes the pose report of a scene as `STEM.pose.ENDING` for each ending, and answers with the paths.
+    pub fn write_pose(
+        &mut self,
+        scene: &Path,
+        files: &[(&str, Vec<u8>)],
+    ) -> Result<Vec<PathBuf>, ReportError> {
+        let path = |stem: &str, ending: &str| self.path.join(format!("{stem}.pose.{ending}"));
+        // A depth image of this name would take the report for its camera.
+        let is_free = |stem: &str| !path(stem, "png").exists() && !self.taken_poses.contains(stem);
+        let stem = counted(scene)
+            .find(|stem| is_free(stem))
+            .unwrap_or_default();
+        let mut paths = Vec::new();
+        for (ending, bytes) in files {
+            let path = path(&stem, ending);
+            write_atomically(&path, |writer| writer.write_all(bytes))?;
+            paths.push(path);
+        }
+        self.taken_poses.insert(stem);
+        Ok(paths)
+    }
+
+    /// The file that the pose reports in one convention are rows of.
+    pub fn csv(&self, convention: Convention) -> PathBuf {
+        self.path.join(format!("poses.{}.csv", convention.name()))
+    }
+
     fn json(&self, stem: &str) -> PathBuf {
         self.path.join(format!("{stem}.report.json"))
     }
@@ -93,15 +124,11 @@ impl ReportFolder {
     }
 
     fn free_stem(&mut self, scene: &Path, pictures: &[&Picture]) -> String {
-        let stem = scene.file_stem().unwrap_or(scene.as_os_str());
-        let stem = stem.to_string_lossy().into_owned();
-        let mut free = stem.clone();
-        let mut number = 2;
-        while self.holds_capture(&free, pictures) || !self.taken.insert(free.clone()) {
-            free = format!("{stem}-{number}");
-            number += 1;
-        }
-        free
+        let is_free =
+            |stem: &String| !self.holds_capture(stem, pictures) && !self.taken.contains(stem);
+        let stem = counted(scene).find(is_free).unwrap_or_default();
+        self.taken.insert(stem.clone());
+        stem
     }
 
     /// True if one of the names belongs to a depth image: a report never makes a PNG and a JSON of one name.
@@ -110,4 +137,12 @@ impl ReportFolder {
         self.json(stem).with_extension("png").exists()
             || pictures.any(|picture| picture.with_extension("json").exists())
     }
+}
+
+/// The stem of a scene's file, then with 2, 3 and so on behind it.
+fn counted(scene: &Path) -> impl Iterator<Item = String> {
+    let stem = scene.file_stem().unwrap_or(scene.as_os_str());
+    let stem = stem.to_string_lossy().into_owned();
+    let numbered = stem.clone();
+    std::iter::once(stem).chain((2..).map(move |number| format!("{numbered}-{number}")))
 }

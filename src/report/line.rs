@@ -1,12 +1,14 @@
 //! The inspection as one line of JSON.
 
 use jiff::Timestamp;
+use schemars::JsonSchema;
 use serde::Serialize;
 
 use crate::{
     capture::Captured,
     geometry::rigid::row_major,
     pipeline::{Inspection, Timings, Verdict},
+    robot::RobotFrame,
 };
 
 /// The version of the JSON lines.
@@ -28,8 +30,20 @@ pub struct InspectionLine<'a> {
     /// What was taken for the part reaches the picture's edge: some of it may be missing.
     touches_edge: bool,
     pose: Option<PoseLine>,
+    /// The same pose for the robot, if a calibration says where the camera sits.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    robot: Option<RobotLine<'a>>,
     ranking: Vec<RankLine<'a>>,
     timings_ms: Option<TimingsLine>,
+}
+
+/// Poses in the robot's base frame; see [`crate::robot`] for what each of them is.
+#[derive(Debug, Serialize)]
+struct RobotLine<'a> {
+    calibration: &'a str,
+    robot_from_camera: [f64; 16],
+    robot_from_part: [f64; 16],
+    robot_offset: [f64; 16],
 }
 
 /// What a line says more of a capture that came from a source.
@@ -78,15 +92,32 @@ struct RankLine<'a> {
     distance: f64,
 }
 
-#[derive(Debug, Serialize)]
-struct TimingsLine {
-    segment: f64,
-    project: f64,
-    contour: f64,
-    signature: f64,
-    rank: f64,
-    pose: f64,
-    total: f64,
+/// How long each stage took, milliseconds.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct TimingsLine {
+    /// Segmentation.
+    pub segment: f64,
+    /// Projection.
+    pub project: f64,
+    /// Contour.
+    pub contour: f64,
+    /// Signature.
+    pub signature: f64,
+    /// Ranking.
+    pub rank: f64,
+    /// Pose, confirmation of the best few included.
+    pub pose: f64,
+    /// From the scene's points to the verdict.
+    pub total: f64,
+}
+
+/// `ok`, `unknown` or `no_part`.
+pub(super) fn status_of(verdict: &Verdict) -> &'static str {
+    match verdict {
+        Verdict::Part { .. } if verdict.is_unknown() => "unknown",
+        Verdict::Part { .. } => "ok",
+        Verdict::NoPart(_) => "no_part",
+    }
 }
 
 impl<'a> InspectionLine<'a> {
@@ -104,6 +135,7 @@ impl<'a> InspectionLine<'a> {
             reason: Some(reason.to_string()),
             touches_edge: false,
             pose: None,
+            robot: None,
             ranking: Vec::new(),
             timings_ms: None,
         }
@@ -113,6 +145,24 @@ impl<'a> InspectionLine<'a> {
     #[must_use]
     pub fn captured(self, capture: Option<CaptureLine<'a>>) -> Self {
         Self { capture, ..self }
+    }
+
+    /// The same line with its pose in the robot's base frame; without a frame, or unless the part was accepted, it stays
+    /// as it is: nothing is said that a robot could move by.
+    #[must_use]
+    pub fn in_robot(self, frame: Option<&'a RobotFrame>, inspection: &Inspection) -> Self {
+        let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+        let accepted = pose.filter(|_| inspection.verdict.is_accepted());
+        let robot = frame.zip(accepted).map(|(frame, pose)| {
+            let camera_from_part = pose.camera_from_part();
+            RobotLine {
+                calibration: &frame.name,
+                robot_from_camera: row_major(&frame.robot_from_camera),
+                robot_from_part: row_major(&frame.robot_from_part(&camera_from_part)),
+                robot_offset: row_major(&frame.robot_offset(&camera_from_part)),
+            }
+        });
+        Self { robot, ..self }
     }
 
     /// Of a scene by this name.
@@ -138,6 +188,7 @@ impl<'a> InspectionLine<'a> {
                 approximate: inspection.verdict.is_approximate(),
             });
         let line = Self {
+            status: status_of(&inspection.verdict),
             touches_edge: inspection.touches_edge(),
             pose,
             ranking: ranking.collect(),
@@ -153,11 +204,6 @@ impl<'a> InspectionLine<'a> {
                 rejected,
                 ..
             } => Self {
-                status: if inspection.verdict.is_unknown() {
-                    "unknown"
-                } else {
-                    "ok"
-                },
                 part: Some(part.as_str()).filter(|_| !inspection.verdict.is_unknown()),
                 accepted: rejected.is_none(),
                 score: Some(*score),
@@ -166,7 +212,6 @@ impl<'a> InspectionLine<'a> {
                 ..line
             },
             Verdict::NoPart(reason) => Self {
-                status: "no_part",
                 reason: Some(reason.to_string()),
                 ..line
             },
@@ -182,7 +227,7 @@ impl InspectionLine<'_> {
 }
 
 impl TimingsLine {
-    fn of(timings: &Timings) -> Self {
+    pub(super) fn of(timings: &Timings) -> Self {
         // Whole microseconds: more digits are noise.
         let ms = |d: std::time::Duration| d.as_micros() as f64 / 1000.0;
         Self {

@@ -9,15 +9,17 @@ mod folder;
 mod lettering;
 mod line;
 mod pictures;
+pub mod pose_report;
 mod scaling;
 mod score_plots;
-pub mod stand_off;
+
+pub use crate::robot::stand_off;
 
 pub use self::{
     contenders::contenders_picture,
     evaluation::evaluation_picture,
     folder::{ReportError, ReportFolder},
-    line::{CaptureLine, InspectionLine, SCHEMA},
+    line::{CaptureLine, InspectionLine, SCHEMA, TimingsLine},
     pictures::{Picture, stage_pictures, strip, write_png},
     scaling::{TimeCurve, scaling_picture, stacked},
 };

@@ -150,6 +150,12 @@ pub const SPACING: f64 = 0.008;
 const VIEW_DISTANCE: f64 = 1.3;
 
 impl Reference {
+    /// Middle of its extent, part space, metres; `None` of a cloud without points.
+    pub fn middle(&self) -> Option<Point3<f64>> {
+        let (low, high) = self.cloud.bounds()?;
+        Some(nalgebra::center(&low, &high).cast())
+    }
+
     /// Prepares a reference cloud (part space, with normals).
     pub fn prepare(
         name: &str,

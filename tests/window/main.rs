@@ -8,6 +8,7 @@ mod history;
 mod inspect;
 mod live;
 mod pictures;
+pub(crate) mod robot;
 mod roles;
 mod set_up;
 mod view;

@@ -10,7 +10,7 @@ use super::{
 };
 use crate::{
     app::{
-        action::Action,
+        action::{Action, Ask},
         inspect::grouped,
         state::State,
         theme::{ROUNDING, Theme, font, space},
@@ -66,6 +66,13 @@ pub(super) fn ui(
                     }
                 });
                 ui.add_space(space::SMALL);
+                if button(ui, "Spray path…") {
+                    actions.push(Action::Ask(Ask::PartPath));
+                }
+                if part.spray.is_some() && button(ui, "Take the spray path away") {
+                    let name = open.name.clone();
+                    actions.push(Action::Enrol(EnrolAction::RemovePath(name)));
+                }
                 if button(ui, "Enrol anew") {
                     let name = open.name.clone();
                     actions.push(Action::Enrol(EnrolAction::Replace(name)));
@@ -98,8 +105,11 @@ fn origin(ui: &mut Ui, part: &PartMeta, theme: &Theme) {
     } else {
         "seen by a camera"
     };
+    let path = part.spray.as_ref().map_or_else(String::new, |spray| {
+        format!(" · spray path of {} points", spray.num_points)
+    });
     let text = format!(
-        "Enrolled {} from {}, {} · {} points · {seen}",
+        "Enrolled {} from {}, {} · {} points · {seen}{path}",
         at.strftime("%Y-%m-%d %H:%M"),
         part.enrolled.from,
         part.enrolled.how.describe(),

@@ -7,7 +7,10 @@ use crate::{
         job::Trouble,
         shelf::{LibraryShown, Shelf},
     },
-    library::{Enrolled, LibraryError, LibraryFolder, Part, PartMeta, PartName, PartWords},
+    library::{
+        Enrolled, LibraryError, LibraryFolder, Part, PartMeta, PartName, PartWords, Saved,
+        SprayPath,
+    },
 };
 
 /// A change of the library.
@@ -21,6 +24,10 @@ pub enum LibraryChange {
     Remove(PartName),
     /// Bring a part back from where it lies in the trash.
     Restore(PathBuf),
+    /// Store the spray path in this file with a part.
+    ReadPath(PartName, PathBuf),
+    /// Store this spray path with a part, or none.
+    SetPath(PartName, Option<SprayPath>),
 }
 
 /// What was changed.
@@ -47,6 +54,14 @@ pub(super) fn change(change: &LibraryChange, shelf: &Shelf) -> Result<Changed, T
         let title = place.map(|place| shelved.shown.title(place));
         title.map_or_else(|| name.to_string(), str::to_owned)
     };
+    let read = match change {
+        LibraryChange::ReadPath(name, file) => {
+            let path = SprayPath::read(file).map_err(|error| Trouble::of(&error))?;
+            Some(LibraryChange::SetPath(name.clone(), Some(path)))
+        }
+        _ => None,
+    };
+    let change = read.as_ref().unwrap_or(change);
     let done = make(change, folder, &title_of).map_err(|error| Trouble::of(&error))?;
     let (what, back, name) = done;
     let library = shelf.reload().map_err(|error| Trouble::of(&error))?;
@@ -67,9 +82,16 @@ fn make(
     Ok(match change {
         LibraryChange::Save(enrolled, words) => {
             let part = described(&enrolled.part, words);
-            let replaced = folder.save(&part)?.replaced;
+            let Saved {
+                replaced,
+                left_path,
+                ..
+            } = folder.save(&part)?;
             let title = part.meta.shown_title();
             let what = match &replaced {
+                Some(_) if left_path => format!(
+                    "Saved {title}; the former one is kept in the library's trash, and its spray path with it: store one for the new frame"
+                ),
                 Some(_) => format!("Saved {title}; the former one is kept in the library's trash"),
                 None => format!("Saved {title}"),
             };
@@ -104,6 +126,22 @@ fn make(
             let back = restored.replaced.map_or(back, LibraryChange::Restore);
             (what, back, Some(name))
         }
+        LibraryChange::SetPath(name, path) => {
+            // One that is damaged cannot be brought back.
+            let former = folder.spray_path(name.as_str()).ok().flatten();
+            folder.set_spray_path(name, path.as_ref())?;
+            let title = title_of(name);
+            let what = match path {
+                Some(path) => format!(
+                    "Stored a spray path of {} points with {title}",
+                    path.points().len()
+                ),
+                None => format!("Took the spray path of {title} away"),
+            };
+            let back = LibraryChange::SetPath(name.clone(), former);
+            (what, back, Some(name.clone()))
+        }
+        LibraryChange::ReadPath(..) => unreachable!("it was read before"),
     })
 }
 

@@ -1,6 +1,6 @@
 //! What the workspace knows, and what changes it.
 
-use std::sync::Arc;
+use std::{path::PathBuf, sync::Arc};
 
 use super::{
     change::LibraryChange,
@@ -133,6 +133,10 @@ pub enum EnrolAction {
     Replace(PartName),
     /// Replace none: the draft becomes a new part.
     ReplaceNone,
+    /// Store the spray path in this file with the enrolled part that is looked at.
+    StorePath(PathBuf),
+    /// Take the spray path of a part away.
+    RemovePath(PartName),
 }
 
 impl State {
@@ -207,6 +211,13 @@ pub fn apply(state: &mut State, action: EnrolAction) -> Option<Effect> {
             }
             state.enrol.replacing = Some(name);
             state.enrol.open = None;
+        }
+        EnrolAction::StorePath(file) => {
+            let name = state.enrol.open.as_ref()?.name.clone();
+            return change(state, LibraryChange::ReadPath(name, file), DraftThen::Stays);
+        }
+        EnrolAction::RemovePath(name) => {
+            return change(state, LibraryChange::SetPath(name, None), DraftThen::Stays);
         }
         EnrolAction::ReplaceNone => {
             state.enrol.replacing = None;

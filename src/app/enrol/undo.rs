@@ -137,6 +137,7 @@ pub(super) fn changed_library(state: &mut State, changed: Changed) -> Option<Eff
             LibraryChange::Rename(..) => "Just renamed",
             LibraryChange::Restore(_) => "Just brought back",
             LibraryChange::Save(..) | LibraryChange::Remove(_) => "Just saved",
+            LibraryChange::ReadPath(..) | LibraryChange::SetPath(..) => "Path changed",
         },
     });
     step.change = back;

@@ -5,7 +5,7 @@ use egui::{
     style::ScrollStyle, vec2,
 };
 
-use super::stand_off;
+use super::{robot_numbers, stand_off};
 use crate::{
     app::{
         action::{Action, Ask},
@@ -140,12 +140,13 @@ pub(super) fn ui(
     let inspection = &inspected.inspection;
     let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
     // What is pressed stays in sight, however low the window.
+    let pose_to_copy = pose.filter(|_| inspection.verdict.is_accepted());
     Panel::bottom("ways on")
         .exact_size(space::TARGET + space::MEDIUM)
         .resizable(false)
         .show_separator_line(false)
         .frame(Frame::new())
-        .show(ui, |ui| ways_on(ui, pose, theme, actions));
+        .show(ui, |ui| ways_on(ui, pose_to_copy, theme, actions));
     // Text lies closer than controls do.
     ui.spacing_mut().interact_size.y = 20.0;
     ui.spacing_mut().item_spacing.y = 3.0;
@@ -160,6 +161,7 @@ pub(super) fn ui(
         score(ui, inspected, &headline, theme);
         if let Some(pose) = pose {
             offset(ui, inspected, pose, state.units, theme);
+            robot_numbers::ui(ui, inspected, state, theme, actions);
             fit(ui, pose, state.units, theme);
             if inspection.verdict.is_approximate() {
                 let text = "The pose is approximate: this may be another model of the part";
@@ -176,7 +178,7 @@ fn ways_on(ui: &mut Ui, pose: Option<&PoseEstimate>, theme: &Theme, actions: &mu
     let ways = [
         (
             "Export…",
-            "A report: a line of JSON and the pictures of all stages (Ctrl E)",
+            "A report: JSON, a page of PDF, a row in a table of poses, and the pictures of all stages (Ctrl E)",
             (|| Action::Ask(Ask::ReportFolder)) as fn() -> Action,
         ),
         (
@@ -184,9 +186,11 @@ fn ways_on(ui: &mut Ui, pose: Option<&PoseEstimate>, theme: &Theme, actions: &mu
             "See in Compare why it was taken for this",
             || Action::GoTo(Workspace::Compare),
         ),
-        ("Copy pose", "camera_from_part, four rows, metres", || {
-            Action::CopyPose
-        }),
+        (
+            "Copy pose",
+            "In the robot's numbers, with a line that says which (Ctrl Shift C)",
+            || Action::CopyPose,
+        ),
     ];
     let num = if pose.is_some() { 3 } else { 2 };
     ui.with_layout(Layout::bottom_up(Align::Min), |ui| {

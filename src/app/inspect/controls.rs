@@ -46,9 +46,23 @@ pub(super) fn ui(
         for part in ViewPart::ALL {
             let mut is_shown = state.inspect.parts.contains(&part);
             let choice = egui::Checkbox::new(&mut is_shown, part.title());
-            if ui.add_enabled(is_there(figure, part), choice).clicked() {
+            if ui
+                .add_enabled(is_there(state, figure, part), choice)
+                .clicked()
+            {
                 actions.push(Action::Inspect(InspectAction::Toggle(part)));
             }
+        }
+        ui.separator();
+        let export = Button::new("Export spray path…");
+        let can_export = figure.spray.is_some() && state.robot.is_some();
+        let export = ui.add_enabled(can_export, export);
+        let export = export.on_disabled_hover_text(
+            "Needs an accepted part with a stored spray path, and a calibrated cell",
+        );
+        if export.clicked() {
+            actions.push(Action::Ask(Ask::SprayPath));
+            ui.close();
         }
     });
     let is_measuring = view.viewport.tool == ViewTool::Measure;
@@ -90,13 +104,15 @@ fn sides(ui: &mut Ui, view: &mut SceneView) {
     }
 }
 
-/// True where the result has this to show.
-fn is_there(figure: &SceneFigure, part: ViewPart) -> bool {
+/// True where the result, or the cell, has this to show.
+fn is_there(state: &State, figure: &SceneFigure, part: ViewPart) -> bool {
     match part {
         ViewPart::Axes => figure.axes.is_some(),
         ViewPart::Camera => figure.camera.is_some(),
         ViewPart::Outline => figure.outline.is_some(),
         ViewPart::NozzleMiddle | ViewPart::NozzleWorst => figure.nozzles.is_some(),
+        ViewPart::SprayPath => figure.spray.is_some(),
+        ViewPart::RobotBase => state.robot.is_some(),
     }
 }
 

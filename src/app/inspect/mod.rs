@@ -4,6 +4,7 @@ mod card;
 mod controls;
 mod plots;
 mod ranking;
+mod robot_numbers;
 pub mod scene;
 mod stand_off;
 pub mod state;
@@ -16,7 +17,10 @@ use egui::{
 };
 use image::RgbImage;
 
-pub(super) use self::view::grouped;
+pub(super) use self::{
+    robot_numbers::{clipboard_text, numbered},
+    view::grouped,
+};
 use self::{
     state::{InspectAction, ViewPart},
     view::SceneView,
@@ -37,7 +41,7 @@ const CARD: [f32; 2] = [340.0, 300.0];
 const STRIP: [f32; 2] = [196.0, 164.0];
 
 /// The workspace's own shortcuts.
-pub(in crate::app) const SHORTCUTS: [Shortcut; 3] = [
+pub(in crate::app) const SHORTCUTS: [Shortcut; 5] = [
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::P,
@@ -58,6 +62,20 @@ pub(in crate::app) const SHORTCUTS: [Shortcut; 3] = [
         keys: "N",
         does: "Show or hide the nozzle at the worst spot",
         action: || Action::Inspect(InspectAction::Toggle(ViewPart::NozzleWorst)),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::K,
+        keys: "K",
+        does: "The pose in the next robot's numbers",
+        action: || Action::NextConvention,
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
+        key: Key::C,
+        keys: "Ctrl Shift C",
+        does: "Copy the pose in those numbers",
+        action: || Action::CopyPose,
     },
 ];
 

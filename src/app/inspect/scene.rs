@@ -7,7 +7,10 @@ use crate::{
     app::viewport::{Line, LineSet, PointSet, Role, furniture},
     geometry::rigid::RigidTransform,
     pipeline::Inspection,
-    report::stand_off::{NozzleRay, StandOff},
+    robot::{
+        spray::{Band, CarriedPath},
+        stand_off::{NozzleRay, StandOff},
+    },
     stages::{
         contour::lift_border,
         pose::PoseEstimate,
@@ -32,6 +35,21 @@ pub struct SceneFigure {
     pub outline: Option<LineSet>,
     /// The taught nozzle over the part's middle, and the one furthest off.
     pub nozzles: Option<[NozzleFigure; 2]>,
+    /// The part's stored spray path, where one is stored.
+    pub spray: Option<SprayFigure>,
+}
+
+/// A spray path as it has to run now.
+#[derive(Debug)]
+pub struct SprayFigure {
+    /// The way from mouth to mouth, and each nozzle's ray: in the band solid to the surface, else dashed with a cross.
+    pub lines: LineSet,
+    /// The first mouth, metres.
+    pub start: Vec3,
+    /// Points in the band.
+    pub num_inside: usize,
+    /// All points.
+    pub num_points: usize,
 }
 
 /// A nozzle before the part.
@@ -55,6 +73,7 @@ pub(super) struct Ingredients<'a> {
     pub(super) middle: Option<Point3<f64>>,
     pub(super) deviations: &'a [f32],
     pub(super) stand_off: Option<&'a StandOff>,
+    pub(super) spray: Option<&'a CarriedPath>,
 }
 
 impl SceneFigure {
@@ -67,6 +86,7 @@ impl SceneFigure {
             middle,
             deviations,
             stand_off,
+            spray,
         } = given;
         let positions: Vec<[f32; 3]> = scene.cloud.points.iter().map(|p| [p.x, p.y, p.z]).collect();
         let mut points = PointSet::segmented(positions, &inspection.segmentation.labels);
@@ -93,18 +113,55 @@ impl SceneFigure {
                 .zip(camera_from_part)
                 .and_then(|(view, pose)| outline(view, &pose)),
             nozzles: stand_off.map(|found| [&found.middle, &found.worst].map(NozzleFigure::of)),
+            spray: spray.and_then(SprayFigure::of),
             points,
         }
     }
 }
 
+impl SprayFigure {
+    fn of(path: &CarriedPath) -> Option<Self> {
+        /// A ray that meets nothing is drawn to here.
+        const UNMET: f32 = 0.15;
+        /// Arms of the cross at a mouth that is out of the band.
+        const CROSS: f32 = 0.008;
+        let mouths: Vec<Vec3> = path.points.iter().map(|p| vec3(&p.mouth())).collect();
+        let start = *mouths.first()?;
+        let mut lines = vec![Line::new(mouths.clone(), Role::Nozzle).with_width(1.2)];
+        for (point, &mouth) in path.points.iter().zip(&mouths) {
+            let along = vec3(&point.direction().into());
+            let length = point.meets.map_or(UNMET, |met| met.distance.0 as f32);
+            let ray = Line::new([mouth, mouth + along * length], Role::Nozzle);
+            if point.band == Band::Inside {
+                lines.push(ray);
+                continue;
+            }
+            lines.push(ray.dashed());
+            let (across, up) = along.any_orthonormal_pair();
+            for arm in [across + up, across - up] {
+                let ends = [mouth - arm * CROSS, mouth + arm * CROSS];
+                lines.push(Line::new(ends, Role::AxisX).with_width(2.5));
+            }
+        }
+        Some(Self {
+            lines: LineSet::new(lines),
+            start,
+            num_inside: path.num_inside(),
+            num_points: path.points.len(),
+        })
+    }
+}
+
+fn vec3(p: &Point3<f64>) -> Vec3 {
+    Vec3::new(p.x as f32, p.y as f32, p.z as f32)
+}
+
 impl NozzleFigure {
     fn of(ray: &NozzleRay) -> Self {
-        let at = |p: &Point3<f64>| Vec3::new(p.x as f32, p.y as f32, p.z as f32);
-        let mouth = at(&ray.mouth);
-        let direction = at(&Point3::from(ray.direction));
+        let mouth = vec3(&ray.mouth);
+        let direction = vec3(&Point3::from(ray.direction));
         Self {
-            lines: furniture::nozzle(mouth, direction, at(&ray.surface)),
+            lines: furniture::nozzle(mouth, direction, vec3(&ray.surface)),
             mouth,
             distance: ray.distance,
         }

@@ -9,7 +9,7 @@ use crate::{
         theme::{ROUNDING, Theme, font, space},
         widgets::{Mark, Scale, heading, mark, row, sentence},
     },
-    report::stand_off::{StandOff, StandOffParams},
+    robot::stand_off::{StandOff, StandOffParams},
 };
 
 /// Draws the section; nothing without a pose.

@@ -1,6 +1,6 @@
 //! What the workspace knows besides the result: what its view shows, and where a picture of it is to go.
 
-use std::{collections::BTreeSet, path::PathBuf};
+use std::{collections::BTreeSet, path::PathBuf, sync::Arc};
 
 use crate::app::{
     action::{Effect, notify},
@@ -23,16 +23,22 @@ pub enum ViewPart {
     NozzleMiddle,
     /// The taught nozzle that is furthest off its distance.
     NozzleWorst,
+    /// The part's stored spray path, carried to where it hangs now.
+    SprayPath,
+    /// The axes of the robot's base.
+    RobotBase,
 }
 
 impl ViewPart {
     /// All of them, in the order of the menu.
-    pub const ALL: [Self; 5] = [
+    pub const ALL: [Self; 7] = [
         Self::Outline,
         Self::NozzleMiddle,
         Self::NozzleWorst,
+        Self::SprayPath,
         Self::Axes,
         Self::Camera,
+        Self::RobotBase,
     ];
 
     /// What a person calls it.
@@ -43,6 +49,8 @@ impl ViewPart {
             Self::Outline => "Enrolled contour",
             Self::NozzleMiddle => "Nozzle over the middle",
             Self::NozzleWorst => "Nozzle at the worst spot",
+            Self::SprayPath => "Spray path",
+            Self::RobotBase => "Robot base",
         }
     }
 }
@@ -56,14 +64,24 @@ pub struct InspectState {
     pub colouring: Option<Colouring>,
     /// Where a picture of the view is to go, until it is taken.
     pub picture_to: Option<PathBuf>,
+    /// The folder that a report is to go to, until a picture of the view is taken for it.
+    pub report_to: Option<PathBuf>,
 }
 
 impl Default for InspectState {
     fn default() -> Self {
         Self {
-            parts: [ViewPart::Axes, ViewPart::Outline, ViewPart::NozzleMiddle].into(),
+            parts: [
+                ViewPart::Axes,
+                ViewPart::Outline,
+                ViewPart::NozzleMiddle,
+                ViewPart::SprayPath,
+                ViewPart::RobotBase,
+            ]
+            .into(),
             colouring: None,
             picture_to: None,
+            report_to: None,
         }
     }
 }
@@ -75,7 +93,7 @@ pub enum InspectAction {
     Toggle(ViewPart),
     /// Colour the points by this.
     Colour(Colouring),
-    /// The view that [`InspectState::picture_to`] waits for, or why there is none.
+    /// The view that [`InspectState::picture_to`] or [`InspectState::report_to`] waits for, or why there is none.
     Picture(Result<Box<ViewShot>, Trouble>),
 }
 
@@ -90,6 +108,10 @@ pub(in crate::app) fn apply(state: &mut State, action: InspectAction) -> Option<
         }
         InspectAction::Colour(colouring) => own.colouring = Some(colouring),
         InspectAction::Picture(shot) => {
+            if let Some(folder) = own.report_to.take() {
+                // A report without the view is one all the same.
+                return write_report(state, folder, shot.ok());
+            }
             let mut path = own.picture_to.take()?;
             match shot {
                 Ok(shot) => {
@@ -104,6 +126,35 @@ pub(in crate::app) fn apply(state: &mut State, action: InspectAction) -> Option<
         }
     }
     None
+}
+
+/// Writes the report of the inspection in front.
+pub(in crate::app) fn write_report(
+    state: &mut State,
+    folder: PathBuf,
+    shot: Option<Box<ViewShot>>,
+) -> Option<Effect> {
+    let request = WriteRequest::Report {
+        folder,
+        inspected: Arc::clone(&state.shown.as_ref()?.inspected),
+        robot: state.robot.clone(),
+        convention: state.convention,
+        shot,
+    };
+    Some(state.begin("Writing the report", Request::Write(request)))
+}
+
+/// Writes the spray path of the inspection in front for the robot; nothing without a path or a calibrated cell.
+pub(in crate::app) fn write_spray_path(state: &mut State, path: PathBuf) -> Option<Effect> {
+    let inspected = &state.shown.as_ref()?.inspected;
+    inspected.spray.as_ref()?;
+    let request = WriteRequest::SprayPath {
+        path,
+        inspected: Arc::clone(inspected),
+        robot: state.robot.clone()?,
+        convention: state.convention,
+    };
+    Some(state.begin("Writing the spray path", Request::Write(request)))
 }
 
 #[cfg(test)]

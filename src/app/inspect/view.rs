@@ -19,16 +19,27 @@ use crate::{
         theme::{ROUNDING, Theme, font, space},
         viewport::{
             Colouring, FitRequest, Legend, TextLabel, ViewCamera, ViewColours, ViewError,
-            ViewScene, ViewShot, ViewStyle, Viewport, ViewportGpu,
+            ViewScene, ViewShot, ViewStyle, Viewport, ViewportGpu, furniture,
         },
     },
+    geometry::rigid::RigidTransform,
     units::Metres,
 };
 
 /// Ends of the scale of deviations: a few times a depth camera's noise, so that a dent shows and noise does not.
 const DEVIATION_RANGE: Metres = Metres(0.01);
+/// Length of the axes of the robot's base: they stand farther away than the part.
+const BASE_AXES: Metres = Metres(0.3);
 /// A view narrower than this has no room for the colour scale beside the controls.
 const NARROW: f32 = 655.0;
+
+/// What the lines and words of a scene are chosen by.
+#[derive(PartialEq)]
+struct Placed {
+    parts: BTreeSet<ViewPart>,
+    units: UnitSystem,
+    camera_from_robot: Option<RigidTransform>,
+}
 
 /// The view of the last result.
 pub(super) struct SceneView {
@@ -38,7 +49,7 @@ pub(super) struct SceneView {
     pub(super) style: ViewStyle,
     styled: ThemeChoice,
     /// What the lines and words of the scene were chosen by.
-    placed: Option<(BTreeSet<ViewPart>, UnitSystem)>,
+    placed: Option<Placed>,
     num_placed: u64,
     has_deviations: bool,
     has_focus: bool,
@@ -161,7 +172,7 @@ impl SceneView {
 
     /// Hands over the picture that was asked for.
     pub(super) fn picture(&self, ui: &Ui, state: &State, actions: &mut Vec<Action>) {
-        if state.inspect.picture_to.is_some() {
+        if state.inspect.picture_to.is_some() || state.inspect.report_to.is_some() {
             let shot = self.shot(ui.pixels_per_point()).map(Box::new);
             actions.push(Action::Inspect(InspectAction::Picture(shot)));
         }
@@ -169,15 +180,16 @@ impl SceneView {
 
     /// Chooses the lines and words, if what they are chosen by is not what it was.
     fn place(&mut self, state: &State, figure: &SceneFigure) {
-        let by = (&state.inspect.parts, state.units);
-        if self
-            .placed
-            .as_ref()
-            .is_some_and(|(parts, units)| (parts, *units) == by)
-        {
+        let robot = state.robot.as_ref();
+        let by = Placed {
+            parts: state.inspect.parts.clone(),
+            units: state.units,
+            camera_from_robot: robot.map(|robot| robot.robot_from_camera.inverse()),
+        };
+        if self.placed.as_ref() == Some(&by) {
             return;
         }
-        let (parts, units) = by;
+        let (parts, units) = (&by.parts, by.units);
         let mut lines = Vec::new();
         let mut labels = Vec::new();
         let nozzles = figure.nozzles.as_ref();
@@ -199,11 +211,33 @@ impl SceneView {
                         });
                     }
                 }
+                ViewPart::SprayPath => {
+                    if let Some(spray) = &figure.spray {
+                        lines.push(spray.lines.clone());
+                        labels.push(TextLabel {
+                            at: spray.start,
+                            text: format!(
+                                "Spray path · {} of {} in the band",
+                                spray.num_inside, spray.num_points
+                            ),
+                        });
+                    }
+                }
+                ViewPart::RobotBase => {
+                    if let Some(base) = &by.camera_from_robot {
+                        lines.push(furniture::axes(BASE_AXES).at(base));
+                        let at = base.translation.vector;
+                        labels.push(TextLabel {
+                            at: glam::Vec3::new(at.x as f32, at.y as f32, at.z as f32),
+                            text: "Robot base".into(),
+                        });
+                    }
+                }
             }
         }
         self.scene.lines = lines;
         self.scene.labels = labels;
-        self.placed = Some((parts.clone(), units));
+        self.placed = Some(by);
         self.num_placed += 1;
     }
 

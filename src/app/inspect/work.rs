@@ -21,8 +21,11 @@ use crate::{
         self, Inspection, Recipe, Watch,
         live::{Standing, Stillness},
     },
-    report::stand_off::{StandOff, StandOffError, stand_off},
-    stages::{reference::Reference, scene::SceneCloud},
+    robot::{
+        spray::{CarriedPath, carry},
+        stand_off::{StandOff, StandOffError, stand_off},
+    },
+    stages::scene::SceneCloud,
 };
 
 /// Get a scene and inspect it.
@@ -60,6 +63,8 @@ pub struct Inspected {
     pub deviations: Vec<f32>,
     /// The nozzle's stand-off over the best reference at its pose; `None` where none is accepted.
     pub stand_off: Option<Result<StandOff, StandOffError>>,
+    /// The part's stored spray path, carried to where it hangs now; `None` where none is stored or nothing accepted.
+    pub spray: Option<CarriedPath>,
     /// What the 3-D view shows.
     pub view: SceneFigure,
     /// Of a frame among others: what they say together.
@@ -151,8 +156,7 @@ impl Found {
         inspection: &Inspection,
         library: &Library,
     ) -> Option<Point3<f64>> {
-        let (low, high) = best_reference(inspection, library)?.cloud.bounds()?;
-        Some(nalgebra::center(&low, &high).cast())
+        inspection.best_reference(library)?.middle()
     }
 
     /// Makes what the panels draw: goes through every point.
@@ -169,7 +173,7 @@ impl Found {
             inspection,
             followed,
         } = self;
-        let best = best_reference(&inspection, library);
+        let best = inspection.best_reference(library);
         let deviations = best.map_or_else(Vec::new, |reference| {
             deviations(&scene, &inspection, reference)
         });
@@ -180,6 +184,17 @@ impl Found {
         let stand_off = sprayed.map(|(reference, pose)| {
             stand_off(reference, &pose.camera_from_part(), &recipe.stand_off)
         });
+        let spray = sprayed.and_then(|(_, pose)| {
+            let first = inspection.ranking.entries.first()?;
+            let path = shown.spray_paths.get(first.reference)?.as_ref()?;
+            let seen = &inspection.segmentation.part.as_ref().ok()?.cloud;
+            Some(carry(
+                path,
+                &pose.camera_from_part(),
+                seen,
+                &recipe.stand_off,
+            ))
+        });
         let view = SceneFigure::of(&Ingredients {
             scene: &scene,
             inspection: &inspection,
@@ -187,6 +202,7 @@ impl Found {
             middle,
             deviations: &deviations,
             stand_off: stand_off.as_ref().and_then(|found| found.as_ref().ok()),
+            spray: spray.as_ref(),
         });
         let figures = Figures::of(&scene, &inspection, library, shown);
         Inspected {
@@ -201,15 +217,11 @@ impl Found {
             middle,
             deviations,
             stand_off,
+            spray,
             view,
             followed,
         }
     }
-}
-
-fn best_reference<'a>(inspection: &Inspection, library: &'a Library) -> Option<&'a Reference> {
-    let best = inspection.ranking.entries.first()?;
-    library.references.get(best.reference)
 }
 
 #[cfg(test)]

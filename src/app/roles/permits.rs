@@ -1,7 +1,7 @@
 //! What the operator's view lets through.
 
 use super::{Action, RoleAction, Workspace};
-use crate::app::{action::Ask, live::LiveAction};
+use crate::app::{action::Ask, live::LiveAction, robot::RobotAction};
 
 /// True for the workspaces in which nothing can be changed that verdicts rest on.
 pub(in crate::app) fn is_operators(workspace: Workspace) -> bool {
@@ -24,7 +24,11 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
         ),
         // Averaged depth is part of what a verdict rests on.
         Action::Live(action) => matches!(action, LiveAction::Average(_)),
-        Action::TakeEmptyCell
+        Action::Robot(action) => !matches!(action, RobotAction::Close),
+        // The robot's controller expects one of them.
+        Action::UseConvention(_)
+        | Action::NextConvention
+        | Action::TakeEmptyCell
         | Action::ForgetEmptyCell
         | Action::UseFoundLibrary
         | Action::Enrol(_)
@@ -52,12 +56,20 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
 
 fn asks_for_engineer(ask: Ask) -> bool {
     match ask {
-        Ask::Library | Ask::CasesFolder | Ask::EarlierRun | Ask::Align(_) | Ask::Part => true,
+        Ask::Library
+        | Ask::CasesFolder
+        | Ask::EarlierRun
+        | Ask::Align(_)
+        | Ask::Part
+        | Ask::PartPath
+        | Ask::Calibration
+        | Ask::Pairs => true,
         Ask::Scene
         | Ask::Recording
         | Ask::WatchedFolder
         | Ask::RecordTo
         | Ask::ReportFolder
+        | Ask::SprayPath
         | Ask::HistoryCsv
         | Ask::Picture => false,
     }

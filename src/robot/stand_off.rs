@@ -23,9 +23,10 @@
 
 use nalgebra::{Isometry3, Point3, Vector3};
 
+use super::ray::{Ray, Surface};
 use crate::{
     geometry::rigid::RigidTransform,
-    stages::reference::{Reference, SPACING},
+    stages::reference::Reference,
     units::{Metres, Radians},
 };
 
@@ -120,16 +121,8 @@ pub enum StandOffError {
     },
 }
 
-/// How far to either side of d₀ the surface is looked for, metres.
-const REACH: f32 = 0.4;
-/// Steps along a ray, metres: the side of a cell of the field.
-const STEP: f32 = 0.02;
-/// Cosine of the flattest angle at which a ray meets a surface: 80°.
-const LEAST_FACING: f32 = 0.17;
 /// A camera sees a surface well above this cosine; flatter ones are not painted from its side.
 const LEAST_SEEN: f64 = 0.3;
-/// How far beside a point of the cloud the surface still is, metres.
-const BESIDE: f32 = 1.5 * SPACING as f32;
 
 /// The stand-off of the path taught over `reference`, with the part at `camera_from_part`.
 pub fn stand_off(
@@ -141,6 +134,7 @@ pub fn stand_off(
     let (Some(normals), Some((low, high))) = (&cloud.normals, cloud.bounds()) else {
         return Err(StandOffError::NoSurface);
     };
+    let surface = Surface::of(reference).ok_or(StandOffError::NoSurface)?;
     let middle = nalgebra::center(&low, &high);
     let sees = |p: &Point3<f32>, normal: &Vector3<f32>| {
         let at = camera_from_part * p.cast::<f64>();
@@ -165,7 +159,7 @@ pub fn stand_off(
                 mouth: part_from_camera * (*s + *n * d0),
                 direction: -(part_from_camera * *n),
             };
-            let (distance, normal) = ray.meets(reference, d0)?;
+            let (distance, normal) = ray.meets(&surface, d0)?;
             let mouth = (**s + *n * d0).cast::<f64>();
             let direction = -n.cast::<f64>();
             let cosine = f64::from(-ray.direction.dot(&normal));
@@ -209,68 +203,6 @@ fn summary(
         num_taught,
         rays,
     })
-}
-
-/// A nozzle and the way it points, part space.
-struct Ray {
-    mouth: Point3<f32>,
-    direction: Vector3<f32>,
-}
-
-impl Ray {
-    fn at(&self, t: f32) -> Point3<f32> {
-        self.mouth + self.direction * t
-    }
-
-    /// Where the ray goes through the face of the surface, nearest to `expected`: how far along, and the normal there.
-    fn meets(&self, reference: &Reference, expected: f32) -> Option<(f32, Vector3<f32>)> {
-        let num_steps = (2.0 * REACH / STEP) as usize;
-        let mut before: Option<f32> = None;
-        let mut best: Option<(f32, Vector3<f32>)> = None;
-        for i in 0..=num_steps {
-            let t = expected - REACH + i as f32 * STEP;
-            let height = self.height(reference, t);
-            if let (Some(above), Some(below)) = (before, height)
-                && above > 0.0
-                && below <= 0.0
-            {
-                let t = t - STEP * below / (below - above);
-                let found = self.settled(reference, t);
-                best = [best, found]
-                    .into_iter()
-                    .flatten()
-                    .min_by(|a, b| (a.0 - expected).abs().total_cmp(&(b.0 - expected).abs()));
-            }
-            before = height;
-        }
-        best
-    }
-
-    /// Height above the surface near the point at `t`, if that surface faces the nozzle.
-    fn height(&self, reference: &Reference, t: f32) -> Option<f32> {
-        let at = self.at(t);
-        let nearest = reference.field.nearest(&at)?;
-        let normal = reference.cloud.normals.as_ref()?.get(nearest.index)?;
-        let faces = -normal.dot(&self.direction) > LEAST_FACING;
-        faces.then(|| normal.dot(&(at - reference.cloud.points[nearest.index])))
-    }
-
-    /// The crossing about `t` by the points that are truly nearest; `None` where the surface ends before it.
-    fn settled(&self, reference: &Reference, mut t: f32) -> Option<(f32, Vector3<f32>)> {
-        let mut normal = Vector3::zeros();
-        // The first step reaches the plane of the nearest point, the second that of the point nearest to there.
-        for _ in 0..2 {
-            let nearest = reference.tree.nearest(&self.at(t), f32::INFINITY)?;
-            normal = *reference.cloud.normals.as_ref()?.get(nearest.index)?;
-            let slope = normal.dot(&self.direction);
-            if -slope <= LEAST_FACING {
-                return None;
-            }
-            t = normal.dot(&(reference.cloud.points[nearest.index] - self.mouth)) / slope;
-        }
-        let beside = reference.tree.nearest(&self.at(t), BESIDE * BESIDE);
-        beside.map(|_| (t, normal))
-    }
 }
 
 #[cfg(test)]

@@ -1,0 +1,266 @@
+//! `partsight calibrate`: where the camera sits in the robot's cell.
+
+mod captures;
+mod hand_eye;
+mod show;
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Subcommand, ValueEnum};
+use jiff::Timestamp;
+
+use super::{
+    Outcome,
+    console::{Advised as _, Console, advised_error},
+};
+use crate::{
+    error::Advice as _,
+    files::FileError,
+    robot::{
+        RobotFrame, WrittenPose,
+        calibration::{
+            CalibrationError, CameraPlace, CellCalibration, Loaded, Origin, default_path,
+        },
+        hand_eye::Mount,
+        parse_written_pose,
+    },
+};
+
+/// Say where the camera sits in the robot's cell: by hand, or from pairs of robot and camera poses
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  partsight calibrate set \"kuka 1200 -400 1900 86 -5 120\" --mount eye-to-hand --name \"Cell 2\"
+  partsight calibrate hand-eye pairs.csv --mount eye-in-hand
+  partsight calibrate hand-eye poses.csv --captures captures/ --mount eye-to-hand --out cell.toml
+  partsight calibrate capture-pose \"kuka 900 0 1100 0 90 0\"
+  partsight calibrate show --as fanuc
+
+The calibration is a text file, cell.toml in your data folder without --calibration. inspect takes it from there.
+Conventions: matrix (16 numbers, metres), quaternion-xyzw, rotation-vector, kuka, fanuc, abb, universal-robots,
+yaskawa, staubli, doosan. Units and order of each: partsight report --conventions")]
+pub(super) struct CalibrateArgs {
+    #[command(subcommand)]
+    command: CalibrateCommand,
+}
+
+#[derive(Debug, Subcommand)]
+enum CalibrateCommand {
+    HandEye(hand_eye::HandEyeArgs),
+    Set(SetArgs),
+    CapturePose(CapturePoseArgs),
+    Show(show::ShowArgs),
+}
+
+/// Enter the camera's place by hand
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  partsight calibrate set \"0 0 1 1.2  -1 0 0 -0.4  0 -1 0 1.9  0 0 0 1\" --mount eye-to-hand
+  partsight calibrate set \"fanuc 50 0 90 0 0 90\" --mount eye-in-hand --name \"Cell 2\"
+
+The numbers are robot_from_camera (eye to hand) or flange_from_camera (eye in hand): where the camera's frame (x right,
+y down, z forward) stands in the robot's base frame, or in the flange's.")]
+struct SetArgs {
+    /// The convention and its numbers, or the 16 numbers of a matrix in metres, row after row
+    #[arg(value_name = "POSE", value_parser = robot_pose, allow_hyphen_values = true)]
+    pose: WrittenPose,
+    #[command(flatten)]
+    kept: KeptAs,
+    /// What the camera is fixed to
+    #[arg(long, value_enum)]
+    mount: MountChoice,
+}
+
+/// Store where the arm stands at every capture, for a camera on the flange
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Example:
+  partsight calibrate capture-pose \"kuka 900 0 1100 0 90 0\"
+
+The numbers are robot_from_flange, as the controller shows it without a tool.")]
+struct CapturePoseArgs {
+    /// The convention and its numbers, or the 16 numbers of a matrix in metres, row after row
+    #[arg(value_name = "POSE", value_parser = robot_pose, allow_hyphen_values = true)]
+    pose: WrittenPose,
+    /// The calibration to change; without it, your own
+    #[arg(long, value_name = "FILE")]
+    calibration: Option<PathBuf>,
+}
+
+/// Where a new calibration goes, and what it is called.
+#[derive(Debug, Args)]
+struct KeptAs {
+    /// The file to write; without it, your own cell.toml. What was there is kept beside it
+    #[arg(long, value_name = "FILE")]
+    out: Option<PathBuf>,
+    /// What people call the cell
+    #[arg(long, value_name = "TEXT", default_value = "")]
+    name: String,
+    /// Anything worth remembering
+    #[arg(long, value_name = "TEXT", default_value = "")]
+    notes: String,
+}
+
+impl KeptAs {
+    fn calibration(&self, camera: CameraPlace, origin: Origin) -> CellCalibration {
+        CellCalibration {
+            name: self.name.clone(),
+            notes: self.notes.clone(),
+            camera,
+            origin,
+            made_at: Timestamp::now(),
+        }
+    }
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum MountChoice {
+    /// The camera stands in the cell
+    EyeToHand,
+    /// The camera is on the robot's flange
+    EyeInHand,
+}
+
+impl From<MountChoice> for Mount {
+    fn from(choice: MountChoice) -> Self {
+        match choice {
+            MountChoice::EyeToHand => Self::EyeToHand,
+            MountChoice::EyeInHand => Self::EyeInHand,
+        }
+    }
+}
+
+pub(super) fn run(args: &CalibrateArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    match &args.command {
+        CalibrateCommand::HandEye(args) => hand_eye::run(args, console),
+        CalibrateCommand::Set(args) => set(args, console),
+        CalibrateCommand::CapturePose(args) => capture_pose(args, console),
+        CalibrateCommand::Show(args) => show::run(args, console),
+    }
+}
+
+fn set(args: &SetArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let camera = CameraPlace::on(args.mount.into(), args.pose.pose);
+    keep(camera, Origin::ByHand, &args.kept, console)
+}
+
+fn capture_pose(args: &CapturePoseArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let (path, mut calibration) = load(args.calibration.as_deref(), console)?;
+    match &mut calibration.camera {
+        CameraPlace::OnFlange { capture_pose, .. } => *capture_pose = Some(args.pose.pose),
+        CameraPlace::Fixed { .. } => {
+            return Err(advised_error(
+                format!(
+                    "{}: the camera stands in the cell, and does not move with the arm",
+                    path.display()
+                ),
+                "Leave the arm's pose out, or calibrate the cell anew with --mount eye-in-hand",
+            ));
+        }
+    }
+    calibration.save_keeping_former(&path).advised()?;
+    console.line(&format_args!("{}: captures are taken from", path.display()));
+    show::matrix("robot_from_flange", &args.pose.pose, console);
+    Ok(Outcome::Accepted)
+}
+
+/// Writes a new calibration and shows it.
+fn keep(
+    camera: CameraPlace,
+    origin: Origin,
+    kept: &KeptAs,
+    console: &mut Console,
+) -> anyhow::Result<Outcome> {
+    let path = path_of(kept.out.as_deref())?;
+    let calibration = kept.calibration(camera, origin);
+    let former = calibration.save_keeping_former(&path).advised()?;
+    console.line(&format_args!("Written to {}", path.display()));
+    if let Some(former) = former {
+        console.line(&format_args!(
+            "  what was there is kept in {}",
+            former.display()
+        ));
+    }
+    show::calibration(&calibration, None, console);
+    Ok(Outcome::Accepted)
+}
+
+/// The file named, or the user's own.
+fn path_of(given: Option<&Path>) -> anyhow::Result<PathBuf> {
+    match given {
+        Some(path) => Ok(path.to_owned()),
+        None => default_path().advised(),
+    }
+}
+
+/// Loads the calibration named, or the user's own, and where it lies.
+fn load(given: Option<&Path>, console: &Console) -> anyhow::Result<(PathBuf, CellCalibration)> {
+    let path = path_of(given)?;
+    let Loaded {
+        calibration,
+        is_edited,
+    } = CellCalibration::load(&path).advised()?;
+    if is_edited {
+        console.note(&format_args!(
+            "note: {} was edited by hand: its numbers count as entered by hand",
+            path.display()
+        ));
+    }
+    Ok((path, calibration))
+}
+
+/// A pose of the arm or the camera on the command line.
+fn robot_pose(text: &str) -> Result<WrittenPose, String> {
+    parse_written_pose(text).map_err(|error| format!("{error}\n  to do: {}", error.advice()))
+}
+
+/// Where the camera sits, for a command that inspects.
+#[derive(Debug, Args)]
+pub(super) struct CalibrationChoice {
+    /// Where the camera sits in the robot's cell, as written by `calibrate`; without it your own, if there is one
+    #[arg(long, value_name = "FILE")]
+    calibration: Option<PathBuf>,
+    /// With a camera on the flange: where the arm stood, as `kuka X Y Z A B C`, or 16 numbers of a matrix
+    #[arg(long, value_name = "POSE", value_parser = robot_pose, allow_hyphen_values = true)]
+    robot_pose: Option<WrittenPose>,
+}
+
+impl CalibrationChoice {
+    /// The robot's frame; `None` without a calibration. One that is named must be there and sound; the user's own is
+    /// used if it can be.
+    pub(super) fn frame(&self, console: &Console) -> anyhow::Result<Option<RobotFrame>> {
+        let must_be = self.calibration.is_some() || self.robot_pose.is_some();
+        let given = self.robot_pose.as_ref().map(|written| &written.pose);
+        if must_be {
+            let (path, calibration) = load(self.calibration.as_deref(), console)?;
+            if given.is_some() && calibration.camera.mount() == Mount::EyeToHand {
+                return Err(advised_error(
+                    format!(
+                        "{}: the camera stands in the cell: the arm's pose says nothing of it",
+                        path.display()
+                    ),
+                    "Leave --robot-pose out",
+                ));
+            }
+            return calibration.frame(given).map(Some).advised();
+        }
+        let Ok(path) = default_path() else {
+            return Ok(None);
+        };
+        match CellCalibration::load(&path) {
+            Ok(Loaded { calibration, .. }) => match calibration.frame(None) {
+                Ok(frame) => Ok(Some(frame)),
+                Err(error) => {
+                    console.warn(&format_args!("no poses for the robot: {error}"), &error);
+                    Ok(None)
+                }
+            },
+            Err(CalibrationError::File(FileError::NotFound { .. })) => Ok(None),
+            Err(error) => {
+                console.warn(&format_args!("no poses for the robot: {error}"), &error);
+                Ok(None)
+            }
+        }
+    }
+}

@@ -1,0 +1,150 @@
+//! Camera poses from captures of an enrolled part.
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+use crate::{
+    cli::{
+        LibraryChoice,
+        console::{Advised as _, Console, advised_error},
+        input::open_scene,
+    },
+    error::Advice as _,
+    files::in_counting_order,
+    pipeline::{self, Recipe, Unwatched},
+    robot::{
+        Convention,
+        hand_eye::PosePair,
+        pairs::{ArmPose, read_arm_poses},
+        part_target::{SeenPart, seen_part},
+    },
+};
+
+/// What the camera saw, where it is not in the file of pairs.
+#[derive(Debug, Args)]
+pub(super) struct TargetChoice {
+    /// Captures of an enrolled part that is the target; PAIRS then holds the robot's poses alone
+    #[arg(long, value_name = "DIR")]
+    pub(super) captures: Option<PathBuf>,
+    #[command(flatten)]
+    library: LibraryChoice,
+}
+
+/// Inspects the capture of every pose; what is not accepted, or is another part than most are, is named and left out.
+pub(super) fn pairs_of_captures(
+    poses: &Path,
+    convention: Option<Convention>,
+    folder: &Path,
+    targets: &TargetChoice,
+    console: &mut Console,
+) -> anyhow::Result<Vec<PosePair>> {
+    let (poses, convention) = read_arm_poses(poses, convention).advised()?;
+    let files = files_of(folder, &poses)?;
+    let library = targets.library.load_some(console)?.library;
+    console.note(&format_args!(
+        "{} poses of the robot in {}",
+        poses.len(),
+        convention.title()
+    ));
+    console.start_progress(poses.len());
+    let mut seen: Vec<(PosePair, SeenPart)> = Vec::new();
+    for (pose, file) in poses.iter().zip(&files) {
+        console.begin(&file.display());
+        let (scene, warnings) = open_scene(file).advised()?;
+        for warning in &warnings {
+            console.warn(&format_args!("{}: {warning}", file.display()), warning);
+        }
+        let inspection = pipeline::run(&scene, &library, &Recipe::default(), &Unwatched)?;
+        match seen_part(&inspection, &library) {
+            Ok(part) => {
+                let pair = PosePair {
+                    name: match &pose.capture {
+                        Some(_) => pose.place.clone(),
+                        None => format!("{} ({})", file_name(file), pose.place),
+                    },
+                    robot_from_flange: pose.robot_from_flange,
+                    camera_from_target: part.camera_from_target,
+                };
+                seen.push((pair, part));
+            }
+            Err(error) => console.note(&format_args!(
+                "left out {}: {error}\n  to do: {}",
+                file.display(),
+                error.advice()
+            )),
+        }
+        console.done();
+    }
+    console.end_progress();
+    Ok(of_one_part(seen, console))
+}
+
+/// The captures of the poses: by name, or all of the folder in counting order.
+fn files_of(folder: &Path, poses: &[ArmPose]) -> anyhow::Result<Vec<PathBuf>> {
+    let named: Option<Vec<&String>> = poses.iter().map(|pose| pose.capture.as_ref()).collect();
+    if let Some(names) = named {
+        return Ok(names.into_iter().map(|name| folder.join(name)).collect());
+    }
+    let listed = std::fs::read_dir(folder).map_err(|error| {
+        advised_error(
+            format!("{}: cannot be read: {error}", folder.display()),
+            "Give the folder of the captures",
+        )
+    })?;
+    let mut files: Vec<PathBuf> = listed
+        .filter_map(|entry| Some(entry.ok()?.path()))
+        .filter(|path| is_capture(path))
+        .collect();
+    files.sort_by_cached_key(|path| in_counting_order(&file_name(path)));
+    if files.len() != poses.len() {
+        return Err(advised_error(
+            format!(
+                "{} captures in {}, and {} poses of the robot",
+                files.len(),
+                folder.display(),
+                poses.len()
+            ),
+            "Write the name of its capture before each pose",
+        ));
+    }
+    Ok(files)
+}
+
+fn is_capture(path: &Path) -> bool {
+    let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
+    matches!(ending.as_deref(), Some("pcd" | "ply" | "xyz" | "png"))
+}
+
+fn file_name(path: &Path) -> String {
+    path.file_name()
+        .unwrap_or_default()
+        .to_string_lossy()
+        .into_owned()
+}
+
+/// The pairs of the reference that most captures show: each reference has a frame of its own.
+fn of_one_part(seen: Vec<(PosePair, SeenPart)>, console: &Console) -> Vec<PosePair> {
+    let count = |reference: usize| {
+        seen.iter()
+            .filter(|(_, part)| part.reference == reference)
+            .count()
+    };
+    let most = seen.iter().max_by_key(|(_, part)| count(part.reference));
+    let Some((reference, name)) = most.map(|(_, part)| (part.reference, part.part.clone())) else {
+        return Vec::new();
+    };
+    console.note(&format_args!("The target is {name}"));
+    let mut pairs = Vec::new();
+    for (pair, part) in seen {
+        if part.reference == reference {
+            pairs.push(pair);
+        } else {
+            console.note(&format_args!(
+                "left out {}: it shows {}",
+                pair.name, part.part
+            ));
+        }
+    }
+    pairs
+}

@@ -1,0 +1,157 @@
+//! `partsight inspect --spray`: the part's spray path for the robot.
+
+use std::path::PathBuf;
+
+use clap::Args;
+use jiff::Timestamp;
+
+use crate::{
+    cli::{
+        Outcome,
+        console::{Advised as _, Console, advised_error},
+        report::parse_convention,
+    },
+    library::{Library, LibraryLoad, LibraryPlace, PartName},
+    pipeline::Inspection,
+    robot::{
+        Convention, RobotFrame,
+        spray::{SprayExport, carry, default_path},
+        stand_off::StandOffParams,
+    },
+};
+
+/// Whether and how the spray path is written.
+#[derive(Debug, Args)]
+pub(super) struct SprayChoice {
+    /// Write the part's stored spray path, carried to where it hangs now, in the robot's base frame: .csv or .json. Needs
+    /// a calibration and one file; of a part that is not accepted nothing is written
+    #[arg(long, value_name = "FILE")]
+    spray: Option<PathBuf>,
+    /// The convention of its poses
+    #[arg(long, value_name = "CONVENTION", default_value = "matrix", value_parser = parse_convention, requires = "spray")]
+    spray_as: Convention,
+}
+
+/// A spray path that is to be written.
+pub(super) struct SprayFile {
+    file: PathBuf,
+    convention: Convention,
+    place: LibraryPlace,
+    /// Name and whether it is simulated, in the order of the library's references.
+    parts: Vec<(PartName, bool)>,
+}
+
+/// What was found.
+pub(super) struct Seen<'a> {
+    pub(super) scene: &'a str,
+    pub(super) inspection: &'a Inspection,
+    pub(super) library: &'a Library,
+    pub(super) params: &'a StandOffParams,
+}
+
+impl SprayChoice {
+    /// What is to be written, if that can be.
+    pub(super) fn start(
+        &self,
+        files: &[PathBuf],
+        frame: Option<&RobotFrame>,
+        place: LibraryPlace,
+        load: &LibraryLoad,
+    ) -> anyhow::Result<Option<SprayFile>> {
+        let Some(file) = &self.spray else {
+            return Ok(None);
+        };
+        if files.len() != 1 {
+            return Err(advised_error(
+                "--spray writes the path over one part",
+                "Give one capture",
+            ));
+        }
+        if frame.is_none() {
+            return Err(advised_error(
+                "--spray needs to know where the camera sits in the robot's cell",
+                "Name a calibration with --calibration, or make one: partsight calibrate",
+            ));
+        }
+        Ok(Some(SprayFile {
+            file: file.clone(),
+            convention: self.spray_as,
+            place,
+            parts: load
+                .parts
+                .iter()
+                .map(|meta| (meta.name.clone(), meta.simulated))
+                .collect(),
+        }))
+    }
+}
+
+impl SprayFile {
+    /// Carries the path and writes it; a part that is not accepted has none, and a former file is taken away: it would be
+    /// taken for this part's.
+    pub(super) fn write(
+        &self,
+        seen: &Seen<'_>,
+        frame: &RobotFrame,
+        console: &mut Console,
+    ) -> anyhow::Result<Outcome> {
+        let Seen {
+            scene,
+            inspection,
+            library,
+            params,
+        } = seen;
+        let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+        let first = inspection.ranking.entries.first();
+        let found = pose.zip(first).filter(|_| inspection.verdict.is_accepted());
+        let part = inspection.segmentation.part.as_ref().ok();
+        let (Some((pose, first)), Some(part)) = (found, part) else {
+            let former = std::fs::remove_file(&self.file).is_ok();
+            let former = if former {
+                "; the former one was taken away"
+            } else {
+                ""
+            };
+            console.note(&format_args!(
+                "no spray path was written, since the part was not accepted with a pose{former}"
+            ));
+            return Ok(Outcome::NotAccepted);
+        };
+        let reference = &library.references[first.reference];
+        let (name, is_simulated) = &self.parts[first.reference];
+        let stored = self.place.spray_path(name.as_str()).advised()?;
+        let is_stored = stored.is_some();
+        let Some(path) = stored.or_else(|| default_path(reference, params)) else {
+            return Err(advised_error(
+                format!("{name} has no spray path, and no surface to begin on"),
+                format!("Store one: partsight library path {name} path.csv"),
+            ));
+        };
+        let carried = carry(&path, &pose.camera_from_part(), &part.cloud, params);
+        let export = SprayExport {
+            path: &carried,
+            part: name.as_str(),
+            scene,
+            frame,
+            convention: self.convention,
+            params,
+            is_stored,
+            is_simulated: *is_simulated,
+            at: Timestamp::now(),
+        };
+        export.save(&self.file).advised()?;
+        console.note(&format_args!(
+            "{}: {} of {} points within the band, as {}",
+            self.file.display(),
+            carried.num_inside(),
+            carried.points.len(),
+            self.convention.title()
+        ));
+        if !is_stored {
+            console.note(&format_args!(
+                "note: {name} has no spray path: the one point is the start before its middle. To store one: partsight library path {name} path.csv"
+            ));
+        }
+        Ok(Outcome::Accepted)
+    }
+}

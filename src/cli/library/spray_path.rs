@@ -1,0 +1,109 @@
+//! `partsight library path`: the nozzle's path over a part.
+
+use std::path::PathBuf;
+
+use clap::Args;
+
+use super::{Console, LibraryChoice, Outcome};
+use crate::{
+    cli::console::Advised as _,
+    error::Advice,
+    library::{PartName, SprayPath},
+    robot::{
+        spray::{Band, against_reference},
+        stand_off::StandOffParams,
+    },
+    stages::reference::{Reference, ReferenceParams},
+};
+
+/// Store the nozzle's path over a part, or show what is stored
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  partsight library path front_door path.csv
+  partsight library path front_door
+  partsight library path front_door --remove
+
+The path is a table in the part's own frame: that of its reference cloud, which is the camera's at the moment of
+enrolling (x right, y down, z forward). Its heading names columns and units, in one of two ways:
+
+  nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z
+  12.0,-40.5,1141.0,0,0,1                      the nozzle, and the way it points: towards the part
+
+  x_mm,y_mm,z_mm,normal_x,normal_y,normal_z,stand_off_mm
+  12.0,-40.5,1291.0,0,0,-1,150                 a place of the surface, its normal towards the nozzle, the distance
+
+Exit code 1 if less than half of the points are before the part: the path is then stored nonetheless.")]
+pub(super) struct PathArgs {
+    /// Name of the part
+    name: PartName,
+    /// The path; without it, the stored one is shown
+    #[arg(value_name = "FILE", conflicts_with = "remove")]
+    file: Option<PathBuf>,
+    /// Take the stored path away
+    #[arg(long)]
+    remove: bool,
+}
+
+pub(super) fn run(
+    choice: &LibraryChoice,
+    args: &PathArgs,
+    console: &mut Console,
+) -> anyhow::Result<Outcome> {
+    let PathArgs { name, file, remove } = args;
+    if *remove {
+        choice
+            .open_to_change()?
+            .set_spray_path(name, None)
+            .advised()?;
+        console.line(&format_args!("{name} has no spray path now"));
+        return Ok(Outcome::Accepted);
+    }
+    let place = choice.open(console)?;
+    let part = place.read(name.as_str(), &ReferenceParams::default());
+    let reference = part.advised()?.advised()?.reference;
+    let Some(file) = file else {
+        match place.spray_path(name.as_str()).advised()? {
+            Some(path) => drop(tell(name, &path, &reference, console)),
+            None => console.line(&format_args!("{name} has no spray path")),
+        }
+        return Ok(Outcome::Accepted);
+    };
+    let path = SprayPath::read(file).advised()?;
+    choice
+        .open_to_change()?
+        .set_spray_path(name, Some(&path))
+        .advised()?;
+    console.line(&format_args!("Stored {} with {name}", file.display()));
+    let num_before = tell(name, &path, &reference, console);
+    if 2 * num_before < path.points().len() {
+        console.warn(&OffThePart, &OffThePart);
+        return Ok(Outcome::NotAccepted);
+    }
+    Ok(Outcome::Accepted)
+}
+
+/// Says how the path lies over the part as it was enrolled, and counts the points with the part before them.
+fn tell(name: &PartName, path: &SprayPath, reference: &Reference, console: &mut Console) -> usize {
+    let params = StandOffParams::default();
+    let bands = against_reference(path, reference, &params);
+    let count = |wanted: Band| bands.iter().filter(|band| **band == wanted).count();
+    let (num, inside, missed) = (bands.len(), count(Band::Inside), count(Band::NotSeen));
+    console.line(&format_args!(
+        "  {num} points over {name} as it was enrolled: {inside} within {:.0} to {:.0} mm and square on, {} not, {missed} with no surface before them",
+        params.nearest.mm(),
+        params.farthest.mm(),
+        num - inside - missed
+    ));
+    num - missed
+}
+
+#[derive(Debug, thiserror::Error)]
+#[error("most of the path has no part before it")]
+struct OffThePart;
+
+impl Advice for OffThePart {
+    fn advice(&self) -> String {
+        "Check that the path is in the part's frame, in the unit that its heading says, and points towards the part".into()
+    }
+}

@@ -1,0 +1,267 @@
+//! `partsight report`: the pose report of captured scenes, for people, programs and robots.
+
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use clap::{Args, ValueEnum};
+use jiff::Timestamp;
+
+use super::{
+    LibraryChoice, Outcome,
+    calibrate::CalibrationChoice,
+    console::{Advised as _, Console, Table},
+    input::{before, open_empty_cell, open_scene},
+    recipe::RecipeChoice,
+    verdict::outcome_of,
+};
+use crate::{
+    library::LibraryLoad,
+    pipeline::{self, Inspection, Recipe, Unwatched},
+    report::{
+        ReportFolder,
+        pose_report::{
+            CsvAppended, PdfPictures, PoseReport, ReportSubject, SeenBy, append_csv, pose_pdf,
+        },
+        stage_pictures,
+    },
+    robot::{Convention, RobotFrame, stand_off::stand_off},
+    stages::{scene::SceneCloud, segment::EmptyCell},
+};
+
+/// Write the pose report of captured scenes: which part, where, and in the robot's numbers
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  partsight report door.pcd --out reports
+  partsight report door.pcd --out reports --format json,pdf --convention kuka
+  partsight report captures/*.png --out reports --format csv
+  partsight report door.pcd --out reports --convention fanuc --calibration cell.toml
+  partsight report --conventions
+  partsight report --schema > pose-report.schema.json
+
+Per file FILE.pose.json and FILE.pose.pdf; as CSV one row more in poses.CONVENTION.csv. A part that is not accepted is
+reported too, without numbers that a robot could move by.
+Files: PCD, PLY, XYZ or CSV text, or a 16-bit depth PNG with its intrinsics in a JSON beside it; metres.
+Exit codes: 0 every input accepted, 1 something was not accepted, 2 something could not be read or written.")]
+pub(super) struct ReportArgs {
+    /// Captured scenes
+    #[arg(required_unless_present_any = ["schema", "conventions"], value_name = "FILE")]
+    files: Vec<PathBuf>,
+    /// The folder to write into; it is made where it is missing
+    #[arg(long, value_name = "DIR", required_unless_present_any = ["schema", "conventions"])]
+    out: Option<PathBuf>,
+    /// What to write
+    #[arg(long, value_enum, value_delimiter = ',', default_values_t = [Format::Json, Format::Pdf])]
+    format: Vec<Format>,
+    /// The numbers that the robot's controller wants; --conventions explains them all
+    #[arg(long, value_name = "NAME", default_value = "matrix", value_parser = parse_convention)]
+    convention: Convention,
+    #[command(flatten)]
+    library: LibraryChoice,
+    #[command(flatten)]
+    recipe: RecipeChoice,
+    /// What the same camera saw without a part: what stood there then is not taken for one
+    #[arg(long, value_name = "FILE")]
+    empty_cell: Option<PathBuf>,
+    #[command(flatten)]
+    calibration: CalibrationChoice,
+    /// No real camera saw these scenes: say so in the reports
+    #[arg(long)]
+    simulated: bool,
+    /// Print the JSON schema of a report, and nothing else
+    #[arg(long, exclusive = true)]
+    schema: bool,
+    /// Print what each convention's numbers mean, and nothing else
+    #[arg(long, exclusive = true)]
+    conventions: bool,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum Format {
+    /// Everything, for programs
+    Json,
+    /// A row in a table that grows
+    Csv,
+    /// A page for people
+    Pdf,
+}
+
+/// For clap: a convention by its name.
+pub(super) fn parse_convention(name: &str) -> Result<Convention, String> {
+    Convention::by_name(name).ok_or_else(|| {
+        let names: Vec<&str> = Convention::ALL
+            .iter()
+            .map(|convention| convention.name())
+            .collect();
+        format!("expected one of {}", names.join(", "))
+    })
+}
+
+pub(super) fn run(args: &ReportArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    if args.schema {
+        console.line(&PoseReport::json_schema().trim_end());
+        return Ok(Outcome::Accepted);
+    }
+    if args.conventions {
+        show_conventions(console);
+        return Ok(Outcome::Accepted);
+    }
+    let load = args.library.load_some(console)?;
+    let empty_cell = args
+        .empty_cell
+        .as_deref()
+        .map(|path| open_empty_cell(path, console));
+    let out = args.out.as_deref().unwrap_or(Path::new("."));
+    let mut one = Reporter {
+        recipe: args.recipe.recipe(),
+        library_identity: load.library.identity(),
+        load,
+        empty_cell: empty_cell.transpose()?,
+        robot: args.calibration.frame(console)?,
+        folder: ReportFolder::make(out).advised()?,
+        args,
+    };
+    console.start_progress(args.files.len());
+    let mut outcome = Outcome::Accepted;
+    for path in &args.files {
+        console.begin(&path.display());
+        outcome = outcome.max(one.report(path, console)?);
+        console.done();
+    }
+    Ok(outcome)
+}
+
+fn show_conventions(console: &mut Console) {
+    let mut table = Table::new(&["NAME", "NUMBERS"]);
+    for convention in Convention::ALL {
+        let meaning = format!("{}: {}", convention.title(), convention.meaning());
+        table.row([convention.name().to_owned(), meaning]);
+    }
+    table.show(console);
+}
+
+/// What stays the same from file to file.
+struct Reporter<'a> {
+    args: &'a ReportArgs,
+    load: LibraryLoad,
+    library_identity: String,
+    recipe: Recipe,
+    empty_cell: Option<Arc<EmptyCell>>,
+    robot: Option<RobotFrame>,
+    folder: ReportFolder,
+}
+
+impl Reporter<'_> {
+    fn report(&mut self, path: &Path, console: &mut Console) -> anyhow::Result<Outcome> {
+        let name = path.display().to_string();
+        let (mut scene, warnings) = match open_scene(path).advised() {
+            Ok(opened) => opened,
+            Err(error) => {
+                console.error(&error);
+                return Ok(Outcome::CouldNotRun);
+            }
+        };
+        for warning in &warnings {
+            console.warn(&format_args!("{name}: {warning}"), warning);
+        }
+        before(&mut scene, self.empty_cell.as_ref(), &name, console);
+        let inspection = pipeline::run(&scene, &self.load.library, &self.recipe, &Unwatched)?;
+        let report = self.report_of(&name, &inspection);
+        match self.write(path, &scene, &inspection, &report, console) {
+            Ok(written) => {
+                let verdict = &report.verdict;
+                let part = verdict.part.as_deref().unwrap_or(verdict.status);
+                let accepted = if verdict.accepted {
+                    "accepted"
+                } else {
+                    "NOT ACCEPTED"
+                };
+                let written: Vec<String> = written
+                    .iter()
+                    .map(|path| path.display().to_string())
+                    .collect();
+                console.line(&format_args!(
+                    "{name}: {part}, {accepted}: {}",
+                    written.join(", ")
+                ));
+                Ok(outcome_of(&inspection))
+            }
+            // The next may fit on the disk, or the stick be back.
+            Err(error) => {
+                console.error(&error);
+                Ok(Outcome::CouldNotRun)
+            }
+        }
+    }
+
+    fn report_of(&self, name: &str, inspection: &Inspection) -> PoseReport {
+        let reference = inspection.best_reference(&self.load.library);
+        let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+        let stand_off = reference
+            .zip(pose)
+            .filter(|_| inspection.verdict.is_accepted())
+            .map(|(reference, pose)| {
+                stand_off(reference, &pose.camera_from_part(), &self.recipe.stand_off)
+            });
+        PoseReport::of(&ReportSubject {
+            inspected_at: Timestamp::now(),
+            scene: name,
+            source: None,
+            seen_by: if self.args.simulated {
+                SeenBy::Simulation
+            } else {
+                SeenBy::NotKnown
+            },
+            inspection,
+            middle: reference.and_then(|reference| reference.middle()),
+            stand_off: stand_off.as_ref(),
+            recipe: &self.recipe,
+            library_identity: &self.library_identity,
+            num_references: self.load.library.references.len(),
+            robot: self.robot.as_ref(),
+            convention: self.args.convention,
+        })
+    }
+
+    /// Writes all formats; answers with the files.
+    fn write(
+        &mut self,
+        path: &Path,
+        scene: &SceneCloud,
+        inspection: &Inspection,
+        report: &PoseReport,
+        console: &Console,
+    ) -> anyhow::Result<Vec<PathBuf>> {
+        let asked = |format| self.args.format.contains(&format);
+        let mut files = Vec::new();
+        if asked(Format::Json) {
+            files.push(("json", report.to_json().into_bytes()));
+        }
+        if asked(Format::Pdf) {
+            let best = inspection.ranking.entries.first();
+            let title = best.and_then(|best| self.load.parts.get(best.reference));
+            let pictures = PdfPictures {
+                view: None,
+                stages: &stage_pictures(scene, inspection),
+                title: title.map(|meta| meta.shown_title()),
+            };
+            files.push(("pdf", pose_pdf(report, &pictures).advised()?));
+        }
+        let is_csv = asked(Format::Csv);
+        let mut written = self.folder.write_pose(path, &files).advised()?;
+        if is_csv {
+            let csv = self.folder.csv(self.args.convention);
+            if let CsvAppended::SetAside(aside) = append_csv(&csv, report).advised()? {
+                console.note(&format_args!(
+                    "note: the last row of {} had no end; it was set aside in {}",
+                    csv.display(),
+                    aside.display()
+                ));
+            }
+            written.push(csv);
+        }
+        Ok(written)
+    }
+}

@@ -1,0 +1,252 @@
+//! A part's spray path: where the nozzle stands and which way it points, in the part's own frame.
+//!
+//! It is stored in the part's folder and goes with it. A file of it is a table with a heading that names columns and
+//! units; a line is a place of the nozzle, in one of two ways:
+//!
+//! ```text
+//! nozzle_x_mm, nozzle_y_mm, nozzle_z_mm, direction_x, direction_y, direction_z
+//! 12.0, -40.5, 1141.0, 0, 0, 1                 the nozzle, and the way it points: towards the part
+//!
+//! x_mm, y_mm, z_mm, normal_x, normal_y, normal_z, stand_off_mm
+//! 12.0, -40.5, 1291.0, 0, 0, -1, 150           a place of the surface, its normal towards the nozzle, the distance
+//! ```
+//!
+//! Lengths are in `_mm` or `_m`; the last column may be missing, and is 150 mm then. Further columns are read over. The
+//! part's frame is that of its reference cloud: the camera's at the moment of enrolling (x right, y down, z forward).
+
+mod error;
+#[cfg(test)]
+mod tests;
+
+use std::{fmt::Write as _, path::Path};
+
+use nalgebra::{Point3, Unit, Vector3};
+
+use crate::{
+    files::{cells, content_lines, number_in, read_text},
+    units::Metres,
+};
+
+pub use self::error::{PathLineProblem, SprayPathError};
+
+/// A nozzle at one point of a path, part space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct PathPoint {
+    /// Where the nozzle's mouth is, metres.
+    pub nozzle: Point3<f64>,
+    /// The way it points, towards the part.
+    pub direction: Unit<Vector3<f64>>,
+    /// How far the surface was when the path was taught, where that is known.
+    pub stand_off: Option<Metres>,
+}
+
+/// A path of the nozzle, in its order; never empty.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SprayPath {
+    points: Vec<PathPoint>,
+}
+
+/// More points than any path over one part.
+pub const MAX_PATH_POINTS: usize = 20_000;
+/// A larger file is no path.
+pub(super) const MAX_BYTES: u64 = 8 << 20;
+/// Where nothing else is said, a path was taught at the middle of the band.
+const TAUGHT: f64 = 0.15;
+/// No part and no arm reaches farther: the numbers are in another unit.
+const FARTHEST: f64 = 20.0;
+
+/// What a column holds.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Column {
+    Nozzle(usize),
+    Direction(usize),
+    Surface(usize),
+    Normal(usize),
+    StandOff,
+}
+
+impl SprayPath {
+    /// A path of these points; `None` without any.
+    pub fn new(points: Vec<PathPoint>) -> Option<Self> {
+        (!points.is_empty()).then_some(Self { points })
+    }
+
+    /// The points, in the path's order.
+    pub fn points(&self) -> &[PathPoint] {
+        &self.points
+    }
+
+    /// Reads a path from a table.
+    pub fn read(path: &Path) -> Result<Self, SprayPathError> {
+        Self::parse(&read_text(path, MAX_BYTES)?, path)
+    }
+
+    /// The path in a text; errors name it as this file.
+    pub(super) fn parse(text: &str, path: &Path) -> Result<Self, SprayPathError> {
+        let mut lines = content_lines(text);
+        let no_heading = || SprayPathError::NoHeading {
+            path: path.to_owned(),
+        };
+        let (_, heading) = lines.next().ok_or_else(no_heading)?;
+        if cells(heading).any(|cell| number_in(heading, cell).is_some()) {
+            return Err(no_heading());
+        }
+        let columns = Columns::of(heading, path)?;
+        let mut points = Vec::new();
+        for (line, content) in lines {
+            let point = columns
+                .point(content)
+                .map_err(|problem| SprayPathError::Line {
+                    path: path.to_owned(),
+                    line,
+                    problem,
+                })?;
+            if points.len() == MAX_PATH_POINTS {
+                return Err(SprayPathError::TooMany {
+                    path: path.to_owned(),
+                });
+            }
+            points.push(point);
+        }
+        Self::new(points).ok_or_else(|| SprayPathError::NoPoints {
+            path: path.to_owned(),
+        })
+    }
+
+    /// The table that is stored; it reads back to the same path, to a micrometre.
+    pub(super) fn to_text(&self) -> String {
+        let mut text = String::from(
+            "# Partsight spray path, in the frame of the part's reference cloud: nozzle positions, and the way it points.\n\
+             nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z,stand_off_mm\n",
+        );
+        for PathPoint {
+            nozzle,
+            direction,
+            stand_off,
+        } in &self.points
+        {
+            let mm = nozzle.coords * 1000.0;
+            // Writing to memory does not fail.
+            let _ = writeln!(
+                text,
+                "{:.3},{:.3},{:.3},{:.8},{:.8},{:.8},{}",
+                mm.x,
+                mm.y,
+                mm.z,
+                direction.x,
+                direction.y,
+                direction.z,
+                stand_off.map_or(String::new(), |d| format!("{:.3}", d.mm()))
+            );
+        }
+        text
+    }
+}
+
+/// Where each number of a point stands in a line, and in which unit.
+struct Columns {
+    /// What each column of the heading is, and its factor to metres.
+    known: Vec<Option<(Column, f64)>>,
+    is_surface: bool,
+}
+
+impl Columns {
+    fn of(heading: &str, path: &Path) -> Result<Self, SprayPathError> {
+        let known: Vec<Option<(Column, f64)>> = cells(heading).map(column).collect();
+        let has = |wanted: Column| known.iter().flatten().any(|(column, _)| *column == wanted);
+        let all = |kind: fn(usize) -> Column| (0..3).all(|axis| has(kind(axis)));
+        let is_nozzle = all(Column::Nozzle) && all(Column::Direction);
+        let is_surface = all(Column::Surface) && all(Column::Normal);
+        if is_nozzle || is_surface {
+            return Ok(Self {
+                known,
+                is_surface: !is_nozzle,
+            });
+        }
+        Err(SprayPathError::MissingColumns {
+            path: path.to_owned(),
+            found: heading.chars().take(100).collect(),
+        })
+    }
+
+    fn point(&self, line: &str) -> Result<PathPoint, PathLineProblem> {
+        let (mut at, mut along) = ([None; 3], [None; 3]);
+        let mut stand_off = None;
+        for (i, cell) in cells(line).enumerate() {
+            let Some(Some((column, factor))) = self.known.get(i) else {
+                continue;
+            };
+            if cell.is_empty() && *column == Column::StandOff {
+                continue;
+            }
+            let number = number_in(line, cell).filter(|number| number.is_finite());
+            let number = number.ok_or_else(|| PathLineProblem::NoNumber {
+                column: i + 1,
+                cell: cell.to_owned(),
+            })? * factor;
+            match (*column, self.is_surface) {
+                (Column::Nozzle(axis), false) | (Column::Surface(axis), true) => {
+                    at[axis] = Some(number)
+                }
+                (Column::Direction(axis), false) | (Column::Normal(axis), true) => {
+                    along[axis] = Some(number);
+                }
+                (Column::StandOff, _) => stand_off = Some(number),
+                _ => {}
+            }
+        }
+        let ([Some(x), Some(y), Some(z)], [Some(u), Some(v), Some(w)]) = (at, along) else {
+            return Err(PathLineProblem::TooShort);
+        };
+        let at = Point3::new(x, y, z);
+        if at.coords.norm() > FARTHEST {
+            return Err(PathLineProblem::FarAway {
+                distance: Metres(at.coords.norm()),
+            });
+        }
+        if let Some(distance) = stand_off.filter(|d| !(0.0..=1.0).contains(d)) {
+            return Err(PathLineProblem::StandOff {
+                distance: Metres(distance),
+            });
+        }
+        let along = Vector3::new(u, v, w);
+        let unit = Unit::try_new(along, 1e-6).ok_or(PathLineProblem::NoDirection)?;
+        Ok(if self.is_surface {
+            let distance = stand_off.unwrap_or(TAUGHT);
+            PathPoint {
+                nozzle: at + unit.into_inner() * distance,
+                direction: -unit,
+                stand_off: Some(Metres(distance)),
+            }
+        } else {
+            PathPoint {
+                nozzle: at,
+                direction: unit,
+                stand_off: stand_off.map(Metres),
+            }
+        })
+    }
+}
+
+/// What the heading calls a column, and the factor to metres.
+fn column(cell: &str) -> Option<(Column, f64)> {
+    let name = cell.trim_matches(['"', '\'']).trim().to_lowercase();
+    let axis_of = |name: &str| ["x", "y", "z"].iter().position(|axis| *axis == name);
+    let length = [("_mm", 0.001), ("_m", 1.0)]
+        .into_iter()
+        .find_map(|(unit, factor)| Some((name.strip_suffix(unit)?, factor)));
+    if let Some((name, factor)) = length {
+        let column = match name.strip_prefix("nozzle_") {
+            Some(axis) => Column::Nozzle(axis_of(axis)?),
+            None if name == "stand_off" => Column::StandOff,
+            None => Column::Surface(axis_of(name)?),
+        };
+        return Some((column, factor));
+    }
+    let direction = name.strip_prefix("direction_").and_then(axis_of);
+    let normal = name.strip_prefix("normal_").and_then(axis_of);
+    let column = direction
+        .map(Column::Direction)
+        .or(normal.map(Column::Normal));
+    Some((column?, 1.0))
+}

@@ -1,0 +1,80 @@
+use super::*;
+use crate::error::Advice as _;
+
+fn parse(text: &str) -> Result<SprayPath, SprayPathError> {
+    SprayPath::parse(text, Path::new("path.csv"))
+}
+
+#[test]
+fn a_nozzle_is_read_and_written() {
+    let text = "# taught on Monday\nindex;nozzle_x_mm;nozzle_y_mm;nozzle_z_mm;direction_x;direction_y;direction_z\n\
+                1;12,5;-40;1141;0;0;2\n2;13;-40;1141;0,6;0;0,8\n";
+    let path = parse(text).expect("a path");
+    let [first, second] = path.points() else {
+        panic!("two points");
+    };
+    assert!((first.nozzle - Point3::new(0.0125, -0.04, 1.141)).norm() < 1e-12);
+    assert!((first.direction.into_inner() - Vector3::z()).norm() < 1e-12);
+    assert_eq!(first.stand_off, None);
+    assert!((second.direction.x - 0.6).abs() < 1e-12);
+    let again = parse(&path.to_text()).expect("its own text");
+    for (a, b) in path.points().iter().zip(again.points()) {
+        assert!((a.nozzle - b.nozzle).norm() < 1e-6);
+        assert!((a.direction.into_inner() - b.direction.into_inner()).norm() < 1e-7);
+    }
+    assert_eq!(again.to_text(), path.to_text());
+}
+
+#[test]
+fn a_surface_point_is_a_nozzle_before_it() {
+    let text = "x_m,y_m,z_m,normal_x,normal_y,normal_z,stand_off_mm\n0.1,0.2,1.3,0,0,-1,120\n0.1,0.2,1.3,0,0,-1,\n";
+    let path = parse(text).expect("a path");
+    let [first, second] = path.points() else {
+        panic!("two points");
+    };
+    assert!((first.nozzle - Point3::new(0.1, 0.2, 1.18)).norm() < 1e-12);
+    assert!((first.direction.into_inner() - Vector3::z()).norm() < 1e-12);
+    assert_eq!(first.stand_off, Some(Metres(0.12)));
+    // Nothing said: the middle of the band.
+    assert!((second.nozzle.z - 1.15).abs() < 1e-12);
+}
+
+#[test]
+fn what_is_no_path_is_named() {
+    const HEAD: &str = "nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z\n";
+    for (text, expected) in [
+        (String::new(), "no heading"),
+        ("1,2,3,4,5,6\n".into(), "no heading"),
+        (
+            "x,y,z,normal_x,normal_y,normal_z\n1,2,3,0,0,1\n".into(),
+            "does not name all columns",
+        ),
+        (HEAD.into(), "no points"),
+        (
+            format!("{HEAD}1,2,3,0,0,1\n1,2,3,0,0\n"),
+            "line 3: fewer numbers",
+        ),
+        (
+            format!("{HEAD}1,two,3,0,0,1\n"),
+            "line 2: \"two\" in column 2",
+        ),
+        (
+            format!("{HEAD}1,nan,3,0,0,1\n"),
+            "line 2: \"nan\" in column 2",
+        ),
+        (format!("{HEAD}1,2,3,0,0,0\n"), "no length"),
+        (format!("{HEAD}1,2,30000,0,0,1\n"), "30 m from"),
+        (
+            "x_mm,y_mm,z_mm,normal_x,normal_y,normal_z,stand_off_m\n1,2,3,0,0,1,150\n".into(),
+            "150000.0 mm",
+        ),
+        (
+            format!("{HEAD}{}", "1,2,3,0,0,1\n".repeat(MAX_PATH_POINTS + 1)),
+            "more than",
+        ),
+    ] {
+        let error = parse(&text).expect_err(expected);
+        assert!(error.to_string().contains(expected), "{error}");
+        assert!(!error.advice().is_empty());
+    }
+}

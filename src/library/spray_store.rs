@@ -1,0 +1,272 @@
+//! Spray paths in a library's folder.
+//!
+//! The file of a path is named after its checksum, which `part.toml` holds: a new path is written beside the old one,
+//! counts from the moment that `part.toml` names it, and the old one is then taken away. At any moment one of them is whole.
+
+use std::{fs, path::Path};
+
+use super::{
+    entry::{SPRAY_PREFIX, rewrite_meta, sync_folder, write_file},
+    error::LibraryError,
+    load::meta_of,
+    name::PartName,
+    part::{PartMeta, SprayCheck},
+    spray_path::{MAX_BYTES, SprayPath, SprayPathError},
+    store::LibraryFolder,
+};
+use crate::files::read_text;
+
+impl LibraryFolder {
+    /// The stored spray path of a part; none where none was stored.
+    pub fn spray_path(&self, name: &str) -> Result<Option<SprayPath>, SprayPathError> {
+        let library = |error: LibraryError| SprayPathError::Library(Box::new(error));
+        let entry = self.entry(name).map_err(library)?;
+        let meta =
+            meta_of(&entry).map_err(|problem| library(LibraryError::Damaged(Box::new(problem))))?;
+        read_spray_path(&entry.path, &meta)
+    }
+
+    /// Stores the spray path of a part, or takes it away.
+    pub fn set_spray_path(
+        &self,
+        name: &PartName,
+        path: Option<&SprayPath>,
+    ) -> Result<(), LibraryError> {
+        self.entry(name.as_str())?;
+        self.writing(|| {
+            self.tidy_up()?;
+            let meta = self.entry(name.as_str()).and_then(|entry| {
+                meta_of(&entry).map_err(|problem| LibraryError::Damaged(Box::new(problem)))
+            });
+            let meta = match meta {
+                Ok(meta) => meta,
+                Err(error) => return Ok(Err(error)),
+            };
+            let folder = self.path().join(name.as_str());
+            let text = path.map(SprayPath::to_text);
+            let check = path.zip(text.as_ref());
+            let check = check.map(|(path, text)| SprayCheck::of(text, path.points().len()));
+            let file_name = check.as_ref().and_then(SprayCheck::file_name);
+            if let (Some(text), Some(file_name)) = (&text, &file_name) {
+                write_file(&folder.join(file_name), text.as_bytes())?;
+            }
+            rewrite_meta(
+                &folder,
+                &PartMeta {
+                    spray: check,
+                    ..meta
+                },
+            )?;
+            for found in fs::read_dir(&folder)? {
+                let found = found?.path();
+                let other = found
+                    .file_name()
+                    .and_then(|n| n.to_str())
+                    .filter(|n| n.starts_with(SPRAY_PREFIX) && Some(*n) != file_name.as_deref());
+                if other.is_some() {
+                    fs::remove_file(&found)?;
+                }
+            }
+            sync_folder(&folder)?;
+            Ok(Ok(()))
+        })?
+    }
+}
+
+/// The spray path in a part's folder, held against what its description says.
+pub(super) fn read_spray_path(
+    folder: &Path,
+    meta: &PartMeta,
+) -> Result<Option<SprayPath>, SprayPathError> {
+    let Some(expected) = &meta.spray else {
+        return Ok(None);
+    };
+    let changed = |file: &Path, found: String| SprayPathError::Changed {
+        path: file.to_owned(),
+        found,
+        expected: expected.crc32.clone(),
+    };
+    let Some(file_name) = expected.file_name() else {
+        return Err(changed(folder, "missing".into()));
+    };
+    let file = folder.join(file_name);
+    let text = read_text(&file, MAX_BYTES)?;
+    let path = SprayPath::parse(&text, &file);
+    let num_points = path.as_ref().map_or(0, |path| path.points().len());
+    let found = SprayCheck::of(&text, num_points);
+    if found != *expected {
+        return Err(changed(&file, found.crc32));
+    }
+    path.map(Some)
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Point3, Vector3};
+
+    use super::*;
+    use crate::library::{PartWords, PathPoint, place::open_library, shipped::write_shipped};
+
+    fn path(x: f64) -> SprayPath {
+        let point = PathPoint {
+            nozzle: Point3::new(x, 0.0, 1.0),
+            direction: Vector3::z_axis(),
+            stand_off: None,
+        };
+        SprayPath::new(vec![point; 3]).expect("points")
+    }
+
+    fn library() -> (tempfile::TempDir, LibraryFolder) {
+        let folder = tempfile::tempdir().expect("a folder");
+        write_shipped(folder.path()).expect("written");
+        let library = LibraryFolder::open(folder.path()).expect("a library");
+        (folder, library)
+    }
+
+    fn name(text: &str) -> PartName {
+        PartName::new(text).expect("a name")
+    }
+
+    fn files_of_paths(folder: &Path) -> usize {
+        let listed = fs::read_dir(folder).expect("listed");
+        let names = listed.map(|found| found.expect("an entry").file_name());
+        names
+            .filter(|n| n.to_string_lossy().starts_with(SPRAY_PREFIX))
+            .count()
+    }
+
+    #[test]
+    fn a_path_is_stored_replaced_and_taken_away() {
+        let (folder, library) = library();
+        let fender = name("fender");
+        assert_eq!(library.spray_path("fender").expect("read"), None);
+        for x in [0.1, 0.25, 0.25] {
+            library
+                .set_spray_path(&fender, Some(&path(x)))
+                .expect("stored");
+            assert_eq!(library.spray_path("fender").expect("read"), Some(path(x)));
+            assert_eq!(files_of_paths(&folder.path().join("fender")), 1);
+        }
+        library.set_spray_path(&fender, None).expect("taken away");
+        assert_eq!(library.spray_path("fender").expect("read"), None);
+        assert_eq!(files_of_paths(&folder.path().join("fender")), 0);
+        assert!(matches!(
+            library.set_spray_path(&name("no_such"), None),
+            Err(LibraryError::NoSuchPart { .. })
+        ));
+    }
+
+    #[test]
+    fn a_path_goes_with_its_part() {
+        let (folder, library) = library();
+        let fender = name("fender");
+        library
+            .set_spray_path(&fender, Some(&path(0.1)))
+            .expect("stored");
+        let words = PartWords {
+            name: name("mudguard"),
+            title: "Mudguard".into(),
+            notes: String::new(),
+        };
+        library.rename(&fender, &words).expect("renamed");
+        assert_eq!(
+            library.spray_path("mudguard").expect("read"),
+            Some(path(0.1))
+        );
+        let kept = library.remove(&words.name).expect("removed");
+        library.restore(&kept).expect("restored");
+        assert_eq!(
+            library.spray_path("mudguard").expect("read"),
+            Some(path(0.1))
+        );
+        // Copied as people copy a library.
+        let stick = tempfile::tempdir().expect("a stick");
+        let copy = stick.path().join("mudguard");
+        fs::create_dir(&copy).expect("made");
+        for found in fs::read_dir(folder.path().join("mudguard")).expect("listed") {
+            let from = found.expect("an entry").path();
+            fs::copy(&from, copy.join(from.file_name().expect("a name"))).expect("copied");
+        }
+        let copied = open_library(Some(stick.path())).expect("a library");
+        assert_eq!(
+            copied.spray_path("mudguard").expect("read"),
+            Some(path(0.1))
+        );
+    }
+
+    #[test]
+    fn a_part_that_is_enrolled_anew_has_no_path_and_its_former_one_keeps_it() {
+        let (_folder, library) = library();
+        let params = crate::stages::reference::ReferenceParams::default();
+        let stored = library
+            .read("fender", &params)
+            .expect("listed")
+            .expect("read");
+        let about = crate::library::About {
+            name: name("fender"),
+            title: String::new(),
+            notes: String::new(),
+            simulated: true,
+            at: stored.meta.enrolled.at,
+            from: "test".into(),
+        };
+        let anew = crate::library::enrol_whole(
+            &stored.reference.cloud,
+            &about,
+            &crate::library::EnrolParams::default(),
+        )
+        .expect("enrolled");
+        assert!(!library.save(&anew.part).expect("saved").left_path);
+        library
+            .set_spray_path(&name("fender"), Some(&path(0.1)))
+            .expect("stored");
+        let saved = library.save(&anew.part).expect("saved");
+        assert!(saved.left_path);
+        assert_eq!(library.spray_path("fender").expect("read"), None);
+        library
+            .restore(&saved.replaced.expect("kept"))
+            .expect("restored");
+        assert_eq!(library.spray_path("fender").expect("read"), Some(path(0.1)));
+    }
+
+    #[test]
+    fn a_changed_path_is_refused_and_verify_names_it() {
+        let (folder, library) = library();
+        let fender = name("fender");
+        library
+            .set_spray_path(&fender, Some(&path(0.1)))
+            .expect("stored");
+        let params = crate::stages::reference::ReferenceParams::default();
+        assert!(
+            library
+                .verify(&params)
+                .expect("verified")
+                .warnings
+                .is_empty()
+        );
+        let part = folder.path().join("fender");
+        let listed = fs::read_dir(&part).expect("listed");
+        let mut files = listed.map(|found| found.expect("an entry").path());
+        let file = files
+            .find(|path| path.extension().is_some_and(|e| e == "csv"))
+            .expect("a path");
+        let text = fs::read_to_string(&file).expect("text");
+        fs::write(&file, text.replacen("100.000", "100.001", 1)).expect("written");
+        assert!(matches!(
+            library.spray_path("fender"),
+            Err(SprayPathError::Changed { .. })
+        ));
+        let load = library.verify(&params).expect("verified");
+        assert_eq!(load.library.references.len(), 8);
+        assert!(
+            load.warnings[0].to_string().contains("spray path"),
+            "{}",
+            load.warnings[0]
+        );
+        fs::remove_file(&file).expect("removed");
+        assert!(matches!(
+            library.spray_path("fender"),
+            Err(SprayPathError::File(_))
+        ));
+    }
+}

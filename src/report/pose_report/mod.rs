@@ -1,0 +1,274 @@
+//! The pose report of an inspection: what was seen and decided, and where the part is, in words that cannot be misread.
+//!
+//! One type holds all of it; JSON, a row of CSV and a page of PDF are three ways to write it down. Whatever is numbers
+//! spells out its order, units and frame beside them. The pose of a part that was not accepted is under another name,
+//! and there are no numbers for the robot then: a program that only looks for those finds none to move by.
+
+mod blocks;
+mod csv;
+mod pdf;
+mod sheet;
+
+use jiff::Timestamp;
+use nalgebra::Point3;
+use schemars::JsonSchema;
+use serde::Serialize;
+
+use super::{
+    line::{TimingsLine, status_of},
+    stand_off::{StandOff, StandOffError, StandOffParams},
+};
+use crate::{
+    error::Advice as _,
+    pipeline::{Inspection, Recipe, Verdict},
+    robot::{Convention, RobotFrame},
+};
+
+pub use self::{
+    blocks::{
+        BoundsBlock, FitBlock, MiddleBlock, NumberBlock, PoseBlock, RobotBlock, StandOffBlock,
+        TransformBlock,
+    },
+    csv::{CsvAppended, CsvError, append_csv},
+    pdf::{PdfError, PdfPictures, pose_pdf},
+};
+
+/// The version of the report; fields are only ever added to one.
+pub const POSE_REPORT_SCHEMA: u32 = 1;
+
+/// Whether a camera was read.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
+#[serde(rename_all = "snake_case")]
+pub enum SeenBy {
+    /// A real camera, now or when it was recorded.
+    Camera,
+    /// None: the scene is simulated.
+    Simulation,
+    /// The scene is from a file, and a file does not say.
+    NotKnown,
+}
+
+impl SeenBy {
+    /// In words.
+    pub fn describe(self) -> &'static str {
+        match self {
+            Self::Camera => "a camera",
+            Self::Simulation => "SIMULATED: no camera was read",
+            Self::NotKnown => "a file, which does not say whether a camera was read",
+        }
+    }
+}
+
+/// A pose report.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct PoseReport {
+    /// Version of this report's form.
+    pub schema: u32,
+    /// When the scene was inspected, UTC (RFC 3339).
+    #[schemars(with = "String")]
+    pub inspected_at: Timestamp,
+    /// The program and its version.
+    pub program: String,
+    /// The file or frame that was inspected.
+    pub scene: String,
+    /// What gave the frame, as it can be opened again; null for a file.
+    pub source: Option<String>,
+    /// Whether a camera was read.
+    pub seen_by: SeenBy,
+    /// What was decided.
+    pub verdict: VerdictBlock,
+    /// Where the part is; null unless it was accepted.
+    pub pose: Option<PoseBlock>,
+    /// Where the part would be if it were what was not accepted. NOT A POSE TO MOVE BY: it is here to find out why.
+    pub refused_pose: Option<PoseBlock>,
+    /// The pose in the robot's base frame; null inside unless the part was accepted and the cell is calibrated.
+    pub robot: RobotBlock,
+    /// The nozzle's stand-off if its path ran as it was taught; null unless the part was accepted and has a surface.
+    pub stand_off: Option<StandOffBlock>,
+    /// How long each stage took, milliseconds.
+    pub timings_ms: TimingsLine,
+    /// The parameters.
+    pub recipe: RecipeBlock,
+    /// The enrolled parts.
+    pub library: LibraryBlock,
+}
+
+/// What was decided.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct VerdictBlock {
+    /// `ok`, `unknown` or `no_part`.
+    pub status: &'static str,
+    /// The part's name, accepted or not; null if it is unknown or there is none.
+    pub part: Option<String>,
+    /// The enrolled part that comes nearest, where the part is unknown.
+    pub nearest: Option<String>,
+    /// True if the verdict counts. Nothing may move on a pose that was not accepted.
+    pub accepted: bool,
+    /// The probability that the part hangs there, 0..1.
+    pub score: Option<f64>,
+    /// Least score at which a part is accepted, 0..1.
+    pub threshold: f64,
+    /// Lead over the next part's score.
+    pub margin: Option<f64>,
+    /// Why it was not accepted.
+    pub reason: Option<String>,
+    /// What to do about it.
+    pub advice: Option<String>,
+    /// True if it may be another model of the part: its pose is only about right.
+    pub approximate: bool,
+    /// True if what was found reaches the picture's edge: some of it may be missing.
+    pub touches_edge: bool,
+}
+
+/// The recipe.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct RecipeBlock {
+    /// Eight hexadecimal digits, the same for the same parameters.
+    pub identity: String,
+    /// True if these are the program's own parameters.
+    pub is_default: bool,
+}
+
+/// The library.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct LibraryBlock {
+    /// Eight hexadecimal digits, the same for the same parts with the same clouds, wherever they lie.
+    pub identity: String,
+    /// Enrolled references.
+    pub num_references: usize,
+}
+
+/// What a report is made from.
+#[derive(Clone, Copy, Debug)]
+pub struct ReportSubject<'a> {
+    /// When the scene was inspected.
+    pub inspected_at: Timestamp,
+    /// The file or frame.
+    pub scene: &'a str,
+    /// What gave the frame, if it was a source.
+    pub source: Option<&'a str>,
+    /// Whether a camera was read.
+    pub seen_by: SeenBy,
+    /// What was found.
+    pub inspection: &'a Inspection,
+    /// Middle of the best reference's extent, part space, metres.
+    pub middle: Option<Point3<f64>>,
+    /// The stand-off over the best reference at its pose.
+    pub stand_off: Option<&'a Result<StandOff, StandOffError>>,
+    /// With which parameters.
+    pub recipe: &'a Recipe,
+    /// [`Library::identity`](crate::library::Library::identity).
+    pub library_identity: &'a str,
+    /// Enrolled references.
+    pub num_references: usize,
+    /// Where the camera stands, if the cell is calibrated.
+    pub robot: Option<&'a RobotFrame>,
+    /// In which numbers poses are written besides matrix and quaternion.
+    pub convention: Convention,
+}
+
+impl PoseReport {
+    /// The report of an inspection.
+    pub fn of(subject: &ReportSubject<'_>) -> Self {
+        let inspection = subject.inspection;
+        let verdict = VerdictBlock::of(inspection, subject.recipe);
+        let found = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+        let block = found.map(|pose| PoseBlock::of(pose, inspection, subject));
+        let camera_from_part = found
+            .map(|pose| pose.camera_from_part())
+            .filter(|_| verdict.accepted);
+        let (pose, refused_pose) = if verdict.accepted {
+            (block, None)
+        } else {
+            (None, block)
+        };
+        let stand_off = subject.stand_off.and_then(|found| found.as_ref().ok());
+        Self {
+            schema: POSE_REPORT_SCHEMA,
+            inspected_at: subject.inspected_at,
+            program: format!("Partsight {}", env!("CARGO_PKG_VERSION")),
+            scene: subject.scene.to_owned(),
+            source: subject.source.map(ToOwned::to_owned),
+            seen_by: subject.seen_by,
+            pose,
+            refused_pose,
+            robot: RobotBlock::of(camera_from_part.as_ref(), verdict.accepted, subject),
+            stand_off: stand_off
+                .filter(|_| verdict.accepted)
+                .map(|found| StandOffBlock::of(found, &subject.recipe.stand_off)),
+            verdict,
+            timings_ms: TimingsLine::of(&inspection.timings),
+            recipe: RecipeBlock {
+                identity: subject.recipe.identity(),
+                is_default: *subject.recipe == Recipe::default(),
+            },
+            library: LibraryBlock {
+                identity: subject.library_identity.to_owned(),
+                num_references: subject.num_references,
+            },
+        }
+    }
+
+    /// The report as JSON, indented for people, with a line's end.
+    pub fn to_json(&self) -> String {
+        let mut json =
+            serde_json::to_string_pretty(self).expect("numbers and text have a JSON form");
+        json.push('\n');
+        json
+    }
+
+    /// The JSON schema of [`Self::to_json`], with a line's end. `assets/pose-report.schema.json` holds the same.
+    pub fn json_schema() -> String {
+        let schema = schemars::schema_for!(Self);
+        let mut json = serde_json::to_string_pretty(&schema).expect("a schema is JSON");
+        json.push('\n');
+        json
+    }
+}
+
+impl VerdictBlock {
+    fn of(inspection: &Inspection, recipe: &Recipe) -> Self {
+        let verdict = &inspection.verdict;
+        let block = Self {
+            status: status_of(verdict),
+            part: None,
+            nearest: None,
+            accepted: verdict.is_accepted(),
+            score: None,
+            threshold: recipe.accept.min_score,
+            margin: None,
+            reason: None,
+            advice: None,
+            approximate: verdict.is_approximate(),
+            touches_edge: inspection.touches_edge(),
+        };
+        match verdict {
+            Verdict::Part {
+                part,
+                score,
+                margin,
+                rejected,
+                ..
+            } => {
+                let is_unknown = verdict.is_unknown();
+                Self {
+                    part: Some(part.clone()).filter(|_| !is_unknown),
+                    nearest: Some(part.clone()).filter(|_| is_unknown),
+                    score: Some(*score),
+                    margin: Some(*margin),
+                    reason: rejected.as_ref().map(ToString::to_string),
+                    advice: rejected.as_ref().map(|reason| reason.advice()),
+                    ..block
+                }
+            }
+            Verdict::NoPart(reason) => Self {
+                reason: Some(reason.to_string()),
+                advice: Some(reason.advice()),
+                ..block
+            },
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,321 @@
+//! A pose report as one page of A4.
+
+mod facts;
+mod numbers;
+
+use image::RgbImage;
+use jiff::tz::TimeZone;
+use krilla::{
+    Document,
+    metadata::{DateTime, Metadata},
+    page::PageSettings,
+};
+
+use super::{
+    PoseReport, SeenBy,
+    sheet::{Align, Area, Faces, Ink, Sheet, Style, Weight},
+};
+use crate::report::Picture;
+
+/// A4, points.
+const PAGE: [f32; 2] = [595.28, 841.89];
+const MARGIN: f32 = 40.0;
+const WIDTH: f32 = PAGE[0] - 2.0 * MARGIN;
+/// The column of numbers, and the one of pictures and figures beside it.
+const LEFT: f32 = 296.0;
+const GAP: f32 = 20.0;
+const RIGHT: f32 = WIDTH - LEFT - GAP;
+
+const BLACK: Ink = [24, 27, 32];
+const GREY: Ink = [96, 104, 116];
+const RULE: Ink = [205, 210, 217];
+const PALE: Ink = [241, 243, 246];
+const GREEN: Ink = [22, 120, 62];
+const RED: Ink = [186, 28, 28];
+const AMBER: Ink = [166, 92, 0];
+const WHITE: Ink = [255, 255, 255];
+
+const fn style(size: f32, weight: Weight, ink: Ink) -> Style {
+    Style { size, weight, ink }
+}
+
+const SMALL: Style = style(7.5, Weight::Regular, GREY);
+const BODY: Style = style(9.0, Weight::Regular, BLACK);
+const STRONG: Style = style(9.0, Weight::Bold, BLACK);
+const HEADING: Style = style(10.5, Weight::Bold, BLACK);
+
+/// Why there is no page.
+#[derive(Debug, thiserror::Error)]
+#[error("the page could not be made: {0}")]
+pub struct PdfError(String);
+
+impl crate::error::Advice for PdfError {
+    fn advice(&self) -> String {
+        "Write the report as JSON, and report this as a bug".into()
+    }
+}
+
+/// The pictures of a report.
+#[derive(Clone, Copy, Debug, Default)]
+pub struct PdfPictures<'a> {
+    /// The 3-D view, if there is one; else the picture of the segmentation stands for it.
+    pub view: Option<&'a RgbImage>,
+    /// The stages.
+    pub stages: &'a [Picture],
+    /// What a person calls the part; else its name.
+    pub title: Option<&'a str>,
+}
+
+/// The report as a PDF of one page. The same report with the same pictures is the same bytes.
+pub fn pose_pdf(report: &PoseReport, pictures: &PdfPictures<'_>) -> Result<Vec<u8>, PdfError> {
+    let mut document = Document::new();
+    document.set_metadata(metadata(report, pictures));
+    let settings = PageSettings::from_wh(PAGE[0], PAGE[1]).expect("A4 has an extent");
+    let mut page = document.start_page_with(settings);
+    let faces = Faces::new();
+    let mut sheet = Sheet::new(page.surface(), &faces);
+    compose(&mut sheet, report, pictures);
+    sheet.finish();
+    page.finish();
+    document
+        .finish()
+        .map_err(|error| PdfError(format!("{error:?}")))
+}
+
+fn metadata(report: &PoseReport, pictures: &PdfPictures<'_>) -> Metadata {
+    let at = report.inspected_at.to_zoned(TimeZone::UTC);
+    let date = DateTime::new(at.year().unsigned_abs())
+        .month(at.month().unsigned_abs())
+        .day(at.day().unsigned_abs())
+        .hour(at.hour().unsigned_abs())
+        .minute(at.minute().unsigned_abs())
+        .second(at.second().unsigned_abs())
+        .utc_offset_hour(0);
+    Metadata::new()
+        .title(format!(
+            "Pose report: {}, {}",
+            headline(report, pictures),
+            report.scene
+        ))
+        .creator(report.program.clone())
+        .language("en".into())
+        .creation_date(date)
+}
+
+/// Everything on the page, from top to bottom.
+fn compose(sheet: &mut Sheet<'_>, report: &PoseReport, pictures: &PdfPictures<'_>) {
+    let y = head(sheet, report);
+    let y = verdict(sheet, report, pictures, y) + 8.0;
+    let bottom = facts::foot(sheet, report);
+    let stages = shown_stages(pictures);
+    let bottom = strip(sheet, &stages, bottom);
+    let columns = Area {
+        left: MARGIN,
+        top: y,
+        width: LEFT,
+        height: bottom - y,
+    };
+    numbers::column(sheet, report, columns);
+    facts::column(
+        sheet,
+        report,
+        pictures,
+        Area {
+            left: MARGIN + LEFT + GAP,
+            width: RIGHT,
+            ..columns
+        },
+    );
+}
+
+/// What it is and when it was; answers with where the next thing begins.
+fn head(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
+    sheet.text("Pose report", [MARGIN, 46.0], HEADING, Align::Left);
+    let at = report
+        .inspected_at
+        .strftime("%Y-%m-%d %H:%M:%S UTC")
+        .to_string();
+    sheet.text(&at, [MARGIN + WIDTH, 46.0], BODY, Align::Right);
+    sheet.line(&[[MARGIN, 54.0], [MARGIN + WIDTH, 54.0]], 0.75, RULE);
+    if report.seen_by != SeenBy::Simulation {
+        return 66.0;
+    }
+    let band = Area {
+        left: MARGIN,
+        top: 60.0,
+        width: WIDTH,
+        height: 18.0,
+    };
+    sheet.fill(band, AMBER);
+    let text = "SIMULATED: no camera was read. This report is of no real part.";
+    sheet.text(
+        text,
+        [MARGIN + 8.0, 72.5],
+        style(10.0, Weight::Bold, WHITE),
+        Align::Left,
+    );
+    90.0
+}
+
+/// The part in large letters.
+fn headline(report: &PoseReport, pictures: &PdfPictures<'_>) -> String {
+    let verdict = &report.verdict;
+    match (&verdict.part, verdict.accepted, verdict.status) {
+        (Some(part), true, _) => pictures.title.unwrap_or(part).to_owned(),
+        (_, _, "no_part") => "No part".into(),
+        (_, _, "unknown") => "Unknown part".into(),
+        // No name in large letters that is not certain.
+        _ => "Not recognised".into(),
+    }
+}
+
+/// The verdict; answers with where the next thing begins.
+fn verdict(
+    sheet: &mut Sheet<'_>,
+    report: &PoseReport,
+    pictures: &PdfPictures<'_>,
+    top: f32,
+) -> f32 {
+    const INDENT: f32 = 16.0;
+    let verdict = &report.verdict;
+    let ink = if verdict.accepted { GREEN } else { RED };
+    let title = headline(report, pictures);
+    let wide = WIDTH - INDENT - 120.0;
+    // As large as it fits, and cut only where that is small.
+    let large = |size: f32| style(size, Weight::Bold, BLACK);
+    let sizes = [26.0, 22.0, 18.0, 15.0];
+    let size = sizes
+        .into_iter()
+        .find(|size| sheet.faces.width(&title, large(*size)) <= wide);
+    let title_style = large(size.unwrap_or(15.0));
+    let title = sheet.faces.fitted(&title, wide, title_style);
+    let mut y = top + 21.0;
+    sheet.text(&title, [MARGIN + INDENT, y], title_style, Align::Left);
+    y += 21.0;
+    let words = if verdict.accepted {
+        "Accepted"
+    } else {
+        "NOT ACCEPTED: do not move on this pose"
+    };
+    mark(
+        sheet,
+        [MARGIN + INDENT + 5.0, y - 5.0],
+        verdict.accepted,
+        ink,
+    );
+    sheet.text(
+        words,
+        [MARGIN + INDENT + 18.0, y],
+        style(14.0, Weight::Bold, ink),
+        Align::Left,
+    );
+    if let Some(score) = verdict.score {
+        let right = MARGIN + WIDTH;
+        sheet.text(
+            &format!("{score:.2}"),
+            [right, top + 21.0],
+            large(22.0),
+            Align::Right,
+        );
+        let margin = verdict.margin.map_or(String::new(), |margin| {
+            format!(", {margin:.2} ahead of the next")
+        });
+        let below = format!("score, threshold {:.2}{margin}", verdict.threshold);
+        sheet.text(&below, [right, y], SMALL, Align::Right);
+    }
+    y += 15.0;
+    let text = |sheet: &mut Sheet<'_>, text: &str, style, y| {
+        sheet.paragraph(text, [MARGIN + INDENT, y], WIDTH - INDENT, style, 3)
+    };
+    let nearest = verdict.part.as_ref().or(verdict.nearest.as_ref());
+    if let Some(nearest) = nearest.filter(|_| !verdict.accepted) {
+        y = text(sheet, &format!("Nearest enrolled part: {nearest}"), BODY, y);
+    }
+    if let Some(reason) = &verdict.reason {
+        y = text(sheet, &facts::sentence(reason), BODY, y);
+    }
+    if let Some(advice) = &verdict.advice {
+        y = text(sheet, &format!("What to do: {advice}"), STRONG, y);
+    }
+    let block = report.pose.as_ref().or(report.refused_pose.as_ref());
+    for caution in block.iter().flat_map(|block| &block.cautions) {
+        // The two are said in large letters above.
+        if !caution.starts_with("not accepted") && !caution.starts_with("simulated") {
+            y = text(
+                sheet,
+                &facts::sentence(caution),
+                style(9.0, Weight::Bold, AMBER),
+                y,
+            );
+        }
+    }
+    let bar = Area {
+        left: MARGIN,
+        top,
+        width: 5.0,
+        height: y - 8.0 - top,
+    };
+    sheet.fill(bar, ink);
+    y
+}
+
+/// A tick or a cross, so that colour is not the only sign.
+fn mark(sheet: &mut Sheet<'_>, [x, y]: [f32; 2], is_good: bool, ink: Ink) {
+    let at = |dx: f32, dy: f32| [x + dx, y + dy];
+    if is_good {
+        sheet.line(&[at(-5.0, 0.0), at(-1.5, 4.0), at(6.0, -5.0)], 2.2, ink);
+    } else {
+        sheet.line(&[at(-4.5, -4.5), at(4.5, 4.5)], 2.2, ink);
+        sheet.line(&[at(4.5, -4.5), at(-4.5, 4.5)], 2.2, ink);
+    }
+}
+
+/// The stages in a row; the first stands in for the 3-D view where there is none.
+fn shown_stages<'a>(pictures: &PdfPictures<'a>) -> Vec<&'a Picture> {
+    let num_above = usize::from(pictures.view.is_none());
+    pictures.stages.iter().skip(num_above).collect()
+}
+
+/// Pictures of the stages above `bottom`; answers with where they begin.
+fn strip(sheet: &mut Sheet<'_>, stages: &[&Picture], bottom: f32) -> f32 {
+    const BETWEEN: f32 = 8.0;
+    const HEIGHT: f32 = 92.0;
+    if stages.is_empty() {
+        return bottom;
+    }
+    let num = stages.len().max(3) as f32;
+    let width = (WIDTH - BETWEEN * (num - 1.0)) / num;
+    let top = bottom - HEIGHT - 16.0;
+    let mut left = MARGIN;
+    for stage in stages {
+        let area = Area {
+            left,
+            top,
+            width,
+            height: HEIGHT,
+        };
+        sheet.fill(area, PALE);
+        sheet.picture(&stage.image, area);
+        sheet.text(
+            stage_title(stage.stage),
+            [left, top + HEIGHT + 9.0],
+            SMALL,
+            Align::Left,
+        );
+        left += width + BETWEEN;
+    }
+    top - 10.0
+}
+
+fn stage_title(stage: &str) -> &str {
+    match stage {
+        "segmentation" => "What the camera saw, by segment",
+        "binary" => "Binary image",
+        "contour" => "Contour, rays from its centroid",
+        "signature" => "Signature: lengths and angles",
+        other => other,
+    }
+}
+
+#[cfg(test)]
+mod tests;

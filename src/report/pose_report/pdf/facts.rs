@@ -1,0 +1,215 @@
+//! The right column: the picture of the scene and the figures; and the foot of the page.
+
+use super::{
+    Align, Area, BLACK, BODY, HEADING, MARGIN, PAGE, PALE, PdfPictures, RULE, SMALL, STRONG, Sheet,
+    WIDTH, Weight, stage_title, style,
+};
+use crate::report::pose_report::{FitBlock, MiddleBlock, PoseBlock, PoseReport, StandOffBlock};
+
+const LINE: f32 = 12.0;
+
+/// The picture, and below it what the pose comes to.
+pub(super) fn column(
+    sheet: &mut Sheet<'_>,
+    report: &PoseReport,
+    pictures: &PdfPictures<'_>,
+    area: Area,
+) {
+    let mut y = area.top;
+    let stage = pictures.stages.first();
+    let shown = pictures
+        .view
+        .map(|view| (view, "3-D view"))
+        .or(stage.map(|stage| (&stage.image, stage_title(stage.stage))));
+    if let Some((picture, caption)) = shown {
+        let covered = sheet.picture(
+            picture,
+            Area {
+                height: 150.0,
+                ..area
+            },
+        );
+        y += covered.height + 9.0;
+        sheet.text(caption, [area.left, y], SMALL, Align::Left);
+        y += 18.0;
+    }
+    let mut rows = Rows { sheet, area, y };
+    if let Some(pose) = &report.pose {
+        if let Some(middle) = &pose.middle {
+            rows.middle(middle);
+        }
+        rows.fit(&pose.fit, pose);
+    }
+    if let Some(found) = &report.stand_off {
+        rows.stand_off(found);
+    }
+}
+
+/// Rows of a name and a figure, going down.
+struct Rows<'s, 'p> {
+    sheet: &'s mut Sheet<'p>,
+    area: Area,
+    y: f32,
+}
+
+impl Rows<'_, '_> {
+    fn heading(&mut self, text: &str) {
+        self.sheet
+            .text(text, [self.area.left, self.y], HEADING, Align::Left);
+        self.y += LINE + 1.5;
+    }
+
+    fn row(&mut self, name: &str, value: &str) {
+        self.sheet
+            .text(name, [self.area.left, self.y], BODY, Align::Left);
+        let right = self.area.left + self.area.width;
+        self.sheet
+            .text(value, [right, self.y], STRONG, Align::Right);
+        self.y += LINE;
+    }
+
+    fn note(&mut self, text: &str) {
+        let at = [self.area.left, self.y - 1.0];
+        self.y = self.sheet.paragraph(text, at, self.area.width, SMALL, 3) + 8.0;
+    }
+
+    fn middle(&mut self, middle: &MiddleBlock) {
+        self.heading("Off its standard position");
+        let axes = ["x, to the right", "y, down", "z, away"];
+        for (axis, metres) in axes.into_iter().zip(middle.moved_m) {
+            self.row(axis, &format!("{:+.1} mm", metres * 1000.0));
+        }
+        self.row("turned", &format!("{:.2}°", middle.turned_in_all_deg));
+        self.note("The part's middle as the camera sees it; for people, not for a robot.");
+    }
+
+    fn fit(&mut self, fit: &FitBlock, pose: &PoseBlock) {
+        self.heading("Fit");
+        self.row("rms", &format!("{:.2} mm", fit.rms_m * 1000.0));
+        self.row("on the reference", &format!("{:.0} %", fit.overlap * 100.0));
+        match &pose.bounds {
+            Some(bounds) => {
+                let text = format!(
+                    "< {:.1} mm, {:.2}°",
+                    bounds.shift_m * 1000.0,
+                    bounds.turn_deg
+                );
+                self.row("off by, 95 %", &text);
+            }
+            None => self.row("off by, 95 %", "not known"),
+        }
+        if let Some(ratio) = fit.runner_up_ratio {
+            self.row("next best pose", &format!("{ratio:.1}× worse"));
+        }
+        let stopped = fit.stopped.replace('_', " ");
+        self.row("found by", &format!("{}, {stopped}", fit.method));
+        self.y += 8.0;
+    }
+
+    fn stand_off(&mut self, found: &StandOffBlock) {
+        let mm = |metres: f64| format!("{:.0}", metres * 1000.0);
+        self.heading("Stand-off of the taught path");
+        self.row(
+            "mean, worst",
+            &format!("{}, {} mm", mm(found.mean_m), mm(found.worst_m)),
+        );
+        let band = format!("in {} to {} mm", mm(found.nearest_m), mm(found.farthest_m));
+        self.row(
+            &band,
+            &format!("{:.0} % of the path", found.in_band * 100.0),
+        );
+        let angles = format!(
+            "{:.1}°, {:.1}°",
+            found.mean_angle_deg, found.worst_angle_deg
+        );
+        self.row("angle, worst", &angles);
+        self.note(if found.keeps_the_band {
+            "The path can run as it was taught."
+        } else {
+            "The path has to be moved by the pose first."
+        });
+    }
+}
+
+/// By what the inspection can be found again; answers with where the foot begins.
+pub(super) fn foot(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
+    let bottom = PAGE[1] - 34.0;
+    let top = bottom - 58.0;
+    let area = Area {
+        left: MARGIN,
+        top,
+        width: WIDTH,
+        height: bottom - top,
+    };
+    sheet.fill(area, PALE);
+    let recipe = if report.recipe.is_default {
+        " (the program's own)"
+    } else {
+        " (changed)"
+    };
+    let library = &report.library;
+    let timings = &report.timings_ms;
+    let facts = [
+        [
+            ("Scene", report.scene.clone()),
+            (
+                "Source",
+                report.source.clone().unwrap_or_else(|| "file".into()),
+            ),
+            ("Seen by", report.seen_by.describe().into()),
+            (
+                "Inspected in",
+                format!(
+                    "{:.1} ms, {:.1} ms of it for the pose",
+                    timings.total, timings.pose
+                ),
+            ),
+        ],
+        [
+            ("Recipe", format!("{}{recipe}", report.recipe.identity)),
+            (
+                "Library",
+                format!(
+                    "{}, {} references",
+                    library.identity, library.num_references
+                ),
+            ),
+            (
+                "Calibration",
+                report
+                    .robot
+                    .calibration
+                    .clone()
+                    .unwrap_or_else(|| "none".into()),
+            ),
+            (
+                "Program",
+                format!("{}, report schema {}", report.program, report.schema),
+            ),
+        ],
+    ];
+    for (column, facts) in facts.iter().enumerate() {
+        let left = MARGIN + 8.0 + column as f32 * (WIDTH / 2.0 + 4.0);
+        let mut y = top + 14.0;
+        for (name, value) in facts {
+            let style = style(8.0, Weight::Regular, BLACK);
+            sheet.text(name, [left, y], SMALL, Align::Left);
+            let value = sheet.faces.fitted(value, WIDTH / 2.0 - 72.0, style);
+            sheet.text(&value, [left + 54.0, y], style, Align::Left);
+            y += 12.0;
+        }
+    }
+    sheet.line(&[[MARGIN, top], [MARGIN + WIDTH, top]], 0.75, RULE);
+    top - 6.0
+}
+
+/// With a capital letter and a full stop.
+pub(super) fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    let first = letters.next().map(char::to_uppercase);
+    let mut sentence: String = first.into_iter().flatten().chain(letters).collect();
+    if !sentence.ends_with('.') {
+        sentence.push('.');
+    }
+    sentence
+}

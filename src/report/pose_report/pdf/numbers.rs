@@ -1,0 +1,239 @@
+//! The left column: the pose in numbers.
+
+use super::{
+    AMBER, Align, Area, BLACK, BODY, GREY, HEADING, PALE, RED, RULE, SMALL, STRONG, Sheet, Weight,
+    style,
+};
+use crate::{
+    report::pose_report::{PoseBlock, PoseReport, TransformBlock},
+    robot::Convention,
+};
+
+const LINE: f32 = 12.5;
+
+/// Everything that the pose is, or why there is none.
+pub(super) fn column(sheet: &mut Sheet<'_>, report: &PoseReport, area: Area) {
+    match &report.pose {
+        Some(pose) => {
+            let y = robot(sheet, report, pose, area);
+            camera(
+                sheet,
+                pose,
+                Area {
+                    top: y + 12.0,
+                    ..area
+                },
+            );
+        }
+        None => nothing(sheet, report, area),
+    }
+}
+
+/// No numbers that anybody could type into a robot.
+fn nothing(sheet: &mut Sheet<'_>, report: &PoseReport, area: Area) {
+    let boxed = Area {
+        height: 92.0,
+        ..area
+    };
+    sheet.fill(boxed, PALE);
+    let x = area.left + 12.0;
+    let heading = style(HEADING.size, Weight::Bold, RED);
+    sheet.text(
+        "No pose is given",
+        [x, area.top + 22.0],
+        heading,
+        Align::Left,
+    );
+    let text = if report.verdict.accepted {
+        "The part was accepted by its outline alone: no pose was estimated."
+    } else {
+        "The part was not accepted. Where it would be is in the report's JSON, under refused_pose, to find out why it was \
+         refused; nothing may move by it."
+    };
+    sheet.paragraph(text, [x, area.top + 40.0], area.width - 24.0, BODY, 5);
+}
+
+/// The pose in the convention, in each frame that it is known in; answers with the line below.
+fn robot(sheet: &mut Sheet<'_>, report: &PoseReport, pose: &PoseBlock, area: Area) -> f32 {
+    let robot = &report.robot;
+    let in_robot: Vec<&TransformBlock> = [&robot.robot_from_part, &robot.robot_offset]
+        .into_iter()
+        .flatten()
+        .collect();
+    let shown: Vec<&TransformBlock> = if in_robot.is_empty() {
+        vec![&pose.camera_from_part]
+    } else {
+        in_robot
+    };
+    let mut y = area.top + 9.0;
+    sheet.text(robot.convention_title, [area.left, y], HEADING, Align::Left);
+    if let Some(calibration) = &robot.calibration {
+        let style = SMALL;
+        let text = sheet
+            .faces
+            .fitted(&format!("calibration: {calibration}"), 150.0, style);
+        sheet.text(&text, [area.left + area.width, y], style, Align::Right);
+    }
+    y += 6.0;
+    if robot.convention == Convention::Matrix {
+        for block in &shown {
+            sheet.text(block.name, [area.left, y + LINE], STRONG, Align::Left);
+            y = matrix(
+                sheet,
+                block,
+                Area {
+                    top: y + LINE + 4.0,
+                    ..area
+                },
+            ) + 2.0;
+        }
+    } else {
+        y = table(sheet, &shown, Area { top: y, ..area });
+    }
+    y += LINE;
+    y = sheet.paragraph(
+        &format!("{}.", robot.convention_meaning),
+        [area.left, y],
+        area.width,
+        SMALL,
+        4,
+    );
+    for block in &shown {
+        let text = format!("{}: {}.", block.name, block.meaning);
+        y = sheet.paragraph(&text, [area.left, y + 2.0], area.width, SMALL, 3);
+        if let Some(note) = &block.in_convention.gimbal_note {
+            let text = format!("{}, {note}", block.name);
+            y = sheet.paragraph(
+                &text,
+                [area.left, y + 2.0],
+                area.width,
+                style(8.0, Weight::Bold, AMBER),
+                2,
+            );
+        }
+    }
+    if let Some(why) = robot.unavailable {
+        let text =
+            format!("Not in the robot's frame: {why}. These numbers are in the camera's frame.");
+        y = sheet.paragraph(
+            &text,
+            [area.left, y + 3.0],
+            area.width,
+            style(8.5, Weight::Bold, AMBER),
+            3,
+        );
+    }
+    y
+}
+
+/// A row for each number, a column for each transform; answers with the last line.
+fn table(sheet: &mut Sheet<'_>, shown: &[&TransformBlock], area: Area) -> f32 {
+    let wide = (area.width - 56.0) / 2.0;
+    let right = |column: usize| area.left + 56.0 + (column + 1) as f32 * wide;
+    let mut y = area.top + LINE;
+    for (column, block) in shown.iter().enumerate() {
+        sheet.text(
+            block.name,
+            [right(column), y],
+            style(8.5, Weight::Bold, BLACK),
+            Align::Right,
+        );
+    }
+    let Some(first) = shown.first() else {
+        return y;
+    };
+    for (row, value) in first.in_convention.values.iter().enumerate() {
+        sheet.line(
+            &[[area.left, y + 3.5], [area.left + area.width, y + 3.5]],
+            0.5,
+            RULE,
+        );
+        y += LINE + 0.8;
+        sheet.text(value.name, [area.left, y], STRONG, Align::Left);
+        sheet.text(
+            value.unit.symbol(),
+            [area.left + 30.0, y],
+            style(9.0, Weight::Regular, GREY),
+            Align::Left,
+        );
+        for (column, block) in shown.iter().enumerate() {
+            if let Some(value) = block.in_convention.values.get(row) {
+                sheet.text(
+                    &value.rounded(),
+                    [right(column), y],
+                    style(10.0, Weight::Regular, BLACK),
+                    Align::Right,
+                );
+            }
+        }
+    }
+    y
+}
+
+/// The pose before the camera.
+fn camera(sheet: &mut Sheet<'_>, pose: &PoseBlock, area: Area) {
+    let block = &pose.camera_from_part;
+    let mut y = area.top;
+    sheet.text(block.name, [area.left, y], HEADING, Align::Left);
+    y = matrix(
+        sheet,
+        block,
+        Area {
+            top: y + 6.0,
+            ..area
+        },
+    ) + LINE
+        + 1.0;
+    let text = "4×4, row after row; x y z in metres in the fourth column. Takes a point of the enrolled part to where it is \
+                before the camera now: x right, y down, z forward.";
+    y = sheet.paragraph(text, [area.left, y], area.width, SMALL, 3) + 4.0;
+    let values = &block.quaternion.values;
+    let line = |names: &[&str], values: &[f64], decimals: usize| {
+        let parts = names
+            .iter()
+            .zip(values)
+            .map(|(name, value)| format!("{name} {value:.decimals$}"));
+        parts.collect::<Vec<_>>().join("   ")
+    };
+    if let ([names_at @ .., _, _, _, _], [at @ .., _, _, _, _]) =
+        (block.quaternion.names, values.as_slice())
+    {
+        sheet.text(
+            &(line(names_at, at, 6) + "   m"),
+            [area.left, y],
+            BODY,
+            Align::Left,
+        );
+    }
+    if let ([_, _, _, names @ ..], [_, _, _, turn @ ..]) =
+        (block.quaternion.names, values.as_slice())
+    {
+        sheet.text(
+            &line(names, turn, 6),
+            [area.left, y + LINE],
+            BODY,
+            Align::Left,
+        );
+    }
+    let text = "Quaternion with the scalar qw last. Its inverse, part_from_camera, is the paper's T (eq. 13).";
+    sheet.paragraph(
+        text,
+        [area.left, y + 2.0 * LINE - 1.0],
+        area.width,
+        SMALL,
+        2,
+    );
+}
+
+/// The 16 numbers in their rows; answers with the last line.
+fn matrix(sheet: &mut Sheet<'_>, block: &TransformBlock, area: Area) -> f32 {
+    let mut y = area.top;
+    for row in block.matrix.values.chunks(4) {
+        y += LINE;
+        for (column, value) in row.iter().enumerate() {
+            let right = area.left + (column + 1) as f32 * area.width / 4.0;
+            sheet.text(&format!("{value:.6}"), [right, y], BODY, Align::Right);
+        }
+    }
+    y
+}

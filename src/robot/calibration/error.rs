@@ -1,0 +1,60 @@
+//! Why a calibration file cannot be used.
+
+use std::path::PathBuf;
+
+use super::SCHEMA_VERSION;
+use crate::{error::Advice, files::FileError};
+
+/// Why a calibration file cannot be read or written.
+#[derive(Debug, thiserror::Error)]
+pub enum CalibrationError {
+    /// The file cannot be read or written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// Made by a newer version of this program.
+    #[error("{}: made by a newer version of Partsight (schema {found}, this one reads up to {SCHEMA_VERSION})", path.display())]
+    Newer {
+        /// The file.
+        path: PathBuf,
+        /// Its version.
+        found: u32,
+    },
+    /// Something in it cannot be understood.
+    #[error("{}: no calibration: {found}", path.display())]
+    Bad {
+        /// The file.
+        path: PathBuf,
+        /// The first thing wrong.
+        found: String,
+    },
+    /// A matrix that is no place of a camera.
+    #[error("{}: {key} is not a rigid transform: it stretches, mirrors, is not finite or does not end in 0 0 0 1", path.display())]
+    NotRigid {
+        /// The file.
+        path: PathBuf,
+        /// The matrix.
+        key: &'static str,
+    },
+    /// The system does not say where a user's data belong.
+    #[error("this system names no folder for a user's data")]
+    NoUserFolder,
+}
+
+impl Advice for CalibrationError {
+    fn advice(&self) -> String {
+        match self {
+            Self::File(FileError::NotFound { .. }) => {
+                "Check the path, or make a calibration: partsight calibrate hand-eye, or partsight calibrate set".into()
+            }
+            Self::File(error) => error.advice(),
+            Self::Newer { .. } => "Update Partsight, or calibrate again with this version".into(),
+            Self::Bad { .. } => {
+                "Correct the file in a text editor, or calibrate again; partsight calibrate set --help shows how".into()
+            }
+            Self::NotRigid { .. } => {
+                "Enter the matrix again with at least four digits behind the point: rows of a rotation, then the shift in metres, then 0 0 0 1".into()
+            }
+            Self::NoUserFolder => "Name a file with --calibration".into(),
+        }
+    }
+}

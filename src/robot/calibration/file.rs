@@ -1,0 +1,236 @@
+//! A calibration as a text file that a person can read and mend.
+
+use std::{
+    fmt::Write as _,
+    fs,
+    path::{Path, PathBuf},
+};
+
+use jiff::Timestamp;
+use serde::Deserialize;
+
+use super::{CalibrationError, CameraPlace, CellCalibration, Origin, numbers_text};
+use crate::{
+    files::{FileError, crc32, read_text, write_atomically},
+    geometry::rigid::{from_row_major, row_major},
+    robot::hand_eye::Mount,
+};
+
+/// The version of the file that this program writes. It reads this one and older ones.
+pub const SCHEMA_VERSION: u32 = 1;
+
+/// A larger file is no calibration.
+const MAX_BYTES: u64 = 1 << 20;
+
+/// Numbers that a person entered with four digits are off a rotation by as much.
+const ROUNDING: f64 = 1e-3;
+
+/// A calibration as it was read.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Loaded {
+    /// The calibration.
+    pub calibration: CellCalibration,
+    /// True if its numbers are others than those that the program wrote: somebody edited the file.
+    pub is_edited: bool,
+}
+
+/// The file's content, as far as this version knows it.
+#[derive(Debug, Deserialize)]
+struct Text {
+    #[serde(default)]
+    name: String,
+    #[serde(default)]
+    notes: String,
+    mount: Mount,
+    made_at: Timestamp,
+    #[serde(default)]
+    checksum: Option<String>,
+    robot_from_camera: Option<Matrix>,
+    flange_from_camera: Option<Matrix>,
+    /// At every capture.
+    robot_from_flange: Option<Matrix>,
+    origin: Origin,
+}
+
+type Matrix = [[f64; 4]; 4];
+
+const HEAD: &str = "\
+# Partsight: where the camera of a robot cell sits.
+#
+# b_from_a takes a point of frame a to frame b. Frames: camera (x right, y down, z forward), robot (the base of the
+# robot), flange (as the robot's controller shows it without a tool). Each is a 4x4 matrix, row after row: a rotation
+# without unit, and in the last column the shift in metres.
+";
+
+impl CellCalibration {
+    /// Reads a calibration.
+    pub fn load(path: &Path) -> Result<Loaded, CalibrationError> {
+        let text = read_text(path, MAX_BYTES)?;
+        parse(&text, path)
+    }
+
+    /// Writes a calibration, whole or not at all; the folder is made where it is missing.
+    pub fn save(&self, path: &Path) -> Result<(), CalibrationError> {
+        if let Some(folder) = path
+            .parent()
+            .filter(|folder| !folder.as_os_str().is_empty())
+        {
+            fs::create_dir_all(folder).map_err(|source| FileError::Write {
+                path: path.to_owned(),
+                source,
+            })?;
+        }
+        let text = self.to_text();
+        write_atomically(path, |writer| writer.write_all(text.as_bytes()))?;
+        Ok(())
+    }
+
+    /// As [`Self::save`]; what was at that path before is kept beside it, and where is told.
+    pub fn save_keeping_former(&self, path: &Path) -> Result<Option<PathBuf>, CalibrationError> {
+        let former = match read_text(path, MAX_BYTES) {
+            Ok(text) if text != self.to_text() => Some(text),
+            Ok(_) | Err(FileError::NotFound { .. }) => None,
+            Err(error) => return Err(error.into()),
+        };
+        let kept = former.map(|text| {
+            let kept = path.with_extension("former.toml");
+            write_atomically(&kept, |writer| writer.write_all(text.as_bytes()))?;
+            Ok::<_, FileError>(kept)
+        });
+        let kept = kept.transpose()?;
+        self.save(path)?;
+        Ok(kept)
+    }
+
+    /// The content of its file.
+    pub fn to_text(&self) -> String {
+        let quoted = |text: &str| toml::Value::from(text).to_string();
+        let mount = match self.camera.mount() {
+            Mount::EyeToHand => "eye_to_hand",
+            Mount::EyeInHand => "eye_in_hand",
+        };
+        let mut text = format!(
+            "{HEAD}\nschema_version = {SCHEMA_VERSION}\nname = {}\nnotes = {}\nmade_at = {}\n\n# {}\nmount = {}\n",
+            quoted(&self.name),
+            quoted(&self.notes),
+            quoted(&self.made_at.to_string()),
+            self.camera.mount().describe(),
+            quoted(mount),
+        );
+        let mut checked = String::new();
+        for (name, transform) in self.matrices() {
+            let numbers = row_major(transform);
+            // Writing to memory does not fail.
+            let _ = writeln!(text, "{name} = [");
+            for row in numbers.chunks(4) {
+                let row: Vec<String> = row.iter().map(|x| written(*x)).collect();
+                let _ = writeln!(text, "  [{}],", row.join(", "));
+            }
+            text += "]\n";
+            checked += &numbers_text(name, &numbers, DECIMALS);
+        }
+        let _ = write!(
+            text,
+            "# Of the numbers above; without this line, or with another one, they count as entered by hand.\nchecksum = {}\n\n[origin]\n{}",
+            quoted(&format!("{:08x}", crc32(checked.as_bytes()))),
+            toml::to_string(&self.origin).expect("numbers and text have a TOML form")
+        );
+        text
+    }
+}
+
+/// Digits behind the point: a picometre, so that reading back changes nothing that anybody sees.
+const DECIMALS: usize = 12;
+
+/// A number of a matrix; adding 0 takes the sign off a zero.
+fn written(number: f64) -> String {
+    let rounded = (number * 1e12).round() / 1e12 + 0.0;
+    format!("{rounded:15.DECIMALS$}")
+}
+
+fn parse(text: &str, path: &Path) -> Result<Loaded, CalibrationError> {
+    /// The one line that every version has.
+    #[derive(Deserialize)]
+    struct Versioned {
+        schema_version: u32,
+    }
+    let bad = |found: String| CalibrationError::Bad {
+        path: path.to_owned(),
+        found,
+    };
+    let no_toml = |error: toml::de::Error| {
+        let line = error.span().map(|span| {
+            let before = text.get(..span.start).unwrap_or_default();
+            format!("line {}: ", before.matches('\n').count() + 1)
+        });
+        let what = error.message().lines().next().unwrap_or("no TOML");
+        bad(format!("{}{what}", line.unwrap_or_default()))
+    };
+    let Versioned { schema_version } = toml::from_str(text).map_err(no_toml)?;
+    if schema_version > SCHEMA_VERSION {
+        return Err(CalibrationError::Newer {
+            path: path.to_owned(),
+            found: schema_version,
+        });
+    }
+    let read: Text = toml::from_str(text).map_err(no_toml)?;
+    let numbers_of = |rows: &Matrix| -> [f64; 16] { std::array::from_fn(|i| rows[i / 4][i % 4]) };
+    let rigid = |key: &'static str, rows: &Matrix| {
+        let numbers = numbers_of(rows);
+        from_row_major(&numbers, ROUNDING).ok_or_else(|| CalibrationError::NotRigid {
+            path: path.to_owned(),
+            key,
+        })
+    };
+    let needed = |key: &'static str, rows: &Option<Matrix>| match rows {
+        Some(rows) => rigid(key, rows),
+        None => Err(bad(format!("{key} is missing"))),
+    };
+    let camera = match read.mount {
+        Mount::EyeToHand => CameraPlace::Fixed {
+            robot_from_camera: needed("robot_from_camera", &read.robot_from_camera)?,
+        },
+        Mount::EyeInHand => CameraPlace::OnFlange {
+            flange_from_camera: needed("flange_from_camera", &read.flange_from_camera)?,
+            capture_pose: match &read.robot_from_flange {
+                Some(rows) => Some(rigid("robot_from_flange", rows)?),
+                None => None,
+            },
+        },
+    };
+    let mut calibration = CellCalibration {
+        name: read.name,
+        notes: read.notes,
+        camera,
+        origin: read.origin,
+        made_at: read.made_at,
+    };
+    let checked: String = [
+        ("robot_from_camera", &read.robot_from_camera),
+        ("flange_from_camera", &read.flange_from_camera),
+        ("robot_from_flange", &read.robot_from_flange),
+    ]
+    .into_iter()
+    .filter_map(|(name, rows)| Some(numbers_text(name, &numbers_of(rows.as_ref()?), DECIMALS)))
+    .collect();
+    let is_calculated = matches!(calibration.origin, Origin::HandEye(_));
+    let is_edited = match &read.checksum {
+        Some(written) => *written != format!("{:08x}", crc32(checked.as_bytes())),
+        None => is_calculated,
+    };
+    if is_edited {
+        // Residuals of other numbers would be a false witness.
+        calibration.origin = Origin::ByHand;
+    }
+    Ok(Loaded {
+        calibration,
+        is_edited,
+    })
+}
+
+/// Where the cell's calibration is when none is named: `cell.toml` in the user's data folder.
+pub fn default_path() -> Result<PathBuf, CalibrationError> {
+    let folders = directories::ProjectDirs::from("", "", "partsight");
+    let folders = folders.ok_or(CalibrationError::NoUserFolder)?;
+    Ok(folders.data_dir().join("cell.toml"))
+}

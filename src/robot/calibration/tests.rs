@@ -1,0 +1,209 @@
+use std::path::Path;
+
+use super::*;
+use crate::{
+    geometry::rigid::from_euler_zyx,
+    robot::hand_eye::{PosePair, solve},
+};
+
+fn at() -> Timestamp {
+    "2026-03-04T05:06:07Z".parse().expect("a moment")
+}
+
+fn fixed() -> CellCalibration {
+    CellCalibration {
+        name: "Cell 2 \"north\"".into(),
+        notes: "after the crash\nof Monday".into(),
+        camera: CameraPlace::Fixed {
+            robot_from_camera: from_euler_zyx([2.1, -0.1, 1.5, 1.2, -0.4, 1.9]),
+        },
+        origin: Origin::ByHand,
+        made_at: at(),
+    }
+}
+
+fn on_flange(capture_pose: Option<RigidTransform>) -> CellCalibration {
+    CellCalibration {
+        camera: CameraPlace::OnFlange {
+            flange_from_camera: from_euler_zyx([0.01, 0.02, 1.5, 0.05, 0.0, 0.09]),
+            capture_pose,
+        },
+        ..fixed()
+    }
+}
+
+fn saved(calibration: &CellCalibration) -> Loaded {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("deep").join("cell.toml");
+    calibration.save(&path).expect("written");
+    CellCalibration::load(&path).expect("read")
+}
+
+fn load_text(text: &str) -> Result<Loaded, CalibrationError> {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("cell.toml");
+    std::fs::write(&path, text).expect("written");
+    CellCalibration::load(&path)
+}
+
+fn is_near(a: &RigidTransform, b: &RigidTransform) -> bool {
+    (a.to_homogeneous() - b.to_homogeneous()).amax() < 1e-8
+}
+
+#[test]
+fn what_is_written_is_read_again() {
+    let pose = from_euler_zyx([0.4, 0.5, 0.6, 0.7, 0.8, 0.9]);
+    for written in [fixed(), on_flange(None), on_flange(Some(pose))] {
+        let Loaded {
+            calibration: read,
+            is_edited,
+        } = saved(&written);
+        assert!(!is_edited);
+        assert_eq!((&read.name, &read.notes), (&written.name, &written.notes));
+        assert_eq!((&read.origin, read.made_at), (&written.origin, at()));
+        assert_eq!(read.identity(), written.identity());
+        assert!(is_near(
+            read.camera.mount_from_camera(),
+            written.camera.mount_from_camera()
+        ));
+        assert!(!saved(&read).is_edited);
+    }
+}
+
+#[test]
+fn a_camera_on_the_flange_needs_the_arms_pose() {
+    let pose = from_euler_zyx([0.4, 0.5, 0.6, 0.7, 0.8, 0.9]);
+    let other = from_euler_zyx([0.0, 0.5, 0.0, 1.0, 0.0, 0.9]);
+    let x = *on_flange(None).camera.mount_from_camera();
+    assert_eq!(on_flange(None).robot_from_camera(None), Err(NoRobotPose));
+    assert_eq!(on_flange(Some(pose)).robot_from_camera(None), Ok(pose * x));
+    // The one of this capture counts.
+    assert_eq!(
+        on_flange(Some(pose)).robot_from_camera(Some(&other)),
+        Ok(other * x)
+    );
+    let in_cell = fixed();
+    assert_eq!(
+        in_cell.robot_from_camera(None),
+        Ok(*in_cell.camera.mount_from_camera())
+    );
+}
+
+#[test]
+fn the_identity_is_that_of_the_numbers() {
+    let renamed = CellCalibration {
+        name: "other".into(),
+        ..fixed()
+    };
+    assert_eq!(renamed.identity(), fixed().identity());
+    let mut moved = fixed();
+    if let CameraPlace::Fixed { robot_from_camera } = &mut moved.camera {
+        robot_from_camera.translation.vector.x += 1e-6;
+    }
+    assert_ne!(moved.identity(), fixed().identity());
+    assert_ne!(
+        on_flange(None).identity(),
+        on_flange(Some(RigidTransform::identity())).identity()
+    );
+}
+
+#[test]
+fn a_hand_eye_calibration_keeps_its_figures_until_its_numbers_are_edited() {
+    let x = from_euler_zyx([2.1, -0.1, 1.5, 1.2, -0.4, 1.9]);
+    let pairs: Vec<PosePair> = [
+        [0.0, 0.0, 0.0, 0.0, 0.0, 1.2],
+        [0.6, 0.1, 0.0, 0.2, 0.0, 1.1],
+        [0.0, -0.6, 0.3, 0.0, 0.2, 1.3],
+        [-0.5, 0.3, 0.6, -0.2, 0.0, 1.2],
+    ]
+    .into_iter()
+    .map(|numbers| PosePair {
+        name: format!("{numbers:?}"),
+        robot_from_flange: x * from_euler_zyx(numbers),
+        camera_from_target: from_euler_zyx(numbers),
+    })
+    .collect();
+    let solved = solve(&pairs, Mount::EyeToHand).expect("solved");
+    let written = CellCalibration {
+        camera: CameraPlace::on(Mount::EyeToHand, solved.mount_from_camera),
+        origin: Origin::HandEye(Fit::of(&solved, "pairs.csv".into(), vec!["line 7".into()])),
+        ..fixed()
+    };
+    let Loaded {
+        calibration,
+        is_edited,
+    } = saved(&written);
+    assert!(!is_edited);
+    assert_eq!(calibration.origin, written.origin);
+    assert!(
+        calibration
+            .origin
+            .describe()
+            .contains("4 pairs from pairs.csv")
+    );
+
+    let x_shift = written.camera.mount_from_camera().translation.vector.x;
+    let (from, to) = (format!("{x_shift:.12}"), format!("{:.12}", x_shift + 0.01));
+    let text = written.to_text();
+    assert!(text.contains(&from), "{text}");
+    let edited = load_text(&text.replace(&from, &to)).expect("read");
+    assert!(edited.is_edited);
+    assert_eq!(edited.calibration.origin, Origin::ByHand);
+}
+
+#[test]
+fn numbers_with_four_digits_are_taken_and_others_refused() {
+    let rows = |rows: &str| {
+        format!(
+            "schema_version = 1\nmount = \"eye_to_hand\"\nmade_at = \"2026-03-04T05:06:07Z\"\nrobot_from_camera = [{rows}]\n[origin]\nkind = \"by_hand\"\n"
+        )
+    };
+    let rounded = load_text(&rows(
+        "[0.7071, -0.7071, 0, 1], [0.7071, 0.7071, 0, 2], [0, 0, 1, 3], [0, 0, 0, 1]",
+    ));
+    let loaded = rounded.expect("four digits are enough");
+    let turn = loaded.calibration.camera.mount_from_camera().rotation;
+    assert!((turn.angle() - std::f64::consts::FRAC_PI_4).abs() < 1e-9);
+    for text in [
+        "[2, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]",
+        "[-1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]",
+        "[1, 0, 0, 0], [0, 1, 0, 0], [0, 0, 1, 0], [5, 6, 7, 1]",
+        "[1, 0, 0, nan], [0, 1, 0, 0], [0, 0, 1, 0], [0, 0, 0, 1]",
+    ] {
+        let error = load_text(&rows(text)).expect_err(text);
+        assert!(
+            matches!(error, CalibrationError::NotRigid { .. }),
+            "{error}"
+        );
+        assert!(error.to_string().contains("robot_from_camera"), "{error}");
+    }
+}
+
+#[test]
+fn what_is_no_calibration_is_refused_in_words() {
+    let sound = fixed().to_text();
+    for (text, expected) in [
+        (
+            sound.replace("schema_version = 1", "schema_version = 9"),
+            "newer version",
+        ),
+        (sound.replace("eye_to_hand", "eye_on_foot"), "eye_on_foot"),
+        (
+            sound.replace("eye_to_hand", "eye_in_hand"),
+            "flange_from_camera is missing",
+        ),
+        (sound.replace("schema_version = 1", ""), "schema_version"),
+        ("[[[".into(), "line 1"),
+        ("a\u{0}b".into(), "no calibration"),
+    ] {
+        let error = load_text(&text).expect_err(expected);
+        assert!(error.to_string().contains(expected), "{error}");
+        assert!(!error.advice().is_empty());
+    }
+    let missing = CellCalibration::load(Path::new("no/such/cell.toml")).expect_err("missing");
+    assert!(
+        missing.advice().contains("partsight calibrate"),
+        "{}",
+        missing.advice()
+    );
+}

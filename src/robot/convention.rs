@@ -1,0 +1,240 @@
+//! The conventions in which robots are told a pose.
+//!
+//! What each means, and by which source:
+//!
+//! | convention | rotation | units | source |
+//! | --- | --- | --- | --- |
+//! | KUKA | R = Rz(A)·Ry(B)·Rx(C) | mm, degrees | Basler rc_visard, *Pose formats*; Mech-Mind, *Euler angles*; Vathos, *Rotations* |
+//! | FANUC | R = Rz(R)·Ry(P)·Rx(W) | mm, degrees | the same three |
+//! | ABB | unit quaternion, q1 the scalar | mm | ABB, *RAPID reference manual*, data types `pos` and `orient`: `[1, 0, 0, 0]` is no rotation; Basler |
+//! | Universal Robots | axis times angle | m, radians | Universal Robots, *Script manual*, module motion: a pose is a position and an axis-angle; Basler |
+//! | Yaskawa | R = Rz(Rz)·Ry(Ry)·Rx(Rx) | mm, degrees | Basler; Mech-Mind; Vathos |
+//! | Stäubli | R = Rx(rx)·Ry(ry)·Rz(rz) | mm, degrees | `RoboDK` as it writes VAL 3; Mech-Mind |
+//! | Doosan | R = Rz(A)·Ry(B)·Rz(C) | mm, degrees | Mech-Mind; Vathos |
+//!
+//! The makers' own manuals were at hand for ABB and Universal Robots only, and nothing was tried on a controller.
+//! Some can be set to other units or angles; what is written here is their default. `assets/conventions.md` has a
+//! table of one pose in all of them.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+use super::{euler::Order, robot_pose::Unit};
+
+#[cfg(test)]
+mod tests;
+
+/// How a pose is written down.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[serde(rename_all = "kebab-case")]
+pub enum Convention {
+    /// 4×4 matrix.
+    #[default]
+    Matrix,
+    /// Position and quaternion, scalar last.
+    QuaternionXyzw,
+    /// Position and rotation vector.
+    RotationVector,
+    /// KUKA's X Y Z A B C.
+    Kuka,
+    /// FANUC's X Y Z W P R.
+    Fanuc,
+    /// ABB's pos and orient: quaternion, scalar first.
+    Abb,
+    /// Universal Robots' pose: position and rotation vector.
+    UniversalRobots,
+    /// Yaskawa's X Y Z Rx Ry Rz.
+    Yaskawa,
+    /// Stäubli's trsf.
+    Staubli,
+    /// Doosan's posx.
+    Doosan,
+}
+
+/// How the rotation is written.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Layout {
+    Matrix,
+    Xyzw,
+    Wxyz,
+    RotationVector,
+    Angles {
+        order: Order,
+        /// True where the angle of the rightmost rotation is named first.
+        reversed: bool,
+    },
+}
+
+impl Convention {
+    /// Every convention.
+    pub const ALL: [Self; 10] = [
+        Self::Matrix,
+        Self::QuaternionXyzw,
+        Self::RotationVector,
+        Self::Kuka,
+        Self::Fanuc,
+        Self::Abb,
+        Self::UniversalRobots,
+        Self::Yaskawa,
+        Self::Staubli,
+        Self::Doosan,
+    ];
+
+    /// The name on the command line, in JSON and in files.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Matrix => "matrix",
+            Self::QuaternionXyzw => "quaternion-xyzw",
+            Self::RotationVector => "rotation-vector",
+            Self::Kuka => "kuka",
+            Self::Fanuc => "fanuc",
+            Self::Abb => "abb",
+            Self::UniversalRobots => "universal-robots",
+            Self::Yaskawa => "yaskawa",
+            Self::Staubli => "staubli",
+            Self::Doosan => "doosan",
+        }
+    }
+
+    /// The convention of this [`name`](Self::name).
+    pub fn by_name(name: &str) -> Option<Self> {
+        Self::ALL
+            .into_iter()
+            .find(|convention| convention.name() == name)
+    }
+
+    /// The name for people.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Matrix => "Matrix, 4×4",
+            Self::QuaternionXyzw => "Quaternion x y z w",
+            Self::RotationVector => "Rotation vector",
+            Self::Kuka => "KUKA A B C",
+            Self::Fanuc => "FANUC W P R",
+            Self::Abb => "ABB q1 q2 q3 q4",
+            Self::UniversalRobots => "Universal Robots",
+            Self::Yaskawa => "Yaskawa Rx Ry Rz",
+            Self::Staubli => "Stäubli rx ry rz",
+            Self::Doosan => "Doosan A B C",
+        }
+    }
+
+    /// Order, axes and units, in full.
+    pub fn meaning(self) -> &'static str {
+        match self {
+            Self::Matrix => {
+                "4×4 matrix, row after row: 3×3 rotation with x y z in metres as the fourth column, then 0 0 0 1; it \
+                 multiplies a column [x y z 1] from the left"
+            }
+            Self::QuaternionXyzw => {
+                "x y z in metres, then a unit quaternion qx qy qz qw with the scalar qw last and not negative"
+            }
+            Self::RotationVector => {
+                "x y z in metres, then rx ry rz: the axis of the rotation times its angle in radians, 0 to π; not three \
+                 angles one after the other"
+            }
+            Self::Kuka => {
+                "X Y Z in millimetres, then A B C in degrees: A about Z, B about the new Y, C about the new X (intrinsic \
+                 Z-Y'-X''), R = Rz(A)·Ry(B)·Rx(C), B within ±90"
+            }
+            Self::Fanuc => {
+                "X Y Z in millimetres, then W P R in degrees: W about the fixed X, then P about the fixed Y, then R about \
+                 the fixed Z (extrinsic X-Y-Z), R = Rz(R)·Ry(P)·Rx(W), P within ±90"
+            }
+            Self::Abb => {
+                "x y z in millimetres, then a unit quaternion q1 q2 q3 q4 with the scalar q1 first and not negative, as \
+                 in RAPID's pos and orient"
+            }
+            Self::UniversalRobots => {
+                "x y z in metres, then rx ry rz: the axis of the rotation times its angle in radians, 0 to π, as in \
+                 URScript's p[x, y, z, rx, ry, rz]; not the roll, pitch and yaw of the teach pendant"
+            }
+            Self::Yaskawa => {
+                "X Y Z in millimetres, then Rx Ry Rz in degrees: Rx about the fixed X, then Ry about the fixed Y, then Rz \
+                 about the fixed Z (extrinsic X-Y-Z), R = Rz(Rz)·Ry(Ry)·Rx(Rx), Ry within ±90"
+            }
+            Self::Staubli => {
+                "x y z in millimetres, then rx ry rz in degrees: rx about X, ry about the new Y, rz about the new Z \
+                 (intrinsic X-Y'-Z''), R = Rx(rx)·Ry(ry)·Rz(rz), ry within ±90, as in VAL 3's trsf"
+            }
+            Self::Doosan => {
+                "X Y Z in millimetres, then A B C in degrees: A about Z, B about the new Y, C about the new Z (intrinsic \
+                 Z-Y'-Z''), R = Rz(A)·Ry(B)·Rz(C), B from 0 to 180, as in posx"
+            }
+        }
+    }
+
+    /// The names of the numbers in their order.
+    pub fn names(self) -> &'static [&'static str] {
+        match self {
+            Self::Matrix => &[
+                "r11", "r12", "r13", "x", "r21", "r22", "r23", "y", "r31", "r32", "r33", "z",
+                "m41", "m42", "m43", "m44",
+            ],
+            Self::QuaternionXyzw => &["x", "y", "z", "qx", "qy", "qz", "qw"],
+            Self::Abb => &["x", "y", "z", "q1", "q2", "q3", "q4"],
+            Self::Kuka | Self::Doosan => &["X", "Y", "Z", "A", "B", "C"],
+            Self::Fanuc => &["X", "Y", "Z", "W", "P", "R"],
+            Self::Yaskawa => &["X", "Y", "Z", "Rx", "Ry", "Rz"],
+            Self::RotationVector | Self::UniversalRobots | Self::Staubli => {
+                &["x", "y", "z", "rx", "ry", "rz"]
+            }
+        }
+    }
+
+    /// The unit of its lengths.
+    pub fn length_unit(self) -> Unit {
+        match self {
+            Self::Matrix | Self::QuaternionXyzw | Self::RotationVector | Self::UniversalRobots => {
+                Unit::Metres
+            }
+            Self::Kuka | Self::Fanuc | Self::Abb | Self::Yaskawa | Self::Staubli | Self::Doosan => {
+                Unit::Millimetres
+            }
+        }
+    }
+
+    /// The name and the unit of each number, in their order.
+    pub fn named_units(self) -> impl Iterator<Item = (&'static str, Unit)> {
+        self.names().iter().copied().zip(self.units())
+    }
+
+    /// The unit of each number, in their order.
+    pub(super) fn units(self) -> Vec<Unit> {
+        let length = self.length_unit();
+        let turn = match self.layout() {
+            Layout::Matrix => {
+                // x, y and z end the first three rows.
+                let unit = |i| {
+                    if i % 4 == 3 && i < 12 {
+                        length
+                    } else {
+                        Unit::One
+                    }
+                };
+                return (0..16).map(unit).collect();
+            }
+            Layout::Xyzw | Layout::Wxyz => Unit::One,
+            Layout::RotationVector => Unit::Radians,
+            Layout::Angles { .. } => Unit::Degrees,
+        };
+        let num = self.names().len();
+        (0..num)
+            .map(|i| if i < 3 { length } else { turn })
+            .collect()
+    }
+
+    pub(super) fn layout(self) -> Layout {
+        let angles = |order, reversed| Layout::Angles { order, reversed };
+        match self {
+            Self::Matrix => Layout::Matrix,
+            Self::QuaternionXyzw => Layout::Xyzw,
+            Self::Abb => Layout::Wxyz,
+            Self::RotationVector | Self::UniversalRobots => Layout::RotationVector,
+            Self::Kuka => angles(Order::Zyx, false),
+            Self::Fanuc | Self::Yaskawa => angles(Order::Zyx, true),
+            Self::Staubli => angles(Order::Xyz, false),
+            Self::Doosan => angles(Order::Zyz, false),
+        }
+    }
+}

@@ -1,0 +1,407 @@
+//! What is doubtful about a set of pairs, and what to do about it.
+
+use nalgebra::{Isometry3, Point3, Translation3};
+
+use super::{
+    Bounds, Equation, Mount, PosePair, Residuals, Span, Unknowns, closed_form, refine, rms,
+    suspects::suspects,
+};
+use crate::{
+    error::Advice,
+    geometry::rigid::{PoseError, RigidTransform},
+    units::{Metres, Radians},
+};
+
+/// What is doubtful about a calibration.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum HandEyeDoubt {
+    /// A position that no cell has: another unit was meant.
+    #[error("{pair}: {what} lies {:.0} m away", distance.0)]
+    FarAway {
+        /// Name of the pair.
+        pair: String,
+        /// Which pose.
+        what: &'static str,
+        /// How far from its frame's origin.
+        distance: Metres,
+    },
+    /// Robot and camera turned by different angles between the same two captures.
+    #[error(
+        "between the same captures robot and camera turned by angles that differ by {:.1}° (median): the poses do not belong together, or one of them is read in the wrong convention",
+        apart.degrees()
+    )]
+    TurnsDisagree {
+        /// Median of the difference.
+        apart: Radians,
+    },
+    /// The pairs would agree if some of the poses were meant another way.
+    #[error(
+        "the pairs do not agree ({:.1} mm and {:.2}° rms), but they would to {:.1} mm and {:.2}° if {mistake}",
+        rms.shift.mm(), rms.rotation.degrees(), then.shift.mm(), then.rotation.degrees()
+    )]
+    Mistaken {
+        /// What was probably meant.
+        mistake: Mistake,
+        /// As it is.
+        rms: PoseError,
+        /// As it would be then.
+        then: PoseError,
+    },
+    /// What is on the flange would be farther from it than anything is.
+    #[error("{what} would sit {:.0} mm from the flange", distance.mm())]
+    FarFromFlange {
+        /// The camera, or the target.
+        what: &'static str,
+        /// How far.
+        distance: Metres,
+    },
+    /// Half turns about axes at right angles leave several answers.
+    #[error(
+        "another place of the camera fits the pairs as well: the turns are half turns about axes at right angles"
+    )]
+    SeveralAnswers,
+    /// The pairs do not agree, and nobody knows why.
+    #[error("the pairs do not agree: {:.1} mm and {:.2}° rms", rms.shift.mm(), rms.rotation.degrees())]
+    Disagree {
+        /// As it is.
+        rms: PoseError,
+    },
+    /// The arm hardly turned.
+    #[error("the flange turned by {:.1}° at most", span.largest_turn.degrees())]
+    SmallTurns {
+        /// What the poses span.
+        span: Span,
+    },
+    /// The arm turned about one axis only.
+    #[error(
+        "nearly all turns are about one axis, {}; about other axes the flange turned by {:.1}° (rms)",
+        span.main_axis_in_words(), span.other_turn.degrees()
+    )]
+    OneAxis {
+        /// What the poses span.
+        span: Span,
+    },
+    /// One pair that is far off what the others say.
+    #[error(
+        "{pair} is suspect: {:.1} mm and {:.2}° off what the others say, which agree to {:.1} mm and {:.2}° rms",
+        off.shift.mm(), off.rotation.degrees(), others.shift.mm(), others.rotation.degrees()
+    )]
+    Suspect {
+        /// Name of the pair.
+        pair: String,
+        /// How far it is off.
+        off: PoseError,
+        /// Root mean square of the pairs that are not suspect.
+        others: PoseError,
+    },
+    /// The pairs leave X too uncertain to paint by.
+    #[error("the camera's place may be off by {:.1} mm and {:.2}°", bounds.shift.mm(), bounds.turn.degrees())]
+    Loose {
+        /// How far X may be off.
+        bounds: Bounds,
+    },
+    /// The camera saw the target always at the same place.
+    #[error("the camera saw the target within {:.0} mm of one place", span.travel.mm())]
+    LittleTravel {
+        /// What the poses span.
+        span: Span,
+    },
+    /// So few pairs that their residuals say little.
+    #[error("with {found} pairs the residuals say little of how far off the result is")]
+    FewPairs {
+        /// Pairs given.
+        found: usize,
+    },
+}
+
+/// What a person may have meant otherwise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum Mistake {
+    /// The robot's poses the other way round, or the other mount.
+    #[error(
+        "the robot's poses went the other way (flange_from_robot), or the camera sat on the other mount"
+    )]
+    RobotInverted,
+    /// The camera's poses the other way round.
+    #[error("the camera's poses went the other way (target_from_camera)")]
+    CameraInverted,
+    /// Millimetres that were read as metres.
+    #[error("the camera's lengths were a thousandth of what was read")]
+    CameraInMillimetres,
+    /// Metres that were read as millimetres.
+    #[error("the camera's lengths were a thousand times what was read")]
+    CameraInMetres,
+}
+
+impl HandEyeDoubt {
+    /// True if the result must not be used.
+    pub fn is_grave(&self) -> bool {
+        match self {
+            Self::FarAway { .. }
+            | Self::TurnsDisagree { .. }
+            | Self::Mistaken { .. }
+            | Self::FarFromFlange { .. }
+            | Self::SeveralAnswers
+            | Self::Disagree { .. }
+            | Self::SmallTurns { .. }
+            | Self::OneAxis { .. } => true,
+            Self::Loose { bounds } => {
+                !(bounds.shift <= FAR_TOO_LOOSE.shift && bounds.turn <= FAR_TOO_LOOSE.turn)
+            }
+            Self::Suspect { .. } | Self::LittleTravel { .. } | Self::FewPairs { .. } => false,
+        }
+    }
+}
+
+impl Advice for HandEyeDoubt {
+    fn advice(&self) -> String {
+        match self {
+            Self::FarAway { .. } => {
+                "Check the unit of the lengths: name the convention that the poses are written in".into()
+            }
+            Self::TurnsDisagree { .. } => {
+                "Check the convention of the robot's poses, and that each line holds both poses of one capture".into()
+            }
+            Self::Mistaken { mistake, .. } => match mistake {
+                Mistake::RobotInverted => {
+                    "Check the mount, and that the robot's poses are robot_from_flange: the flange as the controller shows it".into()
+                }
+                Mistake::CameraInverted => {
+                    "Invert the camera's poses: camera_from_target says where the camera sees the target".into()
+                }
+                Mistake::CameraInMillimetres | Mistake::CameraInMetres => {
+                    "Check the unit of the camera's poses: name the convention that they are written in".into()
+                }
+            },
+            Self::FarFromFlange { .. } => {
+                "Check that the robot's poses are robot_from_flange and the camera's camera_from_target, and not both the other way round, and that the unit of the lengths is right".into()
+            }
+            Self::SeveralAnswers => {
+                "Take some pairs with turns of 30° to 90° between them".into()
+            }
+            Self::Disagree { .. } => {
+                "Check that the target did not move, that the arm stood still at every capture, and that the controller shows the flange without a tool".into()
+            }
+            Self::SmallTurns { .. } => {
+                "Take more pairs, turning the flange about two different axes by at least 30°".into()
+            }
+            Self::OneAxis { .. } => {
+                "Take more pairs, turning the flange about another axis by at least 30°".into()
+            }
+            Self::Suspect { .. } => {
+                "Check this pair, or calculate without it".into()
+            }
+            Self::Loose { .. } => {
+                "Take more pairs, with larger turns about different axes and the target in all parts of the picture".into()
+            }
+            Self::LittleTravel { .. } => {
+                "Take some pairs with the target 20 cm and more to the sides, nearer and farther".into()
+            }
+            Self::FewPairs { .. } => "Take 8 to 15 pairs".into(),
+        }
+    }
+}
+
+/// No cell is as large.
+const FARTHEST: Metres = Metres(20.0);
+/// A pair's angles agree to what the camera errs by, and never by so much.
+const TURNS_AGREE: Radians = Radians(0.05);
+/// Pairs of a working cell agree better than this.
+const AGREE: PoseError = PoseError {
+    rotation: Radians(0.026),
+    shift: Metres(0.015),
+};
+/// A mistake is named if the pairs agree so much better without it.
+const MUCH_BETTER: f64 = 0.25;
+/// A hand-eye calibration needs a turn that the noise of the camera is small beside.
+const LEAST_TURN: Radians = Radians(0.26);
+const LEAST_OTHER_TURN: Radians = Radians(0.07);
+const LEAST_TRAVEL: Metres = Metres(0.05);
+/// Turns of [`LEAST_OTHER_TURN`] give some 0.002.
+const LEAST_LEAD: f64 = 2e-4;
+/// Long enough for a camera on a boom, or the middle of a bumper that the flange holds by its end.
+const FARTHEST_ON_FLANGE: Metres = Metres(1.2);
+/// A tenth of the spray's band.
+const LOOSE: Bounds = Bounds {
+    shift: Metres(0.005),
+    turn: Radians(0.0087),
+};
+/// Half of what is left of the band to either side of its middle.
+const FAR_TOO_LOOSE: Bounds = Bounds {
+    shift: Metres(0.025),
+    turn: Radians(0.052),
+};
+/// With fewer pairs than this the residuals hide as much as they show.
+const ENOUGH_PAIRS: usize = 6;
+
+/// All doubts, the gravest first.
+pub(super) fn doubts(
+    pairs: &[PosePair],
+    equations: &[Equation],
+    residuals: &Residuals,
+    span: &Span,
+    bounds: Bounds,
+    lead: f64,
+    far: Option<HandEyeDoubt>,
+) -> Vec<HandEyeDoubt> {
+    let mut doubts: Vec<HandEyeDoubt> = far_away(pairs).into_iter().collect();
+    if span.largest_turn < LEAST_TURN {
+        doubts.push(HandEyeDoubt::SmallTurns { span: *span });
+    } else if span.other_turn < LEAST_OTHER_TURN {
+        doubts.push(HandEyeDoubt::OneAxis { span: *span });
+    } else if lead < LEAST_LEAD {
+        doubts.push(HandEyeDoubt::SeveralAnswers);
+    }
+    let suspects = suspects(equations);
+    // One pair in three at most is a slip; more is a mistake in all of them.
+    let is_few = |pairs: &Vec<usize>| 3 * pairs.len() <= equations.len();
+    let suspects = suspects.filter(|found| is_few(&found.pairs));
+    let rms_of_most = suspects.as_ref().map_or(residuals.rms, |found| found.rms);
+    doubts.extend(disagreement(equations, rms_of_most));
+    if !doubts.iter().any(HandEyeDoubt::is_grave) {
+        doubts.extend(far);
+    }
+    if let Some(found) = suspects {
+        doubts.extend(
+            found
+                .pairs
+                .iter()
+                .zip(&found.off)
+                .map(|(&i, off)| HandEyeDoubt::Suspect {
+                    pair: pairs[i].name.clone(),
+                    off: *off,
+                    others: found.rms,
+                }),
+        );
+    }
+    if !(bounds.shift <= LOOSE.shift && bounds.turn <= LOOSE.turn)
+        && !doubts.iter().any(HandEyeDoubt::is_grave)
+    {
+        doubts.push(HandEyeDoubt::Loose { bounds });
+    }
+    if span.travel < LEAST_TRAVEL {
+        doubts.push(HandEyeDoubt::LittleTravel { span: *span });
+    }
+    if pairs.len() < ENOUGH_PAIRS {
+        doubts.push(HandEyeDoubt::FewPairs { found: pairs.len() });
+    }
+    doubts.sort_by_key(|doubt| !doubt.is_grave());
+    doubts
+}
+
+/// The farthest position, if it is too far.
+fn far_away(pairs: &[PosePair]) -> Option<HandEyeDoubt> {
+    let positions = pairs.iter().flat_map(|pair| {
+        [
+            (pair, "the robot's flange", &pair.robot_from_flange),
+            (pair, "the target", &pair.camera_from_target),
+        ]
+    });
+    let distances =
+        positions.map(|(pair, what, pose)| (pair, what, pose.translation.vector.norm()));
+    let (pair, what, distance) = distances.max_by(|a, b| a.2.total_cmp(&b.2))?;
+    (distance > FARTHEST.0).then(|| HandEyeDoubt::FarAway {
+        pair: pair.name.clone(),
+        what,
+        distance: Metres(distance),
+    })
+}
+
+/// What is on the flange, if it is too far from it to be true.
+pub(super) fn far_from_flange(mount: Mount, unknowns: &Unknowns) -> Option<HandEyeDoubt> {
+    let (what, on_flange) = match mount {
+        Mount::EyeInHand => ("the camera", &unknowns.mount_from_camera),
+        Mount::EyeToHand => ("the target", &unknowns.anchor_from_target),
+    };
+    let distance = Metres(on_flange.translation.vector.norm());
+    (distance > FARTHEST_ON_FLANGE).then_some(HandEyeDoubt::FarFromFlange { what, distance })
+}
+
+/// Why the pairs do not agree, if they do not.
+fn disagreement(equations: &[Equation], rms: PoseError) -> Option<HandEyeDoubt> {
+    if rms.shift <= AGREE.shift && rms.rotation <= AGREE.rotation {
+        return None;
+    }
+    // However the poses were turned round, robot and camera turn by the same angle.
+    let apart = turns_apart(equations);
+    if apart > TURNS_AGREE {
+        return Some(HandEyeDoubt::TurnsDisagree { apart });
+    }
+    let as_given = quality(equations, rms);
+    let tried = Mistake::ALL.iter().filter_map(|&mistake| {
+        let equations = mistake.undone(equations);
+        let fit = refine::refine(&equations, closed_form::solve(&equations)?.unknowns).unknowns;
+        let off: Vec<PoseError> = equations.iter().map(|e| e.off(&fit)).collect();
+        let then = self::rms(&off);
+        Some((quality(&equations, then), mistake, then))
+    });
+    let best = tried.min_by(|a, b| a.0.total_cmp(&b.0));
+    Some(match best {
+        Some((quality, mistake, then)) if quality < MUCH_BETTER * as_given => {
+            HandEyeDoubt::Mistaken { mistake, rms, then }
+        }
+        _ => HandEyeDoubt::Disagree { rms },
+    })
+}
+
+/// Median difference of the angles by which robot and camera turned between two captures.
+fn turns_apart(equations: &[Equation]) -> Radians {
+    let angle = |a: &RigidTransform, b: &RigidTransform| a.rotation.angle_to(&b.rotation);
+    let mut apart: Vec<f64> = Vec::new();
+    for (i, a) in equations.iter().enumerate() {
+        for b in &equations[i + 1..] {
+            let robot = angle(&a.anchor_from_mount, &b.anchor_from_mount);
+            let camera = angle(&a.camera_from_target, &b.camera_from_target);
+            apart.push((robot - camera).abs());
+        }
+    }
+    apart.sort_by(f64::total_cmp);
+    Radians(apart.get(apart.len() / 2).copied().unwrap_or(0.0))
+}
+
+/// How badly equations agree, whatever their unit of length: beside how far apart the targets stood.
+fn quality(equations: &[Equation], rms: PoseError) -> f64 {
+    let positions = || {
+        equations
+            .iter()
+            .map(|e| Point3::from(e.camera_from_target.translation.vector))
+    };
+    let middle = positions().fold(nalgebra::Vector3::zeros(), |sum, p| sum + p.coords)
+        / equations.len().max(1) as f64;
+    let spread_sq = positions()
+        .map(|p| (p.coords - middle).norm_squared())
+        .sum::<f64>();
+    let spread = (spread_sq / equations.len().max(1) as f64).sqrt();
+    rms.shift.0 / spread.max(f64::MIN_POSITIVE) + rms.rotation.0
+}
+
+impl Mistake {
+    const ALL: [Self; 4] = [
+        Self::RobotInverted,
+        Self::CameraInverted,
+        Self::CameraInMillimetres,
+        Self::CameraInMetres,
+    ];
+
+    /// The equations as they were probably meant.
+    fn undone(self, equations: &[Equation]) -> Vec<Equation> {
+        let scaled = |pose: &RigidTransform, factor: f64| {
+            let shift = Translation3::from(pose.translation.vector * factor);
+            Isometry3::from_parts(shift, pose.rotation)
+        };
+        let undone = |e: &Equation| {
+            let (g, b) = (&e.anchor_from_mount, &e.camera_from_target);
+            let (g, b) = match self {
+                Self::RobotInverted => (g.inverse(), *b),
+                Self::CameraInverted => (*g, b.inverse()),
+                Self::CameraInMillimetres => (*g, scaled(b, 0.001)),
+                Self::CameraInMetres => (*g, scaled(b, 1000.0)),
+            };
+            Equation {
+                anchor_from_mount: g,
+                camera_from_target: b,
+            }
+        };
+        equations.iter().map(undone).collect()
+    }
+}

@@ -1,0 +1,330 @@
+//! Hand-eye calibration: where the camera sits, from pairs of a robot pose and a camera pose.
+//!
+//! The arm takes several poses, and at each one the camera says where a target is. What does not change in between is
+//! looked for: where the camera is fixed (X), and where the target is fixed (Z). With the camera on the flange the target
+//! stands in the cell; with the camera in the cell the target is on the flange. Turning the robot poses round makes one
+//! equation of both mounts:
+//!
+//! ```text
+//! eye in hand   robot_from_flange · flange_from_camera · camera_from_target = robot_from_target
+//! eye to hand   flange_from_robot ·  robot_from_camera · camera_from_target = flange_from_target
+//!               ─────── Gᵢ ───────   ─────── X ───────   ────── Bᵢ ────────   ─────── Z ──────
+//! ```
+//!
+//! which is AX = XB written with absolute poses: A = Gⱼ⁻¹Gᵢ and B = BⱼBᵢ⁻¹ for any two of them. The rotations of X and Z
+//! follow in closed form from all pairs at once, the shifts by linear least squares; then both poses are refined
+//! together, rotations and shifts weighed by how well each of them fits.
+//!
+//! Sources: M. Shah, "Solving the robot-world/hand-eye calibration problem using the Kronecker product", ASME Journal of
+//! Mechanisms and Robotics 5(3), 2013, for the closed form; Y. C. Shiu and S. Ahmad, "Calibration of wrist-mounted robotic
+//! sensors by solving homogeneous transform equations of the form AX = XB", IEEE Transactions on Robotics and
+//! Automation 5(1), 1989, for what the turns must span; P. J. Rousseeuw, "Least median of squares regression", Journal of
+//! the American Statistical Association 79, 1984, for how pairs that do not belong are found.
+//!
+//! Deviations: Shah's shifts are solved for by themselves as here, but not refined; the refinement by Levenberg and
+//! Marquardt, its weighing, the bounds and the doubts are ours. The closed form has no logarithm of a rotation in it, so
+//! turns by half a circle need no care.
+//!
+//! Known limits: what errs alike in every pair, such as a camera's scale or a tool that was measured wrongly, shows in
+//! the residuals only as far as it cannot be mended by X and Z, and is not in the bounds. With the poses of robot *and*
+//! camera the other way round, X and Z change places and fit as well; what tells is that one of them then lies far from
+//! the flange.
+
+mod closed_form;
+mod doubt;
+mod refine;
+mod span;
+mod suspects;
+#[cfg(test)]
+mod tests;
+
+use nalgebra::Point3;
+use serde::{Deserialize, Serialize};
+
+use crate::{
+    error::Advice,
+    geometry::rigid::{PoseError, RigidTransform, pose_error},
+    units::{Metres, Radians},
+};
+
+pub use self::{
+    doubt::{HandEyeDoubt, Mistake},
+    span::Span,
+};
+
+/// What the camera is fixed to.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Mount {
+    /// The camera stands in the cell and sees what the robot does: X is `robot_from_camera`.
+    EyeToHand,
+    /// The camera is on the robot's flange: X is `flange_from_camera`.
+    EyeInHand,
+}
+
+impl Mount {
+    /// In words, for people.
+    pub fn describe(self) -> &'static str {
+        match self {
+            Self::EyeToHand => "eye to hand: the camera stands in the cell",
+            Self::EyeInHand => "eye in hand: the camera is on the robot's flange",
+        }
+    }
+
+    /// The name of X.
+    pub fn camera_transform(self) -> &'static str {
+        match self {
+            Self::EyeToHand => "robot_from_camera",
+            Self::EyeInHand => "flange_from_camera",
+        }
+    }
+
+    /// The name of Z.
+    pub fn target_transform(self) -> &'static str {
+        match self {
+            Self::EyeToHand => "flange_from_target",
+            Self::EyeInHand => "robot_from_target",
+        }
+    }
+
+    /// Gᵢ.
+    fn carrier(self, robot_from_flange: &RigidTransform) -> RigidTransform {
+        match self {
+            Self::EyeToHand => robot_from_flange.inverse(),
+            Self::EyeInHand => *robot_from_flange,
+        }
+    }
+}
+
+/// One pose of the arm and what the camera saw there.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PosePair {
+    /// By which a person finds it again, such as a line of a file or the name of a capture.
+    pub name: String,
+    /// The flange in the robot's base frame, as the controller shows it.
+    pub robot_from_flange: RigidTransform,
+    /// The target in the camera's frame.
+    pub camera_from_target: RigidTransform,
+}
+
+/// Fewer pairs leave X open.
+pub const LEAST_PAIRS: usize = 3;
+/// More pairs than anybody takes; a file with more is another file.
+pub const MOST_PAIRS: usize = 1000;
+
+/// Why there is no calibration.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum HandEyeError {
+    /// Too few pairs.
+    #[error("{found} pairs of robot and camera poses, at least {LEAST_PAIRS} are needed")]
+    TooFewPairs {
+        /// Pairs given.
+        found: usize,
+    },
+    /// Too many pairs.
+    #[error("{found} pairs of robot and camera poses, at most {MOST_PAIRS} are taken")]
+    TooManyPairs {
+        /// Pairs given.
+        found: usize,
+    },
+    /// A pose that is no pose.
+    #[error("{pair}: a pose holds a number that is not finite")]
+    NotFinite {
+        /// Name of the pair.
+        pair: String,
+    },
+    /// All pairs say the same: nothing can be solved for.
+    #[error("the pairs leave the camera's place open: no two poses of the arm differ enough")]
+    Unsolvable,
+}
+
+impl Advice for HandEyeError {
+    fn advice(&self) -> String {
+        match self {
+            Self::TooFewPairs { .. } => {
+                "Take 8 to 15 pairs, turning the flange about two different axes by 30° and more between them".into()
+            }
+            Self::TooManyPairs { .. } => "Leave out all but a few dozen well spread pairs".into(),
+            Self::NotFinite { pair } => format!("Correct the numbers of {pair}, or leave it out"),
+            Self::Unsolvable => {
+                "Move the arm between the captures: turn the flange about two different axes by 30° to 90°".into()
+            }
+        }
+    }
+}
+
+/// How far a pair is off what all of them say.
+#[derive(Clone, Debug, PartialEq)]
+pub struct PairResidual {
+    /// The pair.
+    pub name: String,
+    /// How far the target was seen from where it should have been; the shift is that of the target's origin.
+    pub off: PoseError,
+}
+
+/// How well the pairs agree.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Residuals {
+    /// Each pair, in the order given.
+    pub pairs: Vec<PairResidual>,
+    /// Root mean square of all pairs.
+    pub rms: PoseError,
+    /// The pair with the largest shift.
+    pub worst: usize,
+}
+
+impl Residuals {
+    /// The pair with the largest shift.
+    pub fn worst(&self) -> &PairResidual {
+        &self.pairs[self.worst]
+    }
+}
+
+/// Bounds of X that hold in 95 of 100 cases if the pairs err independently.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+pub struct Bounds {
+    /// How far a point where the targets stood may be off; infinite where the pairs leave it open.
+    pub shift: Metres,
+    /// How far the camera may be turned; infinite where the pairs leave it open.
+    pub turn: Radians,
+}
+
+/// A solved calibration, and what is to be thought of it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct HandEye {
+    /// What the camera is fixed to.
+    pub mount: Mount,
+    /// X: `robot_from_camera` or `flange_from_camera`.
+    pub mount_from_camera: RigidTransform,
+    /// Z: `flange_from_target` or `robot_from_target`.
+    pub anchor_from_target: RigidTransform,
+    /// How well the pairs agree with both.
+    pub residuals: Residuals,
+    /// How far X may be off.
+    pub bounds: Bounds,
+    /// What the poses span.
+    pub span: Span,
+    /// What is doubtful, the gravest first.
+    pub doubts: Vec<HandEyeDoubt>,
+}
+
+impl HandEye {
+    /// False if the poses leave the camera's place open, or do not belong together: the result must not be used.
+    pub fn is_usable(&self) -> bool {
+        !self.doubts.iter().any(HandEyeDoubt::is_grave)
+    }
+}
+
+/// Gᵢ and Bᵢ.
+#[derive(Clone, Copy, Debug)]
+struct Equation {
+    anchor_from_mount: RigidTransform,
+    camera_from_target: RigidTransform,
+}
+
+impl Equation {
+    /// Where X and Z say that the camera sees the target.
+    fn predicted(&self, unknowns: &Unknowns) -> RigidTransform {
+        (self.anchor_from_mount * unknowns.mount_from_camera).inv_mul(&unknowns.anchor_from_target)
+    }
+
+    fn off(&self, unknowns: &Unknowns) -> PoseError {
+        pose_error(
+            &self.camera_from_target,
+            &self.predicted(unknowns),
+            &Point3::origin(),
+        )
+    }
+}
+
+/// X and Z.
+#[derive(Clone, Copy, Debug)]
+struct Unknowns {
+    mount_from_camera: RigidTransform,
+    anchor_from_target: RigidTransform,
+}
+
+/// Where the camera sits, from at least [`LEAST_PAIRS`] pairs.
+///
+/// Pairs that do not span enough, or that do not belong together, give a result with [`HandEye::doubts`].
+pub fn solve(pairs: &[PosePair], mount: Mount) -> Result<HandEye, HandEyeError> {
+    check(pairs)?;
+    let equations: Vec<Equation> = pairs
+        .iter()
+        .map(|pair| Equation {
+            anchor_from_mount: mount.carrier(&pair.robot_from_flange),
+            camera_from_target: pair.camera_from_target,
+        })
+        .collect();
+    let start = closed_form::solve(&equations).ok_or(HandEyeError::Unsolvable)?;
+    let refined = refine::refine(&equations, start.unknowns);
+    let unknowns = refined.unknowns;
+    let residuals = residuals(pairs, &equations, &unknowns);
+    let span = Span::of(pairs);
+    let bounds = refined.bounds(&equations);
+    let far = doubt::far_from_flange(mount, &unknowns);
+    let doubts = doubt::doubts(
+        pairs, &equations, &residuals, &span, bounds, start.lead, far,
+    );
+    Ok(HandEye {
+        mount,
+        mount_from_camera: unknowns.mount_from_camera,
+        anchor_from_target: unknowns.anchor_from_target,
+        residuals,
+        bounds,
+        span,
+        doubts,
+    })
+}
+
+fn check(pairs: &[PosePair]) -> Result<(), HandEyeError> {
+    let found = pairs.len();
+    if found < LEAST_PAIRS {
+        return Err(HandEyeError::TooFewPairs { found });
+    }
+    if found > MOST_PAIRS {
+        return Err(HandEyeError::TooManyPairs { found });
+    }
+    let is_finite = |pose: &RigidTransform| {
+        let numbers = pose.to_homogeneous();
+        numbers.iter().all(|x| x.is_finite())
+    };
+    let bad = pairs
+        .iter()
+        .find(|p| !is_finite(&p.robot_from_flange) || !is_finite(&p.camera_from_target));
+    bad.map_or(Ok(()), |pair| {
+        Err(HandEyeError::NotFinite {
+            pair: pair.name.clone(),
+        })
+    })
+}
+
+fn residuals(pairs: &[PosePair], equations: &[Equation], unknowns: &Unknowns) -> Residuals {
+    let off: Vec<PoseError> = equations.iter().map(|e| e.off(unknowns)).collect();
+    let worst = (0..off.len())
+        .max_by(|&a, &b| off[a].shift.0.total_cmp(&off[b].shift.0))
+        .unwrap_or(0);
+    Residuals {
+        rms: rms(&off),
+        worst,
+        pairs: pairs
+            .iter()
+            .zip(off)
+            .map(|(pair, off)| PairResidual {
+                name: pair.name.clone(),
+                off,
+            })
+            .collect(),
+    }
+}
+
+/// Root mean squares, each by itself.
+fn rms(off: &[PoseError]) -> PoseError {
+    let mean = |square: fn(&PoseError) -> f64| {
+        (off.iter().map(square).sum::<f64>() / off.len().max(1) as f64).sqrt()
+    };
+    PoseError {
+        rotation: Radians(mean(|off| off.rotation.0.powi(2))),
+        shift: Metres(mean(|off| off.shift.0.powi(2))),
+    }
+}

@@ -1,0 +1,116 @@
+//! From the camera to the robot: where the robot's base stands, what a pose is called in its frame, and in which
+//! numbers its controller wants it.
+//!
+//! Three transforms that are easily taken for each other, each with its own name:
+//!
+//! | name | is | for |
+//! | --- | --- | --- |
+//! | `camera_from_part` | the *pose*: where a point of the enrolled part is before the camera now | everything inside |
+//! | `robot_from_part` | the same pose in the robot's base frame | a path that is written in the part's own frame |
+//! | `robot_offset` | the *offset from the standard position*, in the robot's base frame | a path that was taught in the robot's base frame with the part at its standard position |
+//!
+//! The part's own frame is the camera's frame at the moment of enrolling, so the standard position is the one at which
+//! `camera_from_part` is the identity. There `robot_from_part` is `robot_from_camera`, which is not the identity, and
+//! `robot_offset` is.
+//!
+//! The offset that the window shows is a fourth thing, for people: how far the part's *middle* moved, along the
+//! camera's axes. It has the same rotation angle as `robot_offset` and another shift, since a turn about a far origin
+//! shifts the middle too. It is nothing to give to a robot.
+
+pub mod calibration;
+mod convention;
+mod euler;
+pub mod hand_eye;
+pub mod pairs;
+pub mod part_target;
+mod ray;
+mod robot_pose;
+pub mod spray;
+pub mod stand_off;
+mod written;
+
+use crate::geometry::rigid::RigidTransform;
+
+pub use self::{
+    convention::Convention,
+    robot_pose::{ConventionError, GimbalLock, RobotPose, RobotValue, Unit},
+    written::{WrittenPose, WrittenPoseError, parse_written_pose},
+};
+
+/// Where the camera stands in the robot's base frame, and by which calibration.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RobotFrame {
+    /// Takes a point before the camera into the robot's base frame.
+    pub robot_from_camera: RigidTransform,
+    /// Which calibration this is, for people.
+    pub name: String,
+}
+
+impl RobotFrame {
+    /// Takes a point of the part, as it was enrolled, to where it is in the robot's base frame now.
+    pub fn robot_from_part(&self, camera_from_part: &RigidTransform) -> RigidTransform {
+        self.robot_from_camera * camera_from_part
+    }
+
+    /// Takes a point of a path that was taught in the robot's base frame, with the part at its standard position, to
+    /// where it has to be now: `robot_from_camera * camera_from_part * camera_from_robot`. Multiplied from the left,
+    /// it moves taught poses too: `robot_offset * robot_from_tool_taught`.
+    pub fn robot_offset(&self, camera_from_part: &RigidTransform) -> RigidTransform {
+        self.robot_from_camera * camera_from_part * self.robot_from_camera.inverse()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use nalgebra::{Point3, Vector3};
+
+    use super::*;
+    use crate::geometry::rigid::from_euler_zyx;
+
+    /// The camera hangs 2 m above the floor, 1.5 m before the robot, and looks back at it and down.
+    fn frame() -> RobotFrame {
+        RobotFrame {
+            robot_from_camera: from_euler_zyx([-2.2, 0.1, -1.6, 1.5, -0.2, 2.0]),
+            name: "cell 1".into(),
+        }
+    }
+
+    #[test]
+    fn a_point_of_the_part_is_where_the_camera_sees_it() {
+        let camera_from_part = from_euler_zyx([0.1, -0.2, 0.3, 0.05, 0.02, -0.04]);
+        let in_part = Point3::new(0.3, -0.1, 1.4);
+        let seen = camera_from_part * in_part;
+        let frame = frame();
+        let in_robot = frame.robot_from_part(&camera_from_part) * in_part;
+        assert!((frame.robot_from_camera * seen - in_robot).norm() < 1e-12);
+    }
+
+    #[test]
+    fn at_the_standard_position_the_offset_moves_nothing_and_the_part_is_at_the_camera() {
+        let frame = frame();
+        let standard = RigidTransform::identity();
+        assert!(
+            (frame.robot_offset(&standard).to_homogeneous() - standard.to_homogeneous()).norm()
+                < 1e-12
+        );
+        assert_eq!(frame.robot_from_part(&standard), frame.robot_from_camera);
+    }
+
+    #[test]
+    fn the_offset_carries_a_taught_point_with_the_part() {
+        let frame = frame();
+        let camera_from_part = from_euler_zyx([-0.05, 0.4, 0.1, -0.1, 0.03, 0.2]);
+        // A nozzle taught 15 cm before a spot of the part at its standard position.
+        let spot = Point3::new(-0.2, 0.3, 1.3);
+        let before = Vector3::new(0.0, 0.0, -0.15);
+        let taught = frame.robot_from_camera * (spot + before);
+        let now = frame.robot_offset(&camera_from_part) * taught;
+        let spot_now = frame.robot_from_part(&camera_from_part) * spot;
+        assert!(((now - spot_now).norm() - 0.15).abs() < 1e-12);
+        let expected = frame.robot_from_camera * (camera_from_part * (spot + before));
+        assert!((now - expected).norm() < 1e-12);
+        // It is neither of the other two.
+        assert!((frame.robot_from_part(&camera_from_part) * taught - expected).norm() > 0.1);
+        assert!((camera_from_part * taught - expected).norm() > 0.1);
+    }
+}

@@ -1,0 +1,109 @@
+//! Why a file of poses cannot be read.
+
+use std::path::PathBuf;
+
+use crate::{
+    error::Advice,
+    files::FileError,
+    robot::{Convention, ConventionError},
+};
+
+/// Why a file of poses cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum PairsError {
+    /// The file cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// Nobody says in which convention the robot's poses are.
+    #[error("{}: nothing says in which convention the robot's poses are written", path.display())]
+    NoConvention {
+        /// The file.
+        path: PathBuf,
+    },
+    /// A line that cannot be understood.
+    #[error("{}, {place}: {problem}", path.display())]
+    Line {
+        /// The file.
+        path: PathBuf,
+        /// Which line or pair.
+        place: String,
+        /// What is wrong with it.
+        problem: LineProblem,
+    },
+    /// No JSON of pairs.
+    #[error("{}: no JSON of pairs: {found}", path.display())]
+    BadJson {
+        /// The file.
+        path: PathBuf,
+        /// The first thing wrong.
+        found: String,
+    },
+    /// No line with a pose.
+    #[error("{}: no poses", path.display())]
+    NoPoses {
+        /// The file.
+        path: PathBuf,
+    },
+}
+
+/// What is wrong with one line.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum LineProblem {
+    /// A word where a number is needed.
+    #[error("{cell:?} in column {column} is not a number")]
+    NoNumber {
+        /// The column, from 1.
+        column: usize,
+        /// What is there.
+        cell: String,
+    },
+    /// Too few numbers, or too many.
+    #[error("{found} numbers, expected {needed}: {expected}")]
+    Count {
+        /// How many there are.
+        found: usize,
+        /// How many are needed.
+        needed: usize,
+        /// Which.
+        expected: String,
+    },
+    /// Numbers that are no pose in their convention.
+    #[error(transparent)]
+    Pose(#[from] ConventionError),
+    /// A convention that is not known.
+    #[error("no convention is called {name:?}")]
+    NoSuchConvention {
+        /// What was written.
+        name: String,
+    },
+}
+
+/// The names of all conventions.
+fn names() -> String {
+    Convention::ALL.map(Convention::name).join(", ")
+}
+
+impl Advice for PairsError {
+    fn advice(&self) -> String {
+        match self {
+            Self::File(error) => error.advice(),
+            Self::NoConvention { .. } => format!(
+                "Begin the file with a line such as # robot: kuka, or name it with --robot-convention: {}",
+                names()
+            ),
+            Self::Line { problem, .. } => match problem {
+                LineProblem::Pose(error) => error.advice(),
+                LineProblem::NoSuchConvention { .. } => format!("Use one of {}", names()),
+                LineProblem::NoNumber { .. } | LineProblem::Count { .. } => {
+                    "Correct this line in a text editor; a name may stand in its first cell, and a comment begins with #".into()
+                }
+            },
+            Self::BadJson { .. } => {
+                r#"Write {"robot": "kuka", "camera": "matrix", "pairs": [{"name": "p1", "robot": [...], "camera": [...]}]}"#.into()
+            }
+            Self::NoPoses { .. } => {
+                "Write one line for each pose; partsight calibrate hand-eye --help shows how".into()
+            }
+        }
+    }
+}

@@ -1,0 +1,260 @@
+//! Files of pairs for a hand-eye calibration: a table that a spreadsheet writes, or JSON.
+//!
+//! A table has a line for each pair: the robot's pose `robot_from_flange`, then the camera's `camera_from_target`, each
+//! in the numbers of a named convention. A cell before them may hold a name. A line `# robot: kuka` names the convention
+//! of the robot's poses (`# convention: kuka` is the same), `# camera: matrix` that of the camera's, which is the matrix
+//! where nothing is said. Cells stand between commas, semicolons (then a comma may be a decimal one), tabs or spaces; a
+//! heading and comments (`#`) are read over.
+//!
+//! ```text
+//! # robot: kuka          X Y Z mm, A B C degrees
+//! # camera: rotation-vector
+//! front;  1450.2; -310.0; 890.5; 12.01; -45.2; 178.8;  0.1021; -0.0310; 1.2044; 0.31; -2.10; 0.02
+//! ```
+//!
+//! ```json
+//! {"robot": "kuka", "camera": "matrix", "pairs": [{"name": "front", "robot": [6 numbers], "camera": [16 numbers]}]}
+//! ```
+//!
+//! A file of robot poses alone, for captures of which Partsight finds the camera's pose itself, has the same lines without
+//! the camera's numbers; the name is then that of the capture.
+
+mod error;
+mod json;
+#[cfg(test)]
+mod tests;
+
+use std::path::Path;
+
+use super::{Convention, hand_eye::PosePair};
+use crate::{
+    files::{cells, content_lines, number_in, read_text},
+    geometry::rigid::RigidTransform,
+};
+
+pub use self::error::{LineProblem, PairsError};
+
+/// Which conventions poses are read in; what is not given here is what the file says.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct PairConventions {
+    /// Of the robot's poses.
+    pub robot: Option<Convention>,
+    /// Of the camera's poses.
+    pub camera: Option<Convention>,
+}
+
+/// A file of pairs.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Pairs {
+    /// The pairs, in the file's order.
+    pub pairs: Vec<PosePair>,
+    /// In which convention the robot's poses were read.
+    pub robot: Convention,
+    /// In which convention the camera's poses were read.
+    pub camera: Convention,
+}
+
+/// A pose of the arm.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ArmPose {
+    /// The name of its capture, where the file gives one.
+    pub capture: Option<String>,
+    /// Where it stands in the file, for people.
+    pub place: String,
+    /// The flange in the robot's base frame.
+    pub robot_from_flange: RigidTransform,
+}
+
+/// A larger file is no list of poses.
+const MAX_BYTES: u64 = 4 << 20;
+
+/// Reads a file of pairs.
+pub fn read_pairs(path: &Path, given: PairConventions) -> Result<Pairs, PairsError> {
+    let text = read_text(path, MAX_BYTES)?;
+    if json::is_json(&text) {
+        return json::pairs(&text, path, given);
+    }
+    let (robot, camera) = conventions(&text, path, given)?;
+    let rows = rows(
+        &text,
+        path,
+        robot.names().len() + camera.names().len(),
+        || {
+            format!(
+                "{} of the robot's pose ({}), then {} of the camera's ({})",
+                robot.names().len(),
+                robot.names().join(" "),
+                camera.names().len(),
+                camera.names().join(" ")
+            )
+        },
+    )?;
+    let pairs = rows.into_iter().map(|row| {
+        let (arm, seen) = row.numbers.split_at(robot.names().len());
+        let pose = |convention: Convention, numbers: &[f64]| {
+            convention
+                .read(numbers)
+                .map_err(|error| row.problem(path, LineProblem::Pose(error)))
+        };
+        Ok(PosePair {
+            name: row.name(),
+            robot_from_flange: pose(robot, arm)?,
+            camera_from_target: pose(camera, seen)?,
+        })
+    });
+    Ok(Pairs {
+        pairs: pairs.collect::<Result<_, PairsError>>()?,
+        robot,
+        camera,
+    })
+}
+
+/// Reads a file of poses of the arm, and in which convention it was read.
+pub fn read_arm_poses(
+    path: &Path,
+    given: Option<Convention>,
+) -> Result<(Vec<ArmPose>, Convention), PairsError> {
+    let text = read_text(path, MAX_BYTES)?;
+    let given = PairConventions {
+        robot: given,
+        camera: None,
+    };
+    let (robot, _) = conventions(&text, path, given)?;
+    let needed = robot.names().len();
+    let rows = rows(&text, path, needed, || {
+        format!("{needed} of the robot's pose ({})", robot.names().join(" "))
+    })?;
+    let poses = rows.into_iter().map(|row| {
+        let pose = robot.read(&row.numbers);
+        Ok(ArmPose {
+            robot_from_flange: pose.map_err(|error| row.problem(path, LineProblem::Pose(error)))?,
+            place: row.name(),
+            capture: row.given_name,
+        })
+    });
+    Ok((poses.collect::<Result<_, PairsError>>()?, robot))
+}
+
+/// The conventions of robot and camera.
+fn conventions(
+    text: &str,
+    path: &Path,
+    given: PairConventions,
+) -> Result<(Convention, Convention), PairsError> {
+    let (mut robot, mut camera) = (None, None);
+    for (i, line) in text.lines().enumerate() {
+        let Some((key, rest)) = line
+            .trim()
+            .strip_prefix('#')
+            .and_then(|c| c.split_once(':'))
+        else {
+            continue;
+        };
+        let slot = match key.trim().to_lowercase().as_str() {
+            "robot" | "convention" | "robot convention" => &mut robot,
+            "camera" | "camera convention" => &mut camera,
+            _ => continue,
+        };
+        let name = rest.split_whitespace().next().unwrap_or_default();
+        let named = Convention::by_name(&name.to_lowercase());
+        *slot = Some(named.ok_or_else(|| PairsError::Line {
+            path: path.to_owned(),
+            place: format!("line {}", i + 1),
+            problem: LineProblem::NoSuchConvention {
+                name: name.to_owned(),
+            },
+        })?);
+    }
+    let robot = given
+        .robot
+        .or(robot)
+        .ok_or_else(|| PairsError::NoConvention {
+            path: path.to_owned(),
+        })?;
+    let camera = given.camera.or(camera).unwrap_or(Convention::Matrix);
+    Ok((robot, camera))
+}
+
+/// One line of a table.
+struct Row {
+    line: usize,
+    given_name: Option<String>,
+    numbers: Vec<f64>,
+}
+
+impl Row {
+    fn name(&self) -> String {
+        match &self.given_name {
+            Some(name) => format!("{name} (line {})", self.line),
+            None => format!("line {}", self.line),
+        }
+    }
+
+    fn problem(&self, path: &Path, problem: LineProblem) -> PairsError {
+        PairsError::Line {
+            path: path.to_owned(),
+            place: format!("line {}", self.line),
+            problem,
+        }
+    }
+}
+
+/// The lines with so many numbers, with or without a name before them.
+fn rows(
+    text: &str,
+    path: &Path,
+    needed: usize,
+    expected: impl Fn() -> String,
+) -> Result<Vec<Row>, PairsError> {
+    let mut rows = Vec::new();
+    for (i, (line, content)) in content_lines(text).enumerate() {
+        let mut cells: Vec<&str> = cells(content).collect();
+        // Spreadsheets end lines with empty cells.
+        while cells.len() > needed && cells.last().is_some_and(|cell| cell.is_empty()) {
+            cells.pop();
+        }
+        let is_heading = cells.iter().all(|cell| number_in(content, cell).is_none());
+        if i == 0 && is_heading {
+            continue;
+        }
+        let has_name = number_in(content, cells[0]).is_none();
+        let given_name = has_name.then(|| cells[0].trim_matches('"').to_owned());
+        let mut row = Row {
+            line,
+            given_name: given_name.filter(|name| !name.is_empty()),
+            numbers: Vec::new(),
+        };
+        for (column, cell) in cells.iter().enumerate().skip(usize::from(has_name)) {
+            let number = number_in(content, cell).ok_or_else(|| {
+                let cell = (*cell).to_owned();
+                row.problem(
+                    path,
+                    LineProblem::NoNumber {
+                        column: column + 1,
+                        cell,
+                    },
+                )
+            })?;
+            row.numbers.push(number);
+        }
+        if row.numbers.len() != needed {
+            let found = row.numbers.len();
+            let expected = expected();
+            return Err(row.problem(
+                path,
+                LineProblem::Count {
+                    found,
+                    needed,
+                    expected,
+                },
+            ));
+        }
+        rows.push(row);
+    }
+    if rows.is_empty() {
+        return Err(PairsError::NoPoses {
+            path: path.to_owned(),
+        });
+    }
+    Ok(rows)
+}

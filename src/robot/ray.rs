@@ -1,0 +1,150 @@
+//! Where a nozzle's ray meets a surface of points with normals.
+
+use nalgebra::{Point3, Vector3};
+
+use crate::{
+    geometry::{
+        cloud::PointCloud,
+        nearest::{KdTree, Neighbour},
+        nearest_field::NearestField,
+        normals::estimate_normals,
+        voxel::downsample,
+    },
+    stages::reference::{Reference, SPACING},
+    units::Metres,
+};
+
+/// How far to either side of the expected distance the surface is looked for, metres.
+const REACH: f32 = 0.4;
+/// Steps along a ray, metres: the side of a cell of the field.
+const STEP: f32 = 0.02;
+/// Cosine of the flattest angle at which a ray meets a surface: 80°.
+const LEAST_FACING: f32 = 0.17;
+/// How far beside a point of the cloud the surface still is, metres.
+const BESIDE: f32 = 1.5 * SPACING as f32;
+/// What a camera sees is thinned to the spacing of a reference; its normals are those of this much around a point.
+const SEEN_RADIUS: Metres = Metres(4.0 * SPACING);
+
+/// A surface of points with unit normals, evenly spaced.
+pub(super) struct Surface<'a> {
+    points: &'a [Point3<f32>],
+    normals: &'a [Vector3<f32>],
+    tree: &'a KdTree,
+    /// Quicker than the tree, where there is one.
+    field: Option<&'a NearestField>,
+}
+
+impl<'a> Surface<'a> {
+    /// The surface of an enrolled part, part space; `None` without normals.
+    pub(super) fn of(reference: &'a Reference) -> Option<Self> {
+        Some(Self {
+            points: &reference.cloud.points,
+            normals: reference.cloud.normals.as_ref()?,
+            tree: &reference.tree,
+            field: Some(&reference.field),
+        })
+    }
+
+    fn near(&self, at: &Point3<f32>) -> Option<Neighbour> {
+        match self.field {
+            Some(field) => field.nearest(at),
+            None => self.tree.nearest(at, f32::INFINITY),
+        }
+    }
+}
+
+/// What a camera at the origin saw of a part, as a surface; camera space.
+pub(super) struct SeenSurface {
+    points: Vec<Point3<f32>>,
+    normals: Vec<Vector3<f32>>,
+    tree: KdTree,
+}
+
+impl SeenSurface {
+    pub(super) fn of(seen: &PointCloud) -> Self {
+        let points = downsample(seen, Metres(SPACING)).points;
+        let tree = KdTree::new(&points);
+        let normals = estimate_normals(&points, &tree, SEEN_RADIUS, &Point3::origin());
+        Self {
+            points,
+            normals,
+            tree,
+        }
+    }
+
+    pub(super) fn surface(&self) -> Surface<'_> {
+        Surface {
+            points: &self.points,
+            normals: &self.normals,
+            tree: &self.tree,
+            field: None,
+        }
+    }
+}
+
+/// A nozzle and the way it points, in the surface's space.
+pub(super) struct Ray {
+    pub(super) mouth: Point3<f32>,
+    /// Unit length.
+    pub(super) direction: Vector3<f32>,
+}
+
+impl Ray {
+    fn at(&self, t: f32) -> Point3<f32> {
+        self.mouth + self.direction * t
+    }
+
+    /// Where the ray goes through the face of the surface, nearest to `expected`: how far along, and the normal there.
+    pub(super) fn meets(
+        &self,
+        surface: &Surface<'_>,
+        expected: f32,
+    ) -> Option<(f32, Vector3<f32>)> {
+        let num_steps = (2.0 * REACH / STEP) as usize;
+        let mut before: Option<f32> = None;
+        let mut best: Option<(f32, Vector3<f32>)> = None;
+        for i in 0..=num_steps {
+            let t = expected - REACH + i as f32 * STEP;
+            let height = self.height(surface, t);
+            if let (Some(above), Some(below)) = (before, height)
+                && above > 0.0
+                && below <= 0.0
+            {
+                let t = t - STEP * below / (below - above);
+                let found = self.settled(surface, t);
+                best = [best, found]
+                    .into_iter()
+                    .flatten()
+                    .min_by(|a, b| (a.0 - expected).abs().total_cmp(&(b.0 - expected).abs()));
+            }
+            before = height;
+        }
+        best
+    }
+
+    /// Height above the surface near the point at `t`, if that surface faces the nozzle.
+    fn height(&self, surface: &Surface<'_>, t: f32) -> Option<f32> {
+        let at = self.at(t);
+        let nearest = surface.near(&at)?;
+        let normal = surface.normals.get(nearest.index)?;
+        let faces = -normal.dot(&self.direction) > LEAST_FACING;
+        faces.then(|| normal.dot(&(at - surface.points[nearest.index])))
+    }
+
+    /// The crossing about `t` by the points that are truly nearest; `None` where the surface ends before it.
+    fn settled(&self, surface: &Surface<'_>, mut t: f32) -> Option<(f32, Vector3<f32>)> {
+        let mut normal = Vector3::zeros();
+        // The first step reaches the plane of the nearest point, the second that of the point nearest to there.
+        for _ in 0..2 {
+            let nearest = surface.tree.nearest(&self.at(t), f32::INFINITY)?;
+            normal = *surface.normals.get(nearest.index)?;
+            let slope = normal.dot(&self.direction);
+            if -slope <= LEAST_FACING {
+                return None;
+            }
+            t = normal.dot(&(surface.points[nearest.index] - self.mouth)) / slope;
+        }
+        let beside = surface.tree.nearest(&self.at(t), BESIDE * BESIDE);
+        beside.map(|_| (t, normal))
+    }
+}

@@ -1,0 +1,208 @@
+//! A carried path as a file for a robot, that says what every number is.
+
+use std::{fmt::Write as _, path::Path};
+
+use jiff::Timestamp;
+use serde::Serialize;
+
+use super::{Band, CarriedPath, MOST_TILT};
+use crate::{
+    files::{FileError, write_atomically},
+    robot::stand_off::StandOffParams,
+    robot::{Convention, RobotFrame, RobotPose},
+};
+
+/// The version of both files.
+const SCHEMA: u32 = 1;
+
+/// What a file of a carried path says.
+#[derive(Clone, Debug)]
+pub struct SprayExport<'a> {
+    /// The path.
+    pub path: &'a CarriedPath,
+    /// Name of the part.
+    pub part: &'a str,
+    /// Name of the capture.
+    pub scene: &'a str,
+    /// The robot's frame.
+    pub frame: &'a RobotFrame,
+    /// In whose numbers.
+    pub convention: Convention,
+    /// The band it was held against.
+    pub params: &'a StandOffParams,
+    /// True if it is the stored path of the part, false for the start that stands for it where none is stored.
+    pub is_stored: bool,
+    /// True if no real camera saw the part.
+    pub is_simulated: bool,
+    /// When.
+    pub at: Timestamp,
+}
+
+/// What kind of file.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SprayFormat {
+    /// A table with a head of comments.
+    Csv,
+    /// JSON.
+    Json,
+}
+
+impl SprayFormat {
+    /// As the name of a file ends; a table unless it ends in `.json`.
+    pub fn of(path: &Path) -> Self {
+        let is_json = path
+            .extension()
+            .is_some_and(|e| e.eq_ignore_ascii_case("json"));
+        if is_json { Self::Json } else { Self::Csv }
+    }
+}
+
+#[derive(Serialize)]
+struct Json<'a> {
+    schema: u32,
+    part: &'a str,
+    scene: &'a str,
+    at: Timestamp,
+    simulated: bool,
+    stored_path: bool,
+    frame: &'static str,
+    tool: &'static str,
+    calibration: &'a str,
+    robot_from_camera: [f64; 16],
+    convention: Convention,
+    meaning: &'static str,
+    band_mm: [f64; 2],
+    most_tilt_deg: f64,
+    num_points: usize,
+    num_inside: usize,
+    points: Vec<JsonPoint>,
+}
+
+#[derive(Serialize)]
+struct JsonPoint {
+    index: usize,
+    robot_from_nozzle: RobotPose,
+    stand_off_mm: Option<f64>,
+    tilt_deg: Option<f64>,
+    band: Band,
+}
+
+const FRAME: &str = "the robot's base frame";
+const TOOL: &str = "origin at the nozzle's mouth, z the way it points (towards the part), x nearest to the part's x axis, y = z × x";
+
+impl SprayExport<'_> {
+    /// Writes the file, whole or not at all.
+    pub fn save(&self, path: &Path) -> Result<(), FileError> {
+        let text = match SprayFormat::of(path) {
+            SprayFormat::Csv => self.csv(),
+            SprayFormat::Json => self.json(),
+        };
+        write_atomically(path, |writer| writer.write_all(text.as_bytes()))
+    }
+
+    fn poses(&self) -> impl Iterator<Item = RobotPose> {
+        self.path.points.iter().map(|point| {
+            let robot_from_nozzle = self.frame.robot_from_camera * point.camera_from_nozzle;
+            self.convention.write(&robot_from_nozzle)
+        })
+    }
+
+    /// The table, and above it in words what it holds.
+    pub fn csv(&self) -> String {
+        let params = self.params;
+        let kind = if self.is_stored {
+            "the part's stored spray path"
+        } else {
+            "one start before the part's middle: no path is stored"
+        };
+        let seen = if self.is_simulated {
+            "SIMULATED: no camera saw this part"
+        } else {
+            "seen by a camera"
+        };
+        let mut text = format!(
+            "# Partsight spray path, version {SCHEMA}\n\
+             # part: {}, {kind}\n\
+             # scene: {}, accepted, {seen}\n\
+             # made: {}\n\
+             # frame: {FRAME}, by the calibration {}\n\
+             # each line: robot_from_nozzle; tool: {TOOL}\n\
+             # convention: {}: {}\n\
+             # band: stand-off {:.0} to {:.0} mm and at most {:.0} degrees from square on, against the part as it was seen; {} of {} inside\n",
+            self.part,
+            self.scene,
+            self.at,
+            self.frame.name,
+            self.convention.name(),
+            self.convention.meaning(),
+            params.nearest.mm(),
+            params.farthest.mm(),
+            MOST_TILT.degrees(),
+            self.path.num_inside(),
+            self.path.points.len(),
+        );
+        for (i, (point, pose)) in self.path.points.iter().zip(self.poses()).enumerate() {
+            if i == 0 {
+                let names: Vec<String> = pose
+                    .values
+                    .iter()
+                    .map(|value| match value.unit.symbol() {
+                        "" => value.name.to_owned(),
+                        unit => format!("{}_{unit}", value.name),
+                    })
+                    .collect();
+                // Writing to memory does not fail.
+                let _ = writeln!(text, "index,{},stand_off_mm,tilt_deg,band", names.join(","));
+            }
+            let numbers: Vec<String> = pose.values.iter().map(|value| value.rounded()).collect();
+            let (distance, tilt) = point.meets.map_or_else(Default::default, |met| {
+                let (distance, tilt) = (met.distance.mm(), met.tilt.degrees());
+                (format!("{distance:.1}"), format!("{tilt:.1}"))
+            });
+            let _ = writeln!(
+                text,
+                "{},{},{distance},{tilt},{}",
+                i + 1,
+                numbers.join(","),
+                point.band.name()
+            );
+        }
+        text
+    }
+
+    /// The same as JSON.
+    pub fn json(&self) -> String {
+        let params = self.params;
+        let points = self.path.points.iter().zip(self.poses()).enumerate();
+        let points = points.map(|(i, (point, pose))| JsonPoint {
+            index: i + 1,
+            robot_from_nozzle: pose,
+            stand_off_mm: point.meets.map(|met| met.distance.mm()),
+            tilt_deg: point.meets.map(|met| met.tilt.degrees()),
+            band: point.band,
+        });
+        let json = Json {
+            schema: SCHEMA,
+            part: self.part,
+            scene: self.scene,
+            at: self.at,
+            simulated: self.is_simulated,
+            stored_path: self.is_stored,
+            frame: FRAME,
+            tool: TOOL,
+            calibration: &self.frame.name,
+            robot_from_camera: crate::geometry::rigid::row_major(&self.frame.robot_from_camera),
+            convention: self.convention,
+            meaning: self.convention.meaning(),
+            band_mm: [params.nearest.mm(), params.farthest.mm()],
+            most_tilt_deg: MOST_TILT.degrees(),
+            num_points: self.path.points.len(),
+            num_inside: self.path.num_inside(),
+            points: points.collect(),
+        };
+        let mut text =
+            serde_json::to_string_pretty(&json).expect("numbers and text have a JSON form");
+        text.push('\n');
+        text
+    }
+}

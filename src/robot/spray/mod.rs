@@ -1,0 +1,235 @@
+//! Where the nozzle has to be for the part as it hangs now: the part's stored path, carried by the found pose.
+//!
+//! The path is stored in part space, so that the pose `camera_from_part` carries it to where the part is now, and the
+//! cell's calibration from there into the robot's base frame. Each point is then held against the part *as the camera
+//! sees it*: how far the nozzle's ray is from the surface, and how flat on it meets it. A part that is bent, another model,
+//! or a pose that is off shows there, since carrying a path changes nothing about its distance to the enrolled surface.
+//!
+//! The tool's frame: its origin is the nozzle's mouth, z the way the nozzle points (towards the part), x as near as can be
+//! to the part's own x axis, y = z × x. A round jet leaves the turn about z free; this choice turns with the part and
+//! does not spin from point to point.
+//!
+//! Source of the band: the paper's section V-B, eq. 14 (10 to 20 cm, normal at the nozzle). It gives no limit for the angle;
+//! ours is [`MOST_TILT`].
+//!
+//! Known limits: what the camera does not see, because something stands before it or it faces away, cannot be held against
+//! anything; such points say so. Nothing is known here of what the arm can reach, or what it would run into.
+
+mod export;
+#[cfg(test)]
+mod tests;
+
+use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
+
+use super::{
+    ray::{Ray, SeenSurface, Surface},
+    stand_off::StandOffParams,
+};
+use crate::{
+    geometry::{cloud::PointCloud, rigid::RigidTransform},
+    library::{PathPoint, SprayPath},
+    stages::reference::Reference,
+    units::{Metres, Radians},
+};
+
+pub use self::export::{SprayExport, SprayFormat};
+
+/// Flatter than this to the nozzle, a coat is uneven.
+pub const MOST_TILT: Radians = Radians(std::f64::consts::FRAC_PI_6);
+
+/// A path that has been carried to the part as it hangs now.
+#[derive(Clone, Debug, PartialEq)]
+pub struct CarriedPath {
+    /// Its points, in the path's order.
+    pub points: Vec<CarriedPoint>,
+}
+
+/// One place of the nozzle, camera space.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct CarriedPoint {
+    /// The tool's frame: origin at the mouth, z towards the part.
+    pub camera_from_nozzle: RigidTransform,
+    /// The same before the pose carried it.
+    pub part_from_nozzle: RigidTransform,
+    /// Where the ray meets what the camera saw, if it does.
+    pub meets: Option<Met>,
+    /// What is to be thought of it.
+    pub band: Band,
+}
+
+/// Where a ray meets the part.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Met {
+    /// From the nozzle to the surface.
+    pub distance: Metres,
+    /// Between the ray and the surface's normal, 0..80°.
+    pub tilt: Radians,
+}
+
+/// A nozzle against its band.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Band {
+    /// Within the band, and square enough.
+    Inside,
+    /// Nearer than the band, or in the part.
+    TooNear,
+    /// Farther than the band.
+    TooFar,
+    /// At the right distance, but too flat on.
+    TooFlat,
+    /// The camera saw no surface before the nozzle: past the part, hidden, or facing away.
+    NotSeen,
+}
+
+impl Band {
+    /// One word or two, for tables and drawings.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Inside => "inside",
+            Self::TooNear => "too near",
+            Self::TooFar => "too far",
+            Self::TooFlat => "too flat",
+            Self::NotSeen => "not seen",
+        }
+    }
+}
+
+impl CarriedPoint {
+    /// The nozzle's mouth, camera space, metres.
+    pub fn mouth(&self) -> Point3<f64> {
+        self.camera_from_nozzle.translation.vector.into()
+    }
+
+    /// The way it points, camera space, unit length.
+    pub fn direction(&self) -> Vector3<f64> {
+        self.camera_from_nozzle * Vector3::z()
+    }
+}
+
+impl CarriedPath {
+    /// Points within the band.
+    pub fn num_inside(&self) -> usize {
+        self.count(Band::Inside)
+    }
+
+    /// Points of this kind.
+    pub fn count(&self, band: Band) -> usize {
+        self.points
+            .iter()
+            .filter(|point| point.band == band)
+            .count()
+    }
+
+    /// True if every point is inside.
+    pub fn keeps_the_band(&self) -> bool {
+        self.num_inside() == self.points.len()
+    }
+}
+
+/// The path over a part that hangs at this pose; `seen` is what the camera saw of the part, camera space.
+pub fn carry(
+    path: &SprayPath,
+    camera_from_part: &RigidTransform,
+    seen: &PointCloud,
+    params: &StandOffParams,
+) -> CarriedPath {
+    let seen = SeenSurface::of(seen);
+    let surface = seen.surface();
+    let points = path.points().iter().map(|point| {
+        let part_from_nozzle = tool_frame(point);
+        let camera_from_nozzle = camera_from_part * part_from_nozzle;
+        let expected = point.stand_off.unwrap_or(params.taught);
+        let meets = meeting(&camera_from_nozzle, &surface, expected);
+        CarriedPoint {
+            camera_from_nozzle,
+            part_from_nozzle,
+            meets,
+            band: band_of(meets, params),
+        }
+    });
+    CarriedPath {
+        points: points.collect(),
+    }
+}
+
+/// How a path lies over the part as it was enrolled; for a path that is being stored.
+pub fn against_reference(
+    path: &SprayPath,
+    reference: &Reference,
+    params: &StandOffParams,
+) -> Vec<Band> {
+    let Some(surface) = Surface::of(reference) else {
+        return vec![Band::NotSeen; path.points().len()];
+    };
+    let bands = path.points().iter().map(|point| {
+        let expected = point.stand_off.unwrap_or(params.taught);
+        band_of(meeting(&tool_frame(point), &surface, expected), params)
+    });
+    bands.collect()
+}
+
+/// The start of a part without a stored path: the nozzle before the point nearest to the part's middle, at the taught
+/// distance on its normal. `None` for a part without normals.
+pub fn default_path(reference: &Reference, params: &StandOffParams) -> Option<SprayPath> {
+    let cloud = &reference.cloud;
+    let (low, high) = cloud.bounds()?;
+    let middle = nalgebra::center(&low, &high);
+    let (at, normal) = cloud
+        .points
+        .iter()
+        .zip(cloud.normals.as_ref()?)
+        .min_by(|a, b| {
+            (a.0 - middle)
+                .norm_squared()
+                .total_cmp(&(b.0 - middle).norm_squared())
+        })?;
+    let normal = nalgebra::Unit::try_new(normal.cast::<f64>(), 1e-6)?;
+    SprayPath::new(vec![PathPoint {
+        nozzle: at.cast::<f64>() + normal.into_inner() * params.taught.0,
+        direction: -normal,
+        stand_off: Some(params.taught),
+    }])
+}
+
+/// z along the direction, x as near to the part's x as can be, or to its y where the nozzle points along x.
+fn tool_frame(point: &PathPoint) -> RigidTransform {
+    /// Cosine of 20°.
+    const ALONG: f64 = 0.94;
+    let z = point.direction.into_inner();
+    let near = if z.x.abs() < ALONG {
+        Vector3::x()
+    } else {
+        Vector3::y()
+    };
+    let x = (near - z * z.dot(&near)).normalize();
+    let axes = Matrix3::from_columns(&[x, z.cross(&x), z]);
+    let rotation = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
+    Isometry3::from_parts(Translation3::from(point.nozzle.coords), rotation)
+}
+
+/// Where the ray of a nozzle meets a surface; both in one space.
+fn meeting(nozzle: &RigidTransform, surface: &Surface<'_>, expected: Metres) -> Option<Met> {
+    let mouth: Point3<f64> = nozzle.translation.vector.into();
+    let ray = Ray {
+        // Micrometres are left of a metre in f32, far below what a nozzle notices.
+        mouth: mouth.cast(),
+        direction: (nozzle * Vector3::z()).cast(),
+    };
+    let (distance, normal) = ray.meets(surface, expected.0 as f32)?;
+    let cosine = f64::from(-ray.direction.dot(&normal));
+    Some(Met {
+        distance: Metres(f64::from(distance)),
+        tilt: Radians(cosine.clamp(-1.0, 1.0).acos()),
+    })
+}
+
+fn band_of(meets: Option<Met>, params: &StandOffParams) -> Band {
+    match meets {
+        None => Band::NotSeen,
+        Some(met) if met.distance < params.nearest => Band::TooNear,
+        Some(met) if met.distance > params.farthest => Band::TooFar,
+        Some(met) if met.tilt > MOST_TILT => Band::TooFlat,
+        Some(_) => Band::Inside,
+    }
+}

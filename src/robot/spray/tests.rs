@@ -1,0 +1,211 @@
+use jiff::Timestamp;
+use nalgebra::Unit;
+
+use super::*;
+use crate::{
+    geometry::rigid::from_euler_zyx,
+    robot::{Convention, RobotFrame, parse_written_pose},
+    stages::reference::{Coverage, ReferenceParams},
+};
+
+/// A plate of 0.8 by 0.48 m, square on, 1.2 m before the camera.
+fn plate() -> Reference {
+    let points: Vec<Point3<f32>> = (0..101 * 61)
+        .map(|i| {
+            let (column, row) = ((i % 101) as f32, (i / 101) as f32);
+            Point3::new(column * 0.008 - 0.4, row * 0.008 - 0.24, 1.2)
+        })
+        .collect();
+    let cloud = PointCloud {
+        normals: Some(vec![-Vector3::z(); points.len()]),
+        points,
+        ..PointCloud::default()
+    };
+    let params = ReferenceParams::default();
+    Reference::prepare("plate", cloud, Coverage::OneSide, &params).expect("an outline")
+}
+
+fn seen_at(pose: &RigidTransform) -> PointCloud {
+    let points = plate().cloud.points;
+    PointCloud::from_points(points.iter().map(|p| pose.cast::<f32>() * p))
+}
+
+fn before(x: f64, y: f64, distance: f64) -> PathPoint {
+    PathPoint {
+        nozzle: Point3::new(x, y, 1.2 - distance),
+        direction: Vector3::z_axis(),
+        stand_off: None,
+    }
+}
+
+fn path() -> SprayPath {
+    let rows = [-0.2, 0.0, 0.2]
+        .into_iter()
+        .flat_map(|y| (0..9).map(move |i| before(0.09 * f64::from(i) - 0.36, y, 0.15)));
+    SprayPath::new(rows.collect()).expect("points")
+}
+
+fn pose() -> RigidTransform {
+    from_euler_zyx([0.1, -0.2, 0.3, 0.05, -0.04, 0.1])
+}
+
+#[test]
+fn a_carried_path_keeps_its_distance_to_the_part() {
+    let pose = pose();
+    let carried = carry(&path(), &pose, &seen_at(&pose), &StandOffParams::default());
+    assert!(carried.keeps_the_band());
+    for (point, taught) in carried.points.iter().zip(path().points()) {
+        let met = point.meets.expect("a surface");
+        assert!((met.distance.mm() - 150.0).abs() < 0.5, "{met:?}");
+        assert!(met.tilt.degrees() < 1.0, "{met:?}");
+        let mouth: Point3<f64> = point.camera_from_nozzle.translation.vector.into();
+        assert!((mouth - pose * taught.nozzle).norm() < 1e-12);
+        let along = point.camera_from_nozzle * Vector3::z();
+        assert!((along - pose * taught.direction.into_inner()).norm() < 1e-12);
+    }
+}
+
+#[test]
+fn a_part_that_is_elsewhere_than_its_pose_says_is_noticed() {
+    let params = StandOffParams::default();
+    for (z, tilt, expected) in [
+        (0.049, 0.0, Band::Inside),
+        (0.051, 0.0, Band::TooFar),
+        (-0.049, 0.0, Band::Inside),
+        (-0.051, 0.0, Band::TooNear),
+        (-0.20, 0.0, Band::TooNear),
+        (0.0, 0.51, Band::Inside),
+        (0.0, 0.56, Band::TooFlat),
+    ] {
+        let middle = Translation3::new(0.0, 0.0, 1.2);
+        let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), tilt);
+        let truly = Translation3::new(0.0, 0.0, z) * middle * turn * middle.inverse();
+        let path = SprayPath::new(vec![before(0.0, 0.0, 0.15)]).expect("a point");
+        let carried = carry(
+            &path,
+            &RigidTransform::identity(),
+            &seen_at(&truly),
+            &params,
+        );
+        assert_eq!(carried.points[0].band, expected, "{z} {tilt}: {carried:?}");
+    }
+    let path = SprayPath::new(vec![before(0.6, 0.0, 0.15)]).expect("a point");
+    let past = carry(&path, &pose(), &seen_at(&pose()), &params);
+    assert_eq!(past.points[0].band, Band::NotSeen);
+    assert_eq!((past.num_inside(), past.keeps_the_band()), (0, false));
+}
+
+#[test]
+fn a_path_in_another_frame_lies_off_the_reference() {
+    let params = StandOffParams::default();
+    let inside = |path: &SprayPath| {
+        let bands = against_reference(path, &plate(), &params);
+        bands.iter().filter(|band| **band == Band::Inside).count()
+    };
+    assert_eq!(inside(&path()), 27);
+    let path = path();
+    let moved = path.points().iter().map(|point| PathPoint {
+        nozzle: point.nozzle + Vector3::new(0.0, 0.0, -1.2),
+        ..*point
+    });
+    assert_eq!(inside(&SprayPath::new(moved.collect()).expect("points")), 0);
+}
+
+#[test]
+fn a_part_without_a_path_is_begun_before_its_middle() {
+    let path = default_path(&plate(), &StandOffParams::default()).expect("normals");
+    let [start] = path.points() else {
+        panic!("one start");
+    };
+    assert!((start.nozzle - Point3::new(0.0, 0.0, 1.05)).norm() < 0.01);
+    assert!((start.direction.into_inner() - Vector3::z()).norm() < 1e-6);
+    let mut flat = plate();
+    flat.cloud.normals = None;
+    assert_eq!(default_path(&flat, &StandOffParams::default()), None);
+}
+
+#[test]
+fn the_tools_frame_is_right_handed_and_turns_with_the_part() {
+    for direction in [
+        Vector3::z(),
+        Vector3::new(0.3, -0.5, 0.8),
+        Vector3::x(),
+        -Vector3::x(),
+        Vector3::new(0.99, 0.05, 0.1),
+    ] {
+        let point = PathPoint {
+            nozzle: Point3::new(0.1, 0.2, 0.3),
+            direction: Unit::new_normalize(direction),
+            stand_off: None,
+        };
+        let frame = tool_frame(&point);
+        let matrix = frame.rotation.to_rotation_matrix().into_inner();
+        assert!((matrix.determinant() - 1.0).abs() < 1e-9);
+        assert!((frame * Vector3::z() - point.direction.into_inner()).norm() < 1e-9);
+    }
+    let square_on = tool_frame(&before(0.0, 0.0, 0.15));
+    assert!((square_on * Vector3::x() - Vector3::x()).norm() < 1e-12);
+}
+
+#[test]
+fn every_line_of_an_export_reads_back_to_the_nozzle_in_the_robots_frame() {
+    let pose = pose();
+    let carried = carry(&path(), &pose, &seen_at(&pose), &StandOffParams::default());
+    let frame = RobotFrame {
+        robot_from_camera: from_euler_zyx([-2.2, 0.1, -1.6, 1.5, -0.2, 2.0]),
+        name: "Cell 2 (00112233)".into(),
+    };
+    for convention in Convention::ALL {
+        let export = SprayExport {
+            path: &carried,
+            part: "plate",
+            scene: "plate.pcd",
+            frame: &frame,
+            convention,
+            params: &StandOffParams::default(),
+            is_stored: true,
+            is_simulated: true,
+            at: Timestamp::UNIX_EPOCH,
+        };
+        let csv = export.csv();
+        for word in [
+            convention.meaning(),
+            "robot's base frame",
+            "Cell 2 (00112233)",
+            "SIMULATED",
+            "27 of 27 inside",
+        ] {
+            assert!(csv.contains(word), "{word}: {csv}");
+        }
+        let mut lines = csv.lines().filter(|line| !line.starts_with('#'));
+        let heading = lines.next().expect("a heading");
+        assert!(
+            heading.ends_with(",stand_off_mm,tilt_deg,band"),
+            "{heading}"
+        );
+        let num = convention.names().len();
+        let json: serde_json::Value = serde_json::from_str(&export.json()).expect("JSON");
+        for (i, (line, point)) in lines.zip(&carried.points).enumerate() {
+            let cells: Vec<&str> = line.split(',').collect();
+            assert_eq!(cells.len(), num + 4, "{line}");
+            assert_eq!(cells[0], (i + 1).to_string());
+            assert_eq!(cells[num + 3], "inside");
+            let text = format!("{} {}", convention.name(), cells[1..=num].join(" "));
+            let read = parse_written_pose(&text).expect("a pose").pose;
+            let expected = frame.robot_from_camera * pose * point.part_from_nozzle;
+            assert!(
+                (read.translation.vector - expected.translation.vector).norm() < 2e-6,
+                "{line}"
+            );
+            assert!(read.rotation.angle_to(&expected.rotation) < 1e-5, "{line}");
+            let numbers: Vec<f64> = json["points"][i]["robot_from_nozzle"]["values"]
+                .as_array()
+                .expect("numbers")
+                .iter()
+                .map(|value| value["value"].as_f64().expect("a number"))
+                .collect();
+            let read = convention.read(&numbers).expect("a pose");
+            assert!((read.to_homogeneous() - expected.to_homogeneous()).amax() < 1e-9);
+        }
+    }
+}

@@ -1,0 +1,339 @@
+//! `partsight report` from end to end: the built program, run in folders of its own.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
+};
+
+use serde_json::Value;
+
+/// A folder to work in.
+struct Workplace {
+    folder: tempfile::TempDir,
+}
+
+struct Ran {
+    code: Option<i32>,
+    out: String,
+    err: String,
+}
+
+impl Workplace {
+    fn new() -> Self {
+        Self {
+            folder: tempfile::tempdir().expect("a folder"),
+        }
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn command(&self, program: &str, args: &[&str]) -> Ran {
+        let ran = Command::new(program)
+            .args(args)
+            .current_dir(self.folder.path())
+            .env("XDG_DATA_HOME", self.path("data"))
+            .env("HOME", self.folder.path())
+            .output()
+            .expect("starts");
+        Ran {
+            code: ran.status.code(),
+            out: String::from_utf8_lossy(&ran.stdout).into_owned(),
+            err: String::from_utf8_lossy(&ran.stderr).into_owned(),
+        }
+    }
+
+    fn run(&self, args: &[&str]) -> Ran {
+        self.command(env!("CARGO_BIN_EXE_partsight"), args)
+    }
+
+    fn capture(&self, part: &str, side: &str, out: &str) {
+        let ran = self.run(&[
+            "simulate",
+            "--part",
+            part,
+            "--side",
+            side,
+            "--placement",
+            "facing",
+            "--seed",
+            "5",
+            "--out",
+            out,
+        ]);
+        assert_eq!(ran.code, Some(0), "{}", ran.err);
+    }
+}
+
+fn json(path: &Path) -> Value {
+    let text =
+        fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
+    serde_json::from_str(&text).expect("JSON")
+}
+
+/// What a person could select on the page; `None` where the program for it is missing.
+#[expect(clippy::print_stderr, reason = "a test that skips must say why")]
+fn page_text(path: &Path) -> Option<String> {
+    let ran = Command::new("pdftotext")
+        .arg("-layout")
+        .arg(path)
+        .arg("-")
+        .output();
+    let Ok(ran) = ran else {
+        eprintln!("skipped: no pdftotext");
+        return None;
+    };
+    assert!(
+        ran.status.success(),
+        "{}",
+        String::from_utf8_lossy(&ran.stderr)
+    );
+    Some(String::from_utf8_lossy(&ran.stdout).into_owned())
+}
+
+#[test]
+fn one_bad_file_does_not_stop_the_reports_of_the_others() {
+    let place = Workplace::new();
+    place.capture("fender", "left", "fender.pcd");
+    place.capture("fender", "right", "other.pcd");
+    fs::write(place.path("broken.pcd"), "VERSION .7\nFIELDS x y z\n").expect("written");
+    let ran = place.run(&[
+        "report",
+        "broken.pcd",
+        "other.pcd",
+        "fender.pcd",
+        "--out",
+        "out",
+        "--format",
+        "json,csv,pdf",
+        "--convention",
+        "fanuc",
+        "--simulated",
+    ]);
+    assert_eq!(ran.code, Some(2), "{}", ran.err);
+    assert!(
+        ran.err.contains("error: broken.pcd") && ran.err.contains("to do:"),
+        "{}",
+        ran.err
+    );
+    assert_eq!(ran.out.lines().count(), 2, "{}", ran.out);
+
+    let accepted = json(&place.path("out/fender.pose.json"));
+    assert_eq!(accepted["schema"], 1);
+    assert_eq!(accepted["scene"], "fender.pcd");
+    assert_eq!(accepted["seen_by"], "simulation");
+    assert_eq!(accepted["verdict"]["part"], "fender");
+    assert_eq!(accepted["verdict"]["accepted"], true);
+    assert_eq!(accepted["robot"]["convention"], "fanuc");
+    assert!(
+        accepted["robot"]["unavailable"]
+            .as_str()
+            .is_some_and(|why| why.contains("not calibrated"))
+    );
+    assert_eq!(
+        accepted["pose"]["camera_from_part"]["in_convention"]["values"][3]["name"],
+        "W"
+    );
+    let refused = json(&place.path("out/other.pose.json"));
+    assert_eq!(refused["verdict"]["accepted"], false);
+    assert!(refused["pose"].is_null());
+    assert!(!place.path("out/broken.pose.json").exists());
+
+    // The same identities as any other inspection with the same recipe and library.
+    for identity in ["recipe", "library"] {
+        assert_eq!(
+            accepted[identity]["identity"],
+            refused[identity]["identity"]
+        );
+    }
+    let table = fs::read_to_string(place.path("out/poses.fanuc.csv")).expect("a table");
+    assert_eq!(table.lines().count(), 3, "{table}");
+    let again = place.run(&[
+        "report",
+        "fender.pcd",
+        "--out",
+        "out",
+        "--format",
+        "csv",
+        "--convention",
+        "fanuc",
+    ]);
+    assert_eq!(again.code, Some(0), "{}", again.err);
+    let longer = fs::read_to_string(place.path("out/poses.fanuc.csv")).expect("a table");
+    assert!(longer.starts_with(&table) && longer.lines().count() == 4);
+
+    if let Some(text) = page_text(&place.path("out/fender.pose.pdf")) {
+        for words in [
+            "Fender, left",
+            "Accepted",
+            "FANUC W P R",
+            "camera_from_part",
+            "SIMULATED",
+            "not calibrated",
+            "fender.pcd",
+        ] {
+            assert!(text.contains(words), "{words}\n{text}");
+        }
+        let values = accepted["pose"]["camera_from_part"]["in_convention"]["values"]
+            .as_array()
+            .expect("values");
+        let x = format!("{:.3}", values[0]["value"].as_f64().expect("a number"));
+        assert!(text.contains(&x), "{x}\n{text}");
+    }
+    if let Some(text) = page_text(&place.path("out/other.pose.pdf")) {
+        assert!(
+            text.contains("NOT ACCEPTED: do not move on this pose"),
+            "{text}"
+        );
+        assert!(!text.contains("camera_from_part"), "{text}");
+    }
+}
+
+#[test]
+fn a_part_that_is_not_accepted_is_code_one_and_an_empty_cell_is_reported() {
+    let place = Workplace::new();
+    let ran = place.run(&["simulate", "--part", "empty", "--out", "empty.pcd"]);
+    assert_eq!(ran.code, Some(0), "{}", ran.err);
+    let ran = place.run(&["report", "empty.pcd", "--out", "out"]);
+    assert_eq!(ran.code, Some(1), "{}", ran.err);
+    let report = json(&place.path("out/empty.pose.json"));
+    assert_eq!(report["verdict"]["status"], "no_part");
+    assert!(
+        report["verdict"]["advice"]
+            .as_str()
+            .is_some_and(|advice| !advice.is_empty())
+    );
+    assert!(
+        fs::read(place.path("out/empty.pose.pdf"))
+            .expect("a page")
+            .starts_with(b"%PDF")
+    );
+}
+
+#[test]
+fn schema_and_conventions_are_printed_without_a_scene() {
+    let place = Workplace::new();
+    let schema = place.run(&["report", "--schema"]);
+    assert_eq!(schema.code, Some(0), "{}", schema.err);
+    assert_eq!(
+        schema.out,
+        include_str!("../assets/pose-report.schema.json")
+    );
+    let conventions = place.run(&["report", "--conventions"]);
+    assert_eq!(conventions.code, Some(0), "{}", conventions.err);
+    let document = include_str!("../assets/conventions.md");
+    for line in conventions.out.lines().skip(1) {
+        let (name, rest) = line.split_once(' ').expect("two columns");
+        let (_, meaning) = rest.split_once(": ").expect("a title and a meaning");
+        assert!(
+            document.contains(&format!("`{name}`")) && document.contains(meaning),
+            "{line}"
+        );
+    }
+    let unknown = place.run(&["report", "a.pcd", "--out", "out", "--convention", "comau"]);
+    assert_eq!(unknown.code, Some(2));
+    assert!(unknown.err.contains("universal-robots"), "{}", unknown.err);
+    let nothing = place.run(&["report"]);
+    assert_eq!(nothing.code, Some(2));
+}
+
+#[test]
+fn a_report_beside_its_captures_leaves_them_as_they_were() {
+    let place = Workplace::new();
+    place.capture("grille", "left", "grille.png");
+    let before = (
+        fs::read(place.path("grille.png")),
+        fs::read(place.path("grille.json")),
+    );
+    let ran = place.run(&["report", "grille.png", "--out", "."]);
+    assert_eq!(ran.code, Some(0), "{}", ran.err);
+    assert_eq!(
+        before.0.expect("an image"),
+        fs::read(place.path("grille.png")).expect("an image")
+    );
+    assert_eq!(
+        before.1.expect("a camera"),
+        fs::read(place.path("grille.json")).expect("a camera")
+    );
+    assert!(place.path("grille.pose.json").exists() && place.path("grille.pose.pdf").exists());
+}
+
+#[test]
+fn a_folder_that_cannot_be_written_is_said_in_words() {
+    let place = Workplace::new();
+    place.capture("grille", "left", "grille.pcd");
+    fs::write(place.path("taken"), "a file").expect("written");
+    let ran = place.run(&["report", "grille.pcd", "--out", "taken"]);
+    assert_eq!(ran.code, Some(2));
+    assert!(
+        ran.err.contains("cannot make the report's folder") && ran.err.contains("to do:"),
+        "{}",
+        ran.err
+    );
+    // A table of somebody else's is left alone; the other formats are written.
+    fs::create_dir(place.path("out")).expect("made");
+    fs::write(place.path("out/poses.matrix.csv"), "mine\n").expect("written");
+    let ran = place.run(&[
+        "report",
+        "grille.pcd",
+        "--out",
+        "out",
+        "--format",
+        "json,csv",
+    ]);
+    assert_eq!(ran.code, Some(2), "{}", ran.out);
+    assert!(
+        ran.err
+            .contains("its columns are not those of a pose report"),
+        "{}",
+        ran.err
+    );
+    assert_eq!(
+        fs::read(place.path("out/poses.matrix.csv")).expect("kept"),
+        b"mine\n"
+    );
+    assert!(place.path("out/grille.pose.json").exists());
+}
+
+/// A size limit stands for a full disk: the system refuses the same write.
+#[cfg(target_os = "linux")]
+#[test]
+fn a_disk_that_is_full_leaves_whole_rows_and_the_next_report_is_written() {
+    let place = Workplace::new();
+    place.capture("grille", "left", "grille.pcd");
+    let whole = |path: &Path| {
+        let text = fs::read_to_string(path).expect("a table");
+        assert!(text.ends_with('\n'));
+        let columns = text.lines().next().expect("names").split(',').count();
+        assert!(
+            text.lines()
+                .skip(1)
+                .all(|line| line.split(',').count() >= columns),
+            "{text}"
+        );
+        text.lines().count()
+    };
+    let report = ["report", "grille.pcd", "--out", "out", "--format", "csv"];
+    assert_eq!(place.run(&report).code, Some(0));
+    let table = place.path("out/poses.matrix.csv");
+    assert_eq!(whole(&table), 2);
+    let program = env!("CARGO_BIN_EXE_partsight");
+    // Blocks of 512 bytes: some hundred bytes of the next row fit.
+    let blocks = fs::metadata(&table).expect("a table").len().div_ceil(512);
+    let limited = format!(
+        "trap '' XFSZ; ulimit -f {blocks}; exec {program} {}",
+        report.join(" ")
+    );
+    let full = place.command("sh", &["-c", &limited]);
+    assert_eq!(full.code, Some(2), "{}", full.err);
+    assert!(
+        full.err.contains("cannot append a row") && full.err.contains("to do:"),
+        "{}",
+        full.err
+    );
+    assert_eq!(whole(&table), 2);
+    assert_eq!(place.run(&report).code, Some(0));
+    assert_eq!(whole(&table), 3);
+}

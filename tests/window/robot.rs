@@ -1,0 +1,312 @@
+//! The robot's cell in the window: its calibration, and the spray path of a part.
+
+use std::{fs, path::Path, sync::Arc};
+
+use egui::{Key, Role};
+use egui_kittest::kittest::Queryable as _;
+use nalgebra::{Point3, Vector3};
+use partsight::{
+    app::{
+        WindowOptions,
+        action::{Action, Ask},
+        enrol::EnrolAction,
+        inspect::state::ViewPart,
+        robot::{RememberedCell, RobotAction},
+        state::{State, Workspace},
+    },
+    geometry::rigid::{RigidTransform, from_euler_zyx},
+    library::{LibraryFolder, PartName, PathPoint, SprayPath},
+    robot::Convention,
+};
+
+use super::set_up::{USUAL, WindowHarness, act, open, open_with, press, settle};
+
+fn state(harness: &WindowHarness) -> &State {
+    harness.state().state()
+}
+
+fn own(folder: &Path) -> WindowOptions {
+    WindowOptions {
+        cell: Some(folder.join("cell.toml")),
+        settings: Some(folder.join("settings.toml")),
+        ..WindowOptions::default()
+    }
+}
+
+/// Opens the dialog and types into a field of it.
+fn type_into(harness: &mut WindowHarness, label: &str, text: &str) {
+    let field = |harness: &WindowHarness| {
+        let role = if label.contains("where") {
+            Role::MultilineTextInput
+        } else {
+            Role::TextInput
+        };
+        let node = harness.get_by_role_and_label(role, label);
+        node.focus();
+    };
+    field(harness);
+    harness.run_steps(2);
+    harness.event(egui::Event::Text(text.into()));
+    harness.run_steps(3);
+}
+
+/// The camera hangs above the cell and looks down at the part.
+pub(crate) fn robot_from_camera() -> RigidTransform {
+    from_euler_zyx([-2.2, 0.1, -1.6, 1.5, -0.2, 2.0])
+}
+
+/// A table of pairs with the camera in the cell; `turns` are those of the target before the camera.
+pub(crate) fn pairs(turns: &[[f64; 3]]) -> String {
+    let flange_from_target = from_euler_zyx([0.3, 0.2, -0.5, 0.02, -0.03, 0.1]);
+    let mut text = String::from("# robot: kuka\n# camera: rotation-vector\n");
+    for (i, [rx, ry, rz]) in turns.iter().enumerate() {
+        let aside = 0.06 * (i as f64 - 2.0);
+        let seen = from_euler_zyx([*rx, *ry, *rz, aside, -aside / 2.0, 1.2 + aside / 3.0]);
+        let arm = robot_from_camera() * seen * flange_from_target.inverse();
+        let mut numbers = Convention::Kuka.write(&arm).numbers();
+        // As a controller shows them, and a camera that errs by a few tenths of a millimetre.
+        numbers
+            .iter_mut()
+            .for_each(|x| *x = (*x * 10.0).round() / 10.0);
+        numbers.extend(Convention::RotationVector.write(&seen).numbers());
+        let numbers: Vec<String> = numbers.iter().map(ToString::to_string).collect();
+        text += &format!("p{}, {}\n", i + 1, numbers.join(", "));
+    }
+    text
+}
+
+pub(crate) const TURNS: [[f64; 3]; 8] = [
+    [0.0, 0.0, 0.0],
+    [0.4, 0.1, 0.2],
+    [-0.3, 0.3, -0.4],
+    [0.1, -0.4, 0.6],
+    [-0.2, -0.3, -0.7],
+    [0.3, 0.4, 0.9],
+    [0.5, -0.1, -0.2],
+    [-0.4, -0.2, 0.3],
+];
+
+#[test]
+fn numbers_typed_by_hand_are_used_remembered_and_forgotten() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_with(USUAL, own(folder.path()));
+    assert!(state(&harness).robot.is_none());
+    harness.key_press(Key::B);
+    settle(&mut harness);
+    harness.get_by_label_contains("The cell is not calibrated");
+    press(&mut harness, "By hand");
+    let label = "robot_from_camera: where the camera's frame stands";
+    type_into(&mut harness, label, "kuka 1200 -400 1900 86 -5");
+    harness.get_by_label_contains("has 6 numbers");
+    type_into(&mut harness, label, " 120");
+    type_into(&mut harness, "Name of the cell", "Cell 2");
+    press(&mut harness, "Use it");
+    let frame = state(&harness).robot.clone().expect("a frame");
+    assert!(frame.name.starts_with("Cell 2 ("), "{}", frame.name);
+    assert!(
+        (frame.robot_from_camera.translation.vector - Vector3::new(1.2, -0.4, 1.9)).norm() < 1e-9
+    );
+    harness.get_by_label("entered by hand");
+    press(&mut harness, "Close");
+    assert!(state(&harness).cell.dialog.is_none());
+    // The card tells the robot's frame now.
+    harness.get_by_label_contains("by Cell 2 (");
+    assert!(state(&harness).inspect.parts.contains(&ViewPart::RobotBase));
+
+    drop(harness);
+    let mut harness = open_with(USUAL, own(folder.path()));
+    assert_eq!(state(&harness).robot.as_deref(), Some(&*frame));
+    press(&mut harness, "Robot…");
+    press(&mut harness, "Forget");
+    assert!(state(&harness).robot.is_none());
+    assert_eq!(state(&harness).cell.remembered, RememberedCell::Forgotten);
+    assert!(folder.path().join("cell.toml").exists());
+}
+
+#[test]
+fn pairs_are_calculated_shown_corrected_and_used() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("pairs.csv");
+    // The fourth is 60 mm aside.
+    let sound = pairs(&TURNS);
+    let text = sound.lines().map(|line| match line.strip_prefix("p4, ") {
+        Some(rest) => {
+            let (x, rest) = rest.split_once(',').expect("numbers");
+            let x: f64 = x.parse().expect("a number");
+            format!("p4, {},{rest}\n", x + 60.0)
+        }
+        None => format!("{line}\n"),
+    });
+    fs::write(&file, text.collect::<String>()).expect("written");
+    let mut harness = open_with(USUAL, own(folder.path()));
+    act(&mut harness, Action::Chosen(Ask::Pairs, file));
+    harness.get_by_label_contains("P4 (line 6) is suspect");
+    press(&mut harness, "p4 (line 6)");
+    assert!(harness.query_by_label_contains("is suspect").is_none());
+    harness.get_by_label("left out");
+    press(&mut harness, "Use it");
+    let found = &state(&harness)
+        .robot
+        .as_ref()
+        .expect("a frame")
+        .robot_from_camera;
+    let off = (found.translation.vector - robot_from_camera().translation.vector).norm();
+    assert!(off < 0.002, "{off}");
+    harness.get_by_label("7 pairs of pairs.csv");
+}
+
+#[test]
+fn pairs_that_do_not_span_are_used_only_by_insisting() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let file = folder.path().join("pairs.csv");
+    let turns: Vec<[f64; 3]> = (0..6).map(|i| [0.0, 0.0, 0.3 * f64::from(i)]).collect();
+    fs::write(&file, pairs(&turns)).expect("written");
+    let mut harness = open_with(USUAL, own(folder.path()));
+    act(&mut harness, Action::Chosen(Ask::Pairs, file.clone()));
+    harness.get_by_label_contains("Nearly all turns are about one axis");
+    harness.get_by_label_contains("another axis by at least 30°");
+    act(&mut harness, Action::Robot(RobotAction::UseSolved));
+    assert!(state(&harness).robot.is_none());
+    press(&mut harness, "Use it although it must not be used");
+    press(&mut harness, "Use it");
+    assert!(state(&harness).robot.is_some());
+    // A bad file is said where it was chosen.
+    fs::write(&file, "# robot: kuka\n1 2 3\n").expect("written");
+    act(&mut harness, Action::Chosen(Ask::Pairs, file));
+    harness.get_by_label_contains("line 2: 3 numbers, expected 22");
+}
+
+#[test]
+fn without_a_folder_of_its_own_a_window_says_so() {
+    let mut harness = open();
+    press(&mut harness, "Robot…");
+    press(&mut harness, "By hand");
+    let label = "robot_from_camera: where the camera's frame stands";
+    type_into(&mut harness, label, "kuka 1 2 3 4 5 6");
+    press(&mut harness, "Use it");
+    assert!(state(&harness).robot.is_none());
+    assert_eq!(state(&harness).notices.len(), 1);
+    harness.key_press(Key::Escape);
+    settle(&mut harness);
+    assert!(state(&harness).cell.dialog.is_none());
+}
+
+/// A path over the shipped front door, which hung square on, 1.3 m before the camera; its last point lies beside it.
+pub(crate) fn door_path() -> SprayPath {
+    let at = [
+        [-0.3, -0.05],
+        [-0.15, 0.0],
+        [0.0, 0.1],
+        [0.15, 0.1],
+        [0.3, 0.1],
+        [1.5, 0.1],
+    ];
+    let points = at.map(|[x, y]| PathPoint {
+        nozzle: Point3::new(x, y, 1.12),
+        direction: Vector3::z_axis(),
+        stand_off: None,
+    });
+    SprayPath::new(points.into()).expect("points")
+}
+
+/// A copy of the shipped library in this folder.
+pub(crate) fn copy_library(to: &Path) {
+    for part in fs::read_dir("reference_parts").expect("the shipped parts") {
+        let from = part.expect("a part").path();
+        if from.is_dir() {
+            let to = to.join(from.file_name().expect("a name"));
+            fs::create_dir_all(&to).expect("made");
+            for file in fs::read_dir(from).expect("listed") {
+                let file = file.expect("a file").path();
+                fs::copy(&file, to.join(file.file_name().expect("a name"))).expect("copied");
+            }
+        }
+    }
+}
+
+#[test]
+fn a_spray_path_is_stored_carried_shown_and_exported() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let parts = folder.path().join("parts");
+    copy_library(&parts);
+    let library = LibraryFolder::open(&parts).expect("a library");
+    let door = PartName::new("front_door").expect("a name");
+    let options = WindowOptions {
+        library: Some(parts.clone()),
+        ..own(folder.path())
+    };
+    let mut harness = open_with(USUAL, options);
+    let shown = |harness: &WindowHarness| {
+        let shown = state(harness).shown.as_ref().expect("a result");
+        Arc::clone(&shown.inspected)
+    };
+    assert!(shown(&harness).spray.is_none());
+
+    // Stored in the shelf of enrolled parts, as a file from elsewhere.
+    let file = folder.path().join("path.csv");
+    let mut text =
+        String::from("nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z\n");
+    for point in door_path().points() {
+        let mm = point.nozzle.coords * 1000.0;
+        text += &format!("{},{},{},0,0,1\n", mm.x, mm.y, mm.z);
+    }
+    fs::write(&file, text).expect("written");
+    act(&mut harness, Action::GoTo(Workspace::Enrol));
+    act(&mut harness, Action::Enrol(EnrolAction::Open(door)));
+    act(&mut harness, Action::Chosen(Ask::PartPath, file));
+    harness.get_by_label_contains("spray path of 6 points");
+    assert_eq!(
+        library
+            .spray_path("front_door")
+            .expect("read")
+            .map(|p| p.points().len()),
+        Some(6)
+    );
+
+    act(&mut harness, Action::GoTo(Workspace::Inspect));
+    let inspected = shown(&harness);
+    let carried = inspected.spray.as_ref().expect("carried");
+    assert_eq!(carried.points.len(), 6);
+    assert!(carried.points[5].meets.is_none());
+    let figure = inspected.view.spray.as_ref().expect("drawn");
+    assert_eq!(
+        (figure.num_points, figure.num_inside),
+        (6, carried.num_inside())
+    );
+    assert!(carried.num_inside() >= 3, "{carried:?}");
+
+    // Without a calibrated cell there is nothing to export.
+    let out = folder.path().join("out.csv");
+    act(&mut harness, Action::Chosen(Ask::SprayPath, out.clone()));
+    assert!(!out.exists());
+    let cell = folder.path().join("cell.toml");
+    let written = partsight::robot::calibration::CellCalibration {
+        name: "Cell 2".into(),
+        notes: String::new(),
+        camera: partsight::robot::calibration::CameraPlace::Fixed {
+            robot_from_camera: robot_from_camera(),
+        },
+        origin: partsight::robot::calibration::Origin::ByHand,
+        made_at: jiff::Timestamp::UNIX_EPOCH,
+    };
+    written.save(&cell).expect("written");
+    act(&mut harness, Action::Chosen(Ask::Calibration, cell));
+    act(&mut harness, Action::UseConvention(Convention::Fanuc));
+    act(&mut harness, Action::Chosen(Ask::SprayPath, out.clone()));
+    let text = fs::read_to_string(&out).expect("written");
+    assert!(text.contains("FANUC") || text.contains("fanuc"), "{text}");
+    assert!(
+        text.contains("SIMULATED") && text.contains("Cell 2 ("),
+        "{text}"
+    );
+    assert_eq!(
+        text.lines()
+            .filter(|line| line.starts_with(char::is_numeric))
+            .count(),
+        6
+    );
+
+    // Taken back as any change of the library.
+    act(&mut harness, Action::Enrol(EnrolAction::Undo));
+    assert_eq!(library.spray_path("front_door").expect("read"), None);
+}
