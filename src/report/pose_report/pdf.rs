@@ -206,10 +206,10 @@ fn verdict(
     let mut y = top + 21.0;
     sheet.text(&title, [MARGIN + INDENT, y], title_style, Align::Left);
     y += 21.0;
-    let words = if verdict.accepted {
-        "Accepted"
-    } else {
-        "NOT ACCEPTED: do not move on this pose"
+    let words = match (verdict.accepted, &report.refused_pose) {
+        (true, _) => "Accepted",
+        (false, Some(_)) => "NOT ACCEPTED: do not move on this pose",
+        (false, None) => "NOT ACCEPTED: there is no pose",
     };
     mark(
         sheet,
@@ -249,7 +249,12 @@ fn verdict(
         y = text(sheet, &facts::sentence(reason), BODY, y);
     }
     if let Some(advice) = &verdict.advice {
-        y = text(sheet, &format!("What to do: {advice}"), STRONG, y);
+        y = text(
+            sheet,
+            &facts::sentence(&format!("What to do: {advice}")),
+            STRONG,
+            y,
+        );
     }
     for caution in report.pose.iter().flat_map(|pose| &pose.cautions) {
         // That is said in large letters above.
@@ -322,10 +327,10 @@ fn strip(sheet: &mut Sheet<'_>, stages: &[&Picture], bottom: f32) -> f32 {
 
 fn stage_title(stage: &str) -> &str {
     match stage {
-        "segmentation" => "What the camera saw, by segment",
+        "segmentation" => "Segmentation",
         "binary" => "Binary image",
-        "contour" => "Contour, rays from its centroid",
-        "signature" => "Signature: lengths and angles",
+        "contour" => "Contour and rays",
+        "signature" => "Signature: lengths, angles",
         other => other,
     }
 }

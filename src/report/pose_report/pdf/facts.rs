@@ -2,7 +2,7 @@
 
 use super::{
     Align, Area, BLACK, BODY, HEADING, MARGIN, PAGE, PALE, PdfPictures, RED, RULE, SMALL, STRONG,
-    Sheet, WIDTH, Weight, stage_title, style,
+    Sheet, WIDTH, Weight, style,
 };
 use crate::report::pose_report::{FitBlock, MiddleBlock, PoseBlock, PoseReport, StandOffBlock};
 
@@ -85,7 +85,7 @@ fn scene(sheet: &mut Sheet<'_>, pictures: &PdfPictures<'_>, area: Area) -> f32 {
     let shown = pictures
         .view
         .map(|view| (view, "3-D view"))
-        .or(stage.map(|stage| (&stage.image, stage_title(stage.stage))));
+        .or(stage.map(|stage| (&stage.image, "What the camera saw, by segment")));
     let Some((picture, caption)) = shown else {
         return area.top - 9.0;
     };
