@@ -83,7 +83,7 @@ pub(super) fn ui(
     let Some(numbered) = numbered(state, inspected) else {
         return;
     };
-    heading(ui, theme, "Pose for the robot");
+    heading(ui, theme, "Pose");
     choice(ui, state.convention, actions);
     let NumberedPose { name, frame, pose } = &numbered;
     let small = |text: &str| {
@@ -96,7 +96,13 @@ pub(super) fn ui(
             .font(font::body_strong())
             .color(theme.text),
     );
-    ui.label(small(frame));
+    // Numbers in the wrong frame move a robot to the wrong place.
+    let colour = if state.robot.is_some() {
+        theme.weak_text
+    } else {
+        theme.warning
+    };
+    ui.label(small(frame).color(colour));
     if pose.convention == Convention::Matrix {
         egui::Grid::new("matrix").num_columns(4).show(ui, |ui| {
             for row in pose.values.chunks(4) {

@@ -36,6 +36,9 @@ pub use self::{
 /// The version of the report; fields are only ever added to one.
 pub const POSE_REPORT_SCHEMA: u32 = 1;
 
+/// So many of the ranking are told.
+const NUM_RANKED: usize = 5;
+
 /// Whether a camera was read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
 #[serde(rename_all = "snake_case")]
@@ -77,6 +80,8 @@ pub struct PoseReport {
     pub seen_by: SeenBy,
     /// What was decided.
     pub verdict: VerdictBlock,
+    /// The enrolled parts that are most like it, at most five, best first.
+    pub ranking: Vec<RankBlock>,
     /// Where the part is; null unless it was accepted.
     pub pose: Option<PoseBlock>,
     /// Where the part would be if it were what was not accepted. NOT A POSE TO MOVE BY: it is here to find out why.
@@ -118,6 +123,15 @@ pub struct VerdictBlock {
     pub approximate: bool,
     /// True if what was found reaches the picture's edge: some of it may be missing.
     pub touches_edge: bool,
+}
+
+/// An enrolled part and how likely it is.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct RankBlock {
+    /// Its name.
+    pub part: String,
+    /// The probability that it hangs there, at the pose where it fits best, 0..1.
+    pub score: f64,
 }
 
 /// The recipe.
@@ -197,6 +211,15 @@ impl PoseReport {
                 .filter(|_| verdict.accepted)
                 .map(|found| StandOffBlock::of(found, &subject.recipe.stand_off)),
             verdict,
+            ranking: inspection
+                .ranking
+                .by_part()
+                .take(NUM_RANKED)
+                .map(|entry| RankBlock {
+                    part: entry.part.clone(),
+                    score: entry.score,
+                })
+                .collect(),
             timings_ms: TimingsLine::of(&inspection.timings),
             recipe: RecipeBlock {
                 identity: subject.recipe.identity(),
