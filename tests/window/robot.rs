@@ -16,7 +16,10 @@ use partsight::{
     },
     geometry::rigid::{RigidTransform, from_euler_zyx},
     library::{LibraryFolder, PartName, PathPoint, SprayPath},
-    robot::Convention,
+    robot::{
+        Convention,
+        calibration::{CameraPlace, CellCalibration, Origin},
+    },
 };
 
 use super::set_up::{USUAL, WindowHarness, act, open, open_with, press, settle};
@@ -129,16 +132,14 @@ fn pairs_are_calculated_shown_corrected_and_used() {
     let file = folder.path().join("pairs.csv");
     // The fourth is 60 mm aside.
     let sound = pairs(&TURNS);
-    let text = sound
-        .lines()
-        .map(|line| match line.strip_prefix("p4, ") {
-            Some(rest) => {
-                let (x, rest) = rest.split_once(',').expect("numbers");
-                let x: f64 = x.parse().expect("a number");
-                format!("p4, {},{rest}\n", x + 60.0)
-            }
-            None => format!("{line}\n"),
-        });
+    let text = sound.lines().map(|line| match line.strip_prefix("p4, ") {
+        Some(rest) => {
+            let (x, rest) = rest.split_once(',').expect("numbers");
+            let x: f64 = x.parse().expect("a number");
+            format!("p4, {},{rest}\n", x + 60.0)
+        }
+        None => format!("{line}\n"),
+    });
     fs::write(&file, text.collect::<String>()).expect("written");
     let mut harness = open_with(USUAL, own(folder.path()));
     act(&mut harness, Action::Chosen(Ask::Pairs, file));
@@ -191,6 +192,20 @@ fn without_a_folder_of_its_own_a_window_says_so() {
     harness.key_press(Key::Escape);
     settle(&mut harness);
     assert!(state(&harness).cell.dialog.is_none());
+}
+
+/// Writes a calibration that a person entered.
+pub(crate) fn save_calibration(path: &Path) {
+    let calibration = CellCalibration {
+        name: "Cell 2".into(),
+        notes: String::new(),
+        camera: CameraPlace::Fixed {
+            robot_from_camera: robot_from_camera(),
+        },
+        origin: Origin::ByHand,
+        made_at: jiff::Timestamp::UNIX_EPOCH,
+    };
+    calibration.save(path).expect("written");
 }
 
 /// A path over the shipped front door, which hung square on, 1.3 m before the camera; its last point lies beside it.
@@ -256,7 +271,7 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
     act(&mut harness, Action::GoTo(Workspace::Enrol));
     act(&mut harness, Action::Enrol(EnrolAction::Open(door)));
     act(&mut harness, Action::Chosen(Ask::PartPath, file));
-    harness.get_by_label_contains("spray path of 6 points");
+    harness.get_by_label_contains("· spray path of 6 points");
     assert_eq!(
         library
             .spray_path("front_door")
@@ -282,16 +297,7 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
     act(&mut harness, Action::Chosen(Ask::SprayPath, out.clone()));
     assert!(!out.exists());
     let cell = folder.path().join("cell.toml");
-    let written = partsight::robot::calibration::CellCalibration {
-        name: "Cell 2".into(),
-        notes: String::new(),
-        camera: partsight::robot::calibration::CameraPlace::Fixed {
-            robot_from_camera: robot_from_camera(),
-        },
-        origin: partsight::robot::calibration::Origin::ByHand,
-        made_at: jiff::Timestamp::UNIX_EPOCH,
-    };
-    written.save(&cell).expect("written");
+    save_calibration(&cell);
     act(&mut harness, Action::Chosen(Ask::Calibration, cell));
     act(&mut harness, Action::UseConvention(Convention::Fanuc));
     act(&mut harness, Action::Chosen(Ask::SprayPath, out.clone()));
