@@ -229,17 +229,16 @@ fn write_report(
         .chain(&written)
         .map(|path| file_name(path))
         .collect();
-    let mut what = format!(
+    let what = format!(
         "Wrote {}, the pictures of its stages and a row of {} to {}",
         names.join(", "),
         file_name(&table),
         folder.display()
     );
     if let CsvAppended::SetAside(aside) = appended {
-        what += &format!(
-            "; its last row had no end and was set aside in {}",
-            file_name(&aside)
-        );
+        let aside = file_name(&aside);
+        let what = format!("{what}; its last row had no end and was set aside in {aside}");
+        return Ok(Written { what, path });
     }
     Ok(Written { what, path })
 }

@@ -19,9 +19,10 @@ use super::{
     stand_off::{StandOff, StandOffError, StandOffParams},
 };
 use crate::{
-    error::Advice as _,
+    error::Advice,
     pipeline::{Inspection, Recipe, Verdict},
     robot::{Convention, RobotFrame},
+    stages::pose::PoseEstimate,
 };
 
 pub use self::{
@@ -189,7 +190,7 @@ impl PoseReport {
         let found = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
         let block = found.map(|pose| PoseBlock::of(pose, inspection, subject));
         let camera_from_part = found
-            .map(|pose| pose.camera_from_part())
+            .map(PoseEstimate::camera_from_part)
             .filter(|_| verdict.accepted);
         let (pose, refused_pose) = if verdict.accepted {
             (block, None)
@@ -280,7 +281,7 @@ impl VerdictBlock {
                     score: Some(*score),
                     margin: Some(*margin),
                     reason: rejected.as_ref().map(ToString::to_string),
-                    advice: rejected.as_ref().map(|reason| reason.advice()),
+                    advice: rejected.as_ref().map(Advice::advice),
                     ..block
                 }
             }
