@@ -15,6 +15,9 @@ use super::{
     theme::{ROUNDING, Theme, font, space},
 };
 
+/// In a narrower window the bar has no room for every key.
+const NARROW: f32 = 1100.0;
+
 /// Shows which hand-drawn control has the focus.
 pub(super) fn focus_ring(ui: &Ui, rect: Rect, response: &egui::Response, theme: &Theme) {
     if response.has_focus() {
@@ -95,8 +98,11 @@ fn live_button(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Acti
 
 /// The cell's calibration: whether there is one, and the dialog about it.
 fn robot_button(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
-    let key = RichText::new("B").font(font::small());
-    let button = Button::new("Robot…").shortcut_text(key.color(theme.weak_text));
+    let mut button = Button::new("Robot…");
+    if ui.ctx().content_rect().width() > NARROW {
+        let key = RichText::new("B").font(font::small());
+        button = button.shortcut_text(key.color(theme.weak_text));
+    }
     let says = match (&state.robot, &state.cell.in_use) {
         (Some(robot), _) => format!("Calibrated by {} (B)", robot.name),
         (None, Some(_)) => "Where the arm stands at a capture is not known (B)".into(),

@@ -22,6 +22,9 @@ pub(super) struct Dialog {
     opened: Instant,
 }
 
+/// What a person chose, once they have.
+type Answer = Pin<Box<dyn Future<Output = Option<rfd::FileHandle>>>>;
+
 /// Nobody closes a dialog as quickly as this: it never opened.
 const TOO_QUICK: Duration = Duration::from_millis(250);
 
@@ -36,7 +39,7 @@ impl Wake for Repaint {
 impl Dialog {
     pub(super) fn open(ask: Ask, ctx: &egui::Context) -> Self {
         let dialog = rfd::AsyncFileDialog::new();
-        let answer: Pin<Box<dyn Future<Output = Option<rfd::FileHandle>>>> = match ask {
+        let answer: Answer = match ask {
             Ask::Scene => Box::pin(
                 dialog
                     .set_title("Open a captured scene")
@@ -97,35 +100,7 @@ impl Dialog {
                     .set_title("Open a cloud or a mesh")
                     .pick_file(),
             ),
-            Ask::Calibration => Box::pin(
-                dialog
-                    .set_title("Load the calibration of the robot's cell")
-                    .add_filter("Calibrations", &["toml"])
-                    .add_filter("All files", &["*"])
-                    .pick_file(),
-            ),
-            Ask::SprayPath => Box::pin(
-                dialog
-                    .set_title("Export the spray path for the robot")
-                    .set_file_name("spray-path.csv")
-                    .add_filter("Comma-separated values", &["csv"])
-                    .add_filter("JSON", &["json"])
-                    .save_file(),
-            ),
-            Ask::PartPath => Box::pin(
-                dialog
-                    .set_title("The nozzle's path over this part")
-                    .add_filter("Tables", &["csv", "txt"])
-                    .add_filter("All files", &["*"])
-                    .pick_file(),
-            ),
-            Ask::Pairs => Box::pin(
-                dialog
-                    .set_title("Pairs of robot and camera poses")
-                    .add_filter("Tables and JSON", &["csv", "txt", "json"])
-                    .add_filter("All files", &["*"])
-                    .pick_file(),
-            ),
+            Ask::Calibration | Ask::SprayPath | Ask::PartPath | Ask::Pairs => of_robot(ask, dialog),
             Ask::Part => Box::pin(
                 anything_with_points(dialog)
                     .set_title("Open a scene, a cloud or a mesh to enrol")
@@ -150,6 +125,42 @@ impl Dialog {
                 None if self.opened.elapsed() < TOO_QUICK => Some(without_dialog(self.ask)),
                 None => None,
             })
+    }
+}
+
+/// What is asked about the robot's cell and spray paths.
+fn of_robot(ask: Ask, dialog: rfd::AsyncFileDialog) -> Answer {
+    let all: [&str; 1] = ["*"];
+    match ask {
+        Ask::Calibration => Box::pin(
+            dialog
+                .set_title("Load the calibration of the robot's cell")
+                .add_filter("Calibrations", &["toml"])
+                .add_filter("All files", &all)
+                .pick_file(),
+        ),
+        Ask::SprayPath => Box::pin(
+            dialog
+                .set_title("Export the spray path for the robot")
+                .set_file_name("spray-path.csv")
+                .add_filter("Comma-separated values", &["csv"])
+                .add_filter("JSON", &["json"])
+                .save_file(),
+        ),
+        Ask::PartPath => Box::pin(
+            dialog
+                .set_title("The nozzle's path over this part")
+                .add_filter("Tables", &["csv", "txt"])
+                .add_filter("All files", &all)
+                .pick_file(),
+        ),
+        _ => Box::pin(
+            dialog
+                .set_title("Pairs of robot and camera poses")
+                .add_filter("Tables and JSON", &["csv", "txt", "json"])
+                .add_filter("All files", &all)
+                .pick_file(),
+        ),
     }
 }
 

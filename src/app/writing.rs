@@ -18,7 +18,9 @@ use crate::{
     files::write_atomically,
     report::{
         InspectionLine, ReportError, ReportFolder,
-        pose_report::{PdfPictures, PoseReport, ReportSubject, SeenBy, append_csv, pose_pdf},
+        pose_report::{
+            CsvAppended, PdfPictures, PoseReport, ReportSubject, SeenBy, append_csv, pose_pdf,
+        },
         stage_pictures,
     },
     robot::{Convention, RobotFrame, spray::SprayExport},
@@ -221,21 +223,24 @@ fn write_report(
     let files = [("json", report.to_json().into_bytes()), ("pdf", pdf)];
     let written = out.write_pose(&name, &files).map_err(trouble)?;
     let table = out.csv(report.robot.convention);
-    append_csv(&table, report).map_err(|error| Trouble::of(&error))?;
+    let appended = append_csv(&table, report).map_err(|error| Trouble::of(&error))?;
     let names: Vec<String> = [&path]
         .into_iter()
         .chain(&written)
         .map(|path| file_name(path))
         .collect();
-    Ok(Written {
-        what: format!(
-            "Wrote {}, the pictures of its stages and a row of {} to {}",
-            names.join(", "),
-            file_name(&table),
-            folder.display()
-        ),
-        path,
-    })
+    let what = format!(
+        "Wrote {}, the pictures of its stages and a row of {} to {}",
+        names.join(", "),
+        file_name(&table),
+        folder.display()
+    );
+    if let CsvAppended::SetAside(aside) = appended {
+        let aside = file_name(&aside);
+        let what = format!("{what}; its last row had no end and was set aside in {aside}");
+        return Ok(Written { what, path });
+    }
+    Ok(Written { what, path })
 }
 
 /// The same view in the colours of paper.

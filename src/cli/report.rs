@@ -17,7 +17,7 @@ use super::{
     verdict::outcome_of,
 };
 use crate::{
-    library::LibraryLoad,
+    library::{LibraryLoad, PartMeta},
     pipeline::{self, Inspection, Recipe, Unwatched},
     report::{
         ReportFolder,
@@ -27,7 +27,7 @@ use crate::{
         stage_pictures,
     },
     robot::{Convention, RobotFrame, stand_off::stand_off},
-    stages::{scene::SceneCloud, segment::EmptyCell},
+    stages::{reference::Reference, scene::SceneCloud, segment::EmptyCell},
 };
 
 /// Write the pose report of captured scenes: which part, where, and in the robot's numbers
@@ -215,7 +215,7 @@ impl Reporter<'_> {
                 SeenBy::NotKnown
             },
             inspection,
-            middle: reference.and_then(|reference| reference.middle()),
+            middle: reference.and_then(Reference::middle),
             stand_off: stand_off.as_ref(),
             recipe: &self.recipe,
             library_identity: &self.library_identity,
@@ -245,7 +245,7 @@ impl Reporter<'_> {
             let pictures = PdfPictures {
                 view: None,
                 stages: &stage_pictures(scene, inspection),
-                title: title.map(|meta| meta.shown_title()),
+                title: title.map(PartMeta::shown_title),
             };
             files.push(("pdf", pose_pdf(report, &pictures).advised()?));
         }

@@ -28,7 +28,7 @@ pub fn row_major(transform: &RigidTransform) -> [f64; 16] {
 }
 
 /// The transform of a 4×4 matrix, row after row. `None` if its rotation is off one by more than `tolerance` (Frobenius
-/// norm of RᵀR - 1), if it mirrors, does not end in 0 0 0 1, or is not finite.
+/// norm of Rᵀ·R - 1), if it mirrors, does not end in 0 0 0 1, or is not finite.
 pub fn from_row_major(m: &[f64; 16], tolerance: f64) -> Option<RigidTransform> {
     /// Below this the numbers are a rotation to the last digits, and are taken as they are.
     const EXACT: f64 = 1e-9;

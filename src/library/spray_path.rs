@@ -186,7 +186,7 @@ impl Columns {
             })? * factor;
             match (*column, self.is_surface) {
                 (Column::Nozzle(axis), false) | (Column::Surface(axis), true) => {
-                    at[axis] = Some(number)
+                    at[axis] = Some(number);
                 }
                 (Column::Direction(axis), false) | (Column::Normal(axis), true) => {
                     along[axis] = Some(number);

@@ -4,7 +4,7 @@
 //!
 //! | convention | rotation | units | source |
 //! | --- | --- | --- | --- |
-//! | KUKA | R = Rz(A)·Ry(B)·Rx(C) | mm, degrees | Basler rc_visard, *Pose formats*; Mech-Mind, *Euler angles*; Vathos, *Rotations* |
+//! | KUKA | R = Rz(A)·Ry(B)·Rx(C) | mm, degrees | Basler `rc_visard`, *Pose formats*; Mech-Mind, *Euler angles*; Vathos, *Rotations* |
 //! | FANUC | R = Rz(R)·Ry(P)·Rx(W) | mm, degrees | the same three |
 //! | ABB | unit quaternion, q1 the scalar | mm | ABB, *RAPID reference manual*, data types `pos` and `orient`: `[1, 0, 0, 0]` is no rotation; Basler |
 //! | Universal Robots | axis times angle | m, radians | Universal Robots, *Script manual*, module motion: a pose is a position and an axis-angle; Basler |

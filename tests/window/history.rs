@@ -82,6 +82,15 @@ fn the_report_of_an_inspection_is_written_and_a_bad_folder_is_a_notice() {
         assert!(picture.width() > 50 && picture.height() > 50);
     }
     harness.get_by_label_contains("Wrote simulated_1.report.json");
+    let text = fs::read_to_string(out.join("simulated_1.pose.json")).expect("written");
+    let report: serde_json::Value = serde_json::from_str(&text).expect("JSON");
+    assert_eq!(report["verdict"]["part"], "front_door");
+    assert_eq!(report["seen_by"], "simulation");
+    assert_eq!(report["pose"]["usable"], true);
+    let pdf = fs::read(out.join("simulated_1.pose.pdf")).expect("written");
+    assert!(pdf.starts_with(b"%PDF-"));
+    let table = fs::read_to_string(out.join("poses.matrix.csv")).expect("written");
+    assert_eq!(table.lines().count(), 2);
 
     let taken = folder.path().join("taken");
     fs::write(&taken, "a file").expect("written");

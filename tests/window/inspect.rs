@@ -10,6 +10,7 @@ use partsight::{
         state::{StagePanel, ThemeChoice, UnitSystem},
     },
     files::save_cloud,
+    robot::Convention,
     simulate::{CellSetup, PartKind, PartPose, Placement, Side, frame},
     stages::scene::scene_from_frame,
 };
@@ -134,6 +135,52 @@ fn units_colours_and_shortcuts_have_their_keys() {
     harness.key_press_modifiers(Modifiers::NONE, Key::Escape);
     harness.run_steps(2);
     assert!(harness.query_by_label("Shortcuts").is_none());
+}
+
+#[test]
+fn the_pose_is_shown_in_the_robots_numbers_that_were_chosen() {
+    let mut harness = open();
+    harness.get_by_label("The camera's frame: the cell is not calibrated");
+    harness
+        .get_by_label("Convention: Matrix, 4×4")
+        .scroll_to_me();
+    harness.run_steps(12);
+    harness.get_by_label("Convention: Matrix, 4×4").click();
+    harness.run_steps(4);
+    harness.get_by_label("FANUC W P R").click();
+    harness.run_steps(4);
+    harness.get_by_label("Convention: FANUC W P R");
+    let shown = harness.state().state().shown.as_ref().expect("a result");
+    let pose = shown.inspected.inspection.pose.as_ref();
+    let pose = pose.and_then(|pose| pose.as_ref().ok()).expect("a pose");
+    for value in Convention::Fanuc.write(&pose.camera_from_part()).values {
+        harness.get_by_label(value.name);
+        harness.get_by_label_contains(&value.rounded());
+    }
+    harness.key_press(Key::K);
+    harness.run_steps(4);
+    harness.get_by_label("Convention: ABB q1 q2 q3 q4");
+    harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::C);
+    harness.run_steps(4);
+    harness.get_by_label("Copied camera_from_part in the numbers of ABB q1 q2 q3 q4");
+}
+
+#[test]
+fn a_part_that_is_not_accepted_has_no_numbers_for_a_robot() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("other.pcd");
+    let mut setup = CellSetup::with_part(PartKind::Fender, Side::Right, 0, 5);
+    setup.pose = PartPose::Drawn(Placement::facing());
+    let scene = scene_from_frame(&frame(&setup).frame);
+    save_cloud(&path, &scene.cloud).expect("written");
+    let mut harness = open();
+    drop_file(&mut harness, &path);
+    harness.get_by_label("Not accepted");
+    assert!(harness.query_by_label("Copy pose").is_none());
+    assert!(harness.query_by_label_contains("Convention").is_none());
+    harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::C);
+    harness.run_steps(4);
+    harness.get_by_label_contains("There is no pose to copy");
 }
 
 #[test]

@@ -16,8 +16,9 @@ use image::{Rgba, RgbaImage};
 use partsight::{
     app::{
         Window, WindowOptions,
-        action::Action,
+        action::{Action, Ask},
         align::{AlignAction, AlignAnswer, MethodRun},
+        camera::Camera,
         inspect::work::{InspectRequest, Inspected, inspect},
         job::Answer,
         lane::Lane,
@@ -26,11 +27,12 @@ use partsight::{
         state::Workspace,
         worker::News,
     },
+    library::{LibraryFolder, PartName},
     pipeline::{Timings, Unwatched},
 };
 
 use super::{
-    live,
+    live, robot,
     set_up::{SMALL, USUAL, WindowHarness, act, press, settle},
 };
 
@@ -57,12 +59,16 @@ fn draws_in_software() -> bool {
 
 /// The first frame of the cell, as if every inspection took the same time at the same moment.
 fn inspected() -> Inspected {
+    inspected_by(&Shelf::default())
+}
+
+fn inspected_by(shelf: &Shelf) -> Inspected {
     let choice = CellChoice::InTurn;
     let request = InspectRequest {
         source: SceneSource::Cell { choice, number: 1 },
         recipe: Arc::default(),
     };
-    let found = inspect(&request, &Shelf::default(), &Unwatched).expect("inspected");
+    let found = inspect(&request, shelf, &Unwatched).expect("inspected");
     let mut found = found.expect("not cancelled");
     let ms = Duration::from_millis;
     found.inspection.timings = Timings {
@@ -79,7 +85,11 @@ fn inspected() -> Inspected {
 }
 
 fn open_drawn(size: Vec2) -> WindowHarness {
-    let inspected = Arc::new(inspected());
+    open_with(size, inspected())
+}
+
+fn open_with(size: Vec2, inspected: Inspected) -> WindowHarness {
+    let inspected = Arc::new(inspected);
     let mut harness = Harness::builder()
         .with_size(size)
         .wgpu()
@@ -226,6 +236,51 @@ fn choosing_a_source_looks_as_it_did() {
     harness.get_by_label("Set up the cell…").click();
     harness.run_steps(6);
     compare_as_it_is(&mut harness, "cell_set_up");
+}
+
+#[test]
+fn the_robots_cell_looks_as_it_did() {
+    if !draws_in_software() {
+        return;
+    }
+    let folder = tempfile::tempdir().expect("a folder");
+    let pairs = folder.path().join("pairs.csv");
+    std::fs::write(&pairs, robot::pairs(&robot::TURNS)).expect("written");
+    let mut harness = open_drawn(USUAL);
+    act(&mut harness, Action::Chosen(Ask::Pairs, pairs.clone()));
+    compare(&mut harness, "robot_pairs");
+
+    let parts = folder.path().join("parts");
+    robot::copy_library(&parts);
+    let name = PartName::new("front_door").expect("a name");
+    let library = LibraryFolder::open(&parts).expect("a library");
+    library
+        .set_spray_path(&name, Some(&robot::door_path()))
+        .expect("stored");
+    let cell = folder.path().join("cell.toml");
+    robot::save_calibration(&cell);
+    let shelf = Shelf::new(Some(parts), Camera::default());
+    for (size, is_light, name) in [
+        (USUAL, false, "spray_path"),
+        (SMALL, true, "spray_path_small_light"),
+    ] {
+        let mut harness = open_with(size, inspected_by(&shelf));
+        if is_light {
+            act(&mut harness, Action::SwitchTheme);
+        }
+        act(&mut harness, Action::Chosen(Ask::Calibration, cell.clone()));
+        if !is_light {
+            // Where the rays can be told apart.
+            press(&mut harness, "Top");
+        }
+        compare(&mut harness, name);
+    }
+    let turns: Vec<[f64; 3]> = (0..6).map(|i| [0.0, 0.0, 0.3 * f64::from(i)]).collect();
+    std::fs::write(&pairs, robot::pairs(&turns)).expect("written");
+    let mut harness = open_drawn(SMALL);
+    act(&mut harness, Action::SwitchTheme);
+    act(&mut harness, Action::Chosen(Ask::Pairs, pairs));
+    compare(&mut harness, "robot_doubts_small_light");
 }
 
 #[test]

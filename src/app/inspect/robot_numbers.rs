@@ -11,7 +11,7 @@ use crate::{
         widgets::{heading, row},
     },
     geometry::rigid::RigidTransform,
-    robot::{Convention, RobotPose, Unit},
+    robot::{Convention, RobotPose, RobotValue, Unit},
 };
 
 /// A pose that may be moved by, in the numbers that were chosen.
@@ -60,16 +60,15 @@ fn accepted_pose(inspected: &Inspected) -> Option<RigidTransform> {
 pub(in crate::app) fn clipboard_text(numbered: &NumberedPose) -> String {
     let NumberedPose { name, frame, pose } = numbered;
     let title = pose.convention.title();
-    let mut text = format!("{name} · {title} · {frame} · {}\n", pose.meaning);
-    let rounded: Vec<String> = pose.values.iter().map(|value| value.rounded()).collect();
-    match pose.convention {
+    let rounded: Vec<String> = pose.values.iter().map(RobotValue::rounded).collect();
+    let numbers = match pose.convention {
         Convention::Matrix => {
             let rows: Vec<String> = rounded.chunks(4).map(|row| row.join(" ")).collect();
-            text += &rows.join("\n");
+            rows.join("\n")
         }
-        _ => text += &format!("{}\n{}", pose.line(), rounded.join(" ")),
-    }
-    text
+        _ => format!("{}\n{}", pose.line(), rounded.join(" ")),
+    };
+    format!("{name} · {title} · {frame} · {}\n{numbers}", pose.meaning)
 }
 
 /// Draws the section; nothing unless the part was accepted.
@@ -83,7 +82,7 @@ pub(super) fn ui(
     let Some(numbered) = numbered(state, inspected) else {
         return;
     };
-    heading(ui, theme, "Pose for the robot");
+    heading(ui, theme, "Pose");
     choice(ui, state.convention, actions);
     let NumberedPose { name, frame, pose } = &numbered;
     let small = |text: &str| {
@@ -96,7 +95,13 @@ pub(super) fn ui(
             .font(font::body_strong())
             .color(theme.text),
     );
-    ui.label(small(frame));
+    // Numbers in the wrong frame move a robot to the wrong place.
+    let colour = if state.robot.is_some() {
+        theme.weak_text
+    } else {
+        theme.warning
+    };
+    ui.label(small(frame).color(colour));
     if pose.convention == Convention::Matrix {
         egui::Grid::new("matrix").num_columns(4).show(ui, |ui| {
             for row in pose.values.chunks(4) {

@@ -21,6 +21,8 @@ use crate::app::{
 
 /// Height of the table of residuals, logical pixels.
 const TABLE: f32 = 170.0;
+/// Height of a row of figures, logical pixels.
+const ROW: f32 = 20.0;
 
 pub(super) fn ui(
     ui: &mut Ui,
@@ -61,7 +63,11 @@ pub(super) fn ui(
     };
     ui.add_space(space::SMALL);
     residuals(ui, &found, dialog, theme);
-    figures(ui, &found, theme);
+    ui.scope(|ui| {
+        // Nothing here is pressed.
+        ui.spacing_mut().interact_size.y = ROW;
+        figures(ui, &found, theme);
+    });
     for doubt in &found.solved.doubts {
         let sign = if doubt.is_grave() {
             Mark::Bad

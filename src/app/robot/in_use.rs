@@ -149,23 +149,16 @@ fn arm(
     theme: &Theme,
     caused: &mut Vec<Action>,
 ) {
-    match stored {
-        Some(stored) => pose(
-            ui,
-            "robot_from_flange at every capture",
-            stored,
-            convention,
-            theme,
-        ),
-        None => {
-            let unknown = Trouble {
-                what:
-                    "where the arm stands at a capture is not known: there is no pose for the robot"
-                        .into(),
-                advice: "Type the flange's pose as the controller shows it, and store it".into(),
-            };
-            told(ui, Mark::Look, &unknown, theme);
-        }
+    if let Some(stored) = stored {
+        let name = "robot_from_flange at every capture";
+        pose(ui, name, stored, convention, theme);
+    } else {
+        let unknown = Trouble {
+            what: "where the arm stands at a capture is not known: there is no pose for the robot"
+                .into(),
+            advice: "Type the flange's pose as the controller shows it, and store it".into(),
+        };
+        told(ui, Mark::Look, &unknown, theme);
     }
     ui.horizontal(|ui| {
         let label = ui.label("Flange at a capture");

@@ -384,7 +384,7 @@ mod tests {
             "no pose"
         );
         edited(&mut state, |dialog| {
-            dialog.numbers = "1200 -400 1900 10 20 30".into()
+            dialog.numbers = "1200 -400 1900 10 20 30".into();
         });
         let saved = super::super::work::answer(request(apply(&mut state, RobotAction::UseTyped)));
         let Ok(crate::app::job::Answer::Robot(answer)) = saved else {
@@ -429,7 +429,7 @@ mod tests {
             RememberedCell::File("cell.toml".into())
         );
         edited(&mut state, |dialog| {
-            dialog.arm = "fanuc 900 0 1100 0 90 0".into()
+            dialog.arm = "fanuc 900 0 1100 0 90 0".into();
         });
         let RobotRequest::Save { calibration, .. } =
             request(apply(&mut state, RobotAction::StoreArm))
@@ -460,7 +460,7 @@ mod tests {
             }
         ));
         let asked = request(edited(&mut state, |dialog| {
-            dialog.left_out = vec!["line 3".into()]
+            dialog.left_out = vec!["line 3".into()];
         }));
         assert!(matches!(asked, RobotRequest::Solve { left_out, .. } if left_out == ["line 3"]));
         // What was calculated for something else is not there to be used.

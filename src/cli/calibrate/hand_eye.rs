@@ -81,25 +81,22 @@ pub(super) struct HandEyeArgs {
 }
 
 pub(super) fn run(args: &HandEyeArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    let mut pairs = match &args.targets.captures {
-        Some(folder) => {
-            let convention = args.robot_convention;
-            pairs_of_captures(&args.pairs, convention, folder, &args.targets, console)?
-        }
-        None => {
-            let given = PairConventions {
-                robot: args.robot_convention,
-                camera: args.camera_convention,
-            };
-            let read = read_pairs(&args.pairs, given).advised()?;
-            console.note(&format_args!(
-                "{} pairs: robot in {}, camera in {}",
-                read.pairs.len(),
-                read.robot.title(),
-                read.camera.title()
-            ));
-            read.pairs
-        }
+    let mut pairs = if let Some(folder) = &args.targets.captures {
+        let convention = args.robot_convention;
+        pairs_of_captures(&args.pairs, convention, folder, &args.targets, console)?
+    } else {
+        let given = PairConventions {
+            robot: args.robot_convention,
+            camera: args.camera_convention,
+        };
+        let read = read_pairs(&args.pairs, given).advised()?;
+        console.note(&format_args!(
+            "{} pairs: robot in {}, camera in {}",
+            read.pairs.len(),
+            read.robot.title(),
+            read.camera.title()
+        ));
+        read.pairs
     };
     let left_out = leave_out(&mut pairs, &args.without)?;
     let solved = solve(&pairs, args.mount.into()).advised()?;

@@ -289,7 +289,7 @@ impl RobotBlock {
             (false, ..) => Some("the part was not accepted: there is nothing to move by"),
             (_, None, _) => Some("no pose was estimated"),
             (_, _, None) => {
-                Some("the cell is not calibrated: nobody knows where the camera stands")
+                Some("the cell is not calibrated, so nobody knows where the camera stands")
             }
             _ => None,
         };

@@ -19,9 +19,10 @@ use super::{
     stand_off::{StandOff, StandOffError, StandOffParams},
 };
 use crate::{
-    error::Advice as _,
+    error::Advice,
     pipeline::{Inspection, Recipe, Verdict},
     robot::{Convention, RobotFrame},
+    stages::pose::PoseEstimate,
 };
 
 pub use self::{
@@ -35,6 +36,9 @@ pub use self::{
 
 /// The version of the report; fields are only ever added to one.
 pub const POSE_REPORT_SCHEMA: u32 = 1;
+
+/// So many of the ranking are told.
+const NUM_RANKED: usize = 5;
 
 /// Whether a camera was read.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, JsonSchema)]
@@ -77,6 +81,8 @@ pub struct PoseReport {
     pub seen_by: SeenBy,
     /// What was decided.
     pub verdict: VerdictBlock,
+    /// The enrolled parts that are most like it, at most five, best first.
+    pub ranking: Vec<RankBlock>,
     /// Where the part is; null unless it was accepted.
     pub pose: Option<PoseBlock>,
     /// Where the part would be if it were what was not accepted. NOT A POSE TO MOVE BY: it is here to find out why.
@@ -118,6 +124,15 @@ pub struct VerdictBlock {
     pub approximate: bool,
     /// True if what was found reaches the picture's edge: some of it may be missing.
     pub touches_edge: bool,
+}
+
+/// An enrolled part and how likely it is.
+#[derive(Clone, Debug, Serialize, JsonSchema)]
+pub struct RankBlock {
+    /// Its name.
+    pub part: String,
+    /// The probability that it hangs there, at the pose where it fits best, 0..1.
+    pub score: f64,
 }
 
 /// The recipe.
@@ -175,7 +190,7 @@ impl PoseReport {
         let found = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
         let block = found.map(|pose| PoseBlock::of(pose, inspection, subject));
         let camera_from_part = found
-            .map(|pose| pose.camera_from_part())
+            .map(PoseEstimate::camera_from_part)
             .filter(|_| verdict.accepted);
         let (pose, refused_pose) = if verdict.accepted {
             (block, None)
@@ -197,6 +212,15 @@ impl PoseReport {
                 .filter(|_| verdict.accepted)
                 .map(|found| StandOffBlock::of(found, &subject.recipe.stand_off)),
             verdict,
+            ranking: inspection
+                .ranking
+                .by_part()
+                .take(NUM_RANKED)
+                .map(|entry| RankBlock {
+                    part: entry.part.clone(),
+                    score: entry.score,
+                })
+                .collect(),
             timings_ms: TimingsLine::of(&inspection.timings),
             recipe: RecipeBlock {
                 identity: subject.recipe.identity(),
@@ -257,7 +281,7 @@ impl VerdictBlock {
                     score: Some(*score),
                     margin: Some(*margin),
                     reason: rejected.as_ref().map(ToString::to_string),
-                    advice: rejected.as_ref().map(|reason| reason.advice()),
+                    advice: rejected.as_ref().map(Advice::advice),
                     ..block
                 }
             }

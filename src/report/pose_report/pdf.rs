@@ -115,22 +115,36 @@ fn compose(sheet: &mut Sheet<'_>, report: &PoseReport, pictures: &PdfPictures<'_
         width: LEFT,
         height: bottom - y,
     };
-    numbers::column(sheet, report, columns);
-    facts::column(
-        sheet,
-        report,
-        pictures,
-        Area {
-            left: MARGIN + LEFT + GAP,
-            width: RIGHT,
-            ..columns
-        },
-    );
+    match &report.pose {
+        Some(pose) => {
+            numbers::column(sheet, report, pose, columns);
+            let right = Area {
+                left: MARGIN + LEFT + GAP,
+                width: RIGHT,
+                ..columns
+            };
+            facts::column(sheet, report, pose, pictures, right);
+        }
+        None => facts::without_pose(
+            sheet,
+            report,
+            pictures,
+            Area {
+                width: WIDTH,
+                ..columns
+            },
+        ),
+    }
 }
 
 /// What it is and when it was; answers with where the next thing begins.
 fn head(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
-    sheet.text("Pose report", [MARGIN, 46.0], HEADING, Align::Left);
+    sheet.text(
+        "Partsight pose report",
+        [MARGIN, 46.0],
+        HEADING,
+        Align::Left,
+    );
     let at = report
         .inspected_at
         .strftime("%Y-%m-%d %H:%M:%S UTC")
@@ -192,10 +206,10 @@ fn verdict(
     let mut y = top + 21.0;
     sheet.text(&title, [MARGIN + INDENT, y], title_style, Align::Left);
     y += 21.0;
-    let words = if verdict.accepted {
-        "Accepted"
-    } else {
-        "NOT ACCEPTED: do not move on this pose"
+    let words = match (verdict.accepted, &report.refused_pose) {
+        (true, _) => "Accepted",
+        (false, Some(_)) => "NOT ACCEPTED: do not move on this pose",
+        (false, None) => "NOT ACCEPTED: there is no pose",
     };
     mark(
         sheet,
@@ -235,12 +249,16 @@ fn verdict(
         y = text(sheet, &facts::sentence(reason), BODY, y);
     }
     if let Some(advice) = &verdict.advice {
-        y = text(sheet, &format!("What to do: {advice}"), STRONG, y);
+        y = text(
+            sheet,
+            &facts::sentence(&format!("What to do: {advice}")),
+            STRONG,
+            y,
+        );
     }
-    let block = report.pose.as_ref().or(report.refused_pose.as_ref());
-    for caution in block.iter().flat_map(|block| &block.cautions) {
-        // The two are said in large letters above.
-        if !caution.starts_with("not accepted") && !caution.starts_with("simulated") {
+    for caution in report.pose.iter().flat_map(|pose| &pose.cautions) {
+        // That is said in large letters above.
+        if !caution.starts_with("simulated") {
             y = text(
                 sheet,
                 &facts::sentence(caution),
@@ -276,43 +294,43 @@ fn shown_stages<'a>(pictures: &PdfPictures<'a>) -> Vec<&'a Picture> {
     pictures.stages.iter().skip(num_above).collect()
 }
 
-/// Pictures of the stages above `bottom`; answers with where they begin.
+/// Pictures of the stages side by side at one height, above `bottom`; answers with where they begin.
 fn strip(sheet: &mut Sheet<'_>, stages: &[&Picture], bottom: f32) -> f32 {
     const BETWEEN: f32 = 8.0;
-    const HEIGHT: f32 = 92.0;
-    if stages.is_empty() {
+    const TALLEST: f32 = 120.0;
+    let aspect = |stage: &Picture| stage.image.width() as f32 / stage.image.height().max(1) as f32;
+    let aspects: f32 = stages.iter().map(|stage| aspect(stage)).sum();
+    let Some(gaps) = stages.len().checked_sub(1) else {
         return bottom;
-    }
-    let num = stages.len().max(3) as f32;
-    let width = (WIDTH - BETWEEN * (num - 1.0)) / num;
-    let top = bottom - HEIGHT - 16.0;
+    };
+    let height = ((WIDTH - BETWEEN * gaps as f32) / aspects.max(0.1)).min(TALLEST);
+    let top = bottom - height - 16.0;
     let mut left = MARGIN;
     for stage in stages {
         let area = Area {
             left,
             top,
-            width,
-            height: HEIGHT,
+            width: aspect(stage) * height,
+            height,
         };
-        sheet.fill(area, PALE);
         sheet.picture(&stage.image, area);
-        sheet.text(
-            stage_title(stage.stage),
-            [left, top + HEIGHT + 9.0],
-            SMALL,
-            Align::Left,
-        );
-        left += width + BETWEEN;
+        sheet.outline(area, RULE);
+        // As wide as its picture, or it would run into the next.
+        let caption = sheet
+            .faces
+            .fitted(stage_title(stage.stage), area.width, SMALL);
+        sheet.text(&caption, [left, top + height + 9.0], SMALL, Align::Left);
+        left += area.width + BETWEEN;
     }
     top - 10.0
 }
 
 fn stage_title(stage: &str) -> &str {
     match stage {
-        "segmentation" => "What the camera saw, by segment",
+        "segmentation" => "Segmentation",
         "binary" => "Binary image",
-        "contour" => "Contour, rays from its centroid",
-        "signature" => "Signature: lengths and angles",
+        "contour" => "Contour and rays",
+        "signature" => "Signature: lengths, angles",
         other => other,
     }
 }

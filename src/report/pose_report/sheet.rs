@@ -275,6 +275,20 @@ impl<'a> Sheet<'a> {
         }
     }
 
+    /// Draws the edge of an area.
+    pub(super) fn outline(&mut self, area: Area, ink: Ink) {
+        let [left, top] = [area.left, area.top];
+        let [right, bottom] = [left + area.width, top + area.height];
+        let corners = [
+            [left, top],
+            [right, top],
+            [right, bottom],
+            [left, bottom],
+            [left, top],
+        ];
+        self.line(&corners, 0.5, ink);
+    }
+
     /// Draws a line through points.
     pub(super) fn line(&mut self, points: &[[f32; 2]], width: f32, ink: Ink) {
         let mut path = PathBuilder::new();
@@ -298,8 +312,8 @@ impl<'a> Sheet<'a> {
 
     /// Puts a picture into the area as large as it fits, to the left and at the top; answers with what it covers.
     pub(super) fn picture(&mut self, picture: &RgbImage, area: Area) -> Area {
-        /// Dots per point on paper: 200 to the inch.
-        const DENSITY: f32 = 2.8;
+        /// Dots per point on paper: 300 to the inch.
+        const DENSITY: f32 = 4.2;
         let (width, height) = (
             picture.width().max(1) as f32,
             picture.height().max(1) as f32,

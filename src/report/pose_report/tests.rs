@@ -8,7 +8,7 @@ use crate::{
     report::{Picture, stage_pictures, stand_off::stand_off},
     simulate::{CellSetup, PartKind, Side, Subject, frame},
     stages::{
-        reference::ReferenceParams,
+        reference::{Reference, ReferenceParams},
         scene::{SceneCloud, scene_from_frame},
     },
 };
@@ -55,7 +55,7 @@ impl Inspected {
             source: None,
             seen_by: SeenBy::Simulation,
             inspection: &self.inspection,
-            middle: best.and_then(|best| best.middle()),
+            middle: best.and_then(Reference::middle),
             stand_off: self.stand_off.as_ref(),
             recipe: &self.recipe,
             library_identity: "01234567",

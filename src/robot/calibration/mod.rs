@@ -9,6 +9,8 @@ mod file;
 #[cfg(test)]
 mod tests;
 
+use std::fmt::Write as _;
+
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
@@ -259,7 +261,8 @@ fn numbers_text(name: &str, numbers: &[f64; 16], decimals: usize) -> String {
     for number in numbers {
         // Adding 0 takes the sign off a zero.
         let rounded = (number / unit).round() * unit + 0.0;
-        text += &format!(" {rounded:.decimals$}");
+        // Writing to memory does not fail.
+        let _ = write!(text, " {rounded:.decimals$}");
     }
     text
 }

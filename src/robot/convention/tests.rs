@@ -232,7 +232,7 @@ proptest! {
         shift in shifts(),
     ) {
         let length = axis.iter().map(|x| x * x).sum::<f64>().sqrt();
-        let (s, c) = ((PI + short) / 2.0).sin_cos();
+        let (s, c) = (FRAC_PI_2 + short / 2.0).sin_cos();
         let [x, y, z] = axis.map(|a| a / length * s);
         says_and_reads([x, y, z, c], shift)?;
     }

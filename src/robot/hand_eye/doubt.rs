@@ -274,9 +274,9 @@ pub(super) fn doubts(
                 }),
         );
     }
-    if !(bounds.shift <= LOOSE.shift && bounds.turn <= LOOSE.turn)
-        && !doubts.iter().any(HandEyeDoubt::is_grave)
-    {
+    let is_tight = bounds.shift <= LOOSE.shift && bounds.turn <= LOOSE.turn;
+    let is_grave = doubts.iter().any(HandEyeDoubt::is_grave);
+    if !is_tight && !is_grave {
         doubts.push(HandEyeDoubt::Loose { bounds });
     }
     if span.travel < LEAST_TRAVEL {

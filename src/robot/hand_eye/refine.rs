@@ -133,7 +133,7 @@ fn sum_of_squares(equations: &[Equation], unknowns: &Unknowns, lever: f64) -> f6
     residuals.map(|r| r.norm_squared()).sum()
 }
 
-/// JᵀJ and Jᵀr.
+/// `JᵀJ` and `Jᵀr`.
 fn normal_equations(
     equations: &[Equation],
     unknowns: &Unknowns,
@@ -196,7 +196,7 @@ impl Refined {
         let num = equations.len() as f64;
         let freedom = 6.0 * num - 12.0;
         let (information, _) = normal_equations(equations, unknowns, *lever);
-        let Some(covariance) = inverse(information) else {
+        let Some(covariance) = inverse(&information) else {
             return Bounds::FREE;
         };
         let scatter_sq = sum_of_squares(equations, unknowns, *lever) / freedom;
@@ -237,8 +237,8 @@ impl Bounds {
 }
 
 /// The covariance of all twelve; `None` if one of them is not held at all.
-fn inverse(information: Information) -> Option<Information> {
-    let eigen = information.symmetric_eigen();
+fn inverse(information: &Information) -> Option<Information> {
+    let eigen = information.clone_owned().symmetric_eigen();
     let is_held = eigen.eigenvalues.min() > HELD * eigen.eigenvalues.max();
     is_held.then(|| {
         let inverted = SVector::from_iterator(eigen.eigenvalues.iter().map(|x| 1.0 / x));

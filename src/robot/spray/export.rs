@@ -9,7 +9,7 @@ use super::{Band, CarriedPath, MOST_TILT};
 use crate::{
     files::{FileError, write_atomically},
     robot::stand_off::StandOffParams,
-    robot::{Convention, RobotFrame, RobotPose},
+    robot::{Convention, RobotFrame, RobotPose, RobotValue},
 };
 
 /// The version of both files.
@@ -154,7 +154,7 @@ impl SprayExport<'_> {
                 // Writing to memory does not fail.
                 let _ = writeln!(text, "index,{},stand_off_mm,tilt_deg,band", names.join(","));
             }
-            let numbers: Vec<String> = pose.values.iter().map(|value| value.rounded()).collect();
+            let numbers: Vec<String> = pose.values.iter().map(RobotValue::rounded).collect();
             let (distance, tilt) = point.meets.map_or_else(Default::default, |met| {
                 let (distance, tilt) = (met.distance.mm(), met.tilt.degrees());
                 (format!("{distance:.1}"), format!("{tilt:.1}"))

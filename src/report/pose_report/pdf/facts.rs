@@ -1,8 +1,8 @@
 //! The right column: the picture of the scene and the figures; and the foot of the page.
 
 use super::{
-    Align, Area, BLACK, BODY, HEADING, MARGIN, PAGE, PALE, PdfPictures, RULE, SMALL, STRONG, Sheet,
-    WIDTH, Weight, stage_title, style,
+    Align, Area, BLACK, BODY, HEADING, MARGIN, PAGE, PALE, PdfPictures, RED, RULE, SMALL, STRONG,
+    Sheet, WIDTH, Weight, style,
 };
 use crate::report::pose_report::{FitBlock, MiddleBlock, PoseBlock, PoseReport, StandOffBlock};
 
@@ -12,37 +12,88 @@ const LINE: f32 = 12.0;
 pub(super) fn column(
     sheet: &mut Sheet<'_>,
     report: &PoseReport,
+    pose: &PoseBlock,
     pictures: &PdfPictures<'_>,
     area: Area,
 ) {
-    let mut y = area.top;
+    let picture = Area {
+        height: 150.0,
+        ..area
+    };
+    let y = scene(sheet, pictures, picture) + 18.0;
+    let mut rows = Rows { sheet, area, y };
+    if let Some(middle) = &pose.middle {
+        rows.middle(middle);
+    }
+    rows.fit(&pose.fit, pose);
+    if let Some(found) = &report.stand_off {
+        rows.stand_off(found);
+    }
+}
+
+/// Where there is no pose: that there is none, what the part is like, and a large picture to see why. No numbers that
+/// anybody could type into a robot.
+pub(super) fn without_pose(
+    sheet: &mut Sheet<'_>,
+    report: &PoseReport,
+    pictures: &PdfPictures<'_>,
+    area: Area,
+) {
+    const SIDE: f32 = 150.0;
+    let mut y = area.top + 9.0;
+    let heading = style(HEADING.size, Weight::Bold, RED);
+    sheet.text("No pose is given", [area.left, y], heading, Align::Left);
+    y += LINE + 2.0;
+    let text = match (report.verdict.accepted, &report.refused_pose) {
+        (true, _) => "The part was accepted by its outline alone: no pose was estimated.",
+        (false, Some(_)) => {
+            "Where the part would be is in the report's JSON, under refused_pose, to find out why it was refused. Nothing \
+             may move by it."
+        }
+        (false, None) => "There is nothing to move to.",
+    };
+    y = sheet.paragraph(text, [area.left, y], area.width, BODY, 2) + 8.0;
+    let picture = Area {
+        top: y,
+        width: area.width - SIDE - 20.0,
+        height: (area.top + area.height - y - 20.0).min(300.0),
+        ..area
+    };
+    scene(sheet, pictures, picture);
+    if !report.ranking.is_empty() {
+        let side = Area {
+            left: area.left + area.width - SIDE,
+            width: SIDE,
+            ..area
+        };
+        let mut rows = Rows {
+            sheet,
+            area: side,
+            y: y + 9.0,
+        };
+        rows.heading("Most like it");
+        for entry in &report.ranking {
+            rows.row(&entry.part, &format!("{:.2}", entry.score));
+        }
+        rows.note("Probability of each enrolled part, at the pose where it fits best.");
+    }
+}
+
+/// The view of the scene with its caption; answers with the caption's line.
+fn scene(sheet: &mut Sheet<'_>, pictures: &PdfPictures<'_>, area: Area) -> f32 {
     let stage = pictures.stages.first();
     let shown = pictures
         .view
         .map(|view| (view, "3-D view"))
-        .or(stage.map(|stage| (&stage.image, stage_title(stage.stage))));
-    if let Some((picture, caption)) = shown {
-        let covered = sheet.picture(
-            picture,
-            Area {
-                height: 150.0,
-                ..area
-            },
-        );
-        y += covered.height + 9.0;
-        sheet.text(caption, [area.left, y], SMALL, Align::Left);
-        y += 18.0;
-    }
-    let mut rows = Rows { sheet, area, y };
-    if let Some(pose) = &report.pose {
-        if let Some(middle) = &pose.middle {
-            rows.middle(middle);
-        }
-        rows.fit(&pose.fit, pose);
-    }
-    if let Some(found) = &report.stand_off {
-        rows.stand_off(found);
-    }
+        .or(stage.map(|stage| (&stage.image, "What the camera saw, by segment")));
+    let Some((picture, caption)) = shown else {
+        return area.top - 9.0;
+    };
+    let covered = sheet.picture(picture, area);
+    sheet.outline(covered, RULE);
+    let y = area.top + covered.height + 9.0;
+    sheet.text(caption, [area.left, y], SMALL, Align::Left);
+    y
 }
 
 /// Rows of a name and a figure, going down.

@@ -1,8 +1,7 @@
 //! The left column: the pose in numbers.
 
 use super::{
-    AMBER, Align, Area, BLACK, BODY, GREY, HEADING, PALE, RED, RULE, SMALL, STRONG, Sheet, Weight,
-    style,
+    AMBER, Align, Area, BLACK, BODY, GREY, HEADING, RULE, SMALL, STRONG, Sheet, Weight, style,
 };
 use crate::{
     report::pose_report::{PoseBlock, PoseReport, TransformBlock},
@@ -11,46 +10,17 @@ use crate::{
 
 const LINE: f32 = 12.5;
 
-/// Everything that the pose is, or why there is none.
-pub(super) fn column(sheet: &mut Sheet<'_>, report: &PoseReport, area: Area) {
-    match &report.pose {
-        Some(pose) => {
-            let y = robot(sheet, report, pose, area);
-            camera(
-                sheet,
-                pose,
-                Area {
-                    top: y + 12.0,
-                    ..area
-                },
-            );
-        }
-        None => nothing(sheet, report, area),
-    }
-}
-
-/// No numbers that anybody could type into a robot.
-fn nothing(sheet: &mut Sheet<'_>, report: &PoseReport, area: Area) {
-    let boxed = Area {
-        height: 92.0,
-        ..area
-    };
-    sheet.fill(boxed, PALE);
-    let x = area.left + 12.0;
-    let heading = style(HEADING.size, Weight::Bold, RED);
-    sheet.text(
-        "No pose is given",
-        [x, area.top + 22.0],
-        heading,
-        Align::Left,
+/// Everything that the pose is.
+pub(super) fn column(sheet: &mut Sheet<'_>, report: &PoseReport, pose: &PoseBlock, area: Area) {
+    let y = robot(sheet, report, pose, area);
+    camera(
+        sheet,
+        pose,
+        Area {
+            top: y + 12.0,
+            ..area
+        },
     );
-    let text = if report.verdict.accepted {
-        "The part was accepted by its outline alone: no pose was estimated."
-    } else {
-        "The part was not accepted. Where it would be is in the report's JSON, under refused_pose, to find out why it was \
-         refused; nothing may move by it."
-    };
-    sheet.paragraph(text, [x, area.top + 40.0], area.width - 24.0, BODY, 5);
 }
 
 /// The pose in the convention, in each frame that it is known in; answers with the line below.
@@ -75,6 +45,12 @@ fn robot(sheet: &mut Sheet<'_>, report: &PoseReport, pose: &PoseBlock, area: Are
         sheet.text(&text, [area.left + area.width, y], style, Align::Right);
     }
     y += 6.0;
+    if let Some(why) = robot.unavailable {
+        // Before the numbers: nobody reads what stands below them.
+        let text = format!("In the camera's frame, not in the robot's: {why}.");
+        let at = [area.left, y + 7.0];
+        y = sheet.paragraph(&text, at, area.width, style(8.5, Weight::Bold, AMBER), 3) - 4.0;
+    }
     if robot.convention == Convention::Matrix {
         for block in &shown {
             sheet.text(block.name, [area.left, y + LINE], STRONG, Align::Left);
@@ -112,23 +88,12 @@ fn robot(sheet: &mut Sheet<'_>, report: &PoseReport, pose: &PoseBlock, area: Are
             );
         }
     }
-    if let Some(why) = robot.unavailable {
-        let text =
-            format!("Not in the robot's frame: {why}. These numbers are in the camera's frame.");
-        y = sheet.paragraph(
-            &text,
-            [area.left, y + 3.0],
-            area.width,
-            style(8.5, Weight::Bold, AMBER),
-            3,
-        );
-    }
     y
 }
 
 /// A row for each number, a column for each transform; answers with the last line.
 fn table(sheet: &mut Sheet<'_>, shown: &[&TransformBlock], area: Area) -> f32 {
-    let wide = (area.width - 56.0) / 2.0;
+    let wide = (area.width - 56.0) / shown.len().max(1) as f32;
     let right = |column: usize| area.left + 56.0 + (column + 1) as f32 * wide;
     let mut y = area.top + LINE;
     for (column, block) in shown.iter().enumerate() {
