@@ -53,6 +53,7 @@ pub use self::open::{FileWarning, Opened, open};
 pub use self::pcd::write_pcd;
 pub use self::ply::write_ply;
 pub(crate) use self::source::read_bytes;
+pub(crate) use self::write::{folder_of, sync_folder};
 pub use self::write::{save_cloud, write_atomically};
 pub use self::xyz::write_xyz;
 
