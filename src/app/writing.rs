@@ -175,7 +175,10 @@ fn report_of(
     PoseReport::of(&ReportSubject {
         inspected_at: inspected.at,
         scene: &scene_name(&inspected.origin).display().to_string(),
-        source: None,
+        source: match inspected.origin {
+            Origin::Simulated { .. } => Some("the window's simulated cell"),
+            Origin::File(_) | Origin::Frame { .. } => None,
+        },
         seen_by,
         inspection: &inspected.inspection,
         middle: inspected.middle,

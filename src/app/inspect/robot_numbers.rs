@@ -7,7 +7,7 @@ use crate::{
         action::Action,
         inspect::work::Inspected,
         state::State,
-        theme::{Theme, font},
+        theme::{Theme, font, space},
         widgets::{heading, row},
     },
     geometry::rigid::RigidTransform,
@@ -83,7 +83,11 @@ pub(super) fn ui(
         return;
     };
     heading(ui, theme, "Pose");
-    choice(ui, state.convention, actions);
+    ui.scope(|ui| {
+        // Text lies closer on the card; this is pressed.
+        ui.spacing_mut().interact_size.y = space::TARGET;
+        choice(ui, state.convention, actions);
+    });
     let NumberedPose { name, frame, pose } = &numbered;
     let small = |text: &str| {
         RichText::new(text.to_owned())

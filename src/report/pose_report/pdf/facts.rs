@@ -4,7 +4,9 @@ use super::{
     Align, Area, BLACK, BODY, HEADING, MARGIN, PAGE, PALE, PdfPictures, RED, RULE, SMALL, STRONG,
     Sheet, WIDTH, Weight, style,
 };
-use crate::report::pose_report::{FitBlock, MiddleBlock, PoseBlock, PoseReport, StandOffBlock};
+use crate::report::pose_report::{
+    FitBlock, MiddleBlock, PoseBlock, PoseReport, SeenBy, StandOffBlock,
+};
 
 const LINE: f32 = 12.0;
 
@@ -205,7 +207,7 @@ pub(super) fn foot(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
             ("Scene", report.scene.clone()),
             (
                 "Source",
-                report.source.clone().unwrap_or_else(|| "file".into()),
+                report.source.clone().unwrap_or_else(|| source_of(report)),
             ),
             ("Seen by", report.seen_by.describe().into()),
             (
@@ -252,6 +254,15 @@ pub(super) fn foot(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
     }
     sheet.line(&[[MARGIN, top], [MARGIN + WIDTH, top]], 0.75, RULE);
     top - 6.0
+}
+
+/// Where the report does not name it.
+fn source_of(report: &PoseReport) -> String {
+    match report.seen_by {
+        SeenBy::NotKnown => "a file",
+        SeenBy::Camera | SeenBy::Simulation => "not written down",
+    }
+    .into()
 }
 
 /// With a capital letter and a full stop.
