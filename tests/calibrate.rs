@@ -1,6 +1,7 @@
 //! The cell's calibration from end to end: the built program with files of its own.
 
 use std::{
+    fmt::Write as _,
     fs,
     path::{Path, PathBuf},
     process::{Command, Output},
@@ -114,7 +115,7 @@ fn pairs(robot_from_camera: &RigidTransform, seen: &[RigidTransform]) -> String 
         let arm = numbers(Convention::Kuka, &robot_from_flange);
         let camera = Convention::QuaternionXyzw.write(pose).numbers();
         let camera: Vec<String> = camera.iter().map(ToString::to_string).collect();
-        text += &format!("p{}, {arm}, {}\n", i + 1, camera.join(", "));
+        writeln!(text, "p{}, {arm}, {}", i + 1, camera.join(", ")).expect("memory");
     }
     text
 }
@@ -378,7 +379,7 @@ fn an_enrolled_part_on_the_flange_is_target_enough() {
         );
         let arm = robot_from_camera() * camera_from_part * flange_from_part.inverse();
         let arm = numbers(Convention::Abb, &arm);
-        text += &format!("{name};{}\n", arm.replace(", ", ";"));
+        writeln!(text, "{name};{}", arm.replace(", ", ";")).expect("memory");
     }
     shop.write("poses.csv", &text);
     let ran = shop.run(&[
@@ -472,15 +473,17 @@ fn a_stored_spray_path_is_carried_into_the_robots_frame() {
     let at = in_part.translation.vector * 1000.0;
     let along = in_part * nalgebra::Vector3::z();
     for x in [-40.0, 0.0, 40.0, 4000.0] {
-        path += &format!(
-            "{},{},{},{},{},{}\n",
+        writeln!(
+            path,
+            "{},{},{},{},{},{}",
             at.x + x,
             at.y,
             at.z,
             along.x,
             along.y,
             along.z
-        );
+        )
+        .expect("memory");
     }
     shop.write("path.csv", &path);
     let stored = shop.coded(0, &["library", "path", "front_door", "path.csv"]);
