@@ -514,12 +514,37 @@ fn a_stored_spray_path_is_carried_into_the_robots_frame() {
         (json["num_points"].as_u64(), json["simulated"].as_bool()),
         (Some(4), Some(true))
     );
+}
 
-    // Of what is not accepted nothing is left that could be taken for its path.
-    shop.coded(0, &["simulate", "--part", "empty", "--out", "door.pcd"]);
-    let ran = shop.coded(1, &inspect);
-    assert!(ran.err.contains("no spray path was written"), "{}", ran.err);
-    assert!(!shop.path("out.csv").exists());
+#[test]
+fn of_what_is_not_accepted_no_spray_path_is_left() {
+    let shop = Workplace::new();
+    let set = format!("kuka {}", numbers(Convention::Kuka, &robot_from_camera()));
+    shop.coded(0, &["calibrate", "set", &set, "--mount", "eye-to-hand"]);
+    let inspect = ["inspect", "door.pcd", "--spray", "out.csv"];
+    let hang = |part: &str| {
+        let arguments = ["simulate", "--part", part, "--placement", "facing", "--out"];
+        shop.coded(0, &[&arguments[..], &["door.pcd"]].concat());
+    };
+    // Not accepted, then not even readable.
+    for is_readable in [true, false] {
+        hang("front_door");
+        shop.coded(0, &inspect);
+        assert!(shop.path("out.csv").exists());
+        if is_readable {
+            hang("empty");
+            let ran = shop.coded(1, &inspect);
+            assert!(ran.err.contains("no spray path was written"), "{}", ran.err);
+        } else {
+            shop.write("door.pcd", "VERSION .7\nFIELDS x");
+            shop.coded(2, &inspect);
+        }
+        assert!(!shop.path("out.csv").exists());
+    }
+    // What is no spray path is not taken away.
+    shop.write("notes.csv", "mine");
+    shop.coded(2, &["inspect", "door.pcd", "--spray", "notes.csv"]);
+    assert_eq!(shop.read("notes.csv"), "mine");
     shop.coded(
         2,
         &[
