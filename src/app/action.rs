@@ -19,6 +19,7 @@ use super::{
     lane::Lane,
     live::{self, LiveAction},
     robot::{self, RobotAction},
+    roles::{self, RoleAction},
     shelf::LibraryShown,
     source::{CellChoice, Origin, SceneSource, file_name},
     state::{HelpPage, Notice, NoticeKind, Shown, Source, StagePanel, State, Workspace},
@@ -79,6 +80,8 @@ pub enum Action {
     CopyPose,
     /// Of the source and of following it.
     Live(LiveAction),
+    /// Of whose window it is.
+    Role(RoleAction),
     /// Of the Inspect workspace.
     Inspect(InspectAction),
     /// Of the Enrol workspace.
@@ -159,6 +162,7 @@ const MAX_NOTICES: usize = 4;
 
 /// Makes it so.
 pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
+    let action = roles::permitted(state, action)?;
     match action {
         Action::Capture => return Some(capture(state)),
         Action::UseCell(choice) => {
@@ -233,6 +237,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
             notify(state, Notice::done(what));
             return Some(Effect::CopyText(inspect::clipboard_text(&numbered)));
         }
+        Action::Role(action) => return roles::apply(state, action),
         Action::Live(action) => return live::apply(state, action),
         Action::Inspect(action) => return inspect::state::apply(state, action),
         Action::Enrol(action) => return enrol::apply(state, action),

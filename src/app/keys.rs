@@ -11,6 +11,7 @@ use super::{
     compare, enrol, history, inspect,
     live::LiveAction,
     robot::RobotAction,
+    roles::RoleAction,
     state::{HelpPage, State, Workspace},
     theme::{Theme, font, space},
 };
@@ -25,7 +26,7 @@ pub(in crate::app) struct Shortcut {
 }
 
 /// The shortcuts of the whole window.
-const SHORTCUTS: [Shortcut; 11] = [
+const SHORTCUTS: [Shortcut; 12] = [
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::Space,
@@ -81,6 +82,13 @@ const SHORTCUTS: [Shortcut; 11] = [
         keys: "T",
         does: "Dark or light",
         action: || Action::SwitchTheme,
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::K,
+        keys: "Ctrl K",
+        does: "Operator's or engineer's view",
+        action: || Action::Role(RoleAction::Switch),
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
@@ -155,6 +163,10 @@ pub(super) fn shortcuts(
     space_is_free: bool,
     actions: &mut Vec<Action>,
 ) {
+    if state.roles.asked.is_some() {
+        // Digits are those of a PIN.
+        return;
+    }
     let is_pressing = !space_is_free && ctx.memory(|memory| memory.focused().is_some());
     let is_writing = ctx.text_edit_focused();
     for shortcut in of_workspace(state.workspace).iter().chain(&SHORTCUTS) {

@@ -29,6 +29,7 @@ mod memory;
 mod notices;
 mod rail;
 pub mod robot;
+pub mod roles;
 pub mod settings;
 pub mod shelf;
 pub mod source;

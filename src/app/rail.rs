@@ -5,6 +5,7 @@ use egui::{Frame, Painter, Panel, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
 use super::{
     action::Action,
     bars::focus_ring,
+    roles::{UserRole, chip, is_operators, lock},
     state::{State, Workspace},
     theme::{Theme, font, space},
 };
@@ -49,7 +50,13 @@ pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Ac
                 if response.clicked() {
                     actions.push(Action::GoTo(workspace));
                 }
+                if state.roles.role == UserRole::Operator && !is_operators(workspace) {
+                    let corner = icon + vec2(20.0, -10.0);
+                    let stroke = Stroke::new(1.2, theme.weak_text);
+                    lock(ui.painter(), corner, UserRole::Operator, stroke);
+                }
             }
+            chip(ui, state, theme, actions);
         });
 }
 

@@ -13,6 +13,7 @@ use super::{
     job::Trouble,
     live::LiveState,
     robot::{RememberedCell, RobotState},
+    roles::{LOCK_AFTER, Pin, RoleState, is_operators},
     source::CellChoice,
     state::{Source, State, ThemeChoice, UnitSystem, Workspace},
 };
@@ -51,6 +52,10 @@ pub struct Settings {
     pub recipe: Option<Recipe>,
     /// Frames that depth is averaged over while a source is followed.
     pub average: usize,
+    /// Minutes without a hand on the window until it is the operator's again.
+    pub lock_after: u32,
+    /// What the engineer's view asks for; none: nothing.
+    pub pin: Option<Pin>,
     /// Which calibration of the robot's cell is used.
     pub cell: RememberedCell,
 }
@@ -87,6 +92,8 @@ impl Default for Settings {
             source: RememberedSource::default(),
             recipe: None,
             average: 1,
+            lock_after: LOCK_AFTER[1],
+            pin: None,
             cell: RememberedCell::default(),
         }
     }
@@ -111,6 +118,8 @@ impl Settings {
             },
             recipe: (*state.recipe != Recipe::default()).then(|| (*state.recipe).clone()),
             average: state.live.params.average,
+            lock_after: state.roles.lock_after,
+            pin: state.roles.pin.clone(),
             cell: state.cell.remembered.clone(),
         }
     }
@@ -136,6 +145,8 @@ impl Settings {
             && self.library == state.chosen_library
             && self.recent == state.recent
             && self.average == state.live.params.average
+            && self.lock_after == state.roles.lock_after
+            && self.pin == state.roles.pin
             && self.cell == state.cell.remembered
             && self.window == window
     }
@@ -145,8 +156,11 @@ impl Settings {
         State {
             theme: self.theme,
             units: self.units,
+            workspace: match &self.pin {
+                Some(_) if !is_operators(self.workspace) => Workspace::Inspect,
+                _ => self.workspace,
+            },
             convention: self.convention,
-            workspace: self.workspace,
             chosen_library: self.library,
             recent: self.recent,
             source: match self.source {
@@ -156,6 +170,7 @@ impl Settings {
             },
             recipe: Arc::new(self.recipe.unwrap_or_default()),
             live: LiveState::averaging(self.average),
+            roles: RoleState::starting(self.pin, self.lock_after),
             cell: RobotState {
                 remembered: self.cell,
                 ..RobotState::default()
@@ -286,6 +301,8 @@ mod tests {
             source: RememberedSource::Camera("recording,pace=step:a b".parse().expect("a source")),
             recipe: Some(recipe),
             average: 4,
+            lock_after: 15,
+            pin: Some(Pin::of("4711")),
             cell: RememberedCell::File("/media/stick/cell.toml".into()),
             ..Settings::default()
         }

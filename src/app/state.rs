@@ -13,6 +13,7 @@ use super::{
     lane::Lane,
     live::{self, LiveState},
     robot::RobotState,
+    roles::RoleState,
     shelf::LibraryShown,
     source::CellChoice,
 };
@@ -66,6 +67,8 @@ pub struct State {
     pub num_captures: u64,
     /// The generation of the newest request.
     pub generation: u64,
+    /// Whose window it is.
+    pub roles: RoleState,
     /// Of the source that is followed.
     pub live: LiveState,
     /// Of the Inspect workspace.

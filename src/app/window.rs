@@ -1,6 +1,6 @@
 //! The window as eframe drives it: fetch news, draw the last result, apply what was done.
 
-use std::{collections::BTreeMap, io, path::PathBuf, task::Poll};
+use std::{collections::BTreeMap, io, path::PathBuf, task::Poll, time::Duration};
 
 use eframe::egui_wgpu::RenderState;
 use egui::{CentralPanel, Frame, Ui};
@@ -21,7 +21,9 @@ use super::{
     lane::Lane,
     live::{self, LiveAction},
     memory::Memory,
-    notices, rail, robot, settings,
+    notices, rail, robot,
+    roles::{self, RoleAction},
+    settings,
     shelf::Shelf,
     state::{Notice, Source, State, ThemeChoice, Workspace},
     theme::Theme,
@@ -58,6 +60,8 @@ pub struct Window {
     enrol: EnrolPanel,
     align: AlignPanel,
     history: HistoryPanel,
+    /// When a hand was last on the window, seconds on egui's clock.
+    touched: f64,
 }
 
 impl Window {
@@ -110,6 +114,7 @@ impl Window {
             enrol: EnrolPanel::new(gpu.clone()),
             align: AlignPanel::new(&gpu),
             history: HistoryPanel::new(),
+            touched: ctx.input(|input| input.time),
         };
         window.state.notices.extend(trouble.map(Notice::from));
         window.forget_a_vanished_file();
@@ -282,11 +287,30 @@ impl Window {
         };
         notices::ui(&ctx, &self.state, theme, &mut actions);
         live::set_up(&ctx, &self.state, theme, &mut actions);
+        roles::dialog(&ctx, &self.state, theme, &mut actions);
         robot::ui(&ctx, &self.state, theme, &mut actions);
         keys::help(&ctx, &self.state, theme, &mut actions);
         keys::shortcuts(&ctx, &self.state, view_has_focus, &mut actions);
         for action in actions {
             self.act(action, &ctx);
+        }
+        self.lock_untouched(&ctx);
+    }
+
+    /// Locks the engineer's view when nobody has touched it for long.
+    fn lock_untouched(&mut self, ctx: &egui::Context) {
+        let (now, is_touched) = ctx.input(|input| (input.time, !input.events.is_empty()));
+        if is_touched {
+            self.touched = now;
+        }
+        let Some(after) = self.state.roles.locks_after() else {
+            return;
+        };
+        let left = self.touched + after - now;
+        if left > 0.0 {
+            ctx.request_repaint_after(Duration::from_secs_f64(left));
+        } else {
+            self.act(Action::Role(RoleAction::Lock), ctx);
         }
     }
 }

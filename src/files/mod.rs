@@ -57,6 +57,7 @@ pub use self::pcd::write_pcd;
 pub use self::ply::write_ply;
 pub(crate) use self::source::read_bytes;
 pub(crate) use self::text::read_text;
+pub(crate) use self::write::{folder_of, sync_folder};
 pub use self::write::{save_cloud, write_atomically};
 pub use self::xyz::write_xyz;
 

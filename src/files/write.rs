@@ -16,10 +16,7 @@ pub fn write_atomically(
     path: &Path,
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), FileError> {
-    let folder = match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    };
+    let folder = folder_of(path);
     let written = || -> io::Result<()> {
         let mut builder = tempfile::Builder::new();
         builder.prefix(".partsight-").suffix(".part");
@@ -41,8 +38,17 @@ pub fn write_atomically(
     written().map_err(|error| FileError::writing(path, error))
 }
 
-/// Makes the rename itself last. Only Unix lets a folder be opened for that; elsewhere the file system sees to it.
-fn sync_folder(folder: &Path) -> io::Result<()> {
+/// The folder that a file is in.
+pub(crate) fn folder_of(path: &Path) -> &Path {
+    match path.parent() {
+        Some(parent) if !parent.as_os_str().is_empty() => parent,
+        _ => Path::new("."),
+    }
+}
+
+/// Makes what was named anew in a folder last. Only Unix lets a folder be opened for that; elsewhere the file system
+/// sees to it.
+pub(crate) fn sync_folder(folder: &Path) -> io::Result<()> {
     if cfg!(unix) {
         File::open(folder)?.sync_all()?;
     }

@@ -9,5 +9,6 @@ mod inspect;
 mod live;
 mod pictures;
 pub(crate) mod robot;
+mod roles;
 mod set_up;
 mod view;

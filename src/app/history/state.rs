@@ -22,7 +22,7 @@ use crate::{
 /// Rows kept; the oldest go first.
 const MAX_ROWS: usize = 2000;
 /// Inspections kept whole, with their points and pictures: about 15 MB each. Older ones are inspected again.
-const MAX_WHOLE: usize = 12;
+const MAX_WHOLE: usize = 6;
 
 /// What the workspace knows.
 #[derive(Debug, Default)]

@@ -22,9 +22,6 @@ use crate::{
     stages::pose::{PoseEstimate, Uncertainty},
 };
 
-/// A window lower than this has the offsets beside each other, logical pixels.
-const LOW: f32 = 800.0;
-
 /// What the card says first.
 struct Headline {
     title: String,
@@ -161,13 +158,13 @@ pub(super) fn ui(
         score(ui, inspected, &headline, theme);
         if let Some(pose) = pose {
             offset(ui, inspected, pose, state.units, theme);
-            robot_numbers::ui(ui, inspected, state, theme, actions);
             fit(ui, pose, state.units, theme);
             if inspection.verdict.is_approximate() {
                 let text = "The pose is approximate: this may be another model of the part";
                 ui.label(RichText::new(text).color(theme.warning));
             }
             stand_off::ui(ui, inspected, state.units, theme);
+            robot_numbers::ui(ui, inspected, state, theme, actions);
         }
         footer(ui, inspected, theme);
     });
@@ -316,7 +313,9 @@ fn offset(
             row(ui, theme, axis, value);
         }
     };
-    if ui.ctx().content_rect().height() < LOW && !shifts.is_empty() {
+    if shifts.is_empty() {
+        rows(ui, &turns);
+    } else {
         ui.spacing_mut().item_spacing.x = space::LARGE;
         ui.columns(2, |columns| {
             if let [left, right] = columns {
@@ -325,9 +324,6 @@ fn offset(
             }
         });
         ui.spacing_mut().item_spacing.x = space::SMALL;
-    } else {
-        rows(ui, &shifts);
-        rows(ui, &turns);
     }
     let note = "Part's middle, camera axes · R = Rz·Ry·Rx";
     ui.label(

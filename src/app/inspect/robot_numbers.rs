@@ -1,6 +1,6 @@
 //! The card's section on the pose as a robot is told it: in one convention, and always with the frame it is in.
 
-use egui::{ComboBox, RichText, Ui};
+use egui::{Align, ComboBox, Layout, RichText, Ui};
 
 use crate::{
     app::{
@@ -103,13 +103,14 @@ pub(super) fn ui(
     };
     ui.label(small(frame).color(colour));
     if pose.convention == Convention::Matrix {
-        egui::Grid::new("matrix").num_columns(4).show(ui, |ui| {
-            for row in pose.values.chunks(4) {
-                for value in row {
-                    // As many digits as there is room for; the clipboard has them all.
-                    ui.label(RichText::new(format!("{:.4}", value.value + 0.0)).color(theme.text));
-                }
-                ui.end_row();
+        ui.columns(4, |columns| {
+            for (place, column) in columns.iter_mut().enumerate() {
+                column.with_layout(Layout::top_down(Align::Max), |ui| {
+                    for value in pose.values.iter().skip(place).step_by(4) {
+                        // As many digits as there is room for; the clipboard has them all.
+                        ui.label(RichText::new(format!("{:.4}", value.value)).color(theme.text));
+                    }
+                });
             }
         });
     } else {

@@ -13,8 +13,8 @@ pub(super) const SHADER: &str = include_str!("composite.wgsl");
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
 struct Placement {
     origin: [i32; 2],
-    is_linear: u32,
     pixel_side: u32,
+    padding: u32,
 }
 
 /// Bytes of the placement, to be compared with the shader.
@@ -25,7 +25,6 @@ pub(super) const PLACEMENT_SIZE: usize = size_of::<Placement>();
 pub(super) struct Composite {
     layout: wgpu::BindGroupLayout,
     pipeline: wgpu::RenderPipeline,
-    is_linear: bool,
 }
 
 /// A picture bound for this pass.
@@ -43,6 +42,7 @@ impl Composite {
             &PassSpec {
                 label: "view composite",
                 source: SHADER,
+                constants: &[("is_linear", f64::from(u8::from(window_format.is_srgb())))],
                 layouts: &[&layout],
                 instances: None,
                 topology: wgpu::PrimitiveTopology::TriangleList,
@@ -50,11 +50,7 @@ impl Composite {
                 depth: None,
             },
         );
-        Self {
-            layout,
-            pipeline,
-            is_linear: window_format.is_srgb(),
-        }
+        Self { layout, pipeline }
     }
 
     pub(super) fn bind(&self, device: &wgpu::Device, picture: &wgpu::TextureView) -> BoundPicture {
@@ -86,8 +82,8 @@ impl Composite {
     ) {
         let placement = Placement {
             origin,
-            is_linear: u32::from(self.is_linear),
             pixel_side,
+            padding: 0,
         };
         if picture.written != Some(placement) {
             queue.write_buffer(&picture.placement, 0, bytemuck::bytes_of(&placement));

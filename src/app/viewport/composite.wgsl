@@ -5,11 +5,12 @@
 struct Placement {
     // Of the picture's top left corner in the window, physical pixels.
     origin: vec2<i32>,
-    // 1 if the window wants linear values: the picture holds sRGB ones.
-    is_linear: u32,
     // Pixels of the window along the side of a pixel of the picture.
     pixel_side: i32,
+    padding: u32,
 }
+// True if the window wants linear values: the picture holds sRGB ones.
+override is_linear: bool;
 @group(0) @binding(1) var<uniform> placement: Placement;
 
 @vertex
@@ -23,7 +24,7 @@ fn fragment_main(@builtin(position) at: vec4<f32>) -> @location(0) vec4<f32> {
     let inside = vec2<i32>(floor(at.xy)) - placement.origin;
     let pixel = clamp(inside / max(placement.pixel_side, 1), vec2(0), last);
     let colour = textureLoad(picture, pixel, 0);
-    if placement.is_linear == 1u {
+    if is_linear {
         let low = colour.rgb / 12.92;
         let high = pow((colour.rgb + 0.055) / 1.055, vec3(2.4));
         return vec4(select(high, low, colour.rgb <= vec3(0.04045)), 1.0);

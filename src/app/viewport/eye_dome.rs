@@ -29,6 +29,7 @@ pub(super) fn pipeline(
         &PassSpec {
             label: "view eye dome",
             source: SHADER,
+            constants: &[],
             layouts,
             instances: None,
             topology: wgpu::PrimitiveTopology::TriangleList,

@@ -17,6 +17,7 @@ use super::{
     pass,
     points::{self, GpuPoints},
     scene::{LineSet, PointSet},
+    style::Colouring,
     targets::{self, TargetLayouts},
 };
 use crate::error::Advice;
@@ -93,7 +94,8 @@ pub(super) struct Pipelines {
     pub(super) uniform: wgpu::BindGroupLayout,
     pub(super) targets: TargetLayouts,
     point_table: wgpu::BindGroupLayout,
-    pub(super) points: wgpu::RenderPipeline,
+    /// In the order of [`Colouring::ALL`].
+    pub(super) points: [wgpu::RenderPipeline; Colouring::ALL.len()],
     pub(super) lines: wgpu::RenderPipeline,
     pub(super) eye_dome: wgpu::RenderPipeline,
     pub(super) composite: Composite,
@@ -190,7 +192,9 @@ impl Pipelines {
         let targets = TargetLayouts::new(device);
         let point_table = pass::layout(device, "view points", &[pass::TABLE]);
         Self {
-            points: points::pipeline(device, &[&uniform, &uniform, &point_table]),
+            points: Colouring::ALL.map(|colouring| {
+                points::pipeline(device, &[&uniform, &uniform, &point_table], colouring)
+            }),
             lines: lines::pipeline(device, &[&uniform, &uniform, &targets.closeness]),
             eye_dome: eye_dome::pipeline(device, &[&uniform, &targets.unshaded]),
             composite: Composite::new(device, window_format),

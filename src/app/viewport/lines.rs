@@ -99,6 +99,7 @@ pub(super) fn pipeline(
         &PassSpec {
             label: "view lines",
             source: SHADER,
+            constants: &[],
             layouts,
             instances: Some(wgpu::VertexBufferLayout {
                 array_stride: size_of::<GpuSegment>() as u64,

@@ -6,6 +6,8 @@ use eframe::wgpu;
 pub(super) struct PassSpec<'a> {
     pub(super) label: &'a str,
     pub(super) source: &'a str,
+    /// What the shader declares as `override`, by name.
+    pub(super) constants: &'a [(&'a str, f64)],
     pub(super) layouts: &'a [&'a wgpu::BindGroupLayout],
     /// The per-instance buffer, if any.
     pub(super) instances: Option<wgpu::VertexBufferLayout<'a>>,
@@ -26,13 +28,17 @@ pub(super) fn pipeline(device: &wgpu::Device, spec: &PassSpec<'_>) -> wgpu::Rend
         immediate_size: 0,
     });
     let targets: Vec<_> = spec.targets.iter().cloned().map(Some).collect();
+    let options = wgpu::PipelineCompilationOptions {
+        constants: spec.constants,
+        ..wgpu::PipelineCompilationOptions::default()
+    };
     device.create_render_pipeline(&wgpu::RenderPipelineDescriptor {
         label: Some(spec.label),
         layout: Some(&layout),
         vertex: wgpu::VertexState {
             module: &module,
             entry_point: Some("vertex_main"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options: options.clone(),
             buffers: std::slice::from_ref(&spec.instances),
         },
         primitive: wgpu::PrimitiveState {
@@ -44,7 +50,7 @@ pub(super) fn pipeline(device: &wgpu::Device, spec: &PassSpec<'_>) -> wgpu::Rend
         fragment: Some(wgpu::FragmentState {
             module: &module,
             entry_point: Some("fragment_main"),
-            compilation_options: wgpu::PipelineCompilationOptions::default(),
+            compilation_options: options,
             targets: &targets,
         }),
         multiview_mask: None,

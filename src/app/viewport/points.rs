@@ -16,6 +16,7 @@ use glam::{Mat4, Vec4};
 use super::{
     pass::{self, PassSpec},
     scene::PointSet,
+    style::Colouring,
     targets::{CLOSENESS_FORMAT, COLOUR_FORMAT, DEPTH_FORMAT},
 };
 
@@ -48,10 +49,9 @@ struct GpuPoint {
 pub(super) struct PointsUniform {
     pub(super) clip_from_set: Mat4,
     pub(super) height_from_set: Vec4,
-    pub(super) colouring: u32,
-    pub(super) size_unit: u32,
     pub(super) diameter: f32,
-    pub(super) padding: f32,
+    pub(super) diameter_in_metres: f32,
+    pub(super) padding: [f32; 2],
 }
 
 /// The points of a set as its tables take them: to be copied and nothing else.
@@ -209,16 +209,18 @@ fn gpu_point(set: &PointSet, index: usize) -> GpuPoint {
     }
 }
 
-/// The pass that draws points.
+/// The pass that draws points, coloured in one way.
 pub(super) fn pipeline(
     device: &wgpu::Device,
     layouts: &[&wgpu::BindGroupLayout],
+    colouring: Colouring,
 ) -> wgpu::RenderPipeline {
     pass::pipeline(
         device,
         &PassSpec {
             label: "view points",
             source: SHADER,
+            constants: &[("colouring", f64::from(colouring as u32))],
             layouts,
             instances: None,
             topology: wgpu::PrimitiveTopology::TriangleList,

@@ -5,14 +5,15 @@ struct Points {
     clip_from_set: mat4x4<f32>,
     // Height above the camera's level = dot(height_from_set, vec4(position, 1)).
     height_from_set: vec4<f32>,
-    // `Colouring` in style.rs.
-    colouring: u32,
-    // 0 pixels, 1 metres: `PointSize` in style.rs.
-    size_unit: u32,
-    // Diameter, physical pixels or metres.
+    // Diameter, physical pixels, and what is to be added to it, metres: one of them is 0.
     diameter: f32,
-    padding: f32,
+    diameter_in_metres: f32,
+    padding: vec2<f32>,
 }
+
+// `Colouring` in style.rs: a pipeline each. A branch on a uniform has software Vulkan (Mesa 22) compile the shader anew for
+// every picture, and keep each.
+override colouring: u32;
 
 // Background planes are flat: on them shading shows little but noise.
 const BACKGROUND_SHADING: f32 = 0.3;
@@ -69,10 +70,8 @@ struct Corner {
 fn vertex_main(@builtin(vertex_index) index: u32) -> Corner {
     let point = point_at(index / 3u);
     let clip = points.clip_from_set * vec4(point.position, 1.0);
-    var diameter = points.diameter * view.roles[point.role].w;
-    if points.size_unit == 1u {
-        diameter *= view.focal / clip.w;
-    }
+    let diameter = view.roles[point.role].w
+        * (points.diameter + points.diameter_in_metres * view.focal / clip.w);
     var corners = CORNERS;
     let offset = corners[index % 3u];
     var corner: Corner;
@@ -91,7 +90,7 @@ fn vertex_main(@builtin(vertex_index) index: u32) -> Corner {
 fn colour_of(point: Point) -> vec3<f32> {
     let own = view.roles[point.role].rgb;
     let dimmed = mix(own, view.background.rgb, DIMMED);
-    switch points.colouring {
+    switch colouring {
         case BY_SEGMENT: {
             return own;
         }

@@ -18,7 +18,7 @@ use super::{
     pass::Uniform,
     points::{GpuPoints, NUM_SAMPLES, PointsUniform},
     scene::ViewScene,
-    style::{PointSize, ViewStyle},
+    style::{Colouring, PointSize, ViewStyle},
     targets::Targets,
     uniform::ViewUniform,
 };
@@ -42,6 +42,7 @@ pub(super) struct Frame {
 struct PictureKey {
     view: ViewUniform,
     points: Vec<(u64, PointsUniform)>,
+    colourings: Vec<Colouring>,
     lines: Vec<(u64, LinesUniform)>,
     num_samples: usize,
 }
@@ -79,7 +80,7 @@ impl ViewRenderer {
         self.hold_sets(gpu, frame, &key);
         self.write_uniforms(gpu, &key);
         if let Some(held) = &self.held {
-            self.record(gpu, held, encoder, frame.num_samples);
+            self.record(gpu, held, encoder, &key);
             self.num_pictures += 1;
         }
         self.drawn = Some(key);
@@ -180,7 +181,7 @@ impl ViewRenderer {
         gpu: &ViewportGpu,
         held: &Held,
         encoder: &mut wgpu::CommandEncoder,
-        num_samples: usize,
+        key: &PictureKey,
     ) {
         let (pipelines, targets) = (gpu.pipelines(), &held.targets);
         let (for_points, for_lines) = self.set_uniforms.split_at(self.points.len());
@@ -191,11 +192,12 @@ impl ViewRenderer {
             &[&targets.colour, &targets.closeness],
             Some(&targets.depth),
         );
-        pass.set_pipeline(&pipelines.points);
         pass.set_bind_group(0, &held.view.group, &[]);
-        for (points, uniform) in self.points.iter().zip(for_points) {
+        let colourings = key.colourings.iter();
+        for ((points, uniform), colouring) in self.points.iter().zip(for_points).zip(colourings) {
+            pass.set_pipeline(&pipelines.points[*colouring as usize]);
             pass.set_bind_group(1, &uniform.group, &[]);
-            points.draw(&mut pass, num_samples);
+            points.draw(&mut pass, key.num_samples);
         }
         drop(pass);
 
@@ -268,18 +270,17 @@ impl PictureKey {
         let pixels_per_point = target[1] as f32 / size.y.max(1.0);
         // Fewer points are drawn larger, but not so much that they cover as much as before: filling costs as well.
         let growth = (NUM_SAMPLES as f32 / *num_samples as f32).powf(0.25);
-        let (size_unit, diameter) = match style.point_size {
-            PointSize::Pixels(pixels) => (0, pixels * pixels_per_point),
-            PointSize::Metres(metres) => (1, metres.0 as f32),
+        let (diameter, diameter_in_metres) = match style.point_size {
+            PointSize::Pixels(pixels) => (pixels * pixels_per_point * growth, 0.0),
+            PointSize::Metres(metres) => (0.0, metres.0 as f32 * growth),
         };
         let points = scene.points.iter().map(|set| {
             let uniform = PointsUniform {
                 clip_from_set: clip_from_world * set.world_from_set,
                 height_from_set: height_from(&set.world_from_set),
-                colouring: set.colouring.unwrap_or(style.colouring) as u32,
-                size_unit,
-                diameter: diameter * growth,
-                padding: 0.0,
+                diameter,
+                diameter_in_metres,
+                padding: [0.0; 2],
             };
             (set.generation(), uniform)
         });
@@ -290,6 +291,11 @@ impl PictureKey {
         Self {
             view: ViewUniform::new(camera, style, height_range(scene), *size, *target),
             points: points.collect(),
+            colourings: scene
+                .points
+                .iter()
+                .map(|set| set.colouring.unwrap_or(style.colouring))
+                .collect(),
             lines: lines.collect(),
             num_samples: *num_samples,
         }

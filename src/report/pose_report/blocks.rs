@@ -240,7 +240,8 @@ impl PoseBlock {
                 e_m2: pose.fit.e_m2,
                 overlap: pose.fit.overlap,
                 ambiguous: pose.is_ambiguous(),
-                runner_up_ratio: pose.runner_up.map(|next| next.ratio),
+                // JSON knows no infinity: where the best costs nothing, nothing else is worth telling.
+                runner_up_ratio: pose.runner_up.map(|next| next.ratio).filter(|ratio| ratio.is_finite()),
             },
             bounds: pose.uncertainty.filter(Uncertainty::is_held).map(|bounds| BoundsBlock {
                 meaning: "the pose is off by less than each of these in 95 of 100 cases, as far as the scatter of the \

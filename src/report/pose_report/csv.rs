@@ -12,7 +12,7 @@ use std::{
 use super::{PoseReport, TransformBlock};
 use crate::{
     error::Advice,
-    files::{advice_on, words_of},
+    files::{advice_on, folder_of, sync_folder, words_of},
     robot::Convention,
 };
 
@@ -72,11 +72,13 @@ pub fn append_csv(path: &Path, report: &PoseReport) -> Result<CsvAppended, CsvEr
     // Only one at a time, from whichever program.
     let mut file = OpenOptions::new()
         .read(true)
-        .append(true)
+        .write(true)
         .create(true)
+        .truncate(false)
         .open(path)
         .map_err(failed)?;
-    file.lock().map_err(failed)?;
+    // On a disk that knows no locks, the rows of one program at a time are whole all the same.
+    let _ = file.lock();
     let mut length = file.metadata().map_err(failed)?.len();
     let mut begin = vec![
         0;
@@ -108,12 +110,17 @@ pub fn append_csv(path: &Path, report: &PoseReport) -> Result<CsvAppended, CsvEr
         row
     };
     let written = file
-        .write_all(text.as_bytes())
+        .seek(SeekFrom::Start(length))
+        .and_then(|_| file.write_all(text.as_bytes()))
         .and_then(|()| file.sync_data());
     if let Err(error) = written {
         // Half a row helps nobody; where this fails too, the next call sets it aside.
         let _ = file.set_len(length);
         return Err(failed(error));
+    }
+    if length == 0 {
+        // The file itself may be new.
+        sync_folder(folder_of(path)).map_err(failed)?;
     }
     Ok(appended)
 }
@@ -263,171 +270,4 @@ fn quoted(value: &str) -> String {
 }
 
 #[cfg(test)]
-mod tests {
-    use std::fs;
-
-    use super::{
-        super::tests::{door, empty, refused, robot},
-        *,
-    };
-
-    fn rows(path: &Path) -> Vec<Vec<String>> {
-        let text = fs::read_to_string(path).expect("a file");
-        assert!(text.ends_with('\n'));
-        text.lines().map(cells).collect()
-    }
-
-    /// The cells of a line, read as RFC 4180 has it.
-    fn cells(line: &str) -> Vec<String> {
-        let mut cells = vec![String::new()];
-        let mut is_quoted = false;
-        let mut letters = line.chars().peekable();
-        while let Some(letter) = letters.next() {
-            let last = cells.len() - 1;
-            match letter {
-                '"' if is_quoted && letters.peek() == Some(&'"') => {
-                    letters.next();
-                    cells[last].push('"');
-                }
-                '"' => is_quoted = !is_quoted,
-                ',' if !is_quoted => cells.push(String::new()),
-                letter => cells[last].push(letter),
-            }
-        }
-        cells
-    }
-
-    fn folder() -> (tempfile::TempDir, PathBuf) {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("poses.csv");
-        (folder, path)
-    }
-
-    #[test]
-    fn rows_share_one_line_of_names_and_numbers_come_back() {
-        let (_folder, path) = folder();
-        let robot = robot();
-        let report = door().report(Some(&robot), Convention::UniversalRobots);
-        append_csv(&path, &report).expect("appended");
-        append_csv(
-            &path,
-            &refused().report(Some(&robot), Convention::UniversalRobots),
-        )
-        .expect("appended");
-        append_csv(&path, &empty().report(None, Convention::UniversalRobots)).expect("appended");
-        let rows = rows(&path);
-        assert_eq!(rows.len(), 4);
-        assert!(rows.iter().all(|row| row.len() == rows[0].len()));
-        let cell = |row: usize, name: &str| {
-            let column = rows[0].iter().position(|column| column == name);
-            rows[row][column.unwrap_or_else(|| panic!("no column {name}"))].as_str()
-        };
-        assert_eq!(cell(1, "scene"), "shift 2/door, left.pcd");
-        assert_eq!(cell(1, "part"), "front_door");
-        assert_eq!(cell(1, "seen_by"), "simulation");
-        let block = report.robot.robot_offset.as_ref().expect("an offset");
-        for value in &block.in_convention.values {
-            let name = format!(
-                "robot_offset_universal-robots_{}_{}",
-                value.name,
-                value.unit.symbol()
-            );
-            let read: f64 = cell(1, &name).parse().expect("a number");
-            assert_eq!(read.to_bits(), value.value.to_bits(), "{name}");
-        }
-        // Of what is refused there is no number at all.
-        assert_eq!(cell(2, "accepted"), "false");
-        for row in [2, 3] {
-            for (column, value) in rows[0].iter().zip(&rows[row]) {
-                let is_pose = ["camera_from_part", "robot_from_part", "robot_offset_"]
-                    .iter()
-                    .any(|name| column.starts_with(name));
-                assert!(!is_pose || value.is_empty(), "{column}: {value}");
-            }
-        }
-        assert!(cell(2, "robot_unavailable").contains("not accepted"));
-    }
-
-    #[test]
-    fn wherever_a_row_was_cut_off_every_whole_row_stays_and_the_next_one_fits() {
-        let (_folder, path) = folder();
-        let report = door().report(None, Convention::Kuka);
-        append_csv(&path, &report).expect("appended");
-        let header = fs::read(&path)
-            .expect("a file")
-            .iter()
-            .position(|byte| *byte == b'\n')
-            .expect("a line")
-            + 1;
-        append_csv(&path, &report).expect("appended");
-        let whole = fs::read(&path).expect("a file");
-        let row = (whole.len() - header) / 2;
-        let aside = path.with_extension("csv.unfinished");
-        for length in 0..=whole.len() {
-            fs::write(&path, &whole[..length]).expect("cut");
-            let appended = append_csv(&path, &report).expect("appended");
-            let num_whole = length.saturating_sub(header) / row;
-            let expected = &whole[..header + num_whole * row];
-            let now = fs::read(&path).expect("a file");
-            assert_eq!(&now[..expected.len()], expected, "cut at {length}");
-            assert_eq!(now.len(), expected.len() + row, "cut at {length}");
-            let cut = length.saturating_sub(header + num_whole * row);
-            if length > header && cut > 0 {
-                assert_eq!(
-                    appended,
-                    CsvAppended::SetAside(aside.clone()),
-                    "cut at {length}"
-                );
-                let kept = fs::read(&aside).expect("set aside");
-                assert_eq!(&kept[..cut], &whole[header + num_whole * row..length]);
-                fs::remove_file(&aside).expect("removed");
-            } else {
-                assert_eq!(appended, CsvAppended::Row, "cut at {length}");
-            }
-        }
-    }
-
-    #[test]
-    fn another_table_is_refused_and_left_as_it_is() {
-        let (_folder, path) = folder();
-        append_csv(&path, &door().report(None, Convention::Kuka)).expect("appended");
-        let before = fs::read(&path).expect("a file");
-        let refused =
-            append_csv(&path, &door().report(None, Convention::Abb)).expect_err("refused");
-        assert!(
-            refused
-                .to_string()
-                .ends_with("its columns are not those of a pose report in ABB q1 q2 q3 q4")
-        );
-        assert!(refused.advice().contains("another file"));
-        assert_eq!(fs::read(&path).expect("a file"), before);
-        fs::write(&path, "my own notes").expect("written");
-        append_csv(&path, &door().report(None, Convention::Abb)).expect_err("refused");
-        assert_eq!(fs::read(&path).expect("a file"), b"my own notes");
-        let missing = path.with_file_name("missing").join("poses.csv");
-        let error =
-            append_csv(&missing, &door().report(None, Convention::Abb)).expect_err("no folder");
-        assert!(
-            error.to_string().contains("the folder does not exist"),
-            "{error}"
-        );
-    }
-
-    #[test]
-    fn many_at_once_leave_whole_rows() {
-        let (_folder, path) = folder();
-        let report = door().report(None, Convention::Kuka);
-        std::thread::scope(|scope| {
-            for _ in 0..8 {
-                scope.spawn(|| {
-                    for _ in 0..10 {
-                        append_csv(&path, &report).expect("appended");
-                    }
-                });
-            }
-        });
-        let rows = rows(&path);
-        assert_eq!(rows.len(), 81);
-        assert!(rows[1..].iter().all(|row| *row == rows[1]));
-    }
-}
+mod tests;

@@ -1,0 +1,237 @@
+//! Whose window it is: the operator's, who watches verdicts, or the engineer's, who may change what they rest on.
+//!
+//! In the operator's view recipe, thresholds, library and cell cannot be changed by accident: whatever would change them
+//! asks for the engineer's view first. A PIN, if one is set, stands before that, and after a while without a hand on
+//! it the window is the operator's again. This prevents accidents. It is no protection against somebody who means to:
+//! the settings and the library are files that anybody can edit.
+
+mod chip;
+mod dialog;
+mod permits;
+mod pin;
+
+use self::permits::needs_engineer;
+pub use self::pin::Pin;
+pub(super) use self::{
+    chip::{chip, lock},
+    dialog::dialog,
+    permits::is_operators,
+};
+use super::{
+    action::{Action, Effect, apply as apply_any, notify},
+    state::{Notice, State, Workspace},
+};
+
+/// Who stands before the window.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum UserRole {
+    /// Watches verdicts, captures, exports.
+    Operator,
+    /// May change everything.
+    #[default]
+    Engineer,
+}
+
+impl UserRole {
+    /// What a person calls it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Operator => "Operator",
+            Self::Engineer => "Engineer",
+        }
+    }
+}
+
+/// Minutes without a hand on the window until it is the operator's again, that can be chosen.
+pub const LOCK_AFTER: [u32; 4] = [1, 5, 15, 60];
+
+/// Whose window it is, and what stands between the two.
+#[derive(Debug)]
+pub struct RoleState {
+    /// Whose it is now.
+    pub role: UserRole,
+    /// What the engineer's view asks for, if anything.
+    pub pin: Option<Pin>,
+    /// Minutes without a hand on the window until it is the operator's again; only with a PIN.
+    pub lock_after: u32,
+    /// What is asked, while it is.
+    pub asked: Option<Asked>,
+}
+
+impl Default for RoleState {
+    fn default() -> Self {
+        Self::starting(None, LOCK_AFTER[1])
+    }
+}
+
+impl RoleState {
+    /// As the window starts: with a PIN it is the operator's.
+    pub fn starting(pin: Option<Pin>, lock_after: u32) -> Self {
+        Self {
+            role: match pin {
+                Some(_) => UserRole::Operator,
+                None => UserRole::Engineer,
+            },
+            pin,
+            lock_after: lock_after.clamp(LOCK_AFTER[0], LOCK_AFTER[3]),
+            asked: None,
+        }
+    }
+
+    /// Seconds without a hand on the window until it locks; `None` if it does not.
+    pub fn locks_after(&self) -> Option<f64> {
+        let locks = self.role == UserRole::Engineer && self.pin.is_some();
+        locks.then_some(f64::from(self.lock_after) * 60.0)
+    }
+}
+
+/// A question on top of the window.
+#[derive(Debug)]
+pub struct Asked {
+    /// What it is about.
+    pub question: Question,
+    /// The digits written so far.
+    pub digits: String,
+    /// What was wrong with the last ones.
+    pub wrong: Option<&'static str>,
+}
+
+impl Asked {
+    fn about(question: Question) -> Self {
+        Self {
+            question,
+            digits: String::new(),
+            wrong: None,
+        }
+    }
+}
+
+/// What is asked.
+#[derive(Debug)]
+pub enum Question {
+    /// The PIN, or without one a yes, to come into the engineer's view and do this.
+    MayI(Option<Box<Action>>),
+    /// A new PIN.
+    NewPin,
+    /// The same once more.
+    NewPinAgain(String),
+}
+
+/// Something that can happen.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RoleAction {
+    /// Change to the other view; to the engineer's after its PIN.
+    Switch,
+    /// Nobody has touched the window for long.
+    Lock,
+    /// Ask for a new PIN.
+    SetPin,
+    /// Ask for none any more.
+    RemovePin,
+    /// Lock after so many minutes.
+    LockAfter(u32),
+    /// A digit of the PIN.
+    Digit(char),
+    /// Take the last digit back.
+    Erase,
+    /// The PIN is written.
+    Enter,
+    /// Do not ask any more.
+    Close,
+}
+
+/// The action, unless it needs the engineer's view: that is asked for first.
+pub(super) fn permitted(state: &mut State, action: Action) -> Option<Action> {
+    if state.roles.role == UserRole::Engineer || !needs_engineer(&action) {
+        return Some(action);
+    }
+    state.roles.asked = Some(Asked::about(Question::MayI(Some(Box::new(action)))));
+    None
+}
+
+/// Makes it so.
+pub(super) fn apply(state: &mut State, action: RoleAction) -> Option<Effect> {
+    let own = &mut state.roles;
+    match action {
+        RoleAction::Switch => match own.role {
+            UserRole::Engineer => become_operators(state),
+            UserRole::Operator => own.asked = Some(Asked::about(Question::MayI(None))),
+        },
+        RoleAction::Lock => {
+            become_operators(state);
+            let what = "Nobody was at the window for a while: it is the operator's again";
+            notify(state, Notice::done(what));
+        }
+        RoleAction::SetPin => own.asked = Some(Asked::about(Question::NewPin)),
+        RoleAction::RemovePin => {
+            own.pin = None;
+            notify(state, Notice::done("No PIN is asked for any more"));
+        }
+        RoleAction::LockAfter(minutes) => own.lock_after = minutes,
+        RoleAction::Digit(digit) => {
+            if let Some(asked) = &mut own.asked
+                && digit.is_ascii_digit()
+                && asked.digits.len() < pin::MOST_DIGITS
+            {
+                asked.digits.push(digit);
+                asked.wrong = None;
+            }
+        }
+        RoleAction::Erase => {
+            if let Some(asked) = &mut own.asked {
+                asked.digits.pop();
+            }
+        }
+        RoleAction::Enter => return enter(state),
+        RoleAction::Close => own.asked = None,
+    }
+    None
+}
+
+fn become_operators(state: &mut State) {
+    state.roles.role = UserRole::Operator;
+    state.roles.asked = None;
+    if !is_operators(state.workspace) {
+        state.workspace = Workspace::Inspect;
+    }
+}
+
+/// What follows from the digits that were written.
+fn enter(state: &mut State) -> Option<Effect> {
+    let own = &mut state.roles;
+    let Asked {
+        question, digits, ..
+    } = own.asked.take()?;
+    let again = |question, wrong| {
+        Some(Asked {
+            wrong: Some(wrong),
+            ..Asked::about(question)
+        })
+    };
+    match question {
+        Question::MayI(then) => {
+            if own.pin.as_ref().is_some_and(|pin| !pin.is(&digits)) {
+                own.asked = again(Question::MayI(then), "That is not the PIN");
+                return None;
+            }
+            own.role = UserRole::Engineer;
+            return apply_any(state, *then?);
+        }
+        Question::NewPin if digits.len() < pin::LEAST_DIGITS => {
+            own.asked = again(Question::NewPin, "Four digits at least");
+        }
+        Question::NewPin => own.asked = Some(Asked::about(Question::NewPinAgain(digits))),
+        Question::NewPinAgain(first) if first != digits => {
+            own.asked = again(Question::NewPin, "The two differ: write a PIN anew");
+        }
+        Question::NewPinAgain(_) => {
+            own.pin = Some(Pin::of(&digits));
+            let what = "The PIN is set: the window starts as the operator's from now on";
+            notify(state, Notice::done(what));
+        }
+    }
+    None
+}
+
+#[cfg(test)]
+mod tests;

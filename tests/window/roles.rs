@@ -1,0 +1,109 @@
+//! Whose window it is: the operator's or the engineer's.
+
+use egui::{Event, Key};
+use egui_kittest::kittest::Queryable as _;
+use partsight::app::{
+    WindowOptions,
+    action::Action,
+    roles::{RoleAction, UserRole},
+    settings,
+    state::Workspace,
+};
+
+use super::set_up::{SMALL, USUAL, WindowHarness, act, open, open_with, press};
+
+fn role(harness: &WindowHarness) -> UserRole {
+    harness.state().state().roles.role
+}
+
+/// Presses the buttons of these digits, then the one that goes on.
+fn write(harness: &mut WindowHarness, digits: &str, then: &str) {
+    for digit in digits.chars() {
+        press(harness, &format!("Digit {digit}"));
+    }
+    press(harness, then);
+}
+
+fn set_pin(harness: &mut WindowHarness, digits: &str) {
+    press(harness, "Engineer's view");
+    press(harness, "Set a PIN…");
+    write(harness, digits, "Next");
+    write(harness, digits, "Set the PIN");
+}
+
+#[test]
+fn the_operators_view_is_locked_and_unlocked_with_the_pin() {
+    let mut harness = open_with(SMALL, WindowOptions::default());
+    set_pin(&mut harness, "2580");
+    press(&mut harness, "Engineer's view");
+    press(&mut harness, "Operator's view");
+    assert_eq!(role(&harness), UserRole::Operator);
+    // By key as by the rail.
+    harness.key_press(Key::Num3);
+    harness.run_steps(4);
+    assert_eq!(harness.state().state().workspace, Workspace::Inspect);
+    write(&mut harness, "2589", "Unlock");
+    assert!(harness.query_by_label("That is not the PIN").is_some());
+    for digit in "2580".chars() {
+        harness.event(Event::Text(digit.into()));
+        harness.run_steps(2);
+    }
+    harness.key_press(Key::Enter);
+    harness.run_steps(4);
+    // The digits were no shortcuts, and what was wanted is done.
+    assert_eq!(role(&harness), UserRole::Engineer);
+    assert_eq!(harness.state().state().workspace, Workspace::Compare);
+}
+
+#[test]
+fn without_a_pin_a_yes_is_enough() {
+    let mut harness = open();
+    act(&mut harness, Action::Role(RoleAction::Switch));
+    press(&mut harness, "Enrol");
+    assert_eq!(harness.state().state().workspace, Workspace::Inspect);
+    press(&mut harness, "Not now");
+    press(&mut harness, "Operator's view");
+    press(&mut harness, "Change to it");
+    assert_eq!(role(&harness), UserRole::Engineer);
+}
+
+#[test]
+fn an_untouched_window_is_the_operators_again() {
+    let mut harness = open();
+    set_pin(&mut harness, "1111");
+    act(&mut harness, Action::GoTo(Workspace::Enrol));
+    act(&mut harness, Action::Role(RoleAction::LockAfter(1)));
+    let now = harness.ctx.input(|input| input.time);
+    let mut at = |seconds: f64| {
+        harness.input_mut().time = Some(now + seconds);
+        harness.step();
+        role(&harness)
+    };
+    assert_eq!(at(30.0), UserRole::Engineer);
+    assert_eq!(at(80.0), UserRole::Operator);
+    assert_eq!(harness.state().state().workspace, Workspace::Inspect);
+}
+
+#[test]
+fn with_a_pin_the_next_start_is_the_operators() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("settings.toml");
+    let options = || WindowOptions {
+        settings: Some(path.clone()),
+        ..WindowOptions::default()
+    };
+    let mut harness = open_with(USUAL, options());
+    act(&mut harness, Action::GoTo(Workspace::Compare));
+    set_pin(&mut harness, "9753");
+    let remembered = settings::Settings::of(harness.state().state(), None);
+    settings::save(&path, &remembered).expect("saved");
+    drop(harness);
+    assert!(
+        !std::fs::read_to_string(&path)
+            .expect("read")
+            .contains("9753")
+    );
+    let harness = open_with(USUAL, options());
+    assert_eq!(role(&harness), UserRole::Operator);
+    assert_eq!(harness.state().state().workspace, Workspace::Inspect);
+}
