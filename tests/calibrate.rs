@@ -1,6 +1,7 @@
 //! The cell's calibration from end to end: the built program with files of its own.
 
 use std::{
+    fmt::Write as _,
     fs,
     path::{Path, PathBuf},
     process::{Command, Output},
@@ -114,7 +115,7 @@ fn pairs(robot_from_camera: &RigidTransform, seen: &[RigidTransform]) -> String 
         let arm = numbers(Convention::Kuka, &robot_from_flange);
         let camera = Convention::QuaternionXyzw.write(pose).numbers();
         let camera: Vec<String> = camera.iter().map(ToString::to_string).collect();
-        text += &format!("p{}, {arm}, {}\n", i + 1, camera.join(", "));
+        writeln!(text, "p{}, {arm}, {}", i + 1, camera.join(", ")).expect("memory");
     }
     text
 }
@@ -378,7 +379,7 @@ fn an_enrolled_part_on_the_flange_is_target_enough() {
         );
         let arm = robot_from_camera() * camera_from_part * flange_from_part.inverse();
         let arm = numbers(Convention::Abb, &arm);
-        text += &format!("{name};{}\n", arm.replace(", ", ";"));
+        writeln!(text, "{name};{}", arm.replace(", ", ";")).expect("memory");
     }
     shop.write("poses.csv", &text);
     let ran = shop.run(&[
@@ -472,15 +473,17 @@ fn a_stored_spray_path_is_carried_into_the_robots_frame() {
     let at = in_part.translation.vector * 1000.0;
     let along = in_part * nalgebra::Vector3::z();
     for x in [-40.0, 0.0, 40.0, 4000.0] {
-        path += &format!(
-            "{},{},{},{},{},{}\n",
+        writeln!(
+            path,
+            "{},{},{},{},{},{}",
             at.x + x,
             at.y,
             at.z,
             along.x,
             along.y,
             along.z
-        );
+        )
+        .expect("memory");
     }
     shop.write("path.csv", &path);
     let stored = shop.coded(0, &["library", "path", "front_door", "path.csv"]);
@@ -511,12 +514,37 @@ fn a_stored_spray_path_is_carried_into_the_robots_frame() {
         (json["num_points"].as_u64(), json["simulated"].as_bool()),
         (Some(4), Some(true))
     );
+}
 
-    // Of what is not accepted nothing is left that could be taken for its path.
-    shop.coded(0, &["simulate", "--part", "empty", "--out", "door.pcd"]);
-    let ran = shop.coded(1, &inspect);
-    assert!(ran.err.contains("no spray path was written"), "{}", ran.err);
-    assert!(!shop.path("out.csv").exists());
+#[test]
+fn of_what_is_not_accepted_no_spray_path_is_left() {
+    let shop = Workplace::new();
+    let set = format!("kuka {}", numbers(Convention::Kuka, &robot_from_camera()));
+    shop.coded(0, &["calibrate", "set", &set, "--mount", "eye-to-hand"]);
+    let inspect = ["inspect", "door.pcd", "--spray", "out.csv"];
+    let hang = |part: &str| {
+        let arguments = ["simulate", "--part", part, "--placement", "facing", "--out"];
+        shop.coded(0, &[&arguments[..], &["door.pcd"]].concat());
+    };
+    // Not accepted, then not even readable.
+    for is_readable in [true, false] {
+        hang("front_door");
+        shop.coded(0, &inspect);
+        assert!(shop.path("out.csv").exists());
+        if is_readable {
+            hang("empty");
+            let ran = shop.coded(1, &inspect);
+            assert!(ran.err.contains("no spray path was written"), "{}", ran.err);
+        } else {
+            shop.write("door.pcd", "VERSION .7\nFIELDS x");
+            shop.coded(2, &inspect);
+        }
+        assert!(!shop.path("out.csv").exists());
+    }
+    // What is no spray path is not taken away.
+    shop.write("notes.csv", "mine");
+    shop.coded(2, &["inspect", "door.pcd", "--spray", "notes.csv"]);
+    assert_eq!(shop.read("notes.csv"), "mine");
     shop.coded(
         2,
         &[

@@ -1,6 +1,6 @@
 //! The robot's cell in the window: its calibration, and the spray path of a part.
 
-use std::{fs, path::Path, sync::Arc};
+use std::{fmt::Write as _, fs, path::Path, sync::Arc};
 
 use egui::{Key, Role};
 use egui_kittest::kittest::Queryable as _;
@@ -68,12 +68,12 @@ pub(crate) fn pairs(turns: &[[f64; 3]]) -> String {
         let arm = robot_from_camera() * seen * flange_from_target.inverse();
         let mut numbers = Convention::Kuka.write(&arm).numbers();
         // As a controller shows them, and a camera that errs by a few tenths of a millimetre.
-        numbers
-            .iter_mut()
-            .for_each(|x| *x = (*x * 10.0).round() / 10.0);
+        for number in &mut numbers {
+            *number = (*number * 10.0).round() / 10.0;
+        }
         numbers.extend(Convention::RotationVector.write(&seen).numbers());
         let numbers: Vec<String> = numbers.iter().map(ToString::to_string).collect();
-        text += &format!("p{}, {}\n", i + 1, numbers.join(", "));
+        writeln!(text, "p{}, {}", i + 1, numbers.join(", ")).expect("memory");
     }
     text
 }
@@ -265,7 +265,7 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
         String::from("nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z\n");
     for point in door_path().points() {
         let mm = point.nozzle.coords * 1000.0;
-        text += &format!("{},{},{},0,0,1\n", mm.x, mm.y, mm.z);
+        writeln!(text, "{},{},{},0,0,1", mm.x, mm.y, mm.z).expect("memory");
     }
     fs::write(&file, text).expect("written");
     act(&mut harness, Action::GoTo(Workspace::Enrol));

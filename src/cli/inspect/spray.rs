@@ -15,7 +15,7 @@ use crate::{
     pipeline::Inspection,
     robot::{
         Convention, RobotFrame,
-        spray::{SprayExport, carry, default_path},
+        spray::{SprayExport, carry, default_path, take_former_away},
         stand_off::StandOffParams,
     },
 };
@@ -73,6 +73,8 @@ impl SprayChoice {
                 "Name a calibration with --calibration, or make one: partsight calibrate",
             ));
         }
+        // Whatever comes of this capture, an earlier path must not be taken for its.
+        take_former_away(file).advised()?;
         Ok(Some(SprayFile {
             file: file.clone(),
             convention: self.spray_as,
@@ -87,8 +89,7 @@ impl SprayChoice {
 }
 
 impl SprayFile {
-    /// Carries the path and writes it; a part that is not accepted has none, and a former file is taken away: it would be
-    /// taken for this part's.
+    /// Carries the path and writes it; a part that is not accepted has none.
     pub(super) fn write(
         &self,
         seen: &Seen<'_>,
@@ -106,15 +107,7 @@ impl SprayFile {
         let found = pose.zip(first).filter(|_| inspection.verdict.is_accepted());
         let part = inspection.segmentation.part.as_ref().ok();
         let (Some((pose, first)), Some(part)) = (found, part) else {
-            let former = std::fs::remove_file(&self.file).is_ok();
-            let former = if former {
-                "; the former one was taken away"
-            } else {
-                ""
-            };
-            console.note(&format_args!(
-                "no spray path was written, since the part was not accepted with a pose{former}"
-            ));
+            console.note(&"no spray path was written, since the part was not accepted with a pose");
             return Ok(Outcome::NotAccepted);
         };
         let reference = &library.references[first.reference];

@@ -1,6 +1,6 @@
 //! A carried path as a file for a robot, that says what every number is.
 
-use std::{fmt::Write as _, path::Path};
+use std::{fmt::Write as _, fs::File, io::Read as _, path::Path};
 
 use jiff::Timestamp;
 use serde::Serialize;
@@ -55,6 +55,29 @@ impl SprayFormat {
             .is_some_and(|e| e.eq_ignore_ascii_case("json"));
         if is_json { Self::Json } else { Self::Csv }
     }
+}
+
+/// How each kind of file begins.
+const BEGINNINGS: [&str; 2] = ["# Partsight spray path", "{\n  \"schema\": 1,\n  \"part\""];
+
+/// Takes an earlier export of this name away, so that nobody takes it for that of the next part; true if there was one.
+/// Anything else of that name stays.
+pub fn take_former_away(path: &Path) -> Result<bool, FileError> {
+    let mut beginning = [0; 64];
+    let read = File::open(path).and_then(|mut file| file.read(&mut beginning));
+    // Whatever is wrong with it shows when the next one is written.
+    let Ok(num_read) = read else {
+        return Ok(false);
+    };
+    let beginning = String::from_utf8_lossy(&beginning[..num_read]);
+    if !BEGINNINGS.iter().any(|ours| beginning.starts_with(ours)) {
+        return Ok(false);
+    }
+    std::fs::remove_file(path).map_err(|source| FileError::Write {
+        path: path.to_owned(),
+        source,
+    })?;
+    Ok(true)
 }
 
 #[derive(Serialize)]

@@ -32,7 +32,7 @@ use crate::{
     units::{Metres, Radians},
 };
 
-pub use self::export::{SprayExport, SprayFormat};
+pub use self::export::{SprayExport, SprayFormat, take_former_away};
 
 /// Flatter than this to the nozzle, a coat is uneven.
 pub const MOST_TILT: Radians = Radians(std::f64::consts::FRAC_PI_6);
