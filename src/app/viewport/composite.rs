@@ -34,6 +34,22 @@ pub(super) struct BoundPicture {
     group: wgpu::BindGroup,
 }
 
+impl BoundPicture {
+    /// Says where in the window the picture's top left corner is, physical pixels, and how many of them one of the
+    /// picture's is wide and high.
+    pub(super) fn place(&mut self, queue: &wgpu::Queue, origin: [i32; 2], pixel_side: u32) {
+        let placement = Placement {
+            origin,
+            pixel_side,
+            padding: 0,
+        };
+        if self.written != Some(placement) {
+            queue.write_buffer(&self.placement, 0, bytemuck::bytes_of(&placement));
+            self.written = Some(placement);
+        }
+    }
+}
+
 impl Composite {
     pub(super) fn new(device: &wgpu::Device, window_format: wgpu::TextureFormat) -> Self {
         let layout = pass::layout(device, "view composite", &[pass::PICTURE, pass::UNIFORM]);
@@ -68,26 +84,6 @@ impl Composite {
             group: pass::bind(device, "view composite", &self.layout, &resources),
             placement,
             written: None,
-        }
-    }
-
-    /// Says where in the window the picture's top left corner is, physical pixels, and how many of them one of the
-    /// picture's is wide and high.
-    pub(super) fn place(
-        &self,
-        queue: &wgpu::Queue,
-        picture: &mut BoundPicture,
-        origin: [i32; 2],
-        pixel_side: u32,
-    ) {
-        let placement = Placement {
-            origin,
-            pixel_side,
-            padding: 0,
-        };
-        if picture.written != Some(placement) {
-            queue.write_buffer(&picture.placement, 0, bytemuck::bytes_of(&placement));
-            picture.written = Some(placement);
         }
     }
 

@@ -90,9 +90,7 @@ impl ViewRenderer {
     /// Says where in the window the picture goes, and how many of its pixels one of the picture is wide.
     pub(super) fn place(&mut self, gpu: &ViewportGpu, origin: [i32; 2], pixel_side: u32) {
         if let Some(held) = &mut self.held {
-            gpu.pipelines()
-                .composite
-                .place(gpu.queue(), &mut held.bound, origin, pixel_side);
+            held.bound.place(gpu.queue(), origin, pixel_side);
         }
     }
 
