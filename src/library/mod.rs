@@ -31,6 +31,7 @@ mod spray_store;
 mod store;
 mod thumbnail;
 mod trash;
+mod truth;
 
 use crate::stages::reference::Reference;
 
@@ -53,6 +54,7 @@ pub use self::{
     spray_path::{MAX_PATH_POINTS, PathLineProblem, PathPoint, SprayPath, SprayPathError},
     store::{LibraryFolder, Renamed, Restored, Saved},
     trash::Trashed,
+    truth::Truth,
 };
 
 /// The enrolled parts, prepared for ranking and pose.

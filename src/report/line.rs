@@ -69,6 +69,16 @@ impl<'a> CaptureLine<'a> {
             dropped: num_dropped,
         }
     }
+
+    /// What was opened.
+    pub fn source(&self) -> &'a str {
+        self.source
+    }
+
+    /// True if no camera was read.
+    pub fn is_simulated(&self) -> bool {
+        self.simulated
+    }
 }
 
 #[derive(Debug, Serialize)]

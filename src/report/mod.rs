@@ -20,6 +20,6 @@ pub use self::{
     evaluation::evaluation_picture,
     folder::{ReportError, ReportFolder},
     line::{CaptureLine, InspectionLine, SCHEMA, TimingsLine},
-    pictures::{Picture, stage_pictures, strip, write_png},
+    pictures::{Picture, segmentation_picture, stage_pictures, strip, write_png},
     scaling::{TimeCurve, scaling_picture, stacked},
 };

@@ -64,7 +64,7 @@ pub fn stage_pictures(scene: &SceneCloud, inspection: &Inspection) -> Vec<Pictur
     [
         picture(
             "segmentation",
-            segmentation(scene, &inspection.segmentation),
+            segmentation_picture(scene, &inspection.segmentation),
         ),
         picture("binary", plane.map(binary)),
         picture(
@@ -106,7 +106,7 @@ pub fn strip(pictures: &[Picture]) -> RgbImage {
 }
 
 /// What every pixel was taken for; nearer is brighter. `None` for a scene without rows and columns.
-fn segmentation(scene: &SceneCloud, segmentation: &Segmentation) -> Option<RgbImage> {
+pub fn segmentation_picture(scene: &SceneCloud, segmentation: &Segmentation) -> Option<RgbImage> {
     let grid = scene.cloud.grid?;
     let depths = || scene.cloud.finite().map(|(_, p)| p.z);
     let (nearest, farthest) = (

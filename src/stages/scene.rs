@@ -60,7 +60,8 @@ impl SceneCloud {
 }
 
 /// What the edge of a picture is.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum PictureEdge {
     /// The camera's view ends there; the scene goes on.
     #[default]

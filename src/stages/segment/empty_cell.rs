@@ -57,6 +57,17 @@ impl EmptyCell {
         Ok(Self { grid, nearest })
     }
 
+    /// What is known of it, to be written and read back by [`from_depths`](Self::from_depths): rows and columns, and the
+    /// nearest depth around each pixel, metres; infinite where nothing is known.
+    pub fn depths(&self) -> (Grid, &[f32]) {
+        (self.grid, &self.nearest)
+    }
+
+    /// The cell that [`depths`](Self::depths) told of; `None` if there is not one depth for every pixel.
+    pub fn from_depths(grid: Grid, nearest: Vec<f32>) -> Option<Self> {
+        (grid.width * grid.height == nearest.len()).then_some(Self { grid, nearest })
+    }
+
     /// True if a scene has the same rows and columns, as every frame of one camera has.
     pub fn fits(&self, scene: &SceneCloud) -> bool {
         scene.cloud.grid == Some(self.grid)
