@@ -8,6 +8,7 @@ pub mod cli;
 pub mod error;
 pub mod files;
 pub mod geometry;
+pub mod history;
 pub mod library;
 pub mod pipeline;
 pub mod report;

@@ -59,6 +59,7 @@ mod error;
 mod evaluation;
 mod judge;
 mod meta;
+mod past;
 mod record;
 mod store;
 mod trade_off;
@@ -71,6 +72,7 @@ pub use self::{
     evaluation::{CaseJudge, Evaluation, evaluate},
     judge::{Answered, CaseResult, Found, Judgement, Truth, found_in},
     meta::{CaseAbout, CaseMeta, Edge, SCHEMA_VERSION, SceneRecord, TruePose},
+    past::{PastCases, TruthFrom},
     record::{
         CaseRecord, EarlierRun, EvaluationRecord, PoseErrors, PoseOff, RECORD_SCHEMA, RecordError,
     },

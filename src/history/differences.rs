@@ -1,0 +1,161 @@
+//! What changed between an inspection and the same scene inspected again.
+
+use nalgebra::Point3;
+
+use super::entry::{PastVerdict, Record};
+use crate::{
+    geometry::rigid::{PoseError, RigidTransform, pose_error},
+    pipeline::{Inspection, Verdict},
+    stages::pose::PoseEstimate,
+};
+
+/// What an inspection found, as far as it is compared.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Finding {
+    /// How it ended.
+    pub verdict: PastVerdict,
+    /// The best guess.
+    pub nearest: Option<String>,
+    /// Its score and its lead.
+    pub score: Option<[f64; 2]>,
+    /// The pose, if there is one.
+    pub camera_from_part: Option<RigidTransform>,
+    /// Tells recipes apart.
+    pub recipe: String,
+    /// Tells libraries apart.
+    pub library: String,
+    /// Version of the program.
+    pub program: String,
+}
+
+impl Finding {
+    /// Of an inspection of now, with this recipe and library.
+    pub fn of(inspection: &Inspection, recipe: &str, library: &str) -> Self {
+        let (nearest, score) = match &inspection.verdict {
+            Verdict::Part {
+                part,
+                score,
+                margin,
+                ..
+            } => (Some(part.clone()), Some([*score, *margin])),
+            Verdict::NoPart(_) => (None, None),
+        };
+        let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+        Self {
+            verdict: PastVerdict::from(&inspection.verdict),
+            nearest,
+            score,
+            camera_from_part: pose.map(PoseEstimate::camera_from_part),
+            recipe: recipe.to_owned(),
+            library: library.to_owned(),
+            program: env!("CARGO_PKG_VERSION").to_owned(),
+        }
+    }
+}
+
+impl From<&Record> for Finding {
+    fn from(Record { summary, detail }: &Record) -> Self {
+        Self {
+            verdict: summary.verdict,
+            nearest: detail.nearest.clone(),
+            score: summary.score,
+            camera_from_part: detail.camera_from_part,
+            recipe: detail.recipe_identity.clone(),
+            library: detail.library_identity.clone(),
+            program: detail.program.clone(),
+        }
+    }
+}
+
+/// An inspection and the same scene inspected again.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Differences {
+    /// What was found then.
+    pub before: Finding,
+    /// What is found now.
+    pub now: Finding,
+    /// How far the pose is from where it was, if both have one of the same part: at the part's middle.
+    pub pose: Option<PoseError>,
+}
+
+/// Two scores nearer than this read the same.
+const SAME_SCORE: f64 = 5e-4;
+/// Two poses nearer than this, metres and radians, read the same.
+const SAME_POSE: f64 = 1e-6;
+
+impl Differences {
+    /// Of what was found then and now; `middle` is the middle of the part's extent, part space, metres.
+    pub fn between(before: Finding, now: Finding, middle: Option<Point3<f64>>) -> Self {
+        let both = before.camera_from_part.zip(now.camera_from_part);
+        let both = both.filter(|_| before.nearest == now.nearest);
+        let middle = middle.unwrap_or_else(Point3::origin);
+        let pose = both.map(|(before, now)| pose_error(&now, &before, &middle));
+        Self { before, now, pose }
+    }
+
+    /// True if nothing reads otherwise: verdict, best guess, score and pose.
+    pub fn is_same(&self) -> bool {
+        let Self { before, now, pose } = self;
+        let score = |finding: &Finding| finding.score.map_or(f64::NAN, |[score, _]| score);
+        let has_score = (before.score.is_none() && now.score.is_none())
+            || (score(before) - score(now)).abs() < SAME_SCORE;
+        let has_pose = match pose {
+            Some(off) => off.shift.0 < SAME_POSE && off.rotation.0 < SAME_POSE,
+            None => before.camera_from_part.is_none() && now.camera_from_part.is_none(),
+        };
+        before.verdict == now.verdict && before.nearest == now.nearest && has_score && has_pose
+    }
+
+    /// What else is not as it was, in words; empty if recipe, library and program are the same.
+    pub fn causes(&self) -> Vec<&'static str> {
+        let Self { before, now, .. } = self;
+        [
+            (before.recipe != now.recipe, "recipe"),
+            (before.library != now.library, "library"),
+            (before.program != now.program, "program"),
+        ]
+        .into_iter()
+        .filter_map(|(changed, what)| changed.then_some(what))
+        .collect()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::rigid::from_euler_zyx;
+
+    fn finding(shift: f64) -> Finding {
+        Finding {
+            verdict: PastVerdict::Accepted,
+            nearest: Some("fender".into()),
+            score: Some([0.97, 0.4]),
+            camera_from_part: Some(from_euler_zyx([0.0, 0.0, 0.0, shift, 0.0, 1.4])),
+            recipe: "a".into(),
+            library: "b".into(),
+            program: "0.1.0".into(),
+        }
+    }
+
+    #[test]
+    fn a_pose_that_moved_says_by_how_much() {
+        let same = Differences::between(finding(0.0), finding(0.0), None);
+        assert!(same.is_same() && same.causes().is_empty());
+        let moved = Differences::between(finding(0.0), finding(0.003), None);
+        assert!(!moved.is_same());
+        let off = moved.pose.expect("both have one");
+        assert!((off.shift.0 - 0.003).abs() < 1e-12 && off.rotation.0 < 1e-9);
+    }
+
+    #[test]
+    fn poses_of_two_parts_are_not_compared_and_causes_are_named() {
+        let other = Finding {
+            nearest: Some("grille".into()),
+            library: "c".into(),
+            ..finding(0.0)
+        };
+        let found = Differences::between(finding(0.0), other, None);
+        assert_eq!((found.pose, found.is_same()), (None, false));
+        assert_eq!(found.causes(), ["library"]);
+    }
+}

@@ -1,0 +1,397 @@
+//! The frames that are kept beside the file: each as its camera gave it, so that the same recipe finds the same again.
+//!
+//! A depth image is a 16-bit PNG with its camera in the folder's `intrinsics.json`, as in recordings; whatever is none
+//! (bare points, depth averaged over frames) is a PCD. The row in the file says which, how large, with which checksum,
+//! and what the picture alone does not tell. What the empty cell looked like is kept once for all frames before it.
+
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+    sync::{
+        Arc,
+        atomic::{AtomicU32, Ordering},
+    },
+};
+
+use jiff::Timestamp;
+use nalgebra::Point3;
+use serde::{Deserialize, Serialize};
+
+use super::error::HistoryError;
+use crate::{
+    capture::{DepthFrame, Intrinsics},
+    files::{
+        DepthCamera, Opened, crc32,
+        depth_png::{FOLDER_CAMERA, read_depths, write_camera, write_depths},
+        open_bytes, read_bytes, write_atomically, write_pcd,
+    },
+    geometry::cloud::{Grid, PointCloud},
+    stages::{
+        scene::{PictureEdge, SceneCloud, scene_from_frame},
+        segment::EmptyCell,
+    },
+};
+
+/// What is written down of a kept frame.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct FrameRecord {
+    /// Its file in the folder of frames.
+    pub file: String,
+    /// Size of the file.
+    pub bytes: u64,
+    /// CRC-32 (IEEE 802.3) of the file.
+    pub crc32: u32,
+    /// What the edge of the picture is.
+    pub edge: PictureEdge,
+    /// The camera, if a pinhole camera explains the scene.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub camera: Option<Intrinsics>,
+    /// Of a depth image: metres that one unit stands for.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub metres_per_unit: Option<f64>,
+    /// The file of the empty cell, if one was known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub empty_cell: Option<String>,
+}
+
+/// Units that depth cameras count in, metres.
+const UNITS: [f64; 5] = [0.001, 0.0002, 0.0001, 0.00025, 0.000_125];
+
+/// Counts this program's frames, so that two of one moment have two names.
+static COUNT: AtomicU32 = AtomicU32::new(0);
+
+/// Writes a scene into the folder of frames; `None` for one without a single reading.
+pub(super) fn write(
+    folder: &Path,
+    scene: &SceneCloud,
+    at: Timestamp,
+) -> Result<Option<FrameRecord>, HistoryError> {
+    if scene.cloud.finite().next().is_none() {
+        return Ok(None);
+    }
+    fs::create_dir_all(folder).map_err(|error| HistoryError::io(folder, error))?;
+    let number = COUNT.fetch_add(1, Ordering::Relaxed);
+    let stem = format!(
+        "{}-{}-{number}",
+        at.strftime("%Y%m%dT%H%M%S%3f"),
+        std::process::id()
+    );
+    let depth = as_depth(scene);
+    let ending = if depth.is_some() { "png" } else { "pcd" };
+    let file = format!("{stem}.{ending}");
+    let path = folder.join(&file);
+    let mut content = Vec::new();
+    let packed = match &depth {
+        Some(frame) => {
+            write_its_camera(&path, &DepthCamera::of(frame))?;
+            write_depths(&mut content, frame)
+        }
+        None => write_pcd(&mut content, &scene.cloud),
+    };
+    packed.map_err(|error| HistoryError::io(&path, error))?;
+    write_atomically(&path, |writer| writer.write_all(&content))?;
+    let empty_cell = scene.empty_cell.as_deref();
+    Ok(Some(FrameRecord {
+        file,
+        bytes: content.len() as u64,
+        crc32: crc32(&content),
+        edge: scene.edge,
+        camera: scene.intrinsics,
+        metres_per_unit: depth.map(|frame| frame.metres_per_unit),
+        empty_cell: empty_cell
+            .map(|cell| write_cell(folder, cell))
+            .transpose()?,
+    }))
+}
+
+/// The first camera is that of the folder; a frame of another has its own beside it. For people and other programs: the
+/// row holds it too.
+fn write_its_camera(path: &Path, camera: &DepthCamera) -> Result<(), HistoryError> {
+    let shared = path.with_file_name(FOLDER_CAMERA);
+    match DepthCamera::read(&shared) {
+        Ok(known) if known == *camera => {}
+        Ok(_) => write_camera(&path.with_extension("json"), camera)?,
+        Err(_) => write_camera(&shared, camera)?,
+    }
+    Ok(())
+}
+
+/// The depth image that a scene was made of, if it gives the very same points again.
+fn as_depth(scene: &SceneCloud) -> Option<DepthFrame> {
+    let intrinsics = scene.intrinsics?;
+    let Grid { width, height } = scene.cloud.grid?;
+    let is_bare = scene.cloud.colours.is_none()
+        && scene.cloud.normals.is_none()
+        && scene.cloud.labels.is_none();
+    if !is_bare || scene.edge != PictureEdge::View {
+        return None;
+    }
+    if (intrinsics.width, intrinsics.height) != (width, height) {
+        return None;
+    }
+    let points = &scene.cloud.points;
+    UNITS.into_iter().find_map(|metres_per_unit| {
+        let depths = points.iter().map(|p| units_of(p, metres_per_unit));
+        let frame = DepthFrame {
+            intrinsics,
+            metres_per_unit,
+            depth: depths.collect::<Option<_>>()?,
+        };
+        let again = scene_from_frame(&frame).cloud.points;
+        let same = points.iter().zip(&again).all(|(a, b)| is_same(a, b));
+        same.then_some(frame)
+    })
+}
+
+/// A point's depth in whole units, 0 without a reading; `None` if it is not a whole number of them.
+fn units_of(point: &Point3<f32>, metres_per_unit: f64) -> Option<u16> {
+    if point.z.is_nan() {
+        return Some(0);
+    }
+    let units = (f64::from(point.z) / metres_per_unit).round();
+    let is_kept = (1.0..=f64::from(u16::MAX)).contains(&units)
+        && (units as f32 * metres_per_unit as f32).to_bits() == point.z.to_bits();
+    is_kept.then_some(units as u16)
+}
+
+fn is_same(a: &Point3<f32>, b: &Point3<f32>) -> bool {
+    let bits = |p: &Point3<f32>| [p.x, p.y, p.z].map(f32::to_bits);
+    bits(a) == bits(b) || [a, b].iter().all(|p| p.iter().all(|x| x.is_nan()))
+}
+
+/// Where the empty cell lies; written once for as many frames as there are.
+fn write_cell(folder: &Path, cell: &EmptyCell) -> Result<String, HistoryError> {
+    let (grid, depths) = cell.depths();
+    let cloud = PointCloud {
+        points: depths.iter().map(|z| cell_point(*z)).collect(),
+        grid: Some(grid),
+        ..PointCloud::default()
+    };
+    let mut content = Vec::new();
+    write_pcd(&mut content, &cloud).map_err(|error| HistoryError::io(folder, error))?;
+    let file = format!("empty-cell-{:08x}.pcd", crc32(&content));
+    let path = folder.join(&file);
+    // Its name is its checksum.
+    let is_there = fs::metadata(&path).is_ok_and(|found| found.len() == content.len() as u64);
+    if !is_there {
+        write_atomically(&path, |writer| writer.write_all(&content))?;
+    }
+    Ok(file)
+}
+
+/// A depth of the empty cell as a point: nothing that is known of a pixel is no reading.
+fn cell_point(z: f32) -> Point3<f32> {
+    if z.is_finite() {
+        Point3::new(0.0, 0.0, z)
+    } else {
+        Point3::new(f32::NAN, f32::NAN, f32::NAN)
+    }
+}
+
+/// The scene of a kept frame, as it was inspected.
+pub fn read(folder: &Path, frame: &FrameRecord) -> Result<SceneCloud, HistoryError> {
+    let path = folder.join(&frame.file);
+    let damaged = |what: &str| HistoryError::FrameDamaged {
+        path: path.clone(),
+        what: what.to_owned(),
+    };
+    let bytes = read_bytes(&path)?;
+    if crc32(&bytes) != frame.crc32 {
+        return Err(damaged("it does not have its checksum"));
+    }
+    let mut scene = match (frame.metres_per_unit, frame.camera) {
+        (Some(metres_per_unit), Some(intrinsics)) => {
+            let (size, depth) = read_depths(&path, &bytes)?;
+            let camera = DepthCamera {
+                intrinsics,
+                metres_per_unit,
+            };
+            let camera = camera.checked().map_err(|what| damaged(&what))?;
+            scene_from_frame(&camera.frame(size, depth).map_err(|what| damaged(&what))?)
+        }
+        (None, intrinsics) => SceneCloud {
+            cloud: cloud_of(&path, &bytes)?,
+            intrinsics,
+            ..SceneCloud::default()
+        },
+        (Some(_), None) => return Err(damaged("its camera is missing")),
+    };
+    scene.edge = frame.edge;
+    if let Some(file) = &frame.empty_cell {
+        scene.empty_cell = Some(Arc::new(read_cell(&folder.join(file))?));
+    }
+    Ok(scene)
+}
+
+fn cloud_of(path: &Path, bytes: &[u8]) -> Result<PointCloud, HistoryError> {
+    match open_bytes(path, bytes)? {
+        Opened::Cloud(cloud) => Ok(cloud),
+        _ => Err(HistoryError::FrameDamaged {
+            path: path.to_owned(),
+            what: "it holds no cloud".into(),
+        }),
+    }
+}
+
+fn read_cell(path: &Path) -> Result<EmptyCell, HistoryError> {
+    let cloud = cloud_of(path, &read_bytes(path)?)?;
+    let known = |z: f32| if z.is_finite() { z } else { f32::INFINITY };
+    let depths = cloud.points.iter().map(|p| known(p.z)).collect();
+    let cell = cloud
+        .grid
+        .and_then(|grid| EmptyCell::from_depths(grid, depths));
+    cell.ok_or_else(|| HistoryError::FrameDamaged {
+        path: path.to_owned(),
+        what: "the empty cell has no rows and columns".into(),
+    })
+}
+
+/// Removes the files of the folder that nothing speaks of, whatever left them; answers with their number. Only while
+/// nobody else writes: a frame is there before its row is.
+pub(super) fn remove_strays(folder: &Path, is_known: &dyn Fn(&str) -> bool) -> io::Result<usize> {
+    let entries = match fs::read_dir(folder) {
+        Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(0),
+        entries => entries?,
+    };
+    let mut num_removed = 0;
+    for entry in entries {
+        let entry = entry?;
+        let name = entry.file_name().to_string_lossy().into_owned();
+        let owner = name.strip_suffix(".json").map(|stem| format!("{stem}.png"));
+        let stays = name == FOLDER_CAMERA || is_known(owner.as_deref().unwrap_or(&name));
+        if !stays && is_ours(&name) {
+            remove(&entry.path())?;
+            num_removed += 1;
+        }
+    }
+    Ok(num_removed)
+}
+
+/// True for the names that frames have, and what is being written: a stranger's file is left alone.
+fn is_ours(name: &str) -> bool {
+    let (stem, ending) = name.rsplit_once('.').unwrap_or((name, ""));
+    let is_frame = stem.split('-').count() == 3
+        && stem.starts_with(|first: char| first.is_ascii_digit())
+        && matches!(ending, "png" | "pcd" | "json");
+    is_frame
+        || (stem.starts_with("empty-cell-") && ending == "pcd")
+        || (name.starts_with(".partsight-") && ending == "part")
+}
+
+/// Removes a file that may be gone already.
+pub(super) fn remove(path: &Path) -> io::Result<()> {
+    match fs::remove_file(path) {
+        Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
+        _ => Ok(()),
+    }
+}
+
+/// A frame's files: itself, and its camera where it has its own.
+pub(super) fn files_of(folder: &Path, file: &str) -> [PathBuf; 2] {
+    let path = folder.join(file);
+    [path.with_extension("json"), path]
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        simulate::{CellSetup, PartKind, Side, frame},
+        stages::scene::scene_from_cloud,
+    };
+
+    fn captured() -> SceneCloud {
+        let setup = CellSetup::with_part(PartKind::Grille, Side::Left, 0, 3);
+        scene_from_frame(&frame(&setup).frame)
+    }
+
+    fn ending(record: &FrameRecord) -> Option<&str> {
+        Path::new(&record.file).extension()?.to_str()
+    }
+
+    fn assert_same(a: &SceneCloud, b: &SceneCloud) {
+        let both = a.cloud.points.iter().zip(&b.cloud.points);
+        assert!(both.clone().count() == a.cloud.points.len());
+        assert!(both.into_iter().all(|(a, b)| is_same(a, b)));
+        assert_eq!(a.cloud.grid, b.cloud.grid);
+        assert_eq!((a.intrinsics, a.edge), (b.intrinsics, b.edge));
+        assert!(a.empty_cell == b.empty_cell, "another empty cell");
+    }
+
+    #[test]
+    fn a_depth_image_comes_back_to_the_bit_and_other_programs_can_open_it() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut scene = captured();
+        scene.empty_cell = Some(Arc::new(EmptyCell::of(&scene).expect("a picture")));
+        let at = Timestamp::UNIX_EPOCH;
+        let record = write(folder.path(), &scene, at).expect("written");
+        let record = record.expect("kept");
+        assert_eq!(ending(&record), Some("png"));
+        assert_same(&scene, &read(folder.path(), &record).expect("read"));
+        let opened = crate::files::open(&folder.path().join(&record.file)).expect("opened");
+        assert!(matches!(opened, Opened::Depth(_)));
+    }
+
+    #[test]
+    fn what_is_no_depth_image_is_kept_as_a_cloud_to_the_bit() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut averaged = captured();
+        for point in &mut averaged.cloud.points {
+            *point *= 1.000_1;
+        }
+        let bare = captured()
+            .cloud
+            .finite()
+            .map(|(_, p)| *p)
+            .collect::<Vec<_>>();
+        let bare = scene_from_cloud(PointCloud::from_points(bare));
+        for scene in [averaged, bare] {
+            let record = write(folder.path(), &scene, Timestamp::UNIX_EPOCH).expect("written");
+            let record = record.expect("kept");
+            assert_eq!(ending(&record), Some("pcd"));
+            assert_same(&scene, &read(folder.path(), &record).expect("read"));
+        }
+    }
+
+    #[test]
+    fn a_frame_that_was_changed_is_refused_in_words() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let record = write(folder.path(), &captured(), Timestamp::UNIX_EPOCH).expect("written");
+        let record = record.expect("kept");
+        let path = folder.path().join(&record.file);
+        let mut bytes = fs::read(&path).expect("there");
+        let middle = bytes.len() / 2;
+        bytes[middle] ^= 1;
+        fs::write(&path, bytes).expect("written");
+        let refused = read(folder.path(), &record).expect_err("refused");
+        assert!(refused.to_string().contains("checksum"), "{refused}");
+        fs::remove_file(&path).expect("removed");
+        read(folder.path(), &record).expect_err("gone");
+    }
+
+    #[test]
+    fn nothing_is_kept_of_a_covered_camera() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let scene = SceneCloud::default();
+        let kept = write(folder.path(), &scene, Timestamp::UNIX_EPOCH).expect("nothing to do");
+        assert_eq!(kept, None);
+    }
+
+    #[test]
+    fn strays_go_and_strangers_stay() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let record = write(folder.path(), &captured(), Timestamp::UNIX_EPOCH).expect("written");
+        let kept = record.expect("kept").file;
+        for stray in [
+            "20260101T000000000-7-1.png",
+            ".partsight-xyz.part",
+            "note.txt",
+        ] {
+            fs::write(folder.path().join(stray), "x").expect("written");
+        }
+        let num = remove_strays(folder.path(), &|name| name == kept).expect("looked");
+        assert_eq!(num, 2);
+        assert!(folder.path().join("note.txt").exists() && folder.path().join(kept).exists());
+        assert!(folder.path().join(FOLDER_CAMERA).exists());
+    }
+}

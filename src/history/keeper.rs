@@ -1,0 +1,396 @@
+//! The history as a program uses it: what cannot be written waits in memory, and is written when that works again.
+//!
+//! Nothing here holds up an inspection: [`Writer`](super::Writer) does all of this on a thread of its own. Readers ask
+//! the keeper too, and see what waits above what is written.
+
+use std::{
+    collections::VecDeque,
+    path::{Path, PathBuf},
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+    time::{Duration, Instant},
+};
+
+use jiff::Timestamp;
+
+use super::{
+    entry::{NewEntry, Record, png_of},
+    error::HistoryError,
+    filter::Filter,
+    news::HistoryNews,
+    open::OpenedHistory,
+    retention::{Retention, Swept, Usage},
+    store::{History, Page},
+};
+use crate::{error::Advice as _, library::Truth, stages::scene::SceneCloud};
+
+/// Inspections that wait at most; the oldest go first.
+const MAX_WAITING: usize = 2000;
+/// Of so many of those the scene waits too: 4 MB each.
+const MAX_SCENES: usize = 4;
+/// After a failure it is tried again this much later.
+const PAUSE: Duration = Duration::from_secs(20);
+/// Frames are swept away at the beginning and after so many inspections.
+const SWEEP_EVERY: u32 = 25;
+
+/// The history of one program; shared by whoever writes and whoever reads. The default has no folder.
+#[derive(Debug, Default)]
+pub struct Keeper {
+    place: Option<PathBuf>,
+    inner: Mutex<Inner>,
+    /// Apart from the rest: who looks for news never waits for the disk.
+    news: Mutex<Vec<HistoryNews>>,
+}
+
+#[derive(Debug, Default)]
+struct Inner {
+    history: Option<History>,
+    retention: Retention,
+    /// The oldest first.
+    waiting: VecDeque<NewEntry>,
+    /// The number of the row listed last, waiting or not.
+    last: i64,
+    num_lost: usize,
+    /// Since it failed: when it is tried again.
+    next_try: Option<Instant>,
+    num_unswept: u32,
+}
+
+impl Keeper {
+    /// Keeps the history in this folder; without one in memory alone. Opens nothing yet.
+    pub fn new(place: Option<PathBuf>) -> Self {
+        Self {
+            place,
+            inner: Mutex::default(),
+            news: Mutex::default(),
+        }
+    }
+
+    /// How many inspections are not written.
+    pub fn num_waiting(&self) -> usize {
+        self.lock().waiting.len()
+    }
+
+    /// The folder, if it is kept in one.
+    pub fn place(&self) -> Option<&Path> {
+        self.place.as_deref()
+    }
+
+    /// What happened since this was asked last. Never waits for the disk.
+    pub fn take_news(&self) -> Vec<HistoryNews> {
+        let mut news = self.news.lock().unwrap_or_else(PoisonError::into_inner);
+        std::mem::take(&mut *news)
+    }
+
+    fn tell(&self, news: HistoryNews) {
+        let mut all = self.news.lock().unwrap_or_else(PoisonError::into_inner);
+        all.push(news);
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Inner> {
+        // A panic while writing leaves at most a transaction that was not committed.
+        self.inner.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+
+    /// Opens it, if nobody has yet, and sweeps away what is not kept any longer.
+    pub fn open(&self, now: Instant) {
+        let mut inner = self.lock();
+        if let Err(error) = self.ensure(&mut inner) {
+            self.failed(&mut inner, &error, now);
+        }
+    }
+
+    /// When a failed writing is to be tried again.
+    pub fn next_try(&self) -> Option<Instant> {
+        self.lock().next_try
+    }
+
+    /// Tries again what failed, if it is time.
+    pub fn retry(&self, now: Instant) {
+        let mut inner = self.lock();
+        if inner.next_try.is_some_and(|at| at <= now) {
+            self.write_waiting(&mut inner, now);
+        }
+    }
+
+    /// Takes an inspection in: into the file, or among those that wait.
+    pub fn add(&self, ticket: u64, entry: NewEntry, now: Instant) {
+        let mut inner = self.lock();
+        inner.last += 1;
+        let number = -inner.last;
+        inner.wait(entry, number);
+        if self.place.is_some() && inner.next_try.is_none_or(|at| at <= now) {
+            let numbers = self.write_waiting(&mut inner, now);
+            if let Some((_, written)) = numbers.iter().find(|(waited, _)| *waited == number) {
+                let number = *written;
+                self.tell(HistoryNews::Added { ticket, number });
+                return;
+            }
+        }
+        self.tell(HistoryNews::Added { ticket, number });
+    }
+
+    /// Writes down what a person remarks.
+    pub fn set_remark(&self, number: i64, remark: &str) {
+        let mut inner = self.lock();
+        if let Some(row) = inner.waiting_mut(number) {
+            remark.trim().clone_into(&mut row.record.summary.remark);
+            return self.tell(HistoryNews::Changed { number });
+        }
+        let changed = inner.change(number, |history| history.set_remark(number, remark));
+        self.tell_changed(number, changed);
+    }
+
+    /// Writes down what it truly is, or that nobody knows.
+    pub fn set_label(&self, number: i64, label: Option<&Truth>) {
+        let mut inner = self.lock();
+        if let Some(row) = inner.waiting_mut(number) {
+            row.record.summary.label = label.cloned();
+            return self.tell(HistoryNews::Changed { number });
+        }
+        let changed = inner.change(number, |history| history.set_label(number, label));
+        self.tell_changed(number, changed);
+    }
+
+    fn tell_changed(&self, number: i64, changed: Result<(), HistoryError>) {
+        self.tell(match changed {
+            Ok(()) => HistoryNews::Changed { number },
+            Err(error) => HistoryNews::NotChanged {
+                what: error.to_string(),
+                advice: error.advice(),
+            },
+        });
+    }
+
+    /// Keeps frames by this rule from now on, and takes away at once what it does not keep.
+    pub fn set_retention(&self, retention: Retention) {
+        let mut inner = self.lock();
+        inner.retention = retention.sensible();
+        if let Some(history) = &mut inner.history
+            && let Err(error) = history.set_retention(&retention)
+        {
+            return self.tell(HistoryNews::NotChanged {
+                what: error.to_string(),
+                advice: error.advice(),
+            });
+        }
+        self.sweep(&mut inner);
+        self.tell(HistoryNews::RuleChanged);
+    }
+
+    /// The rule by which frames are kept, and how much is.
+    pub fn kept(&self) -> Result<(Retention, Usage), HistoryError> {
+        let inner = self.lock();
+        let history = inner.history.as_ref();
+        let usage = history.map_or_else(|| Ok(Usage::default()), History::usage)?;
+        Ok((inner.retention, usage))
+    }
+
+    /// The folder of the kept frames, if there is one.
+    pub fn frames_folder(&self) -> Option<PathBuf> {
+        let inner = self.lock();
+        let history = inner.history.as_ref();
+        history.map(|history| history.frames_folder().to_owned())
+    }
+
+    /// Rows of the list: what waits comes above what is written.
+    pub fn page(&self, filter: &Filter, offset: usize, most: usize) -> Result<Page, HistoryError> {
+        let mut inner = self.lock();
+        self.look(&mut inner);
+        let waiting = inner.waiting.iter().rev();
+        let waiting = waiting.map(|entry| &entry.record.summary);
+        let matching: Vec<_> = waiting.filter(|row| filter.passes(row)).collect();
+        let (num_waiting, num_above) = (inner.waiting.len(), matching.len());
+        let above = matching.into_iter().skip(offset).take(most).cloned();
+        let mut rows: Vec<_> = above.collect();
+        let below = match &inner.history {
+            Some(history) => {
+                let offset = offset.saturating_sub(num_above);
+                history.page(filter, offset, most - rows.len())?
+            }
+            None => Page::default(),
+        };
+        rows.extend(below.rows);
+        Ok(Page {
+            rows,
+            num_matching: num_above + below.num_matching,
+            num_all: num_waiting + below.num_all,
+        })
+    }
+
+    /// An inspection in full.
+    pub fn row(&self, number: i64) -> Result<Option<Record>, HistoryError> {
+        let mut inner = self.lock();
+        self.look(&mut inner);
+        if let Some(entry) = inner.waiting_mut(number) {
+            let mut record = entry.record.clone();
+            record.detail.thumbnail = entry.picture.as_ref().map_or_else(Vec::new, png_of);
+            return Ok(Some(record));
+        }
+        match &inner.history {
+            Some(history) => history.row(number),
+            None => Ok(None),
+        }
+    }
+
+    /// The scene of an inspection, if its frame is kept.
+    pub fn scene(&self, number: i64) -> Result<Option<Arc<SceneCloud>>, HistoryError> {
+        let mut inner = self.lock();
+        if let Some(entry) = inner.waiting_mut(number) {
+            return Ok(entry.scene.clone());
+        }
+        let Some(history) = &inner.history else {
+            return Ok(None);
+        };
+        let record = history.known(number)?;
+        Ok(history.scene(&record)?.map(Arc::new))
+    }
+
+    /// Goes through all rows that the filter lets through, the oldest first: those that are written, then those that
+    /// wait.
+    pub fn each(
+        &self,
+        filter: &Filter,
+        mut each: impl FnMut(Record) -> Result<(), HistoryError>,
+    ) -> Result<(), HistoryError> {
+        let inner = self.lock();
+        if let Some(history) = &inner.history {
+            history.each(filter, &mut each)?;
+        }
+        let waiting = inner.waiting.iter().map(|entry| &entry.record);
+        for record in waiting.filter(|record| filter.passes(&record.summary)) {
+            each(record.clone())?;
+        }
+        Ok(())
+    }
+
+    /// Opens it to be read, if nobody has yet.
+    fn look(&self, inner: &mut Inner) {
+        if inner.next_try.is_none()
+            && let Err(error) = self.ensure(inner)
+        {
+            self.failed(inner, &error, Instant::now());
+        }
+    }
+
+    fn ensure(&self, inner: &mut Inner) -> Result<(), HistoryError> {
+        let (Some(place), None) = (&self.place, &inner.history) else {
+            return Ok(());
+        };
+        let OpenedHistory { history, set_aside } = History::open(place)?;
+        if let Some(set_aside) = set_aside {
+            self.tell(HistoryNews::SetAside(set_aside));
+        }
+        inner.retention = history.retention()?;
+        inner.history = Some(history);
+        self.sweep(inner);
+        Ok(())
+    }
+
+    fn sweep(&self, inner: &mut Inner) {
+        inner.num_unswept = 0;
+        let retention = inner.retention;
+        let Some(history) = &mut inner.history else {
+            return;
+        };
+        // What cannot be swept away now is tried again; what can be written matters more.
+        if let Ok(swept) = history.sweep(&retention, Timestamp::now())
+            && swept != Swept::default()
+        {
+            self.tell(HistoryNews::Swept(swept));
+        }
+    }
+
+    /// Writes all that waits, the oldest first; the numbers before and now.
+    fn write_waiting(&self, inner: &mut Inner, now: Instant) -> Vec<(i64, i64)> {
+        let has_failed = inner.next_try.is_some();
+        let mut numbers = Vec::new();
+        while let Some(entry) = inner.waiting.pop_front() {
+            match self.write(inner, &entry) {
+                Ok(number) => {
+                    numbers.push((entry.record.summary.number, number));
+                    inner.last = number;
+                }
+                Err(error) => {
+                    inner.waiting.push_front(entry);
+                    self.failed(inner, &error, now);
+                    break;
+                }
+            }
+        }
+        if has_failed && inner.waiting.is_empty() {
+            inner.next_try = None;
+            self.tell(HistoryNews::Works {
+                numbers: numbers.clone(),
+                num_lost: std::mem::take(&mut inner.num_lost),
+            });
+        }
+        numbers
+    }
+
+    fn write(&self, inner: &mut Inner, entry: &NewEntry) -> Result<i64, HistoryError> {
+        for is_last in [false, true] {
+            self.ensure(inner)?;
+            let retention = inner.retention;
+            let Some(history) = &mut inner.history else {
+                break;
+            };
+            match history.add(entry, &retention) {
+                // Opened again it is looked through, and set aside if that shows it too.
+                Err(HistoryError::Damaged { .. }) if !is_last => inner.history = None,
+                written => {
+                    inner.num_unswept += 1;
+                    if inner.num_unswept >= SWEEP_EVERY {
+                        self.sweep(inner);
+                    }
+                    return written;
+                }
+            }
+        }
+        Err(HistoryError::NoUserFolder)
+    }
+
+    /// Says so once, until it works again.
+    fn failed(&self, inner: &mut Inner, error: &HistoryError, now: Instant) {
+        if inner.next_try.is_none() {
+            self.tell(HistoryNews::Failed {
+                what: error.to_string(),
+                advice: error.advice(),
+            });
+        }
+        inner.next_try = Some(now + PAUSE);
+    }
+}
+
+impl Inner {
+    fn wait(&mut self, mut entry: NewEntry, number: i64) {
+        entry.record.summary.number = number;
+        self.waiting.push_back(entry);
+        if self.waiting.len() > MAX_WAITING {
+            self.waiting.pop_front();
+            self.num_lost += 1;
+        }
+        let old = self.waiting.len().saturating_sub(MAX_SCENES);
+        if let Some(entry) = old.checked_sub(1).and_then(|i| self.waiting.get_mut(i)) {
+            entry.scene = None;
+        }
+    }
+
+    fn waiting_mut(&mut self, number: i64) -> Option<&mut NewEntry> {
+        let mut waiting = self.waiting.iter_mut();
+        waiting.find(|entry| entry.record.summary.number == number)
+    }
+
+    fn change(
+        &mut self,
+        number: i64,
+        change: impl FnOnce(&mut History) -> Result<(), HistoryError>,
+    ) -> Result<(), HistoryError> {
+        match &mut self.history {
+            Some(history) => change(history),
+            None => Err(HistoryError::NoSuchInspection { number }),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,179 @@
+//! What waits in memory while the disk says no.
+
+use std::fs;
+
+use super::*;
+use crate::history::{
+    PastVerdict,
+    fixtures::{entry, moment, scene},
+    open::FILE,
+};
+
+fn numbers(keeper: &Keeper) -> Vec<i64> {
+    let page = keeper.page(&Filter::default(), 0, 10_000).expect("asked");
+    assert_eq!(
+        (page.num_matching, page.num_all),
+        (page.rows.len(), page.rows.len())
+    );
+    page.rows.iter().map(|row| row.number).collect()
+}
+
+fn failures(news: &[HistoryNews]) -> usize {
+    let is_failure = |news: &&HistoryNews| matches!(news, HistoryNews::Failed { .. });
+    news.iter().filter(is_failure).count()
+}
+
+fn not_accepted(seconds: i64) -> NewEntry {
+    entry(seconds, PastVerdict::NotAccepted, "fender")
+}
+
+#[test]
+fn without_a_folder_everything_is_kept_in_memory_and_nothing_is_wrong() {
+    let keeper = Keeper::new(None);
+    let now = Instant::now();
+    keeper.open(now);
+    for seconds in 1..=6 {
+        keeper.add(seconds as u64, not_accepted(seconds), now);
+    }
+    assert_eq!(numbers(&keeper), [-6, -5, -4, -3, -2, -1]);
+    let news = keeper.take_news();
+    assert_eq!(news.len(), 6);
+    assert_eq!(
+        news[2],
+        HistoryNews::Added {
+            ticket: 3,
+            number: -3
+        }
+    );
+    keeper.set_remark(-2, "a dent");
+    let filter = Filter {
+        text: "DENT".into(),
+        ..Filter::default()
+    };
+    assert_eq!(
+        keeper.page(&filter, 0, 10).expect("asked").rows[0].number,
+        -2
+    );
+    // The scenes of the newest wait too.
+    assert_eq!(keeper.scene(-6).expect("asked"), Some(scene(6)));
+    assert_eq!(keeper.scene(-1).expect("asked"), None);
+    assert!(
+        !keeper
+            .row(-6)
+            .expect("asked")
+            .expect("there")
+            .detail
+            .thumbnail
+            .is_empty()
+    );
+    assert_eq!(keeper.next_try(), None);
+}
+
+#[test]
+fn a_folder_that_cannot_be_made_is_said_once_and_what_waited_is_written_later() {
+    let home = tempfile::tempdir().expect("a folder");
+    let place = home.path().join("taken").join("partsight");
+    fs::write(home.path().join("taken"), "a file").expect("written");
+    let keeper = Keeper::new(Some(place.clone()));
+    let begun = Instant::now();
+    keeper.open(begun);
+    for seconds in 1..=3 {
+        keeper.add(seconds as u64, not_accepted(seconds), begun);
+    }
+    let later = begun + PAUSE;
+    keeper.retry(begun + PAUSE / 2);
+    keeper.add(4, not_accepted(4), later);
+    let news = keeper.take_news();
+    assert_eq!(failures(&news), 1, "{news:?}");
+    assert_eq!(numbers(&keeper), [-4, -3, -2, -1]);
+    keeper.set_label(-3, Some(&Truth::NotEnrolled));
+
+    fs::remove_file(home.path().join("taken")).expect("removed");
+    keeper.retry(later + PAUSE / 2);
+    assert_eq!(keeper.take_news().len(), 1, "too early: but for the label");
+    keeper.retry(later + PAUSE);
+    assert_eq!(
+        keeper.take_news(),
+        [HistoryNews::Works {
+            numbers: vec![(-1, 1), (-2, 2), (-3, 3), (-4, 4)],
+            num_lost: 0,
+        }]
+    );
+    assert_eq!(numbers(&keeper), [4, 3, 2, 1]);
+    let third = keeper.row(3).expect("asked").expect("there");
+    assert_eq!(third.summary.label, Some(Truth::NotEnrolled));
+    assert_eq!(third.summary.at, moment(3));
+    assert!(keeper.scene(4).expect("asked").is_some());
+    drop(keeper);
+    assert!(place.join(FILE).exists());
+}
+
+#[test]
+fn more_than_can_wait_are_counted() {
+    let home = tempfile::tempdir().expect("a folder");
+    fs::write(home.path().join("taken"), "a file").expect("written");
+    let keeper = Keeper::new(Some(home.path().join("taken")));
+    let begun = Instant::now();
+    for ticket in 0..MAX_WAITING as u64 + 5 {
+        let mut entry = not_accepted(ticket as i64);
+        (entry.scene, entry.picture) = (None, None);
+        keeper.add(ticket, entry, begun);
+    }
+    fs::remove_file(home.path().join("taken")).expect("removed");
+    keeper.retry(begun + PAUSE);
+    let news = keeper.take_news();
+    let Some(HistoryNews::Works { numbers, num_lost }) = news.last() else {
+        panic!("{:?}", news.last());
+    };
+    assert_eq!((numbers.len(), *num_lost), (MAX_WAITING, 5));
+}
+
+#[test]
+fn a_newer_history_is_left_alone_and_inspections_wait() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join(FILE);
+    let file = rusqlite::Connection::open(&path).expect("made");
+    file.pragma_update(None, "user_version", 99).expect("set");
+    drop(file);
+    let bytes = fs::read(&path).expect("there");
+    let keeper = Keeper::new(Some(folder.path().to_owned()));
+    keeper.open(Instant::now());
+    keeper.add(1, not_accepted(1), Instant::now());
+    let news = keeper.take_news();
+    assert!(
+        matches!(&news[0], HistoryNews::Failed { what, advice } if what.contains("newer version") && advice.contains("Update")),
+        "{news:?}"
+    );
+    assert_eq!(numbers(&keeper), [-1]);
+    assert_eq!(fs::read(&path).expect("there"), bytes);
+}
+
+#[test]
+fn a_file_that_breaks_while_it_is_open_is_set_aside_and_writing_goes_on() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let keeper = Keeper::new(Some(folder.path().to_owned()));
+    let now = Instant::now();
+    for seconds in 1..=5 {
+        keeper.add(seconds as u64, not_accepted(seconds), now);
+    }
+    assert_eq!(numbers(&keeper), [5, 4, 3, 2, 1]);
+    keeper.take_news();
+    // The pages of the tables, in the file, in its log and in memory.
+    let inner = keeper.lock();
+    let file = &inner.history.as_ref().expect("open").file;
+    file.execute_batch("PRAGMA shrink_memory")
+        .expect("let go of");
+    drop(inner);
+    for name in [FILE.to_owned(), format!("{FILE}-wal")] {
+        let path = folder.path().join(name);
+        let length = fs::metadata(&path).expect("there").len();
+        fs::write(&path, vec![0x77; length as usize]).expect("written");
+    }
+    keeper.add(6, not_accepted(6), now);
+    keeper.add(7, not_accepted(7), now);
+    let news = keeper.take_news();
+    let is_aside = |news: &HistoryNews| matches!(news, HistoryNews::SetAside(_));
+    assert!(news.iter().any(is_aside), "{news:?}");
+    assert_eq!(failures(&news), 0, "{news:?}");
+    assert_eq!(numbers(&keeper), [2, 1]);
+}

@@ -1,0 +1,49 @@
+//! What was inspected, for as long as the shop wants to know: a file of inspections, and their frames beside it.
+//!
+//! ```text
+//! history.sqlite        every inspection: verdict, pose, times, recipe, library, a small picture, remark, true label
+//! history-frames/       frames that the retention rule keeps: depth PNGs as in recordings, other clouds as PCD
+//! history.lock          held by whoever has the history open
+//! ```
+//!
+//! ```text
+//! NewEntry ─► Writer ─► Keeper ─► History ─► history.sqlite
+//!             a thread  what cannot be written waits in memory
+//! ```
+//!
+//! A kill at any moment loses at most the inspection that was being written. What cannot be opened is never deleted: a
+//! damaged file is set aside under another name, a newer one is refused and left as it is.
+
+mod differences;
+mod entry;
+mod error;
+mod filter;
+#[cfg(test)]
+mod fixtures;
+mod frames;
+mod keeper;
+mod news;
+mod open;
+mod retention;
+mod rows;
+mod schema;
+mod store;
+mod table;
+#[cfg(test)]
+mod tests;
+mod writer;
+
+pub use self::{
+    differences::{Differences, Finding},
+    entry::{About, Detail, NewEntry, PastVerdict, Record, Summary},
+    error::HistoryError,
+    filter::Filter,
+    frames::{FrameRecord, read as read_frame},
+    keeper::Keeper,
+    news::HistoryNews,
+    open::{FILE, OpenedHistory, SetAside, users_folder},
+    retention::{KeepFrames, Retention, Swept, Usage},
+    store::{History, Page},
+    table::{write_head, write_row},
+    writer::Writer,
+};

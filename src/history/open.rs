@@ -1,0 +1,356 @@
+//! Opening the file: a new one is made, an older one brought up to date, a newer one refused, a damaged one set aside.
+//!
+//! Write-ahead logging lets the window and a command write at once. `synchronous = FULL`: an inspection that was
+//! reported as written survives the mains switch, not only a kill; a commit then waits for the disk, which is why a
+//! thread of its own writes. Whoever has the history open holds a shared lock; who gets the exclusive one at the
+//! beginning is alone, and only then are the file looked through and strays removed.
+
+use std::{
+    fs::{self, File, TryLockError},
+    io::{self, Read as _},
+    path::{Path, PathBuf},
+    time::Duration,
+};
+
+use rusqlite::{Connection, OpenFlags, config::DbConfig};
+
+use super::{
+    error::HistoryError,
+    schema::{APPLICATION, VERSION, migrate, version},
+    store::History,
+};
+
+/// The database in the history's folder.
+pub const FILE: &str = "history.sqlite";
+/// The folder of frames beside it.
+pub(super) const FRAMES: &str = "history-frames";
+const LOCK: &str = "history.lock";
+/// How long one writer waits for another.
+const PATIENCE: Duration = Duration::from_secs(10);
+/// Up to this size a file is looked through whenever it is opened: it takes some milliseconds. Larger ones are when
+/// whoever had them open last was killed.
+const ALWAYS_CHECKED: u64 = 16 << 20;
+
+/// What was set aside, and where it lies now.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct SetAside {
+    /// In words.
+    pub what: String,
+    /// The file; what belongs to it lies beside it under the same name.
+    pub aside: PathBuf,
+}
+
+/// An open history.
+#[derive(Debug)]
+pub struct OpenedHistory {
+    /// The history.
+    pub history: History,
+    /// What had to be set aside before, if anything.
+    pub set_aside: Option<SetAside>,
+}
+
+/// The folder of the user's own history.
+pub fn users_folder() -> Result<PathBuf, HistoryError> {
+    let folders =
+        directories::ProjectDirs::from("", "", "partsight").ok_or(HistoryError::NoUserFolder)?;
+    Ok(folders.data_dir().to_owned())
+}
+
+impl History {
+    /// Opens the history in this folder; makes both where they are missing.
+    pub fn open(folder: &Path) -> Result<OpenedHistory, HistoryError> {
+        fs::create_dir_all(folder).map_err(|error| HistoryError::io(folder, error))?;
+        let path = folder.join(FILE);
+        let mut set_aside = None;
+        if let Some(_alone) = Lock::alone(folder)? {
+            set_aside = make_sound(&path)?;
+            let history = Self::new(connect(&path)?, folder);
+            history.tidy()?;
+        }
+        let lock = Lock::shared(folder)?;
+        let mut history = Self::new(connect(&path)?, folder);
+        history.hold(lock);
+        Ok(OpenedHistory { history, set_aside })
+    }
+
+    /// Opens a history to look at it alone: also one that is write-protected. Nothing is made.
+    pub fn open_to_read(folder: &Path) -> Result<OpenedHistory, HistoryError> {
+        let path = folder.join(FILE);
+        if !path.is_file() {
+            return Err(HistoryError::NotFound { path });
+        }
+        match Self::open(folder) {
+            Err(HistoryError::Unwritable { .. } | HistoryError::ReadOnly { .. }) => {
+                let of = |error| HistoryError::of(&path, error);
+                let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI;
+                let file = Connection::open_with_flags(address(&path), flags).map_err(of)?;
+                refuse_newer(&path, version(&file).map_err(of)?)?;
+                Ok(OpenedHistory {
+                    history: Self::new(file, folder),
+                    set_aside: None,
+                })
+            }
+            opened => opened,
+        }
+    }
+}
+
+/// The file as it lies there, which nobody can change.
+fn address(path: &Path) -> String {
+    let escaped = path.to_string_lossy();
+    let escaped = escaped.replace('%', "%25");
+    let escaped = escaped.replace('?', "%3f").replace('#', "%23");
+    format!("file:{escaped}?immutable=1")
+}
+
+/// Held as long as a history is open.
+#[derive(Debug)]
+pub(super) struct Lock {
+    _file: Option<File>,
+}
+
+impl Lock {
+    /// The exclusive one, if nobody has the history open.
+    fn alone(folder: &Path) -> Result<Option<Self>, HistoryError> {
+        let file = Self::file(folder)?;
+        match file.try_lock() {
+            Ok(()) => Ok(Some(Self { _file: Some(file) })),
+            Err(TryLockError::WouldBlock) => Ok(None),
+            // Some network file systems have no locks: nobody knows who else is there.
+            Err(TryLockError::Error(error)) if error.kind() == io::ErrorKind::Unsupported => {
+                Ok(None)
+            }
+            Err(TryLockError::Error(error)) => Err(HistoryError::io(folder, error)),
+        }
+    }
+
+    fn shared(folder: &Path) -> Result<Self, HistoryError> {
+        let file = Self::file(folder)?;
+        match file.lock_shared() {
+            Ok(()) => Ok(Self { _file: Some(file) }),
+            Err(error) if error.kind() == io::ErrorKind::Unsupported => Ok(Self { _file: None }),
+            Err(error) => Err(HistoryError::io(folder, error)),
+        }
+    }
+
+    fn file(folder: &Path) -> Result<File, HistoryError> {
+        let made = File::options()
+            .create(true)
+            .append(true)
+            .open(folder.join(LOCK));
+        made.map_err(|error| HistoryError::io(folder, error))
+    }
+}
+
+fn refuse_newer(path: &Path, found: u32) -> Result<(), HistoryError> {
+    if found <= VERSION {
+        return Ok(());
+    }
+    Err(HistoryError::Newer {
+        path: path.to_owned(),
+        found,
+        known: VERSION,
+    })
+}
+
+/// Opens the file as it is and brings it to the version of today.
+fn connect(path: &Path) -> Result<Connection, HistoryError> {
+    let of = |error| HistoryError::of(path, error);
+    // Before SQLite has it: opening alone may already write.
+    refuse_newer(path, Header::read(path)?.map_or(0, |header| header.version))?;
+    let flags = OpenFlags::SQLITE_OPEN_READ_WRITE
+        | OpenFlags::SQLITE_OPEN_CREATE
+        | OpenFlags::SQLITE_OPEN_NO_MUTEX;
+    let mut file = Connection::open_with_flags(path, flags).map_err(of)?;
+    file.busy_timeout(PATIENCE).map_err(of)?;
+    let found = version(&file).map_err(of)?;
+    if found > VERSION {
+        // Its newest pages may still lie in the log: they stay there.
+        file.set_db_config(DbConfig::SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, true)
+            .map_err(of)?;
+        refuse_newer(path, found)?;
+    }
+    if found == 0 && has_tables(&file).map_err(of)? {
+        return Err(foreign(path));
+    }
+    let set = || -> rusqlite::Result<()> {
+        file.pragma_update(None, "journal_mode", "WAL")?;
+        file.pragma_update(None, "synchronous", "FULL")?;
+        file.pragma_update(None, "foreign_keys", true)
+    };
+    set().map_err(of)?;
+    migrate(&mut file).map_err(of)?;
+    Ok(file)
+}
+
+fn has_tables(file: &Connection) -> rusqlite::Result<bool> {
+    file.query_row("SELECT count(*) > 0 FROM sqlite_schema", [], |row| {
+        row.get(0)
+    })
+}
+
+fn foreign(path: &Path) -> HistoryError {
+    HistoryError::Damaged {
+        path: path.to_owned(),
+        what: "it is the database of another program".into(),
+    }
+}
+
+/// What the first hundred bytes of a database say.
+struct Header {
+    version: u32,
+    application: i32,
+    num_bytes: u64,
+}
+
+/// How every database of this kind begins.
+const MAGIC: &[u8; 16] = b"SQLite format 3\0";
+/// How every log begins, but for the last bit.
+const LOG_MAGIC: u32 = 0x377f_0682;
+
+impl Header {
+    /// `None` for a file that is not there or empty.
+    fn read(path: &Path) -> Result<Option<Self>, HistoryError> {
+        let damaged = |what: &str| HistoryError::Damaged {
+            path: path.to_owned(),
+            what: what.to_owned(),
+        };
+        let Some(bytes) = first_bytes(path, 100)? else {
+            return Ok(None);
+        };
+        let word = |at: usize| {
+            let bytes = bytes.get(at..at + 4)?;
+            Some(u32::from_be_bytes(*bytes.first_chunk()?))
+        };
+        let (Some(true), Some(version), Some(application), Some(num_pages)) = (
+            bytes.first_chunk().map(|magic| magic == MAGIC),
+            word(60),
+            word(68),
+            word(28),
+        ) else {
+            return Err(damaged("it is no database"));
+        };
+        let page = u64::from(bytes[16]) << 8 | u64::from(bytes[17]);
+        Ok(Some(Self {
+            version,
+            application: application as i32,
+            // The size of 65536 bytes is written as 1.
+            num_bytes: u64::from(num_pages) * if page == 1 { 65_536 } else { page },
+        }))
+    }
+}
+
+/// The beginning of a file; `None` if it is not there or empty.
+fn first_bytes(path: &Path, most: u64) -> Result<Option<Vec<u8>>, HistoryError> {
+    let read = || -> io::Result<Vec<u8>> {
+        let mut bytes = Vec::new();
+        File::open(path)?.take(most).read_to_end(&mut bytes)?;
+        Ok(bytes)
+    };
+    match read() {
+        Ok(bytes) => Ok(Some(bytes).filter(|bytes| !bytes.is_empty())),
+        Err(error) if error.kind() == io::ErrorKind::NotFound => Ok(None),
+        Err(error) => Err(HistoryError::io(path, error)),
+    }
+}
+
+/// Sets aside what cannot be used; afterwards there is a sound file or none. Only while nobody else has it open.
+fn make_sound(path: &Path) -> Result<Option<SetAside>, HistoryError> {
+    let log = with_ending(path, "-wal");
+    if let Some(bytes) = first_bytes(&log, 4)? {
+        let magic = bytes.first_chunk().map_or(0, |b| u32::from_be_bytes(*b));
+        if magic & !1 != LOG_MAGIC {
+            // SQLite would read over it in silence. What was written before is whole.
+            let aside = aside(&log, "damaged")?;
+            fs::rename(&log, &aside).map_err(|error| HistoryError::io(path, error))?;
+            let what =
+                "the log of its last writes is damaged: the newest inspections may be missing";
+            return Ok(Some(SetAside {
+                what: what.into(),
+                aside,
+            }));
+        }
+    }
+    let was_left_open = fs::metadata(&log).is_ok_and(|log| log.len() > 0);
+    match check(path, was_left_open) {
+        Err(HistoryError::Damaged { what, .. }) => {
+            let aside = set_aside(path)?;
+            Ok(Some(SetAside { what, aside }))
+        }
+        Err(error) => Err(error),
+        Ok(()) => Ok(None),
+    }
+}
+
+/// Looks whether the file can be used.
+fn check(path: &Path, was_left_open: bool) -> Result<(), HistoryError> {
+    let damaged = |what: String| HistoryError::Damaged {
+        path: path.to_owned(),
+        what,
+    };
+    let Some(header) = Header::read(path)? else {
+        return Ok(());
+    };
+    refuse_newer(path, header.version)?;
+    if header.application != APPLICATION && header.version > 0 {
+        return Err(foreign(path));
+    }
+    let size = fs::metadata(path).map_or(0, |file| file.len());
+    if size < header.num_bytes && !was_left_open {
+        let expected = header.num_bytes;
+        return Err(damaged(format!("it ends after {size} of {expected} bytes")));
+    }
+    let file = connect(path)?;
+    if was_left_open || size < ALWAYS_CHECKED {
+        let of = |error| HistoryError::of(path, error);
+        let found: String = file
+            .pragma_query_value(None, "quick_check", |row| row.get(0))
+            .map_err(of)?;
+        if found != "ok" {
+            return Err(damaged(found.lines().next().unwrap_or_default().to_owned()));
+        }
+    }
+    Ok(())
+}
+
+/// Moves the file, its log and its frames to free names: nothing of it is deleted.
+fn set_aside(path: &Path) -> Result<PathBuf, HistoryError> {
+    let aside = aside(path, "damaged")?;
+    let frames = path.with_file_name(FRAMES);
+    let moves = [
+        (path.to_owned(), aside.clone()),
+        (with_ending(path, "-wal"), with_ending(&aside, "-wal")),
+        (with_ending(path, "-shm"), with_ending(&aside, "-shm")),
+        (frames, with_ending(&aside, "-frames")),
+    ];
+    for (from, to) in moves {
+        match fs::rename(&from, &to) {
+            Err(error) if error.kind() != io::ErrorKind::NotFound => {
+                return Err(HistoryError::io(path, error));
+            }
+            _ => {}
+        }
+    }
+    Ok(aside)
+}
+
+/// A free name beside a file.
+fn aside(path: &Path, word: &str) -> Result<PathBuf, HistoryError> {
+    let name = path.file_name().unwrap_or_default().to_string_lossy();
+    let (stem, ending) = name.rsplit_once('.').unwrap_or((&name, ""));
+    let numbered = |number| path.with_file_name(format!("{stem}.{word}-{number}.{ending}"));
+    (1..1000)
+        .map(numbered)
+        .find(|aside| !aside.exists())
+        .ok_or_else(|| HistoryError::io(path, io::ErrorKind::AlreadyExists.into()))
+}
+
+/// The name of what `SQLite` keeps beside a file.
+fn with_ending(path: &Path, ending: &str) -> PathBuf {
+    let mut name = path.as_os_str().to_owned();
+    name.push(ending);
+    name.into()
+}
+
+#[cfg(test)]
+mod tests;

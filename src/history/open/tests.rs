@@ -1,0 +1,185 @@
+//! What opening makes of files that are not as they should be.
+
+use std::io::{Seek as _, SeekFrom, Write as _};
+
+use super::*;
+use crate::history::{
+    Filter, KeepFrames, PastVerdict, Retention,
+    fixtures::{entry, open, opened},
+};
+
+/// A closed history with so many inspections.
+fn closed(num: i64) -> tempfile::TempDir {
+    let (folder, mut history) = opened();
+    let retention = Retention {
+        keep: KeepFrames::All,
+        ..Retention::default()
+    };
+    for seconds in 0..num {
+        let entry = entry(seconds, PastVerdict::Accepted, "fender");
+        history.add(&entry, &retention).expect("written");
+    }
+    drop(history);
+    folder
+}
+
+fn num_rows(history: &History) -> usize {
+    let page = history.page(&Filter::default(), 0, 1).expect("asked");
+    page.num_all
+}
+
+fn damage(path: &Path, at: u64, bytes: &[u8]) {
+    let mut file = File::options().write(true).open(path).expect("there");
+    file.seek(SeekFrom::Start(at)).expect("there");
+    file.write_all(bytes).expect("written");
+}
+
+#[test]
+fn a_damaged_file_is_set_aside_with_its_frames_and_a_new_one_begun() {
+    type Damage = fn(&Path);
+    let kinds: [Damage; 4] = [
+        |path| fs::write(path, "this is no database at all, but some other text").expect("written"),
+        |path| {
+            let length = fs::metadata(path).expect("there").len();
+            let file = File::options().write(true).open(path).expect("there");
+            file.set_len(length / 2).expect("cut");
+        },
+        |path| damage(path, 4096, &[0x5a; 4096]),
+        |path| damage(path, 0, &[0; 100]),
+    ];
+    for (number, kind) in kinds.into_iter().enumerate() {
+        let folder = closed(40);
+        let path = folder.path().join(FILE);
+        kind(&path);
+        let bytes = fs::read(&path).expect("there");
+        let opened = History::open(folder.path()).expect("a new one");
+        let set_aside = opened.set_aside.expect("said");
+        assert!(!set_aside.what.is_empty());
+        assert_eq!(num_rows(&opened.history), 0, "damage {number}");
+        assert_eq!(fs::read(&set_aside.aside).expect("kept"), bytes);
+        let frames = with_ending(&set_aside.aside, "-frames");
+        assert_eq!(fs::read_dir(frames).expect("kept").count(), 41);
+        drop(opened.history);
+        // It is said once: the new one is sound.
+        assert_eq!(num_rows(&open(folder.path())), 0);
+    }
+}
+
+#[test]
+fn another_programs_database_is_not_written_to() {
+    for version in [0, 1] {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join(FILE);
+        let file = Connection::open(&path).expect("made");
+        file.execute_batch("CREATE TABLE recipe (name TEXT)")
+            .expect("made");
+        file.pragma_update(None, "user_version", version)
+            .expect("set");
+        drop(file);
+        let bytes = fs::read(&path).expect("there");
+        let opened = History::open(folder.path()).expect("a new one");
+        let set_aside = opened.set_aside.expect("said");
+        assert!(
+            set_aside.what.contains("another program"),
+            "{}",
+            set_aside.what
+        );
+        assert_eq!(fs::read(set_aside.aside).expect("kept"), bytes);
+    }
+}
+
+#[test]
+fn a_newer_file_is_refused_in_words_and_left_as_it_is() {
+    let folder = closed(3);
+    let path = folder.path().join(FILE);
+    let file = Connection::open(&path).expect("there");
+    file.pragma_update(None, "user_version", VERSION + 4)
+        .expect("set");
+    drop(file);
+    let bytes = fs::read(&path).expect("there");
+    let frames = fs::read_dir(folder.path().join(FRAMES))
+        .expect("there")
+        .count();
+    for _ in 0..2 {
+        let refused = History::open(folder.path()).expect_err("refused");
+        let HistoryError::Newer { found, known, .. } = refused else {
+            panic!("{refused}");
+        };
+        assert_eq!((found, known), (VERSION + 4, VERSION));
+    }
+    assert_eq!(fs::read(&path).expect("there"), bytes);
+    assert!(!with_ending(&path, "-wal").exists());
+    assert_eq!(
+        fs::read_dir(folder.path().join(FRAMES))
+            .expect("there")
+            .count(),
+        frames
+    );
+}
+
+#[test]
+fn a_newer_file_whose_version_is_still_in_its_log_is_left_as_it_is_too() {
+    let folder = closed(3);
+    let path = folder.path().join(FILE);
+    let other = Connection::open(&path).expect("there");
+    other
+        .pragma_update(None, "user_version", VERSION + 1)
+        .expect("set");
+    // Still open: its log is not written back.
+    let (bytes, log) = (
+        fs::read(&path).expect("there"),
+        fs::read(with_ending(&path, "-wal")).expect("there"),
+    );
+    assert!(!log.is_empty());
+    let refused = History::open(folder.path()).expect_err("refused");
+    assert!(matches!(refused, HistoryError::Newer { .. }), "{refused}");
+    assert_eq!(fs::read(&path).expect("there"), bytes);
+    assert_eq!(fs::read(with_ending(&path, "-wal")).expect("there"), log);
+}
+
+#[test]
+fn a_damaged_log_is_set_aside_alone() {
+    let folder = closed(3);
+    let path = folder.path().join(FILE);
+    let log = with_ending(&path, "-wal");
+    fs::write(&log, [0x33; 5000]).expect("written");
+    let opened = History::open(folder.path()).expect("opened");
+    let set_aside = opened.set_aside.expect("said");
+    assert!(
+        set_aside.what.contains("newest inspections"),
+        "{}",
+        set_aside.what
+    );
+    assert_eq!(fs::read(set_aside.aside).expect("kept"), [0x33; 5000]);
+    assert_eq!(num_rows(&opened.history), 3);
+}
+
+#[test]
+fn two_write_at_once_and_nothing_is_lost() {
+    let folder = closed(0);
+    let write = |part: &str| {
+        let mut history = open(folder.path());
+        for seconds in 0..50 {
+            let entry = entry(seconds, PastVerdict::NoPart, part);
+            history.add(&entry, &Retention::default()).expect("written");
+        }
+    };
+    std::thread::scope(|scope| {
+        scope.spawn(|| write("fender"));
+        scope.spawn(|| write("grille"));
+    });
+    let history = open(folder.path());
+    assert_eq!(num_rows(&history), 100);
+    assert_eq!(history.usage().expect("asked").num_frames, 100);
+}
+
+#[test]
+fn looking_makes_nothing() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let missing = History::open_to_read(folder.path()).expect_err("not there");
+    assert!(
+        matches!(missing, HistoryError::NotFound { .. }),
+        "{missing}"
+    );
+    assert_eq!(fs::read_dir(folder.path()).expect("listed").count(), 0);
+}

@@ -1,0 +1,283 @@
+//! How long frames are kept. Rows are kept for good: a hundred thousand of them take about as much as a minute of
+//! frames.
+//!
+//! The oldest frames go first, by age and then by size. A frame whose inspection has a remark or a true label was looked
+//! at by somebody: no rule takes it away, it only counts towards the size.
+
+use std::collections::BTreeSet;
+
+use jiff::{SignedDuration, Timestamp};
+use rusqlite::{OptionalExtension as _, TransactionBehavior};
+
+use super::{
+    entry::PastVerdict,
+    error::HistoryError,
+    frames::{self, FrameRecord},
+    store::History,
+};
+
+/// Which frames are kept, and how long.
+#[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
+#[serde(default)]
+pub struct Retention {
+    /// Of which inspections the frame is kept.
+    pub keep: KeepFrames,
+    /// Older frames go, days, 1..3650.
+    pub max_days: u32,
+    /// Beyond this size the oldest frames go, gigabytes (10⁹ bytes), 0.1..10 000.
+    pub max_gigabytes: f64,
+}
+
+impl Default for Retention {
+    fn default() -> Self {
+        Self {
+            keep: KeepFrames::default(),
+            max_days: 90,
+            max_gigabytes: 10.0,
+        }
+    }
+}
+
+impl Retention {
+    /// The same within what makes sense.
+    #[must_use]
+    pub fn sensible(self) -> Self {
+        let gigabytes = if self.max_gigabytes.is_finite() {
+            self.max_gigabytes
+        } else {
+            Self::default().max_gigabytes
+        };
+        Self {
+            keep: self.keep,
+            max_days: self.max_days.clamp(1, 3650),
+            max_gigabytes: gigabytes.clamp(0.1, 10_000.0),
+        }
+    }
+}
+
+/// Of which inspections the frame is kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum KeepFrames {
+    /// Of every one.
+    All,
+    /// Of those that were not accepted: they are the ones that somebody asks about.
+    #[default]
+    NotAccepted,
+    /// Of none.
+    None,
+}
+
+impl KeepFrames {
+    /// Every rule.
+    pub const ALL: [Self; 3] = [Self::All, Self::NotAccepted, Self::None];
+
+    /// What a person calls it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::All => "All",
+            Self::NotAccepted => "Only not accepted",
+            Self::None => "None",
+        }
+    }
+
+    pub(super) fn keeps(self, verdict: PastVerdict) -> bool {
+        match self {
+            Self::All => true,
+            Self::NotAccepted => verdict != PastVerdict::Accepted,
+            Self::None => false,
+        }
+    }
+}
+
+/// How much is kept.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Usage {
+    /// Frames.
+    pub num_frames: usize,
+    /// Their bytes.
+    pub num_bytes: u64,
+    /// Of those, the bytes of inspections with a remark or a true label.
+    pub num_bytes_marked: u64,
+}
+
+/// What a sweep took away.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Swept {
+    /// Frames.
+    pub num_frames: usize,
+    /// Their bytes.
+    pub num_bytes: u64,
+}
+
+struct Candidate {
+    number: i64,
+    at: i64,
+    bytes: u64,
+}
+
+/// Under this name the rule stands in the file: window and commands keep frames by the same.
+const SETTING: &str = "retention";
+
+impl History {
+    /// The rule by which frames are kept.
+    pub fn retention(&self) -> Result<Retention, HistoryError> {
+        let asked = "SELECT json FROM setting WHERE name = ?";
+        let found = self
+            .file
+            .query_row(asked, [SETTING], |row| row.get::<_, String>(0));
+        let found = found.optional().map_err(|error| self.error(error))?;
+        let rule = found.and_then(|json| serde_json::from_str::<Retention>(&json).ok());
+        Ok(rule.unwrap_or_default().sensible())
+    }
+
+    /// Keeps frames by this rule from now on; what it does not keep goes with the next sweep.
+    pub fn set_retention(&mut self, retention: &Retention) -> Result<(), HistoryError> {
+        let json = serde_json::to_string(&retention.sensible()).unwrap_or_default();
+        let written = self.file.execute(
+            "INSERT INTO setting (name, json) VALUES (?, ?)
+            ON CONFLICT (name) DO UPDATE SET json = excluded.json",
+            [SETTING, &json],
+        );
+        written.map(|_| ()).map_err(|error| self.error(error))
+    }
+
+    /// How much is kept.
+    pub fn usage(&self) -> Result<Usage, HistoryError> {
+        let asked = "SELECT count(*), total(frame_bytes), total(frame_bytes) FILTER (WHERE remark <> '' OR label IS NOT NULL)
+            FROM inspection WHERE frame_bytes IS NOT NULL";
+        let read = self.file.query_row(asked, [], |row| {
+            let (num, bytes, marked): (i64, f64, f64) = (row.get(0)?, row.get(1)?, row.get(2)?);
+            Ok(Usage {
+                num_frames: num as usize,
+                num_bytes: bytes as u64,
+                num_bytes_marked: marked as u64,
+            })
+        });
+        read.map_err(|error| self.error(error))
+    }
+
+    /// Takes away the frames that the rule does not keep any longer. The rows stay.
+    ///
+    /// First no row speaks of a frame any more, then its file goes: what is killed between the two leaves strays.
+    pub fn sweep(&mut self, retention: &Retention, now: Timestamp) -> Result<Swept, HistoryError> {
+        let Retention {
+            max_days,
+            max_gigabytes,
+            ..
+        } = retention.sensible();
+        let days = SignedDuration::from_hours(24 * i64::from(max_days));
+        let oldest = now
+            .checked_sub(days)
+            .map_or(i64::MIN, Timestamp::as_microsecond);
+        let mut left = self.usage()?.num_bytes;
+        let most = (max_gigabytes * 1e9) as u64;
+        let candidates = self.candidates().map_err(|error| self.error(error))?;
+        let goes = |candidate: &Candidate| {
+            let goes = candidate.at < oldest || left > most;
+            if goes {
+                left = left.saturating_sub(candidate.bytes);
+            }
+            goes
+        };
+        // The oldest come first: behind the first that stays all stay.
+        let mut goes = goes;
+        let leaving: Vec<Candidate> = candidates.into_iter().take_while(|c| goes(c)).collect();
+        if leaving.is_empty() {
+            return Ok(Swept::default());
+        }
+        let numbers: Vec<i64> = leaving.iter().map(|candidate| candidate.number).collect();
+        let files = self.forget(&numbers).map_err(|error| self.error(error))?;
+        self.remove_files(&files)?;
+        Ok(Swept {
+            num_frames: leaving.len(),
+            num_bytes: leaving.iter().map(|candidate| candidate.bytes).sum(),
+        })
+    }
+
+    /// Frames that a rule may take away, the oldest first.
+    fn candidates(&self) -> rusqlite::Result<Vec<Candidate>> {
+        let mut asked = self.file.prepare(
+            "SELECT number, at, frame_bytes FROM inspection
+            WHERE frame_bytes IS NOT NULL AND remark = '' AND label IS NULL ORDER BY at",
+        )?;
+        let rows = asked.query_map([], |row| {
+            let bytes: i64 = row.get(2)?;
+            Ok(Candidate {
+                number: row.get(0)?,
+                at: row.get(1)?,
+                bytes: bytes as u64,
+            })
+        })?;
+        rows.collect()
+    }
+
+    /// No row speaks of these frames any more; answers with their files.
+    fn forget(&mut self, numbers: &[i64]) -> rusqlite::Result<Vec<String>> {
+        let file = self
+            .file
+            .transaction_with_behavior(TransactionBehavior::Immediate)?;
+        let mut files = Vec::new();
+        for number in numbers {
+            let asked = "SELECT frame FROM detail WHERE number = ?";
+            let frame: Option<String> = file.query_row(asked, [number], |row| row.get(0))?;
+            files.extend(frame.as_deref().and_then(file_of));
+            file.execute("UPDATE detail SET frame = NULL WHERE number = ?", [number])?;
+            file.execute(
+                "UPDATE inspection SET frame_bytes = NULL WHERE number = ?",
+                [number],
+            )?;
+        }
+        file.commit()?;
+        Ok(files)
+    }
+
+    fn remove_files(&self, files: &[String]) -> Result<(), HistoryError> {
+        for file in files {
+            for path in frames::files_of(&self.frames, file) {
+                frames::remove(&path).map_err(|error| HistoryError::io(&path, error))?;
+            }
+        }
+        Ok(())
+    }
+
+    /// Makes rows and frames agree again: a frame that no row speaks of is removed, and a row whose frame is gone says so.
+    /// Only while nobody else has the history open.
+    pub(super) fn tidy(mut self) -> Result<(), HistoryError> {
+        let kept = self.kept_frames().map_err(|error| self.error(error))?;
+        let gone: Vec<i64> = kept
+            .iter()
+            .filter(|(_, frame)| !self.frames.join(&frame.file).is_file())
+            .map(|(number, _)| *number)
+            .collect();
+        if !gone.is_empty() {
+            self.forget(&gone).map_err(|error| self.error(error))?;
+        }
+        let frames = kept.iter().map(|(_, frame)| frame);
+        let names: BTreeSet<&str> = frames
+            .flat_map(|frame| [Some(frame.file.as_str()), frame.empty_cell.as_deref()])
+            .flatten()
+            .collect();
+        let removed = frames::remove_strays(&self.frames, &|name| names.contains(name));
+        removed.map_err(|error| HistoryError::io(&self.frames, error))?;
+        Ok(())
+    }
+
+    fn kept_frames(&self) -> rusqlite::Result<Vec<(i64, FrameRecord)>> {
+        let mut asked = self.file.prepare(
+            "SELECT number, frame FROM detail JOIN inspection USING (number) WHERE frame_bytes IS NOT NULL",
+        )?;
+        let rows = asked.query_map([], |row| {
+            let (number, frame): (i64, Option<String>) = (row.get(0)?, row.get(1)?);
+            Ok(frame
+                .and_then(|frame| serde_json::from_str(&frame).ok())
+                .map(|frame| (number, frame)))
+        })?;
+        rows.filter_map(Result::transpose).collect()
+    }
+}
+
+fn file_of(frame: &str) -> Option<String> {
+    let frame: FrameRecord = serde_json::from_str(frame).ok()?;
+    Some(frame.file)
+}

@@ -1,0 +1,151 @@
+//! An inspection as rows of the tables, and back.
+
+use std::sync::Arc;
+
+use jiff::Timestamp;
+use rusqlite::{Connection, Row, params};
+
+use super::{
+    entry::{Detail, NewEntry, PastVerdict, Record, Summary, png_of},
+    frames::FrameRecord,
+};
+use crate::{geometry::sixteen_numbers, pipeline::Recipe};
+
+/// What a row of a list is read from.
+pub(super) const COLUMNS: &str = "number, at, scene, source, simulated, verdict, part, title, score, margin, total_ms, remark, \
+    label, frame_bytes";
+
+/// Writes both rows of an inspection.
+pub(super) fn insert(
+    file: &Connection,
+    entry: &NewEntry,
+    frame: Option<&FrameRecord>,
+) -> rusqlite::Result<i64> {
+    let Record { summary, detail } = &entry.record;
+    let [score, margin] = summary.score.map_or([None; 2], |both| both.map(Some));
+    let [reason, advice] = detail
+        .complaint
+        .clone()
+        .map_or([None, None], |both| both.map(Some));
+    let recipe = recipe_key(file, &detail.recipe_identity, detail.recipe.as_deref())?;
+    file.execute(
+        "INSERT INTO inspection (at, scene, source, simulated, verdict, part, title, score, margin, total_ms,
+            remark, label, frame_bytes, search) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        params![
+            summary.at.as_microsecond(),
+            summary.scene,
+            summary.source,
+            summary.is_simulated,
+            summary.verdict.name(),
+            summary.part,
+            summary.title,
+            score,
+            margin,
+            summary.total_ms,
+            summary.remark,
+            summary.label.as_ref().and_then(json),
+            frame.map(|frame| frame.bytes as i64),
+            summary.search(),
+        ],
+    )?;
+    let number = file.last_insert_rowid();
+    file.execute(
+        "INSERT INTO detail (number, nearest, reason, advice, camera_from_part, recipe, library, program, line,
+            thumbnail, origin, frame) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+        params![
+            number,
+            detail.nearest,
+            reason,
+            advice,
+            entry.record.matrix().as_ref().and_then(json),
+            recipe,
+            detail.library_identity,
+            detail.program,
+            detail.line,
+            entry.picture.as_ref().map(png_of),
+            detail.origin,
+            frame.and_then(json),
+        ],
+    )?;
+    Ok(number)
+}
+
+/// Where a recipe is written: under its identity, unless another has that by chance.
+fn recipe_key(
+    file: &Connection,
+    identity: &str,
+    recipe: Option<&Recipe>,
+) -> rusqlite::Result<String> {
+    let written = recipe.and_then(json).unwrap_or_default();
+    let mut key = identity.to_owned();
+    for number in 2.. {
+        file.execute(
+            "INSERT INTO recipe (identity, json) VALUES (?, ?) ON CONFLICT DO NOTHING",
+            [&key, &written],
+        )?;
+        let asked = "SELECT json FROM recipe WHERE identity = ?";
+        let known: String = file.query_row(asked, [&key], |row| row.get(0))?;
+        if known == written {
+            break;
+        }
+        key = format!("{identity}-{number}");
+    }
+    Ok(key)
+}
+
+pub(super) fn json(value: &impl serde::Serialize) -> Option<String> {
+    serde_json::to_string(value).ok()
+}
+
+pub(super) fn summary_of(row: &Row<'_>) -> rusqlite::Result<Summary> {
+    let score: Option<f64> = row.get("score")?;
+    let margin: Option<f64> = row.get("margin")?;
+    let label: Option<String> = row.get("label")?;
+    let verdict: String = row.get("verdict")?;
+    let at = Timestamp::from_microsecond(row.get("at")?);
+    let bytes: Option<i64> = row.get("frame_bytes")?;
+    Ok(Summary {
+        number: row.get("number")?,
+        at: at.unwrap_or(Timestamp::UNIX_EPOCH),
+        scene: row.get("scene")?,
+        source: row.get("source")?,
+        is_simulated: row.get("simulated")?,
+        // What nobody knows was certainly not accepted.
+        verdict: PastVerdict::named(&verdict).unwrap_or(PastVerdict::NotAccepted),
+        part: row.get("part")?,
+        title: row.get("title")?,
+        score: score.zip(margin).map(|(score, margin)| [score, margin]),
+        total_ms: row.get("total_ms")?,
+        remark: row.get("remark")?,
+        label: label.and_then(|label| serde_json::from_str(&label).ok()),
+        frame_bytes: bytes.map(|bytes| bytes as u64),
+    })
+}
+
+pub(super) fn record_of(row: &Row<'_>) -> rusqlite::Result<Record> {
+    let [reason, advice, pose, frame] =
+        ["reason", "advice", "camera_from_part", "frame"].map(|name| row.get(name));
+    let [reason, advice, pose, frame]: [Option<String>; 4] = [reason?, advice?, pose?, frame?];
+    let pose = pose.and_then(|pose| {
+        let mut numbers = serde_json::Deserializer::from_str(&pose);
+        sixteen_numbers::deserialize(&mut numbers).ok()
+    });
+    let recipe: String = row.get("json")?;
+    let thumbnail: Option<Vec<u8>> = row.get("thumbnail")?;
+    Ok(Record {
+        summary: summary_of(row)?,
+        detail: Detail {
+            nearest: row.get("nearest")?,
+            complaint: reason.map(|reason| [reason, advice.unwrap_or_default()]),
+            camera_from_part: pose,
+            recipe_identity: row.get("identity")?,
+            recipe: serde_json::from_str(&recipe).ok().map(Arc::new),
+            library_identity: row.get("library")?,
+            program: row.get("program")?,
+            line: row.get("line")?,
+            thumbnail: thumbnail.unwrap_or_default(),
+            origin: row.get("origin")?,
+            frame: frame.and_then(|frame| serde_json::from_str(&frame).ok()),
+        },
+    })
+}

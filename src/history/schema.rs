@@ -1,0 +1,136 @@
+//! The tables, and how an older file becomes one of today.
+
+use rusqlite::{Connection, Transaction, TransactionBehavior};
+
+/// One step from a version to the next.
+type Step = fn(&Transaction<'_>) -> rusqlite::Result<()>;
+
+/// Every step, in order; the version of a file counts those that it has seen.
+const STEPS: [Step; 1] = [first];
+
+/// The version that is written.
+pub(super) const VERSION: u32 = STEPS.len() as u32;
+
+/// Tells our files from other programs': `PsHi`.
+pub(super) const APPLICATION: i32 = i32::from_be_bytes(*b"PsHi");
+
+/// `inspection` holds what lists show and filters ask for, `detail` the rest: a row of the first is about 200 bytes, so
+/// that looking through a hundred thousand stays quick.
+fn first(file: &Transaction<'_>) -> rusqlite::Result<()> {
+    file.execute_batch(
+        "CREATE TABLE recipe (
+            identity TEXT PRIMARY KEY,
+            json TEXT NOT NULL
+        ) WITHOUT ROWID;
+        CREATE TABLE setting (
+            name TEXT PRIMARY KEY,
+            json TEXT NOT NULL
+        ) WITHOUT ROWID;
+        CREATE TABLE inspection (
+            number INTEGER PRIMARY KEY AUTOINCREMENT, -- never used again
+            at INTEGER NOT NULL,                      -- microseconds since 1970, UTC
+            scene TEXT NOT NULL,
+            source TEXT NOT NULL,
+            simulated INTEGER NOT NULL,
+            verdict TEXT NOT NULL,                    -- accepted, not_accepted, unknown, no_part
+            part TEXT,                                -- what it was recognised as, accepted or not
+            title TEXT NOT NULL,                      -- the same for people
+            score REAL,
+            margin REAL,
+            total_ms REAL NOT NULL,
+            remark TEXT NOT NULL DEFAULT '',
+            label TEXT,                               -- what it truly is, as JSON
+            frame_bytes INTEGER,                      -- of the kept frame, if it is kept
+            search TEXT NOT NULL                      -- in lower case, what a filter's words are looked for in
+        );
+        CREATE TABLE detail (
+            number INTEGER PRIMARY KEY REFERENCES inspection (number) ON DELETE CASCADE,
+            nearest TEXT,                             -- the best guess, named or not
+            reason TEXT,
+            advice TEXT,
+            camera_from_part TEXT,                    -- 16 numbers as JSON, row after row, metres
+            recipe TEXT NOT NULL REFERENCES recipe (identity),
+            library TEXT NOT NULL,                    -- identity of the library
+            program TEXT NOT NULL,                    -- version of the program
+            line TEXT NOT NULL,                       -- as inspect --json writes it
+            thumbnail BLOB,                           -- PNG
+            origin TEXT,                              -- how the window can have the scene again
+            frame TEXT                                -- FrameRecord as JSON
+        );
+        -- Holds every column that a filter asks for, in the order of the list: no filter reads the rows themselves.
+        CREATE INDEX listed ON inspection (at, number, verdict, part, simulated, search);
+        -- The narrowest: how many there are is counted in it.
+        CREATE INDEX counted ON inspection (simulated);
+        CREATE INDEX kept ON inspection (at, frame_bytes) WHERE frame_bytes IS NOT NULL;",
+    )
+}
+
+/// The version of a file; 0 before it has a table.
+pub(super) fn version(file: &Connection) -> rusqlite::Result<u32> {
+    file.pragma_query_value(None, "user_version", |row| row.get(0))
+}
+
+/// Brings a file to the version of today, all the way or not at all; a newer one is left as it is.
+pub(super) fn migrate(file: &mut Connection) -> rusqlite::Result<()> {
+    migrate_by(file, &STEPS)
+}
+
+fn migrate_by(file: &mut Connection, steps: &[Step]) -> rusqlite::Result<()> {
+    if version(file)? as usize >= steps.len() {
+        return Ok(());
+    }
+    let file = file.transaction_with_behavior(TransactionBehavior::Immediate)?;
+    // Another program may have been quicker.
+    let found = version(&file)? as usize;
+    for (number, step) in steps.iter().enumerate().skip(found) {
+        step(&file)?;
+        file.pragma_update(None, "user_version", number as u32 + 1)?;
+    }
+    file.pragma_update(None, "application_id", APPLICATION)?;
+    file.commit()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn tables(file: &Connection) -> Vec<String> {
+        let mut names = file
+            .prepare("SELECT name FROM sqlite_schema WHERE type = 'table' ORDER BY name")
+            .expect("asked");
+        let names = names.query_map([], |row| row.get(0)).expect("asked");
+        names.map(|name| name.expect("text")).collect()
+    }
+
+    fn second(file: &Transaction<'_>) -> rusqlite::Result<()> {
+        file.execute_batch("CREATE TABLE later (number INTEGER)")
+    }
+
+    fn failing(file: &Transaction<'_>) -> rusqlite::Result<()> {
+        file.execute_batch("CREATE TABLE half (number INTEGER); CREATE TABLE inspection (x)")
+    }
+
+    #[test]
+    fn a_file_of_an_earlier_version_takes_the_steps_that_it_has_not_seen() {
+        let mut file = Connection::open_in_memory().expect("a file");
+        migrate_by(&mut file, &[first]).expect("made");
+        assert_eq!(version(&file).expect("asked"), 1);
+        migrate_by(&mut file, &[first, second]).expect("made");
+        assert_eq!(version(&file).expect("asked"), 2);
+        assert!(tables(&file).contains(&"later".to_owned()));
+        // What it has seen it does not see again, and a newer one is left as it is.
+        migrate_by(&mut file, &[first, second]).expect("nothing to do");
+        migrate_by(&mut file, &[first]).expect("nothing to do");
+        assert_eq!(version(&file).expect("asked"), 2);
+    }
+
+    #[test]
+    fn a_step_that_fails_leaves_the_file_as_it_was() {
+        let mut file = Connection::open_in_memory().expect("a file");
+        migrate_by(&mut file, &[first]).expect("made");
+        let before = tables(&file);
+        migrate_by(&mut file, &[first, second, failing]).expect_err("the table is there");
+        assert_eq!(tables(&file), before);
+        assert_eq!(version(&file).expect("asked"), 1);
+    }
+}

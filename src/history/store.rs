@@ -1,0 +1,291 @@
+//! Writing inspections into the file and asking for them.
+
+use std::path::{Path, PathBuf};
+
+use rusqlite::{
+    Connection, OptionalExtension as _, TransactionBehavior, params, params_from_iter, types::Value,
+};
+
+use super::{
+    entry::{NewEntry, Record, Summary},
+    error::HistoryError,
+    filter::Filter,
+    frames::{self, FrameRecord},
+    open::{FILE, FRAMES, Lock},
+    retention::Retention,
+    rows::{COLUMNS, insert, json, record_of, summary_of},
+};
+use crate::{library::Truth, stages::scene::SceneCloud};
+
+/// The history: a file of inspections, and a folder of frames beside it.
+#[derive(Debug)]
+pub struct History {
+    pub(super) file: Connection,
+    path: PathBuf,
+    pub(super) frames: PathBuf,
+    lock: Option<Lock>,
+}
+
+/// Some rows of a list, and how many there are in all.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Page {
+    /// The rows, the newest first.
+    pub rows: Vec<Summary>,
+    /// Rows that the filter lets through.
+    pub num_matching: usize,
+    /// Rows there are.
+    pub num_all: usize,
+}
+
+impl History {
+    pub(super) fn new(file: Connection, folder: &Path) -> Self {
+        Self {
+            file,
+            path: folder.join(FILE),
+            frames: folder.join(FRAMES),
+            lock: None,
+        }
+    }
+
+    pub(super) fn hold(&mut self, lock: Lock) {
+        self.lock = Some(lock);
+    }
+
+    /// The file.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    pub(super) fn error(&self, source: rusqlite::Error) -> HistoryError {
+        HistoryError::of(&self.path, source)
+    }
+
+    /// Writes an inspection, with its frame if the rule keeps it: all of it or nothing. Answers with its number.
+    ///
+    /// The frame is there before the row: what is killed between the two leaves a stray, which the next opening removes.
+    pub fn add(&mut self, entry: &NewEntry, retention: &Retention) -> Result<i64, HistoryError> {
+        let summary = &entry.record.summary;
+        let scene = entry.scene.as_deref();
+        let frame = match scene.filter(|_| retention.keep.keeps(summary.verdict)) {
+            Some(scene) => frames::write(&self.frames, scene, summary.at)?,
+            None => None,
+        };
+        let written = self.add_row(entry, frame.as_ref());
+        if let (Err(_), Some(frame)) = (&written, &frame) {
+            // Nothing speaks of it.
+            for path in frames::files_of(&self.frames, &frame.file) {
+                let _ = frames::remove(&path);
+            }
+        }
+        written.map_err(|error| self.error(error))
+    }
+
+    fn add_row(&mut self, entry: &NewEntry, frame: Option<&FrameRecord>) -> rusqlite::Result<i64> {
+        let file = self
+            .file
+            .transaction_with_behavior(TransactionBehavior::Immediate)?;
+        let number = insert(&file, entry, frame)?;
+        file.commit()?;
+        Ok(number)
+    }
+
+    /// Writes many inspections at once, without their frames: all or none.
+    pub fn add_all(
+        &mut self,
+        entries: impl IntoIterator<Item = NewEntry>,
+    ) -> Result<(), HistoryError> {
+        let written = || -> rusqlite::Result<()> {
+            let file = self
+                .file
+                .transaction_with_behavior(TransactionBehavior::Immediate)?;
+            for entry in entries {
+                insert(&file, &entry, None)?;
+            }
+            file.commit()
+        };
+        written().map_err(|error| HistoryError::of(&self.path, error))
+    }
+
+    /// The rows from this place on that the filter lets through, the newest first, and how many there are in all.
+    pub fn page(&self, filter: &Filter, offset: usize, most: usize) -> Result<Page, HistoryError> {
+        let read = || -> rusqlite::Result<Page> {
+            let num_all = self.count_all()?;
+            let (numbers, num_matching) = if filter.has_words() {
+                // Words are looked for in every row: once for both.
+                self.numbers_and_count(filter, offset, most)?
+            } else if *filter == Filter::default() {
+                (self.numbers(filter, offset, most)?, num_all)
+            } else {
+                (self.numbers(filter, offset, most)?, self.count(filter)?)
+            };
+            Ok(Page {
+                rows: self.rows(&numbers)?,
+                num_matching,
+                num_all,
+            })
+        };
+        read().map_err(|error| self.error(error))
+    }
+
+    fn count_all(&self) -> rusqlite::Result<usize> {
+        let asked = "SELECT count(*) FROM inspection";
+        let num: i64 = self.file.query_row(asked, [], |row| row.get(0))?;
+        Ok(num as usize)
+    }
+
+    fn count(&self, filter: &Filter) -> rusqlite::Result<usize> {
+        let (condition, values) = filter.condition();
+        let asked = format!("SELECT count(*) FROM {LISTED} WHERE {condition}");
+        let mut asked = self.file.prepare(&asked)?;
+        let num: i64 = asked.query_row(params_from_iter(values), |row| row.get(0))?;
+        Ok(num as usize)
+    }
+
+    /// Which rows a page shows.
+    fn numbers(&self, filter: &Filter, offset: usize, most: usize) -> rusqlite::Result<Vec<i64>> {
+        let (asked, mut values) = listed_query(filter);
+        values.extend([Value::from(most as i64), Value::from(offset as i64)]);
+        let mut asked = self.file.prepare(&format!("{asked} LIMIT ? OFFSET ?"))?;
+        asked
+            .query_map(params_from_iter(values), |row| row.get(0))?
+            .collect()
+    }
+
+    /// The same, and how many there are in all.
+    fn numbers_and_count(
+        &self,
+        filter: &Filter,
+        offset: usize,
+        most: usize,
+    ) -> rusqlite::Result<(Vec<i64>, usize)> {
+        let (asked, values) = listed_query(filter);
+        let mut asked = self.file.prepare(&asked)?;
+        let mut found = asked.query(params_from_iter(values))?;
+        let (mut numbers, mut num) = (Vec::new(), 0);
+        while let Some(row) = found.next()? {
+            if num >= offset && numbers.len() < most {
+                numbers.push(row.get(0)?);
+            }
+            num += 1;
+        }
+        Ok((numbers, num))
+    }
+
+    /// These rows, in their order.
+    fn rows(&self, numbers: &[i64]) -> rusqlite::Result<Vec<Summary>> {
+        let asked = format!("SELECT {COLUMNS} FROM inspection WHERE number = ?");
+        let mut asked = self.file.prepare(&asked)?;
+        // One that somebody else removed meanwhile is none.
+        let rows = numbers.iter();
+        let rows = rows.map(|number| asked.query_row([number], summary_of).optional());
+        rows.filter_map(Result::transpose).collect()
+    }
+
+    /// Goes through all rows that the filter lets through, the oldest first.
+    pub fn each(
+        &self,
+        filter: &Filter,
+        mut each: impl FnMut(Record) -> Result<(), HistoryError>,
+    ) -> Result<(), HistoryError> {
+        let (condition, values) = filter.condition();
+        let asked = format!("SELECT number FROM inspection WHERE {condition} ORDER BY at, number");
+        let numbers = || -> rusqlite::Result<Vec<i64>> {
+            let mut asked = self.file.prepare(&asked)?;
+            let numbers = asked.query_map(params_from_iter(values), |row| row.get(0))?;
+            numbers.collect()
+        };
+        for number in numbers().map_err(|error| self.error(error))? {
+            // One that somebody else removed meanwhile is none.
+            if let Some(record) = self.row(number)? {
+                each(record)?;
+            }
+        }
+        Ok(())
+    }
+
+    /// An inspection in full.
+    pub fn row(&self, number: i64) -> Result<Option<Record>, HistoryError> {
+        let asked = format!(
+            "SELECT {COLUMNS}, nearest, reason, advice, camera_from_part, recipe.identity, recipe.json, library,
+                program, line, thumbnail, origin, frame
+            FROM inspection JOIN detail USING (number) JOIN recipe ON recipe.identity = detail.recipe
+            WHERE number = ?"
+        );
+        let found = self.file.query_row(&asked, [number], record_of).optional();
+        found.map_err(|error| self.error(error))
+    }
+
+    /// The same; one that is not there is an error.
+    pub fn known(&self, number: i64) -> Result<Record, HistoryError> {
+        self.row(number)?
+            .ok_or(HistoryError::NoSuchInspection { number })
+    }
+
+    /// The scene of an inspection whose frame is kept, as it was inspected; `None` if it is not.
+    pub fn scene(&self, record: &Record) -> Result<Option<SceneCloud>, HistoryError> {
+        let frame = record.detail.frame.as_ref();
+        frame
+            .map(|frame| frames::read(&self.frames, frame))
+            .transpose()
+    }
+
+    /// The folder of the kept frames.
+    pub fn frames_folder(&self) -> &Path {
+        &self.frames
+    }
+
+    /// Writes down what a person remarks.
+    pub fn set_remark(&mut self, number: i64, remark: &str) -> Result<(), HistoryError> {
+        self.change(number, |row| remark.trim().clone_into(&mut row.remark))
+    }
+
+    /// Writes down what it truly is, or that nobody knows.
+    pub fn set_label(&mut self, number: i64, label: Option<&Truth>) -> Result<(), HistoryError> {
+        self.change(number, |row| row.label = label.cloned())
+    }
+
+    fn change(
+        &mut self,
+        number: i64,
+        change: impl FnOnce(&mut Summary),
+    ) -> Result<(), HistoryError> {
+        let changed = || -> rusqlite::Result<bool> {
+            let file = self
+                .file
+                .transaction_with_behavior(TransactionBehavior::Immediate)?;
+            let asked = format!("SELECT {COLUMNS} FROM inspection WHERE number = ?");
+            let row = file.query_row(&asked, [number], summary_of).optional()?;
+            let Some(mut row) = row else {
+                return Ok(false);
+            };
+            change(&mut row);
+            file.execute(
+                "UPDATE inspection SET remark = ?, label = ?, search = ? WHERE number = ?",
+                params![
+                    row.remark,
+                    row.label.as_ref().and_then(json),
+                    row.search(),
+                    number
+                ],
+            )?;
+            file.commit()?;
+            Ok(true)
+        };
+        match changed() {
+            Ok(true) => Ok(()),
+            Ok(false) => Err(HistoryError::NoSuchInspection { number }),
+            Err(error) => Err(HistoryError::of(&self.path, error)),
+        }
+    }
+}
+
+/// The rows by the index that holds all that a filter asks for.
+const LISTED: &str = "inspection INDEXED BY listed";
+
+/// Which rows the filter lets through, the newest first: the index alone tells.
+pub(super) fn listed_query(filter: &Filter) -> (String, Vec<Value>) {
+    let (condition, values) = filter.condition();
+    let asked =
+        format!("SELECT number FROM {LISTED} WHERE {condition} ORDER BY at DESC, number DESC");
+    (asked, values)
+}

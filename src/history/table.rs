@@ -1,0 +1,71 @@
+//! Inspections as comma-separated values.
+
+use std::io::{self, Write};
+
+use super::entry::Record;
+use crate::library::Truth;
+
+/// The first line.
+const HEAD: &str = "number,time,scene,source,simulated,verdict,part,nearest,score,margin,reason,total_ms,\
+    label,remark,recipe,library,program,\
+    m00,m01,m02,m03,m10,m11,m12,m13,m20,m21,m22,m23,m30,m31,m32,m33";
+
+/// Writes the first line: the names of the columns. Times are UTC; m00..m33 are `camera_from_part`, row after row,
+/// metres.
+pub fn write_head(writer: &mut dyn Write) -> io::Result<()> {
+    writeln!(writer, "{HEAD}")
+}
+
+/// Writes the line of an inspection.
+pub fn write_row(writer: &mut dyn Write, record: &Record) -> io::Result<()> {
+    let Record { summary, detail } = record;
+    let [score, margin] = summary
+        .score
+        .map_or_else(Default::default, |both| both.map(|x| format!("{x:.4}")));
+    let reason = detail.complaint.as_ref().map_or("", |[reason, _]| reason);
+    let pose = match record.matrix() {
+        Some(numbers) => numbers.map(|x| format!(",{x:.9}")).concat(),
+        None => ",".repeat(16),
+    };
+    let label = summary.label.as_ref().map_or("", Truth::name);
+    writeln!(
+        writer,
+        "{},{},{},{},{},{},{},{},{score},{margin},{},{:.3},{},{},{},{},{}{pose}",
+        summary.number,
+        summary.at,
+        quoted(&summary.scene),
+        quoted(&summary.source),
+        summary.is_simulated,
+        summary.verdict.name(),
+        summary.part.as_deref().unwrap_or(""),
+        detail.nearest.as_deref().unwrap_or(""),
+        quoted(reason),
+        summary.total_ms,
+        label,
+        quoted(&summary.remark),
+        detail.recipe_identity,
+        detail.library_identity,
+        detail.program,
+    )
+}
+
+/// A field as RFC 4180 has it.
+fn quoted(text: &str) -> String {
+    if text.contains([',', '"', '\n', '\r']) {
+        format!("\"{}\"", text.replace('"', "\"\""))
+    } else {
+        text.to_owned()
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_field_with_a_comma_or_a_quote_is_quoted() {
+        assert_eq!(quoted("a \"b\", c"), "\"a \"\"b\"\", c\"");
+        assert_eq!(quoted("plain"), "plain");
+        assert_eq!(quoted("two\nlines"), "\"two\nlines\"");
+    }
+}

@@ -1,0 +1,388 @@
+//! Writing, asking, filtering, sweeping.
+
+use std::sync::Arc;
+
+use rand::{RngExt as _, SeedableRng as _};
+use rusqlite::params_from_iter;
+
+use super::{
+    fixtures::{entry, moment, open, opened},
+    store::listed_query,
+    *,
+};
+use crate::{library::Truth, pipeline::Recipe};
+
+const ALL: Retention = Retention {
+    keep: KeepFrames::All,
+    max_days: 30,
+    max_gigabytes: 1.0,
+};
+
+fn numbers(history: &History, filter: &Filter) -> Vec<i64> {
+    let page = history.page(filter, 0, 1000).expect("asked");
+    assert_eq!(page.num_matching, page.rows.len());
+    page.rows.iter().map(|row| row.number).collect()
+}
+
+#[test]
+fn what_is_written_comes_back_whole_also_after_closing() {
+    let (folder, mut history) = opened();
+    let written = entry(1, PastVerdict::NotAccepted, "front_door");
+    assert_eq!(history.add(&written, &ALL).expect("written"), 1);
+    history.set_remark(1, " a dent, below ").expect("written");
+    let label = Truth::Part("back_door".into());
+    history.set_label(1, Some(&label)).expect("written");
+    drop(history);
+
+    let history = open(folder.path());
+    let record = history.known(1).expect("there");
+    let scene = history.scene(&record).expect("read").expect("kept");
+    assert_eq!(Some(&scene), written.scene.as_deref());
+    assert_eq!(
+        image::load_from_memory(&record.detail.thumbnail)
+            .expect("a PNG")
+            .width(),
+        16
+    );
+    assert_eq!(
+        record.timings(),
+        [
+            ("segment".into(), 8.0),
+            ("pose".into(), 20.5),
+            ("total".into(), 31.5)
+        ]
+    );
+    let frame = record.detail.frame.clone().expect("kept");
+    let mut expected = written.record;
+    expected.summary.number = 1;
+    expected.summary.remark = "a dent, below".into();
+    expected.summary.label = Some(label);
+    expected.summary.frame_bytes = Some(frame.bytes);
+    expected
+        .detail
+        .thumbnail
+        .clone_from(&record.detail.thumbnail);
+    expected.detail.frame = Some(frame);
+    let pose = expected
+        .detail
+        .camera_from_part
+        .take()
+        .zip(record.detail.camera_from_part);
+    let (before, now) = pose.expect("both");
+    assert!((before.to_matrix() - now.to_matrix()).norm() < 1e-12);
+    expected.detail.camera_from_part = Some(now);
+    assert_eq!(record, expected);
+    assert!(matches!(
+        history.known(2),
+        Err(HistoryError::NoSuchInspection { number: 2 })
+    ));
+}
+
+#[test]
+fn the_newest_come_first_page_by_page() {
+    let (_folder, mut history) = opened();
+    for seconds in [5, 3, 9, 1, 7] {
+        let entry = entry(seconds, PastVerdict::Accepted, "fender");
+        history.add(&entry, &Retention::default()).expect("written");
+    }
+    let page = |offset| {
+        let page = history.page(&Filter::default(), offset, 2).expect("asked");
+        assert_eq!((page.num_matching, page.num_all), (5, 5));
+        page.rows
+            .iter()
+            .map(|row| row.scene.clone())
+            .collect::<Vec<_>>()
+    };
+    assert_eq!(page(0), ["frame 9", "frame 7"]);
+    assert_eq!(page(2), ["frame 5", "frame 3"]);
+    assert_eq!(page(4), ["frame 1"]);
+    assert!(page(6).is_empty());
+}
+
+#[test]
+fn every_filter_lets_through_what_a_plain_look_at_the_rows_does() {
+    let (_folder, mut history) = opened();
+    let mut random = rand_pcg::Pcg64::seed_from_u64(7);
+    let parts = ["front_door", "Fender", "back_door"];
+    let mut rows = Vec::new();
+    for _ in 0..200 {
+        let verdict = PastVerdict::ALL[random.random_range(0..4)];
+        let part = parts[random.random_range(0..3)];
+        let mut entry = entry(random.random_range(0..500), verdict, part);
+        entry.record.summary.is_simulated = random.random();
+        entry.record.summary.remark = ["", "Beule Ö", "dent 50%"][random.random_range(0..3)].into();
+        entry.scene = None;
+        let number = history.add(&entry, &Retention::default()).expect("written");
+        entry.record.summary.number = number;
+        rows.push(entry.record.summary);
+    }
+    rows.sort_by_key(|row| std::cmp::Reverse((row.at, row.number)));
+    let mut num_found = 0;
+    for _ in 0..300 {
+        let from = random.random_range(0..500);
+        let filter = Filter {
+            since: random.random::<bool>().then(|| moment(from)),
+            until: random.random::<bool>().then(|| moment(from + 150)),
+            part: random
+                .random_bool(0.3)
+                .then(|| parts[random.random_range(0..3)].to_owned()),
+            verdict: random
+                .random_bool(0.3)
+                .then(|| PastVerdict::ALL[random.random_range(0..4)]),
+            is_simulated: random.random_bool(0.3).then(|| random.random()),
+            text: [
+                "",
+                "",
+                "door",
+                "FENDER  dent",
+                "ö",
+                "50%",
+                "_door frame",
+                "nothing",
+            ][random.random_range(0..8)]
+            .into(),
+        };
+        let plain: Vec<i64> = rows
+            .iter()
+            .filter(|row| filter.passes(row))
+            .map(|row| row.number)
+            .collect();
+        num_found += plain.len();
+        assert_eq!(numbers(&history, &filter), plain, "{filter:?}");
+    }
+    assert!(num_found > 1000, "{num_found}");
+}
+
+#[test]
+fn a_hundred_thousand_rows_are_asked_right_and_from_the_index_alone() {
+    const NUM: i64 = 100_000;
+    let (_folder, mut history) = opened();
+    let entries = (0..NUM).map(|i| {
+        let verdict = if i % 10 == 0 {
+            PastVerdict::NotAccepted
+        } else {
+            PastVerdict::Accepted
+        };
+        let mut entry = entry(i, verdict, if i % 8 == 0 { "grille" } else { "front_door" });
+        (entry.picture, entry.scene) = (None, None);
+        entry
+    });
+    history.add_all(entries).expect("written");
+    let filters = [
+        (Filter::default(), NUM),
+        (
+            Filter {
+                verdict: Some(PastVerdict::NotAccepted),
+                ..Filter::default()
+            },
+            NUM / 10,
+        ),
+        (
+            Filter {
+                part: Some("grille".into()),
+                ..Filter::default()
+            },
+            NUM / 8,
+        ),
+        (
+            Filter {
+                since: Some(moment(NUM - 1000)),
+                ..Filter::default()
+            },
+            1000,
+        ),
+        (
+            Filter {
+                // Also 19999, 29999 and so on.
+                text: "frame 9999".into(),
+                ..Filter::default()
+            },
+            19,
+        ),
+        (
+            Filter {
+                text: "grille".into(),
+                verdict: Some(PastVerdict::NotAccepted),
+                until: Some(moment(NUM / 2)),
+                ..Filter::default()
+            },
+            NUM / 80,
+        ),
+    ];
+    for (filter, num) in filters {
+        let page = history.page(&filter, 0, 50).expect("asked");
+        assert_eq!(
+            (page.num_matching as i64, page.num_all as i64),
+            (num, NUM),
+            "{filter:?}"
+        );
+        assert_eq!(page.rows.len() as i64, num.min(50));
+        assert!(
+            page.rows
+                .is_sorted_by_key(|row| std::cmp::Reverse(row.number))
+        );
+        let far = history.page(&filter, num as usize - 1, 50).expect("asked");
+        assert_eq!(far.rows.len(), 1);
+        let (asked, values) = listed_query(&filter);
+        let mut plan = history
+            .file
+            .prepare(&format!("EXPLAIN QUERY PLAN {asked}"))
+            .expect("asked");
+        let plan = plan
+            .query_map(params_from_iter(values), |row| {
+                row.get::<_, String>("detail")
+            })
+            .expect("asked");
+        let plan: Vec<String> = plan.map(|line| line.expect("text")).collect();
+        assert!(
+            plan.iter()
+                .any(|line| line.contains("COVERING INDEX listed")),
+            "{plan:?}"
+        );
+        assert!(
+            plan.iter()
+                // In the order of the index: nothing is sorted.
+                .all(|line| !line.contains("TEMP B-TREE")),
+            "{plan:?}"
+        );
+    }
+}
+
+#[test]
+fn frames_go_by_rule_age_and_size_and_marked_ones_stay() {
+    let (folder, mut history) = opened();
+    let day = 24 * 3600;
+    let keep = |keep| Retention { keep, ..ALL };
+    let mut add = |days: i64, verdict, keep| {
+        let entry = entry(days * day, verdict, "grille");
+        let number = history.add(&entry, &keep).expect("written");
+        let frame = history.known(number).expect("there").summary.frame_bytes;
+        (number, frame)
+    };
+    assert!(
+        add(0, PastVerdict::Accepted, keep(KeepFrames::NotAccepted))
+            .1
+            .is_none()
+    );
+    assert!(
+        add(0, PastVerdict::NoPart, keep(KeepFrames::None))
+            .1
+            .is_none()
+    );
+    let (old, _) = add(1, PastVerdict::Unknown, keep(KeepFrames::NotAccepted));
+    let (marked, _) = add(2, PastVerdict::NotAccepted, ALL);
+    let (next, bytes) = add(40, PastVerdict::Accepted, ALL);
+    let (newest, _) = add(41, PastVerdict::Accepted, ALL);
+    history.set_remark(marked, "asked about").expect("written");
+    let is_kept = |history: &History, number| {
+        history
+            .known(number)
+            .expect("there")
+            .summary
+            .frame_bytes
+            .is_some()
+    };
+
+    let swept = history.sweep(&ALL, moment(41 * day)).expect("swept");
+    assert_eq!(swept.num_frames, 1);
+    assert!(!is_kept(&history, old) && is_kept(&history, marked) && is_kept(&history, next));
+
+    let bytes = bytes.expect("kept");
+    let usage = history.usage().expect("asked");
+    assert_eq!(usage.num_frames, 3);
+    assert!(usage.num_bytes_marked > 0 && usage.num_bytes_marked < usage.num_bytes);
+    // Room for the marked one and one more; less than the least that makes sense is taken for that.
+    history
+        .file
+        .execute(
+            "UPDATE inspection SET frame_bytes = 60000000 WHERE frame_bytes IS NOT NULL",
+            [],
+        )
+        .expect("changed");
+    let tight = Retention {
+        max_gigabytes: 0.13,
+        ..ALL
+    };
+    history.sweep(&tight, moment(41 * day)).expect("swept");
+    assert!(!is_kept(&history, next) && is_kept(&history, newest) && is_kept(&history, marked));
+    let files = std::fs::read_dir(folder.path().join("history-frames")).expect("listed");
+    // The two frames and their camera.
+    assert_eq!(files.count(), 3, "{bytes}");
+}
+
+#[test]
+fn frames_without_a_row_go_and_rows_without_a_frame_say_so() {
+    let (folder, mut history) = opened();
+    let number = history
+        .add(&entry(1, PastVerdict::NoPart, "grille"), &ALL)
+        .expect("written");
+    let other = history
+        .add(&entry(2, PastVerdict::NoPart, "grille"), &ALL)
+        .expect("written");
+    let frame = history
+        .known(number)
+        .expect("there")
+        .detail
+        .frame
+        .expect("kept");
+    let frames = history.frames_folder().to_owned();
+    std::fs::remove_file(frames.join(&frame.file)).expect("removed");
+    let stray = frames.join("20260301T060000000-1-999.png");
+    std::fs::write(&stray, "half a frame").expect("written");
+    // As long as somebody has it open, nothing is a stray: its row may be about to be written.
+    let second = open(folder.path());
+    assert!(stray.exists());
+    drop((history, second));
+
+    let history = open(folder.path());
+    assert!(!stray.exists());
+    assert_eq!(history.known(number).expect("there").detail.frame, None);
+    let kept = history.known(other).expect("there");
+    assert!(history.scene(&kept).expect("read").is_some());
+    assert_eq!(history.usage().expect("asked").num_frames, 1);
+}
+
+#[test]
+fn two_recipes_with_one_identity_are_both_kept() {
+    let (_folder, mut history) = opened();
+    let mut second = entry(2, PastVerdict::NoPart, "grille");
+    let mut recipe = Recipe::default();
+    recipe.accept.min_score = 0.5;
+    second.record.detail.recipe = Some(Arc::new(recipe.clone()));
+    for entry in [entry(1, PastVerdict::NoPart, "grille"), second] {
+        history.add(&entry, &Retention::default()).expect("written");
+    }
+    let recipe_of = |number| history.known(number).expect("there").detail.recipe;
+    assert_eq!(recipe_of(1).as_deref(), Some(&Recipe::default()));
+    assert_eq!(recipe_of(2).as_deref(), Some(&recipe));
+}
+
+#[test]
+fn the_table_has_a_line_for_each_row_and_as_many_fields_as_its_head() {
+    let (_folder, mut history) = opened();
+    for seconds in 1..=3 {
+        history
+            .add(
+                &entry(seconds, PastVerdict::NotAccepted, "grille"),
+                &Retention::default(),
+            )
+            .expect("written");
+    }
+    let mut table = Vec::new();
+    write_head(&mut table).expect("written");
+    let listed = history.each(&Filter::default(), |record| {
+        write_row(&mut table, &record).expect("written");
+        Ok(())
+    });
+    listed.expect("listed");
+    let table = String::from_utf8(table).expect("text");
+    let lines: Vec<&str> = table.lines().collect();
+    assert_eq!(lines.len(), 4);
+    assert!(lines[1].starts_with("1,2026-03-01T06:00:01Z,frame 1,simulated,true,not_accepted,grille,grille,0.9700,0.2500,too low,31.500,"));
+    let num_fields = |line: &str| line.split(',').count();
+    assert!(
+        lines
+            .iter()
+            .all(|line| num_fields(line) == num_fields(lines[0]))
+    );
+}
