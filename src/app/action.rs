@@ -9,7 +9,7 @@ use super::{
     align::{self, AlignAction, AlignAsk},
     compare::{self, CompareAction},
     enrol::{self, EnrolAction},
-    history::{self, HistoryAction},
+    history::{self, HistoryAction, HistoryJob, TakenIn},
     inspect::{
         self,
         state::InspectAction,
@@ -24,6 +24,7 @@ use super::{
     source::{CellChoice, Origin, SceneSource, file_name},
     state::{HelpPage, Notice, NoticeKind, Shown, Source, StagePanel, State, Workspace},
     worker::News,
+    writing::PastExport,
 };
 use crate::{
     capture::{Pace, RecordingSpec, SourceSpec, WatchedFrom, WatchedSpec},
@@ -115,6 +116,8 @@ pub enum Ask {
     ReportFolder,
     /// The file that the listed history goes to.
     HistoryCsv,
+    /// The folder that cases of the listed history go to.
+    HistoryCases,
     /// Where a picture of the 3-D view is to go.
     Picture,
     /// A folder of kept cases.
@@ -151,6 +154,8 @@ pub enum Effect {
     ShowDialog(Ask),
     /// Put this on the clipboard.
     CopyText(String),
+    /// Have this written into the history.
+    History(HistoryJob),
     /// Close the window.
     Close,
     /// All of this.
@@ -280,7 +285,8 @@ fn chosen(state: &mut State, ask: Ask, path: PathBuf) -> Option<Effect> {
             Some(open_library(state))
         }
         Ask::ReportFolder => export(state, path),
-        Ask::HistoryCsv => Some(history::export(state, path)),
+        Ask::HistoryCsv => Some(history::export(state, PastExport::Csv(path))),
+        Ask::HistoryCases => Some(history::export(state, PastExport::Cases(path))),
         Ask::Picture => {
             state.inspect.picture_to = Some(path);
             None
@@ -421,8 +427,9 @@ fn hear(state: &mut State, lane: Lane, news: News<Outcome>) -> Option<Effect> {
 /// What came out goes to where it belongs.
 fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> Option<Effect> {
     match outcome {
-        Ok(Answer::Inspected(inspected)) => show(state, generation, inspected),
-        Ok(Answer::Live(answer)) => live::hear(state, Ok(answer)),
+        Ok(Answer::Inspected(inspected)) => return show(state, generation, inspected),
+        Ok(Answer::Live(answer)) => return live::hear(state, Ok(answer)),
+        Ok(Answer::History(looked)) => return history::take(state, *looked),
         Ok(Answer::Enrol(answer)) => return enrol::hear(state, Ok(answer)),
         Ok(Answer::Compare(answer)) => return compare::hear(state, Ok(answer)),
         Ok(Answer::Align(answer)) => return align::hear(state, Ok(answer)),
@@ -440,8 +447,8 @@ fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> 
                 Lane::Compare => return compare::hear(state, Err(trouble)),
                 Lane::Align => return align::hear(state, Err(trouble)),
                 Lane::Inspect => without_scene(state),
-                Lane::Live => live::hear(state, Err(trouble)),
-                Lane::Write | Lane::Robot => {}
+                Lane::Live => return live::hear(state, Err(trouble)),
+                Lane::Write | Lane::History | Lane::Robot => {}
             }
         }
     }
@@ -455,7 +462,7 @@ fn without_scene(state: &mut State) {
     }
 }
 
-fn show(state: &mut State, generation: u64, inspected: Arc<Inspected>) {
+fn show(state: &mut State, generation: u64, inspected: Arc<Inspected>) -> Option<Effect> {
     for warning in &inspected.warnings {
         notify(state, Trouble::of(warning).into());
     }
@@ -463,14 +470,15 @@ fn show(state: &mut State, generation: u64, inspected: Arc<Inspected>) {
     if let Origin::File(path) = &inspected.origin {
         remember(&mut state.recent, path);
     }
-    let is_past = history::take_in(state, generation, &inspected);
+    let (taken, effect) = history::take_in(state, generation, &inspected);
     state.candidate = 0;
     state.shown = Some(Shown {
         generation,
         inspected,
-        is_past,
+        is_past: taken == TakenIn::Past,
         session: None,
     });
+    effect
 }
 
 /// From now on this library is shown; what had to be set aside in it is said once.

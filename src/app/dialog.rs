@@ -62,6 +62,11 @@ impl Dialog {
                     .add_filter("Comma-separated values", &["csv"])
                     .save_file(),
             ),
+            Ask::HistoryCases => Box::pin(
+                dialog
+                    .set_title("Folder for the cases of the listed inspections")
+                    .pick_folder(),
+            ),
             Ask::Library => Box::pin(dialog.set_title("Use another library").pick_folder()),
             Ask::Picture => Box::pin(
                 dialog
@@ -176,7 +181,7 @@ fn anything_with_points(dialog: rfd::AsyncFileDialog) -> rfd::AsyncFileDialog {
 /// Where nothing can be asked: files to write go to a folder of their own, files to open can be dropped.
 fn without_dialog(ask: Ask) -> Action {
     let name = match ask {
-        Ask::ReportFolder | Ask::RecordTo => "",
+        Ask::ReportFolder | Ask::RecordTo | Ask::HistoryCases => "",
         Ask::HistoryCsv => "inspections.csv",
         Ask::Picture => "view.png",
         Ask::SprayPath => "spray-path.csv",

@@ -6,6 +6,7 @@ use super::{
     align::{AlignAnswer, AlignRequest},
     compare::{CompareAnswer, CompareRequest},
     enrol::{EnrolAnswer, EnrolRequest},
+    history::{LookRequest, Looked},
     inspect::work::{InspectRequest, Inspected, inspect},
     lane::Lane,
     live::{LiveAnswer, LiveRequest},
@@ -35,6 +36,8 @@ pub enum Request {
     Robot(RobotRequest),
     /// Write a file.
     Write(WriteRequest),
+    /// Look into the history.
+    History(LookRequest),
 }
 
 impl Request {
@@ -48,6 +51,7 @@ impl Request {
             Self::Align(_) => Lane::Align,
             Self::Robot(_) => Lane::Robot,
             Self::Write(_) => Lane::Write,
+            Self::History(_) => Lane::History,
         }
     }
 }
@@ -71,6 +75,8 @@ pub enum Answer {
     Robot(RobotAnswer),
     /// What was written.
     Written(Written),
+    /// What is in the history.
+    History(Box<Looked>),
 }
 
 /// An answer, or what went wrong.
@@ -110,7 +116,10 @@ pub fn answer(request: Request, shelf: &Shelf, desk: &dyn Desk<Outcome>) -> Opti
         Request::Enrol(request) => super::enrol::answer(request, shelf, desk),
         Request::Compare(request) => super::compare::answer(request, shelf, desk),
         Request::Align(request) => super::align::answer(request, shelf, desk),
+        Request::Write(request) => {
+            Some(super::writing::answer(&request, shelf).map(Answer::Written))
+        }
+        Request::History(request) => Some(super::history::answer(&request, shelf)),
         Request::Robot(request) => Some(super::robot::work::answer(request)),
-        Request::Write(request) => Some(super::writing::answer(&request).map(Answer::Written)),
     }
 }

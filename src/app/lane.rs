@@ -17,13 +17,15 @@ pub enum Lane {
     Write,
     /// Changes the library: what it began it finishes.
     Library,
+    /// Looks into the history; what is written there has a thread of its own.
+    History,
     /// Reads, writes and calculates calibrations of the robot's cell.
     Robot,
 }
 
 impl Lane {
     /// Every lane.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 9] = [
         Self::Inspect,
         Self::Live,
         Self::Enrol,
@@ -31,6 +33,7 @@ impl Lane {
         Self::Align,
         Self::Write,
         Self::Library,
+        Self::History,
         Self::Robot,
     ];
 
@@ -44,6 +47,7 @@ impl Lane {
             Self::Align => "align",
             Self::Write => "write",
             Self::Library => "library",
+            Self::History => "look",
             Self::Robot => "robot",
         }
     }

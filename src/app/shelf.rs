@@ -11,6 +11,7 @@ use image::RgbaImage;
 use super::{camera::Camera, fitted::FittedCache, job::Trouble, live::Tape};
 use crate::{
     error::Advice as _,
+    history::Keeper,
     library::{
         Library, LibraryError, LibraryLoad, LibraryPlace, PartMeta, SprayPath, open_library,
     },
@@ -23,6 +24,7 @@ pub struct Shelf {
     choice: Arc<Mutex<Choice>>,
     camera: Camera,
     tape: Tape,
+    history: Arc<Keeper>,
 }
 
 #[derive(Debug, Default)]
@@ -97,7 +99,19 @@ impl Shelf {
             choice: Arc::new(Mutex::new(Choice { given, loaded })),
             camera,
             tape: Tape::default(),
+            history: Arc::default(),
         }
+    }
+
+    /// The same, with this history.
+    #[must_use]
+    pub fn with_history(self, history: Arc<Keeper>) -> Self {
+        Self { history, ..self }
+    }
+
+    /// The history.
+    pub fn history(&self) -> &Arc<Keeper> {
+        &self.history
     }
 
     /// The recording that is being made.

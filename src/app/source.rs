@@ -13,6 +13,7 @@ use crate::{
     capture::{self, CaptureWarning, CellScene, Image, SimulatedSpec, SourceSpec},
     error::Advice,
     files::{self, FileError, Opened},
+    history::{FrameRecord, HistoryError, read_frame},
     simulate::{CellSetup, ObjectKind, PartKind, PartPose, Placement, Side, Subject, frame},
     stages::{
         scene::{SceneCloud, scene_from_cloud, scene_from_frame},
@@ -108,7 +109,8 @@ impl CellChoice {
 }
 
 /// Where a scene came from.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum Origin {
     /// A frame of the simulated cell.
     Simulated {
@@ -191,6 +193,19 @@ pub enum SceneSource {
     AtHand(Arc<SceneCloud>, Origin),
     /// Another source, whose camera saw this empty cell before.
     Before(Arc<EmptyCell>, Box<SceneSource>),
+    /// A frame that the history keeps.
+    Kept(Box<KeptScene>),
+}
+
+/// A frame that the history keeps.
+#[derive(Clone, Debug)]
+pub struct KeptScene {
+    /// The folder of kept frames.
+    pub folder: PathBuf,
+    /// Its file, and what the file does not tell.
+    pub frame: FrameRecord,
+    /// Where it came from.
+    pub origin: Origin,
 }
 
 /// A scene and where it came from.
@@ -213,6 +228,9 @@ pub enum SceneError {
     /// The camera has no frame.
     #[error(transparent)]
     Camera(#[from] CameraError),
+    /// The history's frame cannot be read.
+    #[error(transparent)]
+    Kept(#[from] HistoryError),
     /// A mesh is nothing that a camera saw.
     #[error("{}: a mesh, expected what a depth camera saw", path.display())]
     MeshIsNoScene {
@@ -226,6 +244,7 @@ impl Advice for SceneError {
         match self {
             Self::File(error) => error.advice(),
             Self::Camera(error) => error.advice(),
+            Self::Kept(error) => error.advice(),
             Self::MeshIsNoScene { .. } => {
                 "Open it in the Enrol workspace (2) to enrol it as a reference".into()
             }
@@ -234,6 +253,18 @@ impl Advice for SceneError {
 }
 
 impl SceneSource {
+    /// Where its scenes come from, for the history.
+    pub fn in_words(&self) -> String {
+        match self {
+            Self::Cell { .. } => "simulated cell".into(),
+            Self::File(path) => path.display().to_string(),
+            Self::Camera(spec) => spec.to_string(),
+            Self::Before(_, source) => source.in_words(),
+            Self::AtHand(_, origin) => origin.title(),
+            Self::Kept(kept) => kept.origin.title(),
+        }
+    }
+
     /// Captures, reads or hands over the scene; a frame is waited for until `is_cancelled`.
     pub fn take(
         &self,
@@ -277,6 +308,11 @@ impl SceneSource {
                 captured.scene = Arc::new(scene);
                 Ok(captured)
             }
+            Self::Kept(kept) => Ok(Captured {
+                scene: Arc::new(read_frame(&kept.folder, &kept.frame)?),
+                origin: kept.origin.clone(),
+                warnings: Vec::new(),
+            }),
             Self::AtHand(scene, origin) => Ok(Captured {
                 scene: Arc::clone(scene),
                 origin: origin.clone(),

@@ -95,9 +95,14 @@ impl State {
         let all = self.works.iter().map(|(lane, work)| (*lane, work));
         // Quickly done, and not to be given up half-way.
         // A source is followed until it is no longer wanted, which has a button of its own.
-        let mut all = all.filter(|(lane, _)| {
-            !matches!(lane, Lane::Write | Lane::Library | Lane::Live | Lane::Robot)
-        });
+        let quick = [
+            Lane::Write,
+            Lane::Library,
+            Lane::Live,
+            Lane::History,
+            Lane::Robot,
+        ];
+        let mut all = all.filter(|(lane, _)| !quick.contains(lane));
         let own = own.and_then(|own| self.works.get_key_value(&own).map(|(l, w)| (*l, w)));
         own.or_else(|| all.next())
     }

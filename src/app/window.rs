@@ -1,6 +1,6 @@
 //! The window as eframe drives it: fetch news, draw the last result, apply what was done.
 
-use std::{collections::BTreeMap, io, path::PathBuf, task::Poll, time::Duration};
+use std::{collections::BTreeMap, io, path::PathBuf, sync::Arc, task::Poll, time::Duration};
 
 use eframe::egui_wgpu::RenderState;
 use egui::{CentralPanel, Frame, Ui};
@@ -14,7 +14,7 @@ use super::{
     dialog::Dialog,
     enrol::EnrolPanel,
     headless::WorkCounts,
-    history::HistoryPanel,
+    history::{self, HistoryAction, HistoryJob, HistoryPanel},
     inspect::InspectPanel,
     job::{Outcome, Request, Trouble, answer},
     keys,
@@ -30,6 +30,7 @@ use super::{
     viewport::{ViewError, ViewportGpu},
     worker::Worker,
 };
+use crate::history::{Keeper, Writer};
 
 /// What the window is opened with.
 #[derive(Clone, Debug, Default)]
@@ -42,6 +43,8 @@ pub struct WindowOptions {
     pub settings: Option<PathBuf>,
     /// The folder of kept cases; without it the user's own.
     pub cases: Option<PathBuf>,
+    /// The folder of the history; without it inspections are kept in memory alone.
+    pub history: Option<PathBuf>,
     /// Where the user's own calibration of the robot's cell is; without it none is looked for.
     pub cell: Option<PathBuf>,
     /// What opens cameras.
@@ -52,6 +55,9 @@ pub struct WindowOptions {
 pub struct Window {
     state: State,
     workers: BTreeMap<Lane, Worker<Request, Outcome>>,
+    /// Written behind the threads that inspect; both ends of it.
+    history_writer: Writer,
+    kept: Arc<Keeper>,
     memory: Memory,
     dialog: Option<Dialog>,
     installed: Option<ThemeChoice>,
@@ -77,11 +83,16 @@ impl Window {
             scene,
             settings,
             cases,
+            history,
             cell,
             camera,
         } = options;
         let (remembered, trouble) = settings.as_deref().map(settings::load).unwrap_or_default();
-        let shelf = Shelf::new(library.or_else(|| remembered.library.clone()), camera);
+        let kept = Arc::new(Keeper::new(history));
+        let repaint = ctx.clone();
+        let history_writer = Writer::start(Arc::clone(&kept), move || repaint.request_repaint())?;
+        let shelf = Shelf::new(library.or_else(|| remembered.library.clone()), camera)
+            .with_history(Arc::clone(&kept));
         let start = |lane: Lane| {
             let (shelf, repaint) = (shelf.clone(), ctx.clone());
             let worker = Worker::start(
@@ -107,6 +118,8 @@ impl Window {
                 ..remembered.into_state()
             },
             workers,
+            history_writer,
+            kept,
             dialog: None,
             installed: None,
             gpu: gpu.clone(),
@@ -163,12 +176,23 @@ impl Window {
                 self.dialog.get_or_insert_with(|| Dialog::open(ask, ctx));
             }
             Effect::CopyText(text) => ctx.copy_text(text),
+            Effect::History(job) => self.write_history(job),
             Effect::Close => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
             Effect::Several(effects) => {
                 for effect in effects {
                     self.make(effect, ctx);
                 }
             }
+        }
+    }
+
+    fn write_history(&self, job: HistoryJob) {
+        let writer = &self.history_writer;
+        match job {
+            HistoryJob::Add(ticket, entry) => writer.add(ticket, *entry),
+            HistoryJob::Remark(number, remark) => writer.remark(number, remark),
+            HistoryJob::Label(number, label) => writer.label(number, label),
+            HistoryJob::Keep(rule) => writer.retention(rule),
         }
     }
 
@@ -242,6 +266,13 @@ impl Window {
                 self.act(Action::Hear(lane, news), ctx);
             }
         }
+        let crowded = self.history_writer.take_crowded();
+        if crowded != [0; 2] {
+            self.act(Action::History(HistoryAction::Crowded(crowded)), ctx);
+        }
+        for news in self.kept.take_news() {
+            self.act(Action::History(HistoryAction::Hear(news)), ctx);
+        }
         if let Some(Poll::Ready(closed)) = self.dialog.as_mut().map(Dialog::poll) {
             self.dialog = None;
             if let Some(action) = closed {
@@ -287,6 +318,7 @@ impl Window {
         };
         notices::ui(&ctx, &self.state, theme, &mut actions);
         live::set_up(&ctx, &self.state, theme, &mut actions);
+        history::keeping_ui(&ctx, &self.state, theme, &mut actions);
         roles::dialog(&ctx, &self.state, theme, &mut actions);
         robot::ui(&ctx, &self.state, theme, &mut actions);
         keys::help(&ctx, &self.state, theme, &mut actions);

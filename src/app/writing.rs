@@ -11,11 +11,13 @@ use image::{DynamicImage, ImageFormat};
 use super::{
     inspect::work::Inspected,
     job::Trouble,
+    shelf::Shelf,
     source::{Origin, file_name},
     viewport::{ViewColours, ViewShot},
 };
 use crate::{
     files::write_atomically,
+    history::Filter,
     report::{
         InspectionLine, ReportError, ReportFolder,
         pose_report::{
@@ -49,6 +51,13 @@ pub enum WriteRequest {
         /// The 3-D view, if it was in sight.
         shot: Option<Box<ViewShot>>,
     },
+    /// Inspections of the history.
+    Past {
+        /// Which.
+        filter: Filter,
+        /// Where to.
+        to: PastExport,
+    },
     /// A spray path for the robot, as CSV or JSON.
     SprayPath {
         /// Where to.
@@ -69,6 +78,15 @@ pub enum WriteRequest {
     },
 }
 
+/// Where inspections of the history are written to.
+#[derive(Clone, Debug)]
+pub enum PastExport {
+    /// A table.
+    Csv(PathBuf),
+    /// A folder of cases: those with a kept frame and a true label.
+    Cases(PathBuf),
+}
+
 /// What was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Written {
@@ -79,8 +97,11 @@ pub struct Written {
 }
 
 /// Writes it: whole, or not at all.
-pub(super) fn answer(request: &WriteRequest) -> Result<Written, Trouble> {
+pub(super) fn answer(request: &WriteRequest, shelf: &Shelf) -> Result<Written, Trouble> {
     match request {
+        WriteRequest::Past { filter, to } => {
+            super::history::write_past(filter, to, shelf.history())
+        }
         WriteRequest::Text { path, text } => {
             write_atomically(path, |writer| writer.write_all(text.as_bytes()))
                 .map_err(|error| Trouble::of(&error))?;
@@ -262,15 +283,19 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("table.csv");
         let text = "part,e_m2\nfender,1e-7\n".to_owned();
-        let written = answer(&WriteRequest::Text {
-            path: path.clone(),
-            text: text.clone(),
-        });
+        let written = answer(
+            &WriteRequest::Text {
+                path: path.clone(),
+                text: text.clone(),
+            },
+            &Shelf::default(),
+        );
         let what = written.expect("written").what;
         assert_eq!(what, format!("Wrote {}", path.display()));
         assert_eq!(std::fs::read_to_string(&path).expect("read"), text);
         let path = folder.path().join("missing").join("table.csv");
-        let trouble = answer(&WriteRequest::Text { path, text }).expect_err("refused");
+        let trouble =
+            answer(&WriteRequest::Text { path, text }, &Shelf::default()).expect_err("refused");
         assert!(!trouble.what.is_empty() && !trouble.advice.is_empty());
     }
 }

@@ -41,7 +41,7 @@ pub(crate) fn open() -> WindowHarness {
 pub(crate) fn settle(harness: &mut WindowHarness) {
     wait_until(harness, |state| {
         let is_behind = state.workspace == Workspace::Compare && state.is_compare_behind();
-        state.works.is_empty() && !is_behind
+        state.works.is_empty() && !is_behind && state.history.is_settled()
     });
     harness.run_steps(8);
     // Wherever a test comes by: nothing to be pressed or filled in without a name.

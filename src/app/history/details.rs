@@ -1,24 +1,35 @@
 //! The inspection that is looked at: its verdict, its picture, and what can be done with it.
 
+use std::sync::Arc;
+
 use egui::{Button, RichText, ScrollArea, Sense, TextureHandle, Ui, Vec2, vec2};
 
-use super::{HistoryAction, PastInspection, PastVerdict};
+use super::{HistoryAction, LookedAt, differences, label, list::when};
 use crate::{
     app::{
         action::Action,
-        bars::labelled,
+        bars::{labelled, shortened},
         inspect::texture,
-        state::State,
+        state::{State, UnitSystem},
         theme::{Theme, font, space},
         widgets::{Mark, fitted, heading, mark, row},
     },
+    history::{Detail, PastVerdict, Record, Summary},
     pipeline::Recipe,
 };
 
-/// The picture of the row that is looked at.
+/// What the details keep between frames.
 #[derive(Default)]
 pub(super) struct Details {
-    picture: Option<(u64, TextureHandle)>,
+    picture: Option<(i64, Source, TextureHandle)>,
+    remark: label::Remark,
+}
+
+/// What the picture was made of.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Source {
+    Whole,
+    Thumbnail,
 }
 
 impl Details {
@@ -29,43 +40,55 @@ impl Details {
         theme: &Theme,
         actions: &mut Vec<Action>,
     ) {
-        let Some(past) = state.history.selected() else {
+        let Some(past) = &state.history.record else {
             let text = "Choose an inspection to see more of it";
             ui.label(RichText::new(text).color(theme.weak_text));
             return;
         };
-        self.make(ui, past);
+        self.make(ui, state, past);
+        let record = &past.record;
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-            verdict(ui, past, theme);
-            self.picture(ui, past, theme);
+            verdict(ui, record, theme);
+            self.picture(ui, record, theme);
             ui.add_space(space::MEDIUM);
-            buttons(ui, past, theme, actions);
-            heading(ui, theme, &format!("Inspection {}", past.number));
+            buttons(ui, record, theme, actions);
+            let differences = state.history.differences.as_ref();
+            let number = record.summary.number;
+            if let Some((_, found)) = differences.filter(|(of, _)| *of == number) {
+                differences::ui(ui, found, state.units, theme);
+            }
+            self.remark.ui(ui, &record.summary, state, theme, actions);
+            heading(ui, theme, &format!("Inspection {}", number.abs()));
             ui.scope(|ui| {
                 // Text lies closer than controls do.
                 ui.spacing_mut().interact_size.y = 22.0;
-                figures(ui, past, theme);
+                figures(ui, record, theme);
+                pose(ui, record, state.units, theme);
+                times(ui, record, theme);
             });
         });
     }
 
     /// Uploads the picture, once.
-    fn make(&mut self, ui: &Ui, past: &PastInspection) {
-        if self
-            .picture
-            .as_ref()
-            .is_some_and(|(of, _)| *of == past.number)
-        {
+    fn make(&mut self, ui: &Ui, state: &State, past: &Arc<LookedAt>) {
+        let number = past.record.summary.number;
+        let whole = state.history.whole(number);
+        let large = whole.and_then(|whole| whole.figures.segmentation.as_ref());
+        let source = large.map_or(Source::Thumbnail, |_| Source::Whole);
+        let made = self.picture.as_ref();
+        if made.is_some_and(|(of, from, _)| (*of, *from) == (number, source)) {
             return;
         }
-        let whole = past.whole.as_ref();
-        let image = whole.and_then(|whole| whole.figures.segmentation.as_ref());
-        self.picture = texture(ui.ctx(), "past inspection", image).map(|made| (past.number, made));
+        let image = large.or(past.picture.as_ref());
+        let made = texture(ui.ctx(), "past inspection", image);
+        self.picture = made.map(|made| (number, source, made));
     }
 
-    fn picture(&self, ui: &mut Ui, past: &PastInspection, theme: &Theme) {
-        let Some((of, texture)) = &self.picture else {
-            let text = "Its pictures are not kept any more: open it to make them again";
+    fn picture(&self, ui: &mut Ui, record: &Record, theme: &Theme) {
+        let number = record.summary.number;
+        let made = self.picture.as_ref().filter(|(of, ..)| *of == number);
+        let Some((_, _, texture)) = made else {
+            let text = "Its scene has no rows and columns, so there is no picture of it";
             ui.label(
                 RichText::new(text)
                     .font(font::small())
@@ -73,15 +96,12 @@ impl Details {
             );
             return;
         };
-        if *of != past.number {
-            return;
-        }
         ui.add_space(space::MEDIUM);
         let width = ui.available_width();
         let size = vec2(width, width * 0.75);
         let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
         response.widget_info(|| {
-            let label = format!("Segmentation of inspection {}", past.number);
+            let label = format!("Segmentation of inspection {}", number.abs());
             egui::WidgetInfo::labeled(egui::Role::Image, true, label)
         });
         let place = fitted(rect, texture.aspect_ratio());
@@ -89,63 +109,127 @@ impl Details {
     }
 }
 
-fn verdict(ui: &mut Ui, past: &PastInspection, theme: &Theme) {
-    let title = RichText::new(&past.title).font(font::title());
+fn verdict(ui: &mut Ui, record: &Record, theme: &Theme) {
+    let summary = &record.summary;
+    let title = RichText::new(&summary.title).font(font::title());
     ui.label(title.color(theme.text));
-    let (sign, colour) = match past.verdict {
+    let (sign, colour) = match summary.verdict {
         PastVerdict::Accepted => (Mark::Good, theme.accepted),
-        PastVerdict::NotAccepted | PastVerdict::NoPart => (Mark::Bad, theme.rejected),
+        PastVerdict::NotAccepted | PastVerdict::Unknown | PastVerdict::NoPart => {
+            (Mark::Bad, theme.rejected)
+        }
     };
     ui.horizontal(|ui| {
         let (rect, _) = ui.allocate_exact_size(Vec2::splat(20.0), Sense::hover());
         mark(ui.painter(), rect.center(), 9.0, sign, theme);
-        let word = match past.verdict {
-            PastVerdict::NoPart => PastVerdict::NotAccepted.title(),
-            other => other.title(),
+        let word = match summary.verdict {
+            PastVerdict::Accepted => PastVerdict::Accepted,
+            _ => PastVerdict::NotAccepted,
         };
-        ui.label(RichText::new(word).font(font::verdict()).color(colour));
+        let word = RichText::new(word.title()).font(font::verdict());
+        ui.label(word.color(colour));
     });
-    if let Some((reason, advice)) = &past.complaint {
+    if summary.is_simulated {
+        let text = "Simulated: no camera saw it";
+        ui.label(RichText::new(text).color(theme.warning));
+    }
+    if let Some([reason, advice]) = &record.detail.complaint {
         ui.label(RichText::new(reason).color(theme.text));
         let advice = RichText::new(advice).font(font::body_strong());
         ui.label(advice.color(theme.warning));
     }
 }
 
-fn figures(ui: &mut Ui, past: &PastInspection, theme: &Theme) {
-    let [day, time] = &past.when;
-    row(ui, theme, "scene", &past.scene);
-    row(ui, theme, "day", day);
-    row(ui, theme, "time of day", time);
-    if let Some([score, margin]) = past.score {
-        row(ui, theme, "score", &format!("{score:.2}"));
-        row(ui, theme, "margin", &format!("{margin:.2}"));
+fn figures(ui: &mut Ui, record: &Record, theme: &Theme) {
+    let Record { summary, detail } = record;
+    let Summary {
+        scene,
+        source,
+        at,
+        score,
+        frame_bytes,
+        ..
+    } = summary;
+    let mut row = |name: &str, value: &str| row(ui, theme, name, &shortened(value, 32));
+    row("scene", scene);
+    if source != scene {
+        row("source", source);
     }
-    row(ui, theme, "took", &format!("{} ms", past.time_text));
-    let recipe = if *past.recipe == Recipe::default() {
+    row("time", &when(*at));
+    if let Some([score, margin]) = score {
+        row("score", &format!("{score:.2}"));
+        row("margin", &format!("{margin:.2}"));
+    }
+    let Detail {
+        recipe,
+        recipe_identity,
+        library_identity,
+        program,
+        ..
+    } = detail;
+    let is_own = recipe.as_deref() == Some(&Recipe::default());
+    let whose = if is_own {
         "the program's own"
     } else {
         "changed"
     };
-    row(ui, theme, "recipe", recipe);
+    row("recipe", &format!("{recipe_identity}, {whose}"));
+    row("library", library_identity);
+    row("program", program);
+    let frame = frame_bytes.map_or_else(
+        || "not kept".to_owned(),
+        |bytes| format!("kept, {:.1} MB", bytes as f64 / 1e6),
+    );
+    row("frame", &frame);
 }
 
-fn buttons(ui: &mut Ui, past: &PastInspection, theme: &Theme, actions: &mut Vec<Action>) {
+fn pose(ui: &mut Ui, record: &Record, units: UnitSystem, theme: &Theme) {
+    let Some(pose) = &record.detail.camera_from_part else {
+        return;
+    };
+    heading(ui, theme, "camera_from_part");
+    let shift = pose.translation.vector;
+    let (rx, ry, rz) = pose.rotation.euler_angles();
+    for (name, metres) in ["x", "y", "z"].into_iter().zip(shift.iter()) {
+        row(ui, theme, name, &units.signed_length(*metres));
+    }
+    for (name, radians) in [("rx", rx), ("ry", ry), ("rz, of Rz·Ry·Rx", rz)] {
+        row(ui, theme, name, &units.signed_angle(radians));
+    }
+}
+
+fn times(ui: &mut Ui, record: &Record, theme: &Theme) {
+    let times = record.timings();
+    if times.is_empty() {
+        return;
+    }
+    heading(ui, theme, "Times");
+    for (stage, ms) in times {
+        row(ui, theme, &stage, &format!("{ms:.1} ms"));
+    }
+}
+
+fn buttons(ui: &mut Ui, record: &Record, theme: &Theme, actions: &mut Vec<Action>) {
+    let number = record.summary.number;
     ui.horizontal(|ui| {
         let open = RichText::new("Open").font(font::body_strong());
         let key = RichText::new("Enter").font(font::small());
         let open = Button::new(open.color(theme.on_accent))
             .shortcut_text(key.color(theme.on_accent))
             .fill(theme.accent);
-        if labelled(ui, open, "Open").clicked() {
-            actions.push(Action::History(HistoryAction::Open(past.number)));
-        }
-        let again = Button::new("Inspect again");
-        if labelled(ui, again, "Inspect again")
-            .on_hover_text("With the recipe and the library now in use")
+        if labelled(ui, open, "Open")
+            .on_hover_text("With every stage, by its own recipe")
             .clicked()
         {
-            actions.push(Action::History(HistoryAction::InspectAgain(past.number)));
+            actions.push(Action::History(HistoryAction::Open(number)));
+        }
+        let key = RichText::new("A").font(font::small());
+        let again = Button::new("Inspect again").shortcut_text(key.color(theme.weak_text));
+        if labelled(ui, again, "Inspect again")
+            .on_hover_text("With the recipe and the library now in use: what changed is shown here")
+            .clicked()
+        {
+            actions.push(Action::History(HistoryAction::InspectAgain(number)));
         }
     });
 }

@@ -1,103 +1,120 @@
-//! The list of past inspections, and what it shows of them.
+//! The list of past inspections: however many there are, only the rows in sight are fetched and drawn.
 
-use egui::{
-    Align, Align2, Button, Layout, Painter, Rect, RichText, ScrollArea, Sense, TextEdit, Ui, Vec2,
-    pos2, vec2,
+use egui::{Align2, Painter, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
+use jiff::{Timestamp, tz::TimeZone};
+
+use super::{HistoryAction, HistoryState, bar};
+use crate::{
+    app::{
+        action::Action,
+        bars::focus_ring,
+        state::State,
+        theme::{ROUNDING, Theme, font, space},
+        widgets::{Mark, mark},
+    },
+    history::{PastVerdict, Summary},
 };
 
-use super::{HistoryAction, HistoryFilter, HistoryState, PastInspection, PastVerdict};
-use crate::app::{
-    action::{Action, Ask},
-    bars::{focus_ring, labelled},
-    theme::{ROUNDING, Theme, font, space},
-    widgets::{Mark, mark},
-};
-
-/// In more width than this all choices of the filter stand side by side, logical pixels.
-const WIDE: f32 = 520.0;
 /// Height of a row: a target for a gloved finger.
 const ROW: f32 = 40.0;
+/// Between two rows.
+const GAP: f32 = 2.0;
+/// In less width than this moments are shortened.
+const NARROW: f32 = 700.0;
 
-pub(super) fn ui(ui: &mut Ui, history: &HistoryState, theme: &Theme, actions: &mut Vec<Action>) {
-    bar(ui, history, actions);
-    ui.add_space(space::SMALL);
-    let columns = Columns::across(ui.available_width());
-    head(ui, history, &columns, theme);
-    let listed = history.listed();
-    if listed.is_empty() {
-        ui.add_space(space::LARGE);
-        let text = "No inspection is like this: change the filter";
-        ui.label(RichText::new(text).color(theme.weak_text));
-        return;
+/// What the list keeps between frames.
+#[derive(Default)]
+pub(super) struct List {
+    /// The inspection that was looked at in the last frame.
+    selected: Option<i64>,
+    /// Places of the rows that were in sight.
+    seen: std::ops::Range<usize>,
+}
+
+impl List {
+    pub(super) fn ui(
+        &mut self,
+        ui: &mut Ui,
+        state: &State,
+        theme: &Theme,
+        actions: &mut Vec<Action>,
+    ) {
+        let history = &state.history;
+        bar::ui(ui, state, theme, actions);
+        if let Some(trouble) = &history.trouble {
+            let text = format!("Kept in memory only: {}", trouble.what);
+            ui.label(RichText::new(text).color(theme.warning));
+            ui.label(
+                RichText::new(&trouble.advice)
+                    .font(font::body_strong())
+                    .color(theme.warning),
+            );
+        }
+        ui.add_space(space::SMALL);
+        let columns = Columns::across(ui.available_width());
+        head(ui, &columns, theme);
+        let num_rows = history.num_matching();
+        if num_rows == 0 {
+            ui.add_space(space::LARGE);
+            let text = "No inspection is like this: change the filter";
+            ui.label(RichText::new(text).color(theme.weak_text));
+            // What comes next is fetched with its neighbours.
+            see(history, 0..1, actions);
+            return;
+        }
+        ui.spacing_mut().item_spacing.y = GAP;
+        let mut area = ScrollArea::vertical().auto_shrink(false);
+        if let Some(offset) = self.offset_to(history, ui.available_height()) {
+            area = area.vertical_scroll_offset(offset);
+        }
+        let mut seen = 0..0;
+        area.show_rows(ui, ROW, num_rows, |ui, visible| {
+            seen = visible.clone();
+            for place in visible {
+                match history.row(place) {
+                    Some(past) => row(ui, past, history.selected, &columns, theme, actions),
+                    None => {
+                        ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
+                    }
+                }
+            }
+        });
+        self.seen = seen.clone();
+        see(history, seen, actions);
     }
-    ui.spacing_mut().item_spacing.y = 2.0;
-    ScrollArea::vertical()
-        .auto_shrink(false)
-        .show_rows(ui, ROW, listed.len(), |ui, visible| {
-            let visible = listed.get(visible).unwrap_or_default();
-            for past in visible.iter().filter_map(|number| history.row(*number)) {
-                row(ui, past, history.selected, &columns, theme, actions);
-            }
-        });
-}
 
-/// What to list, and what to do with it.
-fn bar(ui: &mut Ui, history: &HistoryState, actions: &mut Vec<Action>) {
-    ui.horizontal(|ui| {
-        let filter = &history.filter;
-        let mut text = filter.text.clone();
-        let field = TextEdit::singleline(&mut text)
-            .hint_text("Part or scene")
-            .desired_width(180.0)
-            .min_size(vec2(180.0, space::TARGET))
-            .align(egui::Align2::LEFT_CENTER);
-        let field = ui.add(field);
-        field.widget_info(|| egui::WidgetInfo::labeled(egui::Role::TextInput, true, "Find"));
-        if field.changed() {
-            let verdict = filter.verdict;
-            actions.push(Action::History(HistoryAction::Filter(HistoryFilter {
-                text,
-                verdict,
-            })));
+    /// Where to scroll when the keys have led out of sight.
+    fn offset_to(&mut self, history: &HistoryState, height: f32) -> Option<f32> {
+        let before = std::mem::replace(&mut self.selected, history.selected);
+        let place = history
+            .selected
+            .and_then(|number| history.place_of(number))?;
+        // The last row in sight is often cut off.
+        let is_in_sight = self.seen.start < place && place + 2 < self.seen.end;
+        if before == history.selected || before.is_none() || is_in_sight {
+            return None;
         }
-        let is_wide = ui.available_width() > WIDE;
-        if is_wide {
-            verdicts(ui, filter, actions);
+        let top = place as f32 * (ROW + GAP);
+        let now = self.seen.start as f32 * (ROW + GAP);
+        Some(if top <= now {
+            (top - ROW).max(0.0)
         } else {
-            let now = filter.verdict.map_or("All", PastVerdict::title);
-            ui.menu_button(format!("Verdict · {now} ▼"), |ui| {
-                verdicts(ui, filter, actions);
-            });
-        }
-        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if labelled(ui, Button::new("Export CSV…"), "Export CSV…").clicked() {
-                actions.push(Action::Ask(Ask::HistoryCsv));
-            }
-        });
-    });
+            (top + 2.0 * ROW - height).max(0.0)
+        })
+    }
 }
 
-/// Which verdicts to list.
-fn verdicts(ui: &mut Ui, filter: &HistoryFilter, actions: &mut Vec<Action>) {
-    for choice in std::iter::once(None).chain(PastVerdict::ALL.map(Some)) {
-        let title = choice.map_or("All", PastVerdict::title);
-        let button = Button::selectable(filter.verdict == choice, title);
-        if ui
-            .add(button.min_size(Vec2::splat(space::TARGET)))
-            .clicked()
-        {
-            let text = filter.text.clone();
-            let filter = HistoryFilter {
-                text,
-                verdict: choice,
-            };
-            actions.push(Action::History(HistoryAction::Filter(filter)));
-        }
+/// Says which rows are in sight where that is not known.
+fn see(history: &HistoryState, rows: std::ops::Range<usize>, actions: &mut Vec<Action>) {
+    if history.is_news(&rows) {
+        actions.push(Action::History(HistoryAction::Visible(rows)));
     }
 }
 
 /// Where the columns lie, from the left edge of the list.
 struct Columns {
+    /// There is no room for a whole moment.
+    is_narrow: bool,
     part: f32,
     scene: f32,
     /// Right edges.
@@ -109,12 +126,14 @@ struct Columns {
 impl Columns {
     fn across(width: f32) -> Self {
         let when = width - 14.0;
-        let time = when - 84.0;
-        let score = time - 84.0;
+        let is_narrow = width < NARROW;
+        let time = when - if is_narrow { 96.0 } else { 170.0 };
+        let score = time - if is_narrow { 52.0 } else { 70.0 };
         let part = 40.0;
         Self {
+            is_narrow,
             part,
-            scene: part + (score - 60.0 - part) * 0.5,
+            scene: part + (score - 60.0 - part) * 0.58,
             score,
             time,
             when,
@@ -122,31 +141,25 @@ impl Columns {
     }
 }
 
-fn head(ui: &mut Ui, history: &HistoryState, columns: &Columns, theme: &Theme) {
+fn head(ui: &mut Ui, columns: &Columns, theme: &Theme) {
     let size = vec2(ui.available_width(), 22.0);
-    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
-    let count = format!("{} of {}", history.listed().len(), history.num_rows());
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &count));
+    let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
     let painter = ui.painter();
     let text = |x: f32, anchor: Align2, text: &str| {
         let at = pos2(rect.left() + x, rect.center().y);
         painter.text(at, anchor, text, font::heading(), theme.weak_text);
     };
-    text(
-        columns.part,
-        Align2::LEFT_CENTER,
-        &format!("Part · {count}"),
-    );
+    text(columns.part, Align2::LEFT_CENTER, "Part");
     text(columns.scene, Align2::LEFT_CENTER, "Scene");
     text(columns.score, Align2::RIGHT_CENTER, "Score");
     text(columns.time, Align2::RIGHT_CENTER, "ms");
-    text(columns.when, Align2::RIGHT_CENTER, "Time of day");
+    text(columns.when, Align2::RIGHT_CENTER, "Time");
 }
 
 fn row(
     ui: &mut Ui,
-    past: &PastInspection,
-    selected: Option<u64>,
+    past: &Summary,
+    selected: Option<i64>,
     columns: &Columns,
     theme: &Theme,
     actions: &mut Vec<Action>,
@@ -155,7 +168,11 @@ fn row(
     let is_selected = selected == Some(past.number);
     response.widget_info(|| {
         let verdict = past.verdict.title();
-        let label = format!("Inspection {}: {}, {verdict}", past.number, past.title);
+        let label = format!(
+            "Inspection {}: {}, {verdict}",
+            past.number.abs(),
+            past.title
+        );
         egui::WidgetInfo::selected(egui::Role::Button, true, is_selected, label)
     });
     if ui.is_rect_visible(rect) {
@@ -174,11 +191,17 @@ fn row(
     }
 }
 
-fn paint(painter: &Painter, rect: Rect, past: &PastInspection, columns: &Columns, theme: &Theme) {
+fn paint(painter: &Painter, rect: Rect, past: &Summary, columns: &Columns, theme: &Theme) {
     let y = rect.center().y;
+    // What a person said of it is what others look for first.
+    let scene = if past.remark.is_empty() {
+        past.scene.clone()
+    } else {
+        format!("{} · {}", past.remark, past.scene)
+    };
     let sign = match past.verdict {
         PastVerdict::Accepted => Mark::Good,
-        PastVerdict::NotAccepted | PastVerdict::NoPart => Mark::Bad,
+        PastVerdict::NotAccepted | PastVerdict::Unknown | PastVerdict::NoPart => Mark::Bad,
     };
     mark(painter, pos2(rect.left() + 20.0, y), 9.0, sign, theme);
     let left = |from: f32, to: f32, text: &str, font, colour| {
@@ -206,7 +229,7 @@ fn paint(painter: &Painter, rect: Rect, past: &PastInspection, columns: &Columns
     left(
         columns.scene,
         columns.score - 50.0,
-        &past.scene,
+        &scene,
         font::body(),
         theme.weak_text,
     );
@@ -214,8 +237,31 @@ fn paint(painter: &Painter, rect: Rect, past: &PastInspection, columns: &Columns
         let at = pos2(rect.left() + x, y);
         painter.text(at, Align2::RIGHT_CENTER, text, font::body(), colour);
     };
-    let [_, time] = &past.when;
-    right(columns.score, &past.score_text, theme.text);
-    right(columns.time, &past.time_text, theme.weak_text);
-    right(columns.when, time, theme.weak_text);
+    let score = past
+        .score
+        .map_or_else(String::new, |[score, _]| format!("{score:.2}"));
+    right(columns.score, &score, theme.text);
+    right(
+        columns.time,
+        &format!("{:.0}", past.total_ms),
+        theme.weak_text,
+    );
+    let at = if columns.is_narrow {
+        shortly(past.at)
+    } else {
+        when(past.at)
+    };
+    right(columns.when, &at, theme.weak_text);
+}
+
+/// The same without year and seconds.
+fn shortly(at: Timestamp) -> String {
+    let here = at.to_zoned(TimeZone::system());
+    here.strftime("%m-%d %H:%M").to_string()
+}
+
+/// Day and time of day, as the clocks here go.
+pub(super) fn when(at: Timestamp) -> String {
+    let here = at.to_zoned(TimeZone::system());
+    here.strftime("%Y-%m-%d %H:%M:%S").to_string()
 }

@@ -1,15 +1,30 @@
-//! History: every inspection since the window was opened, to be looked at again.
+//! History: every inspection, to be found, looked at again and labelled.
 
+mod apply;
+mod bar;
 mod details;
+mod differences;
+mod export;
+mod filter;
+mod keeping;
+mod label;
 mod list;
+mod reopen;
 mod state;
+mod work;
 
 use egui::{CentralPanel, Frame, Key, Margin, Modifiers, Panel, RichText, Ui};
 
-use self::details::Details;
-pub use self::state::{
-    Direction, HistoryAction, HistoryFilter, HistoryState, PastInspection, PastVerdict, apply, csv,
-    export, keep, take_in,
+pub use self::{
+    apply::{Direction, HistoryAction, HistoryJob, apply, export, keep, take},
+    filter::{Days, ListFilter},
+    reopen::{TakenIn, take_in},
+    state::HistoryState,
+    work::{LookRequest, Looked, LookedAt},
+};
+use self::{details::Details, list::List};
+pub(in crate::app) use self::{
+    export::write as write_past, keeping::ui as keeping_ui, work::answer,
 };
 use super::{
     action::Action,
@@ -22,7 +37,7 @@ use super::{
 const DETAILS: [f32; 2] = [340.0, 300.0];
 
 /// Keys of this workspace.
-pub(super) const SHORTCUTS: [Shortcut; 3] = [
+pub(super) const SHORTCUTS: [Shortcut; 4] = [
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::ArrowUp,
@@ -44,17 +59,26 @@ pub(super) const SHORTCUTS: [Shortcut; 3] = [
         does: "Open it with all its stages",
         action: || Action::History(HistoryAction::OpenSelected),
     },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::A,
+        keys: "A",
+        does: "Inspect it again, with today's recipe and library",
+        action: || Action::History(HistoryAction::AgainSelected),
+    },
 ];
 
 /// What the workspace keeps between frames.
 pub(super) struct HistoryPanel {
     details: Details,
+    list: List,
 }
 
 impl HistoryPanel {
     pub(super) fn new() -> Self {
         Self {
             details: Details::default(),
+            list: List::default(),
         }
     }
 
@@ -65,7 +89,7 @@ impl HistoryPanel {
         theme: &Theme,
         actions: &mut Vec<Action>,
     ) {
-        if state.history.is_empty() {
+        if state.history.is_empty() && state.history.trouble.is_none() {
             empty(ui, theme);
             return;
         }
@@ -80,13 +104,12 @@ impl HistoryPanel {
             .frame(
                 Frame::new()
                     .fill(theme.panel)
-                    .inner_margin(Margin::symmetric(18, 14)),
+                    .inner_margin(Margin::same(16)),
             )
             .show(ui, |ui| self.details.ui(ui, state, theme, actions));
-        let frame = Frame::new().inner_margin(Margin::same(14));
         CentralPanel::default()
-            .frame(frame)
-            .show(ui, |ui| list::ui(ui, &state.history, theme, actions));
+            .frame(Frame::new().inner_margin(Margin::same(16)))
+            .show(ui, |ui| self.list.ui(ui, state, theme, actions));
     }
 }
 
@@ -100,7 +123,8 @@ fn empty(ui: &mut Ui, theme: &Theme) {
                 .color(theme.text),
         );
         ui.add_space(space::SMALL);
-        let advice = "Press Capture: every inspection is listed here until the window closes";
+        let advice =
+            "Press Capture: every inspection is listed here, also after the window was closed";
         ui.label(RichText::new(advice).color(theme.weak_text));
     });
 }

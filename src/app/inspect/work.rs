@@ -16,11 +16,13 @@ use crate::{
     },
     capture::CaptureWarning,
     error::Advice,
+    history::{About, NewEntry},
     library::{Library, LibraryError},
     pipeline::{
         self, Inspection, Recipe, Watch,
         live::{Standing, Stillness},
     },
+    report::InspectionLine,
     robot::{
         spray::{CarriedPath, carry},
         stand_off::{StandOff, StandOffError, stand_off},
@@ -69,6 +71,8 @@ pub struct Inspected {
     pub view: SceneFigure,
     /// Of a frame among others: what they say together.
     pub followed: Option<Followed>,
+    /// The same for the history.
+    pub entry: NewEntry,
 }
 
 /// What a frame stands for that is one of many.
@@ -136,6 +140,7 @@ pub fn inspect(
         recipe: Arc::clone(&request.recipe),
         inspection,
         followed: None,
+        source: request.source.in_words(),
     };
     Ok(Some(found.prepared(&fitted, &shelved.shown)))
 }
@@ -148,6 +153,8 @@ pub(in crate::app) struct Found {
     pub(in crate::app) recipe: Arc<Recipe>,
     pub(in crate::app) inspection: Inspection,
     pub(in crate::app) followed: Option<Followed>,
+    /// Where the scene came from, as the history has it.
+    pub(in crate::app) source: String,
 }
 
 impl Found {
@@ -172,6 +179,7 @@ impl Found {
             recipe,
             inspection,
             followed,
+            source,
         } = self;
         let best = inspection.best_reference(library);
         let deviations = best.map_or_else(Vec::new, |reference| {
@@ -205,9 +213,24 @@ impl Found {
             spray: spray.as_ref(),
         });
         let figures = Figures::of(&scene, &inspection, library, shown);
+        let at = Timestamp::now();
+        let title = origin.title();
+        let about = About {
+            at,
+            line: InspectionLine::of(&title, &inspection).to_json(),
+            is_simulated: origin.is_simulated(),
+            title: figures.candidates.first().map(|best| best.title.as_str()),
+            library: shown.identity.clone(),
+            // What has no JSON form cannot be had again either.
+            origin: serde_json::to_string(&origin).ok(),
+            picture: figures.segmentation.as_ref(),
+            scene: title,
+            source,
+        };
+        let entry = NewEntry::of(about, &scene, &inspection, &recipe);
         Inspected {
             origin,
-            at: Timestamp::now(),
+            at,
             scene,
             recipe,
             inspection,
@@ -220,6 +243,7 @@ impl Found {
             spray,
             view,
             followed,
+            entry,
         }
     }
 }

@@ -215,7 +215,10 @@ pub(in crate::app) fn give_way(state: &mut State) -> Option<Effect> {
 }
 
 /// Takes in what the thread tells.
-pub(in crate::app) fn hear(state: &mut State, answer: Result<LiveAnswer, Trouble>) {
+pub(in crate::app) fn hear(
+    state: &mut State,
+    answer: Result<LiveAnswer, Trouble>,
+) -> Option<Effect> {
     match answer {
         Ok(LiveAnswer::Stands(told)) if state.is_live() => {
             watch_source(state, &told.status.source);
@@ -228,8 +231,9 @@ pub(in crate::app) fn hear(state: &mut State, answer: Result<LiveAnswer, Trouble
             for warning in &inspected.warnings {
                 notify(state, Trouble::of(warning).into());
             }
-            history::keep(state, &inspected);
+            let effect = history::keep(state, &inspected);
             show(state, inspected);
+            return Some(effect);
         }
         Ok(LiveAnswer::NotRecorded(trouble)) => {
             state.live.recording = None;
@@ -248,6 +252,7 @@ pub(in crate::app) fn hear(state: &mut State, answer: Result<LiveAnswer, Trouble
         Err(_) => ended(state),
         Ok(LiveAnswer::Stands(_) | LiveAnswer::Rests) => {}
     }
+    None
 }
 
 /// What was told last, where it is looked at; other workspaces keep what they have in hand.

@@ -280,6 +280,7 @@ impl<'a> Follower<'a> {
             recipe: Arc::clone(self.recipe),
             inspection,
             followed,
+            source: self.spec.to_string(),
         };
         let inspected = Arc::new(found.prepared(&fitted, &shelved.shown));
         self.inspected = Some(Arc::clone(&inspected));

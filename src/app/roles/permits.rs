@@ -1,7 +1,7 @@
 //! What the operator's view lets through.
 
 use super::{Action, RoleAction, Workspace};
-use crate::app::{action::Ask, live::LiveAction, robot::RobotAction};
+use crate::app::{action::Ask, history::HistoryAction, live::LiveAction, robot::RobotAction};
 
 /// True for the workspaces in which nothing can be changed that verdicts rest on.
 pub(in crate::app) fn is_operators(workspace: Workspace) -> bool {
@@ -24,6 +24,13 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
         ),
         // Averaged depth is part of what a verdict rests on.
         Action::Live(action) => matches!(action, LiveAction::Average(_)),
+        // Frames that another rule does not keep are gone.
+        Action::History(action) => {
+            matches!(
+                action,
+                HistoryAction::Rule(Some(_)) | HistoryAction::Keep(_)
+            )
+        }
         Action::Robot(action) => !matches!(action, RobotAction::Close),
         // The robot's controller expects one of them.
         Action::UseConvention(_)
@@ -49,7 +56,6 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
         | Action::Quit
         | Action::CopyPose
         | Action::Inspect(_)
-        | Action::History(_)
         | Action::Hear(..) => false,
     }
 }
@@ -71,6 +77,7 @@ fn asks_for_engineer(ask: Ask) -> bool {
         | Ask::ReportFolder
         | Ask::SprayPath
         | Ask::HistoryCsv
+        | Ask::HistoryCases
         | Ask::Picture => false,
     }
 }

@@ -67,7 +67,8 @@ impl Bench {
 
     fn make(&mut self, effect: Option<Effect>) {
         match effect {
-            None => {}
+            // Nobody writes a history here.
+            None | Some(Effect::History(_)) => {}
             Some(Effect::Several(effects)) => {
                 for effect in effects {
                     self.make(Some(effect));

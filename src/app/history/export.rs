@@ -1,0 +1,76 @@
+//! Inspections of the history written to where a person chose.
+
+use std::path::Path;
+
+use crate::{
+    app::{
+        job::Trouble,
+        writing::{PastExport, Written},
+    },
+    cases::{CaseFolder, PastCases, TruthFrom},
+    files::write_atomically,
+    history::{Filter, HistoryError, Keeper, write_head, write_row},
+};
+
+/// Writes what the filter lets through.
+pub(in crate::app) fn write(
+    filter: &Filter,
+    to: &PastExport,
+    history: &Keeper,
+) -> Result<Written, Trouble> {
+    match to {
+        PastExport::Csv(path) => write_table(filter, path, history),
+        PastExport::Cases(folder) => write_cases(filter, folder, history),
+    }
+}
+
+/// As `partsight history export --csv` does.
+fn write_table(filter: &Filter, path: &Path, history: &Keeper) -> Result<Written, Trouble> {
+    let mut table = Vec::new();
+    let mut num = 0;
+    let in_memory = |error| HistoryError::Unwritable {
+        path: path.to_owned(),
+        source: error,
+    };
+    let listed = write_head(&mut table).map_err(in_memory).and_then(|()| {
+        history.each(filter, |record| {
+            num += 1;
+            write_row(&mut table, &record).map_err(in_memory)
+        })
+    });
+    listed.map_err(|error| Trouble::of(&error))?;
+    write_atomically(path, |writer| writer.write_all(&table))
+        .map_err(|error| Trouble::of(&error))?;
+    Ok(Written {
+        what: format!("Wrote {num} inspections to {}", path.display()),
+        path: path.to_owned(),
+    })
+}
+
+/// As `partsight history export --cases` does.
+fn write_cases(filter: &Filter, folder: &Path, history: &Keeper) -> Result<Written, Trouble> {
+    let cases = CaseFolder::at(folder);
+    let frames = history.frames_folder().unwrap_or_default();
+    let mut kept = PastCases::new(&cases, &frames, TruthFrom::Label);
+    let mut failed = None;
+    let listed = history.each(filter, |record| {
+        if failed.is_none() {
+            failed = kept.take(&record).err();
+        }
+        Ok(())
+    });
+    listed.map_err(|error| Trouble::of(&error))?;
+    if let Some(error) = failed {
+        return Err(Trouble::of(&error));
+    }
+    if kept.num_kept == 0 {
+        return Err(Trouble {
+            what: format!("No inspection became a case: {}", kept.in_words()),
+            advice: "Say of some what they truly are, and keep their frames".into(),
+        });
+    }
+    Ok(Written {
+        what: format!("{} in {}", kept.in_words(), folder.display()),
+        path: folder.to_owned(),
+    })
+}

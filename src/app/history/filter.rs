@@ -1,0 +1,121 @@
+//! What the list is asked to show, as a person says it.
+
+use jiff::{Span, Timestamp, Zoned, civil};
+
+use crate::history::{Filter, PastVerdict};
+
+/// What the list shows.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub struct ListFilter {
+    /// Of which days.
+    pub days: Days,
+    /// The first and the last day, as they are typed; for [`Days::Typed`].
+    pub typed: [String; 2],
+    /// Recognised as this part.
+    pub part: Option<String>,
+    /// Only this verdict.
+    pub verdict: Option<PastVerdict>,
+    /// Words of the names of part, scene and source, of the remark and of the true label.
+    pub text: String,
+}
+
+/// Of which days.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Days {
+    /// All.
+    #[default]
+    All,
+    /// Today.
+    Today,
+    /// Today and the six days before.
+    Week,
+    /// Today and the 29 days before.
+    Month,
+    /// From one day to another.
+    Typed,
+}
+
+impl Days {
+    /// Every choice.
+    pub const ALL: [Self; 5] = [Self::All, Self::Today, Self::Week, Self::Month, Self::Typed];
+
+    /// What a person calls it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::All => "All days",
+            Self::Today => "Today",
+            Self::Week => "7 days",
+            Self::Month => "30 days",
+            Self::Typed => "From … to",
+        }
+    }
+}
+
+/// A day as it is typed; `None` if nothing is, an error if it is none.
+pub(super) fn day_of(text: &str) -> Result<Option<civil::Date>, jiff::Error> {
+    match text.trim() {
+        "" => Ok(None),
+        text => text.parse().map(Some),
+    }
+}
+
+impl ListFilter {
+    /// The filter for the file, at this moment and in its time zone. A day that is none limits nothing.
+    pub(super) fn at(&self, now: &Zoned) -> Filter {
+        let begin = |day: civil::Date| {
+            let day = day.to_zoned(now.time_zone().clone());
+            day.ok().map(|day| day.timestamp())
+        };
+        let days_before = |days: i64| now.date().checked_sub(Span::new().days(days)).ok();
+        let typed = |place: usize| day_of(&self.typed[place]).ok().flatten();
+        let (since, until): (Option<Timestamp>, Option<Timestamp>) = match self.days {
+            Days::All => (None, None),
+            Days::Today => (begin(now.date()), None),
+            Days::Week => (days_before(6).and_then(begin), None),
+            Days::Month => (days_before(29).and_then(begin), None),
+            Days::Typed => (
+                typed(0).and_then(begin),
+                typed(1).and_then(|day| begin(day.tomorrow().ok()?)),
+            ),
+        };
+        Filter {
+            since,
+            until,
+            part: self.part.clone(),
+            verdict: self.verdict,
+            is_simulated: None,
+            text: self.text.clone(),
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn days_begin_and_end_as_the_clocks_here_go() {
+        let now: Zoned = "2026-11-21T15:30:00+01:00[Europe/Berlin]"
+            .parse()
+            .expect("a moment");
+        let filter = |days, from: &str, to: &str| {
+            let typed = [from.to_owned(), to.to_owned()];
+            let filter = ListFilter {
+                days,
+                typed,
+                ..ListFilter::default()
+            };
+            let Filter { since, until, .. } = filter.at(&now);
+            [since, until].map(|at| at.map_or_else(String::new, |at| at.to_string()))
+        };
+        assert_eq!(filter(Days::All, "", ""), ["", ""]);
+        assert_eq!(filter(Days::Today, "", ""), ["2026-11-20T23:00:00Z", ""]);
+        assert_eq!(filter(Days::Week, "", ""), ["2026-11-14T23:00:00Z", ""]);
+        assert_eq!(
+            filter(Days::Typed, " 2026-11-01", "2026-11-02"),
+            ["2026-10-31T23:00:00Z", "2026-11-02T23:00:00Z"]
+        );
+        assert_eq!(filter(Days::Typed, "", "2026-11-0"), ["", ""]);
+        assert!(day_of("2026-11-0").is_err());
+    }
+}

@@ -1,0 +1,82 @@
+//! What the lane's thread does: looks into the history for what the window shows.
+
+use std::{ops::Range, path::PathBuf, sync::Arc};
+
+use image::{DynamicImage, RgbImage};
+use jiff::Zoned;
+
+use super::filter::ListFilter;
+use crate::{
+    app::{
+        job::{Answer, Outcome, Trouble},
+        shelf::Shelf,
+    },
+    history::{HistoryError, Keeper, Page, Record, Retention, Usage},
+};
+
+/// What the window wants to see.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LookRequest {
+    /// Which inspections.
+    pub filter: ListFilter,
+    /// Which of their rows, counted from the newest.
+    pub rows: Range<usize>,
+    /// The inspection that is looked at.
+    pub selected: Option<i64>,
+}
+
+/// What is there.
+#[derive(Clone, Debug)]
+pub struct Looked {
+    /// What was asked.
+    pub asked: LookRequest,
+    /// The rows.
+    pub page: Page,
+    /// The inspection that is looked at, if it is there.
+    pub record: Option<Arc<LookedAt>>,
+    /// The rule by which frames are kept, and how much is.
+    pub kept: (Retention, Usage),
+    /// The folder of the kept frames.
+    pub frames: Option<PathBuf>,
+}
+
+/// An inspection with its picture.
+#[derive(Clone, Debug, PartialEq)]
+pub struct LookedAt {
+    /// All of it.
+    pub record: Record,
+    /// Its small picture.
+    pub picture: Option<RgbImage>,
+}
+
+/// Looks.
+pub(in crate::app) fn answer(request: &LookRequest, shelf: &Shelf) -> Outcome {
+    let looked = look(request, shelf.history());
+    looked
+        .map(|looked| Answer::History(Box::new(looked)))
+        .map_err(|error| Trouble::of(&error))
+}
+
+fn look(request: &LookRequest, history: &Keeper) -> Result<Looked, HistoryError> {
+    let filter = request.filter.at(&Zoned::now());
+    let rows = &request.rows;
+    let page = history.page(&filter, rows.start, rows.len())?;
+    let record = match request.selected {
+        Some(number) => history.row(number)?,
+        None => None,
+    };
+    let record = record.map(|record| {
+        let picture = image::load_from_memory(&record.detail.thumbnail).ok();
+        Arc::new(LookedAt {
+            picture: picture.map(DynamicImage::into_rgb8),
+            record,
+        })
+    });
+    Ok(Looked {
+        asked: request.clone(),
+        page,
+        record,
+        kept: history.kept()?,
+        frames: history.frames_folder(),
+    })
+}
