@@ -4,6 +4,7 @@
 //! names, never asserted by a test. The window, which shows some of these, is measured beside it.
 
 pub mod calibration;
+mod history;
 mod processor_time;
 pub mod registration;
 pub mod scaling;
@@ -13,6 +14,7 @@ pub mod systems;
 pub mod table1;
 
 pub use self::{
+    history::{HistoryTime, history_times},
     processor_time::{ProcessorWatch, process_seconds},
     speed::{StageTimes, quantile, stage_times},
 };

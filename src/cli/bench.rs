@@ -2,6 +2,7 @@
 
 mod calibration;
 mod confusions;
+mod history;
 mod live;
 mod recognition;
 mod registration;
@@ -38,6 +39,7 @@ Examples:
   partsight bench scaling --plot scaling.png
   partsight bench window
   partsight bench live --minutes 10
+  partsight bench history
 
 Each part is enrolled from one frontal capture of the standard car, then seen in sets of simulated frames. Without a
 name: a few frames of each part, to time the stages. table1 needs no frames: each part of the library is put where T1..T5 of the
@@ -101,6 +103,8 @@ enum Bench {
     Window,
     /// The simulated line followed for minutes: rate, latency, the window's thread, memory; needs no display
     Live,
+    /// A history of 100 000 inspections: how long a page of any filter takes, and writing one more
+    History,
 }
 
 /// Poses of each part, unless asked for otherwise.
@@ -117,6 +121,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         Bench::Scaling => scaling::run(args, console),
         Bench::Window => window::run(args, console),
         Bench::Live => live::run(args, console),
+        Bench::History => history::run(args, console),
     }
 }
 

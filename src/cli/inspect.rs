@@ -18,13 +18,15 @@ use super::{
     follow::{follow, parse_source},
     input::{before, open_empty_cell, open_scene},
     recipe::RecipeChoice,
-    verdict::{complaint, outcome_of, place_of, show_card, show_in_robot},
+    record::{HistoryChoice, Recording, Taken},
+    telling::{Columns, Telling},
+    verdict::{outcome_of, show_in_robot},
 };
 use crate::{
     capture::{FeedItem, SourceSpec},
     error::Advice,
     library::Library,
-    pipeline::{self, Inspection, Recipe, Unwatched, Verdict},
+    pipeline::{self, Recipe, Unwatched},
     report::{CaptureLine, InspectionLine, ReportFolder, stage_pictures},
     robot::RobotFrame,
     stages::{
@@ -54,7 +56,9 @@ Without a part to compare with, because the library is empty or cannot be loaded
 line of JSON, exit code 2.
 With --source: follows a camera, a recording or a folder until it ends, --frames were inspected, or Ctrl-C. Of a live
 camera the newest frame is inspected and those in between are dropped; of a recording or folder every one is inspected.
-Exit codes as with files; 1 also if nothing came. What can be a source: partsight capture --help")]
+Exit codes as with files; 1 also if nothing came. What can be a source: partsight capture --help
+Every inspection is written into the history (partsight history --help) after its verdict is shown; where that cannot be
+written there is a warning, and the exit code is the same.")]
 pub(super) struct InspectArgs {
     /// Captured scenes
     #[arg(required_unless_present = "source", value_name = "FILE")]
@@ -82,6 +86,11 @@ pub(super) struct InspectArgs {
     /// Write into this folder, per file: the line of JSON, and a picture of every stage
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
+    #[command(flatten)]
+    history: HistoryChoice,
+    /// Leave the history alone: nothing of this call is written there
+    #[arg(long, conflicts_with = "history")]
+    no_history: bool,
 }
 
 pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<Outcome> {
@@ -91,12 +100,11 @@ pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<O
     let spray = args
         .spray
         .start(&args.files, robot.as_ref(), place, &load)?;
-    let library = load.library;
     let telling = match (args.json, args.files.as_slice()) {
         (true, _) => Telling::Json,
-        (false, []) => Telling::Rows(Columns::for_captures(&library)),
+        (false, []) => Telling::Rows(Columns::for_captures(&load.library)),
         (false, [_]) => Telling::Card,
-        (false, files) => Telling::Rows(Columns::for_files(files, &library)),
+        (false, files) => Telling::Rows(Columns::for_files(files, &load.library)),
     };
     let report = args.report.as_deref().map(ReportFolder::make);
     let report = report.transpose().advised()?;
@@ -105,22 +113,38 @@ pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<O
         .as_deref()
         .map(|path| open_empty_cell(path, console));
     let empty_cell = empty_cell.transpose()?;
+    let recording = (!args.no_history)
+        .then(|| Recording::start(&args.history, &load, &recipe, console))
+        .flatten();
     telling.head(console);
     let mut one = Inspector {
-        library,
+        library: load.library,
         recipe,
         empty_cell,
         robot,
         spray,
         telling,
         report,
+        recording,
     };
-    if let Some(source) = &args.source {
-        return inspect_source(source, args.frames, &mut one, console);
+    let outcome = match &args.source {
+        Some(source) => inspect_source(source, args.frames, &mut one, console),
+        None => inspect_files(&args.files, &mut one, console),
+    };
+    if let Some(recording) = one.recording {
+        recording.finish(console);
     }
-    console.start_progress(args.files.len());
+    outcome
+}
+
+fn inspect_files(
+    files: &[PathBuf],
+    one: &mut Inspector,
+    console: &mut Console,
+) -> anyhow::Result<Outcome> {
+    console.start_progress(files.len());
     let mut outcome = Outcome::Accepted;
-    for path in &args.files {
+    for path in files {
         console.begin(&path.display());
         outcome = outcome.max(one.inspect(path, console)?);
         console.done();
@@ -137,6 +161,7 @@ struct Inspector {
     spray: Option<spray::SprayFile>,
     telling: Telling,
     report: Option<ReportFolder>,
+    recording: Option<Recording>,
 }
 
 impl Inspector {
@@ -189,10 +214,17 @@ impl Inspector {
             spray,
             telling,
             report,
+            recording,
         } = self;
         let name = path.display().to_string();
         before(&mut scene, empty_cell.as_ref(), &name, console);
+        let scene = Arc::new(scene);
         let inspection = pipeline::run(&scene, library, recipe, &Unwatched)?;
+        let taken = Taken {
+            scene: &name,
+            source: capture.as_ref().map_or("file", CaptureLine::source),
+            is_simulated: capture.as_ref().is_some_and(CaptureLine::is_simulated),
+        };
         let line = InspectionLine::of(&name, &inspection).captured(capture);
         let robot = robot.as_ref();
         let line = line.in_robot(robot, &inspection).to_json();
@@ -200,6 +232,7 @@ impl Inspector {
         if let (Telling::Card, Some(robot)) = (telling, robot) {
             show_in_robot(robot, &inspection, library, console);
         }
+        let mut outcome = outcome_of(&inspection);
         if let (Some(spray), Some(robot)) = (spray, robot) {
             let seen = spray::Seen {
                 scene: &name,
@@ -207,13 +240,16 @@ impl Inspector {
                 library,
                 params: &recipe.stand_off,
             };
-            return Ok(outcome_of(&inspection).max(spray.write(&seen, robot, console)?));
-        }
-        if let Some(report) = report {
+            outcome = outcome.max(spray.write(&seen, robot, console)?);
+        } else if let Some(report) = report {
             let pictures = stage_pictures(&scene, &inspection);
             report.write(path, &line, &pictures).advised()?;
         }
-        Ok(outcome_of(&inspection))
+        // Last: it must not keep anybody from the verdict.
+        if let Some(recording) = recording {
+            recording.add(taken, &scene, &inspection, &line, console);
+        }
+        Ok(outcome)
     }
 }
 
@@ -263,131 +299,4 @@ fn inspect_source(
     } else {
         outcome
     })
-}
-
-/// How results are shown.
-enum Telling {
-    Json,
-    Card,
-    Rows(Columns),
-}
-
-impl Telling {
-    fn head(&self, console: &mut Console) {
-        if let Self::Rows(columns) = self {
-            columns.head(console);
-        }
-    }
-
-    fn unreadable(&self, scene: &str, line: &str, console: &mut Console) {
-        match self {
-            Self::Json => console.line(&line),
-            Self::Card => {}
-            Self::Rows(columns) => columns.row(scene, "-", "unreadable", "", console),
-        }
-    }
-
-    fn inspected(
-        &self,
-        scene: &str,
-        line: &str,
-        inspection: &Inspection,
-        library: &Library,
-        console: &mut Console,
-    ) {
-        match self {
-            Self::Json => console.line(&line),
-            Self::Card => show_card(scene, inspection, library, console),
-            Self::Rows(columns) => columns.inspected(scene, inspection, library, console),
-        }
-    }
-}
-
-/// Widths of the first two columns; rows are shown as they come, so the widths must be known before.
-struct Columns {
-    scene: usize,
-    part: usize,
-}
-
-impl Columns {
-    fn for_files(files: &[PathBuf], library: &Library) -> Self {
-        let scenes = files
-            .iter()
-            .map(|f| f.display().to_string().chars().count());
-        let parts = library.references.iter().map(|r| r.name.chars().count());
-        Self {
-            scene: scenes.max().unwrap_or(0).max("SCENE".len()),
-            part: parts.max().unwrap_or(0).max("PART".len()),
-        }
-    }
-
-    /// Names of captures are not known before they come: most are as long as this.
-    fn for_captures(library: &Library) -> Self {
-        Self {
-            scene: "simulated frame 12345".len(),
-            ..Self::for_files(&[], library)
-        }
-    }
-
-    fn head(&self, console: &mut Console) {
-        let figures = format!(
-            "{:>5} {:>6}  {:>23}  {:>23}  {:>5} {:>7}",
-            "SCORE", "MARGIN", "MIDDLE X Y Z mm", "TURN X Y Z degrees", "RMS", "TIME ms"
-        );
-        self.row("SCENE", "PART", "VERDICT", &figures, console);
-    }
-
-    fn row(&self, scene: &str, part: &str, verdict: &str, figures: &str, console: &mut Console) {
-        let Self {
-            scene: scene_width,
-            part: part_width,
-        } = *self;
-        let row = format!("{scene:<scene_width$}  {part:<part_width$}  {verdict:<12}  {figures}");
-        console.line(&row.trim_end());
-    }
-
-    fn inspected(
-        &self,
-        scene: &str,
-        inspection: &Inspection,
-        library: &Library,
-        console: &mut Console,
-    ) {
-        let time_ms = inspection.timings.total.as_secs_f64() * 1000.0;
-        let (part, verdict, figures) = match &inspection.verdict {
-            Verdict::Part {
-                part,
-                score,
-                margin,
-                rejected,
-                ..
-            } => {
-                let triple = |[a, b, c]: [f64; 3]| format!("{a:7.1} {b:7.1} {c:7.1}");
-                let (middle, turn) = place_of(inspection, library)
-                    .map_or_else(Default::default, |(middle, turn)| {
-                        (triple(middle), triple(turn))
-                    });
-                let rms = match &inspection.pose {
-                    Some(Ok(pose)) => format!("{:.1}", pose.fit.rms_m * 1000.0),
-                    _ => String::new(),
-                };
-                let verdict = rejected.as_ref().map_or("accepted", |_| "NOT ACCEPTED");
-                let figures = format!(
-                    "{score:5.2} {margin:6.2}  {middle:>23}  {turn:>23}  {rms:>5} {time_ms:7.1}"
-                );
-                let part = if inspection.verdict.is_unknown() {
-                    "unknown"
-                } else {
-                    part.as_str()
-                };
-                (part, verdict, figures)
-            }
-            Verdict::NoPart(_) => ("-", "NOT ACCEPTED", String::new()),
-        };
-        self.row(scene, part, verdict, &figures, console);
-        if let Some((why, what_to_do)) = complaint(inspection) {
-            console.line(&format_args!("    why not  {why}"));
-            console.line(&format_args!("    to do    {what_to_do}"));
-        }
-    }
 }

@@ -12,13 +12,16 @@ mod enrol;
 mod evaluate;
 mod first_look;
 mod follow;
+mod history;
 mod input;
 mod inspect;
 mod interrupt;
 mod library;
 mod recipe;
+mod record;
 mod report;
 mod simulate;
+mod telling;
 mod verdict;
 
 use std::{
@@ -77,6 +80,7 @@ enum Command {
     Simulate(simulate::SimulateArgs),
     Bench(bench::BenchArgs),
     Evaluate(evaluate::EvaluateArgs),
+    History(history::HistoryArgs),
 }
 
 /// What a call came to; its exit code.
@@ -126,6 +130,7 @@ pub fn run(cli: Cli) -> Outcome {
         Some(Command::Simulate(args)) => simulate::run(&args, &mut console),
         Some(Command::Bench(args)) => bench::run(&args, &mut console),
         Some(Command::Evaluate(args)) => evaluate::run(&args, &mut console),
+        Some(Command::History(args)) => history::run(&args, &mut console),
     };
     let outcome = ran.unwrap_or_else(|error| {
         console.error(&error);
@@ -149,6 +154,8 @@ fn window(
     let options = app::WindowOptions {
         library: library.library.clone(),
         settings: app::settings::users_file(),
+        // Without such a folder the window keeps it in memory.
+        history: crate::history::users_folder().ok(),
         cell: default_path().ok(),
         scene,
         ..app::WindowOptions::default()

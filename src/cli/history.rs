@@ -1,0 +1,340 @@
+//! `partsight history`: what was inspected, and what would be found today.
+
+mod again;
+mod export;
+mod moments;
+mod show;
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Subcommand, ValueEnum};
+use jiff::{Timestamp, tz::TimeZone};
+
+use self::moments::{parse_since, parse_until};
+use super::{
+    LibraryChoice, Outcome,
+    console::{Advised as _, Console, Table},
+    record::HistoryChoice,
+};
+use crate::{
+    history::{Filter, History, HistoryError, KeepFrames, PastVerdict, Retention, Summary},
+    library::Truth,
+};
+
+/// List, show and export what was inspected, here and in the window
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  partsight history list --since today
+  partsight history list --since 7d --verdict not-accepted
+  partsight history list --part front_door --text \"frame 12\" --json
+  partsight history show 57
+  partsight history show 57 --again              # what today's recipe and library make of its frame
+  partsight history label 57 back_door           # what it truly is; - if nothing enrolled, none if nothing hung there
+  partsight history remark 57 \"hook in front of it\"
+  partsight history export --since 2026-03-01 --csv march.csv
+  partsight history export --verdict not-accepted --cases tried && partsight evaluate tried
+  partsight history keep all --days 30 --gigabytes 50
+
+Times are shown as the clocks here go, in files and JSON as UTC. A frame that is not kept any more can neither be
+inspected again nor become a case; which are kept says `partsight history keep`.")]
+pub(super) struct HistoryArgs {
+    #[command(flatten)]
+    place: HistoryChoice,
+    #[command(subcommand)]
+    command: HistoryCommand,
+}
+
+#[derive(Debug, Subcommand)]
+enum HistoryCommand {
+    /// Show inspections, the newest first
+    List(ListArgs),
+    /// Show everything about one inspection
+    Show(ShowArgs),
+    /// Write inspections to a table, or as cases for `partsight evaluate`
+    Export(ExportArgs),
+    /// Write down a remark; an empty one takes it away
+    Remark {
+        /// Number of the inspection
+        number: i64,
+        /// The remark
+        text: String,
+    },
+    /// Write down what it truly is
+    Label {
+        /// Number of the inspection
+        number: i64,
+        /// An enrolled name, `-` for something that is not enrolled, `none` for nothing, `?` to take it back
+        part: String,
+    },
+    /// Show or change which frames are kept, and how long
+    Keep(KeepArgs),
+}
+
+/// Which inspections.
+#[derive(Debug, Args)]
+struct FilterArgs {
+    /// From then on: a day (2026-11-20), a moment (2026-11-20T14:00), `today`, or so many days back (`7d`)
+    #[arg(long, value_name = "DATE", value_parser = parse_since)]
+    since: Option<Timestamp>,
+    /// Until then, the day or moment included
+    #[arg(long, value_name = "DATE", value_parser = parse_until)]
+    until: Option<Timestamp>,
+    /// Recognised as this part, accepted or not
+    #[arg(long, value_name = "NAME")]
+    part: Option<String>,
+    /// With this verdict
+    #[arg(long, value_enum, value_name = "VERDICT")]
+    verdict: Option<VerdictChoice>,
+    /// With these words in the name of part, scene or source, in the remark or in the true label
+    #[arg(long, value_name = "TEXT")]
+    text: Option<String>,
+    /// Only simulated ones, or only those of a camera
+    #[arg(long, value_name = "BOOL")]
+    simulated: Option<bool>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum VerdictChoice {
+    /// A part, accepted
+    Accepted,
+    /// A part, not accepted
+    NotAccepted,
+    /// Something that is nothing enrolled
+    Unknown,
+    /// No part
+    NoPart,
+}
+
+impl From<VerdictChoice> for PastVerdict {
+    fn from(choice: VerdictChoice) -> Self {
+        match choice {
+            VerdictChoice::Accepted => Self::Accepted,
+            VerdictChoice::NotAccepted => Self::NotAccepted,
+            VerdictChoice::Unknown => Self::Unknown,
+            VerdictChoice::NoPart => Self::NoPart,
+        }
+    }
+}
+
+impl FilterArgs {
+    fn filter(&self) -> Filter {
+        Filter {
+            since: self.since,
+            until: self.until,
+            part: self.part.clone(),
+            verdict: self.verdict.map(Into::into),
+            is_simulated: self.simulated,
+            text: self.text.clone().unwrap_or_default(),
+        }
+    }
+}
+
+#[derive(Debug, Args)]
+struct ListArgs {
+    #[command(flatten)]
+    filter: FilterArgs,
+    /// So many at most, the newest; 0 for all
+    #[arg(long, value_name = "N", default_value_t = 50)]
+    limit: usize,
+    /// Write one line of JSON per inspection, and nothing else, to standard output
+    #[arg(long)]
+    json: bool,
+}
+
+#[derive(Debug, Args)]
+struct ShowArgs {
+    /// Number of the inspection
+    number: i64,
+    /// Write one line of JSON, and nothing else, to standard output
+    #[arg(long)]
+    json: bool,
+    /// Inspect its frame again, with today's recipe and library, and say what changed
+    #[arg(long)]
+    again: bool,
+    #[command(flatten)]
+    library: LibraryChoice,
+    #[command(flatten)]
+    recipe: super::recipe::RecipeChoice,
+}
+
+#[derive(Debug, Args)]
+struct ExportArgs {
+    #[command(flatten)]
+    filter: FilterArgs,
+    /// Write a table to this file, the oldest first
+    #[arg(long, value_name = "FILE", required_unless_present = "cases")]
+    csv: Option<PathBuf>,
+    /// Keep those with a kept frame and a true label as cases in this folder
+    #[arg(long, value_name = "DIR")]
+    cases: Option<PathBuf>,
+    /// Of cases: where nobody gave a true label, take the accepted part for it
+    #[arg(long, requires = "cases")]
+    accepted_as_truth: bool,
+}
+
+#[derive(Debug, Args)]
+struct KeepArgs {
+    /// Of which inspections the frame is kept
+    #[arg(value_enum)]
+    keep: Option<KeepChoice>,
+    /// Older frames go
+    #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=3650))]
+    days: Option<u32>,
+    /// Beyond this size the oldest frames go; those with a remark or a true label stay
+    #[arg(long, value_name = "N")]
+    gigabytes: Option<f64>,
+}
+
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+enum KeepChoice {
+    /// Of every one
+    All,
+    /// Of those that were not accepted
+    NotAccepted,
+    /// Of none
+    None,
+}
+
+pub(super) fn run(args: &HistoryArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let folder = args.place.folder().advised()?;
+    match &args.command {
+        HistoryCommand::List(asked) => list(&open_to_read(&folder, console)?, asked, console),
+        HistoryCommand::Show(asked) => show::run(&open_to_read(&folder, console)?, asked, console),
+        HistoryCommand::Export(asked) => {
+            export::run(&open_to_read(&folder, console)?, asked, console)
+        }
+        HistoryCommand::Remark { number, text } => {
+            open(&folder, console)?
+                .set_remark(*number, text)
+                .advised()?;
+            Ok(Outcome::Accepted)
+        }
+        HistoryCommand::Label { number, part } => {
+            let label = match part.as_str() {
+                "?" => None,
+                "-" => Some(Truth::NotEnrolled),
+                "none" => Some(Truth::Nothing),
+                part => Some(Truth::Part(part.to_owned())),
+            };
+            open(&folder, console)?
+                .set_label(*number, label.as_ref())
+                .advised()?;
+            Ok(Outcome::Accepted)
+        }
+        HistoryCommand::Keep(asked) => keep(&mut open(&folder, console)?, asked, console),
+    }
+}
+
+fn open_to_read(folder: &Path, console: &Console) -> anyhow::Result<History> {
+    opened(History::open_to_read(folder), console)
+}
+
+fn open(folder: &Path, console: &Console) -> anyhow::Result<History> {
+    // Nothing is made by a wrong path.
+    if !folder.join(crate::history::FILE).is_file() {
+        return open_to_read(folder, console);
+    }
+    opened(History::open(folder), console)
+}
+
+fn opened(
+    opened: Result<crate::history::OpenedHistory, HistoryError>,
+    console: &Console,
+) -> anyhow::Result<History> {
+    let opened = opened.advised()?;
+    if let Some(aside) = opened.set_aside {
+        console.note(&format_args!("warning: {}", aside.what));
+        let place = aside.aside.display();
+        console.note(&format_args!("  it was set aside as {place}"));
+    }
+    Ok(opened.history)
+}
+
+/// A moment, as the clocks here go.
+fn here(at: Timestamp) -> String {
+    let at = at.to_zoned(TimeZone::system());
+    at.strftime("%Y-%m-%d %H:%M:%S").to_string()
+}
+
+fn list(history: &History, asked: &ListArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let filter = asked.filter.filter();
+    let most = if asked.limit == 0 {
+        i64::MAX as usize
+    } else {
+        asked.limit
+    };
+    let page = history.page(&filter, 0, most).advised()?;
+    if asked.json {
+        for row in &page.rows {
+            console.line(&show::line_of(row));
+        }
+        return Ok(Outcome::Accepted);
+    }
+    let mut table = Table::new(&[
+        "NUMBER", "TIME", "VERDICT", "PART", "SCORE", "SCENE", "FRAME", "LABEL", "REMARK",
+    ]);
+    for row in &page.rows {
+        table.row(cells(row));
+    }
+    table.show(console);
+    let (num, num_matching) = (page.rows.len(), page.num_matching);
+    console.note(&format_args!(
+        "{num} of {num_matching} inspections shown, {} in all",
+        page.num_all
+    ));
+    Ok(Outcome::Accepted)
+}
+
+fn cells(row: &Summary) -> [String; 9] {
+    let simulated = if row.is_simulated { ", simulated" } else { "" };
+    [
+        row.number.to_string(),
+        here(row.at),
+        row.verdict.title().to_lowercase(),
+        row.part.clone().unwrap_or_else(|| "-".into()),
+        row.score
+            .map_or_else(|| "-".into(), |[score, _]| format!("{score:.2}")),
+        format!("{}{simulated}", row.scene),
+        row.frame_bytes.map_or("-", |_| "kept").to_owned(),
+        row.label.as_ref().map_or("-", Truth::name).to_owned(),
+        row.remark.clone(),
+    ]
+}
+
+fn keep(history: &mut History, asked: &KeepArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let before = history.retention().advised()?;
+    let rule = Retention {
+        keep: match asked.keep {
+            Some(KeepChoice::All) => KeepFrames::All,
+            Some(KeepChoice::NotAccepted) => KeepFrames::NotAccepted,
+            Some(KeepChoice::None) => KeepFrames::None,
+            None => before.keep,
+        },
+        max_days: asked.days.unwrap_or(before.max_days),
+        max_gigabytes: asked.gigabytes.unwrap_or(before.max_gigabytes),
+    }
+    .sensible();
+    if rule != before {
+        history.set_retention(&rule).advised()?;
+        let swept = history.sweep(&rule, Timestamp::now()).advised()?;
+        if swept.num_frames > 0 {
+            console.note(&format_args!("{} frames were taken away", swept.num_frames));
+        }
+    }
+    let usage = history.usage().advised()?;
+    let gigabytes = |bytes: u64| bytes as f64 / 1e9;
+    console.line(&format_args!(
+        "frames kept: {}, at most {} days and {} GB",
+        rule.keep.title().to_lowercase(),
+        rule.max_days,
+        rule.max_gigabytes
+    ));
+    console.line(&format_args!(
+        "now: {} frames, {:.3} GB, of which {:.3} GB stay because of a remark or a true label",
+        usage.num_frames,
+        gigabytes(usage.num_bytes),
+        gigabytes(usage.num_bytes_marked)
+    ));
+    Ok(Outcome::Accepted)
+}

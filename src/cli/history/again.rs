@@ -1,0 +1,100 @@
+//! `partsight history show --again`: what today's recipe and library make of a kept frame.
+
+use serde::Serialize;
+
+use super::ShowArgs;
+use crate::{
+    cli::console::{Advised as _, Console, Table, advised_error},
+    history::{Differences, Finding, History, Record},
+    pipeline::{self, Unwatched},
+    units::{Metres, Radians},
+};
+
+pub(super) fn run(
+    history: &History,
+    record: &Record,
+    asked: &ShowArgs,
+    console: &mut Console,
+) -> anyhow::Result<Differences> {
+    let Some(scene) = history.scene(record).advised()? else {
+        return Err(advised_error(
+            format!("the frame of inspection {} is not kept", asked.number),
+            "Keep more frames from now on: partsight history keep all",
+        ));
+    };
+    let library = asked.library.load_some(console)?.library;
+    let recipe = asked.recipe.recipe();
+    let inspection = pipeline::run(&scene, &library, &recipe, &Unwatched)?;
+    let best = inspection.ranking.entries.first();
+    let best = best.and_then(|entry| library.references.get(entry.reference));
+    let bounds = best.and_then(|reference| reference.cloud.bounds());
+    let middle = bounds.map(|(low, high)| nalgebra::center(&low, &high).cast::<f64>());
+    let now = Finding::of(&inspection, &recipe.identity(), &library.identity());
+    Ok(Differences::between(Finding::from(record), now, middle))
+}
+
+/// What changed, as `--json` writes it.
+#[derive(Debug, Serialize)]
+pub(super) struct AgainLine {
+    same: bool,
+    verdict: &'static str,
+    nearest: Option<String>,
+    score: Option<f64>,
+    margin: Option<f64>,
+    pose_shift_m: Option<f64>,
+    pose_turn_rad: Option<f64>,
+    changed: Vec<&'static str>,
+}
+
+impl AgainLine {
+    pub(super) fn of(found: &Differences) -> Self {
+        let now = &found.now;
+        Self {
+            same: found.is_same(),
+            verdict: now.verdict.name(),
+            nearest: now.nearest.clone(),
+            score: now.score.map(|[score, _]| score),
+            margin: now.score.map(|[_, margin]| margin),
+            pose_shift_m: found.pose.map(|off| off.shift.0),
+            pose_turn_rad: found.pose.map(|off| off.rotation.0),
+            changed: found.causes(),
+        }
+    }
+}
+
+pub(super) fn show(found: &Differences, console: &mut Console) {
+    let Differences { before, now, pose } = found;
+    let mut table = Table::new(&["", "THEN", "TODAY"]);
+    let mut row = |what: &str, of: &dyn Fn(&Finding) -> String| {
+        let (then, today) = (of(before), of(now));
+        let sign = if then == today { "" } else { "changed" };
+        table.row([what.to_owned(), then, today, sign.to_owned()]);
+    };
+    row("verdict", &|of| of.verdict.title().to_lowercase());
+    row("best guess", &|of| {
+        of.nearest.clone().unwrap_or_else(|| "-".into())
+    });
+    row("score", &|of| {
+        of.score
+            .map_or_else(|| "-".into(), |[score, _]| format!("{score:.3}"))
+    });
+    row("margin", &|of| {
+        of.score
+            .map_or_else(|| "-".into(), |[_, margin]| format!("{margin:.3}"))
+    });
+    row("recipe", &|of| of.recipe.clone());
+    row("library", &|of| of.library.clone());
+    row("program", &|of| of.program.clone());
+    table.show(console);
+    if let Some(off) = pose {
+        let (Metres(shift), Radians(turn)) = (off.shift, off.rotation);
+        console.line(&format_args!(
+            "The pose differs by {:.3} mm at the part's middle and {:.4} degrees.",
+            shift * 1e3,
+            turn.to_degrees()
+        ));
+    }
+    if found.is_same() {
+        console.line(&"Nothing changed.");
+    }
+}

@@ -1,0 +1,189 @@
+//! `partsight history show`: everything about one inspection.
+
+use serde::Serialize;
+use serde_json::Value;
+
+use super::{ShowArgs, again, here};
+use crate::{
+    cli::{
+        Outcome,
+        console::{Advised as _, Console, Table},
+    },
+    history::{History, Record, Summary},
+    library::Truth,
+};
+
+/// The version of the JSON lines.
+const SCHEMA: u32 = 1;
+
+/// A row as `--json` writes it.
+#[derive(Debug, Serialize)]
+struct RowLine<'a> {
+    schema: u32,
+    number: i64,
+    at: String,
+    scene: &'a str,
+    source: &'a str,
+    simulated: bool,
+    verdict: &'static str,
+    part: Option<&'a str>,
+    score: Option<f64>,
+    margin: Option<f64>,
+    total_ms: f64,
+    label: Option<&'a str>,
+    remark: &'a str,
+    frame_kept: bool,
+}
+
+impl<'a> RowLine<'a> {
+    fn of(row: &'a Summary) -> Self {
+        Self {
+            schema: SCHEMA,
+            number: row.number,
+            at: row.at.to_string(),
+            scene: &row.scene,
+            source: &row.source,
+            simulated: row.is_simulated,
+            verdict: row.verdict.name(),
+            part: row.part.as_deref(),
+            score: row.score.map(|[score, _]| score),
+            margin: row.score.map(|[_, margin]| margin),
+            total_ms: row.total_ms,
+            label: row.label.as_ref().map(Truth::name),
+            remark: &row.remark,
+            frame_kept: row.frame_bytes.is_some(),
+        }
+    }
+}
+
+/// A row as one line of JSON.
+pub(super) fn line_of(row: &Summary) -> String {
+    json(&RowLine::of(row))
+}
+
+fn json(line: &impl Serialize) -> String {
+    serde_json::to_string(line).expect("numbers and text have a JSON form")
+}
+
+/// An inspection as `--json` writes it.
+#[derive(Serialize)]
+struct RecordLine<'a> {
+    #[serde(flatten)]
+    row: RowLine<'a>,
+    nearest: Option<&'a str>,
+    reason: Option<&'a str>,
+    advice: Option<&'a str>,
+    camera_from_part: Option<[f64; 16]>,
+    recipe: &'a str,
+    library: &'a str,
+    program: &'a str,
+    frame: Option<String>,
+    /// As it was written when it was inspected.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    line: Option<Value>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    again: Option<again::AgainLine>,
+}
+
+pub(super) fn run(
+    history: &History,
+    asked: &ShowArgs,
+    console: &mut Console,
+) -> anyhow::Result<Outcome> {
+    let record = history.known(asked.number).advised()?;
+    let again = asked
+        .again
+        .then(|| again::run(history, &record, asked, console))
+        .transpose()?;
+    if asked.json {
+        let detail = &record.detail;
+        let complaint = detail.complaint.as_ref();
+        let line = RecordLine {
+            row: RowLine::of(&record.summary),
+            nearest: detail.nearest.as_deref(),
+            reason: complaint.map(|[reason, _]| reason.as_str()),
+            advice: complaint.map(|[_, advice]| advice.as_str()),
+            camera_from_part: record.matrix(),
+            recipe: &detail.recipe_identity,
+            library: &detail.library_identity,
+            program: &detail.program,
+            frame: frame_path(history, &record),
+            line: serde_json::from_str(&detail.line).ok(),
+            again: again.as_ref().map(again::AgainLine::of),
+        };
+        console.line(&json(&line));
+        return Ok(Outcome::Accepted);
+    }
+    card(history, &record, console);
+    if let Some(differences) = &again {
+        console.line(&"");
+        again::show(differences, console);
+    }
+    Ok(Outcome::Accepted)
+}
+
+fn frame_path(history: &History, record: &Record) -> Option<String> {
+    let frame = record.detail.frame.as_ref()?;
+    let path = history.frames_folder().join(&frame.file);
+    Some(path.display().to_string())
+}
+
+fn card(history: &History, record: &Record, console: &mut Console) {
+    let Record { summary, detail } = record;
+    let mut table = Table::default();
+    let mut row = |what: &str, text: String| {
+        if !text.is_empty() {
+            table.row([what.to_owned(), text]);
+        }
+    };
+    let simulated = if summary.is_simulated {
+        " (simulated: no camera was read)"
+    } else {
+        ""
+    };
+    row("inspection", summary.number.to_string());
+    row(
+        "time",
+        format!("{} here, {} UTC", here(summary.at), summary.at),
+    );
+    row("scene", format!("{}{simulated}", summary.scene));
+    row("source", summary.source.clone());
+    row("verdict", summary.verdict.title().to_lowercase());
+    row("part", summary.part.clone().unwrap_or_default());
+    if summary.part != detail.nearest {
+        row("nearest", detail.nearest.clone().unwrap_or_default());
+    }
+    if let Some([score, margin]) = summary.score {
+        row(
+            "score",
+            format!("{score:.3}, {margin:.3} ahead of the next"),
+        );
+    }
+    if let Some([reason, advice]) = &detail.complaint {
+        row("why not", reason.clone());
+        row("to do", advice.clone());
+    }
+    if let Some(numbers) = record.matrix() {
+        for (i, line) in numbers.chunks(4).enumerate() {
+            let numbers: Vec<String> = line.iter().map(|x| format!("{x:10.6}")).collect();
+            let name = if i == 0 { "camera_from_part, m" } else { "" };
+            row(name, numbers.join(" "));
+        }
+    }
+    let times = record.timings().into_iter();
+    let times: Vec<String> = times
+        .map(|(stage, ms)| format!("{stage} {ms:.1}"))
+        .collect();
+    row("times, ms", times.join("  "));
+    row("recipe", detail.recipe_identity.clone());
+    row("library", detail.library_identity.clone());
+    row("program", detail.program.clone());
+    row(
+        "true label",
+        summary.label.as_ref().map_or("", Truth::name).to_owned(),
+    );
+    row("remark", summary.remark.clone());
+    let frame = frame_path(history, record);
+    row("frame", frame.unwrap_or_else(|| "not kept".into()));
+    table.show(console);
+}

@@ -1,0 +1,166 @@
+//! What `inspect` writes into the history, behind every verdict.
+
+use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
+
+use clap::Args;
+use jiff::Timestamp;
+
+use super::console::Console;
+use crate::{
+    history::{About, HistoryError, HistoryNews, Keeper, NewEntry, Writer, users_folder},
+    library::LibraryLoad,
+    pipeline::{Inspection, Recipe, Verdict},
+    report::segmentation_picture,
+    stages::scene::SceneCloud,
+};
+
+/// Where the history is.
+#[derive(Clone, Debug, Args)]
+pub(super) struct HistoryChoice {
+    /// The folder of the history; without it your own, as in the window
+    #[arg(long, value_name = "DIR", global = true)]
+    history: Option<PathBuf>,
+}
+
+impl HistoryChoice {
+    /// The folder.
+    pub(super) fn folder(&self) -> Result<PathBuf, HistoryError> {
+        self.history.clone().map_or_else(users_folder, Ok)
+    }
+}
+
+/// Writes inspections into the history, on a thread of its own. Whatever goes wrong is a warning: the verdict counts.
+pub(super) struct Recording {
+    keeper: Arc<Keeper>,
+    writer: Writer,
+    library: String,
+    titles: BTreeMap<String, String>,
+    recipe: Arc<Recipe>,
+    num: u64,
+}
+
+impl Recording {
+    /// Into this folder; `None`, and a warning, where it cannot even begin.
+    pub(super) fn start(
+        choice: &HistoryChoice,
+        library: &LibraryLoad,
+        recipe: &Recipe,
+        console: &Console,
+    ) -> Option<Self> {
+        let folder = match choice.folder() {
+            Ok(folder) => folder,
+            Err(error) => {
+                console.warn(&error, &error);
+                return None;
+            }
+        };
+        let keeper = Arc::new(Keeper::new(Some(folder)));
+        let Ok(writer) = Writer::start(Arc::clone(&keeper), || ()) else {
+            console
+                .note(&"warning: the history is not written: the system starts no thread for it");
+            return None;
+        };
+        let titles = library.parts.iter();
+        let titles = titles.map(|part| (part.name.to_string(), part.shown_title().to_owned()));
+        Some(Self {
+            keeper,
+            writer,
+            library: library.library.identity(),
+            titles: titles.collect(),
+            recipe: Arc::new(recipe.clone()),
+            num: 0,
+        })
+    }
+
+    /// Hands an inspection over; `line` is what `--json` shows of it.
+    pub(super) fn add(
+        &mut self,
+        taken: Taken<'_>,
+        scene: &Arc<SceneCloud>,
+        inspection: &Inspection,
+        line: &str,
+        console: &Console,
+    ) {
+        let best = match &inspection.verdict {
+            Verdict::Part { part, .. } => self.titles.get(part),
+            Verdict::NoPart(_) => None,
+        };
+        let picture = segmentation_picture(scene, &inspection.segmentation);
+        let about = About {
+            at: Timestamp::now(),
+            scene: taken.scene.to_owned(),
+            source: taken.source.to_owned(),
+            is_simulated: taken.is_simulated,
+            title: best.map(String::as_str),
+            line: line.to_owned(),
+            library: self.library.clone(),
+            origin: None,
+            picture: picture.as_ref(),
+        };
+        let entry = NewEntry::of(about, scene, inspection, &self.recipe);
+        self.num += 1;
+        self.writer.add(self.num, entry);
+        self.tell(console);
+    }
+
+    /// Says what went wrong, once.
+    fn tell(&self, console: &Console) {
+        for news in self.keeper.take_news() {
+            match news {
+                HistoryNews::Failed { what, advice } => {
+                    console.note(&format_args!("warning: {what}"));
+                    console.note(&format_args!(
+                        "  to do: {advice}; the verdicts are not affected"
+                    ));
+                }
+                HistoryNews::SetAside(aside) => {
+                    console.note(&format_args!("warning: the history: {}", aside.what));
+                    let place = aside.aside.display();
+                    console.note(&format_args!("  it was set aside as {place}"));
+                }
+                HistoryNews::Works { numbers, .. } => {
+                    let num = numbers.len();
+                    console.note(&format_args!(
+                        "The history is written again, with the {num} inspections that waited"
+                    ));
+                }
+                HistoryNews::Added { .. }
+                | HistoryNews::Changed { .. }
+                | HistoryNews::NotChanged { .. }
+                | HistoryNews::RuleChanged
+                | HistoryNews::Swept(_) => {}
+            }
+        }
+    }
+
+    /// Waits until everything is written, and says what could not be.
+    pub(super) fn finish(self, console: &Console) {
+        self.writer.finish();
+        self.tell(console);
+        let num_waiting = self.keeper.num_waiting();
+        let [num_bare, num_lost] = self.writer.take_crowded();
+        for (num, what) in [
+            (num_waiting, "are not in the history"),
+            (num_lost, "are not in the history: the disk is too slow"),
+            (
+                num_bare,
+                "are in the history without their frames: the disk is too slow",
+            ),
+        ] {
+            if num > 0 {
+                console.note(&format_args!("warning: {num} inspections {what}"));
+            }
+        }
+    }
+}
+
+/// Where a scene came from.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Taken<'a> {
+    /// Its name.
+    pub(super) scene: &'a str,
+    /// A source as it can be opened again, or a file.
+    pub(super) source: &'a str,
+    /// True if no camera was read.
+    pub(super) is_simulated: bool,
+}

@@ -1,0 +1,139 @@
+//! How `inspect` tells its results: as JSON, as a card, or as rows under a heading.
+
+use std::path::PathBuf;
+
+use super::{
+    console::Console,
+    verdict::{complaint, place_of, show_card},
+};
+use crate::{
+    library::Library,
+    pipeline::{Inspection, Verdict},
+};
+
+/// How results are shown.
+pub(super) enum Telling {
+    Json,
+    Card,
+    Rows(Columns),
+}
+
+impl Telling {
+    pub(super) fn head(&self, console: &mut Console) {
+        if let Self::Rows(columns) = self {
+            columns.head(console);
+        }
+    }
+
+    pub(super) fn unreadable(&self, scene: &str, line: &str, console: &mut Console) {
+        match self {
+            Self::Json => console.line(&line),
+            Self::Card => {}
+            Self::Rows(columns) => columns.row(scene, "-", "unreadable", "", console),
+        }
+    }
+
+    pub(super) fn inspected(
+        &self,
+        scene: &str,
+        line: &str,
+        inspection: &Inspection,
+        library: &Library,
+        console: &mut Console,
+    ) {
+        match self {
+            Self::Json => console.line(&line),
+            Self::Card => show_card(scene, inspection, library, console),
+            Self::Rows(columns) => columns.inspected(scene, inspection, library, console),
+        }
+    }
+}
+
+/// Widths of the first two columns; rows are shown as they come, so the widths must be known before.
+pub(super) struct Columns {
+    scene: usize,
+    part: usize,
+}
+
+impl Columns {
+    pub(super) fn for_files(files: &[PathBuf], library: &Library) -> Self {
+        let scenes = files
+            .iter()
+            .map(|f| f.display().to_string().chars().count());
+        let parts = library.references.iter().map(|r| r.name.chars().count());
+        Self {
+            scene: scenes.max().unwrap_or(0).max("SCENE".len()),
+            part: parts.max().unwrap_or(0).max("PART".len()),
+        }
+    }
+
+    /// Names of captures are not known before they come: most are as long as this.
+    pub(super) fn for_captures(library: &Library) -> Self {
+        Self {
+            scene: "simulated frame 12345".len(),
+            ..Self::for_files(&[], library)
+        }
+    }
+
+    pub(super) fn head(&self, console: &mut Console) {
+        let figures = format!(
+            "{:>5} {:>6}  {:>23}  {:>23}  {:>5} {:>7}",
+            "SCORE", "MARGIN", "MIDDLE X Y Z mm", "TURN X Y Z degrees", "RMS", "TIME ms"
+        );
+        self.row("SCENE", "PART", "VERDICT", &figures, console);
+    }
+
+    fn row(&self, scene: &str, part: &str, verdict: &str, figures: &str, console: &mut Console) {
+        let Self {
+            scene: scene_width,
+            part: part_width,
+        } = *self;
+        let row = format!("{scene:<scene_width$}  {part:<part_width$}  {verdict:<12}  {figures}");
+        console.line(&row.trim_end());
+    }
+
+    pub(super) fn inspected(
+        &self,
+        scene: &str,
+        inspection: &Inspection,
+        library: &Library,
+        console: &mut Console,
+    ) {
+        let time_ms = inspection.timings.total.as_secs_f64() * 1000.0;
+        let (part, verdict, figures) = match &inspection.verdict {
+            Verdict::Part {
+                part,
+                score,
+                margin,
+                rejected,
+                ..
+            } => {
+                let triple = |[a, b, c]: [f64; 3]| format!("{a:7.1} {b:7.1} {c:7.1}");
+                let (middle, turn) = place_of(inspection, library)
+                    .map_or_else(Default::default, |(middle, turn)| {
+                        (triple(middle), triple(turn))
+                    });
+                let rms = match &inspection.pose {
+                    Some(Ok(pose)) => format!("{:.1}", pose.fit.rms_m * 1000.0),
+                    _ => String::new(),
+                };
+                let verdict = rejected.as_ref().map_or("accepted", |_| "NOT ACCEPTED");
+                let figures = format!(
+                    "{score:5.2} {margin:6.2}  {middle:>23}  {turn:>23}  {rms:>5} {time_ms:7.1}"
+                );
+                let part = if inspection.verdict.is_unknown() {
+                    "unknown"
+                } else {
+                    part.as_str()
+                };
+                (part, verdict, figures)
+            }
+            Verdict::NoPart(_) => ("-", "NOT ACCEPTED", String::new()),
+        };
+        self.row(scene, part, verdict, &figures, console);
+        if let Some((why, what_to_do)) = complaint(inspection) {
+            console.line(&format_args!("    why not  {why}"));
+            console.line(&format_args!("    to do    {what_to_do}"));
+        }
+    }
+}

@@ -1,0 +1,424 @@
+//! The history from end to end: what the built program writes and reads, and what it does when the disk says no.
+
+use std::{
+    fs,
+    path::{Path, PathBuf},
+    process::Command,
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use jiff::Timestamp;
+use partsight::{
+    history::{About, Filter, History, HistoryNews, KeepFrames, Keeper, NewEntry, Retention},
+    library::Library,
+    pipeline::{self, Recipe, Unwatched},
+    simulate::{CellSetup, PartKind, Side, frame},
+    stages::scene::scene_from_frame,
+};
+use serde_json::Value;
+
+/// A folder to work in with a data folder of its own.
+struct Workplace {
+    folder: tempfile::TempDir,
+}
+
+struct Ran {
+    code: i32,
+    out: String,
+    err: String,
+}
+
+impl Ran {
+    fn lines(&self) -> Vec<Value> {
+        let parse = |line| serde_json::from_str(line).expect("a line of JSON");
+        self.out.lines().map(parse).collect()
+    }
+}
+
+impl Workplace {
+    /// With a captured fender and a thing that nobody enrolled.
+    fn new() -> Self {
+        let place = Self {
+            folder: tempfile::tempdir().expect("a folder"),
+        };
+        for (part, file) in [("fender", "fender.pcd"), ("hood", "hood.png")] {
+            place.accepted(&[
+                "simulate",
+                "--part",
+                part,
+                "--placement",
+                "facing",
+                "--seed",
+                "5",
+                "--out",
+                file,
+            ]);
+        }
+        place
+    }
+
+    fn path(&self, name: &str) -> PathBuf {
+        self.folder.path().join(name)
+    }
+
+    fn run(&self, args: &[&str]) -> Ran {
+        let output = Command::new(env!("CARGO_BIN_EXE_partsight"))
+            .args(args)
+            .current_dir(self.folder.path())
+            .env_remove("DISPLAY")
+            .env_remove("WAYLAND_DISPLAY")
+            .env("XDG_DATA_HOME", self.path("data"))
+            .env("HOME", self.folder.path())
+            .output()
+            .expect("starts");
+        Ran {
+            code: output.status.code().expect("ended by itself"),
+            out: String::from_utf8(output.stdout).expect("text"),
+            err: String::from_utf8(output.stderr).expect("text"),
+        }
+    }
+
+    fn accepted(&self, args: &[&str]) -> Ran {
+        let ran = self.run(args);
+        assert_eq!(ran.code, 0, "{args:?}\n{}\n{}", ran.out, ran.err);
+        ran
+    }
+}
+
+#[test]
+fn what_inspect_saw_is_listed_shown_labelled_inspected_again_and_exported() {
+    let place = Workplace::new();
+    let own = place.path("data/partsight/history.sqlite");
+    assert_eq!(
+        place.run(&["inspect", "fender.pcd", "--no-history"]).code,
+        0
+    );
+    assert!(!own.exists());
+    let inspected = place.run(&["inspect", "fender.pcd", "hood.png", "--json"]);
+    assert_eq!((inspected.code, inspected.err.as_str()), (1, ""));
+    assert!(own.exists());
+
+    let listed = place.accepted(&["history", "list", "--json"]).lines();
+    assert_eq!(listed.len(), 2);
+    // The newest first; of what was not accepted the frame is kept.
+    assert_eq!(
+        (&listed[0]["number"], &listed[0]["scene"]),
+        (&2.into(), &"hood.png".into())
+    );
+    assert_eq!(
+        (&listed[0]["frame_kept"], &listed[1]["frame_kept"]),
+        (&true.into(), &false.into())
+    );
+    assert_eq!(
+        (&listed[1]["verdict"], &listed[1]["part"]),
+        (&"accepted".into(), &"fender".into())
+    );
+    let rows = place.accepted(&["history", "list", "--part", "fender", "--since", "today"]);
+    assert!(
+        rows.out.contains("fender.pcd") && !rows.out.contains("hood.png"),
+        "{}",
+        rows.out
+    );
+    assert!(
+        rows.err.contains("1 of 1 inspections shown, 2 in all"),
+        "{}",
+        rows.err
+    );
+    let none = place.accepted(&["history", "list", "--until", "2020-01-01", "--json"]);
+    assert_eq!(none.out, "");
+
+    // The line is the one that inspect wrote.
+    let shown = place
+        .accepted(&["history", "show", "1", "--json"])
+        .lines()
+        .remove(0);
+    assert_eq!(shown["line"], inspected.lines()[0]);
+    let card = place.accepted(&["history", "show", "2"]).out;
+    assert!(
+        card.contains("why not") && card.contains("history-frames"),
+        "{card}"
+    );
+
+    // The same recipe and library find the same in the kept frame, to the last digit.
+    let again = place
+        .accepted(&["history", "show", "2", "--again", "--json"])
+        .lines()
+        .remove(0);
+    assert_eq!(
+        (&again["again"]["same"], &again["again"]["changed"]),
+        (&true.into(), &Value::Array(vec![]))
+    );
+    let other = place
+        .accepted(&["history", "show", "2", "--again", "--matcher", "paper"])
+        .out;
+    assert!(
+        other.contains("changed") && other.contains("recipe"),
+        "{other}"
+    );
+    let gone = place.run(&["history", "show", "1", "--again"]);
+    assert_eq!(gone.code, 2);
+    assert!(
+        gone.err.contains("is not kept") && gone.err.contains("history keep all"),
+        "{}",
+        gone.err
+    );
+
+    place.accepted(&["history", "label", "2", "-"]);
+    place.accepted(&["history", "remark", "2", "a hood, not ours"]);
+    let found = place
+        .accepted(&["history", "list", "--text", "HOOD ours", "--json"])
+        .lines();
+    assert_eq!(
+        (found.len(), &found[0]["label"]),
+        (1, &"not_enrolled".into())
+    );
+
+    place.accepted(&["history", "export", "--csv", "all.csv", "--cases", "cases"]);
+    let table = fs::read_to_string(place.path("all.csv")).expect("written");
+    assert_eq!(table.lines().count(), 3);
+    assert!(table.contains("\"a hood, not ours\""), "{table}");
+    let judged = place.accepted(&["evaluate", "cases"]);
+    assert!(judged.out.contains('1'), "{}", judged.out);
+
+    let kept = place.accepted(&["history", "keep", "all", "--days", "30"]);
+    assert!(
+        kept.out.contains("frames kept: all, at most 30 days"),
+        "{}",
+        kept.out
+    );
+    place.accepted(&["inspect", "fender.pcd"]);
+    let newest = place
+        .accepted(&["history", "list", "--limit", "1", "--json"])
+        .lines();
+    assert_eq!(
+        (&newest[0]["number"], &newest[0]["frame_kept"]),
+        (&3.into(), &true.into())
+    );
+}
+
+#[test]
+fn a_history_that_cannot_be_written_is_a_warning_and_the_exit_code_stays() {
+    let place = Workplace::new();
+    fs::write(place.path("taken"), "a file").expect("written");
+    let inspect = [
+        "inspect",
+        "fender.pcd",
+        "fender.pcd",
+        "fender.pcd",
+        "--json",
+        "--history",
+        "taken",
+    ];
+    let ran = place.run(&inspect);
+    assert_eq!((ran.code, ran.lines().len()), (0, 3), "{}", ran.err);
+    assert_eq!(
+        ran.err.matches("the history cannot be kept there").count(),
+        1,
+        "{}",
+        ran.err
+    );
+    assert!(
+        ran.err.contains("3 inspections are not in the history"),
+        "{}",
+        ran.err
+    );
+    assert_eq!(
+        fs::read_to_string(place.path("taken")).expect("there"),
+        "a file"
+    );
+
+    let missing = place.run(&["history", "list", "--history", "nowhere"]);
+    assert_eq!(missing.code, 2);
+    assert!(
+        missing.err.contains("there is no history yet"),
+        "{}",
+        missing.err
+    );
+    assert!(!place.path("nowhere").exists());
+    let unknown = place.run(&["inspect", "fender.pcd", "--history", "a", "--no-history"]);
+    assert_eq!(unknown.code, 2);
+}
+
+/// A disk of its own, for whoever may mount one.
+struct Disk {
+    folder: tempfile::TempDir,
+}
+
+impl Disk {
+    /// `None`, and why, where it cannot be.
+    #[expect(clippy::print_stderr, reason = "what was not tried is said")]
+    fn of_kilobytes(size: u32) -> Option<Self> {
+        let folder = tempfile::tempdir().expect("a folder");
+        let disk = Self { folder };
+        let mounted = cfg!(target_os = "linux") && disk.mount(&format!("size={size}k"));
+        if !mounted {
+            eprintln!("skipped: only the system's administrator may mount a small disk to fill");
+        }
+        mounted.then_some(disk)
+    }
+
+    fn mount(&self, options: &str) -> bool {
+        let ran = Command::new("mount")
+            .args(["-t", "tmpfs", "-o", options, "tmpfs"])
+            .arg(self.path())
+            .output();
+        ran.is_ok_and(|ran| ran.status.success())
+    }
+
+    fn remount(&self, options: &str) {
+        let ran = Command::new("mount")
+            .args(["-o", &format!("remount,{options}")])
+            .arg(self.path())
+            .status();
+        assert!(ran.expect("ran").success(), "{options}");
+    }
+
+    fn path(&self) -> &Path {
+        self.folder.path()
+    }
+}
+
+impl Drop for Disk {
+    fn drop(&mut self) {
+        // Not mounted, there is nothing to be taken away.
+        let _ = Command::new("umount").arg("-l").arg(self.path()).output();
+    }
+}
+
+fn entries() -> impl Iterator<Item = NewEntry> {
+    let setup = CellSetup::with_part(PartKind::Grille, Side::Left, 0, 3);
+    let scene = Arc::new(scene_from_frame(&frame(&setup).frame));
+    let recipe = Arc::new(Recipe::default());
+    let inspection = pipeline::run(&scene, &Library::default(), &recipe, &Unwatched).expect("ran");
+    (1..).map(move |number| {
+        let about = About {
+            at: Timestamp::now(),
+            scene: format!("frame {number}"),
+            source: "simulated".into(),
+            is_simulated: true,
+            title: None,
+            line: "{}".into(),
+            library: "0".into(),
+            origin: None,
+            picture: None,
+        };
+        NewEntry::of(about, &scene, &inspection, &recipe)
+    })
+}
+
+fn num_failures(news: &[HistoryNews]) -> usize {
+    let is_failure = |news: &&HistoryNews| matches!(news, HistoryNews::Failed { .. });
+    news.iter().filter(is_failure).count()
+}
+
+/// Longer than it is waited before it is tried again.
+const LATER: Duration = Duration::from_mins(5);
+
+#[test]
+fn a_full_disk_is_said_once_and_inspections_are_kept_until_there_is_room() {
+    let Some(disk) = Disk::of_kilobytes(1500) else {
+        return;
+    };
+    let keeper = Keeper::new(Some(disk.path().join("history")));
+    let begun = Instant::now();
+    keeper.open(begun);
+    let num = 25;
+    for (ticket, entry) in (0..num).zip(entries()) {
+        keeper.add(ticket, entry, begun);
+    }
+    let news = keeper.take_news();
+    assert_eq!(num_failures(&news), 1, "{news:?}");
+    let full = |news: &HistoryNews| matches!(news, HistoryNews::Failed { what, advice } if what.contains("full") && advice.contains("room"));
+    assert!(news.iter().any(full), "{news:?}");
+    let page = keeper.page(&Filter::default(), 0, 100).expect("asked");
+    assert_eq!(
+        (page.num_all, page.rows.len()),
+        (num as usize, num as usize)
+    );
+    assert!(keeper.num_waiting() > 0 && keeper.num_waiting() < num as usize);
+    // Still full: nothing more is said.
+    keeper.retry(begun + LATER);
+    assert_eq!(keeper.take_news(), []);
+
+    disk.remount("size=200m");
+    keeper.retry(begun + 2 * LATER);
+    let news = keeper.take_news();
+    assert!(
+        matches!(news.as_slice(), [HistoryNews::Works { num_lost: 0, .. }]),
+        "{news:?}"
+    );
+    assert_eq!(keeper.num_waiting(), 0);
+    drop(keeper);
+    let opened = History::open(&disk.path().join("history")).expect("opened");
+    assert_eq!(opened.set_aside, None);
+    let page = opened
+        .history
+        .page(&Filter::default(), 0, 100)
+        .expect("asked");
+    let scenes: Vec<&str> = page
+        .rows
+        .iter()
+        .rev()
+        .map(|row| row.scene.as_str())
+        .collect();
+    let expected: Vec<String> = (1..=num).map(|number| format!("frame {number}")).collect();
+    assert_eq!(scenes, expected);
+}
+
+#[test]
+fn a_write_protected_history_can_be_read_and_is_written_again_later() {
+    let Some(disk) = Disk::of_kilobytes(100_000) else {
+        return;
+    };
+    let all = Retention {
+        keep: KeepFrames::All,
+        ..Retention::default()
+    };
+    let mut history = History::open(disk.path()).expect("opened").history;
+    for entry in entries().take(3) {
+        history.add(&entry, &all).expect("written");
+    }
+    drop(history);
+    disk.remount("ro");
+    let read = History::open_to_read(disk.path()).expect("opened").history;
+    assert_eq!(
+        read.page(&Filter::default(), 0, 10).expect("asked").num_all,
+        3
+    );
+    let record = read.known(2).expect("there");
+    assert!(read.scene(&record).expect("read").is_some());
+    drop(read);
+
+    let place = Workplace::new();
+    let folder = disk.path().display().to_string();
+    let listed = place.accepted(&["history", "list", "--json", "--history", &folder]);
+    assert_eq!(listed.lines().len(), 3);
+    let inspected = place.run(&["inspect", "fender.pcd", "fender.pcd", "--history", &folder]);
+    assert_eq!(inspected.code, 0, "{}", inspected.err);
+    assert_eq!(
+        inspected.err.matches("to do:").count(),
+        1,
+        "{}",
+        inspected.err
+    );
+    assert!(
+        inspected
+            .err
+            .contains("2 inspections are not in the history"),
+        "{}",
+        inspected.err
+    );
+
+    let keeper = Keeper::new(Some(disk.path().to_owned()));
+    let begun = Instant::now();
+    keeper.open(begun);
+    for (ticket, entry) in (0..2).zip(entries()) {
+        keeper.add(ticket, entry, begun);
+    }
+    assert_eq!(num_failures(&keeper.take_news()), 1);
+    disk.remount("rw");
+    keeper.retry(begun + LATER);
+    let page = keeper.page(&Filter::default(), 0, 10).expect("asked");
+    assert_eq!((page.num_all, page.rows[0].number), (5, 5));
+}

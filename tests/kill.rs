@@ -1,0 +1,277 @@
+//! A program that is killed while it writes loses at most what it was writing.
+//!
+//! The test runs itself as another process that writes inspections with their frames, and lines of reports, as fast as it can and says
+//! after each that it is written; it is killed at a moment of chance, again and again in the same folder.
+
+use std::{
+    env, fs,
+    io::{BufRead as _, BufReader, Write as _},
+    path::Path,
+    process::{Command, Stdio},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, Ordering},
+    },
+    thread,
+    time::Duration,
+};
+
+use jiff::Timestamp;
+use partsight::{
+    capture::{DepthFrame, Intrinsics},
+    history::{
+        Detail, Filter, History, KeepFrames, NewEntry, PastVerdict, Record, Retention, Summary,
+    },
+    pipeline::Recipe,
+    report::ReportFolder,
+    stages::scene::{SceneCloud, scene_from_frame},
+};
+use rand::{RngExt as _, SeedableRng as _};
+
+/// In the environment of the process that is killed: the folder to write in.
+const BODY: &str = "PARTSIGHT_KILL_TEST";
+const NUM_KILLS: usize = 200;
+
+const ALL: Retention = Retention {
+    keep: KeepFrames::All,
+    max_days: 3650,
+    max_gigabytes: 10.0,
+};
+
+fn scene(number: i64) -> SceneCloud {
+    let intrinsics = Intrinsics {
+        width: 80,
+        height: 60,
+        fx: 65.0,
+        fy: 65.0,
+        cx: 39.5,
+        cy: 29.5,
+    };
+    let depth = (0..80 * 60).map(|i| 900 + ((i * 31 + number * 17) % 700) as u16);
+    scene_from_frame(&DepthFrame {
+        intrinsics,
+        metres_per_unit: 0.001,
+        depth: depth.collect(),
+    })
+}
+
+/// An inspection that can be told from every other.
+fn entry(number: i64) -> NewEntry {
+    let recipe = Recipe::default();
+    NewEntry {
+        record: Record {
+            summary: Summary {
+                number: 0,
+                at: Timestamp::now(),
+                scene: format!("frame {number}"),
+                source: "simulated".into(),
+                is_simulated: true,
+                verdict: PastVerdict::Unknown,
+                part: None,
+                title: "Unknown".into(),
+                score: Some([0.4, 0.1]),
+                total_ms: 20.0,
+                remark: String::new(),
+                label: None,
+                frame_bytes: None,
+            },
+            detail: Detail {
+                nearest: None,
+                complaint: None,
+                camera_from_part: None,
+                recipe_identity: recipe.identity(),
+                recipe: Some(Arc::new(recipe)),
+                library_identity: "0badcafe".into(),
+                program: "0.1.0".into(),
+                line: line_of(number),
+                thumbnail: Vec::new(),
+                origin: None,
+                frame: None,
+            },
+        },
+        picture: None,
+        scene: Some(Arc::new(scene(number))),
+    }
+}
+
+fn line_of(number: i64) -> String {
+    format!(
+        "{{\"scene\":\"frame {number}\",\"padding\":\"{}\"}}",
+        "x".repeat(600)
+    )
+}
+
+/// What is killed: writes until then.
+#[test]
+fn body() {
+    let Some(folder) = env::var_os(BODY) else {
+        return;
+    };
+    let folder = Path::new(&folder);
+    let opened = History::open(folder).expect("opened");
+    assert_eq!(opened.set_aside, None, "a kill leaves a sound file");
+    let mut history = opened.history;
+    let mut reports = ReportFolder::make(&folder.join("reports")).expect("made");
+    let mut out = std::io::stdout();
+    loop {
+        // The number it will have: nobody else writes.
+        let newest = history.page(&Filter::default(), 0, 1).expect("asked");
+        let next = newest.rows.first().map_or(1, |row| row.number + 1);
+        let number = history.add(&entry(next), &ALL).expect("written");
+        assert_eq!(number, next);
+        let name = format!("frame-{number}.pcd");
+        let line = line_of(number);
+        reports
+            .write(Path::new(&name), &line, &[])
+            .expect("written");
+        writeln!(out, "written {number}").expect("read");
+        out.flush().expect("read");
+    }
+}
+
+#[test]
+fn a_kill_at_any_moment_loses_at_most_the_inspection_in_flight() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut random = rand_pcg::Pcg64::seed_from_u64(2_026);
+    let mut known = 0;
+    let mut num_in_flight = 0;
+    for kill in 0..NUM_KILLS {
+        // From before it has opened the file to some inspections later.
+        let moment = Duration::from_micros(random.random_range(0..60_000));
+        let told = killed_after(moment, folder.path());
+        let opened = History::open(folder.path()).expect("opened");
+        assert_eq!(opened.set_aside, None, "kill {kill}");
+        let history = opened.history;
+        let page = history.page(&Filter::default(), 0, 1).expect("asked");
+        let newest = page.rows.first().map_or(0, |row| row.number);
+        assert_eq!(page.num_all as i64, newest, "kill {kill}: none is missing");
+        let told = told.unwrap_or(known);
+        assert!(
+            told <= newest,
+            "kill {kill}: {told} was told, {newest} is there"
+        );
+        assert!(
+            newest <= told + 1,
+            "kill {kill}: {told} was told, {newest} is there"
+        );
+        num_in_flight += newest - told;
+        for number in known + 1..=newest {
+            let record = history.known(number).expect("whole");
+            assert_eq!(record.detail.line, line_of(number));
+            assert_eq!(record.summary.scene, format!("frame {number}"));
+            let kept = history.scene(&record).expect("whole").expect("kept");
+            assert!(
+                kept.cloud.points == scene(number).cloud.points,
+                "another frame"
+            );
+        }
+        for number in known + 1..=told {
+            let path = folder
+                .path()
+                .join(format!("reports/frame-{number}.report.json"));
+            let line = fs::read_to_string(path).expect("written");
+            assert_eq!(line, line_of(number) + "\n");
+        }
+        known = newest;
+    }
+    // Every report is whole, also the one that nobody had told of; what was in flight is a hidden file at most.
+    let mut num_reports = 0;
+    for report in fs::read_dir(folder.path().join("reports")).expect("there") {
+        let path = report.expect("listed").path();
+        let name = path
+            .file_name()
+            .unwrap_or_default()
+            .to_string_lossy()
+            .into_owned();
+        if name.starts_with('.') {
+            continue;
+        }
+        let line = fs::read_to_string(&path).expect("read");
+        serde_json::from_str::<serde_json::Value>(&line).expect("whole");
+        num_reports += 1;
+    }
+    assert!(
+        num_reports >= known - num_in_flight,
+        "{num_reports} of {known}"
+    );
+    // Also on a machine that is busy with something else the kills hit somebody who writes.
+    assert!(known > 50, "only {known} written in {NUM_KILLS} lives");
+    // Every row has its frame and every frame its row, but for the camera that they share.
+    let history = History::open(folder.path()).expect("opened").history;
+    assert_eq!(history.usage().expect("asked").num_frames as i64, known);
+    let files = fs::read_dir(history.frames_folder())
+        .expect("there")
+        .count();
+    assert_eq!(files as i64, known + 1);
+}
+
+/// Runs the body for so long behind its start, kills it, and answers with what it said last.
+fn killed_after(moment: Duration, folder: &Path) -> Option<i64> {
+    let mut child = Command::new(env::current_exe().expect("this program"))
+        .args(["--exact", "body", "--nocapture", "--test-threads=1"])
+        .env(BODY, folder)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::null())
+        .spawn()
+        .expect("starts");
+    let lines = BufReader::new(child.stdout.take().expect("piped"));
+    let reader = thread::spawn(move || {
+        let lines = lines.lines().map_while(Result::ok);
+        // The first stands behind what the test runner says.
+        let numbers = lines.filter_map(|line| line.split_once("written ")?.1.parse().ok());
+        numbers.last()
+    });
+    thread::sleep(Duration::from_millis(15) + moment);
+    // SIGKILL: nothing of it is tidied up.
+    child.kill().expect("it runs until it is killed");
+    child.wait().expect("gone");
+    reader.join().expect("read")
+}
+
+#[test]
+fn two_processes_write_at_once_and_nothing_is_lost() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().to_owned();
+    let is_over = Arc::new(AtomicBool::new(false));
+    let other = {
+        let (path, is_over) = (path.clone(), Arc::clone(&is_over));
+        // This process adds what it can while the others live.
+        thread::spawn(move || {
+            let mut history = History::open(&path).expect("opened").history;
+            let mut numbers = Vec::new();
+            while !is_over.load(Ordering::Relaxed) {
+                let entry = entry(10_000 + numbers.len() as i64);
+                numbers.push(history.add(&entry, &ALL).expect("written"));
+            }
+            numbers
+        })
+    };
+    let mut child = Command::new(env!("CARGO_BIN_EXE_partsight"))
+        .args(["simulate", "--part", "grille", "--out", "grille.pcd"])
+        .current_dir(&path)
+        .env("HOME", &path)
+        .env("XDG_DATA_HOME", &path)
+        .spawn()
+        .expect("starts");
+    assert!(child.wait().expect("ended").success());
+    for _ in 0..3 {
+        let inspected = Command::new(env!("CARGO_BIN_EXE_partsight"))
+            .args(["inspect", "grille.pcd", "grille.pcd", "--history", "."])
+            .current_dir(&path)
+            .env("HOME", &path)
+            .env("XDG_DATA_HOME", &path)
+            .output()
+            .expect("ran");
+        let err = String::from_utf8_lossy(&inspected.stderr).into_owned();
+        assert!(!err.contains("history"), "{err}");
+    }
+    is_over.store(true, Ordering::Relaxed);
+    let ours = other.join().expect("written");
+    let history = History::open(&path).expect("opened").history;
+    let page = history.page(&Filter::default(), 0, 1000).expect("asked");
+    assert_eq!(page.num_all, ours.len() + 6);
+    for number in ours {
+        let record = history.known(number).expect("there");
+        assert!(history.scene(&record).expect("read").is_some());
+    }
+}
