@@ -32,7 +32,7 @@ pub struct SprayExport<'a> {
     pub params: &'a StandOffParams,
     /// True if it is the stored path of the part, false for the start that stands for it where none is stored.
     pub is_stored: bool,
-    /// True if no real camera saw the part.
+    /// True if no real camera saw the scene, or none saw the part when it was enrolled.
     pub is_simulated: bool,
     /// When.
     pub at: Timestamp,
@@ -139,14 +139,14 @@ impl SprayExport<'_> {
             "one start before the part's middle: no path is stored"
         };
         let seen = if self.is_simulated {
-            "SIMULATED: no camera saw this part"
+            ", SIMULATED: no camera saw this scene, or none saw the part when it was enrolled"
         } else {
-            "seen by a camera"
+            ""
         };
         let mut text = format!(
             "# Partsight spray path, version {SCHEMA}\n\
              # part: {}, {kind}\n\
-             # scene: {}, accepted, {seen}\n\
+             # scene: {}, accepted{seen}\n\
              # made: {}\n\
              # frame: {FRAME}, by the calibration {}\n\
              # each line: robot_from_nozzle; tool: {TOOL}\n\
