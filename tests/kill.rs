@@ -1,7 +1,8 @@
 //! A program that is killed while it writes loses at most what it was writing.
 //!
-//! The test runs itself as another process that writes inspections with their frames, and lines of reports, as fast as it can and says
-//! after each that it is written; it is killed at a moment of chance, again and again in the same folder.
+//! The test runs itself as another process that writes inspections with their frames, and their reports as JSON, PDF and a
+//! row of a table, as fast as it can and says after each that it is written; it is killed at a moment of chance, again
+//! and again in the same folder.
 
 use std::{
     env, fs,
@@ -19,17 +20,25 @@ use std::{
 use jiff::Timestamp;
 use partsight::{
     capture::{DepthFrame, Intrinsics},
+    files::write_atomically,
     history::{
         Detail, Filter, History, KeepFrames, NewEntry, PastVerdict, Record, Retention, Summary,
     },
-    pipeline::Recipe,
-    report::ReportFolder,
+    library::Library,
+    pipeline::{self, Inspection, Recipe, Unwatched},
+    report::{
+        ReportFolder,
+        pose_report::{PdfPictures, PoseReport, ReportSubject, SeenBy, append_csv, pose_pdf},
+    },
+    robot::Convention,
     stages::scene::{SceneCloud, scene_from_frame},
 };
 use rand::{RngExt as _, SeedableRng as _};
 
 /// In the environment of the process that is killed: the folder to write in.
 const BODY: &str = "PARTSIGHT_KILL_TEST";
+/// The table of poses, in that folder.
+const TABLE: &str = "poses.csv";
 const NUM_KILLS: usize = 200;
 
 const ALL: Retention = Retention {
@@ -101,6 +110,28 @@ fn line_of(number: i64) -> String {
     )
 }
 
+fn inspection() -> Inspection {
+    let library = Library::default();
+    pipeline::run(&scene(1), &library, &Recipe::default(), &Unwatched).expect("not cancelled")
+}
+
+fn report_of(number: i64, inspection: &Inspection) -> PoseReport {
+    PoseReport::of(&ReportSubject {
+        inspected_at: Timestamp::UNIX_EPOCH,
+        scene: &format!("frame {number}"),
+        source: None,
+        seen_by: SeenBy::Simulation,
+        inspection,
+        middle: None,
+        stand_off: None,
+        recipe: &Recipe::default(),
+        library_identity: "0badcafe",
+        num_references: 0,
+        robot: None,
+        convention: Convention::Kuka,
+    })
+}
+
 /// What is killed: writes until then.
 #[test]
 fn body() {
@@ -112,6 +143,7 @@ fn body() {
     assert_eq!(opened.set_aside, None, "a kill leaves a sound file");
     let mut history = opened.history;
     let mut reports = ReportFolder::make(&folder.join("reports")).expect("made");
+    let inspection = inspection();
     let mut out = std::io::stdout();
     loop {
         // The number it will have: nobody else writes.
@@ -124,6 +156,13 @@ fn body() {
         reports
             .write(Path::new(&name), &line, &[])
             .expect("written");
+        let report = report_of(number, &inspection);
+        let pdf = pose_pdf(&report, &PdfPictures::default()).expect("a page");
+        for (ending, bytes) in [("json", report.to_json().as_bytes()), ("pdf", &pdf)] {
+            let path = folder.join(format!("reports/frame-{number}.pose.{ending}"));
+            write_atomically(&path, |writer| writer.write_all(bytes)).expect("written");
+        }
+        append_csv(&folder.join(TABLE), &report).expect("appended");
         writeln!(out, "written {number}").expect("read");
         out.flush().expect("read");
     }
@@ -135,9 +174,10 @@ fn a_kill_at_any_moment_loses_at_most_the_inspection_in_flight() {
     let mut random = rand_pcg::Pcg64::seed_from_u64(2_026);
     let mut known = 0;
     let mut num_in_flight = 0;
+    let mut all_told = Vec::new();
     for kill in 0..NUM_KILLS {
         // From before it has opened the file to some inspections later.
-        let moment = Duration::from_micros(random.random_range(0..60_000));
+        let moment = Duration::from_micros(random.random_range(0..100_000));
         let told = killed_after(moment, folder.path());
         let opened = History::open(folder.path()).expect("opened");
         assert_eq!(opened.set_aside, None, "kill {kill}");
@@ -171,6 +211,7 @@ fn a_kill_at_any_moment_loses_at_most_the_inspection_in_flight() {
                 .join(format!("reports/frame-{number}.report.json"));
             let line = fs::read_to_string(path).expect("written");
             assert_eq!(line, line_of(number) + "\n");
+            all_told.push(number);
         }
         known = newest;
     }
@@ -186,12 +227,17 @@ fn a_kill_at_any_moment_loses_at_most_the_inspection_in_flight() {
         if name.starts_with('.') {
             continue;
         }
-        let line = fs::read_to_string(&path).expect("read");
-        serde_json::from_str::<serde_json::Value>(&line).expect("whole");
-        num_reports += 1;
+        let bytes = fs::read(&path).expect("read");
+        if name.ends_with(".pdf") {
+            assert!(bytes.trim_ascii_end().ends_with(b"%%EOF"), "{name}");
+        } else {
+            serde_json::from_slice::<serde_json::Value>(&bytes).expect("whole");
+        }
+        num_reports += usize::from(name.ends_with(".report.json"));
     }
+    check_table(folder.path(), &all_told);
     assert!(
-        num_reports >= known - num_in_flight,
+        num_reports as i64 >= known - num_in_flight,
         "{num_reports} of {known}"
     );
     // Also on a machine that is busy with something else the kills hit somebody who writes.
@@ -203,6 +249,24 @@ fn a_kill_at_any_moment_loses_at_most_the_inspection_in_flight() {
         .expect("there")
         .count();
     assert_eq!(files as i64, known + 1);
+}
+
+/// Every row that was told is there, and none is cut off once another was appended.
+fn check_table(folder: &Path, all_told: &[i64]) {
+    let table = folder.join(TABLE);
+    append_csv(&table, &report_of(0, &inspection())).expect("appended");
+    let text = fs::read_to_string(&table).expect("read");
+    let rows: Vec<Vec<&str>> = text.lines().map(|line| line.split(',').collect()).collect();
+    let scene = rows[0].iter().position(|name| *name == "scene");
+    let scene = scene.expect("a column");
+    // The same report but for its scene: whole rows have as many commas as the last one.
+    let whole = rows.last().map_or(0, Vec::len);
+    assert!(rows.iter().skip(1).all(|row| row.len() == whole), "{text}");
+    for number in all_told {
+        let name = format!("frame {number}");
+        let num = rows.iter().filter(|row| row[scene] == name).count();
+        assert_eq!(num, 1, "{name}");
+    }
 }
 
 /// Runs the body for so long behind its start, kills it, and answers with what it said last.
