@@ -228,7 +228,7 @@ fn a_kill_at_any_moment_loses_at_most_the_inspection_in_flight() {
             continue;
         }
         let bytes = fs::read(&path).expect("read");
-        if name.ends_with(".pdf") {
+        if path.extension().is_some_and(|ending| ending == "pdf") {
             assert!(bytes.trim_ascii_end().ends_with(b"%%EOF"), "{name}");
         } else {
             serde_json::from_slice::<serde_json::Value>(&bytes).expect("whole");
