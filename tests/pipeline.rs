@@ -52,7 +52,7 @@ fn moving_and_turning_the_part_leaves_its_signature_up_to_a_cyclic_shift() {
     let library = Library::default();
     let lengths = |scene: &SceneCloud| {
         let inspection = inspected(scene, &library, &Recipe::default());
-        inspection.signature.expect("an outline").lengths
+        inspection.signature.expect("an outline").lengths()
     };
     let still = lengths(&door_with(0.0, [0.0, 0.0], SensorNoise::none()));
     for (roll, shift) in [(0.7, [0.0, 0.0]), (-2.2, [0.05, -0.04]), (0.0, [0.1, 0.03])] {

@@ -142,7 +142,7 @@ impl Figures {
         }
         if let (Some(contour), Some(signature)) = (&inspection.contour, &inspection.signature) {
             figures.contour = Some(ContourFigure::of(contour, signature));
-            figures.signature = Some(Curves::of(&signature.lengths, &signature.angles));
+            figures.signature = Some(Curves::of(&signature.lengths(), &signature.angles()));
             let entries = inspection.ranking.entries.iter();
             figures.candidates = entries
                 .map(|entry| Candidate::of(entry, inspection, signature, library, shown))
@@ -187,9 +187,9 @@ impl Curves {
         placement: &Placement,
         scene: &FanSignature,
     ) -> Option<Self> {
-        let (lengths, angles) = (&view.signature.lengths, &view.signature.angles);
+        let (lengths, angles) = (view.signature.lengths(), view.signature.angles());
         let num = lengths.len();
-        if num == 0 || num != scene.lengths.len() {
+        if num == 0 || num != scene.rays.len() {
             return None;
         }
         let lag = placement.lag % num;
@@ -202,7 +202,7 @@ impl Curves {
                 angles[at(ray)] + placement.turn.0 + again
             })
             .collect();
-        let apart = turned.iter().zip(&scene.angles).map(|(a, b)| a - b);
+        let apart = turned.iter().zip(scene.angles()).map(|(a, b)| a - b);
         let circles = (apart.sum::<f64>() / num as f64 / whole).round() * whole;
         let turned: Vec<f64> = turned.iter().map(|angle| angle - circles).collect();
         let shifted: Vec<f64> = (0..num).map(|ray| lengths[at(ray)]).collect();

@@ -3,7 +3,7 @@
 //! A polygon is its corners in order; the last is joined to the first, which is not repeated. Area is positive when
 //! the corners run counter-clockwise with x to the right and y up.
 
-use nalgebra::Point2;
+use nalgebra::{Point2, Vector2};
 
 /// Signed area in square metres (shoelace formula).
 pub fn signed_area(corners: &[Point2<f64>]) -> f64 {
@@ -69,15 +69,16 @@ pub fn smooth(corners: &[Point2<f64>], reach: usize) -> Vec<Point2<f64>> {
         return corners.to_vec();
     }
     // A sliding sum: add the corner that comes in, take the one that goes out.
-    let window = (2 * reach + 1) as f64;
-    let mut sum = (0..=2 * reach).fold(Point2::origin(), |s: Point2<f64>, i| {
-        s + corners[(i + n - reach) % n].coords
-    });
-    (0..n)
-        .map(|i| {
-            let mean = sum / window;
-            sum += corners[(i + reach + 1) % n] - corners[(i + n - reach) % n];
-            mean
+    let width = 2 * reach + 1;
+    let around = |first: usize| corners[first..].iter().chain(corners).map(|c| c.coords);
+    let mut sum: Vector2<f64> = around(n - reach).take(width).sum();
+    around(reach + 1)
+        .zip(around(n - reach))
+        .take(n)
+        .map(|(next, last)| {
+            let mean = sum / width as f64;
+            sum += next - last;
+            mean.into()
         })
         .collect()
 }

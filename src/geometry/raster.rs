@@ -1,5 +1,7 @@
 //! A binary image and the morphology over it.
 
+use nalgebra::{Matrix2x3, Point2};
+
 /// Rows of pixels that are set (1) or not (0).
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct BinaryImage {
@@ -30,15 +32,28 @@ impl BinaryImage {
             && self.pixels[row as usize * self.width + column as usize] != 0
     }
 
-    /// The same in an eighth of the memory, to look at in many places.
-    pub fn packed(&self) -> PackedImage {
-        let mut bits = vec![0; self.pixels.len().div_ceil(64)];
-        for i in (0..self.pixels.len()).filter(|i| self.pixels[*i] != 0) {
-            bits[i / 64] |= 1 << (i % 64);
+    /// Every `step`th pixel of every `step`th row in an eighth of the memory, to look at in many places; a step of 0
+    /// counts as 1.
+    pub fn packed(&self, step: usize) -> PackedImage {
+        let step = step.max(1);
+        // A border of unset pixels: what lies outside is moved onto it and needs no question of its own.
+        let (width, height) = (
+            self.width.div_ceil(step) + 2,
+            self.height.div_ceil(step) + 2,
+        );
+        let mut bits = vec![0; (width * height).div_ceil(64)];
+        for row in (0..self.height).step_by(step) {
+            for column in (0..self.width).step_by(step) {
+                if self.pixels[row * self.width + column] != 0 {
+                    let place = (row / step + 1) * width + column / step + 1;
+                    bits[place / 64] |= 1 << (place % 64);
+                }
+            }
         }
         PackedImage {
-            width: self.width,
-            height: self.height,
+            width,
+            height,
+            step: step as f32,
             bits,
         }
     }
@@ -94,23 +109,80 @@ impl BinaryImage {
 }
 
 /// A binary image of one bit per pixel.
-#[derive(Clone, Debug, PartialEq, Eq)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct PackedImage {
+    /// Columns, with a border of one pixel on either side.
     width: usize,
+    /// Rows, likewise.
     height: usize,
+    /// Pixels of the whole image from one to the next.
+    step: f32,
     /// Row by row from the top left, the lowest bit first.
     bits: Vec<u64>,
 }
 
 impl PackedImage {
-    /// True if the pixel is set; pixels outside the image are not.
-    pub fn is_set(&self, column: i32, row: i32) -> bool {
-        // What is below 0 is beyond the other end.
-        let (column, row) = (column as u32 as usize, row as u32 as usize);
-        column < self.width && row < self.height && {
-            let i = row * self.width + column;
-            self.bits[i / 64] >> (i % 64) & 1 == 1
+    /// How many of the points fall on set pixels; none outside the image does.
+    ///
+    /// `pixel_from_point` takes a point to column and row of the whole image, whole numbers at the middles of pixels.
+    pub fn num_set_at(&self, points: &PointBlocks, pixel_from_point: &Matrix2x3<f32>) -> usize {
+        // Added to a float from 0 to as much, it leaves the nearest whole number in the last bits. A cast would do the
+        // same, but it saturates, and overflow is checked for: both keep the compiler from making vector code of this.
+        const WHOLE: f32 = (1 << 23) as f32;
+        let m = pixel_from_point / self.step;
+        let (last_column, last_row) = ((self.width - 1) as f32, (self.height - 1) as f32);
+        let whole = |x: f32, last: f32| (x.max(0.0).min(last) + WHOLE).to_bits() & 0x7f_ffff;
+        let mut num = 0;
+        for [x, y] in &points.blocks {
+            let mut places = [0; BLOCK];
+            for i in 0..BLOCK {
+                // One more for the border.
+                let column = m.m11 * x[i] + m.m12 * y[i] + (m.m13 + 1.0);
+                let row = m.m21 * x[i] + m.m22 * y[i] + (m.m23 + 1.0);
+                let (column, row) = (whole(column, last_column), whole(row, last_row));
+                // Of a place within the image nothing is cut off.
+                places[i] = row.wrapping_mul(self.width as u32).wrapping_add(column);
+            }
+            for place in places {
+                num += self.bits[place as usize / 64] >> (place % 64) & 1;
+            }
         }
+        num as usize
+    }
+}
+
+/// Points of a plane in the order that vector code wants them in.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct PointBlocks {
+    /// Abscissas and ordinates; the last block is filled up with points outside of any image.
+    blocks: Vec<[[f32; BLOCK]; 2]>,
+    len: usize,
+}
+
+/// Points handled at once.
+const BLOCK: usize = 16;
+
+impl PointBlocks {
+    /// The number of points.
+    pub fn len(&self) -> usize {
+        self.len
+    }
+}
+
+impl FromIterator<Point2<f32>> for PointBlocks {
+    fn from_iter<I: IntoIterator<Item = Point2<f32>>>(points: I) -> Self {
+        let mut all = Self::default();
+        for point in points {
+            let place = all.len % BLOCK;
+            if place == 0 {
+                all.blocks.push([[f32::INFINITY; BLOCK]; 2]);
+            }
+            if let Some([x, y]) = all.blocks.last_mut() {
+                (x[place], y[place]) = (point.x, point.y);
+            }
+            all.len += 1;
+        }
+        all
     }
 }
 
@@ -159,14 +231,19 @@ mod tests {
         fn a_packed_image_has_the_same_pixels_set(
             width in 1_usize..20,
             height in 1_usize..20,
+            step in 1_usize..4,
             seed in prop::collection::vec(0_u8..2, 400),
         ) {
             let image = BinaryImage { width, height, pixels: seed[..width * height].to_vec() };
-            let packed = image.packed();
-            for row in -2..height as i32 + 2 {
-                for column in -2..width as i32 + 2 {
-                    let expected = image.is_set(i64::from(column), i64::from(row));
-                    prop_assert_eq!(packed.is_set(column, row), expected);
+            let packed = image.packed(step);
+            for row in (-4..height as i64 + 4).filter(|row| row % step as i64 == 0) {
+                for column in (-4..width as i64 + 4).filter(|column| column % step as i64 == 0) {
+                    let expected = image.is_set(column, row);
+                    // Anywhere in the pixel.
+                    let off = 0.4 * step as f32;
+                    let point = Point2::new(column as f32 + off, row as f32 - off);
+                    let num = packed.num_set_at(&[point].into_iter().collect(), &Matrix2x3::identity());
+                    prop_assert_eq!(num, usize::from(expected));
                 }
             }
         }

@@ -13,7 +13,7 @@ use crate::{
         contour::ContourParams,
         project::ProjectParams,
         reference::{Coverage, Reference, ReferenceParams},
-        signature::SignatureParams,
+        signature::{LiteralSignature, SignatureParams},
     },
 };
 
@@ -246,6 +246,7 @@ impl StoredSignature {
         let xy = |p: &Point2<f64>| [rounded(p.x), rounded(p.y)];
         let all = |values: &[f64]| values.iter().copied().map(rounded).collect();
         let signature = &view.signature;
+        let literal = LiteralSignature::of(&view.contour.outline_pixels);
         Some(Self {
             schema_version: SCHEMA_VERSION,
             project: params.project.clone(),
@@ -262,11 +263,11 @@ impl StoredSignature {
             area_m2: rounded(view.contour.area),
             perimeter_m: rounded(signature.perimeter.0),
             centroid_m: xy(&signature.centroid),
-            lengths_m: all(&signature.lengths),
-            angles_rad: all(&signature.angles),
+            lengths_m: all(&signature.lengths()),
+            angles_rad: all(&signature.angles()),
             literal: StoredLiteral {
-                lengths_px: all(&signature.literal.lengths),
-                angles_rad: all(&signature.literal.angles),
+                lengths_px: all(&literal.lengths),
+                angles_rad: all(&literal.angles),
             },
         })
     }

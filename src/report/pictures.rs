@@ -193,8 +193,11 @@ const CURVE: [usize; 2] = [800, 200];
 fn curves(signature: &FanSignature) -> RgbImage {
     let [width, height] = CURVE;
     let mut canvas = Canvas::new(width, 2 * height, DARK);
-    for (half, values, from_zero) in [(0, &signature.lengths, true), (1, &signature.angles, false)]
-    {
+    let halves = [
+        (0, signature.lengths(), true),
+        (1, signature.angles(), false),
+    ];
+    for (half, values, from_zero) in halves {
         let high = values.iter().copied().fold(f64::NEG_INFINITY, f64::max);
         let low = if from_zero {
             0.0

@@ -7,19 +7,22 @@
 //!
 //! Paper matcher: Algorithm 2 with eq. 7 and 11 and Note 1, as written.
 
-use nalgebra::{Isometry2, Point2, UnitQuaternion, Vector3};
+use nalgebra::{Isometry2, Matrix2x3, Point2, UnitQuaternion, Vector2, Vector3};
 use rustfft::num_complex::Complex;
 
 use crate::{
-    geometry::parallel::{map_in_order, num_cores},
+    geometry::{
+        parallel::{map_in_order, num_cores},
+        raster::PointBlocks,
+    },
     stages::{
         confirm::Evidence,
         contour::Contour,
-        correlation::{CircularCorrelator, spectrum},
+        correlation::{CircularCorrelator, RaySpectra},
         pose::PoseEstimate,
         project::PlaneImage,
         reference::{Reference, ReferenceView},
-        signature::FanSignature,
+        signature::{FanSignature, LiteralSignature},
     },
     units::{Metres, Radians},
 };
@@ -155,6 +158,13 @@ pub fn rank_by(
     };
     // A stable sort: equal scores keep the library's order.
     entries.sort_by(|a, b| b.score.total_cmp(&a.score));
+    if let Some(first) = entries.first_mut() {
+        refine_first(&mut first.placements, query, &references[first.reference]);
+        first.distance = match (params.matcher, first.placements.first()) {
+            (Matcher::Default, Some(placement)) => placement.outline_distance.0,
+            _ => first.distance,
+        };
+    }
     MatchRanking { entries }
 }
 
@@ -163,9 +173,10 @@ fn rank_literally(
     query: &Query<'_>,
     references: &[Reference],
 ) -> Vec<MatchEntry> {
+    let of_query = LiteralSignature::of(&query.contour.outline_pixels);
     let score = |(): &mut (), reference: usize| {
-        let literal = &references[reference].literal;
-        let distance = literal.distance(&query.signature.literal);
+        let literal = references[reference].literal();
+        let distance = literal.distance(&of_query);
         (distance, distance / literal.norm().max(f64::MIN_POSITIVE))
     };
     let distances = map_in_order(references.len(), num_workers, || (), score);
@@ -214,10 +225,45 @@ fn rank_by_overlap(
 
 /// The ways of laying one reference over the scene, best first; for a matcher that finds none itself.
 pub fn place(query: &Query<'_>, reference: &Reference, params: &RankParams) -> Vec<Placement> {
-    Placer::new(query, params).place(reference)
+    let mut placements = Placer::new(query, params).place(reference);
+    refine_first(&mut placements, query, reference);
+    placements
+}
+
+/// Single precision leaves some tenths of a millimetre of a part that is compared with itself; further off it tells.
+fn refine_first(placements: &mut [Placement], query: &Query<'_>, reference: &Reference) {
+    if let Some(first) = placements.first_mut() {
+        let seen = &reference.views[first.view].signature;
+        *first = Placement {
+            overlap: first.overlap,
+            ..Placement::exactly_at(first.view, first.lag, [&query.signature.rays, &seen.rays])
+        };
+    }
 }
 
 impl Placement {
+    /// At one lag of a view with `num_rays` rays, where the correlation is `value`; `power` is that of both outlines.
+    fn at(view: usize, lag: usize, value: Complex<f64>, power: f64, num_rays: usize) -> Self {
+        // The turn that maximises Re(e^{-iφ} c) is the argument of c, and |c| is what it reaches.
+        let left = power - 2.0 * value.norm();
+        Self {
+            view,
+            lag,
+            turn: Radians(value.arg()),
+            outline_distance: Metres((left.max(0.0) / num_rays as f64).sqrt()),
+            overlap: None,
+        }
+    }
+
+    /// The same in double precision, from the rays of query and view.
+    fn exactly_at(view: usize, lag: usize, [query, seen]: [&[Vector2<f64>]; 2]) -> Self {
+        let complex = |ray: &Vector2<f64>| Complex::new(ray.x, ray.y);
+        let pairs = query[lag..].iter().chain(query).zip(seen);
+        let value = pairs.map(|(q, s)| complex(q) * complex(s).conj()).sum();
+        let power = query.iter().chain(seen).map(Vector2::norm_squared).sum();
+        Self::at(view, lag, value, power, seen.len())
+    }
+
     /// 0..1. Outlines alone are fooled by ragged edges, areas alone by slim parts.
     fn score(&self, params: &RankParams) -> f64 {
         let outline = (-self.outline_distance.0 / params.outline_tolerance.0).exp();
@@ -229,32 +275,32 @@ impl Placement {
 struct Placer<'a> {
     query: &'a Query<'a>,
     params: &'a RankParams,
-    spectrum: Vec<Complex<f64>>,
-    power: f64,
     correlator: CircularCorrelator,
+    strengths: Vec<i32>,
     sample: Thinned,
 }
 
 impl<'a> Placer<'a> {
     fn new(query: &'a Query<'a>, params: &'a RankParams) -> Self {
-        let rays = &query.signature.rays;
+        let spectrum = RaySpectra::of([&query.signature.rays[..]]);
         Self {
             query,
             params,
-            spectrum: spectrum(rays),
-            power: rays.iter().map(nalgebra::Vector2::norm_squared).sum(),
-            correlator: CircularCorrelator::new(rays.len()),
+            correlator: CircularCorrelator::new(spectrum),
+            strengths: Vec::new(),
             sample: thinned(query.plane),
         }
     }
 
     fn place(&mut self, enrolled: &Reference) -> Vec<Placement> {
-        let mut placements: Vec<Placement> = Vec::new();
-        for (view, seen) in enrolled.views.iter().enumerate() {
-            if seen.spectrum.len() == self.spectrum.len() {
-                self.correlator.correlate(&self.spectrum, &seen.spectrum);
-                placements.extend(placements_of(view, seen, &self.correlator, self.power));
-            }
+        let mut placements = Vec::with_capacity(2 * enrolled.views.len());
+        let correlations = self.correlator.correlate(&enrolled.spectra).enumerate();
+        for (view, (values, power)) in correlations {
+            let lags = highest_apart(values, &mut self.strengths);
+            placements.extend(lags.into_iter().flatten().map(|lag| {
+                let value = Complex::new(values[lag].re.into(), values[lag].im.into());
+                Placement::at(view, lag, value, power, values.len())
+            }));
         }
         placements.sort_by(|a, b| a.outline_distance.0.total_cmp(&b.outline_distance.0));
         let mut placements = both_ways_round(enrolled, &placements, self.params.num_overlaid);
@@ -280,9 +326,11 @@ fn both_ways_round(enrolled: &Reference, sorted: &[Placement], num: usize) -> Ve
     let Some(best) = sorted.first().map(attitude) else {
         return Vec::new();
     };
+    // Of unit quaternions the scalar product is the cosine of half the angle between them.
+    let least_near = (FAR_TURN / 2.0).cos();
     let (near, far): (Vec<Placement>, Vec<Placement>) = sorted
         .iter()
-        .partition(|p| attitude(p).angle_to(&best) < FAR_TURN);
+        .partition(|p| attitude(p).coords.dot(&best.coords).abs() > least_near);
     let num_far = far.len().min(num / 2);
     near.into_iter()
         .take(num - num_far)
@@ -290,77 +338,53 @@ fn both_ways_round(enrolled: &Reference, sorted: &[Placement], num: usize) -> Ve
         .collect()
 }
 
-/// The two best lags of one view that are not neighbours: a near-symmetric part fits almost as well half a turn off.
-fn placements_of(
-    view: usize,
-    seen: &ReferenceView,
-    correlator: &CircularCorrelator,
-    query_power: f64,
-) -> impl Iterator<Item = Placement> {
-    let values = &correlator.values;
-    let n = values.len();
-    let strengths: Vec<f64> = values.iter().map(Complex::norm_sqr).collect();
-    // With the last one before the first and the first one behind the last.
-    let around = strengths.last().into_iter().chain(&strengths);
-    let neighbours = around.zip(strengths.iter().cycle().skip(1));
-    let peaks: Vec<usize> = strengths
-        .iter()
-        .zip(neighbours)
-        .enumerate()
-        .filter(|(_, (at, (before, after)))| at >= before && at >= after)
-        .map(|(lag, _)| lag)
-        .collect();
-    let highest = |peaks: &mut dyn Iterator<Item = usize>| {
-        peaks.max_by(|&a, &b| strengths[a].total_cmp(&strengths[b]))
-    };
-    let first = highest(&mut peaks.iter().copied());
-    let is_apart = |lag: &usize| {
-        first.is_some_and(|other| {
-            let d = lag.abs_diff(other);
-            d.min(n - d) > n / 16
-        })
-    };
-    let second = highest(&mut peaks.iter().copied().filter(is_apart));
-    let power = query_power + seen.signature.lengths.iter().map(|l| l * l).sum::<f64>();
-    let placements = [first, second].map(|lag| {
-        lag.map(|lag| {
-            let value = values[lag];
-            // The turn that maximises Re(e^{-iφ} c) is the argument of c, and |c| is what it reaches.
-            let distance_sq = (power - 2.0 * value.norm()).max(0.0) / n as f64;
-            Placement {
-                view,
-                lag,
-                turn: Radians(value.arg()),
-                outline_distance: Metres(distance_sq.sqrt()),
-                overlap: None,
-            }
-        })
+/// The lag of the greatest value, and that of the greatest other peak at least a sixteenth of the circle away: a
+/// near-symmetric part fits almost as well half a turn off. `twice_around` is scratch memory.
+fn highest_apart(correlation: &[Complex<f32>], twice_around: &mut Vec<i32>) -> [Option<usize>; 2] {
+    let n = correlation.len();
+    // The bits of floats that are not negative are in the order of the floats, and a maximum of whole numbers is
+    // taken by vectors.
+    let strength = |c: &Complex<f32>| c.norm_sqr().to_bits() as i32;
+    twice_around.clear();
+    twice_around.extend(correlation.iter().map(strength));
+    twice_around.extend_from_within(..);
+    let mut around = twice_around[..n].iter().copied();
+    let highest = around.clone().fold(0, i32::max);
+    let first = around.position(|strength| strength == highest);
+    let second = first.and_then(|first| {
+        let behind = first + n / 16;
+        let apart = twice_around[behind..=first + n - n / 16].windows(3);
+        let peak = |w: &[i32]| if w[1] >= w[0].max(w[2]) { w[1] } else { -1 };
+        let mut peaks = apart.map(peak);
+        let highest = peaks.clone().fold(0, i32::max);
+        let place = peaks.position(|strength| strength == highest);
+        place.map(|place| (behind + 1 + place) % n)
     });
-    placements.into_iter().flatten()
+    [first, second]
 }
 
 /// Spacing of the points at which two images are compared, metres.
-const OVERLAP_SPACING: f64 = 0.025;
+const OVERLAP_SPACING: f64 = 0.03;
 
 /// Set places of an image on a coarse grid, with the area that each stands for.
 struct Thinned {
-    points: Vec<Point2<f64>>,
+    points: PointBlocks,
     area_each: f64,
 }
 
 fn thinned(plane: &PlaneImage) -> Thinned {
     let step = ((OVERLAP_SPACING / plane.pixel.0).round() as usize).max(1);
     let image = &plane.image;
-    let mut points = Vec::new();
-    for row in (0..image.height).step_by(step) {
-        for column in (0..image.width).step_by(step) {
-            if image.pixels[row * image.width + column] != 0 {
-                points.push(plane.plane_point(column as f64, row as f64));
-            }
-        }
-    }
+    let rows = (0..image.height).step_by(step);
+    let places = rows.flat_map(|row| {
+        (0..image.width)
+            .step_by(step)
+            .map(move |column| (row, column))
+    });
+    let set = places.filter(|(row, column)| image.pixels[row * image.width + column] != 0);
+    let point = |(row, column)| plane.plane_point(column as f64, row as f64).cast();
     Thinned {
-        points,
+        points: set.map(point).collect(),
         area_each: (step as f64 * plane.pixel.0).powi(2),
     }
 }
@@ -371,21 +395,18 @@ fn overlap(
     seen: &ReferenceView,
     scene_plane_from_view_plane: &Isometry2<f64>,
 ) -> f64 {
-    // Straight from scene plane to pixels of the view: this loop decides what ranking costs.
+    // Straight from scene plane to pixels of the view: this decides what ranking costs.
     let view_plane_from_scene = scene_plane_from_view_plane.inverse();
-    let at = |x: f64, y: f64| {
-        seen.plane
-            .pixel_of(&(view_plane_from_scene * Point2::new(x, y)))
+    let pixel = |x: f64, y: f64| {
+        let plane = &seen.plane;
+        let (column, row) = plane.pixel_of(&(view_plane_from_scene * Point2::new(x, y)));
+        Vector2::new(column, row)
     };
-    let (origin, right, up) = (at(0.0, 0.0), at(1.0, 0.0), at(0.0, 1.0));
-    let is_shared = |p: &&Point2<f64>| {
-        let column = origin.0 + (right.0 - origin.0) * p.x + (up.0 - origin.0) * p.y;
-        let row = origin.1 + (right.1 - origin.1) * p.x + (up.1 - origin.1) * p.y;
-        // A pixel more, so that cutting off the fraction is rounding down before the image too.
-        let pixel = |x: f64| (x + 1.5) as i32 - 1;
-        seen.pixels.is_set(pixel(column), pixel(row))
-    };
-    let shared = scene.points.iter().filter(is_shared).count() as f64 * scene.area_each;
+    let origin = pixel(0.0, 0.0);
+    let axes = [pixel(1.0, 0.0) - origin, pixel(0.0, 1.0) - origin, origin];
+    let pixel_from_point = Matrix2x3::from_columns(&axes).cast();
+    let num_shared = seen.pixels.num_set_at(&scene.points, &pixel_from_point);
+    let shared = num_shared as f64 * scene.area_each;
     let scene_area = scene.points.len() as f64 * scene.area_each;
     let joint = scene_area + seen.image_area - shared;
     if joint > 0.0 { shared / joint } else { 0.0 }

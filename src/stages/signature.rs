@@ -37,14 +37,20 @@ pub struct FanSignature {
     pub centroid: Point2<f64>,
     /// The points themselves relative to the centroid, metres; as complex numbers they are L·e^{iΘ}.
     pub rays: Vec<Vector2<f64>>,
-    /// Ray lengths L (eq. 8), metres.
-    pub lengths: Vec<f64>,
-    /// Ray angles Θ from the first plane axis, radians, continuous from ray to ray over the full circle.
-    pub angles: Vec<f64>,
     /// Length of the smoothed outline.
     pub perimeter: Metres,
-    /// The signature as the paper writes it.
-    pub literal: LiteralSignature,
+}
+
+impl FanSignature {
+    /// Ray lengths L (eq. 8), metres.
+    pub fn lengths(&self) -> Vec<f64> {
+        self.rays.iter().map(Vector2::norm).collect()
+    }
+
+    /// Ray angles Θ from the first plane axis, radians, continuous from ray to ray over the full circle.
+    pub fn angles(&self) -> Vec<f64> {
+        unwrapped(self.rays.iter().map(|r| r.y.atan2(r.x)))
+    }
 }
 
 /// The paper's signature: one ray per contour pixel in the order followed.
@@ -91,11 +97,8 @@ pub fn describe(
     let rays: Vec<Vector2<f64>> = samples.iter().map(|s| s - centroid).collect();
     Ok(FanSignature {
         centroid,
-        lengths: rays.iter().map(Vector2::norm).collect(),
-        angles: unwrapped(rays.iter().map(|r| r.y.atan2(r.x))),
         perimeter: Metres(polygon::perimeter(&smooth)),
         rays,
-        literal: literal_signature(&contour.outline_pixels),
     })
 }
 
@@ -117,24 +120,27 @@ fn unwrapped(angles: impl Iterator<Item = f64>) -> Vec<f64> {
         .collect()
 }
 
-fn literal_signature(pixels: &[[u32; 2]]) -> LiteralSignature {
-    let n = pixels.len().max(1) as f64;
-    // Eq. (10)
-    let sum = pixels.iter().fold([0.0, 0.0], |sum, &[u, v]| {
-        [sum[0] + f64::from(u), sum[1] + f64::from(v)]
-    });
-    let centre = [sum[0] / n, sum[1] / n];
-    let (mut lengths, mut angles) = (
-        Vec::with_capacity(pixels.len()),
-        Vec::with_capacity(pixels.len()),
-    );
-    for &[u, v] in pixels {
-        let (x, y) = (f64::from(u) - centre[0], f64::from(v) - centre[1]);
-        // Eq. (8) and (9)
-        lengths.push(x.hypot(y));
-        angles.push(y.abs().atan2(x.abs()));
+impl LiteralSignature {
+    /// Of an outline's pixels (column, row) in the order followed.
+    pub fn of(pixels: &[[u32; 2]]) -> Self {
+        let n = pixels.len().max(1) as f64;
+        // Eq. (10)
+        let sum = pixels.iter().fold([0.0, 0.0], |sum, &[u, v]| {
+            [sum[0] + f64::from(u), sum[1] + f64::from(v)]
+        });
+        let centre = [sum[0] / n, sum[1] / n];
+        let (mut lengths, mut angles) = (
+            Vec::with_capacity(pixels.len()),
+            Vec::with_capacity(pixels.len()),
+        );
+        for &[u, v] in pixels {
+            let (x, y) = (f64::from(u) - centre[0], f64::from(v) - centre[1]);
+            // Eq. (8) and (9)
+            lengths.push(x.hypot(y));
+            angles.push(y.abs().atan2(x.abs()));
+        }
+        Self { lengths, angles }
     }
-    LiteralSignature { lengths, angles }
 }
 
 #[cfg(test)]
@@ -173,11 +179,12 @@ mod tests {
 
     /// The largest difference of ray lengths at the best cyclic shift.
     fn length_difference(a: &FanSignature, b: &FanSignature) -> f64 {
-        let n = a.lengths.len();
+        let (a, b) = (a.lengths(), b.lengths());
+        let n = a.len();
         (0..n)
             .map(|lag| {
                 (0..n)
-                    .map(|i| (a.lengths[i] - b.lengths[(i + lag) % n]).abs())
+                    .map(|i| (a[i] - b[(i + lag) % n]).abs())
                     .fold(0.0, f64::max)
             })
             .fold(f64::INFINITY, f64::min)
@@ -201,23 +208,17 @@ mod tests {
     #[test]
     fn angles_go_once_around_counter_clockwise() {
         let signature = drawn(0.3, [0.0, 0.0], 0.005);
-        let (first, last) = (
-            signature.angles[0],
-            signature.angles[signature.angles.len() - 1],
-        );
-        assert!((last - first - std::f64::consts::TAU).abs() < 0.2);
-        for (ray, (length, angle)) in signature
-            .rays
-            .iter()
-            .zip(signature.lengths.iter().zip(&signature.angles))
-        {
+        let (lengths, angles) = (signature.lengths(), signature.angles());
+        let whole = angles[angles.len() - 1] - angles[0];
+        assert!((whole - std::f64::consts::TAU).abs() < 0.2);
+        for (ray, (length, angle)) in signature.rays.iter().zip(lengths.iter().zip(&angles)) {
             assert!((ray - Vector2::new(length * angle.cos(), length * angle.sin())).norm() < 1e-9);
         }
     }
 
     #[test]
     fn the_literal_angle_is_folded_into_one_quadrant() {
-        let literal = literal_signature(&[[0, 0], [4, 0], [4, 2], [0, 2]]);
+        let literal = LiteralSignature::of(&[[0, 0], [4, 0], [4, 2], [0, 2]]);
         let corner = (1.0_f64).atan2(2.0);
         for (length, angle) in literal.lengths.iter().zip(&literal.angles) {
             assert!((length - 5.0_f64.sqrt()).abs() < 1e-12 && (angle - corner).abs() < 1e-12);

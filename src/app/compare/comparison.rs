@@ -12,9 +12,10 @@
 use crate::{
     app::figures::{Curves, PlaneLine, closed, plain},
     stages::{
-        correlation::{CircularCorrelator, linear_correlation, spectrum},
+        correlation::{CircularCorrelator, RaySpectra, linear_correlation},
         rank::{Matcher, Placement, Query},
         reference::{Reference, ReferenceView},
+        signature::LiteralSignature,
     },
 };
 
@@ -235,7 +236,7 @@ fn of_rays(
     placed: Option<(&Placement, &ReferenceView)>,
 ) -> ([Trace; 2], Vec<Correlation>) {
     let scene = query.signature;
-    let own = Curves::of(&scene.lengths, &scene.angles);
+    let own = Curves::of(&scene.lengths(), &scene.angles());
     let other = placed.and_then(|(placement, view)| Curves::placed(view, placement, scene));
     let (lengths, angles) = other.map_or_else(Default::default, |c| (c.lengths, c.angles));
     let traces = [
@@ -243,21 +244,27 @@ fn of_rays(
         Trace::new("Θ", Measure::Angle, &own.angles, &angles),
     ];
     let num = scene.rays.len();
-    let Some((placement, view)) = placed.filter(|(_, view)| view.spectrum.len() == num) else {
+    let same_num = |(_, view): &(_, &ReferenceView)| view.signature.rays.len() == num && num > 0;
+    let Some((placement, view)) = placed.filter(same_num) else {
         return (traces, Vec::new());
     };
-    let mut correlator = CircularCorrelator::new(num);
+    let part = RaySpectra::of([&view.signature.rays[..]]);
     // From half a circle before the given lag to half a circle after it, per ray.
     let half = num / 2;
-    let mut around = |with: &[_], lag: usize| -> Vec<f64> {
-        correlator.correlate(with, &view.spectrum);
-        let places = (0..num).map(|i| (lag + num - half + i) % num);
-        places
-            .map(|place| correlator.values[place].norm() / num as f64)
+    let around = |with: RaySpectra, lag: usize| -> Vec<f64> {
+        let mut correlator = CircularCorrelator::new(with);
+        let values = correlator
+            .correlate(&part)
+            .next()
+            .map_or(&[][..], |(values, _)| values);
+        let ahead = values.iter().cycle().skip(lag + num - half);
+        ahead
+            .take(num)
+            .map(|c| f64::from(c.norm()) / num as f64)
             .collect()
     };
-    let auto = around(&view.spectrum, 0);
-    let cross = around(&spectrum(&scene.rays), placement.lag % num);
+    let auto = around(part.clone(), 0);
+    let cross = around(RaySpectra::of([&scene.rays[..]]), placement.lag % num);
     let name = "Rays, m²";
     (
         traces,
@@ -272,7 +279,8 @@ fn of_rays(
 
 /// The paper's figures: L in pixels and Θ in one quadrant, ray by ray of the contour's pixels, without a lag.
 fn as_written(query: &Query<'_>, reference: &Reference) -> ([Trace; 2], Vec<Correlation>) {
-    let (scene, part) = (&query.signature.literal, &reference.literal);
+    let scene = LiteralSignature::of(&query.contour.outline_pixels);
+    let part = reference.literal();
     let own = Curves::of(&scene.lengths, &scene.angles);
     let other = Curves::of(&part.signature.lengths, &part.signature.angles);
     let first_lag = 1 - part.signature.lengths.len() as i64;
@@ -417,10 +425,12 @@ mod tests {
         };
         let reference = enrolled(0.0);
         let figures = Comparison::of("Plate", &query, &reference, None, Matcher::Paper);
-        let expected = reference.literal.distance(&signature.literal);
+        let expected = reference
+            .literal()
+            .distance(&LiteralSignature::of(&contour.outline_pixels));
         assert!((figures.l1 - expected).abs() < 1e-9 * expected);
         assert!(figures.overlay.is_none() && figures.correlations.len() == 2);
         let zero = figures.correlations[0].first_lag;
-        assert_eq!(zero, 1 - reference.literal.signature.lengths.len() as i64);
+        assert_eq!(zero, 1 - reference.literal().signature.lengths.len() as i64);
     }
 }

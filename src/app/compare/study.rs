@@ -16,6 +16,7 @@ use crate::{
     stages::{
         rank::{MatchRanking, Matcher, Query, RankParams, rank},
         scene::SceneCloud,
+        signature::LiteralSignature,
     },
 };
 
@@ -299,6 +300,7 @@ fn distances(
         let entry = inspection.ranking.entries.iter().find(|e| e.part == part);
         entry.map_or(0.0, |entry| entry.score)
     };
+    let literal = LiteralSignature::of(&query.contour.outline_pixels);
     let mut distances: Vec<PartDistance> = placed
         .entries
         .iter()
@@ -308,7 +310,7 @@ fn distances(
                 part: entry.part.clone(),
                 title: String::new(),
                 outline: Some(entry.distance).filter(|distance| distance.is_finite()),
-                paper: reference.literal.distance(&query.signature.literal),
+                paper: reference.literal().distance(&literal),
                 shares: [0.0; 2],
                 score: score_of(&entry.part),
             })

@@ -6,23 +6,21 @@
 //! means nothing; but ranking does the same work for them, since its transforms go over all rays and its overlap over
 //! the points of the scene. That keeps a reference at a quarter of a megabyte, and ten thousand below 3 GB.
 
-use nalgebra::Vector2;
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
 use super::ScalingError;
 use crate::{
     bench::suites::enrol_part,
-    geometry::{nearest::KdTree, nearest_field::NearestField, raster::BinaryImage},
+    geometry::{cloud::PointCloud, nearest_field::NearestField, raster::BinaryImage},
     library::EnrolParams,
     pipeline::{Cancelled, Watch},
     simulate::{PartKind, Side},
     stages::{
-        correlation::{LiteralReference, spectrum},
-        pose::edge_points::EdgePoints,
+        correlation::LiteralReference,
         project::PlaneImage,
         rank::Matcher,
-        reference::{Reference, ReferenceView},
+        reference::{Reference, ReferenceView, spectra_of},
     },
     units::Metres,
 };
@@ -68,18 +66,15 @@ pub(super) fn nth_reference(originals: &[Reference], place: usize, matcher: Matc
                 .iter()
                 .map(|view| perturbed(view, &swing))
                 .collect();
-            copy.literal = LiteralReference::new(&crate::stages::signature::LiteralSignature {
-                lengths: Vec::new(),
-                angles: Vec::new(),
-            });
+            copy.spectra = spectra_of(&copy.views);
         }
         Matcher::Paper => {
-            let mut signature = original.literal.signature.clone();
+            let mut signature = original.literal().signature.clone();
             let num = signature.lengths.len();
             for (k, length) in signature.lengths.iter_mut().enumerate() {
                 *length *= swing.at(k, num);
             }
-            copy.literal = LiteralReference::new(&signature);
+            copy = copy.with_literal(LiteralReference::new(signature));
         }
     }
     copy
@@ -119,13 +114,8 @@ fn perturbed(view: &ReferenceView, swing: &Swing) -> ReferenceView {
     for (k, ray) in rays.iter_mut().enumerate() {
         *ray *= swing.at(k, num);
     }
-    view.signature.lengths = view.signature.rays.iter().map(Vector2::norm).collect();
-    view.spectrum = spectrum(&view.signature.rays);
     view.plane = coarse(&view.plane);
     // None of these is looked at by the ranking.
-    view.signature.literal.lengths = Vec::new();
-    view.signature.literal.angles = Vec::new();
-    view.signature.angles = Vec::new();
     view.contour.outline = Vec::new();
     view.contour.openings = Vec::new();
     view.contour.outline_pixels = Vec::new();
@@ -158,12 +148,7 @@ fn coarse(plane: &PlaneImage) -> PlaneImage {
 
 /// Only what a ranking looks at: a cloud with its searches takes megabytes.
 fn without_cloud(mut reference: Reference) -> Reference {
-    let cloud = crate::geometry::cloud::PointCloud::default();
-    reference.tree = KdTree::new(&cloud.points);
-    reference.field = NearestField::new(&cloud.points, 1.0, 1.0);
-    reference.cloud = cloud;
-    for view in &mut reference.views {
-        view.edges = EdgePoints::new(&[], 1);
-    }
+    reference.cloud = PointCloud::default();
+    reference.field = NearestField::new(&reference.cloud.points, 1.0, 1.0);
     reference
 }
