@@ -166,12 +166,14 @@ impl Choice {
 
 fn load(given: Option<&Path>) -> Result<Shelved, LibraryError> {
     let place = open_library(given)?;
+    let load = place.load(&ReferenceParams::default())?;
+    let identity = load.identity();
     let LibraryLoad {
         library,
         parts,
         problems,
         warnings,
-    } = place.load(&ReferenceParams::default())?;
+    } = load;
     let troubles = problems.iter().map(Trouble::of);
     let mut troubles: Vec<Trouble> = troubles.chain(warnings.iter().map(Trouble::of)).collect();
     let mut spray_paths = Vec::with_capacity(parts.len());
@@ -202,7 +204,7 @@ fn load(given: Option<&Path>) -> Result<Shelved, LibraryError> {
     };
     let shown = Arc::new(LibraryShown {
         path: place.location().into(),
-        identity: library.identity(),
+        identity,
         thumbnails: thumbnails.collect(),
         damaged: damaged.collect(),
         spray_paths,

@@ -181,7 +181,7 @@ fn e_m2(source: &PointCloud, target: &Reference, pose: &RigidTransform) -> f64 {
     let sum_sq: f64 = source
         .points
         .iter()
-        .filter_map(|p| target.tree.nearest(&(moved * p), f32::INFINITY))
+        .filter_map(|p| target.tree().nearest(&(moved * p), f32::INFINITY))
         .map(|nearest| f64::from(nearest.distance_sq))
         .sum();
     sum_sq / source.points.len().max(1) as f64

@@ -1,6 +1,10 @@
 //! What the commands read: scenes and clouds.
 
-use std::{path::Path, sync::Arc};
+use std::{
+    path::{Path, PathBuf},
+    sync::{Arc, mpsc},
+    thread,
+};
 
 use super::console::{Advised as _, Console};
 use crate::{
@@ -36,8 +40,31 @@ impl Advice for InputError {
     }
 }
 
+/// A captured scene and what is odd about its file.
+pub(super) type OpenedScene = Result<(SceneCloud, Vec<FileWarning>), InputError>;
+
+/// Scenes with the names of their files, as they are opened.
+pub(super) type Scenes<'a> = mpsc::IntoIter<(&'a Path, OpenedScene)>;
+
+/// Opens scenes one ahead of whom they are for: the first while `work` still prepares, each next while one is
+/// inspected. The scenes come in the order of their files.
+pub(super) fn open_ahead<T>(files: &[PathBuf], work: impl FnOnce(Scenes<'_>) -> T) -> T {
+    thread::scope(|scope| {
+        let (hand_over, opened) = mpsc::sync_channel(0);
+        scope.spawn(move || {
+            for path in files {
+                // Nobody takes it when the work was given up.
+                if hand_over.send((&**path, open_scene(path))).is_err() {
+                    return;
+                }
+            }
+        });
+        work(opened.into_iter())
+    })
+}
+
 /// Opens a captured scene.
-pub(super) fn open_scene(path: &Path) -> Result<(SceneCloud, Vec<FileWarning>), InputError> {
+pub(super) fn open_scene(path: &Path) -> OpenedScene {
     let opened = match files::open(path) {
         Ok(opened) => opened,
         // A camera that is covered or looks at nothing: the file is sound, there is just no part to see.

@@ -16,7 +16,7 @@ use super::{
     calibrate::CalibrationChoice,
     console::{Advised as _, Console},
     follow::{follow, parse_source},
-    input::{before, open_empty_cell, open_scene},
+    input::{OpenedScene, Scenes, before, open_ahead, open_empty_cell},
     recipe::RecipeChoice,
     record::{HistoryChoice, Recording, Taken},
     telling::{Columns, Telling},
@@ -94,6 +94,14 @@ pub(super) struct InspectArgs {
 }
 
 pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    open_ahead(&args.files, |scenes| inspect(args, scenes, console))
+}
+
+fn inspect(
+    args: &InspectArgs,
+    scenes: Scenes<'_>,
+    console: &mut Console,
+) -> anyhow::Result<Outcome> {
     let (place, load) = args.library.load_placed(console)?;
     let recipe = args.recipe.recipe();
     let robot = args.calibration.frame(console)?;
@@ -129,7 +137,7 @@ pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<O
     };
     let outcome = match &args.source {
         Some(source) => inspect_source(source, args.frames, &mut one, console),
-        None => inspect_files(&args.files, &mut one, console),
+        None => inspect_files(args.files.len(), scenes, &mut one, console),
     };
     if let Some(recording) = one.recording {
         recording.finish(console);
@@ -138,15 +146,16 @@ pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<O
 }
 
 fn inspect_files(
-    files: &[PathBuf],
+    num_files: usize,
+    scenes: Scenes<'_>,
     one: &mut Inspector,
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
-    console.start_progress(files.len());
+    console.start_progress(num_files);
     let mut outcome = Outcome::Accepted;
-    for path in files {
+    for (path, opened) in scenes {
         console.begin(&path.display());
-        outcome = outcome.max(one.inspect(path, console)?);
+        outcome = outcome.max(one.inspect(path, opened, console)?);
         console.done();
     }
     Ok(outcome)
@@ -165,9 +174,14 @@ struct Inspector {
 }
 
 impl Inspector {
-    fn inspect(&mut self, path: &Path, console: &mut Console) -> anyhow::Result<Outcome> {
+    fn inspect(
+        &mut self,
+        path: &Path,
+        opened: OpenedScene,
+        console: &mut Console,
+    ) -> anyhow::Result<Outcome> {
         let name = path.display().to_string();
-        match open_scene(path) {
+        match opened {
             Ok((scene, warnings)) => {
                 for warning in &warnings {
                     console.warn(&format_args!("{name}: {warning}"), warning);

@@ -65,7 +65,7 @@ impl Recording {
         Some(Self {
             keeper,
             writer,
-            library: library.library.identity(),
+            library: library.identity(),
             titles: titles.collect(),
             recipe: Arc::new(recipe.clone()),
             num: 0,

@@ -12,7 +12,7 @@ use super::{
     LibraryChoice, Outcome,
     calibrate::CalibrationChoice,
     console::{Advised as _, Console, Table},
-    input::{before, open_empty_cell, open_scene},
+    input::{OpenedScene, Scenes, before, open_ahead, open_empty_cell},
     recipe::RecipeChoice,
     verdict::outcome_of,
 };
@@ -108,6 +108,10 @@ pub(super) fn run(args: &ReportArgs, console: &mut Console) -> anyhow::Result<Ou
         show_conventions(console);
         return Ok(Outcome::Accepted);
     }
+    open_ahead(&args.files, |scenes| report(args, scenes, console))
+}
+
+fn report(args: &ReportArgs, scenes: Scenes<'_>, console: &mut Console) -> anyhow::Result<Outcome> {
     let load = args.library.load_some(console)?;
     let empty_cell = args
         .empty_cell
@@ -116,7 +120,7 @@ pub(super) fn run(args: &ReportArgs, console: &mut Console) -> anyhow::Result<Ou
     let out = args.out.as_deref().unwrap_or(Path::new("."));
     let mut one = Reporter {
         recipe: args.recipe.recipe(),
-        library_identity: load.library.identity(),
+        library_identity: load.identity(),
         load,
         empty_cell: empty_cell.transpose()?,
         robot: args.calibration.frame(console)?,
@@ -125,9 +129,9 @@ pub(super) fn run(args: &ReportArgs, console: &mut Console) -> anyhow::Result<Ou
     };
     console.start_progress(args.files.len());
     let mut outcome = Outcome::Accepted;
-    for path in &args.files {
+    for (path, opened) in scenes {
         console.begin(&path.display());
-        outcome = outcome.max(one.report(path, console)?);
+        outcome = outcome.max(one.report(path, opened, console)?);
         console.done();
     }
     Ok(outcome)
@@ -154,9 +158,14 @@ struct Reporter<'a> {
 }
 
 impl Reporter<'_> {
-    fn report(&mut self, path: &Path, console: &mut Console) -> anyhow::Result<Outcome> {
+    fn report(
+        &mut self,
+        path: &Path,
+        opened: OpenedScene,
+        console: &mut Console,
+    ) -> anyhow::Result<Outcome> {
         let name = path.display().to_string();
-        let (mut scene, warnings) = match open_scene(path).advised() {
+        let (mut scene, warnings) = match opened.advised() {
             Ok(opened) => opened,
             Err(error) => {
                 console.error(&error);

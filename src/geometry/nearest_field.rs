@@ -90,59 +90,57 @@ impl NearestField {
     fn grow(&mut self, side: f32, band: f32) {
         let [sx, sy, _] = self.size;
         let (low, points) = (self.low, std::mem::take(&mut self.points));
-        let off_centre_sq = |point: u32, [x, y, z]: [u16; 3]| {
+        let off_centre = |point: u32, [x, y, z]: [u16; 3]| {
             let at = |i: u16, low: f32| (f32::from(i) + 0.5) * side + low;
-            let centre = Point3::new(at(x, low.x), at(y, low.y), at(z, low.z));
-            (points[point as usize] - centre).norm_squared()
+            points[point as usize] - Point3::new(at(x, low.x), at(y, low.y), at(z, low.z))
         };
-        let mut front: Vec<[u16; 3]> = Vec::new();
+        // From each cell's centre to the point it holds.
+        let mut held_sq = vec![f32::INFINITY; self.nearest.len()];
+        let mut front: Vec<(u32, [u16; 3])> = Vec::new();
         for (i, p) in (0_u32..).zip(&points) {
             let d = (p - low) * self.per_cell;
             let at = [d.x as u16, d.y as u16, d.z as u16];
-            let holder = &mut self.nearest
-                [(usize::from(at[2]) * sy + usize::from(at[1])) * sx + usize::from(at[0])];
-            if *holder == NOTHING {
-                front.push(at);
-                *holder = i;
-            } else if off_centre_sq(i, at) < off_centre_sq(*holder, at) {
-                *holder = i;
+            let index = (usize::from(at[2]) * sy + usize::from(at[1])) * sx + usize::from(at[0]);
+            let distance_sq = off_centre(i, at).norm_squared();
+            if distance_sq < held_sq[index] {
+                if self.nearest[index] == NOTHING {
+                    front.push((index as u32, at));
+                }
+                self.nearest[index] = i;
+                held_sq[index] = distance_sq;
             }
         }
         // Handed on from face to face, no farther than the band.
         let farthest_sq = (band + side).powi(2);
-        let steps = [
-            1,
-            -1,
-            sx as isize,
-            -(sx as isize),
-            (sx * sy) as isize,
-            -((sx * sy) as isize),
-        ];
+        let steps = [1, sx, sx * sy].map(|step| step as u32);
+        let mut next = Vec::new();
         while !front.is_empty() {
-            let mut next = Vec::new();
-            for &at in &front {
-                let index =
-                    (usize::from(at[2]) * sy + usize::from(at[1])) * sx + usize::from(at[0]);
-                let candidate = self.nearest[index];
-                for (face, step) in steps.iter().enumerate() {
-                    let axis = face / 2;
-                    let mut beside = at;
-                    // The outermost cells lie beyond the band, so none of them is ever at the front.
-                    beside[axis] =
-                        beside[axis].wrapping_add_signed(if face % 2 == 0 { 1 } else { -1 });
-                    let distance_sq = off_centre_sq(candidate, beside);
-                    let holder = &mut self.nearest[index.wrapping_add_signed(*step)];
-                    if *holder == NOTHING {
-                        if distance_sq <= farthest_sq {
-                            next.push(beside);
-                            *holder = candidate;
+            for (index, at) in front.drain(..) {
+                let candidate = self.nearest[index as usize];
+                let off = off_centre(candidate, at);
+                let here_sq = off.norm_squared();
+                let mut hand_on = |axis: usize, towards: f32, index: u32, way: i16| {
+                    // The square of the distance to a centre one cell further on.
+                    let distance_sq = here_sq + side * (side - 2.0 * towards * off[axis]);
+                    let held_sq = &mut held_sq[index as usize];
+                    if distance_sq < *held_sq && distance_sq <= farthest_sq {
+                        let holder = &mut self.nearest[index as usize];
+                        if *holder == NOTHING {
+                            let mut beside = at;
+                            beside[axis] = beside[axis].wrapping_add_signed(way);
+                            next.push((index, beside));
                         }
-                    } else if *holder != candidate && distance_sq < off_centre_sq(*holder, beside) {
                         *holder = candidate;
+                        *held_sq = distance_sq;
                     }
+                };
+                // The outermost cells lie beyond the band, so none of them is ever at the front.
+                for (axis, step) in steps.into_iter().enumerate() {
+                    hand_on(axis, 1.0, index + step, 1);
+                    hand_on(axis, -1.0, index - step, -1);
                 }
             }
-            front = next;
+            std::mem::swap(&mut front, &mut next);
         }
         self.points = points;
     }

@@ -1,20 +1,19 @@
 //! By what a library is known again.
 
-use super::{CloudCheck, Library};
+use super::{CloudCheck, LibraryLoad};
 use crate::files::crc32;
 
-impl Library {
+impl LibraryLoad {
     /// Eight hexadecimal digits that are the same for the same parts with the same clouds, wherever they lie and in
-    /// whatever order: the CRC-32 of all names and checksums of clouds. Titles and notes do not count.
-    ///
-    /// Goes through all clouds, some milliseconds: ask once per library, not once per inspection.
+    /// whatever order: the CRC-32 of the names of all loaded parts and the checksums that their clouds were held
+    /// against. Titles and notes do not count.
     pub fn identity(&self) -> String {
         let mut parts: Vec<String> = self
-            .references
+            .parts
             .iter()
-            .map(|reference| {
-                let CloudCheck { num_points, crc32 } = CloudCheck::of_cloud(&reference.cloud);
-                format!("{} {num_points} {crc32}\n", reference.name)
+            .map(|part| {
+                let CloudCheck { num_points, crc32 } = &part.cloud;
+                format!("{} {num_points} {crc32}\n", part.part_name().as_str())
             })
             .collect();
         parts.sort();
@@ -24,24 +23,32 @@ impl Library {
 
 #[cfg(test)]
 mod tests {
-    use crate::{library::load::load_shipped, stages::reference::ReferenceParams};
+    use crate::{
+        library::{CloudCheck, load::load_shipped},
+        stages::reference::ReferenceParams,
+    };
 
     #[test]
     fn a_library_is_known_by_its_names_and_clouds() {
-        let library = load_shipped(&ReferenceParams::default()).library;
+        let load = || load_shipped(&ReferenceParams::default());
+        let library = load();
         let identity = library.identity();
         assert!(identity.len() == 8 && identity.bytes().all(|c| c.is_ascii_hexdigit()));
-        let mut turned = library.clone();
-        turned.references.reverse();
+        let mut turned = load();
+        turned.parts.reverse();
         assert_eq!(turned.identity(), identity);
-        let mut fewer = library.clone();
-        fewer.references.pop();
+        let mut fewer = load();
+        fewer.parts.pop();
         assert_ne!(fewer.identity(), identity);
-        let mut renamed = library.clone();
-        renamed.references[0].name = "other".into();
+        let mut renamed = load();
+        renamed.parts[0].part = Some("other".parse().expect("a name"));
         assert_ne!(renamed.identity(), identity);
-        let mut moved = library.clone();
-        moved.references[0].cloud.points[7].z += 1e-6;
+        let mut moved = load();
+        let mut cloud = moved.library.references[0].cloud.clone();
+        // What the file says of the cloud is what the cloud is.
+        assert_eq!(CloudCheck::of_cloud(&cloud), moved.parts[0].cloud);
+        cloud.points[7].z += 1e-6;
+        moved.parts[0].cloud = CloudCheck::of_cloud(&cloud);
         assert_ne!(moved.identity(), identity);
     }
 }

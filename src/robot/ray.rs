@@ -40,7 +40,7 @@ impl<'a> Surface<'a> {
         Some(Self {
             points: &reference.cloud.points,
             normals: reference.cloud.normals.as_ref()?,
-            tree: &reference.tree,
+            tree: reference.tree(),
             field: Some(&reference.field),
         })
     }

@@ -207,8 +207,14 @@ fn rasterise(
     params: &ProjectParams,
 ) -> Result<PlaneImage, ProjectError> {
     // Eq. 3, in f32: coordinates are within metres of the mean and a pixel is millimetres.
-    let to_plane = plane_from_camera.cast::<f32>();
-    let in_plane: Vec<Point3<f32>> = points.iter().map(|p| to_plane * p).collect();
+    // As a matrix, which takes half the operations of a quaternion.
+    let turn: Matrix3<f32> = plane_from_camera
+        .rotation
+        .to_rotation_matrix()
+        .into_inner()
+        .cast();
+    let shift: Vector3<f32> = plane_from_camera.translation.vector.cast();
+    let in_plane: Vec<Point3<f32>> = points.iter().map(|p| turn * p + shift).collect();
     let mut low = [f32::INFINITY; 2];
     let mut high = [f32::NEG_INFINITY; 2];
     for p in &in_plane {

@@ -7,7 +7,6 @@
 use std::sync::OnceLock;
 
 use nalgebra::{Isometry2, Point2, Point3, Unit, UnitQuaternion, Vector3};
-use rustfft::num_complex::Complex;
 
 use crate::{
     error::Advice,
@@ -18,10 +17,10 @@ use crate::{
     },
     stages::{
         contour::{Contour, ContourParams, find_contour},
-        correlation::{self, LiteralReference},
+        correlation::{LiteralReference, RaySpectra},
         pose::{PoseError, PreparedTarget, edge_points::EdgePoints, refine::Target},
         project::{PlaneImage, ProjectParams, project_weighted},
-        signature::{FanSignature, SignatureParams, describe},
+        signature::{FanSignature, LiteralSignature, SignatureParams, describe},
     },
     units::{Metres, Radians},
 };
@@ -87,26 +86,30 @@ pub struct Reference {
     pub name: String,
     /// The reference cloud in part space, with unit normals.
     pub cloud: PointCloud,
-    /// Search tree over `cloud`.
-    pub tree: KdTree,
+    /// Search tree over `cloud`, made when it is first asked for: only the last steps towards a pose search exactly.
+    tree: OnceLock<KdTree>,
     /// Field of nearest points around `cloud`.
     pub field: NearestField,
     /// The reference from several sides; the first is its standard view.
     pub views: Vec<ReferenceView>,
-    /// The paper's auto-correlation of the standard view.
-    pub literal: LiteralReference,
-    /// Made when it is first asked for: the default pose begins from placements and needs none of it.
+    /// The views' signatures, for the circular correlation.
+    pub spectra: RaySpectra,
+    /// What only the paper's matcher looks at, and so made when it is first asked for.
+    literal: OnceLock<LiteralReference>,
+    /// Likewise: the default pose begins from placements and needs none of it.
     whole: OnceLock<Result<PreparedTarget, PoseError>>,
 }
 
 /// The reference as seen from one side.
 #[derive(Clone, Debug)]
 pub struct ReferenceView {
+    /// Where from, part space.
+    viewpoint: Point3<f64>,
     /// Takes part space into this view's plane space.
     pub plane_from_part: RigidTransform,
     /// The binary image.
     pub plane: PlaneImage,
-    /// Its pixels alone.
+    /// Its pixels alone, no finer than a centimetre.
     pub pixels: PackedImage,
     /// Area of its set pixels, square metres.
     pub image_area: f64,
@@ -114,10 +117,8 @@ pub struct ReferenceView {
     pub contour: Contour,
     /// The outline's signature.
     pub signature: FanSignature,
-    /// Outline and openings on the surface, part space.
-    pub edges: EdgePoints,
-    /// Discrete Fourier transform of the signature's complex rays, for the circular correlation.
-    pub spectrum: Vec<Complex<f64>>,
+    /// Outline and openings on the surface, part space; made when a pose is first tried from this view.
+    edges: OnceLock<EdgePoints>,
     /// Field of nearest points around outline and openings; made when the first piece of a part is laid onto it.
     outline_field: OnceLock<OutlineField>,
 }
@@ -136,6 +137,9 @@ const TURNS: [[f64; 2]; 9] = [
     [-20.0, -16.0],
 ];
 
+/// Side of a pixel of the packed image, metres: finer than the spacing of the points that are looked up in it, and a
+/// quarter of the memory that every inspection reads.
+const PACKED_PIXEL: f64 = 0.01;
 /// Points kept of a view's outline and openings: about one per centimetre and a half around a door.
 const NUM_EDGES: usize = 256;
 /// Cells of the field of nearest points, metres: two to three spacings of a reference cloud.
@@ -173,40 +177,78 @@ impl Reference {
                 limit: Metres(MAX_EXTENT),
             });
         }
-        let tree = KdTree::new(&cloud.points);
-        let field = NearestField::new(&cloud.points, FIELD_CELL, FIELD_BAND);
         let views: Vec<ReferenceView> = viewpoints(&cloud, coverage)
             .ok_or(no_outline)?
             .iter()
             .filter_map(|viewpoint| {
-                ReferenceView::from_viewpoint(&cloud, &field, viewpoint, params)
+                ReferenceView::from_viewpoint(&cloud, (low, high), viewpoint, params)
             })
             .collect();
-        let literal = LiteralReference::new(&views.first().ok_or(no_outline)?.signature.literal);
+        if views.is_empty() {
+            return Err(no_outline);
+        }
         Ok(Self {
             name: name.to_owned(),
+            tree: OnceLock::new(),
+            field: NearestField::new(&cloud.points, FIELD_CELL, FIELD_BAND),
             cloud,
-            tree,
-            field,
+            spectra: spectra_of(&views),
             views,
-            literal,
+            literal: OnceLock::new(),
             whole: OnceLock::new(),
         })
     }
 
     /// The reference as the target of a pose, with the edges of one of its views; `None` for a flat shape.
     pub fn target(&self, view: usize) -> Option<Target<'_>> {
-        let edges = &self.views.get(view)?.edges;
         let Self {
             cloud, tree, field, ..
         } = self;
+        let view = self.views.get(view)?;
         (!cloud.points.is_empty()).then_some(Target {
             cloud,
             tree,
             field,
-            edges,
+            edges: view.edges.get_or_init(|| {
+                let edges = sheet_edges(view, cloud, field);
+                EdgePoints::new(&edges, NUM_EDGES)
+            }),
             spacing: SPACING,
         })
+    }
+
+    /// Makes now what is otherwise made when it is first asked for, a millisecond or two: for who measures what an
+    /// inspection takes once all is made.
+    pub fn make_ready(&self) {
+        self.tree();
+        self.literal();
+        for view in 0..self.views.len() {
+            self.target(view);
+        }
+    }
+
+    /// Search tree over the cloud.
+    pub fn tree(&self) -> &KdTree {
+        self.tree.get_or_init(|| KdTree::new(&self.cloud.points))
+    }
+
+    /// The paper's auto-correlation of the standard view.
+    pub fn literal(&self) -> &LiteralReference {
+        self.literal.get_or_init(|| {
+            let pixels = self
+                .views
+                .first()
+                .map(|view| &view.contour.outline_pixels[..]);
+            LiteralReference::new(LiteralSignature::of(pixels.unwrap_or_default()))
+        })
+    }
+
+    /// Another one, for references that are simulated as signatures alone.
+    pub fn with_literal(self, literal: LiteralReference) -> Self {
+        Self {
+            literal: literal.into(),
+            ..self
+        }
     }
 
     /// The reference as a target that is searched from anywhere.
@@ -222,41 +264,48 @@ impl Reference {
         contour: Contour,
         signature: FanSignature,
     ) -> Self {
-        let literal = LiteralReference::new(&signature.literal);
         let cloud = PointCloud::default();
+        let from_the_front = Point3::new(0.0, 0.0, VIEW_DISTANCE);
+        let views = vec![ReferenceView::new(
+            from_the_front,
+            plane,
+            contour,
+            signature,
+        )];
         Self {
             name: name.to_owned(),
-            tree: KdTree::new(&cloud.points),
+            tree: OnceLock::new(),
             field: NearestField::new(&cloud.points, FIELD_CELL, FIELD_BAND),
             cloud,
-            views: vec![ReferenceView::new(
-                RigidTransform::identity(),
-                plane,
-                contour,
-                signature,
-                &[],
-            )],
-            literal,
+            spectra: spectra_of(&views),
+            views,
+            literal: OnceLock::new(),
             whole: OnceLock::new(),
         }
     }
 }
 
+/// The views' signatures, for the circular correlation.
+pub fn spectra_of(views: &[ReferenceView]) -> RaySpectra {
+    RaySpectra::of(views.iter().map(|view| &view.signature.rays[..]))
+}
+
 impl ReferenceView {
     fn new(
-        plane_from_part: RigidTransform,
+        viewpoint: Point3<f64>,
         plane: PlaneImage,
         contour: Contour,
         signature: FanSignature,
-        edges: &[Point3<f32>],
     ) -> Self {
         Self {
-            edges: EdgePoints::new(edges, NUM_EDGES),
-            spectrum: correlation::spectrum(&signature.rays),
-            pixels: plane.image.packed(),
+            viewpoint,
+            edges: OnceLock::new(),
+            pixels: plane
+                .image
+                .packed((PACKED_PIXEL / plane.pixel.0).round() as usize),
             image_area: plane.image.num_set() as f64 * plane.pixel.0.powi(2),
             outline_field: OnceLock::new(),
-            plane_from_part,
+            plane_from_part: plane.plane_from_camera,
             plane,
             contour,
             signature,
@@ -265,25 +314,18 @@ impl ReferenceView {
 
     fn from_viewpoint(
         cloud: &PointCloud,
-        field: &NearestField,
+        bounds: (Point3<f32>, Point3<f32>),
         viewpoint: &Point3<f64>,
         params: &ReferenceParams,
     ) -> Option<Self> {
-        let visible = visible_from(cloud, viewpoint);
+        let visible = visible_from(cloud, bounds, viewpoint);
         let points: Vec<Point3<f32>> = visible.iter().map(|v| cloud.points[v.0]).collect();
         // The cloud is even on the surface; a camera sees a tilted surface with fewer pixels.
         let weight = |i: usize, _: &Point3<f32>| visible[i].1;
         let plane = project_weighted(&points, weight, viewpoint, &params.project).ok()?;
         let contour = find_contour(&plane, &params.contour).ok()?;
         let signature = describe(&contour, &params.signature).ok()?;
-        let edges = sheet_edges(&plane, &contour, cloud, field, viewpoint);
-        Some(Self::new(
-            plane.plane_from_camera,
-            plane,
-            contour,
-            signature,
-            &edges,
-        ))
+        Some(Self::new(*viewpoint, plane, contour, signature))
     }
 
     /// The nearest points of outline and openings, in the view's plane space.
@@ -312,23 +354,17 @@ impl ReferenceView {
 const LEAST_FACING_AT_EDGE: f64 = 0.5;
 
 /// The points of outline and openings, in the cloud's space, where the sheet itself ends.
-fn sheet_edges(
-    plane: &PlaneImage,
-    contour: &Contour,
-    cloud: &PointCloud,
-    field: &NearestField,
-    viewpoint: &Point3<f64>,
-) -> Vec<Point3<f32>> {
-    let cloud_from_plane = plane.plane_from_camera.inverse();
+fn sheet_edges(view: &ReferenceView, cloud: &PointCloud, field: &NearestField) -> Vec<Point3<f32>> {
+    let cloud_from_plane = view.plane_from_part.inverse();
     let is_sheet_edge = |p: &Point3<f32>| {
         let Some((nearest, normals)) = field.nearest(p).zip(cloud.normals.as_ref()) else {
             return true;
         };
-        let towards = (viewpoint - p.cast::<f64>()).normalize();
+        let towards = (view.viewpoint - p.cast::<f64>()).normalize();
         normals[nearest.index].cast::<f64>().dot(&towards) >= LEAST_FACING_AT_EDGE
     };
-    contour
-        .lifted(plane)
+    view.contour
+        .lifted(&view.plane)
         .iter()
         .map(|p| (cloud_from_plane * p).cast())
         .filter(is_sheet_edge)
@@ -360,8 +396,11 @@ fn viewpoints(cloud: &PointCloud, coverage: Coverage) -> Option<Vec<Point3<f64>>
 
 /// The places that views are taken from, each with the part of the cloud that a camera sees from there.
 pub fn seen_around(cloud: &PointCloud, coverage: Coverage) -> Vec<(Point3<f64>, PointCloud)> {
+    let Some(bounds) = cloud.bounds() else {
+        return Vec::new();
+    };
     let seen_from = |viewpoint: Point3<f64>| {
-        let visible = visible_from(cloud, &viewpoint);
+        let visible = visible_from(cloud, bounds, &viewpoint);
         let normals = cloud.normals.as_ref();
         let seen = PointCloud {
             points: visible.iter().map(|v| cloud.points[v.0]).collect(),
@@ -380,13 +419,16 @@ const CELL: f32 = 0.015;
 const CELL_DEPTH: f32 = 0.04;
 
 /// Indices of the points that a camera at `viewpoint` sees, each with the cosine of the angle it is seen at.
-fn visible_from(cloud: &PointCloud, viewpoint: &Point3<f64>) -> Vec<(usize, f64)> {
+///
+/// `bounds` are those of the cloud.
+fn visible_from(
+    cloud: &PointCloud,
+    (low, high): (Point3<f32>, Point3<f32>),
+    viewpoint: &Point3<f64>,
+) -> Vec<(usize, f64)> {
     // In f32: all is within metres, and a cell is centimetres.
     let viewpoint: Point3<f32> = viewpoint.cast();
-    let bounds = cloud.bounds();
-    let centre = bounds.map_or(Point3::origin(), |(low, high)| {
-        nalgebra::center(&low, &high)
-    });
+    let centre = nalgebra::center(&low, &high);
     let forward = (centre - viewpoint).normalize();
     let helper = if forward.x.abs() < 0.9 {
         Vector3::x()
@@ -395,33 +437,37 @@ fn visible_from(cloud: &PointCloud, viewpoint: &Point3<f64>) -> Vec<(usize, f64)
     };
     let right = forward.cross(&helper).normalize();
     let down = forward.cross(&right);
-    let radius = bounds.map_or(0.0, |(low, high)| (high - low).norm() / 2.0) + CELL;
+    let radius = (high - low).norm() / 2.0 + CELL;
     let side = (2.0 * radius / CELL).ceil() as usize + 1;
     let mut nearest = vec![f32::INFINITY; side * side];
-    let candidates: Vec<(u32, f32, u32, f32)> = cloud
+    // Closer than 80° to grazing a depth camera reads next to nothing.
+    let is_seen = |i: usize, towards: &Vector3<f32>| {
+        let facing = cloud
+            .normals
+            .as_ref()
+            .map(|normals| normals[i].dot(towards));
+        facing.is_none_or(|f| f > 0.0 && f * f > 0.17 * 0.17 * towards.norm_squared())
+    };
+    let cell = |along: f32| ((along + radius) * (1.0 / CELL)) as i32 as usize;
+    let mut candidates: Vec<(u32, u32, f32)> = Vec::with_capacity(cloud.points.len());
+    for (i, p) in cloud
         .finite()
-        .filter_map(|(i, p)| {
-            let facing = match &cloud.normals {
-                Some(normals) => normals[i].dot(&(viewpoint - p).normalize()),
-                None => 1.0,
-            };
-            let d = p - centre;
-            let column = ((d.dot(&right) + radius) / CELL) as usize;
-            let row = ((d.dot(&down) + radius) / CELL) as usize;
-            // Closer than 80° to grazing a depth camera reads next to nothing.
-            (facing > 0.17).then(|| {
-                let cell = (row * side + column) as u32;
-                (i as u32, facing, cell, d.dot(&forward))
-            })
-        })
-        .collect();
-    for &(_, _, cell, depth) in &candidates {
-        let nearest = &mut nearest[cell as usize];
-        *nearest = nearest.min(depth);
+        .filter(|(i, p)| is_seen(*i, &(viewpoint - *p)))
+    {
+        let d = p - centre;
+        let cell = cell(d.dot(&down)) * side + cell(d.dot(&right));
+        let depth = d.dot(&forward);
+        nearest[cell] = nearest[cell].min(depth);
+        candidates.push((i as u32, cell as u32, depth));
     }
-    candidates
-        .into_iter()
-        .filter(|&(_, _, cell, depth)| depth <= nearest[cell as usize] + CELL_DEPTH)
-        .map(|(i, facing, ..)| (i as usize, f64::from(facing)))
-        .collect()
+    let seen = |&(i, cell, depth): &(u32, u32, f32)| {
+        let i = i as usize;
+        let towards = viewpoint - cloud.points[i];
+        let facing = |normals: &Vec<Vector3<f32>>| normals[i].dot(&towards) / towards.norm();
+        let facing = cloud.normals.as_ref().map_or(1.0, facing);
+        (depth <= nearest[cell as usize] + CELL_DEPTH).then_some((i, f64::from(facing)))
+    };
+    let mut visible = Vec::with_capacity(candidates.len());
+    visible.extend(candidates.iter().filter_map(seen));
+    visible
 }

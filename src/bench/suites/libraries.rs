@@ -72,5 +72,7 @@ pub(in crate::bench) fn enrol_part(
         at: jiff::Timestamp::UNIX_EPOCH,
         simulated: true,
     };
-    Ok(enrol_captured(&scene_from_frame(&shot.frame), &about, params)?.reference)
+    let enrolled = enrol_captured(&scene_from_frame(&shot.frame), &about, params)?;
+    enrolled.reference.make_ready();
+    Ok(enrolled.reference)
 }

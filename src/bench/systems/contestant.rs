@@ -124,7 +124,7 @@ fn described_locally(
 fn prepare_again(references: &[Reference]) -> Result<(), ReferenceError> {
     let params = ReferenceParams::default();
     for r in references {
-        Reference::prepare(&r.name, r.cloud.clone(), Coverage::OneSide, &params)?;
+        Reference::prepare(&r.name, r.cloud.clone(), Coverage::OneSide, &params)?.make_ready();
     }
     Ok(())
 }

@@ -22,14 +22,15 @@ pub(super) fn run(
             "Keep more frames from now on: partsight history keep all",
         ));
     };
-    let library = asked.library.load_some(console)?.library;
+    let load = asked.library.load_some(console)?;
+    let library = &load.library;
     let recipe = asked.recipe.recipe();
-    let inspection = pipeline::run(&scene, &library, &recipe, &Unwatched)?;
+    let inspection = pipeline::run(&scene, library, &recipe, &Unwatched)?;
     let best = inspection.ranking.entries.first();
     let best = best.and_then(|entry| library.references.get(entry.reference));
     let bounds = best.and_then(|reference| reference.cloud.bounds());
     let middle = bounds.map(|(low, high)| nalgebra::center(&low, &high).cast::<f64>());
-    let now = Finding::of(&inspection, &recipe.identity(), &library.identity());
+    let now = Finding::of(&inspection, &recipe.identity(), &load.identity());
     Ok(Differences::between(Finding::from(record), now, middle))
 }
 

@@ -169,7 +169,7 @@ fn width(opening: &[Point2<f64>]) -> f64 {
 mod tests {
     use super::*;
     use crate::{
-        geometry::{cloud::PointCloud, nearest::KdTree, nearest_field::NearestField},
+        geometry::{cloud::PointCloud, nearest_field::NearestField},
         stages::pose::edge_points::EdgePoints,
     };
 
@@ -199,12 +199,11 @@ mod tests {
         });
         let mut cloud = PointCloud::from_points(surface);
         cloud.normals = Some(vec![-Vector3::z(); cloud.points.len()]);
-        let tree = KdTree::new(&cloud.points);
         let field = NearestField::new(&cloud.points, 0.01, 0.06);
         let edges = EdgePoints::new(&rim(1.0, 0.6), 400);
         let target = Target {
             cloud: &cloud,
-            tree: &tree,
+            tree: &std::sync::OnceLock::new(),
             field: &field,
             edges: &edges,
             spacing: 0.01,

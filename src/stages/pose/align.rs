@@ -9,7 +9,7 @@ use super::{
     icp::{IcpParams, icp},
     icp_ga::{IcpGaParams, icp_ga},
     prepared::PreparedTarget,
-    refine::{Refined, Target},
+    refine::Refined,
 };
 use crate::geometry::{cloud::PointCloud, rigid::RigidTransform};
 
@@ -96,12 +96,12 @@ fn align_centred(
     let mut estimate = match params.method {
         PoseMethod::Icp => {
             let thinned = thinned(&source.points, params.icp.max_source_points);
-            let Target { cloud, tree, .. } = prepared.target();
+            let target = prepared.target();
             let start = start.unwrap_or(no_turn);
             let run = icp(
                 &thinned,
-                &cloud.points,
-                tree,
+                &target.cloud.points,
+                target.tree(),
                 &start,
                 &params.icp,
                 is_cancelled,

@@ -103,7 +103,7 @@ impl Followed {
                 });
             }
         }
-        let found = target.tree.nearest_and_next(at, reach_sq);
+        let found = target.tree().nearest_and_next(at, reach_sq);
         *slot = found.map(|(nearest, others_sq)| Known {
             at: *at,
             closest: nearest.index,
@@ -119,7 +119,7 @@ mod tests {
 
     use super::*;
     use crate::{
-        geometry::{cloud::PointCloud, nearest::KdTree, nearest_field::NearestField},
+        geometry::{cloud::PointCloud, nearest_field::NearestField},
         stages::pose::edge_points::EdgePoints,
     };
 
@@ -138,7 +138,7 @@ mod tests {
             let cloud = PointCloud::from_points(points);
             let target = Target {
                 cloud: &cloud,
-                tree: &KdTree::new(&cloud.points),
+                tree: &std::sync::OnceLock::new(),
                 field: &NearestField::new(&cloud.points, 0.1, 0.1),
                 edges: &EdgePoints::default(),
                 spacing: 0.1,
@@ -148,7 +148,7 @@ mod tests {
             for step in steps {
                 at += step.coords * 0.05;
                 let found = followed.nearest(0, &at, &target, Search::Tree, reach * reach);
-                let searched = target.tree.nearest(&at, reach * reach);
+                let searched = target.tree().nearest(&at, reach * reach);
                 prop_assert_eq!(found.is_some(), searched.is_some());
                 if let Some((found, searched)) = found.zip(searched) {
                     prop_assert!((found.distance_sq - searched.distance_sq).abs() < 1e-5);

@@ -187,7 +187,14 @@ impl<'a> Search<'a> {
         let Self { params, target, .. } = *self;
         let points = self.first_points(params.icp.max_source_points);
         let cloud = &target.cloud.points;
-        let descended = icp(points, cloud, target.tree, start, &params.icp, is_cancelled);
+        let descended = icp(
+            points,
+            cloud,
+            target.tree(),
+            start,
+            &params.icp,
+            is_cancelled,
+        );
         let target_from_source = match descended {
             Ok(run) => {
                 self.iterations.extend(run.iterations);
@@ -214,7 +221,7 @@ impl<'a> Search<'a> {
         let moved = pose.cast::<f32>();
         let sum_sq: f64 = points
             .iter()
-            .filter_map(|p| self.target.tree.nearest(&(moved * p), f32::INFINITY))
+            .filter_map(|p| self.target.tree().nearest(&(moved * p), f32::INFINITY))
             .map(|n| f64::from(n.distance_sq))
             .sum();
         sum_sq / points.len() as f64
@@ -278,7 +285,7 @@ impl<'a> Search<'a> {
         let far_off_sq = (FAR_OFF * extent).powi(2) as f32;
         let distance_sq = |at: &Point3<f32>| {
             let nearest = match whereabouts {
-                Whereabouts::NearFine => target.tree.nearest(at, f32::INFINITY),
+                Whereabouts::NearFine => target.tree().nearest(at, f32::INFINITY),
                 Whereabouts::NearCoarse => target.field.nearest(at),
                 Whereabouts::Elsewhere => coarse.field.nearest(at),
             };

@@ -1,5 +1,7 @@
 //! A cloud with everything that aligning to it needs, made once: thousands of trial poses are then affordable.
 
+use std::sync::OnceLock;
+
 use nalgebra::Point3;
 
 use super::{
@@ -48,7 +50,7 @@ pub struct PreparedTarget {
 #[derive(Clone, Debug)]
 struct Likeness {
     cloud: PointCloud,
-    tree: KdTree,
+    tree: OnceLock<KdTree>,
     field: NearestField,
     edges: EdgePoints,
     /// Distance between neighbouring points, metres.
@@ -173,7 +175,7 @@ impl Likeness {
             field: NearestField::new(&cloud.points, cell as f32, band as f32),
             edges: EdgePoints::default(),
             cloud,
-            tree,
+            tree: tree.into(),
             spacing,
         }
     }

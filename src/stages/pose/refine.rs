@@ -7,6 +7,8 @@
 //! (P. W. Holland and R. E. Welsch, "Robust regression using iteratively reweighted least-squares", Communications in
 //! Statistics 6(9), 1977) shrink from centimetres to the noise, so what has no counterpart loses its vote.
 
+use std::sync::OnceLock;
+
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3, Vector6};
 
 use super::{
@@ -33,8 +35,8 @@ pub struct Source {
 pub struct Target<'a> {
     /// The target's points with unit normals.
     pub cloud: &'a PointCloud,
-    /// Search tree over them.
-    pub tree: &'a KdTree,
+    /// Search tree over them, made when [`Self::tree`] is first asked for it.
+    pub tree: &'a OnceLock<KdTree>,
     /// Field of nearest points around them.
     pub field: &'a NearestField,
     /// Points of outline and openings; may be empty.
@@ -43,7 +45,12 @@ pub struct Target<'a> {
     pub spacing: f64,
 }
 
-impl Target<'_> {
+impl<'a> Target<'a> {
+    /// The search tree over the target's points.
+    pub fn tree(&self) -> &'a KdTree {
+        self.tree.get_or_init(|| KdTree::new(&self.cloud.points))
+    }
+
     /// The closest target point within reach.
     pub fn nearest(&self, search: Search, query: &Point3<f32>, reach_sq: f32) -> Option<Neighbour> {
         match search {
@@ -51,7 +58,7 @@ impl Target<'_> {
                 .field
                 .nearest(query)
                 .filter(|n| n.distance_sq < reach_sq),
-            Search::Tree => self.tree.nearest(query, reach_sq),
+            Search::Tree => self.tree().nearest(query, reach_sq),
         }
     }
 }
