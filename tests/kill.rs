@@ -61,6 +61,7 @@ fn scene(number: i64) -> SceneCloud {
         intrinsics,
         metres_per_unit: 0.001,
         depth: depth.collect(),
+        is_simulated: false,
     })
 }
 

@@ -467,7 +467,7 @@ fn show(state: &mut State, generation: u64, inspected: Arc<Inspected>) -> Option
         notify(state, Trouble::of(warning).into());
     }
     use_library(state, &inspected.library);
-    if let Origin::File(path) = &inspected.origin {
+    if let Origin::File { path, .. } = &inspected.origin {
         remember(&mut state.recent, path);
     }
     let (taken, effect) = history::take_in(state, generation, &inspected);

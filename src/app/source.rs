@@ -120,7 +120,12 @@ pub enum Origin {
         number: u64,
     },
     /// A file.
-    File(PathBuf),
+    File {
+        /// Where it lies.
+        path: PathBuf,
+        /// True if the file says that no camera was read.
+        is_simulated: bool,
+    },
     /// A frame of a camera, a recording or a watched folder.
     Frame {
         /// What a person calls it.
@@ -135,7 +140,11 @@ impl Origin {
     pub fn title(&self) -> String {
         match self {
             Self::Simulated { number, .. } => format!("Simulated frame {number}"),
-            Self::File(path) => file_name(path),
+            Self::File {
+                path,
+                is_simulated: true,
+            } => format!("{}, simulated", file_name(path)),
+            Self::File { path, .. } => file_name(path),
             Self::Frame {
                 name,
                 is_simulated: true,
@@ -148,8 +157,7 @@ impl Origin {
     pub fn is_simulated(&self) -> bool {
         match self {
             Self::Simulated { .. } => true,
-            Self::File(_) => false,
-            Self::Frame { is_simulated, .. } => *is_simulated,
+            Self::File { is_simulated, .. } | Self::Frame { is_simulated, .. } => *is_simulated,
         }
     }
 }
@@ -163,7 +171,7 @@ impl Origin {
                 choice: *choice,
                 number: *number,
             },
-            Self::File(path) => SceneSource::File(path.clone()),
+            Self::File { path, .. } => SceneSource::File(path.clone()),
             Self::Frame { .. } => return None,
         })
     }
@@ -295,8 +303,11 @@ impl SceneSource {
                     }
                 };
                 Ok(Captured {
+                    origin: Origin::File {
+                        path: path.clone(),
+                        is_simulated: scene.cloud.is_simulated,
+                    },
                     scene: Arc::new(scene),
-                    origin: Origin::File(path.clone()),
                     warnings,
                 })
             }

@@ -190,7 +190,7 @@ fn report_of(
 ) -> PoseReport {
     let seen_by = match &inspected.origin {
         origin if origin.is_simulated() => SeenBy::Simulation,
-        Origin::File(_) => SeenBy::NotKnown,
+        Origin::File { .. } => SeenBy::NotKnown,
         Origin::Simulated { .. } | Origin::Frame { .. } => SeenBy::Camera,
     };
     PoseReport::of(&ReportSubject {
@@ -198,7 +198,7 @@ fn report_of(
         scene: &scene_name(&inspected.origin).display().to_string(),
         source: match inspected.origin {
             Origin::Simulated { .. } => Some("the window's simulated cell"),
-            Origin::File(_) | Origin::Frame { .. } => None,
+            Origin::File { .. } | Origin::Frame { .. } => None,
         },
         seen_by,
         inspection: &inspected.inspection,
@@ -215,7 +215,7 @@ fn report_of(
 /// By what the files of a report are named.
 fn scene_name(origin: &Origin) -> PathBuf {
     match origin {
-        Origin::File(path) => path.clone(),
+        Origin::File { path, .. } => path.clone(),
         Origin::Simulated { number, .. } => format!("simulated_{number}").into(),
         Origin::Frame { name, .. } => name.replace(' ', "_").into(),
     }

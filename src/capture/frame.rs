@@ -56,4 +56,6 @@ pub struct DepthFrame {
     pub metres_per_unit: f64,
     /// Depth along the optical axis, row by row from the top left. 0 is the sensors' own sign for "no reading".
     pub depth: Vec<u16>,
+    /// True if no camera read these depths: they are simulated.
+    pub is_simulated: bool,
 }

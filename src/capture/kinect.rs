@@ -181,6 +181,7 @@ impl Kinect {
                 intrinsics: self.camera,
                 metres_per_unit: 0.001,
                 depth,
+                is_simulated: false,
             }),
             is_simulated: false,
             truth: None,

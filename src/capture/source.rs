@@ -70,6 +70,16 @@ pub enum Image {
     Cloud(PointCloud),
 }
 
+impl Image {
+    /// True if it says itself that no camera read it.
+    pub fn is_simulated(&self) -> bool {
+        match self {
+            Self::Depth(frame) => frame.is_simulated,
+            Self::Cloud(cloud) => cloud.is_simulated,
+        }
+    }
+}
+
 /// Something that was meant to be a capture and cannot be read.
 #[derive(Clone, Debug)]
 pub struct Skipped {

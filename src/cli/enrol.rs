@@ -56,7 +56,7 @@ pub(super) struct EnrolArgs {
     /// Anything worth remembering
     #[arg(long, value_name = "TEXT", default_value = "")]
     notes: String,
-    /// Record that no real camera saw the part
+    /// Record that no real camera saw the part; files of partsight simulate say so themselves
     #[arg(long)]
     simulated: bool,
 }
@@ -131,7 +131,7 @@ fn enrolled_from(args: &EnrolArgs, console: &Console) -> anyhow::Result<Enrolled
         from: file_name.to_string_lossy().into_owned(),
         // Whole seconds are enough for people.
         at: jiff::Timestamp::from_second(jiff::Timestamp::now().as_second())?,
-        simulated: args.simulated,
+        simulated: args.simulated || opened.is_simulated(),
     };
     let params = EnrolParams::default();
     let path = args.file.display();

@@ -234,15 +234,24 @@ impl Inspector {
         before(&mut scene, empty_cell.as_ref(), &name, console);
         let scene = Arc::new(scene);
         let inspection = pipeline::run(&scene, library, recipe, &Unwatched)?;
+        let file_says_simulated = capture.is_none() && scene.cloud.is_simulated;
         let taken = Taken {
             scene: &name,
             source: capture.as_ref().map_or("file", CaptureLine::source),
-            is_simulated: capture.as_ref().is_some_and(CaptureLine::is_simulated),
+            is_simulated: capture.map_or(file_says_simulated, |c| c.is_simulated()),
         };
-        let line = InspectionLine::of(&name, &inspection).captured(capture);
+        let mut line = InspectionLine::of(&name, &inspection).captured(capture);
+        if file_says_simulated {
+            line = line.of_simulated_file();
+        }
         let robot = robot.as_ref();
         let line = line.in_robot(robot, &inspection).to_json();
-        telling.inspected(&name, &line, &inspection, library, console);
+        // The table has no room for it; its reports and the history say it of each.
+        let shown = match telling {
+            Telling::Card if file_says_simulated => format!("{name}, simulated"),
+            _ => name.clone(),
+        };
+        telling.inspected(&shown, &line, &inspection, library, console);
         if let (Telling::Card, Some(robot)) = (telling, robot) {
             show_in_robot(robot, &inspection, library, console);
         }

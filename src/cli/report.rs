@@ -67,7 +67,7 @@ pub(super) struct ReportArgs {
     empty_cell: Option<PathBuf>,
     #[command(flatten)]
     calibration: CalibrationChoice,
-    /// No real camera saw these scenes: say so in the reports
+    /// No real camera saw these scenes: say so in the reports; files of partsight simulate say so themselves
     #[arg(long)]
     simulated: bool,
     /// Print the JSON schema of a report, and nothing else
@@ -177,7 +177,7 @@ impl Reporter<'_> {
         }
         before(&mut scene, self.empty_cell.as_ref(), &name, console);
         let inspection = pipeline::run(&scene, &self.load.library, &self.recipe, &Unwatched)?;
-        let report = self.report_of(&name, &inspection);
+        let report = self.report_of(&name, &scene, &inspection);
         match self.write(path, &scene, &inspection, &report, console) {
             Ok(written) => {
                 let verdict = &report.verdict;
@@ -205,7 +205,7 @@ impl Reporter<'_> {
         }
     }
 
-    fn report_of(&self, name: &str, inspection: &Inspection) -> PoseReport {
+    fn report_of(&self, name: &str, scene: &SceneCloud, inspection: &Inspection) -> PoseReport {
         let reference = inspection.best_reference(&self.load.library);
         let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
         let stand_off = reference
@@ -218,7 +218,7 @@ impl Reporter<'_> {
             inspected_at: Timestamp::now(),
             scene: name,
             source: None,
-            seen_by: if self.args.simulated {
+            seen_by: if self.args.simulated || scene.cloud.is_simulated {
                 SeenBy::Simulation
             } else {
                 SeenBy::NotKnown

@@ -16,6 +16,13 @@ pub struct DepthCamera {
     pub intrinsics: Intrinsics,
     /// Metres that one unit of the image stands for, above 0.
     pub metres_per_unit: f64,
+    /// True of a simulated camera.
+    #[serde(
+        default,
+        rename = "simulated",
+        skip_serializing_if = "std::ops::Not::not"
+    )]
+    pub is_simulated: bool,
 }
 
 impl DepthCamera {
@@ -24,6 +31,7 @@ impl DepthCamera {
         Self {
             intrinsics: frame.intrinsics,
             metres_per_unit: frame.metres_per_unit,
+            is_simulated: frame.is_simulated,
         }
     }
 
@@ -43,6 +51,7 @@ impl DepthCamera {
         let Self {
             intrinsics,
             metres_per_unit,
+            ..
         } = self;
         if !(intrinsics.fx > 0.0 && intrinsics.fy > 0.0 && metres_per_unit > 0.0) {
             return Err("fx, fy and metres_per_unit must be above 0".into());
@@ -68,6 +77,7 @@ impl DepthCamera {
             intrinsics: self.intrinsics,
             metres_per_unit: self.metres_per_unit,
             depth,
+            is_simulated: self.is_simulated,
         })
     }
 }

@@ -7,7 +7,8 @@
 //! {"width":640,"height":480,"fx":525.0,"fy":525.0,"cx":319.5,"cy":239.5,"metres_per_unit":0.001}
 //! ```
 //!
-//! The fields are those of [`Intrinsics`] and [`DepthFrame`]; others are read over. Images of one camera may share an
+//! The fields are those of [`Intrinsics`] and [`DepthFrame`]; of a simulated camera `"simulated":true` besides. Others
+//! are read over. Images of one camera may share an
 //! `intrinsics.json` in their folder: an image without a JSON of its own has that camera.
 
 use std::io::{self, Cursor, Write};

@@ -47,6 +47,15 @@ impl Advice for FileWarning {
 const SUSPICIOUS_EXTENT: f64 = 100.0;
 
 impl Opened {
+    /// True if the file says that no camera read what it holds.
+    pub fn is_simulated(&self) -> bool {
+        match self {
+            Self::Cloud(cloud) => cloud.is_simulated,
+            Self::Depth(frame) => frame.is_simulated,
+            Self::Mesh(_) => false,
+        }
+    }
+
     /// What is odd about the content; empty when nothing is. The numbers themselves are never changed.
     pub fn warnings(&self) -> Vec<FileWarning> {
         let bounds = match self {

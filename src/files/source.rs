@@ -56,6 +56,9 @@ pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
     }
 }
 
+/// Bytes at the beginning of a file in which its comments are looked for.
+const HEAD: usize = 1024;
+
 impl<'a> Source<'a> {
     /// The lines with their number from 1, without line ends, a byte order mark or spaces around them.
     pub(super) fn lines(self) -> impl Iterator<Item = (usize, Cow<'a, str>)> + Clone {
@@ -65,6 +68,14 @@ impl<'a> Source<'a> {
             .split(|&byte| byte == b'\n')
             .enumerate()
             .map(|(i, line)| (i + 1, String::from_utf8_lossy(line.trim_ascii())))
+    }
+
+    /// True if a comment in the head of the file says that no camera read what follows: what we write of simulated
+    /// points begins so.
+    pub(super) fn says_simulated(self) -> bool {
+        let head = self.bytes.get(..HEAD).unwrap_or(self.bytes);
+        let mut lines = head.split(|&byte| byte == b'\n').map(<[u8]>::trim_ascii);
+        lines.any(|line| line == b"# simulated" || line == b"comment simulated")
     }
 
     pub(super) fn truncated(self, what: &'static str, found: usize, expected: usize) -> FileError {

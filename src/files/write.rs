@@ -113,14 +113,16 @@ mod tests {
     #[test]
     fn a_cloud_is_saved_only_under_a_known_ending() {
         let folder = tempfile::tempdir().unwrap();
-        let cloud = PointCloud::from_points([nalgebra::Point3::new(1.0, 2.0, 3.0)]);
-        for ending in ["pcd", "PLY", "xyz"] {
-            let path = folder.path().join(format!("cloud.{ending}"));
-            save_cloud(&path, &cloud).unwrap();
-            assert_eq!(
-                crate::files::open(&path).unwrap(),
-                crate::files::Opened::Cloud(cloud.clone())
-            );
+        let mut cloud = PointCloud::from_points([nalgebra::Point3::new(1.0, 2.0, 3.0)]);
+        for is_simulated in [false, true] {
+            cloud.is_simulated = is_simulated;
+            for ending in ["pcd", "PLY", "xyz"] {
+                let path = folder.path().join(format!("cloud.{ending}"));
+                save_cloud(&path, &cloud).unwrap();
+                let opened = crate::files::open(&path).unwrap();
+                assert_eq!(opened.is_simulated(), is_simulated, "{ending}");
+                assert_eq!(opened, crate::files::Opened::Cloud(cloud.clone()));
+            }
         }
         let unknown = save_cloud(&folder.path().join("cloud"), &cloud);
         assert!(matches!(unknown, Err(FileError::UnknownEnding { .. })));

@@ -41,6 +41,7 @@ pub(super) fn read(source: Source<'_>) -> Result<PointCloud, FileError> {
     tidy(
         PointCloud {
             points,
+            is_simulated: source.says_simulated(),
             ..PointCloud::default()
         },
         source,
@@ -49,6 +50,9 @@ pub(super) fn read(source: Source<'_>) -> Result<PointCloud, FileError> {
 
 /// Writes the finite points as text, one a line, in metres with the digits that give the same number back.
 pub fn write_xyz(writer: &mut dyn Write, cloud: &PointCloud) -> io::Result<()> {
+    if cloud.is_simulated {
+        writeln!(writer, "# simulated")?;
+    }
     for (_, p) in cloud.finite() {
         writeln!(writer, "{} {} {}", p.x, p.y, p.z)?;
     }

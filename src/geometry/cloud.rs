@@ -35,6 +35,8 @@ pub struct PointCloud {
     pub labels: Option<Vec<u32>>,
     /// Rows and columns if the cloud is organised; `points.len()` is then their product.
     pub grid: Option<Grid>,
+    /// True if no camera read these points: they are simulated, and the file or the source says so.
+    pub is_simulated: bool,
 }
 
 impl PointCloud {

@@ -156,7 +156,7 @@ impl PackedImage {
 pub struct PointBlocks {
     /// Abscissas and ordinates; the last block is filled up with points outside of any image.
     blocks: Vec<[[f32; BLOCK]; 2]>,
-    len: usize,
+    num: usize,
 }
 
 /// Points handled at once.
@@ -164,8 +164,8 @@ const BLOCK: usize = 16;
 
 impl PointBlocks {
     /// The number of points.
-    pub fn len(&self) -> usize {
-        self.len
+    pub fn num(&self) -> usize {
+        self.num
     }
 }
 
@@ -173,14 +173,14 @@ impl FromIterator<Point2<f32>> for PointBlocks {
     fn from_iter<I: IntoIterator<Item = Point2<f32>>>(points: I) -> Self {
         let mut all = Self::default();
         for point in points {
-            let place = all.len % BLOCK;
+            let place = all.num % BLOCK;
             if place == 0 {
                 all.blocks.push([[f32::INFINITY; BLOCK]; 2]);
             }
             if let Some([x, y]) = all.blocks.last_mut() {
                 (x[place], y[place]) = (point.x, point.y);
             }
-            all.len += 1;
+            all.num += 1;
         }
         all
     }

@@ -54,6 +54,7 @@ pub fn downsample(cloud: &PointCloud, size: Metres) -> PointCloud {
             .map(|colours| cubes().map(|cube| mean_colour(colours, cube)).collect()),
         labels: None,
         grid: None,
+        is_simulated: cloud.is_simulated,
     }
 }
 

@@ -34,6 +34,7 @@ pub(super) fn scene(seed: u16) -> Arc<SceneCloud> {
         intrinsics: camera,
         metres_per_unit: 0.001,
         depth: depth.collect(),
+        is_simulated: false,
     }))
 }
 

@@ -49,6 +49,9 @@ pub struct FrameRecord {
     /// Of a depth image: metres that one unit stands for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub metres_per_unit: Option<f64>,
+    /// True if no camera read it.
+    #[serde(default, skip_serializing_if = "std::ops::Not::not")]
+    pub is_simulated: bool,
     /// The file of the empty cell, if one was known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub empty_cell: Option<String>,
@@ -98,6 +101,7 @@ pub(super) fn write(
         edge: scene.edge,
         camera: scene.intrinsics,
         metres_per_unit: depth.map(|frame| frame.metres_per_unit),
+        is_simulated: scene.cloud.is_simulated,
         empty_cell: empty_cell
             .map(|cell| write_cell(folder, cell))
             .transpose()?,
@@ -136,6 +140,7 @@ fn as_depth(scene: &SceneCloud) -> Option<DepthFrame> {
             intrinsics,
             metres_per_unit,
             depth: depths.collect::<Option<_>>()?,
+            is_simulated: scene.cloud.is_simulated,
         };
         let again = scene_from_frame(&frame).cloud.points;
         let same = points.iter().zip(&again).all(|(a, b)| is_same(a, b));
@@ -205,6 +210,7 @@ pub fn read(folder: &Path, frame: &FrameRecord) -> Result<SceneCloud, HistoryErr
             let camera = DepthCamera {
                 intrinsics,
                 metres_per_unit,
+                is_simulated: frame.is_simulated,
             };
             let camera = camera.checked().map_err(|what| damaged(&what))?;
             scene_from_frame(&camera.frame(size, depth).map_err(|what| damaged(&what))?)

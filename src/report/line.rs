@@ -21,6 +21,9 @@ pub struct InspectionLine<'a> {
     scene: &'a str,
     #[serde(flatten)]
     capture: Option<CaptureLine<'a>>,
+    /// Of a file that says that no camera was read; what a source captured says it itself.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    simulated: Option<bool>,
     status: &'static str,
     part: Option<&'a str>,
     accepted: bool,
@@ -137,6 +140,7 @@ impl<'a> InspectionLine<'a> {
             schema: SCHEMA,
             scene,
             capture: None,
+            simulated: None,
             status: "unreadable",
             part: None,
             accepted: false,
@@ -155,6 +159,15 @@ impl<'a> InspectionLine<'a> {
     #[must_use]
     pub fn captured(self, capture: Option<CaptureLine<'a>>) -> Self {
         Self { capture, ..self }
+    }
+
+    /// The same line of a file that says that no camera was read; of others nothing is known, so nothing is said.
+    #[must_use]
+    pub fn of_simulated_file(self) -> Self {
+        Self {
+            simulated: Some(true),
+            ..self
+        }
     }
 
     /// The same line with its pose in the robot's base frame; without a frame, or unless the part was accepted, it stays

@@ -91,6 +91,7 @@ pub(super) fn sense(rendering: &Rendering, noise: &SensorNoise) -> DepthFrame {
         intrinsics: rendering.intrinsics,
         metres_per_unit: METRES_PER_UNIT,
         depth,
+        is_simulated: true,
     }
 }
 

@@ -407,7 +407,7 @@ fn overlap(
     let pixel_from_point = Matrix2x3::from_columns(&axes).cast();
     let num_shared = seen.pixels.num_set_at(&scene.points, &pixel_from_point);
     let shared = num_shared as f64 * scene.area_each;
-    let scene_area = scene.points.len() as f64 * scene.area_each;
+    let scene_area = scene.points.num() as f64 * scene.area_each;
     let joint = scene_area + seen.image_area - shared;
     if joint > 0.0 { shared / joint } else { 0.0 }
 }

@@ -244,6 +244,7 @@ impl Reference {
     }
 
     /// Another one, for references that are simulated as signatures alone.
+    #[must_use]
     pub fn with_literal(self, literal: LiteralReference) -> Self {
         Self {
             literal: literal.into(),

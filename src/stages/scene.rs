@@ -46,6 +46,7 @@ impl SceneCloud {
             cloud: PointCloud {
                 points,
                 grid: self.cloud.grid,
+                is_simulated: self.cloud.is_simulated,
                 ..PointCloud::default()
             },
             intrinsics: self.intrinsics.map(|camera| Intrinsics {
@@ -114,6 +115,7 @@ pub fn scene_from_frame(frame: &DepthFrame) -> SceneCloud {
                 width: camera.width,
                 height: camera.height,
             }),
+            is_simulated: frame.is_simulated,
             ..PointCloud::default()
         },
         intrinsics: Some(*camera),
@@ -220,6 +222,7 @@ fn organised(cloud: &PointCloud) -> Option<SceneCloud> {
         cloud: PointCloud {
             points: nearest.iter().map(pick).collect(),
             grid: Some(Grid { width, height }),
+            is_simulated: cloud.is_simulated,
             ..PointCloud::default()
         },
         // A ratio falls into the pixel whose centre is half a pixel further.
@@ -315,6 +318,7 @@ mod tests {
             intrinsics,
             metres_per_unit: 0.0002,
             depth,
+            is_simulated: false,
         }
     }
 

@@ -284,7 +284,10 @@ impl Subject {
         };
         let opened = files::open(path)?;
         let warnings = opened.warnings();
-        let origin = Origin::File(path.clone());
+        let origin = Origin::File {
+            path: path.clone(),
+            is_simulated: opened.is_simulated(),
+        };
         let read = match opened {
             Opened::Mesh(mesh) => Self::of_mesh(mesh, origin, params),
             Opened::Depth(frame) => {

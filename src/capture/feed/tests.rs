@@ -31,6 +31,7 @@ fn captured(number: u64) -> Captured {
             },
             metres_per_unit: 0.001,
             depth: vec![1],
+            is_simulated: false,
         }),
         is_simulated: false,
         truth: None,

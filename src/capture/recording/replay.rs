@@ -255,8 +255,8 @@ impl DepthSource for Replay {
                     .or_else(|| written_at(&frame.path))
                     .unwrap_or_else(Timestamp::now),
                 arrived: Instant::now(),
+                is_simulated: frame.is_simulated || image.is_simulated(),
                 image,
-                is_simulated: frame.is_simulated,
                 truth: frame.truth.clone(),
                 warnings: self.warnings.drain(..).chain(warnings).collect(),
             })),

@@ -24,6 +24,7 @@ pub(super) const LIST: &str = "depth.txt";
 const ASSUMED: DepthCamera = DepthCamera {
     intrinsics: Intrinsics::KINECT,
     metres_per_unit: 1.0 / 5000.0,
+    is_simulated: false,
 };
 
 pub(super) fn frames(folder: &Path, camera: Option<&Path>) -> Result<Frames, CaptureError> {

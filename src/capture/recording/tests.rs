@@ -109,6 +109,7 @@ fn every_kind_of_image_survives() {
         intrinsics: awkward,
         metres_per_unit: 0.1 + 0.2,
         depth: vec![0; 4],
+        is_simulated: false,
     };
     let mut other = dark.clone();
     other.intrinsics.fx = 600.0;

@@ -140,8 +140,8 @@ impl WatchedFolder {
                     name: file_name(path),
                     taken_at: written_at(path).unwrap_or_else(Timestamp::now),
                     arrived: Instant::now(),
+                    is_simulated: image.is_simulated(),
                     image,
-                    is_simulated: false,
                     truth: None,
                     warnings,
                 }));

@@ -63,6 +63,7 @@ fn frame() -> DepthFrame {
         },
         metres_per_unit: 0.001,
         depth: vec![900, 901],
+        is_simulated: false,
     }
 }
 

@@ -14,6 +14,7 @@ fn frame() -> DepthFrame {
         },
         metres_per_unit: 0.001,
         depth: vec![0, 1, 256, 1000, 65_535, 700],
+        is_simulated: false,
     }
 }
 
@@ -21,8 +22,14 @@ fn frame() -> DepthFrame {
 fn a_frame_survives_being_written_and_read() {
     let folder = tempfile::tempdir().unwrap();
     let path = folder.path().join("frame.png");
-    write_depth_png(&path, &frame()).unwrap();
-    assert_eq!(open(&path).unwrap(), Opened::Depth(frame()));
+    for is_simulated in [false, true] {
+        let frame = DepthFrame {
+            is_simulated,
+            ..frame()
+        };
+        write_depth_png(&path, &frame).unwrap();
+        assert_eq!(open(&path).unwrap(), Opened::Depth(frame));
+    }
 }
 
 #[test]

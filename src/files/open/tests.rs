@@ -81,6 +81,7 @@ fn every_small_file_cut_anywhere_opens_or_fails_by_name() {
         },
         metres_per_unit: 0.001,
         depth: vec![0, 1, 2, 3],
+        is_simulated: false,
     };
     let whole = folder.path().join("whole.png");
     super::super::write_depth_png(&whole, &frame).unwrap();

@@ -74,6 +74,7 @@ pub(super) fn read(source: Source<'_>) -> Result<PointCloud, FileError> {
             .map(|packed| packed.raw_u32s().into_iter().map(unpacked_colour).collect()),
         labels: column("label").map(super::scalar::Column::u32s),
         grid: header.grid,
+        is_simulated: source.says_simulated(),
     };
     tidy(cloud, source)
 }

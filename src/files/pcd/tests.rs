@@ -91,7 +91,7 @@ fn the_three_storages_hold_the_same_cloud() {
         normals: None,
         colours: Some(vec![[255, 128, 1], [1, 2, 3]]),
         labels: Some(vec![7, 65_535]),
-        grid: None,
+        ..PointCloud::default()
     };
     for bytes in same_points_stored_three_ways() {
         assert_eq!(read_bytes(&bytes).unwrap(), expected);
@@ -324,6 +324,7 @@ pub(in crate::files) fn any_cloud() -> impl Strategy<Value = PointCloud> {
                 colours: has_colours.then(|| rows.iter().map(|row| row.2).collect()),
                 labels: has_labels.then(|| rows.iter().map(|row| row.3).collect()),
                 grid: is_organised.then_some(Grid { width, height: 2 }),
+                is_simulated: has_labels,
             }
         },
     )

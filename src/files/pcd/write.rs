@@ -15,6 +15,7 @@ pub fn write_pcd(writer: &mut dyn Write, cloud: &PointCloud) -> io::Result<()> {
         colours,
         labels,
         grid,
+        is_simulated,
     } = cloud;
     let mut fields: Vec<(&str, &str)> = vec![("x", "F"), ("y", "F"), ("z", "F")];
     if normals.is_some() {
@@ -34,8 +35,9 @@ pub fn write_pcd(writer: &mut dyn Write, cloud: &PointCloud) -> io::Result<()> {
     });
     write!(
         writer,
-        "# .PCD v0.7 - Point Cloud Data file format\nVERSION 0.7\nFIELDS {}\nSIZE {}\nTYPE {}\nCOUNT {}\n\
+        "# .PCD v0.7 - Point Cloud Data file format\n{}VERSION 0.7\nFIELDS {}\nSIZE {}\nTYPE {}\nCOUNT {}\n\
          WIDTH {width}\nHEIGHT {height}\nVIEWPOINT 0 0 0 1 0 0 0\nPOINTS {}\nDATA binary\n",
+        if *is_simulated { "# simulated\n" } else { "" },
         names.join(" "),
         each("4"),
         types.join(" "),

@@ -90,6 +90,7 @@ fn cloud_of<'a>(
     let (x, y, z) = (coordinate("x")?, coordinate("y")?, coordinate("z")?);
     let three = |a, b, c| column(a).zip(column(b)).zip(column(c));
     Ok(PointCloud {
+        is_simulated: source.says_simulated(),
         points: points_from(&x.f32s(), &y.f32s(), &z.f32s()),
         normals: three("nx", "ny", "nz").map(|((x, y), z)| {
             let rows = points_from(&x.f32s(), &y.f32s(), &z.f32s());

@@ -10,8 +10,13 @@ use crate::geometry::cloud::PointCloud;
 pub fn write_ply(writer: &mut dyn Write, cloud: &PointCloud) -> io::Result<()> {
     write!(
         writer,
-        "ply\nformat binary_little_endian 1.0\ncomment metres\nelement vertex {}\n\
+        "ply\nformat binary_little_endian 1.0\ncomment metres\n{}element vertex {}\n\
          property float x\nproperty float y\nproperty float z\n",
+        if cloud.is_simulated {
+            "comment simulated\n"
+        } else {
+            ""
+        },
         cloud.num_finite()
     )?;
     if cloud.normals.is_some() {

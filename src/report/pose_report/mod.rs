@@ -48,7 +48,7 @@ pub enum SeenBy {
     Camera,
     /// None: the scene is simulated.
     Simulation,
-    /// The scene is from a file, and a file does not say.
+    /// The scene is from a file that does not say.
     NotKnown,
 }
 

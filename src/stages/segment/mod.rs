@@ -163,6 +163,7 @@ impl SegmentedPart {
                     .map(|all| indices.iter().map(|i| all[pick(i)]).collect()),
                 labels: None,
                 grid: None,
+                is_simulated: scene.is_simulated,
             },
             indices,
             noise_at_1m,

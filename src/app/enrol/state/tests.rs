@@ -116,7 +116,10 @@ impl Bench {
             cloud: PointCloud::from_points(points),
             ..SceneCloud::default()
         };
-        let origin = Origin::File(format!("{width}.pcd").into());
+        let origin = Origin::File {
+            path: format!("{width}.pcd").into(),
+            is_simulated: false,
+        };
         let source = SceneSource::AtHand(Arc::new(scene), origin);
         let effect = take(&mut self.state, source, "Taking".into());
         self.make(Some(effect));

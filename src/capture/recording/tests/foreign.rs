@@ -18,6 +18,7 @@ fn a_sequence_of_depth_images_is_read_with_its_times_and_its_camera() {
             ..Intrinsics::KINECT
         },
         metres_per_unit: 0.0002,
+        is_simulated: false,
     };
     let mut list = vec!["# depth maps".to_owned(), "# timestamp filename".into()];
     for k in 0..3_u16 {
@@ -25,6 +26,7 @@ fn a_sequence_of_depth_images_is_read_with_its_times_and_its_camera() {
             intrinsics: camera.intrinsics,
             metres_per_unit: camera.metres_per_unit,
             depth: vec![5000 + k, 0, 6000],
+            is_simulated: false,
         };
         let mut png = Vec::new();
         write_depths(&mut png, &frame).unwrap();
@@ -71,9 +73,11 @@ fn a_sequence_of_depth_images_is_read_with_its_times_and_its_camera() {
 #[test]
 fn the_camera_of_a_sequence_without_one_is_assumed_and_said_once() {
     let folder = tempfile::tempdir().unwrap();
-    let Image::Depth(frame) = simulated(1).remove(0).image else {
+    let Image::Depth(mut frame) = simulated(1).remove(0).image else {
         panic!("a depth image");
     };
+    // Such a sequence has no place to say so.
+    frame.is_simulated = false;
     let mut png = Vec::new();
     write_depths(&mut png, &frame).unwrap();
     fs::write(folder.path().join("a.png"), png).unwrap();

@@ -1,8 +1,8 @@
-//! The history from end to end: what the built program writes and reads, and what it does when the disk says no.
+//! The history: what the built program writes and reads, and what it does when the disk says no.
 
 use std::{
     fs,
-    path::{Path, PathBuf},
+    path::Path,
     process::Command,
     sync::Arc,
     time::{Duration, Instant},
@@ -18,77 +18,30 @@ use partsight::{
 };
 use serde_json::Value;
 
-/// A folder to work in with a data folder of its own.
-struct Workplace {
-    folder: tempfile::TempDir,
-}
+use crate::workplace::Workplace;
 
-struct Ran {
-    code: i32,
-    out: String,
-    err: String,
-}
-
-impl Ran {
-    fn lines(&self) -> Vec<Value> {
-        let parse = |line| serde_json::from_str(line).expect("a line of JSON");
-        self.out.lines().map(parse).collect()
+/// With a captured fender and a thing that nobody enrolled.
+fn with_captures() -> Workplace {
+    let place = Workplace::new();
+    for (part, file) in [("fender", "fender.pcd"), ("hood", "hood.png")] {
+        place.accepted(&[
+            "simulate",
+            "--part",
+            part,
+            "--placement",
+            "facing",
+            "--seed",
+            "5",
+            "--out",
+            file,
+        ]);
     }
-}
-
-impl Workplace {
-    /// With a captured fender and a thing that nobody enrolled.
-    fn new() -> Self {
-        let place = Self {
-            folder: tempfile::tempdir().expect("a folder"),
-        };
-        for (part, file) in [("fender", "fender.pcd"), ("hood", "hood.png")] {
-            place.accepted(&[
-                "simulate",
-                "--part",
-                part,
-                "--placement",
-                "facing",
-                "--seed",
-                "5",
-                "--out",
-                file,
-            ]);
-        }
-        place
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    fn run(&self, args: &[&str]) -> Ran {
-        let output = Command::new(env!("CARGO_BIN_EXE_partsight"))
-            .args(args)
-            .current_dir(self.folder.path())
-            .env_remove("DISPLAY")
-            .env_remove("WAYLAND_DISPLAY")
-            .env("XDG_DATA_HOME", self.path("data"))
-            .env("HOME", self.folder.path())
-            .output()
-            .expect("starts");
-        Ran {
-            code: output.status.code().expect("ended by itself"),
-            out: String::from_utf8(output.stdout).expect("text"),
-            err: String::from_utf8(output.stderr).expect("text"),
-        }
-    }
-
-    fn accepted(&self, args: &[&str]) -> Ran {
-        let ran = self.run(args);
-        assert_eq!(ran.code, 0, "{args:?}\n{}\n{}", ran.out, ran.err);
-        ran
-    }
+    place
 }
 
 #[test]
 fn what_inspect_saw_is_listed_shown_labelled_inspected_again_and_exported() {
-    let place = Workplace::new();
+    let place = with_captures();
     let own = place.path("data/partsight/history.sqlite");
     assert_eq!(
         place.run(&["inspect", "fender.pcd", "--no-history"]).code,
@@ -199,7 +152,7 @@ fn what_inspect_saw_is_listed_shown_labelled_inspected_again_and_exported() {
 
 #[test]
 fn a_history_that_cannot_be_written_is_a_warning_and_the_exit_code_stays() {
-    let place = Workplace::new();
+    let place = with_captures();
     fs::write(place.path("taken"), "a file").expect("written");
     let inspect = [
         "inspect",
@@ -390,7 +343,7 @@ fn a_write_protected_history_can_be_read_and_is_written_again_later() {
     assert!(read.scene(&record).expect("read").is_some());
     drop(read);
 
-    let place = Workplace::new();
+    let place = with_captures();
     let folder = disk.path().display().to_string();
     let listed = place.accepted(&["history", "list", "--json", "--history", &folder]);
     assert_eq!(listed.lines().len(), 3);

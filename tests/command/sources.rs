@@ -1,64 +1,32 @@
-//! Sources from end to end: recorded, replayed, watched and followed by the built program.
+//! Sources: recorded, replayed, watched and followed by the built program.
 
 use std::{
     fs,
-    path::{Path, PathBuf},
-    process::{Child, Command, Output, Stdio},
+    path::Path,
+    process::{Child, Command, Stdio},
     thread,
     time::{Duration, Instant},
 };
 
 use serde_json::Value;
 
+use crate::workplace::{Ran, Workplace};
+
 /// Long enough for a machine at work with other things; what is waited for comes at once.
 const PATIENCE: Duration = Duration::from_mins(2);
 
-struct Workplace {
-    folder: tempfile::TempDir,
+/// Starts what goes on until it is interrupted.
+fn start(place: &Workplace, args: &[&str]) -> Child {
+    place
+        .command(args)
+        .stdout(Stdio::piped())
+        .stderr(Stdio::piped())
+        .spawn()
+        .expect("starts")
 }
 
-impl Workplace {
-    fn new() -> Self {
-        Self {
-            folder: tempfile::tempdir().expect("a folder"),
-        }
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    fn command(&self, args: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_partsight"));
-        command
-            .args(args)
-            .current_dir(self.folder.path())
-            .env_remove("DISPLAY")
-            .env_remove("WAYLAND_DISPLAY")
-            .env("XDG_DATA_HOME", self.path("data"))
-            .env("HOME", self.folder.path());
-        command
-    }
-
-    /// Runs to the end: the exit code, the lines of the answer, and the messages.
-    fn run(&self, args: &[&str]) -> (Option<i32>, Vec<String>, String) {
-        answer_of(&self.command(args).output().expect("starts"))
-    }
-
-    /// Starts what goes on until it is interrupted.
-    fn start(&self, args: &[&str]) -> Child {
-        self.command(args)
-            .stdout(Stdio::piped())
-            .stderr(Stdio::piped())
-            .spawn()
-            .expect("starts")
-    }
-}
-
-fn answer_of(output: &Output) -> (Option<i32>, Vec<String>, String) {
-    let text = |bytes: &[u8]| String::from_utf8_lossy(bytes).into_owned();
-    let lines = text(&output.stdout).lines().map(str::to_owned).collect();
-    (output.status.code(), lines, text(&output.stderr))
+fn ended(child: Child) -> Ran {
+    child.wait_with_output().expect("it ends").into()
 }
 
 /// The verdict alone: without times, and without what says how it was captured.
@@ -98,17 +66,16 @@ fn interrupt(child: &Child) {
 fn a_recording_gives_the_same_verdicts_as_the_cell_itself_bit_for_bit() {
     let place = Workplace::new();
     let cell = "simulated,fps=4,noise=1.5:fender";
-    let (code, out, err) = place.run(&[
+    let captured = place.accepted(&[
         "capture", "--source", cell, "--frames", "6", "--out", "tried",
     ]);
-    assert_eq!(code, Some(0), "{err}");
-    assert_eq!(out, ["6 frames, simulated in tried"]);
+    assert_eq!(captured.out, "6 frames, simulated in tried\n");
     let replay = || {
-        let (code, out, err) = place.run(&["inspect", "--source", "recording:tried", "--json"]);
-        assert_eq!(code, Some(0), "{err}");
+        let Ran { out, err, .. } =
+            place.accepted(&["inspect", "--source", "recording:tried", "--json"]);
         assert!(err.contains("6 inspected, 0 dropped"), "{err}");
         assert!(err.contains("Simulated: no camera is read"), "{err}");
-        out.iter().map(|line| verdict(line)).collect::<Vec<_>>()
+        out.lines().map(verdict).collect::<Vec<_>>()
     };
     let first = replay();
     assert_eq!(first.len(), 6);
@@ -118,9 +85,9 @@ fn a_recording_gives_the_same_verdicts_as_the_cell_itself_bit_for_bit() {
         assert_eq!(line["part"], "fender");
     }
     // The frames of a live cell are dropped as it pleases the machine; those that were seen both times agree.
-    let (_, direct, err) = place.run(&["inspect", "--source", cell, "--frames", "3", "--json"]);
-    let direct: Vec<Value> = direct.iter().map(|line| verdict(line)).collect();
-    assert_eq!(direct.len(), 3, "{err}");
+    let ran = place.run(&["inspect", "--source", cell, "--frames", "3", "--json"]);
+    let direct: Vec<Value> = ran.out.lines().map(verdict).collect();
+    assert_eq!(direct.len(), 3, "{}", ran.err);
     let mut num_agreeing = 0;
     for line in &direct {
         assert_eq!(line["simulated"], true);
@@ -131,14 +98,10 @@ fn a_recording_gives_the_same_verdicts_as_the_cell_itself_bit_for_bit() {
     }
     assert!(num_agreeing >= 1, "{direct:?}");
     // The images of a recording are captures of their own.
-    let (_, files, _) = place.run(&["inspect", "tried/frame-000001.png", "--json"]);
-    let file: Value = serde_json::from_str(&files[0]).expect("a line of JSON");
+    let file = place.run(&["inspect", "tried/frame-000001.png", "--json"]);
+    let file = file.json();
     assert_eq!(file["pose"], first[0]["pose"]);
-    assert_eq!(
-        file.get("simulated"),
-        None,
-        "a file does not say where it is from"
-    );
+    assert_eq!(file["simulated"], true);
 }
 
 #[cfg(unix)]
@@ -146,23 +109,25 @@ fn a_recording_gives_the_same_verdicts_as_the_cell_itself_bit_for_bit() {
 fn ctrl_c_ends_a_recording_that_is_whole() {
     let place = Workplace::new();
     let list = place.path("tried/recording.jsonl");
-    let recording = place.start(&["capture", "--source", "simulated,fps=50", "--out", "tried"]);
+    let capture = ["capture", "--source", "simulated,fps=50", "--out", "tried"];
+    let recording = start(&place, &capture);
     wait_until(|| num_lines(&list) > 3);
     interrupt(&recording);
-    let (code, out, err) = answer_of(&recording.wait_with_output().expect("it ends"));
-    assert_eq!(code, Some(0), "{err}");
+    let Ran { code, out, err } = ended(recording);
+    assert_eq!(code, 0, "{err}");
     let num = num_lines(&list) - 1;
+    let begin = format!("{num} frames, simulated");
+    assert!(out.starts_with(&begin), "{out}");
+    let copy = ["capture", "--source", "recording:tried", "--out", "copy"];
+    let copied = place.accepted(&copy);
+    let begin = format!("{num} frames");
     assert!(
-        out[0].starts_with(&format!("{num} frames, simulated")),
-        "{out:?}"
+        copied.out.starts_with(&begin),
+        "{} {}",
+        copied.out,
+        copied.err
     );
-    let (_, copied, err) = place.run(&["capture", "--source", "recording:tried", "--out", "copy"]);
-    assert!(
-        copied[0].starts_with(&format!("{num} frames")),
-        "{copied:?} {err}"
-    );
-    let (code, _, err) = place.run(&["capture", "--source", "recording:tried", "--out", "copy"]);
-    assert_eq!(code, Some(2));
+    let err = place.coded(2, &copy).err;
     assert!(err.contains("not empty") && err.contains("to do"), "{err}");
 }
 
@@ -171,7 +136,7 @@ fn ctrl_c_ends_a_recording_that_is_whole() {
 fn a_watched_folder_is_followed_until_ctrl_c() {
     let place = Workplace::new();
     let simulate = |name: &str| {
-        let (code, _, err) = place.run(&[
+        place.accepted(&[
             "simulate",
             "--part",
             "fender",
@@ -180,7 +145,6 @@ fn a_watched_folder_is_followed_until_ctrl_c() {
             "--out",
             name,
         ]);
-        assert_eq!(code, Some(0), "{err}");
     };
     simulate("one.pcd");
     let verdicts = place.path("verdicts.jsonl");
@@ -199,8 +163,7 @@ fn a_watched_folder_is_followed_until_ctrl_c() {
     fs::write(place.path("scans/broken.pcd"), "# .PCD v0.7\n").expect("written");
     wait_until(|| num_lines(&verdicts) == 2);
     interrupt(&following);
-    let (code, _, _) = answer_of(&following.wait_with_output().expect("it ends"));
-    assert_eq!(code, Some(2));
+    assert_eq!(ended(following).code, 2);
     assert!(said("1 inspected, 0 dropped, 1 could not be read"));
     let lines = fs::read_to_string(&verdicts).expect("verdicts");
     let lines: Vec<Value> = lines
@@ -213,7 +176,7 @@ fn a_watched_folder_is_followed_until_ctrl_c() {
     );
     assert_eq!(
         (&lines[0]["simulated"], &lines[0]["number"]),
-        (&false.into(), &1.into())
+        (&true.into(), &1.into())
     );
     assert_eq!(
         (&lines[1]["scene"], &lines[1]["status"]),
@@ -228,23 +191,21 @@ fn what_cannot_be_opened_is_said_with_what_to_do() {
         ("recording:missing", "the folder is not there"),
         ("recording:.", "no recording, and no file of a camera"),
     ] {
-        let (code, out, err) = place.run(&["inspect", "--source", source, "--json"]);
-        assert_eq!((code, out.len()), (Some(2), 0), "{err}");
+        let Ran { out, err, .. } = place.coded(2, &["inspect", "--source", source, "--json"]);
+        assert_eq!(out, "");
         assert!(
             err.contains(words) && err.contains("to do"),
             "{source}: {err}"
         );
     }
-    let (code, _, err) = place.run(&["inspect", "--source", "camera"]);
-    assert_eq!(code, Some(2));
+    let err = place.coded(2, &["inspect", "--source", "camera"]).err;
     assert!(
         err.contains("is no source") && err.contains("capture --list"),
         "{err}"
     );
-    let (code, out, _) = place.run(&["capture", "--list"]);
-    assert_eq!(code, Some(0));
+    let out = place.accepted(&["capture", "--list"]).out;
     assert!(
-        out.iter().any(|line| line.starts_with("simulated ")),
-        "{out:?}"
+        out.lines().any(|line| line.starts_with("simulated ")),
+        "{out}"
     );
 }

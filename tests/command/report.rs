@@ -1,76 +1,23 @@
-//! `partsight report` from end to end: the built program, run in folders of its own.
+//! `partsight report`.
 
-use std::{
-    fs,
-    path::{Path, PathBuf},
-    process::Command,
-};
+use std::{fs, path::Path, process::Command};
 
-use serde_json::Value;
+use crate::workplace::{Ran, Workplace};
 
-/// A folder to work in.
-struct Workplace {
-    folder: tempfile::TempDir,
-}
-
-struct Ran {
-    code: Option<i32>,
-    out: String,
-    err: String,
-}
-
-impl Workplace {
-    fn new() -> Self {
-        Self {
-            folder: tempfile::tempdir().expect("a folder"),
-        }
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    fn command(&self, program: &str, args: &[&str]) -> Ran {
-        let ran = Command::new(program)
-            .args(args)
-            .current_dir(self.folder.path())
-            .env("XDG_DATA_HOME", self.path("data"))
-            .env("HOME", self.folder.path())
-            .output()
-            .expect("starts");
-        Ran {
-            code: ran.status.code(),
-            out: String::from_utf8_lossy(&ran.stdout).into_owned(),
-            err: String::from_utf8_lossy(&ran.stderr).into_owned(),
-        }
-    }
-
-    fn run(&self, args: &[&str]) -> Ran {
-        self.command(env!("CARGO_BIN_EXE_partsight"), args)
-    }
-
-    fn capture(&self, part: &str, side: &str, out: &str) {
-        let ran = self.run(&[
-            "simulate",
-            "--part",
-            part,
-            "--side",
-            side,
-            "--placement",
-            "facing",
-            "--seed",
-            "5",
-            "--out",
-            out,
-        ]);
-        assert_eq!(ran.code, Some(0), "{}", ran.err);
-    }
-}
-
-fn json(path: &Path) -> Value {
-    let text =
-        fs::read_to_string(path).unwrap_or_else(|error| panic!("{}: {error}", path.display()));
-    serde_json::from_str(&text).expect("JSON")
+fn capture(place: &Workplace, part: &str, side: &str, out: &str) {
+    place.accepted(&[
+        "simulate",
+        "--part",
+        part,
+        "--side",
+        side,
+        "--placement",
+        "facing",
+        "--seed",
+        "5",
+        "--out",
+        out,
+    ]);
 }
 
 /// What a person could select on the page; `None` where the program for it is missing.
@@ -96,8 +43,8 @@ fn page_text(path: &Path) -> Option<String> {
 #[test]
 fn one_bad_file_does_not_stop_the_reports_of_the_others() {
     let place = Workplace::new();
-    place.capture("fender", "left", "fender.pcd");
-    place.capture("fender", "right", "other.pcd");
+    capture(&place, "fender", "left", "fender.pcd");
+    capture(&place, "fender", "right", "other.pcd");
     fs::write(place.path("broken.pcd"), "VERSION .7\nFIELDS x y z\n").expect("written");
     let ran = place.run(&[
         "report",
@@ -110,9 +57,8 @@ fn one_bad_file_does_not_stop_the_reports_of_the_others() {
         "json,csv,pdf",
         "--convention",
         "fanuc",
-        "--simulated",
     ]);
-    assert_eq!(ran.code, Some(2), "{}", ran.err);
+    assert_eq!(ran.code, 2, "{}", ran.err);
     assert!(
         ran.err.contains("error: broken.pcd") && ran.err.contains("to do:"),
         "{}",
@@ -120,7 +66,7 @@ fn one_bad_file_does_not_stop_the_reports_of_the_others() {
     );
     assert_eq!(ran.out.lines().count(), 2, "{}", ran.out);
 
-    let accepted = json(&place.path("out/fender.pose.json"));
+    let accepted = place.json("out/fender.pose.json");
     assert_eq!(accepted["schema"], 1);
     assert_eq!(accepted["scene"], "fender.pcd");
     assert_eq!(accepted["seen_by"], "simulation");
@@ -136,7 +82,7 @@ fn one_bad_file_does_not_stop_the_reports_of_the_others() {
         accepted["pose"]["camera_from_part"]["in_convention"]["values"][3]["name"],
         "W"
     );
-    let refused = json(&place.path("out/other.pose.json"));
+    let refused = place.json("out/other.pose.json");
     assert_eq!(refused["verdict"]["accepted"], false);
     assert!(refused["pose"].is_null());
     assert!(!place.path("out/broken.pose.json").exists());
@@ -160,7 +106,7 @@ fn one_bad_file_does_not_stop_the_reports_of_the_others() {
         "--convention",
         "fanuc",
     ]);
-    assert_eq!(again.code, Some(0), "{}", again.err);
+    assert_eq!(again.code, 0, "{}", again.err);
     let longer = fs::read_to_string(place.path("out/poses.fanuc.csv")).expect("a table");
     assert!(longer.starts_with(&table) && longer.lines().count() == 4);
 
@@ -195,10 +141,10 @@ fn one_bad_file_does_not_stop_the_reports_of_the_others() {
 fn a_part_that_is_not_accepted_is_code_one_and_an_empty_cell_is_reported() {
     let place = Workplace::new();
     let ran = place.run(&["simulate", "--part", "empty", "--out", "empty.pcd"]);
-    assert_eq!(ran.code, Some(0), "{}", ran.err);
+    assert_eq!(ran.code, 0, "{}", ran.err);
     let ran = place.run(&["report", "empty.pcd", "--out", "out"]);
-    assert_eq!(ran.code, Some(1), "{}", ran.err);
-    let report = json(&place.path("out/empty.pose.json"));
+    assert_eq!(ran.code, 1, "{}", ran.err);
+    let report = place.json("out/empty.pose.json");
     assert_eq!(report["verdict"]["status"], "no_part");
     assert!(
         report["verdict"]["advice"]
@@ -216,14 +162,14 @@ fn a_part_that_is_not_accepted_is_code_one_and_an_empty_cell_is_reported() {
 fn schema_and_conventions_are_printed_without_a_scene() {
     let place = Workplace::new();
     let schema = place.run(&["report", "--schema"]);
-    assert_eq!(schema.code, Some(0), "{}", schema.err);
+    assert_eq!(schema.code, 0, "{}", schema.err);
     assert_eq!(
         schema.out,
-        include_str!("../assets/pose-report.schema.json")
+        include_str!("../../assets/pose-report.schema.json")
     );
     let conventions = place.run(&["report", "--conventions"]);
-    assert_eq!(conventions.code, Some(0), "{}", conventions.err);
-    let document = include_str!("../assets/conventions.md");
+    assert_eq!(conventions.code, 0, "{}", conventions.err);
+    let document = include_str!("../../assets/conventions.md");
     for line in conventions.out.lines().skip(1) {
         let (name, rest) = line.split_once(' ').expect("two columns");
         let (_, meaning) = rest.split_once(": ").expect("a title and a meaning");
@@ -233,22 +179,22 @@ fn schema_and_conventions_are_printed_without_a_scene() {
         );
     }
     let unknown = place.run(&["report", "a.pcd", "--out", "out", "--convention", "comau"]);
-    assert_eq!(unknown.code, Some(2));
+    assert_eq!(unknown.code, 2);
     assert!(unknown.err.contains("universal-robots"), "{}", unknown.err);
     let nothing = place.run(&["report"]);
-    assert_eq!(nothing.code, Some(2));
+    assert_eq!(nothing.code, 2);
 }
 
 #[test]
 fn a_report_beside_its_captures_leaves_them_as_they_were() {
     let place = Workplace::new();
-    place.capture("grille", "left", "grille.png");
+    capture(&place, "grille", "left", "grille.png");
     let before = (
         fs::read(place.path("grille.png")),
         fs::read(place.path("grille.json")),
     );
     let ran = place.run(&["report", "grille.png", "--out", "."]);
-    assert_eq!(ran.code, Some(0), "{}", ran.err);
+    assert_eq!(ran.code, 0, "{}", ran.err);
     assert_eq!(
         before.0.expect("an image"),
         fs::read(place.path("grille.png")).expect("an image")
@@ -263,10 +209,10 @@ fn a_report_beside_its_captures_leaves_them_as_they_were() {
 #[test]
 fn a_folder_that_cannot_be_written_is_said_in_words() {
     let place = Workplace::new();
-    place.capture("grille", "left", "grille.pcd");
+    capture(&place, "grille", "left", "grille.pcd");
     fs::write(place.path("taken"), "a file").expect("written");
     let ran = place.run(&["report", "grille.pcd", "--out", "taken"]);
-    assert_eq!(ran.code, Some(2));
+    assert_eq!(ran.code, 2);
     assert!(
         ran.err.contains("cannot make the report's folder") && ran.err.contains("to do:"),
         "{}",
@@ -283,7 +229,7 @@ fn a_folder_that_cannot_be_written_is_said_in_words() {
         "--format",
         "json,csv",
     ]);
-    assert_eq!(ran.code, Some(2), "{}", ran.out);
+    assert_eq!(ran.code, 2, "{}", ran.out);
     assert!(
         ran.err
             .contains("its columns are not those of a pose report"),
@@ -302,7 +248,7 @@ fn a_folder_that_cannot_be_written_is_said_in_words() {
 #[test]
 fn a_disk_that_is_full_leaves_whole_rows_and_the_next_report_is_written() {
     let place = Workplace::new();
-    place.capture("grille", "left", "grille.pcd");
+    capture(&place, "grille", "left", "grille.pcd");
     let whole = |path: &Path| {
         let text = fs::read_to_string(path).expect("a table");
         assert!(text.ends_with('\n'));
@@ -316,7 +262,7 @@ fn a_disk_that_is_full_leaves_whole_rows_and_the_next_report_is_written() {
         text.lines().count()
     };
     let report = ["report", "grille.pcd", "--out", "out", "--format", "csv"];
-    assert_eq!(place.run(&report).code, Some(0));
+    assert_eq!(place.run(&report).code, 0);
     let table = place.path("out/poses.matrix.csv");
     assert_eq!(whole(&table), 2);
     let program = env!("CARGO_BIN_EXE_partsight");
@@ -326,14 +272,19 @@ fn a_disk_that_is_full_leaves_whole_rows_and_the_next_report_is_written() {
         "trap '' XFSZ; ulimit -f {blocks}; exec {program} {}",
         report.join(" ")
     );
-    let full = place.command("sh", &["-c", &limited]);
-    assert_eq!(full.code, Some(2), "{}", full.err);
+    let full = Ran::from(
+        place
+            .command_of("sh", &["-c", &limited])
+            .output()
+            .expect("starts"),
+    );
+    assert_eq!(full.code, 2, "{}", full.err);
     assert!(
         full.err.contains("cannot append a row") && full.err.contains("to do:"),
         "{}",
         full.err
     );
     assert_eq!(whole(&table), 2);
-    assert_eq!(place.run(&report).code, Some(0));
+    assert_eq!(place.run(&report).code, 0);
     assert_eq!(whole(&table), 3);
 }

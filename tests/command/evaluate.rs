@@ -1,82 +1,38 @@
-//! `partsight evaluate` from end to end: cases are simulated, inspected, held against an earlier run, and damaged.
+//! `partsight evaluate`: cases are simulated, inspected, held against an earlier run, and damaged.
 
 use std::{
     fs,
-    path::{Path, PathBuf},
+    path::Path,
     process::{Command, Stdio},
 };
 
 use serde_json::Value;
 
-/// A folder to work in; the library is the shipped one, in a data folder of its own.
-struct Workplace {
-    folder: tempfile::TempDir,
-    data: tempfile::TempDir,
+use crate::workplace::{Ran, Workplace};
+
+/// Two placements of three parts, and a box: seven cases.
+fn with_cases(place: &Workplace) {
+    let parts = ["--part", "fender,grille,front_door", "--num", "6"];
+    let simulate = ["simulate", "--cases", "cases", "--seed", "40"];
+    let placements = ["--placement", "facing,placed"];
+    place.accepted(&[&simulate[..], &parts, &placements].concat());
+    let other = ["--part", "box", "--num", "1", "--difficulty", "unknown"];
+    place.accepted(&[&simulate[..], &other].concat());
 }
 
-impl Workplace {
-    fn new() -> Self {
-        let folder = || tempfile::tempdir().expect("a folder");
-        Self {
-            folder: folder(),
-            data: folder(),
-        }
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    fn command(&self, args: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_partsight"));
-        command
-            .args(args)
-            .current_dir(self.folder.path())
-            .env("XDG_DATA_HOME", self.data.path())
-            .env("HOME", self.data.path());
-        command
-    }
-
-    /// Exit code, standard output, standard error.
-    fn run(&self, args: &[&str]) -> (i32, String, String) {
-        let output = self.command(args).output().expect("starts");
-        let text = |bytes| String::from_utf8(bytes).expect("text");
-        let code = output.status.code().expect("ended by itself");
-        (code, text(output.stdout), text(output.stderr))
-    }
-
-    fn accepted(&self, args: &[&str]) -> String {
-        let (code, out, err) = self.run(args);
-        assert_eq!(code, 0, "{args:?}\n{out}\n{err}");
-        out
-    }
-
-    /// Two placements of three parts, and a box: seven cases.
-    fn with_cases(&self) {
-        let parts = ["--part", "fender,grille,front_door", "--num", "6"];
-        let simulate = ["simulate", "--cases", "cases", "--seed", "40"];
-        let placements = ["--placement", "facing,placed"];
-        self.accepted(&[&simulate[..], &parts, &placements].concat());
-        let other = ["--part", "box", "--num", "1", "--difficulty", "unknown"];
-        self.accepted(&[&simulate[..], &other].concat());
-    }
-
-    fn json(&self, name: &str) -> Value {
-        let text = fs::read(self.path(name)).expect("written");
-        serde_json::from_slice(&text).expect("JSON")
-    }
-
-    fn names(&self) -> Vec<String> {
-        let names = |folder: &Path| -> Vec<String> {
-            let entries = fs::read_dir(folder).expect("listed");
-            let names = entries.map(|e| e.expect("an entry").file_name());
-            names.map(|n| n.to_string_lossy().into_owned()).collect()
-        };
-        let mut all = names(self.folder.path());
-        all.extend(names(&self.path("cases")));
-        all.sort();
-        all
-    }
+/// What lies in the folder and among its cases.
+fn names(place: &Workplace) -> Vec<String> {
+    let names = |folder: &Path| -> Vec<String> {
+        let entries = fs::read_dir(folder).expect("listed");
+        let names = entries.map(|e| e.expect("an entry").file_name());
+        names.map(|n| n.to_string_lossy().into_owned()).collect()
+    };
+    let mut all = names(&place.path(""));
+    all.extend(names(&place.path("cases")));
+    // The program's own.
+    all.retain(|name| name != "data");
+    all.sort();
+    all
 }
 
 /// All but the times.
@@ -91,9 +47,11 @@ fn cases_of(record: &Value) -> Vec<Value> {
 #[test]
 fn simulated_cases_are_evaluated_with_the_same_results_on_any_number_of_threads() {
     let place = Workplace::new();
-    place.with_cases();
+    with_cases(&place);
     let evaluate = ["evaluate", "cases", "--json"];
-    let out = place.accepted(&[&evaluate[..], &["a.json", "--report", "a.png"]].concat());
+    let out = place
+        .accepted(&[&evaluate[..], &["a.json", "--report", "a.png"]].concat())
+        .out;
     for expected in [
         "fender",
         "not_enrolled",
@@ -134,7 +92,7 @@ fn simulated_cases_are_evaluated_with_the_same_results_on_any_number_of_threads(
 
     for threads in ["1", "3"] {
         let more = ["b.json", "--threads", threads, "--against", "a.json"];
-        let out = place.accepted(&[&evaluate[..], &more].concat());
+        let out = place.accepted(&[&evaluate[..], &more].concat()).out;
         assert!(out.contains("7 cases of both: 0 worse, 0 better, 0 with another score"));
         assert_eq!(cases_of(&place.json("b.json")), cases_of(&record));
     }
@@ -143,7 +101,7 @@ fn simulated_cases_are_evaluated_with_the_same_results_on_any_number_of_threads(
 #[test]
 fn what_is_worse_than_before_is_listed_and_decides_the_exit_code() {
     let place = Workplace::new();
-    place.with_cases();
+    with_cases(&place);
     place.accepted(&["evaluate", "cases", "--json", "now.json"]);
     let mut record = place.json("now.json");
 
@@ -154,7 +112,9 @@ fn what_is_worse_than_before_is_listed_and_decides_the_exit_code() {
     found["accepted"] = false.into();
     found["score"] = 0.5.into();
     fs::write(place.path("before.json"), record.to_string()).expect("written");
-    let out = place.accepted(&["evaluate", "cases", "--against", "before.json"]);
+    let out = place
+        .accepted(&["evaluate", "cases", "--against", "before.json"])
+        .out;
     assert!(
         out.contains("0 worse, 1 better, 0 with another score"),
         "{out}"
@@ -169,8 +129,9 @@ fn what_is_worse_than_before_is_listed_and_decides_the_exit_code() {
         "--pose",
         "none",
     ];
-    let (code, out, _) = place.run(&[&["evaluate", "cases"], &worse[..]].concat());
-    assert_eq!(code, 1, "{out}");
+    let out = place
+        .coded(1, &[&["evaluate", "cases"], &worse[..]].concat())
+        .out;
     assert!(
         out.contains("6 worse, 0 better, 1 with another score"),
         "{out}"
@@ -189,8 +150,7 @@ fn what_is_worse_than_before_is_listed_and_decides_the_exit_code() {
     let text = fs::read_to_string(&toml).expect("read");
     let text = text.replace("is = \"part\"\npart = \"grille\"", "is = \"not_enrolled\"");
     fs::write(&toml, text).expect("written");
-    let (code, out, _) = place.run(&["evaluate", "cases"]);
-    assert_eq!(code, 1, "{out}");
+    let out = place.coded(1, &["evaluate", "cases"]).out;
     assert!(
         out.contains("grille_placed_44: wrong and accepted, it is not_enrolled"),
         "{out}"
@@ -200,7 +160,7 @@ fn what_is_worse_than_before_is_listed_and_decides_the_exit_code() {
 #[test]
 fn damaged_cases_are_named_and_left_out() {
     let place = Workplace::new();
-    place.with_cases();
+    with_cases(&place);
     let scene = place.path("cases/fender_facing_40/scene.pcd");
     let mut bytes = fs::read(&scene).expect("read");
     bytes[9000] ^= 1;
@@ -210,8 +170,7 @@ fn damaged_cases_are_named_and_left_out() {
         "schema_version = 1",
     )
     .expect("written");
-    let (code, out, err) = place.run(&["evaluate", "cases", "--json", "a.json"]);
-    assert_eq!(code, 2);
+    let Ran { out, err, .. } = place.coded(2, &["evaluate", "cases", "--json", "a.json"]);
     assert!(
         err.contains("fender_facing_40 is damaged") && err.contains("its checksum"),
         "{err}"
@@ -263,23 +222,21 @@ fn what_cannot_be_evaluated_is_said_in_words() {
             "0 to 5",
         ),
     ] {
-        let (code, _, err) = place.run(args);
-        assert_eq!(code, 2, "{args:?}");
+        let err = place.coded(2, args).err;
         assert!(err.contains(expected), "{args:?}: {err}");
     }
-    assert_eq!(place.names(), ["cases", "newer.json", "other.json"]);
+    assert_eq!(names(&place), ["cases", "newer.json", "other.json"]);
 }
 
 /// Another seed for each case: a folder of cases can be made again to the last byte.
 #[test]
 fn the_same_arguments_make_the_same_cases() {
     let place = Workplace::new();
-    place.with_cases();
+    with_cases(&place);
     let again = Workplace::new();
-    again.with_cases();
-    let names = place.names();
-    assert_eq!(names, again.names());
-    for case in names.iter().filter(|name| name.contains("facing")) {
+    with_cases(&again);
+    assert_eq!(names(&place), names(&again));
+    for case in names(&place).iter().filter(|name| name.contains("facing")) {
         for file in ["case.toml", "scene.pcd"] {
             let path = format!("cases/{case}/{file}");
             let read = |place: &Workplace| fs::read(place.path(&path)).expect("read");
@@ -298,7 +255,7 @@ fn ctrl_c_leaves_nothing_half_written() {
     place.accepted(&[&simulate[..], &["--placement", "facing"]].concat());
     // Fills the library.
     place.accepted(&["library", "list"]);
-    let before = place.names();
+    let before = names(&place);
     let mut running = place
         .command(&["evaluate", "cases", "--json", "a.json", "--report", "a.png"])
         .stdout(Stdio::null())
@@ -313,7 +270,7 @@ fn ctrl_c_leaves_nothing_half_written() {
     let status = running.wait().expect("ended");
     // A machine that is quick enough to have ended before has written both.
     if status.signal().is_some() {
-        assert_eq!(place.names(), before);
+        assert_eq!(names(&place), before);
     } else {
         assert!(place.path("a.json").exists() && place.path("a.png").exists());
     }

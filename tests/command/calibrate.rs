@@ -1,11 +1,6 @@
-//! The cell's calibration from end to end: the built program with files of its own.
+//! The cell's calibration.
 
-use std::{
-    fmt::Write as _,
-    fs,
-    path::{Path, PathBuf},
-    process::{Command, Output},
-};
+use std::{fmt::Write as _, fs};
 
 use nalgebra::Point3;
 use partsight::{
@@ -14,68 +9,7 @@ use partsight::{
 };
 use serde_json::Value;
 
-struct Workplace {
-    folder: tempfile::TempDir,
-}
-
-struct Ran {
-    code: i32,
-    out: String,
-    err: String,
-}
-
-impl Workplace {
-    fn new() -> Self {
-        Self {
-            folder: tempfile::tempdir().expect("a folder"),
-        }
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    fn run(&self, args: &[&str]) -> Ran {
-        let Output {
-            status,
-            stdout,
-            stderr,
-        } = Command::new(env!("CARGO_BIN_EXE_partsight"))
-            .args(args)
-            .current_dir(self.folder.path())
-            .env_remove("DISPLAY")
-            .env_remove("WAYLAND_DISPLAY")
-            .env("XDG_DATA_HOME", self.path("data"))
-            .env("HOME", self.folder.path())
-            .output()
-            .expect("starts");
-        Ran {
-            code: status.code().expect("ended by itself"),
-            out: String::from_utf8(stdout).expect("text"),
-            err: String::from_utf8(stderr).expect("text"),
-        }
-    }
-
-    fn coded(&self, code: i32, args: &[&str]) -> Ran {
-        let ran = self.run(args);
-        assert_eq!(ran.code, code, "{args:?}\n{}\n{}", ran.out, ran.err);
-        ran
-    }
-
-    fn write(&self, name: &str, text: &str) {
-        fs::write(self.path(name), text).expect("written");
-    }
-
-    fn read(&self, name: impl AsRef<Path>) -> String {
-        fs::read_to_string(self.folder.path().join(name)).expect("text")
-    }
-}
-
-impl Ran {
-    fn json(&self) -> Value {
-        serde_json::from_str(self.out.trim()).expect("one line of JSON")
-    }
-}
+use crate::workplace::Workplace;
 
 fn transform(value: &Value) -> RigidTransform {
     let numbers: Vec<f64> = serde_json::from_value(value.clone()).expect("16 numbers");

@@ -1,110 +1,35 @@
-//! The command line from end to end: the built program, run in folders of its own.
+//! Enrolling parts, inspecting scenes, keeping the library.
 
-use std::{
-    fs,
-    path::{Path, PathBuf},
-    process::{Command, Output, Stdio},
-};
+use std::{fs, path::Path, process::Stdio};
 
 use serde_json::Value;
 
-/// A folder to work in, with a library at `parts`, and a data folder of its own.
-struct Workplace {
-    folder: tempfile::TempDir,
-}
+use crate::workplace::{Ran, Workplace};
 
-impl Workplace {
-    fn new() -> Self {
-        Self {
-            folder: tempfile::tempdir().expect("a folder"),
-        }
-    }
-
-    fn path(&self, name: &str) -> PathBuf {
-        self.folder.path().join(name)
-    }
-
-    fn command(&self, args: &[&str]) -> Command {
-        let mut command = Command::new(env!("CARGO_BIN_EXE_partsight"));
-        command
-            .args(args)
-            .current_dir(self.folder.path())
-            // Also on a desktop: these tests read the terminal.
-            .env_remove("DISPLAY")
-            .env_remove("WAYLAND_DISPLAY")
-            .env("XDG_DATA_HOME", self.path("data"))
-            .env("HOME", self.folder.path());
-        command
-    }
-
-    fn run(&self, args: &[&str]) -> Ran {
-        Ran::from(self.command(args).output().expect("starts"))
-    }
-
-    /// Runs what must succeed.
-    fn accepted(&self, args: &[&str]) -> Ran {
-        let ran = self.run(args);
-        assert_eq!(ran.code, 0, "{args:?}\n{}\n{}", ran.out, ran.err);
-        ran
-    }
-
-    /// Enrols a simulated part into `parts` and leaves another capture of it in `NAME.pcd`.
-    fn with_part(&self, name: &str) {
-        let reference = format!("{name}-reference.pcd");
-        self.accepted(&[
-            "simulate",
-            "--part",
-            name,
-            "--pose",
-            "0 0 0 0 0 1.4",
-            "--out",
-            &reference,
-        ]);
-        self.accepted(&[
-            "enrol",
-            &reference,
-            "--name",
-            name,
-            "--library",
-            "parts",
-            "--simulated",
-        ]);
-        let capture = format!("{name}.pcd");
-        let simulate = [
-            "simulate",
-            "--part",
-            name,
-            "--placement",
-            "facing",
-            "--seed",
-            "5",
-        ];
-        self.accepted(&[&simulate[..], &["--out", &capture]].concat());
-    }
-}
-
-struct Ran {
-    code: i32,
-    out: String,
-    err: String,
-}
-
-impl From<Output> for Ran {
-    fn from(output: Output) -> Self {
-        Self {
-            code: output.status.code().expect("ended by itself"),
-            out: String::from_utf8(output.stdout).expect("text"),
-            err: String::from_utf8(output.stderr).expect("text"),
-        }
-    }
-}
-
-impl Ran {
-    /// Every line of the output as JSON.
-    fn lines(&self) -> Vec<Value> {
-        let parse = |line| serde_json::from_str(line).expect("a line of JSON");
-        self.out.lines().map(parse).collect()
-    }
+/// Enrols a simulated part into `parts` and leaves another capture of it in `NAME.pcd`.
+fn with_part(place: &Workplace, name: &str) {
+    let reference = format!("{name}-reference.pcd");
+    place.accepted(&[
+        "simulate",
+        "--part",
+        name,
+        "--pose",
+        "0 0 0 0 0 1.4",
+        "--out",
+        &reference,
+    ]);
+    place.accepted(&["enrol", &reference, "--name", name, "--library", "parts"]);
+    let capture = format!("{name}.pcd");
+    let simulate = [
+        "simulate",
+        "--part",
+        name,
+        "--placement",
+        "facing",
+        "--seed",
+        "5",
+    ];
+    place.accepted(&[&simulate[..], &["--out", &capture]].concat());
 }
 
 fn matrix(value: &Value) -> Vec<f64> {
@@ -118,8 +43,8 @@ fn matrix(value: &Value) -> Vec<f64> {
 #[test]
 fn a_simulated_part_is_enrolled_and_recognised_again() {
     let place = Workplace::new();
-    place.with_part("fender");
-    place.with_part("grille");
+    with_part(&place, "fender");
+    with_part(&place, "grille");
     let ran = place.accepted(&[
         "inspect",
         "grille.pcd",
@@ -137,6 +62,7 @@ fn a_simulated_part_is_enrolled_and_recognised_again() {
     for line in &lines {
         assert_eq!(line["schema"], 1);
         assert_eq!(line["status"], "ok");
+        assert_eq!(line["simulated"], true);
         assert_eq!(line["accepted"], true);
         assert_eq!(line["reason"], Value::Null);
         assert_eq!(line["ranking"].as_array().expect("a list").len(), 2);
@@ -152,7 +78,7 @@ fn a_simulated_part_is_enrolled_and_recognised_again() {
 #[test]
 fn the_pose_is_that_of_the_simulation() {
     let place = Workplace::new();
-    place.with_part("front_door");
+    with_part(&place, "front_door");
     let moved = [
         "simulate",
         "--part",
@@ -190,7 +116,7 @@ fn the_pose_is_that_of_the_simulation() {
 #[test]
 fn one_bad_file_does_not_stop_the_others() {
     let place = Workplace::new();
-    place.with_part("fender");
+    with_part(&place, "fender");
     fs::write(place.path("bad.pcd"), "VERSION 0.7\nnothing").expect("written");
     let files = ["bad.pcd", "fender.pcd", "missing.pcd"];
     let ran = place.run(&[&["inspect", "--json", "--library", "parts"], &files[..]].concat());
@@ -220,7 +146,7 @@ fn one_bad_file_does_not_stop_the_others() {
 #[test]
 fn an_empty_cell_and_an_unknown_part_are_not_accepted() {
     let place = Workplace::new();
-    place.with_part("grille");
+    with_part(&place, "grille");
     // Far too high: only wall and floor are left in the picture.
     let away = [
         "simulate",
@@ -271,7 +197,7 @@ fn an_empty_cell_and_an_unknown_part_are_not_accepted() {
 #[test]
 fn what_stands_in_the_empty_cell_is_no_part_and_a_second_reference_names_its_part() {
     let place = Workplace::new();
-    place.with_part("fender");
+    with_part(&place, "fender");
     let seen = |name: &'static str, options: &[&'static str]| {
         let simulate = [
             "simulate",
@@ -315,7 +241,7 @@ fn what_stands_in_the_empty_cell_is_no_part_and_a_second_reference_names_its_par
 #[test]
 fn the_paper_can_be_chosen_and_the_pose_left_out() {
     let place = Workplace::new();
-    place.with_part("fender");
+    with_part(&place, "fender");
     let inspect = [
         "inspect",
         "fender-reference.pcd",
@@ -335,7 +261,7 @@ fn the_paper_can_be_chosen_and_the_pose_left_out() {
 #[test]
 fn a_report_holds_the_line_and_a_picture_of_every_stage() {
     let place = Workplace::new();
-    place.with_part("fender");
+    with_part(&place, "fender");
     fs::create_dir(place.path("again")).expect("made");
     fs::copy(place.path("fender.pcd"), place.path("again/fender.pcd")).expect("copied");
     let files = ["fender.pcd", "again/fender.pcd", "missing.pcd"];
@@ -376,8 +302,8 @@ fn a_report_holds_the_line_and_a_picture_of_every_stage() {
 #[test]
 fn a_library_is_listed_shown_verified_and_cleared() {
     let place = Workplace::new();
-    place.with_part("fender");
-    place.with_part("grille");
+    with_part(&place, "fender");
+    with_part(&place, "grille");
     let library = |args: &[&str]| place.run(&[&["library", "--library", "parts"], args].concat());
     let list = library(&["list"]);
     assert!(
@@ -447,7 +373,7 @@ fn without_a_library_the_shipped_parts_are_there() {
 #[test]
 fn a_cloud_is_aligned_with_itself_moved() {
     let place = Workplace::new();
-    place.with_part("fender");
+    with_part(&place, "fender");
     let cloud = place.path("parts/fender/cloud.ply");
     let partsight::files::Opened::Cloud(target) = partsight::files::open(&cloud).expect("a cloud")
     else {
@@ -524,7 +450,7 @@ fn table_1_is_shown_and_written_for_the_parts_asked_for() {
 #[test]
 fn a_part_that_runs_out_of_the_picture_is_found_and_that_is_said() {
     let place = Workplace::new();
-    place.with_part("front_door");
+    with_part(&place, "front_door");
     for (x, is_cut) in [("0", false), ("600mm", true)] {
         let pose = format!("0 0 0 {x} 0 1500mm");
         let door = ["simulate", "--part", "front_door", "--out", "door.pcd"];
@@ -599,7 +525,7 @@ fn recognition_is_measured_beside_the_other_systems_and_its_worst_confusions_are
 #[test]
 fn a_mesh_is_enrolled_but_is_no_scene() {
     let place = Workplace::new();
-    place.with_part("fender");
+    with_part(&place, "fender");
     let obj = "v 0 0 0\nv 1 0 0\nv 1 0.6 0\nv 0 0.4 0\nf 1 2 3\nf 1 3 4\n";
     fs::write(place.path("plate.obj"), obj).expect("written");
     let enrolled = place.accepted(&[
@@ -666,7 +592,7 @@ fn bad_arguments_and_folders_end_with_two_and_say_why() {
         assert!(ran.err.contains(expected), "{args:?}: {}", ran.err);
         assert_eq!(ran.out, "", "{args:?}");
     }
-    assert!(fs::read_dir(place.folder.path()).expect("listed").all(|f| {
+    assert!(fs::read_dir(place.path("")).expect("listed").all(|f| {
         // Nothing was made but, at most, the user's library.
         f.expect("an entry").file_name() == "data"
     }));
@@ -696,7 +622,7 @@ fn help_shows_examples_and_exit_codes() {
 #[test]
 fn a_reader_that_goes_away_changes_nothing_about_the_verdict() {
     let place = Workplace::new();
-    place.with_part("fender");
+    with_part(&place, "fender");
     let mut child = place
         .command(&[
             "inspect",
@@ -731,7 +657,7 @@ fn the_same_seed_gives_the_same_file() {
 #[test]
 fn a_report_beside_its_captures_leaves_them_as_they_were() {
     let place = Workplace::new();
-    place.with_part("fender");
+    with_part(&place, "fender");
     fs::create_dir(place.path("cap")).expect("made");
     // The second and third are captures by whose names a report of the first would write.
     let files = ["cap/g1.png", "cap/g1.contour.png", "cap/g1.report.png"];
@@ -806,8 +732,8 @@ fn simulate_overwrites_neither_its_own_camera_nor_another_json() {
 #[test]
 fn a_damaged_cloud_is_set_aside_by_its_checksum() {
     let place = Workplace::new();
-    place.with_part("fender");
-    place.with_part("grille");
+    with_part(&place, "fender");
+    with_part(&place, "grille");
     let cloud = place.path("parts/fender/cloud.ply");
     let mut bytes = fs::read(&cloud).expect("there");
     let middle = bytes.len() / 2;
@@ -883,7 +809,7 @@ fn without_a_writable_data_folder_the_shipped_parts_are_used_from_the_program() 
 #[test]
 fn a_part_enrolled_twice_is_told_from_itself_by_nobody_and_said_so() {
     let place = Workplace::new();
-    place.with_part("grille");
+    with_part(&place, "grille");
     let enrol = |file: &str, name: &str| {
         place.accepted(&["enrol", file, "--name", name, "--library", "parts"])
     };
@@ -923,7 +849,7 @@ fn a_part_enrolled_twice_is_told_from_itself_by_nobody_and_said_so() {
 #[test]
 fn an_empty_library_is_one_error_and_no_line() {
     let place = Workplace::new();
-    place.with_part("fender");
+    with_part(&place, "fender");
     fs::create_dir(place.path("empty")).expect("made");
     let ran = place.run(&[
         "inspect",
@@ -961,7 +887,7 @@ fn an_empty_library_is_one_error_and_no_line() {
 #[test]
 fn verify_tells_newer_from_damaged_and_names_what_it_skipped() {
     let place = Workplace::new();
-    place.with_part("fender");
+    with_part(&place, "fender");
     fs::create_dir(place.path("parts/next")).expect("made");
     fs::write(place.path("parts/next/part.toml"), "schema_version = 9\n").expect("written");
     fs::create_dir(place.path("parts/My Door")).expect("made");
@@ -991,7 +917,7 @@ fn a_pose_in_the_wrong_unit_is_doubted_and_an_unseen_part_is_said() {
 #[test]
 fn a_pose_that_is_not_found_is_a_line_with_its_reason_and_names_the_file() {
     let place = Workplace::new();
-    place.with_part("fender");
+    with_part(&place, "fender");
     fs::write(place.path("few.xyz"), "0 0 1\n1 0 1\n0 1 1\n").expect("written");
     let ran = place.run(&["align", "few.xyz", "parts/fender/cloud.ply", "--json"]);
     assert_eq!(ran.code, 1, "{}", ran.err);
@@ -1017,7 +943,7 @@ fn a_pose_that_is_not_found_is_a_line_with_its_reason_and_names_the_file() {
 #[test]
 fn causes_are_said_once_in_words_with_advice_that_fits() {
     let place = Workplace::new();
-    place.with_part("fender");
+    with_part(&place, "fender");
     fs::write(place.path("cut.pcd"), "VERSION 0.7\nFIELDS x y z\n").expect("written");
     let simulate = ["simulate", "--part", "grille", "--out"];
     for (args, expected) in [
