@@ -54,7 +54,7 @@ fn a_file_dropped_on_the_window_is_inspected() {
     let mut harness = open();
     drop_file(&mut harness, &path);
     harness.get_by_label("Fender, left");
-    harness.get_by_label("captured.pcd");
+    harness.get_by_label("captured.pcd, simulated");
 }
 
 #[test]

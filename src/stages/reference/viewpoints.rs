@@ -1,0 +1,124 @@
+//! From where a reference is looked at, and what of it is seen from there.
+
+use nalgebra::{Point3, Unit, UnitQuaternion, Vector3};
+
+use super::Coverage;
+use crate::geometry::{cloud::PointCloud, principal::principal_axes};
+
+/// Turns of the viewpoint about the part's long and short axis, degrees. The first is the standard view; the rest
+/// cover ±30° by ±20° so that no scene is further than about 15° from a view.
+const TURNS: [[f64; 2]; 9] = [
+    [0.0, 0.0],
+    [25.0, 0.0],
+    [-25.0, 0.0],
+    [0.0, 20.0],
+    [0.0, -20.0],
+    [20.0, 16.0],
+    [20.0, -16.0],
+    [-20.0, 16.0],
+    [-20.0, -16.0],
+];
+
+/// Distance of a virtual camera from the part's centre; nearly parallel rays, as for a part that fills the picture.
+pub(super) const VIEW_DISTANCE: f64 = 1.3;
+
+/// Places from which the part is looked at.
+pub(super) fn viewpoints(cloud: &PointCloud, coverage: Coverage) -> Option<Vec<Point3<f64>>> {
+    let principal = principal_axes(cloud.finite().map(|(_, p)| (p.cast(), 1.0)))?;
+    let (long, short, across) = (
+        Unit::new_normalize(principal.axes.column(0).into_owned()),
+        Unit::new_normalize(principal.axes.column(1).into_owned()),
+        principal.axes.column(2).into_owned(),
+    );
+    let fronts: Vec<Vector3<f64>> = match coverage {
+        Coverage::OneSide => vec![-principal.mean.coords.normalize()],
+        Coverage::AllAround => vec![across, -across],
+    };
+    let around = |front: &Vector3<f64>| {
+        let front = *front;
+        TURNS.map(|[about_short, about_long]| {
+            let turn = UnitQuaternion::from_axis_angle(&short, f64::to_radians(about_short))
+                * UnitQuaternion::from_axis_angle(&long, f64::to_radians(about_long));
+            principal.mean + turn * front * VIEW_DISTANCE
+        })
+    };
+    Some(fronts.iter().flat_map(around).collect())
+}
+
+/// The places that views are taken from, each with the part of the cloud that a camera sees from there.
+pub fn seen_around(cloud: &PointCloud, coverage: Coverage) -> Vec<(Point3<f64>, PointCloud)> {
+    let Some(bounds) = cloud.bounds() else {
+        return Vec::new();
+    };
+    let seen_from = |viewpoint: Point3<f64>| {
+        let visible = visible_from(cloud, bounds, &viewpoint);
+        let normals = cloud.normals.as_ref();
+        let seen = PointCloud {
+            points: visible.iter().map(|v| cloud.points[v.0]).collect(),
+            normals: normals.map(|all| visible.iter().map(|v| all[v.0]).collect()),
+            ..PointCloud::default()
+        };
+        (viewpoint, seen)
+    };
+    let places = viewpoints(cloud, coverage).unwrap_or_default();
+    places.into_iter().map(seen_from).collect()
+}
+
+/// Side of a cell of the view's depth buffer, metres: wider than the spacing of a reference cloud.
+const CELL: f32 = 0.015;
+/// How far behind the nearest surface of a cell a point may lie and still be seen, metres.
+const CELL_DEPTH: f32 = 0.04;
+
+/// Indices of the points that a camera at `viewpoint` sees, each with the cosine of the angle it is seen at.
+///
+/// `bounds` are those of the cloud.
+pub(super) fn visible_from(
+    cloud: &PointCloud,
+    (low, high): (Point3<f32>, Point3<f32>),
+    viewpoint: &Point3<f64>,
+) -> Vec<(usize, f64)> {
+    // In f32: all is within metres, and a cell is centimetres.
+    let viewpoint: Point3<f32> = viewpoint.cast();
+    let centre = nalgebra::center(&low, &high);
+    let forward = (centre - viewpoint).normalize();
+    let helper = if forward.x.abs() < 0.9 {
+        Vector3::x()
+    } else {
+        Vector3::y()
+    };
+    let right = forward.cross(&helper).normalize();
+    let down = forward.cross(&right);
+    let radius = (high - low).norm() / 2.0 + CELL;
+    let side = (2.0 * radius / CELL).ceil() as usize + 1;
+    let mut nearest = vec![f32::INFINITY; side * side];
+    // Closer than 80° to grazing a depth camera reads next to nothing.
+    let is_seen = |i: usize, towards: &Vector3<f32>| {
+        let facing = cloud
+            .normals
+            .as_ref()
+            .map(|normals| normals[i].dot(towards));
+        facing.is_none_or(|f| f > 0.0 && f * f > 0.17 * 0.17 * towards.norm_squared())
+    };
+    let cell = |along: f32| ((along + radius) * (1.0 / CELL)) as i32 as usize;
+    let mut candidates: Vec<(u32, u32, f32)> = Vec::with_capacity(cloud.points.len());
+    for (i, p) in cloud
+        .finite()
+        .filter(|(i, p)| is_seen(*i, &(viewpoint - *p)))
+    {
+        let d = p - centre;
+        let cell = cell(d.dot(&down)) * side + cell(d.dot(&right));
+        let depth = d.dot(&forward);
+        nearest[cell] = nearest[cell].min(depth);
+        candidates.push((i as u32, cell as u32, depth));
+    }
+    let seen = |&(i, cell, depth): &(u32, u32, f32)| {
+        let i = i as usize;
+        let towards = viewpoint - cloud.points[i];
+        let facing = |normals: &Vec<Vector3<f32>>| normals[i].dot(&towards) / towards.norm();
+        let facing = cloud.normals.as_ref().map_or(1.0, facing);
+        (depth <= nearest[cell as usize] + CELL_DEPTH).then_some((i, f64::from(facing)))
+    };
+    let mut visible = Vec::with_capacity(candidates.len());
+    visible.extend(candidates.iter().filter_map(seen));
+    visible
+}
