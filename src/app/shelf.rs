@@ -52,7 +52,7 @@ pub struct Shelved {
 pub struct LibraryShown {
     /// Its folder.
     pub path: PathBuf,
-    /// [`Library::identity`].
+    /// [`LibraryLoad::identity`].
     pub identity: String,
     /// What is written down of every part, in the library's order.
     pub parts: Vec<PartMeta>,

@@ -172,7 +172,7 @@ pub struct ReportSubject<'a> {
     pub stand_off: Option<&'a Result<StandOff, StandOffError>>,
     /// With which parameters.
     pub recipe: &'a Recipe,
-    /// [`Library::identity`](crate::library::Library::identity).
+    /// [`LibraryLoad::identity`](crate::library::LibraryLoad::identity).
     pub library_identity: &'a str,
     /// Enrolled references.
     pub num_references: usize,
