@@ -50,8 +50,8 @@ pub struct RankParams {
     /// Distance of the outlines at which the score has dropped to 1/e, 10..200 mm.
     pub outline_tolerance: Metres,
     /// References from which all cores rank, one otherwise, 1..100 000. Lowering it costs time where starting the
-    /// others takes longer than the ranking. `partsight bench scaling` finds the crossover; on two cores it was 8, but
-    /// until 32 they save less than half a millisecond, and on a busy machine nothing.
+    /// others takes longer than the ranking. `partsight bench scaling` finds the crossover; on two cores two workers
+    /// paid from 16 on and four from 32 on, below which a tenth of a millisecond is at stake.
     pub parallel_from: usize,
 }
 
