@@ -4,6 +4,7 @@
 
 mod identity;
 pub mod live;
+mod rejection;
 mod verdict;
 mod watch;
 
@@ -26,11 +27,12 @@ use crate::{
     },
 };
 
-use self::{verdict::verdict, watch::StageClock};
 pub use self::{
-    verdict::{AcceptParams, Rejection, Unrecognisable, Verdict},
+    rejection::{Rejection, Unrecognisable},
+    verdict::{AcceptParams, Verdict},
     watch::{Cancelled, Stage, Timings, Unwatched, Watch},
 };
+use self::{verdict::verdict, watch::StageClock};
 
 /// All parameters of an inspection.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]

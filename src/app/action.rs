@@ -1,28 +1,21 @@
 //! Everything a person or a thread can cause, and the one function that makes it so.
 
-use std::{
-    path::{Path, PathBuf},
-    sync::Arc,
-};
+use std::{path::PathBuf, sync::Arc};
 
 use super::{
     align::{self, AlignAction, AlignAsk},
     compare::{self, CompareAction},
     enrol::{self, EnrolAction},
-    history::{self, HistoryAction, HistoryJob, TakenIn},
-    inspect::{
-        self,
-        state::InspectAction,
-        work::{InspectRequest, Inspected},
-    },
-    job::{Answer, Outcome, Request, Trouble},
+    hearing,
+    history::{self, HistoryAction, HistoryJob},
+    inspect::{self, state::InspectAction, work::InspectRequest},
+    job::{Outcome, Request, Trouble},
     lane::Lane,
     live::{self, LiveAction},
     robot::{self, RobotAction},
     roles::{self, RoleAction},
-    shelf::LibraryShown,
-    source::{CellChoice, Origin, SceneSource, file_name},
-    state::{HelpPage, Notice, NoticeKind, Shown, Source, StagePanel, State, Workspace},
+    source::{CellChoice, SceneSource, file_name},
+    state::{HelpPage, Notice, NoticeKind, Source, StagePanel, State, Workspace},
     worker::News,
     writing::PastExport,
 };
@@ -250,7 +243,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::Align(action) => return align::apply(state, action),
         Action::History(action) => return history::apply(state, action),
         Action::Robot(action) => return robot::apply(state, action),
-        Action::Hear(lane, news) => return hear(state, lane, news),
+        Action::Hear(lane, news) => return hearing::hear(state, lane, news),
     }
     None
 }
@@ -349,16 +342,6 @@ fn take_empty_cell(state: &mut State) {
     }
 }
 
-/// More files than this nobody looks through.
-const MAX_RECENT: usize = 8;
-
-/// Puts a file first among the recent ones.
-fn remember(recent: &mut Vec<PathBuf>, path: &Path) {
-    recent.retain(|known| known != path);
-    recent.insert(0, path.to_owned());
-    recent.truncate(MAX_RECENT);
-}
-
 /// Asks for the library that was chosen.
 fn open_library(state: &mut State) -> Effect {
     let chosen = state.chosen_library.clone();
@@ -396,100 +379,6 @@ pub(super) fn inspect_again(state: &mut State) -> Option<Effect> {
     let effect = state.begin("Inspecting again", Request::Inspect(request));
     state.history.repeated = Some(state.generation);
     Some(effect)
-}
-
-/// Takes in what a thread tells, unless it is about something that nobody waits for any more.
-fn hear(state: &mut State, lane: Lane, news: News<Outcome>) -> Option<Effect> {
-    let of = news.generation();
-    let work = state.works.get_mut(&lane);
-    let work = work.filter(|work| work.generation == of)?;
-    match news {
-        News::Begins { stage, .. } => work.stage = Some(stage),
-        News::Progress { done, total, .. } => work.progress = Some((done, total)),
-        News::Partly { outcome, .. } => return take_in(state, lane, of, outcome),
-        News::Done { outcome, .. } => {
-            state.works.remove(&lane);
-            return take_in(state, lane, of, outcome);
-        }
-        News::Panicked { message, .. } => {
-            state.works.remove(&lane);
-            let broke_off = Notice {
-                kind: NoticeKind::Look,
-                what: format!("The work broke off inside the program: {message}"),
-                advice: "Try again; if it happens again, keep the file and report it".into(),
-            };
-            notify(state, broke_off);
-        }
-    }
-    None
-}
-
-/// What came out goes to where it belongs.
-fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> Option<Effect> {
-    match outcome {
-        Ok(Answer::Inspected(inspected)) => return show(state, generation, inspected),
-        Ok(Answer::Live(answer)) => return live::hear(state, Ok(answer)),
-        Ok(Answer::History(looked)) => return history::take(state, *looked),
-        Ok(Answer::Enrol(answer)) => return enrol::hear(state, Ok(answer)),
-        Ok(Answer::Compare(answer)) => return compare::hear(state, Ok(answer)),
-        Ok(Answer::Align(answer)) => return align::hear(state, Ok(answer)),
-        Ok(Answer::Library(library)) => {
-            use_library(state, &library);
-            return inspect_again(state);
-        }
-        Ok(Answer::Robot(answer)) => return robot::hear(state, Ok(answer)),
-        Ok(Answer::Written(written)) => notify(state, Notice::done(written.what)),
-        Err(trouble) if lane == Lane::Robot => return robot::hear(state, Err(trouble)),
-        Err(trouble) => {
-            notify(state, trouble.clone().into());
-            match lane {
-                Lane::Enrol | Lane::Library => return enrol::hear(state, Err(trouble)),
-                Lane::Compare => return compare::hear(state, Err(trouble)),
-                Lane::Align => return align::hear(state, Err(trouble)),
-                Lane::Inspect => without_scene(state),
-                Lane::Live => return live::hear(state, Err(trouble)),
-                Lane::Write | Lane::History | Lane::Robot => {}
-            }
-        }
-    }
-    None
-}
-
-/// A file that could not be inspected is no recent one.
-fn without_scene(state: &mut State) {
-    if let Source::File(path) = &state.source {
-        state.recent.retain(|known| known != path);
-    }
-}
-
-fn show(state: &mut State, generation: u64, inspected: Arc<Inspected>) -> Option<Effect> {
-    for warning in &inspected.warnings {
-        notify(state, Trouble::of(warning).into());
-    }
-    use_library(state, &inspected.library);
-    if let Origin::File { path, .. } = &inspected.origin {
-        remember(&mut state.recent, path);
-    }
-    let (taken, effect) = history::take_in(state, generation, &inspected);
-    state.candidate = 0;
-    state.shown = Some(Shown {
-        generation,
-        inspected,
-        is_past: taken == TakenIn::Past,
-        session: None,
-    });
-    effect
-}
-
-/// From now on this library is shown; what had to be set aside in it is said once.
-pub(super) fn use_library(state: &mut State, library: &Arc<LibraryShown>) {
-    let is_other = |known: &Arc<_>| !Arc::ptr_eq(known, library);
-    if state.library.as_ref().is_none_or(is_other) {
-        for trouble in library.troubles.clone() {
-            notify(state, trouble.into());
-        }
-        state.library = Some(Arc::clone(library));
-    }
 }
 
 /// Shows a notice.

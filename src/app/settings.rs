@@ -15,7 +15,8 @@ use super::{
     robot::{RememberedCell, RobotState},
     roles::{LOCK_AFTER, Pin, RoleState, is_operators},
     source::CellChoice,
-    state::{Source, State, ThemeChoice, UnitSystem, Workspace},
+    state::{Source, State, ThemeChoice, Workspace},
+    unit_system::UnitSystem,
 };
 use crate::{capture::SourceSpec, files::write_atomically, pipeline::Recipe, robot::Convention};
 

@@ -65,6 +65,17 @@ impl Workplace {
         self.coded(0, args)
     }
 
+    /// Enrols a simulated part into `parts` and leaves another capture of it in `NAME.pcd`.
+    pub(crate) fn with_part(&self, name: &str) {
+        let reference = format!("{name}-reference.pcd");
+        let facing = ["--pose", "0 0 0 0 0 1.4", "--out", &reference];
+        self.accepted(&[&["simulate", "--part", name], &facing[..]].concat());
+        self.accepted(&["enrol", &reference, "--name", name, "--library", "parts"]);
+        let capture = format!("{name}.pcd");
+        let placed = ["--placement", "facing", "--seed", "5", "--out", &capture];
+        self.accepted(&[&["simulate", "--part", name], &placed[..]].concat());
+    }
+
     pub(crate) fn write(&self, name: &str, text: &str) {
         fs::write(self.path(name), text).expect("written");
     }
@@ -100,4 +111,11 @@ impl Ran {
         let parse = |line| serde_json::from_str(line).expect("a line of JSON");
         self.out.lines().map(parse).collect()
     }
+}
+
+/// The numbers of a JSON array.
+pub(crate) fn matrix(value: &Value) -> Vec<f64> {
+    let numbers = value.as_array().expect("numbers");
+    let number = |n: &Value| n.as_f64().expect("a number");
+    numbers.iter().map(number).collect()
 }

@@ -7,7 +7,8 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use partsight::{
     app::{
         WindowOptions,
-        state::{StagePanel, ThemeChoice, UnitSystem},
+        state::{StagePanel, ThemeChoice},
+        unit_system::UnitSystem,
     },
     files::save_cloud,
     robot::Convention,

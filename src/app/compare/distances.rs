@@ -9,8 +9,9 @@ use super::{
 use crate::{
     app::{
         bars::focus_ring,
-        state::{State, UnitSystem},
+        state::State,
         theme::{ROUNDING, Theme, font, space},
+        unit_system::UnitSystem,
     },
     stages::rank::Matcher,
 };

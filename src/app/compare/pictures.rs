@@ -8,8 +8,9 @@ use egui::{
 use super::comparison::{Comparison, Correlation, Measure, Overlay, Trace};
 use crate::{
     app::{
-        state::{State, UnitSystem},
+        state::State,
         theme::{ROUNDING, Theme, font},
+        unit_system::UnitSystem,
         widgets::{Scale, curve, fitted},
     },
     stages::rank::Matcher,

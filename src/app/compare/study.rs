@@ -7,7 +7,7 @@ use crate::{
     app::{
         job::Trouble,
         shelf::{LibraryShown, Shelf},
-        state::UnitSystem,
+        unit_system::UnitSystem,
     },
     cases::{CaseFolder, Found, KeptCase, Truth},
     error::Advice,

@@ -10,7 +10,8 @@ use super::{
     work::EnrolRequest,
 };
 use crate::app::{
-    action::{Effect, notify, use_library},
+    action::{Effect, notify},
+    hearing::use_library,
     inspect::work::InspectRequest,
     job::Request,
     lane::Lane,

@@ -4,8 +4,8 @@ use egui::{Grid, RichText, Ui, vec2};
 
 use crate::{
     app::{
-        state::UnitSystem,
         theme::{Theme, font},
+        unit_system::UnitSystem,
         widgets::heading,
     },
     history::{Differences, Finding},

@@ -5,8 +5,8 @@ use egui::{Align2, Rect, RichText, Sense, Ui, pos2, vec2};
 use crate::{
     app::{
         inspect::work::Inspected,
-        state::UnitSystem,
         theme::{ROUNDING, Theme, font, space},
+        unit_system::UnitSystem,
         widgets::{Mark, Scale, heading, mark, row, sentence},
     },
     robot::stand_off::{StandOff, StandOffParams},

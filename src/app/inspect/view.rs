@@ -15,8 +15,9 @@ use crate::{
         headless::WorkCounts,
         inspect::work::Inspected,
         job::Trouble,
-        state::{Shown, State, ThemeChoice, UnitSystem},
+        state::{Shown, State, ThemeChoice},
         theme::{ROUNDING, Theme, font, space},
+        unit_system::UnitSystem,
         viewport::{
             Colouring, FitRequest, Legend, TextLabel, ViewCamera, ViewColours, ViewError,
             ViewScene, ViewShot, ViewStyle, Viewport, ViewportGpu, furniture,

@@ -6,7 +6,7 @@ use super::work::{FollowRequest, LiveAnswer, LiveRequest, LiveStatus, SourceStat
 use crate::{
     app::{
         action::{self, Ask, Effect, notify},
-        history,
+        hearing, history,
         job::{Request, Trouble},
         lane::Lane,
         state::{Notice, NoticeKind, Shown, Source, State, Workspace},
@@ -264,7 +264,7 @@ fn show(state: &mut State, inspected: Arc<crate::app::inspect::work::Inspected>)
     if is_shown || state.workspace != Workspace::Inspect || !state.is_live() {
         return;
     }
-    action::use_library(state, &inspected.library);
+    hearing::use_library(state, &inspected.library);
     state.generation += 1;
     let (generation, session) = (state.generation, Some(state.live.session));
     let num_candidates = inspected.figures.candidates.len();

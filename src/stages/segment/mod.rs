@@ -15,6 +15,7 @@
 mod clusters;
 mod empty_cell;
 mod noise;
+mod part;
 mod planes;
 mod subset;
 
@@ -24,9 +25,10 @@ pub use self::{
     clusters::Cluster,
     empty_cell::{EmptyCell, EmptyCellError},
     noise::noise_of_picture,
+    part::{SegmentedPart, other_parts, pieces, surfaces},
     planes::BackgroundPlane,
 };
-use crate::{error::Advice, geometry::cloud::PointCloud, stages::scene::SceneCloud, units::Metres};
+use crate::{error::Advice, stages::scene::SceneCloud, units::Metres};
 
 /// Parameters of [`segment`]. The defaults work untouched for a Kinect-like camera.
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -96,80 +98,6 @@ pub struct Segmentation {
     pub noise_at_1m: Metres,
     /// The part, or why there is none.
     pub part: Result<SegmentedPart, NoPart>,
-}
-
-/// The points of the part alone.
-#[derive(Clone, Debug, PartialEq)]
-pub struct SegmentedPart {
-    /// The part's points, metres, camera space, unorganised, in the scene's order.
-    pub cloud: PointCloud,
-    /// For each of them its index in the scene.
-    pub indices: Vec<u32>,
-    /// Standard deviation of a point's depth at 1 m; it grows with depth².
-    pub noise_at_1m: Metres,
-    /// True if the part reaches the edge of the picture, so that some of it may be missing.
-    pub touches_edge: bool,
-}
-
-impl SegmentedPart {
-    /// A cloud that holds nothing but the part.
-    pub fn whole(cloud: &PointCloud) -> Self {
-        let indices: Vec<u32> = cloud.finite().map(|(i, _)| i as u32).collect();
-        Self::of(cloud, indices, SegmentParams::default().noise_at_1m, false)
-    }
-
-    /// The readings of a scene at these places, ascending.
-    pub fn selected(scene: &SceneCloud, indices: &[u32], noise_at_1m: Metres) -> Self {
-        let is_reading = |i: &u32| {
-            let point = scene.cloud.points.get(*i as usize);
-            point.is_some_and(crate::geometry::cloud::is_finite)
-        };
-        let indices: Vec<u32> = indices.iter().copied().filter(is_reading).collect();
-        let touches_edge = clusters::touches_edge(scene, &indices);
-        Self::of(&scene.cloud, indices, noise_at_1m, touches_edge)
-    }
-
-    /// The same part in the mirrored scene.
-    #[must_use]
-    pub fn mirrored(&self, mirrored_scene: &SceneCloud) -> Self {
-        let mut indices = self.indices.clone();
-        if let Some(crate::geometry::cloud::Grid { width, .. }) = mirrored_scene.cloud.grid {
-            for i in &mut indices {
-                let (row, column) = (*i as usize / width, *i as usize % width);
-                *i = (row * width + width - 1 - column) as u32;
-            }
-            indices.sort_unstable();
-        }
-        Self::of(
-            &mirrored_scene.cloud,
-            indices,
-            self.noise_at_1m,
-            self.touches_edge,
-        )
-    }
-
-    fn of(scene: &PointCloud, indices: Vec<u32>, noise_at_1m: Metres, touches_edge: bool) -> Self {
-        let pick = |i: &u32| *i as usize;
-        Self {
-            cloud: PointCloud {
-                points: indices.iter().map(|i| scene.points[pick(i)]).collect(),
-                normals: scene
-                    .normals
-                    .as_ref()
-                    .map(|all| indices.iter().map(|i| all[pick(i)]).collect()),
-                colours: scene
-                    .colours
-                    .as_ref()
-                    .map(|all| indices.iter().map(|i| all[pick(i)]).collect()),
-                labels: None,
-                grid: None,
-                is_simulated: scene.is_simulated,
-            },
-            indices,
-            noise_at_1m,
-            touches_edge,
-        }
-    }
 }
 
 /// Why no part was found.
@@ -251,7 +179,7 @@ pub fn segment(scene: &SceneCloud, params: &SegmentParams) -> Segmentation {
         cell.mark(points, &mut labels, label, noise_at_1m, params);
     }
     let clusters = clusters::connect(scene, &labels, noise_at_1m, params);
-    let part = take_part(scene, &clusters, &mut labels, &planes, noise_at_1m, params)
+    let part = part::take_part(scene, &clusters, &mut labels, &planes, noise_at_1m, params)
         .map_err(|no_part| too_wide(scene).unwrap_or(no_part));
     Segmentation {
         labels,
@@ -260,76 +188,6 @@ pub fn segment(scene: &SceneCloud, params: &SegmentParams) -> Segmentation {
         noise_at_1m,
         part,
     }
-}
-
-/// The places in the scene of the points of every connected surface, ascending; in the order of
-/// [`Segmentation::clusters`].
-pub fn surfaces(
-    scene: &SceneCloud,
-    segmentation: &Segmentation,
-    params: &SegmentParams,
-) -> Vec<Vec<u32>> {
-    let before = |label: &PointLabel| match label {
-        PointLabel::Part => PointLabel::Rest,
-        label => *label,
-    };
-    let labels: Vec<PointLabel> = segmentation.labels.iter().map(before).collect();
-    connected(scene, &labels, segmentation.noise_at_1m, params)
-}
-
-/// The places of the points of every connected surface of a scene that is all part, largest first.
-pub fn pieces(scene: &SceneCloud, params: &SegmentParams) -> Vec<Vec<u32>> {
-    let labels = label_readings(&scene.cloud.points);
-    connected(scene, &labels, params.noise_at_1m, params)
-}
-
-/// A surface smaller than this share of the largest one is not looked at as a part.
-const LEAST_SHARE: f64 = 0.1;
-
-/// The surfaces beside the one that was taken for the part, the likeliest first, at most `limit`.
-pub fn other_parts(
-    scene: &SceneCloud,
-    segmentation: &Segmentation,
-    params: &SegmentParams,
-    limit: usize,
-) -> Vec<SegmentedPart> {
-    let largest = segmentation.clusters.first().map_or(0.0, |c| c.area);
-    let least = params.min_part_area.max(LEAST_SHARE * largest);
-    let is_candidate =
-        |cluster: &Cluster| cluster.area >= least && cluster.num_points >= MIN_POINTS;
-    if segmentation
-        .clusters
-        .iter()
-        .filter(|c| is_candidate(c))
-        .count()
-        < 2
-    {
-        return Vec::new();
-    }
-    let taken = segmentation
-        .part
-        .as_ref()
-        .ok()
-        .and_then(|p| p.indices.first());
-    let mut others: Vec<(f64, bool, Vec<u32>)> = surfaces(scene, segmentation, params)
-        .into_iter()
-        .zip(&segmentation.clusters)
-        .filter(|(indices, cluster)| is_candidate(cluster) && indices.first() != taken)
-        .map(|(indices, cluster)| (likelihood(cluster), cluster.touches_edge, indices))
-        .collect();
-    others.sort_by(|a, b| b.0.total_cmp(&a.0));
-    others
-        .into_iter()
-        .take(limit)
-        .map(|(_, touches_edge, indices)| {
-            SegmentedPart::of(
-                &scene.cloud,
-                indices,
-                segmentation.noise_at_1m,
-                touches_edge,
-            )
-        })
-        .collect()
 }
 
 impl Segmentation {
@@ -347,16 +205,6 @@ impl Segmentation {
         }
         self.part = Ok(part);
     }
-}
-
-fn connected(
-    scene: &SceneCloud,
-    labels: &[PointLabel],
-    noise_at_1m: Metres,
-    params: &SegmentParams,
-) -> Vec<Vec<u32>> {
-    let found = clusters::connect(scene, labels, noise_at_1m, params);
-    found.into_iter().map(|members| members.indices).collect()
 }
 
 /// A scene wider than this is no cell: a file in millimetres reads as a thousand times as wide, metres.
@@ -377,46 +225,6 @@ fn label_readings(points: &[Point3<f32>]) -> Vec<PointLabel> {
         }
     };
     points.iter().map(label).collect()
-}
-
-/// How likely a surface is the part: the larger the more, but what runs out of the picture is more often a strip of
-/// floor or a neighbour than the part.
-fn likelihood(cluster: &Cluster) -> f64 {
-    cluster.area * if cluster.touches_edge { 0.4 } else { 1.0 }
-}
-
-fn take_part(
-    scene: &SceneCloud,
-    clusters: &[clusters::Members],
-    labels: &mut [PointLabel],
-    planes: &[BackgroundPlane],
-    noise_at_1m: Metres,
-    params: &SegmentParams,
-) -> Result<SegmentedPart, NoPart> {
-    let largest = clusters
-        .iter()
-        .max_by(|a, b| likelihood(&a.cluster).total_cmp(&likelihood(&b.cluster)));
-    match largest {
-        Some(largest)
-            if largest.cluster.area >= params.min_part_area
-                && largest.indices.len() >= MIN_POINTS =>
-        {
-            for &i in &largest.indices {
-                labels[i as usize] = PointLabel::Part;
-            }
-            Ok(SegmentedPart::of(
-                &scene.cloud,
-                largest.indices.clone(),
-                noise_at_1m,
-                largest.cluster.touches_edge,
-            ))
-        }
-        _ => Err(NoPart::OnlyBackground {
-            planes: planes.len(),
-            found: largest.map_or(0.0, |l| l.cluster.area),
-            needed: params.min_part_area,
-        }),
-    }
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@ use nalgebra::{Isometry3, UnitQuaternion, Vector3};
 
 use super::*;
 use crate::{
-    geometry::voxel::downsample,
+    geometry::{cloud::PointCloud, voxel::downsample},
     simulate::{
         CellSetup, ObjectKind, PartKind, PartPose, Placement, Side, SimulatedFrame, Subject,
         SurfaceLabel, frame,

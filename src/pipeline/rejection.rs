@@ -1,0 +1,223 @@
+//! Why a part was not accepted, or nothing could be recognised, and what to do about it.
+
+use crate::{
+    error::Advice,
+    stages::{
+        contour::ContourError, pose::PoseError, project::ProjectError, segment::NoPart,
+        signature::SignatureError,
+    },
+    units::Metres,
+};
+
+/// Why a best guess was not accepted.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Rejection {
+    /// The score is too low.
+    #[error("the best match, {part}, scores {score:.2}, below the threshold of {threshold:.2}")]
+    LowScore {
+        /// Best match.
+        part: String,
+        /// Its score.
+        score: f64,
+        /// Least score.
+        threshold: f64,
+    },
+    /// Only a piece of it is seen, and that is too little.
+    #[error(
+        "only a piece of {part} is in sight ({:.0} % of it hidden, {:.0} % beyond the picture); it scores {score:.2}, below the threshold of {threshold:.2}",
+        hidden * 100.0,
+        outside * 100.0
+    )]
+    Piece {
+        /// Best match.
+        part: String,
+        /// Its score.
+        score: f64,
+        /// Least score.
+        threshold: f64,
+        /// Share hidden by something nearer.
+        hidden: f64,
+        /// Share beyond the picture.
+        outside: f64,
+    },
+    /// It would be seen too little to be told from something else.
+    #[error("what may be {part} is hardly in sight: seen nearly edge-on, or cut off on most sides")]
+    HardlySeen {
+        /// Best match.
+        part: String,
+        /// Its score.
+        score: f64,
+    },
+    /// Of its type, but of another car model.
+    #[error(
+        "it is like {part}, but not the same: its surface is off by {relief}, its outline by {outline}, and {:.1} % of it is missing; another model, the pose is approximate",
+        missing * 100.0
+    )]
+    AnotherModel {
+        /// Best match.
+        part: String,
+        /// Root mean square of how far patches of the surface are off.
+        relief: Metres,
+        /// Root mean square of how far stretches of the outline are off.
+        outline: Metres,
+        /// Share of the reference that is not there, 0..1.
+        missing: f64,
+    },
+    /// Nothing enrolled is like it.
+    #[error("unknown: nothing enrolled is like it; the nearest, {nearest}, scores {score:.2}")]
+    Unknown {
+        /// Best match.
+        nearest: String,
+        /// Its score.
+        score: f64,
+    },
+    /// Its mirror image is enrolled.
+    #[error(
+        "it looks like the mirror image of {part} (which scores {score:.2}): the part of the other side of the car"
+    )]
+    Mirrored {
+        /// The part whose mirror image it looks like.
+        part: String,
+        /// How well the mirror image fits.
+        score: f64,
+    },
+    /// Another part fits nearly as well.
+    #[error(
+        "{part} and {other} fit almost equally well (margin {margin:.2}, needed {threshold:.2})"
+    )]
+    SmallMargin {
+        /// Best match.
+        part: String,
+        /// Next match.
+        other: String,
+        /// Lead.
+        margin: f64,
+        /// Least lead.
+        threshold: f64,
+    },
+    /// The paper's matcher was asked alone.
+    #[error(
+        "{part} is the nearest outline; the paper's matcher alone cannot tell it from an unknown part"
+    )]
+    Unconfirmed {
+        /// Best match.
+        part: String,
+    },
+    /// The pose could not be estimated.
+    #[error("no pose was found: {0}")]
+    NoPose(#[from] PoseError),
+    /// It moves, or moved a moment ago.
+    #[error("{part} does not hang still yet")]
+    NotSteady {
+        /// Best match.
+        part: String,
+    },
+    /// It hangs still, and too few frames were seen since.
+    #[error("{part} hangs still, and {num_frames} of {needed} frames were inspected since")]
+    FewFrames {
+        /// Best match.
+        part: String,
+        /// Frames so far.
+        num_frames: usize,
+        /// Frames needed.
+        needed: usize,
+    },
+    /// Frames of a scene that does not move say different things.
+    #[error("{num_agreeing} of {num_frames} frames accept {part}, {needed} are needed")]
+    Undecided {
+        /// The part that most frames name.
+        part: String,
+        /// Frames that accept it.
+        num_agreeing: usize,
+        /// Frames in all.
+        num_frames: usize,
+        /// Frames needed.
+        needed: usize,
+    },
+    /// Frames of a scene that does not move put the part in different places.
+    #[error(
+        "the poses of {part} lie together in {num_agreeing} of {num_frames} frames, {needed} are needed"
+    )]
+    PosesApart {
+        /// The part.
+        part: String,
+        /// Frames whose poses lie together.
+        num_agreeing: usize,
+        /// Frames in all.
+        num_frames: usize,
+        /// Frames needed.
+        needed: usize,
+    },
+}
+
+/// Why nothing could be recognised.
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum Unrecognisable {
+    /// Segmentation left nothing.
+    #[error(transparent)]
+    NoPart(#[from] NoPart),
+    /// No projection.
+    #[error(transparent)]
+    Project(#[from] ProjectError),
+    /// No contour.
+    #[error(transparent)]
+    Contour(#[from] ContourError),
+    /// No signature.
+    #[error(transparent)]
+    Signature(#[from] SignatureError),
+    /// Nothing is enrolled.
+    #[error("no part is enrolled in the library")]
+    EmptyLibrary,
+}
+
+impl Advice for Rejection {
+    fn advice(&self) -> String {
+        match self {
+            Self::LowScore { .. } => {
+                "Check that this part is enrolled, that nothing covers it, and capture again".into()
+            }
+            Self::SmallMargin { .. } => {
+                "Turn the part so that its face looks at the camera and capture again; if both names stand for the same part, \
+                 remove one of them from the library"
+                    .into()
+            }
+            Self::Piece { .. } => {
+                "Take away what stands before the part, or hang it further inside the picture, and capture again".into()
+            }
+            Self::HardlySeen { .. } => {
+                "Turn the part so that its face looks at the camera, all of it inside the picture, and capture again".into()
+            }
+            Self::AnotherModel { part, .. } => format!(
+                "If this one is to be painted too, enrol it as one more reference of {part}"
+            ),
+            Self::Unknown { .. } => {
+                "Enrol the part if it is to be painted; if it is enrolled, turn its face to the camera and capture again".into()
+            }
+            Self::Mirrored { .. } => {
+                "Enrol the part of this side under a name of its own, and do not paint it with the other side's path".into()
+            }
+            Self::Unconfirmed { .. } => "Have the pose estimated too, with --pose global".into(),
+            Self::NoPose(error) => error.advice(),
+            Self::NotSteady { .. } => "Let the part hang still for a second".into(),
+            Self::FewFrames { .. } => "Wait a moment".into(),
+            Self::Undecided { .. } => {
+                "Wait a moment; if it stays so, turn the part's face to the camera and take away what stands before it".into()
+            }
+            Self::PosesApart { .. } => {
+                "Hang the part so that nothing can swing, and wait a moment; if it stays so, turn its face to the camera".into()
+            }
+        }
+    }
+}
+
+impl Advice for Unrecognisable {
+    fn advice(&self) -> String {
+        match self {
+            Self::NoPart(error) => error.advice(),
+            Self::Project(error) => error.advice(),
+            Self::Contour(error) => error.advice(),
+            Self::Signature(error) => error.advice(),
+            Self::EmptyLibrary => "Enrol a part first: partsight enrol FILE --name NAME".into(),
+        }
+    }
+}

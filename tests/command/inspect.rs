@@ -1,0 +1,304 @@
+//! Inspecting scenes.
+
+use std::fs;
+
+use serde_json::Value;
+
+use crate::workplace::{Workplace, matrix};
+
+#[test]
+fn the_pose_is_that_of_the_simulation() {
+    let place = Workplace::new();
+    place.with_part("front_door");
+    let moved = [
+        "simulate",
+        "--part",
+        "front_door",
+        "--pose",
+        "5deg -10deg 20deg 40mm -30mm 1600mm",
+    ];
+    place.accepted(&[&moved[..], &["--out", "moved.png", "--truth", "truth.json"]].concat());
+    let line = &place
+        .accepted(&["inspect", "moved.png", "--json", "--library", "parts"])
+        .lines()[0];
+    let found = matrix(&line["pose"]["camera_from_part"]);
+    let truth: Value =
+        serde_json::from_slice(&fs::read(place.path("truth.json")).expect("written"))
+            .expect("JSON");
+    // Part space is that of the enrolment, 1.4 m before the camera: the truth's of the model, in its middle.
+    let model = matrix(&truth["camera_from_model"]);
+    for row in 0..3 {
+        let [c, d] = [2, 3].map(|column| found[row * 4 + column]);
+        for column in 0..3 {
+            let difference = (found[row * 4 + column] - model[row * 4 + column]).abs();
+            assert!(
+                difference < 0.02,
+                "the turn is off by {difference} in row {row}"
+            );
+        }
+        let difference = (c * 1.4 + d - model[row * 4 + 3]).abs();
+        assert!(
+            difference < 0.01,
+            "the middle is off by {difference} m in row {row}"
+        );
+    }
+}
+
+#[test]
+fn one_bad_file_does_not_stop_the_others() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    fs::write(place.path("bad.pcd"), "VERSION 0.7\nnothing").expect("written");
+    let files = ["bad.pcd", "fender.pcd", "missing.pcd"];
+    let ran = place.run(&[&["inspect", "--json", "--library", "parts"], &files[..]].concat());
+    assert_eq!(ran.code, 2);
+    let lines = ran.lines();
+    let of = |key: &str| lines.iter().map(|l| l[key].clone()).collect::<Vec<_>>();
+    assert_eq!(of("scene"), files);
+    assert_eq!(of("status"), ["unreadable", "ok", "unreadable"]);
+    assert_eq!(of("accepted"), [false, true, false]);
+    assert!(
+        lines[0]["reason"]
+            .as_str()
+            .expect("words")
+            .contains("bad.pcd")
+    );
+    assert!(ran.err.contains("to do:"), "{}", ran.err);
+
+    let rows = place.run(&[&["inspect", "--library", "parts"], &files[..]].concat());
+    assert_eq!(rows.code, 2);
+    assert!(
+        rows.out.contains("unreadable") && rows.out.contains("accepted"),
+        "{}",
+        rows.out
+    );
+}
+
+#[test]
+fn an_empty_cell_and_an_unknown_part_are_not_accepted() {
+    let place = Workplace::new();
+    place.with_part("grille");
+    // Far too high: only wall and floor are left in the picture.
+    let away = [
+        "simulate",
+        "--part",
+        "grille",
+        "--pose",
+        "0 0 0 0 -5 1.4",
+        "--out",
+        "empty.pcd",
+    ];
+    place.accepted(&away);
+    let other = [
+        "simulate",
+        "--part",
+        "front_door",
+        "--placement",
+        "facing",
+        "--out",
+        "other.pcd",
+    ];
+    place.accepted(&other);
+    let ran = place.run(&[
+        "inspect",
+        "empty.pcd",
+        "other.pcd",
+        "--json",
+        "--library",
+        "parts",
+    ]);
+    assert_eq!(ran.code, 1, "{}", ran.err);
+    let lines = ran.lines();
+    assert_eq!(lines[0]["status"], "no_part");
+    assert_eq!(lines[0]["part"], Value::Null);
+    assert_eq!(lines[1]["status"], "unknown");
+    assert_eq!(lines[1]["part"], Value::Null);
+    for line in lines {
+        assert_eq!(line["accepted"], false);
+        assert!(line["reason"].is_string());
+    }
+    let card = place.run(&["inspect", "other.pcd", "--library", "parts"]);
+    assert!(
+        card.out.contains("why not") && card.out.contains("to do"),
+        "{}",
+        card.out
+    );
+}
+
+#[test]
+fn what_stands_in_the_empty_cell_is_no_part_and_a_second_reference_names_its_part() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    let seen = |name: &'static str, options: &[&'static str]| {
+        let simulate = [
+            "simulate",
+            "--part",
+            "fender",
+            "--placement",
+            "facing",
+            "--out",
+            name,
+        ];
+        place.accepted(&[&simulate, options].concat());
+    };
+    seen("scene.pcd", &["--seed", "8"]);
+    // Known to the cell as it hangs there, the fender is furniture.
+    let inspect = ["inspect", "scene.pcd", "--json", "--library", "parts"];
+    let empty = place.run(&[&inspect[..], &["--empty-cell", "scene.pcd"]].concat());
+    assert_eq!(empty.code, 1, "{}", empty.err);
+    assert_eq!(empty.lines()[0]["status"], "no_part");
+    seen("other_make.pcd", &["--model", "5"]);
+    let enrol = [
+        "enrol",
+        "other_make.pcd",
+        "--name",
+        "fender_b",
+        "--as",
+        "fender",
+    ];
+    place.accepted(&[&enrol[..], &["--library", "parts"]].concat());
+    seen("other_scene.pcd", &["--model", "5", "--seed", "9"]);
+    let line = place
+        .run(&["inspect", "other_scene.pcd", "--json", "--library", "parts"])
+        .lines()
+        .remove(0);
+    assert_eq!(
+        (&line["part"], &line["accepted"]),
+        (&"fender".into(), &true.into())
+    );
+    assert_eq!(line["ranking"].as_array().map(Vec::len), Some(1));
+}
+
+#[test]
+fn the_paper_can_be_chosen_and_the_pose_left_out() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    let inspect = [
+        "inspect",
+        "fender-reference.pcd",
+        "--json",
+        "--library",
+        "parts",
+    ];
+    let line = |more: &[&str]| place.run(&[&inspect[..], more].concat()).lines().remove(0);
+    let icp = line(&["--matcher", "paper", "--pose", "icp"]);
+    assert_eq!(
+        (&icp["part"], &icp["pose"]["method"]),
+        (&"fender".into(), &"icp".into())
+    );
+    assert_eq!(line(&["--pose", "none"])["pose"], Value::Null);
+}
+
+#[test]
+fn a_report_holds_the_line_and_a_picture_of_every_stage() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    fs::create_dir(place.path("again")).expect("made");
+    fs::copy(place.path("fender.pcd"), place.path("again/fender.pcd")).expect("copied");
+    let files = ["fender.pcd", "again/fender.pcd", "missing.pcd"];
+    let inspect = [
+        "inspect",
+        "--json",
+        "--library",
+        "parts",
+        "--report",
+        "why/deep",
+    ];
+    let ran = place.run(&[&inspect[..], &files].concat());
+    assert_eq!(ran.code, 2);
+    let read = |name: &str| fs::read_to_string(place.path("why/deep").join(name)).expect("there");
+    let written = [
+        "fender.report.json",
+        "fender-2.report.json",
+        "missing.report.json",
+    ]
+    .map(read)
+    .concat();
+    assert_eq!(written, ran.out);
+    for stage in ["segmentation", "binary", "contour", "signature"] {
+        let picture = place.path("why/deep").join(format!("fender.{stage}.png"));
+        assert!(image::open(picture).is_ok(), "{stage}");
+    }
+    let nowhere = [
+        "inspect",
+        "fender.pcd",
+        "--library",
+        "parts",
+        "--report",
+        "fender.pcd",
+    ];
+    assert_eq!(place.run(&nowhere).code, 2);
+}
+
+#[test]
+fn a_part_that_runs_out_of_the_picture_is_found_and_that_is_said() {
+    let place = Workplace::new();
+    place.with_part("front_door");
+    for (x, is_cut) in [("0", false), ("600mm", true)] {
+        let pose = format!("0 0 0 {x} 0 1500mm");
+        let door = ["simulate", "--part", "front_door", "--out", "door.pcd"];
+        place.accepted(&[&door[..], &["--pose", &pose]].concat());
+        let ran = place.run(&["inspect", "door.pcd", "--json", "--library", "parts"]);
+        let line = &ran.lines()[0];
+        assert_eq!(line["touches_edge"], is_cut, "{line}");
+        assert_eq!(line["part"], "front_door", "{line}");
+        let card = place.run(&["inspect", "door.pcd", "--library", "parts"]);
+        let is_said = card.out.contains("reaches the picture's edge");
+        assert_eq!(is_said, is_cut, "{}", card.out);
+    }
+}
+
+#[test]
+fn a_report_beside_its_captures_leaves_them_as_they_were() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    fs::create_dir(place.path("cap")).expect("made");
+    // The second and third are captures by whose names a report of the first would write.
+    let files = ["cap/g1.png", "cap/g1.contour.png", "cap/g1.report.png"];
+    for file in files {
+        place.accepted(&["simulate", "--part", "fender", "--out", file]);
+    }
+    let contents = || {
+        let json = files.map(|f| f.replace(".png", ".json"));
+        let all = files.iter().map(|f| (*f).to_owned()).chain(json);
+        all.map(|f| fs::read(place.path(&f)).expect("there"))
+            .collect::<Vec<_>>()
+    };
+    let before = contents();
+    let inspect = ["inspect", "--library", "parts", "--report", "cap"];
+    for _ in 0..2 {
+        place.run(&[&inspect[..], &files].concat());
+        assert!(contents() == before, "a capture was overwritten");
+    }
+    assert!(place.path("cap/g1.contour.report.json").exists());
+    let num_files = fs::read_dir(place.path("cap")).expect("listed").count();
+    place.run(&[&inspect[..], &files].concat());
+    let again = fs::read_dir(place.path("cap")).expect("listed").count();
+    assert_eq!(num_files, again, "an earlier report is replaced");
+}
+
+#[test]
+fn a_pose_that_is_not_found_is_a_line_with_its_reason_and_names_the_file() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    fs::write(place.path("few.xyz"), "0 0 1\n1 0 1\n0 1 1\n").expect("written");
+    let ran = place.run(&["align", "few.xyz", "parts/fender/cloud.ply", "--json"]);
+    assert_eq!(ran.code, 1, "{}", ran.err);
+    let line = &ran.lines()[0];
+    assert_eq!(line["target_from_source"], Value::Null);
+    assert!(line["reason"].as_str().expect("words").contains("3 points"));
+    assert!(
+        ran.err.contains("few.xyz: ") && !ran.err.contains("cloud.ply: "),
+        "{}",
+        ran.err
+    );
+    let enrol = place.run(&["enrol", "few.xyz", "--name", "few", "--library", "parts"]);
+    assert!(
+        enrol.err.contains("few.xyz: the cloud has 3 points"),
+        "{}",
+        enrol.err
+    );
+    let title = "t".repeat(81);
+    let long = ["enrol", "few.xyz", "--name", "few", "--title", &title];
+    assert!(place.run(&long).err.contains("at most 80"));
+}

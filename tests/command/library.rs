@@ -1,0 +1,316 @@
+//! Enrolling parts and keeping the library.
+
+use std::fs;
+
+use serde_json::Value;
+
+use crate::workplace::{Workplace, matrix};
+
+#[test]
+fn a_simulated_part_is_enrolled_and_recognised_again() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    place.with_part("grille");
+    let ran = place.accepted(&[
+        "inspect",
+        "grille.pcd",
+        "fender.pcd",
+        "--json",
+        "--library",
+        "parts",
+    ]);
+    let lines = ran.lines();
+    let parts: Vec<_> = lines
+        .iter()
+        .map(|l| l["part"].as_str().expect("a part"))
+        .collect();
+    assert_eq!(parts, ["grille", "fender"]);
+    for line in &lines {
+        assert_eq!(line["schema"], 1);
+        assert_eq!(line["status"], "ok");
+        assert_eq!(line["simulated"], true);
+        assert_eq!(line["accepted"], true);
+        assert_eq!(line["reason"], Value::Null);
+        assert_eq!(line["ranking"].as_array().expect("a list").len(), 2);
+        assert!(line["timings_ms"]["total"].as_f64().expect("a time") > 0.0);
+        assert_eq!(
+            matrix(&line["pose"]["camera_from_part"])[12..],
+            [0.0, 0.0, 0.0, 1.0]
+        );
+    }
+    assert_eq!(ran.err, "");
+}
+
+#[test]
+fn a_library_is_listed_shown_verified_and_cleared() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    place.with_part("grille");
+    let library = |args: &[&str]| place.run(&[&["library", "--library", "parts"], args].concat());
+    let list = library(&["list"]);
+    assert!(
+        list.out.contains("fender") && list.out.contains("grille"),
+        "{}",
+        list.out
+    );
+    let show = library(&["show", "fender"]);
+    assert!(show.out.contains("fender-reference.pcd") && show.out.contains("simulated"));
+    assert_eq!(library(&["verify"]).code, 0);
+
+    let cloud = place.path("parts/fender/cloud.ply");
+    let bytes = fs::read(&cloud).expect("there");
+    fs::write(&cloud, &bytes[..bytes.len() / 2]).expect("written");
+    let verify = library(&["verify"]);
+    assert_eq!(verify.code, 1);
+    assert!(
+        verify.out.contains("DAMAGED  fender: cloud.ply"),
+        "{}",
+        verify.out
+    );
+    assert!(verify.out.contains("sound    grille"), "{}", verify.out);
+    let ran = place.accepted(&["inspect", "grille.pcd", "--json", "--library", "parts"]);
+    assert!(ran.err.contains("set aside fender"), "{}", ran.err);
+
+    let removed = library(&["remove", "fender"]);
+    assert_eq!(removed.code, 0);
+    assert!(removed.out.contains(".trash"), "{}", removed.out);
+    assert!(!place.path("parts/fender").exists());
+    let again = library(&["remove", "fender"]);
+    assert_eq!(again.code, 2);
+    assert!(again.err.contains("no part named fender"), "{}", again.err);
+
+    assert_eq!(library(&["restore", "fender"]).code, 0);
+    assert!(place.path("parts/fender/cloud.ply").exists());
+    let nothing = library(&["restore", "hood"]);
+    assert_eq!(nothing.code, 2);
+    assert!(nothing.err.contains(".trash"), "{}", nothing.err);
+    let to = ["--to", "spare_grille", "--title", "Grille, spare"];
+    let renamed = library(&[&["rename", "grille"][..], &to].concat());
+    assert_eq!(renamed.code, 0, "{}", renamed.err);
+    let shown = library(&["show", "spare_grille"]);
+    assert!(shown.out.contains("Grille, spare"), "{}", shown.out);
+    let taken = library(&["rename", "spare_grille", "--to", "fender"]);
+    assert_eq!(taken.code, 2);
+    assert!(taken.err.contains("already"), "{}", taken.err);
+}
+
+#[test]
+fn without_a_library_the_shipped_parts_are_there() {
+    let place = Workplace::new();
+    let list = place.accepted(&["library", "list"]);
+    assert!(list.out.contains("8 parts"), "{}{}", list.out, list.err);
+    let first = place.accepted(&[]);
+    assert!(
+        first.out.contains("Simulated") && first.out.contains("front_door: accepted"),
+        "{}",
+        first.out
+    );
+    // A folder here goes before the user's own.
+    fs::create_dir(place.path("reference_parts")).expect("made");
+    let list = place.accepted(&["library", "list"]);
+    assert!(list.out.contains("0 parts"), "{}", list.out);
+    assert_eq!(place.run(&["inspect", "x.pcd"]).code, 2);
+}
+
+#[test]
+fn a_mesh_is_enrolled_but_is_no_scene() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    let obj = "v 0 0 0\nv 1 0 0\nv 1 0.6 0\nv 0 0.4 0\nf 1 2 3\nf 1 3 4\n";
+    fs::write(place.path("plate.obj"), obj).expect("written");
+    let enrolled = place.accepted(&[
+        "enrol",
+        "plate.obj",
+        "--name",
+        "plate",
+        "--library",
+        "parts",
+    ]);
+    assert!(enrolled.out.contains("from a mesh"), "{}", enrolled.out);
+    let ran = place.run(&["inspect", "plate.obj", "--library", "parts"]);
+    assert_eq!(ran.code, 2);
+    assert!(ran.err.contains("partsight enrol"), "{}", ran.err);
+    let segment = [
+        "enrol",
+        "plate.obj",
+        "--name",
+        "p",
+        "--library",
+        "parts",
+        "--segment",
+    ];
+    assert_eq!(place.run(&segment).code, 2);
+}
+
+#[test]
+fn a_damaged_cloud_is_set_aside_by_its_checksum() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    place.with_part("grille");
+    let cloud = place.path("parts/fender/cloud.ply");
+    let mut bytes = fs::read(&cloud).expect("there");
+    let middle = bytes.len() / 2;
+    for byte in &mut bytes[middle..middle + 4] {
+        *byte ^= 0x10;
+    }
+    fs::write(&cloud, bytes).expect("written");
+    let ran = place.accepted(&["inspect", "grille.pcd", "--library", "parts"]);
+    assert!(
+        ran.err.contains("set aside fender: cloud.ply is damaged") && ran.err.contains("to do"),
+        "{}",
+        ran.err
+    );
+    let verify = place.run(&["library", "verify", "--library", "parts"]);
+    assert_eq!(verify.code, 1);
+    assert!(
+        verify.out.contains("DAMAGED  fender: cloud.ply"),
+        "{}",
+        verify.out
+    );
+}
+
+#[test]
+fn the_shipped_parts_are_sound() {
+    let shipped = concat!(env!("CARGO_MANIFEST_DIR"), "/reference_parts");
+    let verify = Workplace::new().accepted(&["library", "verify", "--library", shipped]);
+    assert_eq!(verify.out.matches("sound ").count(), 8, "{}", verify.out);
+}
+
+#[test]
+fn without_a_writable_data_folder_the_shipped_parts_are_used_from_the_program() {
+    let place = Workplace::new();
+    fs::write(place.path("data"), "a file where the data folder should be").expect("written");
+    let list = place.accepted(&["library", "list"]);
+    assert!(
+        list.out.contains("inside the program") && list.out.contains("8 parts"),
+        "{}",
+        list.out
+    );
+    assert!(
+        list.err.contains("warning") && list.err.contains("to do"),
+        "{}",
+        list.err
+    );
+    assert!(place.accepted(&[]).out.contains("front_door: accepted"));
+    place.accepted(&["library", "show", "fender"]);
+    place.accepted(&["library", "verify"]);
+    place.accepted(&[
+        "simulate",
+        "--part",
+        "fender",
+        "--placement",
+        "facing",
+        "--out",
+        "f.pcd",
+    ]);
+    let line = &place.accepted(&["inspect", "f.pcd", "--json"]).lines()[0];
+    assert_eq!(line["part"], "fender");
+    for change in [
+        &["enrol", "f.pcd", "--name", "mine"][..],
+        &["library", "remove", "fender"],
+    ] {
+        let ran = place.run(change);
+        assert_eq!(ran.code, 2, "{change:?}");
+        assert!(
+            ran.err.contains("cannot write") && ran.err.contains("--library"),
+            "{}",
+            ran.err
+        );
+    }
+}
+
+#[test]
+fn a_part_enrolled_twice_is_told_from_itself_by_nobody_and_said_so() {
+    let place = Workplace::new();
+    place.with_part("grille");
+    let enrol = |file: &str, name: &str| {
+        place.accepted(&["enrol", file, "--name", name, "--library", "parts"])
+    };
+    place.accepted(&[
+        "simulate",
+        "--part",
+        "fender",
+        "--placement",
+        "facing",
+        "--out",
+        "f.pcd",
+    ]);
+    let first = enrol("f.pcd", "wing");
+    assert_eq!(first.err, "", "a fender is no grille");
+    assert_eq!(
+        enrol("f.pcd", "wing").err,
+        "",
+        "what it replaces does not count"
+    );
+    let again = enrol("f.pcd", "copy");
+    assert!(
+        again.err.contains("copy cannot be told from wing"),
+        "{}",
+        again.err
+    );
+    assert!(again.err.contains("--name wing"), "{}", again.err);
+    let other = enrol("grille.pcd", "grille_again");
+    assert!(
+        other
+            .err
+            .contains("grille_again cannot be told from grille"),
+        "{}",
+        other.err
+    );
+}
+
+#[test]
+fn an_empty_library_is_one_error_and_no_line() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    fs::create_dir(place.path("empty")).expect("made");
+    let ran = place.run(&[
+        "inspect",
+        "fender.pcd",
+        "fender.pcd",
+        "--json",
+        "--library",
+        "empty",
+    ]);
+    assert_eq!((ran.code, ran.out.as_str()), (2, ""));
+    assert!(
+        ran.err.contains("no part to recognise") && ran.err.contains("to do"),
+        "{}",
+        ran.err
+    );
+    assert_eq!(ran.err.lines().count(), 2, "{}", ran.err);
+    let inside = ["parts/fender", "."].map(|dir| {
+        let list = place.run(&["library", "list", "--library", dir]);
+        assert_eq!(list.code, 0);
+        list.err
+    });
+    assert!(
+        inside[0].contains("is a part, not a library"),
+        "{}",
+        inside[0]
+    );
+    let bare = place.accepted(&["--library", "parts"]);
+    assert!(bare.out.contains("Simulated"), "{}", bare.out);
+    assert_eq!(
+        place.run(&["--library", "parts", "library", "list"]).code,
+        2
+    );
+}
+
+#[test]
+fn verify_tells_newer_from_damaged_and_names_what_it_skipped() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    fs::create_dir(place.path("parts/next")).expect("made");
+    fs::write(place.path("parts/next/part.toml"), "schema_version = 9\n").expect("written");
+    fs::create_dir(place.path("parts/My Door")).expect("made");
+    let verify = place.run(&["library", "verify", "--library", "parts"]);
+    assert_eq!(verify.code, 1);
+    assert!(
+        verify.out.contains("NEWER    next: made by a newer"),
+        "{}",
+        verify.out
+    );
+    assert!(verify.out.contains("skipped  My Door"), "{}", verify.out);
+    assert!(!verify.out.contains("DAMAGED"), "{}", verify.out);
+}
