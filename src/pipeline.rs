@@ -120,10 +120,11 @@ pub fn run(
         verdict: Verdict::NoPart(Unrecognisable::EmptyLibrary),
         timings: Timings::default(),
     };
-    match inspection.segmentation.part.clone() {
-        Ok(part) => {
-            let first = inspect_surface(&part, scene, library, recipe, &clock)?;
-            first.keep(&mut inspection);
+    let part = inspection.segmentation.part.as_ref();
+    let first = part.map(|part| inspect_surface(part, scene, library, recipe, &clock));
+    match first.map_err(|no_part| *no_part) {
+        Ok(first) => {
+            first?.keep(&mut inspection);
             if may_be_another(&inspection, recipe) {
                 look_elsewhere(&mut inspection, scene, library, recipe, &clock)?;
             }

@@ -113,14 +113,19 @@ fn connect_pixels(
     grid: Grid,
     link: Link,
 ) -> Vec<Vec<u32>> {
+    /// Rows of pixels whose runs can still meet those of a new row, and that row.
+    const ROWS: usize = BRIDGED_PIXELS + 2;
     let Grid { width, height } = grid;
-    let mut run_of = vec![NO_RUN; points.len()];
+    // A row comes again ROWS rows later: that little stays in the processor's nearest memory.
+    let mut run_of = vec![NO_RUN; ROWS * width];
+    let at = |row: usize, column: usize| row % ROWS * width + column;
     let mut forest = Forest {
         parents: Vec::new(),
     };
-    let mut rest: Vec<u32> = Vec::new();
+    let (mut rest, mut runs): (Vec<u32>, Vec<u32>) = (Vec::new(), Vec::new());
     for row in 0..height {
         let start = row * width;
+        run_of[at(row, 0)..][..width].fill(NO_RUN);
         let mut previous: Option<usize> = None;
         let mut last_meeting = (NO_RUN, NO_RUN);
         let first = rest.len();
@@ -130,20 +135,21 @@ fn connect_pixels(
         for i in rest[first..].iter().map(|i| *i as usize) {
             let run = previous
                 .filter(|&p| i - p <= BRIDGED_PIXELS + 1 && link.joins(&points[p], &points[i]))
-                .map(|p| run_of[p]);
+                .map(|p| run_of[at(row, p - start)]);
             let run = run.unwrap_or_else(|| forest.add());
-            run_of[i] = run;
+            run_of[at(row, i - start)] = run;
+            runs.push(run);
             previous = Some(i);
             // The nearest reading above, bridging lost rows.
             let above = (1..=(BRIDGED_PIXELS + 1).min(row))
-                .map(|rows| i - rows * width)
-                .find(|&a| run_of[a] != NO_RUN);
-            if let Some(above) = above {
+                .map(|rows| (i - rows * width, run_of[at(row - rows, i - start)]))
+                .find(|(_, above)| *above != NO_RUN);
+            if let Some((pixel, above)) = above {
                 // Along a surface the same two runs meet pixel after pixel: one meeting is enough.
-                let meeting = (run_of[above], run);
+                let meeting = (above, run);
                 if meeting != last_meeting
                     && meeting.0 != run
-                    && link.joins(&points[above], &points[i])
+                    && link.joins(&points[pixel], &points[i])
                 {
                     forest.join(meeting.0, run);
                     last_meeting = meeting;
@@ -153,8 +159,8 @@ fn connect_pixels(
     }
     let mut group_of_root = vec![NO_RUN; forest.parents.len()];
     let mut groups: Vec<Vec<u32>> = Vec::new();
-    for i in rest {
-        let root = forest.root(run_of[i as usize]) as usize;
+    for (i, run) in rest.into_iter().zip(runs) {
+        let root = forest.root(run) as usize;
         if group_of_root[root] == NO_RUN {
             group_of_root[root] = groups.len() as u32;
             groups.push(Vec::new());
