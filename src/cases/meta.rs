@@ -73,6 +73,9 @@ pub struct SceneRecord {
     /// The camera, if a pinhole camera explains the scene.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub camera: Option<Intrinsics>,
+    /// CRC-32 of `empty-cell.pcd`, if the empty cell was known.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub empty_cell_crc32: Option<u32>,
 }
 
 /// [`PictureEdge`], as it is written.

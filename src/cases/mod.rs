@@ -7,6 +7,7 @@
 //!   simulated_frame_7/
 //!     case.toml     what it truly is, what was found, where it came from (see CaseMeta)
 //!     scene.pcd     the scene in full: binary PCD, metres, camera space, rows and columns kept
+//!     empty-cell.pcd  only if the empty cell was known: its nearest depth around each pixel
 //!   .trash/         what was removed; moved back by hand it is a case again
 //! ```
 //!
@@ -37,6 +38,7 @@
 //! bytes = 3686600                   # size and CRC-32 of scene.pcd
 //! crc32 = 305419896
 //! picture_edge = "view"             # view or points, see PictureEdge
+//! empty_cell_crc32 = 19088743       # of empty-cell.pcd; absent without one
 //!
 //! [scene.camera]                    # pixels; absent if no pinhole camera explains the scene
 //! width = 640
@@ -47,7 +49,7 @@
 //! cy = 239.5
 //! ```
 //!
-//! The scene opens again bit for bit, camera included, so that the same recipe gives the same verdict. A case is
+//! The scene opens again bit for bit, camera and empty cell included, so that the same recipe gives the same verdict. A case is
 //! written whole or not at all: built in a hidden folder (`.new-…`), synced, renamed. A damaged case is named and set
 //! aside, the others load; a newer schema is refused in words. The size is held against `case.toml` when a folder is
 //! listed, the checksum when a scene is read.

@@ -6,6 +6,7 @@ use std::{
     fs::{self, File},
     io::{self, Write as _},
     path::{Path, PathBuf},
+    sync::Arc,
 };
 
 use super::{
@@ -16,11 +17,13 @@ use crate::{
     files::{
         FileError, Opened, crc32, in_counting_order, open_bytes, read_bytes, words_of, write_pcd,
     },
-    stages::scene::SceneCloud,
+    geometry::cloud::PointCloud,
+    stages::{scene::SceneCloud, segment::EmptyCell},
 };
 
 const META: &str = "case.toml";
 const SCENE: &str = "scene.pcd";
+const EMPTY_CELL: &str = "empty-cell.pcd";
 const NEW_PREFIX: &str = ".new-";
 const TRASH: &str = ".trash";
 const LOCK: &str = ".lock";
@@ -91,8 +94,11 @@ impl CaseFolder {
             self.writing(|| {
                 self.clear_leftovers()?;
                 let (name, place) = self.free_name(&plain_name(&about.origin))?;
-                let mut cloud = Vec::new();
-                write_pcd(&mut cloud, &scene.cloud)?;
+                let cloud = packed(&scene.cloud)?;
+                let empty_cell = scene.empty_cell.as_ref();
+                let empty_cell = empty_cell
+                    .map(|cell| packed(&cell.to_cloud()))
+                    .transpose()?;
                 let meta = CaseMeta {
                     schema_version: SCHEMA_VERSION,
                     about,
@@ -101,10 +107,14 @@ impl CaseFolder {
                         crc32: crc32(&cloud),
                         picture_edge: scene.edge.into(),
                         camera: scene.intrinsics,
+                        empty_cell_crc32: empty_cell.as_deref().map(crc32),
                     },
                 };
                 let building = new_folder(&self.path)?;
                 write_file(&building.path().join(SCENE), &cloud)?;
+                if let Some(content) = empty_cell {
+                    write_file(&building.path().join(EMPTY_CELL), &content)?;
+                }
                 let text = toml::to_string(&meta).map_err(io::Error::other)?;
                 write_file(&building.path().join(META), text.as_bytes())?;
                 sync_folder(building.path())?;
@@ -120,20 +130,26 @@ impl CaseFolder {
 
     /// The scene of a case, as it was.
     pub fn read_scene(&self, case: &KeptCase) -> Result<SceneCloud, CaseError> {
-        let path = self.path.join(&case.name).join(SCENE);
         let damaged = |what: String| CaseError::Damaged {
             name: case.name.clone(),
             what,
         };
-        let of_file = |error: FileError| damaged(error.to_string());
-        let bytes = read_bytes(&path).map_err(of_file)?;
-        if crc32(&bytes) != case.meta.scene.crc32 {
-            return Err(damaged(format!("{SCENE} does not have its checksum")));
-        }
-        let Opened::Cloud(cloud) = open_bytes(&path, &bytes).map_err(of_file)? else {
-            return Err(damaged(format!("{SCENE} holds no cloud")));
+        let SceneRecord {
+            crc32,
+            picture_edge,
+            camera,
+            empty_cell_crc32,
+            ..
+        } = case.meta.scene;
+        let folder = self.path.join(&case.name);
+        let cloud = |file, crc32| cloud_of(&folder, file, crc32).map_err(damaged);
+        let cell = |crc32| {
+            EmptyCell::of_cloud(&cloud(EMPTY_CELL, crc32)?)
+                .map(Arc::new)
+                .ok_or_else(|| damaged(format!("{EMPTY_CELL} has no rows and columns")))
         };
-        let camera = case.meta.scene.camera;
+        let empty_cell = empty_cell_crc32.map(cell).transpose()?;
+        let cloud = cloud(SCENE, crc32)?;
         let cells = cloud.grid.map(|grid| (grid.width, grid.height));
         if camera.is_some_and(|camera| cells != Some((camera.width, camera.height))) {
             return Err(damaged("the camera's picture is not the scene's".into()));
@@ -141,8 +157,8 @@ impl CaseFolder {
         Ok(SceneCloud {
             cloud,
             intrinsics: camera,
-            edge: case.meta.scene.picture_edge.into(),
-            empty_cell: None,
+            edge: picture_edge.into(),
+            empty_cell,
         })
     }
 
@@ -348,6 +364,27 @@ fn new_folder(parent: &Path) -> io::Result<tempfile::TempDir> {
         builder.permissions(fs::Permissions::from_mode(0o777));
     }
     builder.tempdir_in(parent)
+}
+
+/// The bytes of a cloud's file.
+fn packed(cloud: &PointCloud) -> io::Result<Vec<u8>> {
+    let mut content = Vec::new();
+    write_pcd(&mut content, cloud)?;
+    Ok(content)
+}
+
+/// The cloud in a file of a case, or what is wrong with it.
+fn cloud_of(folder: &Path, file: &str, checksum: u32) -> Result<PointCloud, String> {
+    let path = folder.join(file);
+    let of_file = |error: FileError| error.to_string();
+    let bytes = read_bytes(&path).map_err(of_file)?;
+    if crc32(&bytes) != checksum {
+        return Err(format!("{file} does not have its checksum"));
+    }
+    match open_bytes(&path, &bytes).map_err(of_file)? {
+        Opened::Cloud(cloud) => Ok(cloud),
+        _ => Err(format!("{file} holds no cloud")),
+    }
 }
 
 fn write_file(path: &Path, content: &[u8]) -> io::Result<()> {

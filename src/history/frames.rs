@@ -166,14 +166,8 @@ fn is_same(a: &Point3<f32>, b: &Point3<f32>) -> bool {
 
 /// Where the empty cell lies; written once for as many frames as there are.
 fn write_cell(folder: &Path, cell: &EmptyCell) -> Result<String, HistoryError> {
-    let (grid, depths) = cell.depths();
-    let cloud = PointCloud {
-        points: depths.iter().map(|z| cell_point(*z)).collect(),
-        grid: Some(grid),
-        ..PointCloud::default()
-    };
     let mut content = Vec::new();
-    write_pcd(&mut content, &cloud).map_err(|error| HistoryError::io(folder, error))?;
+    write_pcd(&mut content, &cell.to_cloud()).map_err(|error| HistoryError::io(folder, error))?;
     let file = format!("empty-cell-{:08x}.pcd", crc32(&content));
     let path = folder.join(&file);
     // Its name is its checksum.
@@ -182,15 +176,6 @@ fn write_cell(folder: &Path, cell: &EmptyCell) -> Result<String, HistoryError> {
         write_atomically(&path, |writer| writer.write_all(&content))?;
     }
     Ok(file)
-}
-
-/// A depth of the empty cell as a point: nothing that is known of a pixel is no reading.
-fn cell_point(z: f32) -> Point3<f32> {
-    if z.is_finite() {
-        Point3::new(0.0, 0.0, z)
-    } else {
-        Point3::new(f32::NAN, f32::NAN, f32::NAN)
-    }
 }
 
 /// The scene of a kept frame, as it was inspected.
@@ -241,11 +226,7 @@ fn cloud_of(path: &Path, bytes: &[u8]) -> Result<PointCloud, HistoryError> {
 
 fn read_cell(path: &Path) -> Result<EmptyCell, HistoryError> {
     let cloud = cloud_of(path, &read_bytes(path)?)?;
-    let known = |z: f32| if z.is_finite() { z } else { f32::INFINITY };
-    let depths = cloud.points.iter().map(|p| known(p.z)).collect();
-    let cell = cloud
-        .grid
-        .and_then(|grid| EmptyCell::from_depths(grid, depths));
+    let cell = EmptyCell::of_cloud(&cloud);
     cell.ok_or_else(|| HistoryError::FrameDamaged {
         path: path.to_owned(),
         what: "the empty cell has no rows and columns".into(),

@@ -3,7 +3,7 @@ use crate::{
     cases::{Found, Truth, found_in},
     error::Advice as _,
     pipeline::{Recipe, Unwatched},
-    simulate::{CellSetup, PartKind, PartPose, Placement, Side, frame},
+    simulate::{CellSetup, PartKind, PartPose, Placement, Side, Subject, frame},
     stages::scene::{PictureEdge, scene_from_cloud, scene_from_frame},
 };
 
@@ -46,6 +46,9 @@ fn a_kept_scene_opens_again_bit_for_bit_with_the_same_verdict() {
     let cases = CaseFolder::at(folder.path().join("cases"));
     let mut scene = door();
     scene.edge = PictureEdge::Points;
+    let empty = scene_from_frame(&frame(&CellSetup::new(Subject::Nothing, 4)).frame);
+    let cell = EmptyCell::of(&empty).expect("a picture");
+    scene.empty_cell = Some(Arc::new(cell));
     let library = crate::library::open_library(Some(Path::new("reference_parts")))
         .and_then(|place| place.load(&crate::stages::reference::ReferenceParams::default()))
         .expect("the shipped parts")
@@ -67,9 +70,15 @@ fn a_kept_scene_opens_again_bit_for_bit_with_the_same_verdict() {
         (again.intrinsics, again.edge, again.cloud.grid),
         (scene.intrinsics, scene.edge, scene.cloud.grid)
     );
+    assert!(again.empty_cell.is_some() && again.empty_cell == scene.empty_cell);
     let after = found_in(&again, &library, &recipe, &Unwatched).expect("not cancelled");
     assert_eq!(after, before);
     assert_eq!(list.cases[0].meta.about.found, before);
+
+    let cell = cases.path().join("simulated_frame_4").join(EMPTY_CELL);
+    fs::write(cell, "cut off").expect("damaged");
+    let refused = cases.read_scene(&list.cases[0]).expect_err("damaged");
+    assert!(refused.to_string().contains(EMPTY_CELL), "{refused}");
 }
 
 #[test]

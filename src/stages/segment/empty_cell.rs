@@ -9,7 +9,10 @@ use nalgebra::Point3;
 use super::{PointLabel, SegmentParams};
 use crate::{
     error::Advice,
-    geometry::{cloud::Grid, plane::Plane},
+    geometry::{
+        cloud::{Grid, PointCloud},
+        plane::Plane,
+    },
     stages::scene::SceneCloud,
     units::Metres,
 };
@@ -49,22 +52,34 @@ impl EmptyCell {
     /// Of a capture with nothing but the cell in it.
     pub fn of(scene: &SceneCloud) -> Result<Self, EmptyCellError> {
         let grid = scene.cloud.grid.ok_or(EmptyCellError::NoPicture)?;
-        let depth = |p: &Point3<f32>| if p.z.is_finite() { p.z } else { f32::INFINITY };
-        let depths: Vec<f32> = scene.cloud.points.iter().map(depth).collect();
+        let depths: Vec<f32> = scene.cloud.points.iter().map(depth_of).collect();
         // Rows first, then columns: the least of a square.
         let along = least_around(&depths, grid.width, 1, grid.width);
         let nearest = least_around(&along, grid.height, grid.width, 1);
         Ok(Self { grid, nearest })
     }
 
-    /// What is known of it, to be written and read back by [`from_depths`](Self::from_depths): rows and columns, and the
-    /// nearest depth around each pixel, metres; infinite where nothing is known.
-    pub fn depths(&self) -> (Grid, &[f32]) {
-        (self.grid, &self.nearest)
+    /// What is known of it as a cloud, to be written and read back by [`of_cloud`](Self::of_cloud): rows and columns, and
+    /// the nearest depth around each pixel, metres; no reading where nothing is known.
+    pub fn to_cloud(&self) -> PointCloud {
+        let point = |z: &f32| {
+            if z.is_finite() {
+                Point3::new(0.0, 0.0, *z)
+            } else {
+                Point3::new(f32::NAN, f32::NAN, f32::NAN)
+            }
+        };
+        PointCloud {
+            points: self.nearest.iter().map(point).collect(),
+            grid: Some(self.grid),
+            ..PointCloud::default()
+        }
     }
 
-    /// The cell that [`depths`](Self::depths) told of; `None` if there is not one depth for every pixel.
-    pub fn from_depths(grid: Grid, nearest: Vec<f32>) -> Option<Self> {
+    /// The cell that [`to_cloud`](Self::to_cloud) told of; `None` if the cloud has no rows and columns.
+    pub fn of_cloud(cloud: &PointCloud) -> Option<Self> {
+        let grid = cloud.grid?;
+        let nearest: Vec<f32> = cloud.points.iter().map(depth_of).collect();
         (grid.width * grid.height == nearest.len()).then_some(Self { grid, nearest })
     }
 
@@ -116,6 +131,15 @@ impl EmptyCell {
                 *known = label;
             }
         }
+    }
+}
+
+/// A point's depth; without a reading infinite.
+fn depth_of(point: &Point3<f32>) -> f32 {
+    if point.z.is_finite() {
+        point.z
+    } else {
+        f32::INFINITY
     }
 }
 

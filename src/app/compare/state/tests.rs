@@ -27,6 +27,7 @@ fn kept(name: &str) -> KeptCase {
         crc32: 0,
         picture_edge: Edge::View,
         camera: None,
+        empty_cell_crc32: None,
     };
     KeptCase {
         name: name.into(),
