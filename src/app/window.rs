@@ -357,6 +357,11 @@ impl eframe::App for Window {
     }
 
     fn on_exit(&mut self) {
+        for action in self.history.finish() {
+            if let Some(Effect::History(job)) = apply(&mut self.state, action) {
+                self.write_history(job);
+            }
+        }
         self.memory.finish();
     }
 }

@@ -145,6 +145,27 @@ fn the_history_outlives_the_window_and_what_a_person_said_of_it() {
 }
 
 #[test]
+fn a_remark_that_is_being_typed_when_the_window_closes_is_kept() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_with(USUAL, keeping(folder.path()));
+    go_to_history(&mut harness);
+    harness.get_by_label("Your remark").click();
+    harness.run_steps(2);
+    harness.get_by_label("Your remark").type_text("dented");
+    harness.run_steps(2);
+    // Neither Enter nor a click elsewhere: the desktop's own cross closes it.
+    eframe::App::on_exit(harness.state_mut());
+    drop(harness);
+
+    let mut harness = open_with(USUAL, keeping(folder.path()));
+    go_to_history(&mut harness);
+    let state = harness.state().state();
+    let rows = (0..state.history.num_rows()).filter_map(|place| state.history.row(place));
+    let remarks: Vec<_> = rows.map(|row| (row.number, row.remark.as_str())).collect();
+    assert!(remarks.contains(&(1, "dented")), "{remarks:?}");
+}
+
+#[test]
 fn inspected_again_it_says_what_changed() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = open_with(USUAL, keeping(folder.path()));

@@ -23,7 +23,7 @@ use crate::{
 #[derive(Default)]
 pub(super) struct Details {
     picture: Option<(i64, Source, TextureHandle)>,
-    remark: label::Remark,
+    pub(super) remark: label::Remark,
 }
 
 /// What the picture was made of.

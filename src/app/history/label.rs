@@ -62,8 +62,8 @@ impl Remark {
         }
     }
 
-    /// What was written of an inspection before another came to the front is not lost.
-    fn keep(&mut self, actions: &mut Vec<Action>, front: Option<i64>) {
+    /// What was written of an inspection before another came to the front, or the window closes, is not lost.
+    pub(super) fn keep(&mut self, actions: &mut Vec<Action>, front: Option<i64>) {
         if let Some((number, known, text)) = self.draft.take()
             && Some(number) != front
             && text.trim() != known.trim()

@@ -82,6 +82,13 @@ impl HistoryPanel {
         }
     }
 
+    /// What is left to do when the window closes: a remark may still be in its field.
+    pub(super) fn finish(&mut self) -> Vec<Action> {
+        let mut actions = Vec::new();
+        self.details.remark.keep(&mut actions, None);
+        actions
+    }
+
     pub(super) fn ui(
         &mut self,
         ui: &mut Ui,
