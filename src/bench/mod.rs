@@ -15,6 +15,6 @@ pub mod table1;
 
 pub use self::{
     history::{HistoryTime, history_times},
-    processor_time::{ProcessorWatch, process_seconds},
+    processor_time::{ProcessorWatch, process_seconds, waited_for_a_core},
     speed::{StageTimes, quantile, stage_times},
 };

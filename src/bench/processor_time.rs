@@ -1,31 +1,50 @@
 //! Processor time, which others at work on the machine do not lengthen.
 
 use std::{
-    fs, thread,
+    fs,
     time::{Duration, Instant},
 };
 
-/// Processor time of this thread so far, seconds; `None` where there is no /proc.
+#[cfg(target_os = "linux")]
+use rustix::time::{ClockId, clock_gettime};
+
+/// Processor time of this thread so far, seconds; `None` where the system does not tell.
+#[cfg_attr(
+    target_os = "linux",
+    expect(
+        clippy::unnecessary_wraps,
+        reason = "elsewhere the system does not tell"
+    )
+)]
 fn thread_seconds() -> Option<f64> {
-    // Linux brings the figure up to date when the thread gives way.
-    thread::yield_now();
-    let text = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
-    let nanoseconds: f64 = text.split_whitespace().next()?.parse().ok()?;
-    Some(nanoseconds / 1e9)
+    #[cfg(target_os = "linux")]
+    return Some(seconds(ClockId::ThreadCPUTime));
+    #[cfg(not(target_os = "linux"))]
+    None
 }
 
-/// Processor time of all threads of this process so far, seconds, in steps of ten milliseconds: with a software driver
-/// the drawing is in it. `None` where there is no /proc.
+/// Processor time of all threads of this process so far, seconds: with a software driver the drawing is in it. `None`
+/// where the system does not tell.
 pub fn process_seconds() -> Option<f64> {
-    const TICKS_PER_SECOND: f64 = 100.0;
-    let stat = fs::read_to_string("/proc/self/stat").ok()?;
-    // The name, in brackets, may hold spaces; user and system time are the 12th and 13th fields after it.
-    let fields = stat.rsplit(')').next()?.split_whitespace();
-    let ticks = fields
-        .skip(11)
-        .take(2)
-        .filter_map(|ticks| ticks.parse::<f64>().ok());
-    Some(ticks.sum::<f64>() / TICKS_PER_SECOND)
+    #[cfg(target_os = "linux")]
+    return Some(seconds(ClockId::ProcessCPUTime));
+    #[cfg(not(target_os = "linux"))]
+    None
+}
+
+#[cfg(target_os = "linux")]
+fn seconds(clock: ClockId) -> f64 {
+    let now = clock_gettime(clock);
+    now.tv_sec as f64 + now.tv_nsec as f64 / 1e9
+}
+
+/// Seconds that this thread could have run so far, and waited for a core that others had; `None` where the system does
+/// not tell.
+pub fn waited_for_a_core() -> Option<f64> {
+    // Nanoseconds run, nanoseconds waited, turns taken.
+    let text = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
+    let waited: f64 = text.split_whitespace().nth(1)?.parse().ok()?;
+    Some(waited / 1e9)
 }
 
 /// Counts the processor time of the thread that started it; the clock's where the system does not tell.

@@ -15,7 +15,7 @@ use crate::{
         live::{LiveAction, LiveStatus},
         viewport::ViewError,
     },
-    bench::quantile,
+    bench::{quantile, waited_for_a_core},
 };
 
 /// What one stretch of time was like.
@@ -37,6 +37,9 @@ pub struct LiveStretch {
     pub busy_p95_ms: f64,
     /// The longest that the window's thread was away, milliseconds of the clock.
     pub longest_ms: f64,
+    /// How much of that it could have gone on, and waited for a core that others had; `None` where the system does not
+    /// tell.
+    pub longest_waited_ms: Option<f64>,
     /// Memory of the process at the end, megabytes; `None` where the system does not tell.
     pub memory_mb: Option<f64>,
 }
@@ -74,7 +77,8 @@ pub fn live_stretches(
             num_drawn: busy.len(),
             busy_p50_ms: share(0.5),
             busy_p95_ms: share(0.95),
-            longest_ms: longest.as_secs_f64() * 1e3,
+            longest_ms: longest.whole_s * 1e3,
+            longest_waited_ms: longest.waited_s.map(|waited| waited * 1e3),
             memory_mb: memory_mb(),
         };
         before = now;
@@ -92,19 +96,34 @@ fn seen(status: &LiveStatus) -> (u64, u64) {
     )
 }
 
-/// Draws as a display would have it; the busy times of the frames with a new result, milliseconds, and the longest.
-fn draw_until(window: &mut HeadlessWindow, end: Instant) -> (Vec<f64>, Duration) {
+/// A frame of the window's thread.
+#[derive(Clone, Copy, Default)]
+struct Away {
+    /// By the clock, seconds.
+    whole_s: f64,
+    /// Of that, how long it waited for a core.
+    waited_s: Option<f64>,
+}
+
+/// Draws as a display would have it; the busy times of the frames with a new result, milliseconds, and the longest frame.
+fn draw_until(window: &mut HeadlessWindow, end: Instant) -> (Vec<f64>, Away) {
     let mut busy = Vec::new();
-    let mut longest = Duration::ZERO;
+    let mut longest = Away::default();
     let generation = |window: &HeadlessWindow| {
         let shown = window.window().state().shown.as_ref();
         shown.map(|shown| shown.generation)
     };
     while Instant::now() < end {
-        let began = Instant::now();
         let before = generation(window);
+        let waited_before = waited_for_a_core();
+        let began = Instant::now();
         let time = window.frame(Vec::new(), Pace::Ahead);
-        longest = longest.max(began.elapsed());
+        let whole_s = began.elapsed().as_secs_f64();
+        if whole_s > longest.whole_s {
+            let waited = waited_for_a_core().zip(waited_before);
+            let waited_s = waited.map(|(now, before)| now - before);
+            longest = Away { whole_s, waited_s };
+        }
         if generation(window) != before {
             busy.push(time.busy * 1e3);
         }

@@ -44,6 +44,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         "window's thread, median",
         "95 %",
         "longest",
+        "of it waiting for a core",
         "memory",
     ]);
     for stretch in &stretches {
@@ -56,6 +57,9 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
             format!("{:.2} ms", stretch.busy_p50_ms),
             format!("{:.2} ms", stretch.busy_p95_ms),
             format!("{:.0} ms", stretch.longest_ms),
+            stretch
+                .longest_waited_ms
+                .map_or_else(|| "-".to_owned(), |ms| format!("{ms:.0} ms")),
             stretch
                 .memory_mb
                 .map_or_else(|| "-".to_owned(), |mb| format!("{mb:.0} MB")),
