@@ -16,7 +16,7 @@ use super::{
 };
 
 /// In a narrower window the bar has no room for every key.
-const NARROW: f32 = 1100.0;
+pub(super) const NARROW: f32 = 1100.0;
 
 /// Shows which hand-drawn control has the focus.
 pub(super) fn focus_ring(ui: &Ui, rect: Rect, response: &egui::Response, theme: &Theme) {

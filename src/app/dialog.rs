@@ -3,7 +3,7 @@
 use std::{
     path::{Path, PathBuf},
     pin::Pin,
-    sync::Arc,
+    sync::{Arc, Mutex, PoisonError},
     task::{Context, Poll, Wake, Waker},
     time::{Duration, Instant},
 };
@@ -18,8 +18,9 @@ use super::{
 pub(super) struct Dialog {
     ask: Ask,
     answer: Pin<Box<dyn Future<Output = Option<PathBuf>>>>,
-    waker: Waker,
-    opened: Instant,
+    news: Arc<News>,
+    /// When it was asked for first: only then does it open.
+    opened: Option<Instant>,
 }
 
 /// What a person chose, once they have.
@@ -28,11 +29,22 @@ type Answer = Pin<Box<dyn Future<Output = Option<rfd::FileHandle>>>>;
 /// Nobody closes a dialog as quickly as this: it never opened.
 const TOO_QUICK: Duration = Duration::from_millis(250);
 
-struct Repaint(egui::Context);
+/// Woken by the dialog's own thread as soon as it has closed, however much later the next frame comes.
+struct News {
+    ctx: egui::Context,
+    came: Mutex<Option<Instant>>,
+}
 
-impl Wake for Repaint {
+impl News {
+    fn came(&self) -> Option<Instant> {
+        *self.came.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+impl Wake for News {
     fn wake(self: Arc<Self>) {
-        self.0.request_repaint();
+        *self.came.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
+        self.ctx.request_repaint();
     }
 }
 
@@ -112,24 +124,44 @@ impl Dialog {
                     .pick_file(),
             ),
         };
+        let answer = async move { Some(answer.await?.path().to_owned()) };
+        Self::of(ask, answer, ctx)
+    }
+
+    fn of(
+        ask: Ask,
+        answer: impl Future<Output = Option<PathBuf>> + 'static,
+        ctx: &egui::Context,
+    ) -> Self {
         Self {
             ask,
-            answer: Box::pin(async move { Some(answer.await?.path().to_owned()) }),
-            waker: Arc::new(Repaint(ctx.clone())).into(),
-            opened: Instant::now(),
+            answer: Box::pin(answer),
+            news: Arc::new(News {
+                ctx: ctx.clone(),
+                came: Mutex::new(None),
+            }),
+            opened: None,
         }
     }
 
     /// Ready once it was closed, with what follows from it, if anything.
     pub(super) fn poll(&mut self) -> Poll<Option<Action>> {
+        let opened = *self.opened.get_or_insert_with(Instant::now);
+        let waker = Waker::from(Arc::clone(&self.news));
         let answer = self.answer.as_mut();
         answer
-            .poll(&mut Context::from_waker(&self.waker))
+            .poll(&mut Context::from_waker(&waker))
             .map(|path| match path {
                 Some(path) => Some(Action::Chosen(self.ask, path)),
-                None if self.opened.elapsed() < TOO_QUICK => Some(without_dialog(self.ask)),
+                None if self.stood_since(opened) < TOO_QUICK => Some(without_dialog(self.ask)),
                 None => None,
             })
+    }
+
+    /// How long it stood. The clock of frames would not tell: behind Live, one may take longer than failing does.
+    fn stood_since(&self, opened: Instant) -> Duration {
+        let closed = self.news.came().unwrap_or_else(Instant::now);
+        closed.saturating_duration_since(opened)
     }
 }
 
@@ -228,5 +260,48 @@ fn never_opened() -> Notice {
         advice:
             "Drop the file onto the window, or install the package xdg-desktop-portal-gtk or zenity"
                 .into(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::{future::poll_fn, thread};
+
+    use super::*;
+
+    /// A dialog that closes by itself after so long, with nothing chosen.
+    fn closing_after(stands: Duration) -> Dialog {
+        let mut thread = None;
+        let answer = poll_fn(move |context| {
+            if thread.is_some() {
+                return Poll::Ready(None);
+            }
+            let waker = context.waker().clone();
+            thread = Some(thread::spawn(move || {
+                thread::sleep(stands);
+                waker.wake();
+            }));
+            Poll::Pending
+        });
+        Dialog::of(Ask::Scene, answer, &egui::Context::default())
+    }
+
+    /// What follows where the next frame comes only once the dialog has long closed.
+    fn after_a_slow_frame(mut dialog: Dialog) -> Poll<Option<Action>> {
+        thread::sleep(TOO_QUICK);
+        assert!(dialog.poll().is_pending());
+        while dialog.news.came().is_none() {
+            thread::sleep(Duration::from_millis(1));
+        }
+        thread::sleep(2 * TOO_QUICK);
+        dialog.poll()
+    }
+
+    #[test]
+    fn a_dialog_that_never_opened_is_told_from_a_cancelled_one_in_slow_frames_too() {
+        let failed = after_a_slow_frame(closing_after(Duration::ZERO));
+        assert!(matches!(failed, Poll::Ready(Some(Action::Notify(_)))));
+        let cancelled = after_a_slow_frame(closing_after(2 * TOO_QUICK));
+        assert!(matches!(cancelled, Poll::Ready(None)));
     }
 }

@@ -156,25 +156,28 @@ fn of_workspace(workspace: Workspace) -> &'static [Shortcut] {
 /// What the keys cause. Called after the panels, so that a focused control has its keys first.
 ///
 /// The space bar presses a focused control; `space_is_free` says that what has the focus does not use it. While a
-/// person writes, only keys with Ctrl are shortcuts.
+/// person writes, only keys with Ctrl are shortcuts; the Enter that ends the writing is the text's, too.
 pub(super) fn shortcuts(
     ctx: &egui::Context,
     state: &State,
     space_is_free: bool,
     actions: &mut Vec<Action>,
 ) {
+    let is_writing = ctx.text_edit_focused();
+    let was_writing = remember_writing(ctx, is_writing);
     if state.roles.asked.is_some() {
         // Digits are those of a PIN.
         return;
     }
     let is_pressing = !space_is_free && ctx.memory(|memory| memory.focused().is_some());
-    let is_writing = ctx.text_edit_focused();
     for shortcut in of_workspace(state.workspace).iter().chain(&SHORTCUTS) {
         let is_plain = shortcut.modifiers.is_none();
         // In a text that is being written, Ctrl Z takes back what was written.
         let is_of_text = is_plain || shortcut.key == Key::Z;
         let presses = matches!(shortcut.key, Key::Space | Key::Enter);
-        if presses && is_pressing || is_of_text && is_writing {
+        // A text has no use for Escape but to be left: what is open closes by the same press.
+        let is_taken = is_writing || was_writing && shortcut.key != Key::Escape;
+        if presses && is_pressing || is_of_text && is_taken {
             continue;
         }
         let keys = KeyboardShortcut::new(shortcut.modifiers, shortcut.key);
@@ -182,7 +185,7 @@ pub(super) fn shortcuts(
             actions.push((shortcut.action)());
         }
     }
-    if is_writing {
+    if is_writing || was_writing {
         return;
     }
     for ((key, _), workspace) in RAIL_KEYS.into_iter().zip(Workspace::ALL) {
@@ -190,6 +193,18 @@ pub(super) fn shortcuts(
             actions.push(Action::GoTo(workspace));
         }
     }
+}
+
+/// True if a text had the focus when this frame began, and remembers for the next whether one has it now.
+///
+/// A text of one line gives the focus away in the very frame in which Enter is pressed.
+fn remember_writing(ctx: &egui::Context, is_writing: bool) -> bool {
+    let id = Id::unique("a text is being written");
+    ctx.data_mut(|data| {
+        let was_writing = data.get_temp(id).unwrap_or(false);
+        data.insert_temp(id, is_writing);
+        was_writing
+    })
 }
 
 /// The list of shortcuts.

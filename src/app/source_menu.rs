@@ -4,7 +4,7 @@ use egui::{Button, RichText, ScrollArea, Ui, Vec2};
 
 use super::{
     action::{Action, Ask},
-    bars::shortened,
+    bars::{NARROW, shortened},
     live::LiveAction,
     source::{CellChoice, file_name},
     state::{Source, State},
@@ -19,9 +19,19 @@ const AVERAGED: [usize; 4] = [1, 4, 8, 16];
 /// What of the window's height the menu leaves free, logical pixels.
 const MARGIN: f32 = 90.0;
 
+/// What stands on the button: in a narrow window the bar has room for so many letters and no more.
+fn title(ui: &Ui, source: &str) -> String {
+    let is_narrow = ui.ctx().content_rect().width() < NARROW;
+    if is_narrow && source.chars().count() > "Simulated cell".len() {
+        format!("{} ▼", shortened(source, 22))
+    } else {
+        format!("Source · {} ▼", shortened(source, 40))
+    }
+}
+
 /// Draws the button and, once pressed, the menu.
 pub(super) fn ui(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
-    ui.menu_button(format!("Source · {} ▼", now(&state.source)), |ui| {
+    ui.menu_button(title(ui, &now(&state.source)), |ui| {
         let height = ui.ctx().content_rect().height() - MARGIN;
         ui.horizontal_top(|ui| {
             column(ui, height, "cell", |ui| simulated(ui, state, actions));

@@ -74,6 +74,8 @@ fn a_part_from_t4_is_aligned_by_every_method_and_scrubbed() {
     harness.key_press(Key::Home);
     harness.run_steps(2);
     assert_eq!(place(&harness), 0);
+    // The key that is named plays wherever the focus is; Space would capture elsewhere than on the plot.
+    harness.get_by_label_contains("drag to scrub, P to play");
     // Space plays while the plot has the focus; it does not capture.
     let num_captures = harness.state().state().num_captures;
     harness.key_press(Key::Space);

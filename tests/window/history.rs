@@ -76,6 +76,11 @@ fn the_list_is_filtered_by_what_is_written_and_keys_do_not_switch_meanwhile() {
     settle(&mut harness);
     harness.get_by_label("1 of 2");
     assert_eq!(harness.state().state().workspace, Workspace::History);
+    // Nor does the Enter that ends the writing, though the field has lost the focus by then.
+    harness.key_press(Key::Enter);
+    settle(&mut harness);
+    harness.get_by_label("1 of 2");
+    assert_eq!(harness.state().state().workspace, Workspace::History);
     press(&mut harness, "Verdict · All ▼");
     press(&mut harness, "Verdict: No part");
     harness.get_by_label_contains("No inspection is like this");
@@ -115,6 +120,10 @@ fn the_history_outlives_the_window_and_what_a_person_said_of_it() {
     harness.run_steps(2);
     harness.key_press(Key::Enter);
     settle(&mut harness);
+    // Enter was the field's: it does not open the inspection as well.
+    let state = harness.state().state();
+    assert_eq!(state.workspace, Workspace::History);
+    assert!(state.shown.as_ref().is_some_and(|shown| !shown.is_past));
     drop(harness);
 
     let mut harness = open_with(USUAL, keeping(folder.path()));
@@ -191,6 +200,8 @@ fn frames_are_kept_by_the_rule_that_a_person_sets() {
     act(&mut harness, Action::Capture);
     let kept = harness.state().state().history.kept.1;
     assert_eq!(kept.num_frames, 1);
+    press(&mut harness, "Frames…");
+    harness.get_by_label_contains("Now: 1 frame, ");
     drop(harness);
     // The rule belongs to the history: commands keep frames by the same.
     let mut harness = open_with(SMALL, keeping(folder.path()));

@@ -28,7 +28,7 @@ use partsight::{
     },
 };
 
-use super::set_up::{USUAL, WindowHarness, act, open, open_with, settle, wait_until};
+use super::set_up::{SMALL, USUAL, WindowHarness, act, open, open_with, settle, wait_until};
 
 /// Between two frames, by the camera's clock: as a slow one.
 const APART: i64 = 150;
@@ -385,4 +385,25 @@ fn the_cell_can_be_set_up_and_is_captured_as_it_is() {
     };
     assert_eq!(spec.to_string(), "simulated,clutter=in-front");
     assert!(says(&harness, "simulated frame 1") || says(&harness, "Simulated frame 1"));
+}
+
+#[test]
+fn in_a_small_window_a_long_title_of_the_source_gives_way_to_what_stands_beside_it() {
+    let mut harness = open_with(SMALL, WindowOptions::default());
+    let longest = CellChoice::all().max_by_key(|choice| choice.title().len());
+    let longest = longest.expect("there are choices");
+    act(&mut harness, Action::UseCell(longest));
+    harness.run_steps(4);
+    let library = harness.state().state().library.as_ref();
+    let num_parts = library.expect("loaded").parts.len();
+    let open = harness.get_by_label("Open…").rect();
+    let library = harness
+        .get_all_by_label_contains(&format!("{num_parts} part"))
+        .map(|node| node.rect())
+        .find(|rect| (rect.center().y - open.center().y).abs() < 10.0)
+        .expect("in the bar");
+    assert!(
+        open.right() <= library.left(),
+        "{open:?} lies over {library:?}"
+    );
 }

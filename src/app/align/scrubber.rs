@@ -84,7 +84,7 @@ fn heading(
             let place = state.align.place.round();
             let text = format!("iteration {place} of {}", shown.last_place());
             let hint = if ui.available_width() > 340.0 {
-                " · drag to scrub, Space to play"
+                " · drag to scrub, P to play"
             } else {
                 ""
             };
@@ -103,7 +103,7 @@ fn describe(ui: &Ui, response: &Response, state: &State) {
         node.set_label("Iteration shown");
         node.set_description(
             "E per iteration. Left and right go one iteration, Page Up and Page Down ten, Home and End to the ends, \
-             Space plays",
+             P plays",
         );
         node.set_min_numeric_value(0.0);
         node.set_max_numeric_value(last);

@@ -205,7 +205,8 @@ fn hear(state: &mut State, news: HistoryNews) -> Option<Effect> {
         }) => {
             let megabytes = num_bytes as f64 / 1e6;
             let what = format!(
-                "The history let go of {num_frames} frames, {megabytes:.1} MB, by the rule for frames"
+                "The history let go of {}, {megabytes:.1} MB, by the rule for frames",
+                frames(num_frames)
             );
             notify(state, Notice::done(what));
             state.history.stale();
@@ -215,10 +216,19 @@ fn hear(state: &mut State, news: HistoryNews) -> Option<Effect> {
     look_if_stale(state)
 }
 
-fn inspections(num: usize) -> String {
+/// So many inspections, in words.
+pub(super) fn inspections(num: usize) -> String {
     match num {
         1 => "one inspection".into(),
         num => format!("{num} inspections"),
+    }
+}
+
+/// So many frames, in words.
+pub(super) fn frames(num: usize) -> String {
+    match num {
+        1 => "1 frame".into(),
+        num => format!("{num} frames"),
     }
 }
 

@@ -2,6 +2,7 @@
 
 use std::path::Path;
 
+use super::apply::inspections;
 use crate::{
     app::{
         job::Trouble,
@@ -42,7 +43,7 @@ fn write_table(filter: &Filter, path: &Path, history: &Keeper) -> Result<Written
     write_atomically(path, |writer| writer.write_all(&table))
         .map_err(|error| Trouble::of(&error))?;
     Ok(Written {
-        what: format!("Wrote {num} inspections to {}", path.display()),
+        what: format!("Wrote {} to {}", inspections(num), path.display()),
         path: path.to_owned(),
     })
 }

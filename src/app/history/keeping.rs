@@ -4,7 +4,7 @@ use egui::{
     Button, Context, DragValue, Frame, Grid, Id, Margin, Modal, RichText, Ui, WidgetInfo, vec2,
 };
 
-use super::HistoryAction;
+use super::{HistoryAction, apply::frames};
 use crate::{
     app::{
         action::Action,
@@ -93,8 +93,8 @@ fn number(ui: &mut Ui, value: DragValue<'_>, label: &str) {
 fn used(ui: &mut Ui, usage: Usage, theme: &Theme) {
     let gigabytes = |bytes: u64| format!("{:.2} GB", bytes as f64 / 1e9);
     let text = format!(
-        "Now: {} frames, {}. The oldest go first",
-        usage.num_frames,
+        "Now: {}, {}. The oldest go first",
+        frames(usage.num_frames),
         gigabytes(usage.num_bytes)
     );
     ui.label(RichText::new(text).color(theme.text));

@@ -2,7 +2,10 @@
 
 use std::{path::PathBuf, sync::Arc};
 
-use super::work::{FollowRequest, LiveAnswer, LiveRequest, LiveStatus, SourceState};
+use super::{
+    status::frames_word,
+    work::{FollowRequest, LiveAnswer, LiveRequest, LiveStatus, SourceState},
+};
 use crate::{
     app::{
         action::{self, Ask, Effect, notify},
@@ -188,8 +191,9 @@ fn end_recording(state: &mut State) {
     let status = state.live.status.as_mut();
     if let Some(recorded) = status.and_then(|status| status.recorded.take()) {
         let what = format!(
-            "Recorded {} frames, {}, to {}",
+            "Recorded {} {}, {}, to {}",
             recorded.num_frames,
+            frames_word(recorded.num_frames),
             megabytes(recorded.num_bytes),
             recorded.folder.display()
         );

@@ -66,7 +66,8 @@ fn record(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     let recorded = recorded.and_then(|status| status.recorded.as_ref());
     let so_far = recorded.map_or_else(String::new, |recorded| {
         let size = megabytes(recorded.num_bytes);
-        format!(" · {} frames, {size}", recorded.num_frames)
+        let word = frames_word(recorded.num_frames);
+        format!(" · {} {word}, {size}", recorded.num_frames)
     });
     let text = RichText::new(format!("Stop recording{so_far}")).font(font::small());
     let button = Button::selectable(true, text).min_size(size);
@@ -127,7 +128,10 @@ fn rests_on(status: &LiveStatus) -> String {
         (_, None) => "Every new file is inspected by itself".into(),
         (Standing::Open, _) => "No verdict counts until it hangs still".into(),
         (Standing::Gathering { num_frames, needed }, _) => {
-            format!("{num_frames} of {needed} frames{averaged}")
+            format!(
+                "{num_frames} of {needed} {}{averaged}",
+                frames_word(*needed)
+            )
         }
         (Standing::Counted(agreed), _) => {
             let Agreed {
@@ -135,9 +139,15 @@ fn rests_on(status: &LiveStatus) -> String {
                 num_agreeing,
                 ..
             } = **agreed;
-            format!("{num_agreeing} of {num_frames} frames agree{averaged}")
+            let agree = if num_frames == 1 { "agrees" } else { "agree" };
+            let word = frames_word(num_frames);
+            format!("{num_agreeing} of {num_frames} {word} {agree}{averaged}")
         }
     }
+}
+
+pub(super) fn frames_word<N: PartialEq + From<u8>>(num: N) -> &'static str {
+    if num == N::from(1) { "frame" } else { "frames" }
 }
 
 /// Rates, latency, and what was dropped.
