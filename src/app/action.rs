@@ -332,11 +332,32 @@ fn take_empty_cell(state: &mut State) {
     let Some(shown) = &state.shown else {
         return;
     };
+    let inspection = &shown.inspected.inspection;
+    if inspection.verdict.is_accepted() {
+        let hangs_there = Notice {
+            kind: NoticeKind::Look,
+            what: "This is no empty cell: a part hangs in it, and would not be found any more"
+                .into(),
+            advice: "Take the part away, capture, and take the empty cell then".into(),
+        };
+        notify(state, hangs_there);
+        return;
+    }
+    let stands_there = inspection.segmentation.part.is_ok();
     match EmptyCell::of(&shown.inspected.scene) {
         Ok(cell) => {
             state.empty_cell = Some(Arc::new(cell));
             let what = "The empty cell is taken: from the next capture on, what stands in it is not taken for a part";
-            notify(state, Notice::done(what));
+            let taken = if stands_there {
+                Notice {
+                    kind: NoticeKind::Look,
+                    what: "The empty cell is taken, with something as large as a part in it".into(),
+                    advice: "If that is a part: Source, Forget the empty cell; then take it away and capture first".into(),
+                }
+            } else {
+                Notice::done(what)
+            };
+            notify(state, taken);
         }
         Err(error) => notify(state, Trouble::of(&error).into()),
     }
@@ -448,6 +469,10 @@ mod tests {
             apply(&mut state, Action::CopyPose),
             Some(Effect::CopyText(_))
         ));
+        apply(&mut state, Action::TakeEmptyCell);
+        assert!(state.empty_cell.is_none(), "a part hangs there");
+        let said = state.notices.last().map(|notice| notice.what.clone());
+        assert!(said.is_some_and(|said| said.contains("no empty cell")));
 
         apply(&mut state, Action::Capture);
         assert!(state.is_old());

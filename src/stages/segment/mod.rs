@@ -128,6 +128,8 @@ pub enum NoPart {
         found: f64,
         /// Least surface of a part, square metres.
         needed: f64,
+        /// True if what stood in the empty cell is background too.
+        knows_cell: bool,
     },
 }
 
@@ -138,6 +140,13 @@ impl Advice for NoPart {
                 "Check that the camera is connected, uncovered and 0.6 to 3 m from the part, then capture again".into()
             }
             Self::TooWide { .. } => "Export the scene in metres: it looks like millimetres".into(),
+            Self::OnlyBackground {
+                knows_cell: true, ..
+            } => {
+                "Hang the part in front of the camera, at least 10 cm away from the wall, and capture again; if it hung there \
+                 when the empty cell was captured, capture that anew without it"
+                    .into()
+            }
             Self::OnlyBackground { .. } => {
                 "Hang the part in front of the camera, at least 10 cm away from the wall, and capture again".into()
             }

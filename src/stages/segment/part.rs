@@ -187,6 +187,7 @@ pub(super) fn take_part(
             ))
         }
         _ => Err(NoPart::OnlyBackground {
+            knows_cell: scene.empty_cell.is_some(),
             planes: planes.len(),
             found: largest.map_or(0.0, |l| l.cluster.area),
             needed: params.min_part_area,
