@@ -12,8 +12,8 @@ use crate::{
     error::Advice as _,
     files::{self, Opened},
     library::{
-        About, EnrolParams, Enrolled, LibraryFolder, MAX_TITLE, PartName, enrol_captured,
-        enrol_mesh, enrol_whole, most_alike,
+        About, EnrolParams, Enrolled, LibraryError, LibraryFolder, MAX_TITLE, PartName,
+        enrol_captured, enrol_mesh, enrol_whole, most_alike,
     },
     stages::{
         reference::{Coverage, ReferenceParams},
@@ -62,8 +62,9 @@ pub(super) struct EnrolArgs {
 }
 
 pub(super) fn run(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let of = part_of(args)?;
     let mut enrolled = enrolled_from(args, console)?;
-    enrolled.part.meta.part.clone_from(&args.part);
+    enrolled.part.meta.part = of;
     enrolled.reference.name = enrolled.part.meta.part_name().to_string();
     for warning in &enrolled.warnings {
         console.warn(warning, warning);
@@ -78,8 +79,10 @@ pub(super) fn run(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Out
         Coverage::OneSide => "seen from one side",
         Coverage::AllAround => "seen from all around",
     };
+    let of = part.meta.reference_of();
+    let of = of.map_or_else(String::new, |of| format!(" as one more reference of {of}"));
     console.line(&format_args!(
-        "Enrolled {} from {}, {sides}: {} points, outline of {:.0} mm, openings: {}",
+        "Enrolled {}{of} from {}, {sides}: {} points, outline of {:.0} mm, openings: {}",
         args.name,
         part.meta.enrolled.how.describe(),
         part.cloud.points.len(),
@@ -104,6 +107,29 @@ pub(super) fn run(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Out
         console.warn(&likeness, &likeness);
     }
     Ok(Outcome::Accepted)
+}
+
+/// The part that it becomes one more reference of. A name that nobody enrolled would be a part of its own in verdicts.
+fn part_of(args: &EnrolArgs) -> anyhow::Result<Option<PartName>> {
+    let Some(named) = &args.part else {
+        return Ok(None);
+    };
+    let folder = match &args.library.library {
+        Some(path) => match LibraryFolder::open(path) {
+            // It would be made, and be empty.
+            Err(LibraryError::NotFound { path }) => Err(LibraryError::NoSuchPart {
+                path,
+                name: named.to_string(),
+                available: Vec::new(),
+            }),
+            opened => opened,
+        }
+        .advised()?,
+        None => args.library.open_to_change()?,
+    };
+    let part = folder.part_of(named).advised()?;
+    // One that replaces the part's own stays that.
+    Ok(Some(part).filter(|part| *part != args.name))
 }
 
 pub(super) fn parse_title(text: &str) -> Result<String, String> {

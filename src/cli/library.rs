@@ -6,7 +6,7 @@ use clap::{Args, Subcommand};
 
 use super::{
     LibraryChoice, Outcome,
-    console::{Advised as _, Console, Table},
+    console::{Advised as _, Console, Table, advised_error},
 };
 use crate::{
     library::{EntryError, LibraryError, LibraryFolder, PartName, PartWords, StoredPart},
@@ -112,8 +112,12 @@ fn list(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome
     ]);
     for (meta, reference) in load.parts.iter().zip(&load.library.references) {
         let simulated = if meta.simulated { ", simulated" } else { "" };
+        let name = match meta.reference_of() {
+            Some(part) => format!("{} (reference of {part})", meta.name),
+            None => meta.name.to_string(),
+        };
         table.row([
-            meta.name.to_string(),
+            name,
             meta.title.clone(),
             size_of(reference),
             reference.cloud.points.len().to_string(),
@@ -146,6 +150,12 @@ fn show(choice: &LibraryChoice, name: &PartName, console: &mut Console) -> anyho
         }
     };
     row("name", meta.name.to_string());
+    row(
+        "reference of",
+        meta.reference_of()
+            .map(PartName::to_string)
+            .unwrap_or_default(),
+    );
     row("title", meta.title);
     row("notes", meta.notes);
     row(
@@ -255,6 +265,11 @@ fn remove(
         "To enrol it again: partsight library restore {name}, or move that folder back to {}",
         folder.path().join(name.as_str()).display()
     ));
+    for reference in folder.references_of(name).advised()? {
+        console.line(&format_args!(
+            "{reference} is still a reference of {name}, and keeps that name"
+        ));
+    }
     Ok(Outcome::Accepted)
 }
 
@@ -269,6 +284,12 @@ fn rename(
         title,
         notes,
     } = asked;
+    if (to, title, notes) == (&None, &None, &None) {
+        return Err(advised_error(
+            format!("nothing to change about {name}"),
+            "Give what it is to be called: --to NAME, --title TEXT or --notes TEXT",
+        ));
+    }
     let folder = choice.open_to_change()?;
     let before = folder.words(name).advised()?;
     let words = PartWords {
@@ -277,7 +298,26 @@ fn rename(
         notes: notes.clone().unwrap_or(before.notes),
     };
     let renamed = folder.rename(name, &words).advised()?;
-    console.line(&format_args!("Renamed {name}: it is {} now", words.name));
+    if words.name != *name {
+        console.line(&format_args!("Renamed {name}: it is {} now", words.name));
+    } else if to.is_some() {
+        console.line(&format_args!("{name} is named so already"));
+    }
+    match title.as_deref() {
+        Some("") => console.line(&format_args!("{} has no title now", words.name)),
+        Some(title) => console.line(&format_args!("The title of {} is now: {title}", words.name)),
+        None => {}
+    }
+    if notes.is_some() {
+        console.line(&format_args!("The notes of {} were changed", words.name));
+    }
+    match renamed.num_references {
+        0 => {}
+        1 => console.line(&"  1 more reference of it was renamed along"),
+        n => console.line(&format_args!(
+            "  {n} more references of it were renamed along"
+        )),
+    }
     if let Some(former) = renamed.former {
         console.line(&format_args!(
             "  as it was it is kept in {}",

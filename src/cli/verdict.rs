@@ -6,7 +6,6 @@ use crate::{
     library::Library,
     pipeline::{Inspection, Verdict},
     robot::RobotFrame,
-    stages::pose::Uncertainty,
     units::Metres,
 };
 
@@ -106,6 +105,10 @@ pub(super) fn show_card(
             ),
         );
     }
+    if let (Some(Ok(_)), Some(other)) = (&inspection.pose, inspection.other_reference()) {
+        let text = format!("{other}, one more of this part, with a standard position of its own");
+        line("reference", text);
+    }
     if let Some(Ok(pose)) = &inspection.pose {
         let ambiguous = if pose.is_ambiguous() {
             "; another pose fits as well"
@@ -129,16 +132,19 @@ pub(super) fn show_card(
         );
     }
     if let Some(Ok(pose)) = &inspection.pose
-        && let Some(bounds) = pose.uncertainty.filter(Uncertainty::is_held)
+        && let Some(bounds) = pose.uncertainty
     {
-        line(
-            "bounds",
+        let text = if bounds.is_held() {
             format!(
                 "off by less than {:.1} mm and {:.2} degrees in 95 of 100 cases",
                 bounds.shift.mm(),
                 bounds.turn.degrees()
-            ),
-        );
+            )
+        } else {
+            "none: nothing about the part's shape holds this pose, it could slide or turn"
+                .to_owned()
+        };
+        line("bounds", text);
     }
     if inspection.touches_edge() {
         let text = "what was found reaches the picture's edge: some of it may be missing";

@@ -89,6 +89,9 @@ impl Advice for LibraryError {
             Self::Unwritable { source, .. } => {
                 format!("{}, or name another with --library", advice_on(source))
             }
+            Self::NoSuchPart { available, .. } if available.is_empty() => {
+                "Enrol a part first: partsight enrol FILE --name NAME".into()
+            }
             Self::NoSuchPart { .. } => {
                 "Use one of the names that `partsight library list` shows".into()
             }

@@ -28,9 +28,9 @@ const LEAST_OUTLINE_SCORE: f64 = 0.7;
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{name} cannot be told from {other} ({score:.2})")]
 pub struct Likeness {
-    /// The part.
+    /// The name that it is enrolled under, which need not be the part's.
     pub name: String,
-    /// The enrolled part that it looks like.
+    /// The name that the one which it looks like is enrolled under.
     pub other: String,
     /// The score with which it would be taken for that, 0..1.
     pub score: f64,
@@ -79,9 +79,11 @@ pub fn likenesses(reference: &Reference, coverage: Coverage, library: &Library) 
     };
     let ranking = rank(&query, &others, &RankParams::default());
     let outlines = ranking.clone();
-    let outline_score = |other: &str| {
+    let outline_score = |other: usize| {
         let mut entries = outlines.entries.iter();
-        entries.find(|e| e.part == other).map_or(0.0, |e| e.score)
+        entries
+            .find(|e| e.reference == other)
+            .map_or(0.0, |e| e.score)
     };
     let confirmed = match coverage {
         Coverage::OneSide => {
@@ -95,7 +97,7 @@ pub fn likenesses(reference: &Reference, coverage: Coverage, library: &Library) 
         // Not what a camera sees at once: judged by its outline.
         Coverage::AllAround => ranking,
     };
-    let figure = |part: &str, score: f64| match outline_score(part) {
+    let figure = |other: usize, score: f64| match outline_score(other) {
         // Surfaces alone are blind one way: a small part lies well on any large one.
         outline if outline < LEAST_OUTLINE_SCORE => score.min(outline),
         _ => score,
@@ -104,9 +106,10 @@ pub fn likenesses(reference: &Reference, coverage: Coverage, library: &Library) 
         .entries
         .iter()
         .map(|entry| Likeness {
-            name: name.to_owned(),
-            other: entry.part.clone(),
-            score: figure(&entry.part, entry.score),
+            // Only what is enrolled under a name can be removed or replaced.
+            name: reference.enrolled_as.clone(),
+            other: entry.enrolled_as.clone(),
+            score: figure(entry.reference, entry.score),
         })
         .collect();
     all.sort_by(|a, b| b.score.total_cmp(&a.score));

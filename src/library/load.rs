@@ -153,8 +153,9 @@ fn read_entry(
     let read = || -> Result<StoredPart, EntryError> {
         let meta = read_meta(entry)?;
         let cloud = read_cloud(entry, &meta.cloud)?;
-        let reference =
+        let mut reference =
             Reference::prepare(meta.part_name().as_str(), cloud, meta.coverage, params)?;
+        reference.enrolled_as = meta.name.as_str().to_owned();
         let mut troubles = troubles(entry, &reference, look, params);
         if look == Look::Thorough
             && let Err(error) = read_spray_path(&entry.path, &meta)

@@ -25,6 +25,7 @@ mod name;
 mod part;
 mod place;
 mod problem;
+mod references;
 mod shipped;
 mod spray_path;
 mod spray_store;

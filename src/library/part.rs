@@ -79,6 +79,11 @@ impl PartMeta {
         self.part.as_ref().unwrap_or(&self.name)
     }
 
+    /// The part that it is one more reference of; none if it is the part's own.
+    pub fn reference_of(&self) -> Option<&PartName> {
+        self.part.as_ref().filter(|part| **part != self.name)
+    }
+
     /// Its title, or its name where it has none.
     pub fn shown_title(&self) -> &str {
         if self.title.is_empty() {

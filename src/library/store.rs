@@ -11,6 +11,9 @@
 //! .old-door+gate/               the same for a door that becomes a gate: its successor is gate/
 //! ```
 //!
+//! The references of a part that is renamed are carried along before its former folder goes to the trash: the next
+//! save that finds that folder carries those along that an interrupted rename left behind.
+//!
 //! What was removed or replaced lies whole in `.trash` and can be restored from there.
 //!
 //! Looking never writes: a library can lie on a medium that is write-protected. Writers take turns by a lock.
@@ -60,6 +63,8 @@ pub struct Renamed {
     pub before: PartWords,
     /// Where it lies as it was before, if its name is another one now.
     pub former: Option<PathBuf>,
+    /// How many more references of it were carried along to the new name.
+    pub num_references: usize,
 }
 
 /// What came back from the trash.
@@ -220,7 +225,8 @@ impl LibraryFolder {
     }
 
     /// Calls a part otherwise. Under another name it is a part built anew of the same files, and the former one goes to
-    /// the trash once the new one is in place; otherwise only its description is written anew.
+    /// the trash once the new one is in place and its references name that; otherwise only its description is written
+    /// anew.
     pub fn rename(&self, name: &PartName, words: &PartWords) -> Result<Renamed, LibraryError> {
         self.entry(name.as_str())?;
         self.writing(|| {
@@ -231,27 +237,41 @@ impl LibraryFolder {
             };
             let before = meta.words();
             let folder = self.path.join(name.as_str());
+            // Said to be a reference of itself, it stays one.
+            let part = meta.part.clone();
+            let part = part.map(|part| {
+                if part == *name {
+                    words.name.clone()
+                } else {
+                    part
+                }
+            });
             let meta = PartMeta {
                 name: words.name.clone(),
+                part,
                 title: words.title.clone(),
                 notes: words.notes.clone(),
                 ..meta
             };
-            let former = if words.name == *name {
+            let (former, num_references) = if words.name == *name {
                 rewrite_meta(&folder, &meta)?;
-                None
+                (None, 0)
             } else {
                 let building = new_folder(&self.path, words.name.as_str())?;
                 copy_files(&folder, building.path())?;
                 write_file(&building.path().join(META), meta_text(&meta)?.as_bytes())?;
                 sync_folder(building.path())?;
-                let to = words.name.as_str();
-                let former = self.put_in_place(building.path(), to, name.as_str())?;
+                let aside = self.put_beside(building.path(), words.name.as_str(), name.as_str())?;
                 // Renamed away: nothing is left to be cleared up.
                 let _ = building.keep();
-                former
+                let num_references = self.carry_references(name, &words.name)?;
+                (self.trash_aside(aside, name.as_str())?, num_references)
             };
-            Ok(Ok(Renamed { before, former }))
+            Ok(Ok(Renamed {
+                before,
+                former,
+                num_references,
+            }))
         })?
     }
 
@@ -283,6 +303,13 @@ impl LibraryFolder {
     /// Puts a folder in place as the part `name`, which succeeds `former`: that one goes to the trash once the new one
     /// is in place. Says where it lies then.
     fn put_in_place(&self, coming: &Path, name: &str, former: &str) -> io::Result<Option<PathBuf>> {
+        let aside = self.put_beside(coming, name, former)?;
+        self.trash_aside(aside, former)
+    }
+
+    /// As [`Self::put_in_place`], but leaves the former one where it was renamed aside to, and says where, if there is
+    /// one.
+    fn put_beside(&self, coming: &Path, name: &str, former: &str) -> io::Result<Option<PathBuf>> {
         let leaving = self.path.join(former);
         let aside = self.path.join(Aside::file_name(former, name));
         let is_succeeding = leaving.exists();
@@ -296,8 +323,13 @@ impl LibraryFolder {
             return Err(error);
         }
         sync_folder(&self.path)?;
-        is_succeeding
-            .then(|| trash::take_in(&self.path, &aside, former))
+        Ok(is_succeeding.then_some(aside))
+    }
+
+    /// Moves what was renamed aside to the trash and says where it lies there.
+    fn trash_aside(&self, aside: Option<PathBuf>, former: &str) -> io::Result<Option<PathBuf>> {
+        aside
+            .map(|aside| trash::take_in(&self.path, &aside, former))
             .transpose()
     }
 
@@ -330,6 +362,11 @@ impl LibraryFolder {
             };
             if let Some(Aside { name, successor }) = Aside::of(file_name) {
                 if self.path.join(successor).exists() {
+                    if let (Ok(from), Ok(to)) = (PartName::new(name), PartName::new(successor))
+                        && from != to
+                    {
+                        self.carry_references(&from, &to)?;
+                    }
                     trash::take_in(&self.path, &path, name)?;
                 } else {
                     fs::rename(&path, self.path.join(name))?;

@@ -9,6 +9,7 @@ use crate::{
     geometry::rigid::row_major,
     pipeline::{Inspection, Timings, Verdict},
     robot::RobotFrame,
+    stages::pose::{PoseEstimate, Uncertainty},
 };
 
 /// The version of the JSON lines.
@@ -32,7 +33,7 @@ pub struct InspectionLine<'a> {
     reason: Option<String>,
     /// What was taken for the part reaches the picture's edge: some of it may be missing.
     touches_edge: bool,
-    pose: Option<PoseLine>,
+    pose: Option<PoseLine<'a>>,
     /// The same pose for the robot, if a calibration says where the camera sits.
     #[serde(skip_serializing_if = "Option::is_none")]
     robot: Option<RobotLine<'a>>,
@@ -85,7 +86,9 @@ impl<'a> CaptureLine<'a> {
 }
 
 #[derive(Debug, Serialize)]
-struct PoseLine {
+struct PoseLine<'a> {
+    /// The enrolled reference whose coordinates the part's space is: of several of one part each has its own.
+    reference: Option<&'a str>,
     camera_from_part: [f64; 16],
     method: &'static str,
     rms_m: f64,
@@ -122,6 +125,11 @@ pub struct TimingsLine {
     pub pose: f64,
     /// From the scene's points to the verdict.
     pub total: f64,
+}
+
+/// How far off a pose may be, if something holds it.
+fn bounds_of(pose: &PoseEstimate) -> Option<Uncertainty> {
+    pose.uncertainty.filter(Uncertainty::is_held)
 }
 
 /// `ok`, `unknown` or `no_part`.
@@ -200,12 +208,17 @@ impl<'a> InspectionLine<'a> {
             .as_ref()
             .and_then(|pose| pose.as_ref().ok())
             .map(|pose| PoseLine {
+                reference: inspection
+                    .ranking
+                    .entries
+                    .first()
+                    .map(|best| best.enrolled_as.as_str()),
                 camera_from_part: row_major(&pose.camera_from_part()),
                 method: pose.method.name(),
                 rms_m: pose.fit.rms_m,
                 overlap: pose.fit.overlap,
-                shift_bound_m: pose.uncertainty.map(|u| u.shift.0),
-                turn_bound_rad: pose.uncertainty.map(|u| u.turn.0),
+                shift_bound_m: bounds_of(pose).map(|bounds| bounds.shift.0),
+                turn_bound_rad: bounds_of(pose).map(|bounds| bounds.turn.0),
                 stopped: pose.stopped.name(),
                 ambiguous: pose.is_ambiguous(),
                 approximate: inspection.verdict.is_approximate(),

@@ -80,8 +80,10 @@ pub struct Query<'a> {
 pub struct MatchEntry {
     /// Index of the reference among those given.
     pub reference: usize,
-    /// The reference's name.
+    /// The part's name.
     pub part: String,
+    /// The name that the reference is enrolled under; another than the part's where it is one of several.
+    pub enrolled_as: String,
     /// 0..1, 1 for the same shape.
     pub score: f64,
     /// The matcher's own distance: metres between outlines by default, ‖A - C‖₁ for the paper's.
@@ -170,6 +172,7 @@ fn rank_literally(
         .map(|(reference, (distance, relative))| MatchEntry {
             reference,
             part: references[reference].name.clone(),
+            enrolled_as: references[reference].enrolled_as.clone(),
             // The paper takes the least distance (eq. 11) whatever its size: the score only has to keep that order.
             score: (1.0 - relative).clamp(0.0, 1.0) * 0.5
                 + 0.5 * (least / distance.max(f64::MIN_POSITIVE)).min(1.0),
@@ -193,6 +196,7 @@ fn rank_by_overlap(
         MatchEntry {
             reference,
             part: enrolled.name.clone(),
+            enrolled_as: enrolled.enrolled_as.clone(),
             score: placements.first().map_or(0.0, |p| p.score(params)),
             distance: placements
                 .first()

@@ -87,6 +87,8 @@ const MAX_EXTENT: f64 = 5.0;
 pub struct Reference {
     /// The part's name.
     pub name: String,
+    /// The name that this reference is enrolled under: several may stand for one part, each in coordinates of its own.
+    pub enrolled_as: String,
     /// The reference cloud in part space, with unit normals.
     pub cloud: PointCloud,
     /// Search tree over `cloud`, made when it is first asked for: only the last steps towards a pose search exactly.
@@ -175,6 +177,7 @@ impl Reference {
         }
         Ok(Self {
             name: name.to_owned(),
+            enrolled_as: name.to_owned(),
             tree: OnceLock::new(),
             field: NearestField::new(&cloud.points, FIELD_CELL, FIELD_BAND),
             cloud,
@@ -261,6 +264,7 @@ impl Reference {
         )];
         Self {
             name: name.to_owned(),
+            enrolled_as: name.to_owned(),
             tree: OnceLock::new(),
             field: NearestField::new(&cloud.points, FIELD_CELL, FIELD_BAND),
             cloud,

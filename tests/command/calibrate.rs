@@ -451,6 +451,35 @@ fn a_stored_spray_path_is_carried_into_the_robots_frame() {
 }
 
 #[test]
+fn what_was_taught_over_a_part_is_not_sprayed_over_another_reference_of_it() {
+    let shop = Workplace::new();
+    let set = format!("kuka {}", numbers(Convention::Kuka, &robot_from_camera()));
+    shop.coded(0, &["calibrate", "set", &set, "--mount", "eye-to-hand"]);
+    let hang = |seed: &str, file: &str| {
+        let door = ["simulate", "--part", "front_door", "--model", "5"];
+        let placed = ["--placement", "facing", "--seed", seed, "--out", file];
+        shop.coded(0, &[&door[..], &placed].concat());
+    };
+    hang("1", "make.pcd");
+    shop.coded(
+        0,
+        &[
+            "enrol",
+            "make.pcd",
+            "--name",
+            "door_b",
+            "--as",
+            "front_door",
+        ],
+    );
+    hang("9", "door.pcd");
+    let ran = shop.coded(2, &["inspect", "door.pcd", "--spray", "out.csv"]);
+    let said = "door_b, one more reference of front_door, has no spray path";
+    assert!(ran.err.contains(said), "{}", ran.err);
+    assert!(!shop.path("out.csv").exists());
+}
+
+#[test]
 fn of_what_is_not_accepted_no_spray_path_is_left() {
     let shop = Workplace::new();
     let set = format!("kuka {}", numbers(Convention::Kuka, &robot_from_camera()));

@@ -147,6 +147,10 @@ fn what_stands_in_the_empty_cell_is_no_part_and_a_second_reference_names_its_par
     let empty = place.run(&[&inspect[..], &["--empty-cell", "scene.pcd"]].concat());
     assert_eq!(empty.code, 1, "{}", empty.err);
     assert_eq!(empty.lines()[0]["status"], "no_part");
+    let told = ["inspect", "scene.pcd", "--library", "parts"];
+    let told = place.run(&[&told[..], &["--empty-cell", "scene.pcd"]].concat());
+    let said = told.out + &told.err;
+    assert!(said.contains("the empty cell was captured"), "{said}");
     seen("other_make.pcd", &["--model", "5"]);
     let enrol = [
         "enrol",
@@ -167,6 +171,33 @@ fn what_stands_in_the_empty_cell_is_no_part_and_a_second_reference_names_its_par
         (&"fender".into(), &true.into())
     );
     assert_eq!(line["ranking"].as_array().map(Vec::len), Some(1));
+    // The pose is in the coordinates of the reference, which are not those of the part's own.
+    assert_eq!(line["pose"]["reference"], "fender_b");
+    let told = place.accepted(&["inspect", "other_scene.pcd", "--library", "parts"]);
+    assert!(
+        told.out.contains("fender_b, one more of this part"),
+        "{}",
+        told.out
+    );
+    let own = place.accepted(&["inspect", "scene.pcd", "--json", "--library", "parts"]);
+    assert_eq!(own.lines()[0]["pose"]["reference"], "fender");
+    let report = [
+        "report",
+        "other_scene.pcd",
+        "--library",
+        "parts",
+        "--out",
+        "reports",
+    ];
+    place.accepted(&report);
+    let report = place.json("reports/other_scene.pose.json");
+    let pose = &report["pose"];
+    assert_eq!(pose["reference"], "fender_b");
+    let cautions = pose["cautions"].to_string();
+    assert!(
+        cautions.contains("a standard position of its own"),
+        "{cautions}"
+    );
 }
 
 #[test]

@@ -314,3 +314,96 @@ fn verify_tells_newer_from_damaged_and_names_what_it_skipped() {
     assert!(verify.out.contains("skipped  My Door"), "{}", verify.out);
     assert!(!verify.out.contains("DAMAGED"), "{}", verify.out);
 }
+
+#[test]
+fn one_more_reference_of_a_part_is_named_and_goes_with_it() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    let of = |part: &'static str, name: &'static str, library: &'static str| {
+        let enrol = ["enrol", "fender.pcd", "--as", part];
+        [&enrol[..], &["--name", name, "--library", library]].concat()
+    };
+    let unknown = place.coded(2, &of("nothere", "fender_b", "parts"));
+    assert!(
+        unknown.err.contains("no part named nothere; it has fender"),
+        "{}",
+        unknown.err
+    );
+    assert!(!place.path("parts/fender_b").exists());
+    let empty = place.coded(2, &of("fender", "fender_b", "none"));
+    assert!(empty.err.contains("the library is empty"), "{}", empty.err);
+    assert!(!place.path("none").exists());
+
+    let enrolled = place.accepted(&of("fender", "fender_b", "parts"));
+    assert!(
+        enrolled
+            .out
+            .contains("Enrolled fender_b as one more reference of fender"),
+        "{}",
+        enrolled.out
+    );
+    // Named by another reference of it, it is the same part.
+    place.accepted(&of("fender_b", "fender_c", "parts"));
+    let library = |code: i32, args: &[&str]| {
+        place.coded(code, &[&["library", "--library", "parts"], args].concat())
+    };
+    let list = library(0, &["list"]).out;
+    assert!(list.contains("fender_b (reference of fender)"), "{list}");
+    assert!(list.contains("fender_c (reference of fender)"), "{list}");
+    let shown = library(0, &["show", "fender_b"]).out;
+    assert!(shown.contains("reference of  fender\n"), "{shown}");
+    let own = library(0, &["show", "fender"]).out;
+    assert!(!own.contains("reference of"), "{own}");
+
+    let renamed = library(0, &["rename", "fender", "--to", "wing"]).out;
+    assert!(
+        renamed.contains("2 more references of it were renamed along"),
+        "{renamed}"
+    );
+    assert!(
+        place
+            .read("parts/fender_b/part.toml")
+            .contains("part = \"wing\"")
+    );
+    let inspect = ["inspect", "fender.pcd", "--json", "--library", "parts"];
+    assert_eq!(place.accepted(&inspect).lines()[0]["part"], "wing");
+
+    let removed = library(0, &["remove", "wing"]).out;
+    assert!(
+        removed.contains("fender_b is still a reference of wing, and keeps that name"),
+        "{removed}"
+    );
+    assert_eq!(place.accepted(&inspect).lines()[0]["part"], "wing");
+    library(0, &["restore", "wing"]);
+}
+
+#[test]
+fn a_rename_without_a_new_name_says_what_it_changed() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    let rename = ["library", "rename", "fender", "--library", "parts"];
+    let nothing = place.coded(2, &rename);
+    assert!(
+        nothing.err.contains("nothing to change") && nothing.err.contains("--to NAME"),
+        "{}",
+        nothing.err
+    );
+    let titled = place.accepted(&[&rename[..], &["--title", "Left wing"]].concat());
+    assert_eq!(titled.out, "The title of fender is now: Left wing\n");
+}
+
+#[test]
+fn what_cannot_be_told_apart_is_named_as_it_can_be_removed() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    place.with_part("grille");
+    let more = ["--name", "grille_b", "--as", "grille", "--library", "parts"];
+    let alike = place.accepted(&[&["enrol", "fender-reference.pcd"], &more[..]].concat());
+    assert!(
+        alike
+            .err
+            .contains("partsight library remove grille_b` or `partsight library remove fender`"),
+        "{}",
+        alike.err
+    );
+}

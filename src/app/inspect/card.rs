@@ -326,6 +326,10 @@ fn offset(
         });
         ui.spacing_mut().item_spacing.x = space::SMALL;
     }
+    if let Some(other) = inspected.inspection.other_reference() {
+        let text = format!("From where {other} was enrolled, one more reference of this part");
+        ui.label(RichText::new(text).color(theme.warning));
+    }
     let note = "Part's middle, camera axes · R = Rz·Ry·Rx";
     ui.label(
         RichText::new(note)
@@ -352,6 +356,9 @@ fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem, theme: &Theme) {
     if let Some(bounds) = pose.uncertainty.filter(Uncertainty::is_held) {
         let (shift, turn) = (units.length(bounds.shift.0), units.angle(bounds.turn.0));
         row(ui, theme, "off by, 95 %", &format!("< {shift} · {turn}"));
+    } else if pose.uncertainty.is_some() {
+        let text = "Nothing about its shape holds the pose: it could slide or turn";
+        ui.label(RichText::new(text).color(theme.warning));
     }
     if let Some(runner_up) = pose.runner_up {
         row(

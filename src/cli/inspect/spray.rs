@@ -113,6 +113,15 @@ impl SprayFile {
         let reference = &library.references[first.reference];
         let (name, is_simulated) = &self.parts[first.reference];
         let stored = self.place.spray_path(name.as_str()).advised()?;
+        if let (None, Some(other)) = (&stored, inspection.other_reference()) {
+            let part = &first.part;
+            return Err(advised_error(
+                format!(
+                    "{other}, one more reference of {part}, has no spray path: that of {part} is in other coordinates"
+                ),
+                format!("Store one: partsight library path {other} path.csv"),
+            ));
+        }
         let is_stored = stored.is_some();
         let Some(path) = stored.or_else(|| default_path(reference, params)) else {
             return Err(advised_error(

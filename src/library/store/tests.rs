@@ -390,6 +390,7 @@ fn a_part_with_another_title_is_otherwise_the_same() {
     let expected = Renamed {
         before: before.clone(),
         former: None,
+        num_references: 0,
     };
     assert_eq!(renamed.expect("renamed"), expected);
     let loaded = load(&library);
@@ -456,6 +457,68 @@ fn a_writer_killed_while_it_renames_leaves_one_of_the_two_names() {
     fs::rename(library.path().join("other"), library.path().join("sheet")).expect("in place");
     assert_eq!(library.names().expect("listed"), ["sheet"]);
     library.save(&part("third", 0.6)).expect("saved");
+    assert_eq!(library.trashed().expect("listed")[0].name.as_str(), "plate");
+}
+
+/// Saves a plate as one more reference of the part `of`.
+fn save_reference(library: &LibraryFolder, name: &str, of: &str) {
+    let mut reference = part(name, 0.5);
+    reference.meta.part = Some(part_name(of));
+    library.save(&reference).expect("saved");
+}
+
+fn part_name(text: &str) -> PartName {
+    PartName::new(text).expect("a name")
+}
+
+#[test]
+fn a_renamed_part_takes_its_references_along_and_back() {
+    let (_guard, library) = library();
+    library.save(&part("plate", 0.4)).expect("saved");
+    library.save(&part("other", 0.6)).expect("saved");
+    save_reference(&library, "plate_b", "plate");
+    save_reference(&library, "plate_c", "plate");
+    save_reference(&library, "other_b", "other");
+    let parts = || {
+        let loaded = load(&library);
+        assert!(loaded.problems.is_empty() && loaded.warnings.is_empty());
+        let parts = loaded.parts.iter();
+        parts
+            .map(|meta| meta.part_name().to_string())
+            .collect::<Vec<_>>()
+    };
+    let before = library.words(&part_name("plate")).expect("there");
+    let renamed = library
+        .rename(&before.name, &words("sheet", ""))
+        .expect("renamed");
+    assert_eq!(renamed.num_references, 2);
+    assert_eq!(parts(), ["other", "other", "sheet", "sheet", "sheet"]);
+    let sheet = part_name("sheet");
+    let references = library.references_of(&sheet).expect("listed");
+    assert_eq!(references, [part_name("plate_b"), part_name("plate_c")]);
+    assert_eq!(library.part_of(&references[0]).expect("there"), sheet);
+    let back = library.rename(&sheet, &before).expect("renamed back");
+    assert_eq!(back.num_references, 2);
+    assert_eq!(parts(), ["other", "other", "plate", "plate", "plate"]);
+    let kept = library.remove(&before.name).expect("removed");
+    library.restore(&kept).expect("restored");
+    assert_eq!(parts(), ["other", "other", "plate", "plate", "plate"]);
+    let renamed = library.rename(&part_name("plate_b"), &words("plate_d", ""));
+    assert_eq!(renamed.expect("renamed").num_references, 0);
+    assert_eq!(parts(), ["other", "other", "plate", "plate", "plate"]);
+}
+
+#[test]
+fn references_left_behind_by_a_killed_rename_are_carried_along_by_the_next_writer() {
+    let (_guard, library) = library();
+    let folder = library.save(&part("plate", 0.4)).expect("saved").folder;
+    save_reference(&library, "plate_b", "plate");
+    library.save(&part("sheet", 0.4)).expect("saved");
+    fs::rename(&folder, library.path().join(".old-plate+sheet")).expect("aside");
+    assert!(load(&library).problems.is_empty());
+    library.save(&part("third", 0.6)).expect("saved");
+    let part = library.part_of(&part_name("plate_b")).expect("there");
+    assert_eq!(part.as_str(), "sheet");
     assert_eq!(library.trashed().expect("listed")[0].name.as_str(), "plate");
 }
 

@@ -83,6 +83,9 @@ pub struct PoseBlock {
     pub usable: bool,
     /// What to mind before using it.
     pub cautions: Vec<String>,
+    /// The enrolled reference whose coordinates the part's frame is, and whose standard position is meant below. Another
+    /// than the part's own name where several are enrolled for one part: each has coordinates of its own.
+    pub reference: Option<String>,
     /// The pose.
     pub camera_from_part: TransformBlock,
     /// Its inverse, the paper's T.
@@ -201,6 +204,7 @@ impl PoseBlock {
         Self {
             usable,
             cautions: cautions(pose, inspection, subject),
+            reference: inspection.ranking.entries.first().map(|best| best.enrolled_as.clone()),
             camera_from_part: TransformBlock::of(
                 ["camera_from_part", "takes a point of the enrolled part to where it is before the camera now"],
                 [PART, CAMERA],
@@ -267,6 +271,16 @@ fn cautions(
     }
     if inspection.verdict.is_approximate() {
         cautions.push("approximate: this may be another model of the part".to_owned());
+    }
+    if let (Some(reference), Some(best)) = (
+        inspection.other_reference(),
+        inspection.ranking.entries.first(),
+    ) {
+        let part = &best.part;
+        cautions.push(format!(
+            "of {reference}, one more reference of {part}: it has a standard position of its own, a path taught over {part} \
+             does not fit"
+        ));
     }
     if inspection.touches_edge() {
         cautions.push(

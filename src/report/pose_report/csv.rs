@@ -183,6 +183,8 @@ fn columns(report: &PoseReport) -> Vec<(String, String)> {
     add("touches_edge", verdict.touches_edge.to_string());
     // Nothing of a pose that was not accepted: in a table nobody looks at another column first.
     let pose = report.pose.as_ref();
+    let reference = pose.and_then(|pose| pose.reference.as_deref());
+    add("reference", word(reference));
     add(
         "ambiguous",
         pose.map_or_else(String::new, |pose| pose.fit.ambiguous.to_string()),
