@@ -5,7 +5,10 @@ mod export;
 mod moments;
 mod show;
 
-use std::path::{Path, PathBuf};
+use std::{
+    collections::BTreeSet,
+    path::{Path, PathBuf},
+};
 
 use clap::{Args, Subcommand, ValueEnum};
 use jiff::{Timestamp, tz::TimeZone};
@@ -66,6 +69,8 @@ enum HistoryCommand {
         number: i64,
         /// An enrolled name, `-` for something that is not enrolled, `none` for nothing, `?` to take it back
         part: String,
+        #[command(flatten)]
+        library: LibraryChoice,
     },
     /// Show or change which frames are kept, and how long
     Keep(KeepArgs),
@@ -210,7 +215,11 @@ pub(super) fn run(args: &HistoryArgs, console: &mut Console) -> anyhow::Result<O
                 .advised()?;
             Ok(Outcome::Accepted)
         }
-        HistoryCommand::Label { number, part } => {
+        HistoryCommand::Label {
+            number,
+            part,
+            library,
+        } => {
             let label = match part.as_str() {
                 "?" => None,
                 "-" => Some(Truth::NotEnrolled),
@@ -220,9 +229,31 @@ pub(super) fn run(args: &HistoryArgs, console: &mut Console) -> anyhow::Result<O
             open(&folder, console)?
                 .set_label(*number, label.as_ref())
                 .advised()?;
+            if let Some(part) = label.as_ref().and_then(Truth::part) {
+                note_if_unknown(part, library, console);
+            }
             Ok(Outcome::Accepted)
         }
         HistoryCommand::Keep(asked) => keep(&mut open(&folder, console)?, asked, console),
+    }
+}
+
+/// A name may be right that is not enrolled any more, or not yet; more often it is mistyped.
+fn note_if_unknown(part: &str, library: &LibraryChoice, console: &mut Console) {
+    let Ok(load) = library.load_some(console) else {
+        return;
+    };
+    let enrolled: BTreeSet<&str> = load
+        .parts
+        .iter()
+        .map(|meta| meta.part_name().as_str())
+        .collect();
+    if !enrolled.contains(part) {
+        let enrolled: Vec<&str> = enrolled.into_iter().collect();
+        console.note(&format_args!(
+            "no enrolled part is called {part}, which is written down all the same; enrolled: {}",
+            enrolled.join(", ")
+        ));
     }
 }
 

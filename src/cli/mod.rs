@@ -151,6 +151,7 @@ fn window(
     scene: Option<PathBuf>,
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
+    let opened = scene.clone();
     let options = app::WindowOptions {
         library: library.library.clone(),
         settings: app::settings::users_file(),
@@ -162,6 +163,16 @@ fn window(
     };
     match app::run(options) {
         Ok(()) => Ok(Outcome::Accepted),
+        Err(error) if opened.is_some() => {
+            let file = opened.unwrap_or_default();
+            Err(advised_error(
+                format!("no window to open {} in: {error}", file.display()),
+                format!(
+                    "Inspect it in the terminal: partsight inspect {}",
+                    file.display()
+                ),
+            ))
+        }
         Err(error) => {
             console.warn(&format_args!("no window: {error}"), &error);
             first_look::run(library, console)

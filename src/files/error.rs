@@ -9,6 +9,9 @@ use super::cause::{advice_on, words_of};
 use super::names::{listed, nearest};
 use crate::error::Advice;
 
+/// What there is too much of in a file that should be a short text.
+pub(super) const TEXT_BYTES: &str = "bytes of text";
+
 /// Why a file could not be read or written. Every variant names the file.
 #[derive(Debug, Error)]
 pub enum FileError {
@@ -291,6 +294,11 @@ impl Advice for FileError {
                 format!(
                     "Open the file in a text editor and correct line {line}, or export it again"
                 )
+            }
+            Self::TooLarge {
+                what: TEXT_BYTES, ..
+            } => {
+                "Choose another file: a table, a description or a calibration is far smaller".into()
             }
             Self::TooLarge { .. } => {
                 "Thin the cloud out, or cut away what is not the part, and export it again".into()

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::{FileError, read_bytes};
+use super::{FileError, error::TEXT_BYTES, read_bytes};
 
 /// The text of a file of at most `limit` bytes, without a byte order mark.
 pub(crate) fn read_text(path: &Path, limit: u64) -> Result<String, FileError> {
@@ -10,7 +10,7 @@ pub(crate) fn read_text(path: &Path, limit: u64) -> Result<String, FileError> {
     if bytes.len() as u64 > limit {
         return Err(FileError::TooLarge {
             path: path.to_owned(),
-            what: "bytes",
+            what: TEXT_BYTES,
             found: bytes.len() as u64,
             limit,
         });

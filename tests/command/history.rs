@@ -117,6 +117,8 @@ fn what_inspect_saw_is_listed_shown_labelled_inspected_again_and_exported() {
         gone.err
     );
 
+    let mistyped = place.accepted(&["history", "label", "2", "frnt_door"]);
+    assert!(mistyped.err.contains("front_door"), "{}", mistyped.err);
     place.accepted(&["history", "label", "2", "-"]);
     place.accepted(&["history", "remark", "2", "a hood, not ours"]);
     let found = place

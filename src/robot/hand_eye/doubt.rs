@@ -122,8 +122,10 @@ pub enum Mistake {
         "the robot's poses went the other way (flange_from_robot), or the camera sat on the other mount"
     )]
     RobotInverted,
-    /// The camera's poses the other way round.
-    #[error("the camera's poses went the other way (target_from_camera)")]
+    /// The camera's poses the other way round, or the other mount: both solve the same equations.
+    #[error(
+        "the camera sat on the other mount, or its poses went the other way (target_from_camera)"
+    )]
     CameraInverted,
     /// Millimetres that were read as metres.
     #[error("the camera's lengths were a thousandth of what was read")]
@@ -167,7 +169,9 @@ impl Advice for HandEyeDoubt {
                     "Check the mount, and that the robot's poses are robot_from_flange: the flange as the controller shows it".into()
                 }
                 Mistake::CameraInverted => {
-                    "Invert the camera's poses: camera_from_target says where the camera sees the target".into()
+                    "Check the mount first (--mount). Only if it is right, invert the camera's poses: camera_from_target says \
+                     where the camera sees the target"
+                        .into()
                 }
                 Mistake::CameraInMillimetres | Mistake::CameraInMetres => {
                     "Check the unit of the camera's poses: name the convention that they are written in".into()
