@@ -155,7 +155,7 @@ fn read_entry(
         let cloud = read_cloud(entry, &meta.cloud)?;
         let mut reference =
             Reference::prepare(meta.part_name().as_str(), cloud, meta.coverage, params)?;
-        reference.enrolled_as = meta.name.as_str().to_owned();
+        meta.name.as_str().clone_into(&mut reference.enrolled_as);
         let mut troubles = troubles(entry, &reference, look, params);
         if look == Look::Thorough
             && let Err(error) = read_spray_path(&entry.path, &meta)

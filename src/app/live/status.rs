@@ -146,7 +146,7 @@ fn rests_on(status: &LiveStatus) -> String {
     }
 }
 
-pub(super) fn frames_word<N: PartialEq + From<u8>>(num: N) -> &'static str {
+pub(super) fn frames_word<N: Copy + PartialEq + From<u8>>(num: N) -> &'static str {
     if num == N::from(1) { "frame" } else { "frames" }
 }
 
