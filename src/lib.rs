@@ -1,5 +1,6 @@
 //! Partsight recognises a car body part in a depth frame and says where it is.
 
+#[cfg(feature = "window")]
 pub mod app;
 pub mod bench;
 pub mod capture;

@@ -257,11 +257,17 @@ impl Inspection {
         part.is_ok_and(|part| part.touches_edge)
     }
 
-    /// The name of the reference that the pose is of, if that is not the part's own but one more of the part: it has
-    /// coordinates, and so a standard position, of its own.
+    /// The name of the reference that was ranked first: the pose is in its coordinates.
+    pub fn reference(&self) -> Option<&str> {
+        let best = self.ranking.entries.first()?;
+        Some(&best.enrolled_as)
+    }
+
+    /// The same, if that is not the part's own but one more of the part: it has coordinates, and so a standard position,
+    /// of its own.
     pub fn other_reference(&self) -> Option<&str> {
         let best = self.ranking.entries.first()?;
-        Some(best.enrolled_as.as_str()).filter(|name| *name != best.part)
+        self.reference().filter(|name| *name != best.part)
     }
 
     /// The reference that was ranked first, in the library that was inspected with.

@@ -4,9 +4,9 @@ use std::{path::PathBuf, sync::Arc};
 
 use super::{
     align::{self, AlignAction, AlignAsk},
+    answers,
     compare::{self, CompareAction},
     enrol::{self, EnrolAction},
-    hearing,
     history::{self, HistoryAction, HistoryJob},
     inspect::{self, state::InspectAction, work::InspectRequest},
     job::{Outcome, Request, Trouble},
@@ -167,10 +167,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
             state.source = Source::Cell(choice);
             return live::source_changed(state);
         }
-        Action::TakeEmptyCell => {
-            take_empty_cell(state);
-            return live::start_anew(state);
-        }
+        Action::TakeEmptyCell => return take_empty_cell(state),
         Action::ForgetEmptyCell => {
             state.empty_cell = None;
             notify(state, Notice::done("The empty cell is forgotten"));
@@ -243,7 +240,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::Align(action) => return align::apply(state, action),
         Action::History(action) => return history::apply(state, action),
         Action::Robot(action) => return robot::apply(state, action),
-        Action::Hear(lane, news) => return hearing::hear(state, lane, news),
+        Action::Hear(lane, news) => return answers::hear(state, lane, news),
     }
     None
 }
@@ -328,10 +325,8 @@ pub(super) fn capture(state: &mut State) -> Effect {
 }
 
 /// The scene in front becomes the empty cell.
-fn take_empty_cell(state: &mut State) {
-    let Some(shown) = &state.shown else {
-        return;
-    };
+fn take_empty_cell(state: &mut State) -> Option<Effect> {
+    let shown = state.shown.as_ref()?;
     let inspection = &shown.inspected.inspection;
     if inspection.verdict.is_accepted() {
         let hangs_there = Notice {
@@ -341,7 +336,7 @@ fn take_empty_cell(state: &mut State) {
             advice: "Take the part away, capture, and take the empty cell then".into(),
         };
         notify(state, hangs_there);
-        return;
+        return None;
     }
     let stands_there = inspection.segmentation.part.is_ok();
     match EmptyCell::of(&shown.inspected.scene) {
@@ -358,8 +353,12 @@ fn take_empty_cell(state: &mut State) {
                 Notice::done(what)
             };
             notify(state, taken);
+            live::start_anew(state)
         }
-        Err(error) => notify(state, Trouble::of(&error).into()),
+        Err(error) => {
+            notify(state, Trouble::of(&error).into());
+            None
+        }
     }
 }
 

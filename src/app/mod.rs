@@ -10,6 +10,7 @@
 
 pub mod action;
 pub mod align;
+mod answers;
 mod bars;
 pub mod camera;
 pub mod compare;
@@ -19,7 +20,6 @@ pub mod enrol;
 pub mod figures;
 pub mod fitted;
 pub mod headless;
-mod hearing;
 pub mod history;
 pub mod inspect;
 pub mod job;

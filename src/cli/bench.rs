@@ -3,6 +3,7 @@
 mod calibration;
 mod confusions;
 mod history;
+#[cfg(feature = "window")]
 mod live;
 mod recognition;
 mod registration;
@@ -10,6 +11,7 @@ mod scaling;
 mod speed;
 mod systems;
 mod table1;
+#[cfg(feature = "window")]
 mod window;
 
 use std::path::{Path, PathBuf};
@@ -99,8 +101,10 @@ enum Bench {
     Registration,
     /// Ranking by 1, 2, 4 and 8 workers over a growing number of references: from where do several pay?
     Scaling,
+    #[cfg(feature = "window")]
     /// Processor time of a frame of the window, at rest, turning and live; needs no display
     Window,
+    #[cfg(feature = "window")]
     /// The simulated line followed for minutes: rate, latency, the window's thread, memory; needs no display
     Live,
     /// A history of 100 000 inspections: how long a page of any filter takes, and writing one more
@@ -119,7 +123,9 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         Bench::Table1 => table1::run(args, console),
         Bench::Registration => registration::run(args, console),
         Bench::Scaling => scaling::run(args, console),
+        #[cfg(feature = "window")]
         Bench::Window => window::run(args, console),
+        #[cfg(feature = "window")]
         Bench::Live => live::run(args, console),
         Bench::History => history::run(args, console),
     }

@@ -32,10 +32,10 @@ use std::{
 use clap::{Args, Parser, Subcommand, ValueEnum};
 
 use self::console::{Advised as _, Console, advised_error};
+#[cfg(feature = "window")]
+use crate::app;
 use crate::{
-    app,
     library::{LibraryFolder, LibraryLoad, LibraryPlace, open_library},
-    robot::calibration::default_path,
     stages::{pose::PoseMethod, reference::ReferenceParams},
 };
 
@@ -145,7 +145,27 @@ pub fn run(cli: Cli) -> Outcome {
     }
 }
 
+/// This build has no window: takes the first look in the terminal instead.
+#[cfg(not(feature = "window"))]
+fn window(
+    library: &LibraryChoice,
+    scene: Option<PathBuf>,
+    console: &mut Console,
+) -> anyhow::Result<Outcome> {
+    match scene {
+        Some(file) => Err(advised_error(
+            "this build has no window",
+            format!(
+                "Inspect the file in the terminal: partsight inspect {}",
+                file.display()
+            ),
+        )),
+        None => first_look::run(library, console),
+    }
+}
+
 /// Opens the window; where there can be none, says why and takes the first look in the terminal instead.
+#[cfg(feature = "window")]
 fn window(
     library: &LibraryChoice,
     scene: Option<PathBuf>,
@@ -157,23 +177,20 @@ fn window(
         settings: app::settings::users_file(),
         // Without such a folder the window keeps it in memory.
         history: crate::history::users_folder().ok(),
-        cell: default_path().ok(),
+        cell: crate::robot::calibration::default_path().ok(),
         scene,
         ..app::WindowOptions::default()
     };
-    match app::run(options) {
-        Ok(()) => Ok(Outcome::Accepted),
-        Err(error) if opened.is_some() => {
-            let file = opened.unwrap_or_default();
+    match (app::run(options), opened) {
+        (Ok(()), _) => Ok(Outcome::Accepted),
+        (Err(error), Some(file)) => {
+            let file = file.display();
             Err(advised_error(
-                format!("no window to open {} in: {error}", file.display()),
-                format!(
-                    "Inspect it in the terminal: partsight inspect {}",
-                    file.display()
-                ),
+                format!("no window to open {file} in: {error}"),
+                format!("Inspect it in the terminal: partsight inspect {file}"),
             ))
         }
-        Err(error) => {
+        (Err(error), None) => {
             console.warn(&format_args!("no window: {error}"), &error);
             first_look::run(library, console)
         }

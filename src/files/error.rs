@@ -9,9 +9,6 @@ use super::cause::{advice_on, words_of};
 use super::names::{listed, nearest};
 use crate::error::Advice;
 
-/// What there is too much of in a file that should be a short text.
-pub(super) const TEXT_BYTES: &str = "bytes of text";
-
 /// Why a file could not be read or written. Every variant names the file.
 #[derive(Debug, Error)]
 pub enum FileError {
@@ -117,6 +114,16 @@ pub enum FileError {
         /// What there is too much of, as a plural: "points", "bytes".
         what: &'static str,
         /// How many the file has or claims.
+        found: u64,
+        /// How many are read.
+        limit: u64,
+    },
+    /// Larger than a text of its kind ever is.
+    #[error("{}: {found} bytes, at most {limit} are read of a text", path.display())]
+    TextTooLong {
+        /// The file.
+        path: PathBuf,
+        /// How many bytes the file has.
         found: u64,
         /// How many are read.
         limit: u64,
@@ -295,9 +302,7 @@ impl Advice for FileError {
                     "Open the file in a text editor and correct line {line}, or export it again"
                 )
             }
-            Self::TooLarge {
-                what: TEXT_BYTES, ..
-            } => {
+            Self::TextTooLong { .. } => {
                 "Choose another file: a table, a description or a calibration is far smaller".into()
             }
             Self::TooLarge { .. } => {

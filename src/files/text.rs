@@ -2,15 +2,14 @@
 
 use std::path::Path;
 
-use super::{FileError, error::TEXT_BYTES, read_bytes};
+use super::{FileError, read_bytes};
 
 /// The text of a file of at most `limit` bytes, without a byte order mark.
 pub(crate) fn read_text(path: &Path, limit: u64) -> Result<String, FileError> {
     let bytes = read_bytes(path)?;
     if bytes.len() as u64 > limit {
-        return Err(FileError::TooLarge {
+        return Err(FileError::TextTooLong {
             path: path.to_owned(),
-            what: TEXT_BYTES,
             found: bytes.len() as u64,
             limit,
         });

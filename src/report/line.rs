@@ -208,11 +208,7 @@ impl<'a> InspectionLine<'a> {
             .as_ref()
             .and_then(|pose| pose.as_ref().ok())
             .map(|pose| PoseLine {
-                reference: inspection
-                    .ranking
-                    .entries
-                    .first()
-                    .map(|best| best.enrolled_as.as_str()),
+                reference: inspection.reference(),
                 camera_from_part: row_major(&pose.camera_from_part()),
                 method: pose.method.name(),
                 rms_m: pose.fit.rms_m,

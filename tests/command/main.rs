@@ -1,12 +1,14 @@
 //! The command line from end to end: the built program, run in folders of its own.
 
-mod align_and_bench;
+mod align;
+mod bench;
 mod calibrate;
+mod errors_and_help;
 mod evaluate;
 mod history;
 mod inspect;
 mod library;
 mod report;
-mod simulate_and_say;
+mod simulate;
 mod sources;
 mod workplace;

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::app::{
     action::{Effect, notify},
-    hearing::use_library,
+    answers::use_library,
     inspect::work::InspectRequest,
     job::Request,
     lane::Lane,

@@ -9,7 +9,7 @@ use super::{
 use crate::{
     app::{
         action::{self, Ask, Effect, notify},
-        hearing, history,
+        answers, history,
         job::{Request, Trouble},
         lane::Lane,
         state::{Notice, NoticeKind, Shown, Source, State, Workspace},
@@ -268,7 +268,7 @@ fn show(state: &mut State, inspected: Arc<crate::app::inspect::work::Inspected>)
     if is_shown || state.workspace != Workspace::Inspect || !state.is_live() {
         return;
     }
-    hearing::use_library(state, &inspected.library);
+    answers::use_library(state, &inspected.library);
     state.generation += 1;
     let (generation, session) = (state.generation, Some(state.live.session));
     let num_candidates = inspected.figures.candidates.len();

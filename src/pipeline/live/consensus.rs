@@ -62,6 +62,8 @@ pub struct Agreed {
 struct Said {
     at: Duration,
     verdict: Verdict,
+    /// The reference in whose coordinates the pose is.
+    reference: Option<String>,
     camera_from_part: Option<RigidTransform>,
     /// Of the part, in its own space.
     middle: Point3<f64>,
@@ -94,6 +96,7 @@ impl Consensus {
         self.said.push_back(Said {
             at,
             verdict: inspection.verdict.clone(),
+            reference: inspection.reference().map(ToOwned::to_owned),
             camera_from_part: pose.map(crate::stages::pose::PoseEstimate::camera_from_part),
             middle: middle.unwrap_or_else(Point3::origin),
         });
@@ -150,13 +153,14 @@ impl Consensus {
             said.verdict.is_accepted()
                 && named(&said.verdict).is_some_and(|(part, ..)| part != name)
         });
+        // The mean goes into the last frame, and each reference of a part has coordinates of its own.
+        let last = naming.last();
         let poses: Vec<RigidTransform> = naming
             .iter()
+            .filter(|said| last.is_some_and(|last| last.reference == said.reference))
             .filter_map(|said| said.camera_from_part)
             .collect();
-        let middle = naming
-            .last()
-            .map_or_else(Point3::origin, |said| said.middle);
+        let middle = last.map_or_else(Point3::origin, |said| said.middle);
         let pose = mean_pose(&poses, &middle, self.params.tolerance);
         let in_place = pose.map(|pose| pose.num_agreeing);
 

@@ -204,7 +204,7 @@ impl PoseBlock {
         Self {
             usable,
             cautions: cautions(pose, inspection, subject),
-            reference: inspection.ranking.entries.first().map(|best| best.enrolled_as.clone()),
+            reference: inspection.reference().map(ToOwned::to_owned),
             camera_from_part: TransformBlock::of(
                 ["camera_from_part", "takes a point of the enrolled part to where it is before the camera now"],
                 [PART, CAMERA],

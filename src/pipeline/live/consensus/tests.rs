@@ -26,6 +26,7 @@ fn consensus(frames: impl IntoIterator<Item = (Verdict, f64)>) -> Consensus {
         all.said.push_back(Said {
             at: Duration::from_millis(33 * number as u64),
             verdict,
+            reference: Some("door".into()),
             camera_from_part: Some(from_euler_zyx([0.0, 0.0, 0.0, x, 0.0, 1.2])),
             middle: Point3::origin(),
         });
@@ -121,6 +122,29 @@ fn scattered_poses_are_not_accepted() {
             ..
         })
     ));
+}
+
+#[test]
+fn poses_of_two_references_are_not_one_pose_though_they_lie_together() {
+    let of_last = |num_of_other: usize, last: &str| {
+        let mut all = consensus((0..10).map(|_| (part("door", 0.99, None), 0.0)));
+        for said in all.said.iter_mut().take(num_of_other) {
+            said.reference = Some("door_b".into());
+        }
+        all.said[9].reference = Some(last.into());
+        all.agreed(Duration::ZERO, &AcceptParams::default())
+            .expect("enough frames")
+    };
+    assert!(of_last(2, "door").verdict.is_accepted());
+    // Nine of ten agree, but the frame that would carry their pose is of the other reference.
+    for (num_of_other, last, num_agreeing) in [(0, "door_b", 1), (3, "door", 7)] {
+        let found = of_last(num_of_other, last);
+        let complaint = complaint(&found.verdict);
+        assert!(
+            matches!(complaint, Some(Rejection::PosesApart { num_agreeing: num, .. }) if *num == num_agreeing),
+            "{complaint:?}"
+        );
+    }
 }
 
 #[test]

@@ -1,4 +1,4 @@
-//! What the threads tell goes to where it belongs.
+//! What the threads answer goes to where it belongs.
 
 use std::{
     path::{Path, PathBuf},

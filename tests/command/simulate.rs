@@ -1,0 +1,76 @@
+//! Simulated captures.
+
+use std::{fs, path::Path};
+
+use crate::workplace::Workplace;
+
+#[test]
+fn the_same_seed_gives_the_same_file() {
+    let place = Workplace::new();
+    let make = |out: &str| {
+        place.accepted(&["simulate", "--part", "grille", "--seed", "9", "--out", out]);
+        fs::read(place.path(out)).expect("written")
+    };
+    assert!(make("a.pcd") == make("b.pcd"));
+    let has = |name: &str| Path::new(&place.path(name)).exists();
+    make("c.png");
+    assert!(has("c.json"), "the camera lies beside the image");
+}
+
+#[test]
+fn simulate_overwrites_neither_its_own_camera_nor_another_json() {
+    let place = Workplace::new();
+    let simulate = ["simulate", "--part", "grille", "--out"];
+    let run = |more: &[&str]| place.run(&[&simulate[..], more].concat());
+    for (more, expected) in [
+        (
+            &["tt.png", "--truth", "tt.json"][..],
+            "the camera of the depth image",
+        ),
+        (
+            &["tt.png", "--truth", "./tt.json"],
+            "the camera of the depth image",
+        ),
+        (&["tt.pcd", "--truth", "./tt.pcd"], "the same file"),
+    ] {
+        let ran = run(more);
+        assert_eq!(ran.code, 2, "{more:?}");
+        assert!(
+            ran.err.contains(expected) && ran.err.contains("to do"),
+            "{}",
+            ran.err
+        );
+    }
+    fs::write(place.path("keep.json"), "{\"shift\": 3}").expect("written");
+    let ran = run(&["keep.png"]);
+    assert_eq!(ran.code, 2);
+    assert!(
+        ran.err.contains("keep.json") && ran.err.contains("to do"),
+        "{}",
+        ran.err
+    );
+    let kept = fs::read_to_string(place.path("keep.json")).expect("there");
+    assert_eq!(kept, "{\"shift\": 3}");
+    assert!(!place.path("keep.png").exists());
+    for _ in 0..2 {
+        assert_eq!(run(&["tt.png", "--truth", "tt.truth.json"]).code, 0);
+    }
+    let camera = place.run(&["enrol", "tt.json", "--name", "x", "--library", "parts"]);
+    assert!(
+        camera.err.contains("this is the camera of tt.png"),
+        "{}",
+        camera.err
+    );
+}
+
+#[test]
+fn a_pose_in_the_wrong_unit_is_doubted_and_an_unseen_part_is_said() {
+    let place = Workplace::new();
+    let simulate = ["simulate", "--part", "grille", "--out", "g.pcd", "--pose"];
+    let run = |pose: &str| place.accepted(&[&simulate[..], &[pose]].concat()).err;
+    assert_eq!(run("0 0 15° 0 0 130cm"), "");
+    assert!(run("0 0 15 0 0 1.2").contains("did you mean 15deg?"));
+    let far = run("0 0 0 0 0 1200");
+    assert!(far.contains("did you mean 1200mm?"), "{far}");
+    assert!(far.contains("does not see the part"), "{far}");
+}
