@@ -155,10 +155,9 @@ impl CaseFolder {
             return Err(damaged("the camera's picture is not the scene's".into()));
         }
         Ok(SceneCloud {
-            cloud,
-            intrinsics: camera,
             edge: picture_edge.into(),
             empty_cell,
+            ..SceneCloud::new(cloud, camera)
         })
     }
 

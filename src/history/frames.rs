@@ -200,11 +200,7 @@ pub fn read(folder: &Path, frame: &FrameRecord) -> Result<SceneCloud, HistoryErr
             let camera = camera.checked().map_err(|what| damaged(&what))?;
             scene_from_frame(&camera.frame(size, depth).map_err(|what| damaged(&what))?)
         }
-        (None, intrinsics) => SceneCloud {
-            cloud: cloud_of(&path, &bytes)?,
-            intrinsics,
-            ..SceneCloud::default()
-        },
+        (None, intrinsics) => SceneCloud::new(cloud_of(&path, &bytes)?, intrinsics),
         (Some(_), None) => return Err(damaged("its camera is missing")),
     };
     scene.edge = frame.edge;

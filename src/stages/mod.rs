@@ -11,6 +11,7 @@ pub mod confirm;
 pub mod contour;
 pub mod correlation;
 pub mod descriptors;
+pub mod field_of_view;
 pub mod pose;
 pub mod project;
 pub mod rank;

@@ -5,11 +5,11 @@
 //! later stages ask the camera what it would have seen at a place. A capture saved as bare points (PLY, XYZ) has lost
 //! its rows and columns, but not its viewpoint: it is put back onto a picture, so that it is inspected as well.
 
-use std::sync::Arc;
+use std::sync::{Arc, OnceLock};
 
 use nalgebra::Point3;
 
-use super::segment::EmptyCell;
+use super::{field_of_view::FieldOfView, segment::EmptyCell};
 use crate::{
     capture::{DepthFrame, Image, Intrinsics},
     files::Opened,
@@ -27,9 +27,33 @@ pub struct SceneCloud {
     pub edge: PictureEdge,
     /// What the same camera saw without a part, if that was captured.
     pub empty_cell: Option<Arc<EmptyCell>>,
+    /// Made when it is first asked for.
+    #[doc(hidden)]
+    pub field_of_view: OnceLock<FieldOfView>,
 }
 
 impl SceneCloud {
+    /// A cloud whose picture, if it is organised, ends where the camera's view does.
+    pub fn new(cloud: PointCloud, intrinsics: Option<Intrinsics>) -> Self {
+        Self {
+            cloud,
+            intrinsics,
+            ..Self::default()
+        }
+    }
+
+    /// Where in the picture the camera could deliver readings; `None` if the scene is no picture, or if it was put around
+    /// its points.
+    pub fn field_of_view(&self) -> Option<&FieldOfView> {
+        let grid = self.cloud.grid.filter(|_| self.edge == PictureEdge::View)?;
+        Some(self.field_of_view.get_or_init(|| {
+            let points = &self.cloud.points;
+            let is_reading = |i: usize| points.get(i).is_some_and(is_finite);
+            let known = self.empty_cell.as_ref().map(|cell| cell.field_of_view());
+            FieldOfView::of(grid, is_reading, known)
+        }))
+    }
+
     /// The scene as in a mirror held beside the camera: x turned round, the picture's rows with it.
     #[must_use]
     pub fn mirrored(&self) -> Self {
@@ -42,20 +66,20 @@ impl SceneCloud {
                 .collect(),
             None => points.iter().map(turned).collect(),
         };
+        let cloud = PointCloud {
+            points,
+            grid: self.cloud.grid,
+            is_simulated: self.cloud.is_simulated,
+            ..PointCloud::default()
+        };
+        let intrinsics = self.intrinsics.map(|camera| Intrinsics {
+            cx: camera.width as f64 - 1.0 - camera.cx,
+            ..camera
+        });
+        // The empty cell is only of use before the part is found.
         Self {
-            cloud: PointCloud {
-                points,
-                grid: self.cloud.grid,
-                is_simulated: self.cloud.is_simulated,
-                ..PointCloud::default()
-            },
-            intrinsics: self.intrinsics.map(|camera| Intrinsics {
-                cx: camera.width as f64 - 1.0 - camera.cx,
-                ..camera
-            }),
             edge: self.edge,
-            // It is only of use before the part is found.
-            empty_cell: None,
+            ..Self::new(cloud, intrinsics)
         }
     }
 }
@@ -108,20 +132,16 @@ pub fn scene_from_frame(frame: &DepthFrame) -> SceneCloud {
             Point3::new(x_over_z * z, y_over_z * z, z)
         }));
     }
-    SceneCloud {
-        cloud: PointCloud {
-            points,
-            grid: Some(Grid {
-                width: camera.width,
-                height: camera.height,
-            }),
-            is_simulated: frame.is_simulated,
-            ..PointCloud::default()
-        },
-        intrinsics: Some(*camera),
-        edge: PictureEdge::View,
-        empty_cell: None,
-    }
+    let cloud = PointCloud {
+        points,
+        grid: Some(Grid {
+            width: camera.width,
+            height: camera.height,
+        }),
+        is_simulated: frame.is_simulated,
+        ..PointCloud::default()
+    };
+    SceneCloud::new(cloud, Some(*camera))
 }
 
 /// What a source captured, as a scene.
@@ -144,12 +164,7 @@ pub fn scene_from_cloud(cloud: PointCloud) -> SceneCloud {
             None => None,
         },
     };
-    SceneCloud {
-        cloud,
-        intrinsics,
-        edge: PictureEdge::View,
-        empty_cell: None,
-    }
+    SceneCloud::new(cloud, intrinsics)
 }
 
 /// Fewer points than this are no picture.
@@ -235,7 +250,7 @@ fn organised(cloud: &PointCloud) -> Option<SceneCloud> {
             cy: -f64::from(low[1]) * focal - 0.5,
         }),
         edge: PictureEdge::Points,
-        empty_cell: None,
+        ..SceneCloud::default()
     })
 }
 

@@ -389,10 +389,7 @@ impl Subject {
 
 /// A cloud as it came, every point of it: putting it back onto a picture would drop some.
 fn scene_of_whole(cloud: PointCloud) -> SceneCloud {
-    SceneCloud {
-        cloud,
-        ..SceneCloud::default()
-    }
+    SceneCloud::new(cloud, None)
 }
 
 #[cfg(test)]

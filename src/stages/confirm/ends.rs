@@ -8,11 +8,11 @@
 use nalgebra::{Point2, Point3, Vector2};
 
 use super::Scene;
-use crate::{geometry::cloud::is_finite, stages::scene::PictureEdge};
+use crate::geometry::cloud::is_finite;
 
 /// How far outwards a reading is looked for, pixels: a shadow beside something half a metre nearer is 15 wide.
 const WALK: i64 = 32;
-/// Pixels along the picture's edge without readings.
+/// Pixels along the border of the field of view without readings.
 const MARGIN: i64 = 4;
 /// An outline that ends so many pixels before that edge ends at it.
 const AT_EDGE: i64 = 4;
@@ -109,15 +109,29 @@ impl<'a> PartMask<'a> {
             return false;
         };
         let noise = 3.0 * self.scene.part.noise_at_1m.0 * at.z * at.z;
-        let (width, height) = (camera.width as i64, camera.height as i64);
+        let width = camera.width as i64;
+        let view = self.scene.scene.field_of_view();
+        let is_inside = |u: i64, v: i64| match view {
+            Some(view) => {
+                view.contains(u - MARGIN, v)
+                    && view.contains(u + MARGIN, v)
+                    && view.contains(u, v - MARGIN)
+                    && view.contains(u, v + MARGIN)
+            }
+            None => u >= 0 && v >= 0 && u < width && v < camera.height as i64,
+        };
+        // Where registered depth ends, a near surface ends further inside than a far one.
+        let at_edge = match view {
+            Some(view) if view.is_inner() => WALK,
+            _ => AT_EDGE,
+        };
         let points = &self.scene.scene.cloud.points;
         for walked in 1..=WALK {
             let p = from + step * walked as f64;
             let (u, v) = (p.x.round() as i64, p.y.round() as i64);
-            let is_inside = u >= MARGIN && v >= MARGIN && u < width - MARGIN && v < height - MARGIN;
-            if !is_inside {
+            if !is_inside(u, v) {
                 // Further out there is the wall, or its shadow.
-                return walked <= AT_EDGE && self.scene.scene.edge == PictureEdge::View;
+                return walked <= at_edge && view.is_some();
             }
             let i = (v * width + u) as usize;
             if !self.is_part[i] && is_finite(&points[i]) {

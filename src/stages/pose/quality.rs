@@ -49,7 +49,7 @@ pub struct Sight {
     pub hidden: f64,
     /// No reading there.
     pub unknown: f64,
-    /// Outside the picture; the other four are shares of what is inside.
+    /// Outside the field of view; the other four are shares of what is inside.
     pub outside: f64,
 }
 
@@ -125,6 +125,7 @@ pub fn look_for(
     let camera = scene.intrinsics?;
     let normals = target.cloud.normals.as_deref()?;
     let points = &scene.cloud.points;
+    let view = scene.field_of_view();
     let step = (target.cloud.points.len() / num_looked_for).max(1);
     let [
         mut confirmed,
@@ -147,7 +148,7 @@ pub fn look_for(
         let inside = |u: i64, v: i64| {
             u >= 0 && v >= 0 && u < camera.width as i64 && v < camera.height as i64
         };
-        if !inside(u, v) {
+        if !inside(u, v) || view.is_some_and(|view| !view.contains(u, v)) {
             outside += 1.0;
             continue;
         }

@@ -8,11 +8,7 @@ use std::collections::HashMap;
 use nalgebra::Point3;
 
 use super::{PointLabel, SegmentParams};
-use crate::{
-    geometry::cloud::Grid,
-    stages::scene::{PictureEdge, SceneCloud},
-    units::Metres,
-};
+use crate::{geometry::cloud::Grid, stages::scene::SceneCloud, units::Metres};
 
 /// One connected surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -21,8 +17,11 @@ pub struct Cluster {
     pub num_points: usize,
     /// Its surface as seen from the camera, square metres.
     pub area: f64,
-    /// True if it reaches the edge of the picture.
+    /// True if it reaches the border of the field of view.
     pub touches_edge: bool,
+    /// Share of its border to other surfaces along which it is the nearer one, 0..1: all of a part that nothing hides,
+    /// hardly any of a wall. 1 if it borders on none, or without a picture.
+    pub in_front: f64,
 }
 
 pub(super) struct Members {
@@ -52,11 +51,22 @@ pub(super) fn connect(
         Some(grid) => connect_pixels(&scene.cloud.points, labels, grid, link),
         None => connect_voxels(&scene.cloud.points, labels, link),
     };
-    let mut members: Vec<Members> = groups
+    let groups: Vec<Vec<u32>> = groups
         .into_iter()
         .filter(|indices| indices.len() >= MIN_CLUSTER_POINTS)
-        .map(|indices| Members {
-            cluster: describe(scene, &indices, link),
+        .collect();
+    let in_front = match scene.cloud.grid {
+        Some(grid) => shares_in_front(&scene.cloud.points, labels, &groups, grid, link),
+        None => vec![1.0; groups.len()],
+    };
+    let mut members: Vec<Members> = groups
+        .into_iter()
+        .zip(in_front)
+        .map(|(indices, in_front)| Members {
+            cluster: Cluster {
+                in_front,
+                ..describe(scene, &indices, link)
+            },
             indices,
         })
         .collect();
@@ -237,19 +247,83 @@ fn describe(scene: &SceneCloud, indices: &[u32], link: Link) -> Cluster {
         num_points: indices.len(),
         area,
         touches_edge: touches_edge(scene, indices),
+        in_front: 1.0,
     }
 }
 
-/// True if these points reach the edge of what the camera sees.
+/// Every so many rows and columns are looked along for borders between surfaces.
+const LINE_STEP: usize = 4;
+/// Pixels without a reading across which two surfaces border on each other: the shadow of one on the other.
+const SHADOW: usize = 40;
+
+/// For each group the share of its border to other surfaces, background included, along which it is the nearer one.
+fn shares_in_front(
+    points: &[Point3<f32>],
+    labels: &[PointLabel],
+    groups: &[Vec<u32>],
+    grid: Grid,
+    link: Link,
+) -> Vec<f64> {
+    const NOTHING: u32 = u32::MAX;
+    let Grid { width, height } = grid;
+    let background = groups.len() as u32;
+    let of_label = |label: &PointLabel| match label {
+        PointLabel::Background(_) => background,
+        _ => NOTHING,
+    };
+    // Specks are nothing: they are pixels that mix the depths of two surfaces.
+    let mut group_of: Vec<u32> = labels.iter().map(of_label).collect();
+    for (group, indices) in groups.iter().enumerate() {
+        for &i in indices {
+            group_of[i as usize] = group as u32;
+        }
+    }
+    let mut borders = vec![[0.0_f64; 2]; groups.len() + 1];
+    let mut walk = |pixels: &mut dyn Iterator<Item = usize>| {
+        let mut before: Option<(usize, usize)> = None;
+        for (step, i) in pixels.enumerate().filter(|(_, i)| group_of[*i] != NOTHING) {
+            if let Some((last_step, j)) = before
+                && group_of[i] != group_of[j]
+                && step - last_step <= SHADOW
+                && !link.joins(&points[i], &points[j])
+            {
+                let (near, far) = if points[i].z < points[j].z {
+                    (i, j)
+                } else {
+                    (j, i)
+                };
+                borders[group_of[near] as usize][0] += 1.0;
+                borders[group_of[far] as usize][1] += 1.0;
+            }
+            before = Some((step, i));
+        }
+    };
+    for row in (0..height).step_by(LINE_STEP) {
+        walk(&mut (row * width..(row + 1) * width));
+    }
+    for column in (0..width).step_by(LINE_STEP) {
+        walk(&mut (0..height).map(|row| row * width + column));
+    }
+    borders.truncate(groups.len());
+    let share = |&[near, far]: &[f64; 2]| {
+        if near + far > 0.0 {
+            near / (near + far)
+        } else {
+            1.0
+        }
+    };
+    borders.iter().map(share).collect()
+}
+
+/// True if these points reach the border of the field of view.
 pub(super) fn touches_edge(scene: &SceneCloud, indices: &[u32]) -> bool {
-    let view = scene.cloud.grid.filter(|_| scene.edge == PictureEdge::View);
-    view.is_some_and(|Grid { width, height }| {
-        // Sensors lose a few pixels along the edge; a handful of stray pixels there does not count.
-        const MARGIN: usize = 3;
-        let at_edge = |i: &&u32| {
-            let (u, v) = (**i as usize % width, **i as usize / width);
-            u < MARGIN || v < MARGIN || u + MARGIN >= width || v + MARGIN >= height
-        };
-        indices.iter().filter(at_edge).count() >= 10
+    // A handful of stray pixels at the edge does not count.
+    const MARGIN: u32 = 2;
+    const LEAST: usize = 10;
+    let view = scene.cloud.grid.zip(scene.field_of_view());
+    view.is_some_and(|(Grid { width, .. }, view)| {
+        let is_at_edge =
+            |i: &&u32| view.ends_at(**i as usize % width, **i as usize / width, MARGIN);
+        indices.iter().filter(is_at_edge).nth(LEAST - 1).is_some()
     })
 }

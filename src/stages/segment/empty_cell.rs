@@ -13,7 +13,7 @@ use crate::{
         cloud::{Grid, PointCloud},
         plane::Plane,
     },
-    stages::scene::SceneCloud,
+    stages::{field_of_view::FieldOfView, scene::SceneCloud},
     units::Metres,
 };
 
@@ -29,6 +29,7 @@ pub struct EmptyCell {
     grid: Grid,
     /// The nearest depth around each pixel, metres; infinite where nothing was read: nothing there is known.
     nearest: Vec<f32>,
+    field_of_view: FieldOfView,
 }
 
 /// Why a capture cannot be the empty cell.
@@ -56,7 +57,7 @@ impl EmptyCell {
         // Rows first, then columns: the least of a square.
         let along = least_around(&depths, grid.width, 1, grid.width);
         let nearest = least_around(&along, grid.height, grid.width, 1);
-        Ok(Self { grid, nearest })
+        Ok(Self::new(grid, nearest))
     }
 
     /// What is known of it as a cloud, to be written and read back by [`of_cloud`](Self::of_cloud): rows and columns, and
@@ -80,7 +81,21 @@ impl EmptyCell {
     pub fn of_cloud(cloud: &PointCloud) -> Option<Self> {
         let grid = cloud.grid?;
         let nearest: Vec<f32> = cloud.points.iter().map(depth_of).collect();
-        (grid.width * grid.height == nearest.len()).then_some(Self { grid, nearest })
+        (grid.width * grid.height == nearest.len()).then(|| Self::new(grid, nearest))
+    }
+
+    fn new(grid: Grid, nearest: Vec<f32>) -> Self {
+        let is_reading = |i: usize| nearest.get(i).is_some_and(|z| z.is_finite());
+        Self {
+            field_of_view: FieldOfView::of(grid, is_reading, None),
+            grid,
+            nearest,
+        }
+    }
+
+    /// Where in the picture the camera could deliver readings.
+    pub fn field_of_view(&self) -> &FieldOfView {
+        &self.field_of_view
     }
 
     /// True if a scene has the same rows and columns, as every frame of one camera has.

@@ -154,10 +154,14 @@ pub fn other_parts(
         .collect()
 }
 
-/// How likely a surface is the part: the larger the more, but what runs out of the picture is more often a strip of
-/// floor or a neighbour than the part.
+/// A surface that is the nearer one along less than this share of its border lies behind others.
+const IN_FRONT: f64 = 0.5;
+
+/// How likely a surface is the part: the larger the more, but what runs out of the view is more often a strip of floor
+/// or a neighbour than the part, and what lies behind others is a wall.
 fn likelihood(cluster: &Cluster) -> f64 {
-    cluster.area * if cluster.touches_edge { 0.4 } else { 1.0 }
+    let in_front = (cluster.in_front / IN_FRONT).min(1.0).powi(2);
+    cluster.area * in_front * if cluster.touches_edge { 0.4 } else { 1.0 }
 }
 
 pub(super) fn take_part(

@@ -37,7 +37,7 @@ const MIN_INLIER_SHARE: f64 = 0.012;
 const SAME_SURFACE: f64 = 0.5;
 /// At most this share of everything else may lie behind a background plane (reflections, an open door).
 const MAX_BEHIND_SHARE: f64 = 0.04;
-/// Share of the picture's edge that a background plane covers at least: a floor seen only along the lower edge
+/// Share of the border of the field of view that a background plane covers at least: a floor seen only along the lower edge
 /// covers a quarter, a part that hangs inside the picture nothing.
 const MIN_EDGE_SHARE: f64 = 0.08;
 /// Share of the points that lie before a background plane at least, where the picture ends with the points.
@@ -233,12 +233,12 @@ fn is_background(subset: &Subset, plane: &Plane, inliers: &[u32], foreground: &[
 fn runs_out_of_the_picture(subset: &Subset, plane: &Plane, inliers: &[u32]) -> bool {
     match &subset.cells {
         Some(cells) => {
-            let edge = cells.edge_points();
+            let (edge, num_ends) = cells.edge_points();
             let on_plane = edge
                 .iter()
                 .filter(|i| inliers.binary_search(i).is_ok())
                 .count();
-            on_plane as f64 >= MIN_EDGE_SHARE * (2 * (cells.columns + cells.rows)) as f64
+            on_plane as f64 >= MIN_EDGE_SHARE * num_ends as f64
         }
         None => spreads_wider_than_the_rest(subset, plane, inliers),
     }

@@ -40,6 +40,8 @@ pub(super) struct Cells {
     point_in: Vec<Option<u32>>,
     /// For each point of the subset its cell.
     cell_of: Vec<u32>,
+    /// Whether the camera could deliver a reading in a cell.
+    is_in_view: Vec<bool>,
 }
 
 impl Subset {
@@ -78,8 +80,11 @@ impl Subset {
                 let (columns, rows) = (width.div_ceil(step), height.div_ceil(step));
                 let mut point_in = vec![None; columns * rows];
                 let mut cell_of = Vec::new();
+                let view = scene.field_of_view();
+                let mut is_in_view = vec![true; columns * rows];
                 for (cell, slot) in point_in.iter_mut().enumerate() {
                     let (u, v) = (cell % columns * step, cell / columns * step);
+                    is_in_view[cell] = view.is_none_or(|view| view.contains(u as i64, v as i64));
                     let p = &points[v * width + u];
                     if is_finite(p) {
                         *slot = Some(cell_of.len() as u32);
@@ -92,6 +97,7 @@ impl Subset {
                     rows,
                     point_in,
                     cell_of,
+                    is_in_view,
                 });
             }
         }
@@ -143,15 +149,18 @@ impl Subset {
 }
 
 impl Cells {
-    /// The outermost reading of each row and column, where it lies close to the edge of the picture: sensors lose
-    /// a few columns there.
-    pub(super) fn edge_points(&self) -> Vec<u32> {
+    /// The outermost reading of each row and column, where it lies close to the border of the field of view: sensors
+    /// lose a few columns there. Beside them how many ends of rows and columns there are.
+    pub(super) fn edge_points(&self) -> (Vec<u32>, usize) {
         let Self { columns, rows, .. } = *self;
-        // The first reading on a walk inwards from the edge, no further than a sixteenth of the picture.
+        // The first reading on a walk inwards from the border, no further than a sixteenth of the picture; the outer
+        // `None` if no cell of the line is in view.
         let first = |from: usize, step: isize, length: usize| {
-            let walk = 0..(length / 16).max(1) as isize;
-            walk.map(|i| from.wrapping_add_signed(i * step))
-                .find_map(|cell| self.point_in[cell])
+            let walk = (0..length as isize).map(|i| from.wrapping_add_signed(i * step));
+            let mut inwards = walk.skip_while(|cell| !self.is_in_view[*cell]).peekable();
+            inwards.peek()?;
+            let mut inwards = inwards.take((length / 16).max(1));
+            Some(inwards.find_map(|cell| self.point_in[cell]))
         };
         let down = columns as isize;
         let sides = (0..rows).flat_map(|row| {
@@ -167,6 +176,7 @@ impl Cells {
                 first((rows - 1) * columns + column, -down, rows),
             ]
         });
-        sides.chain(ends).flatten().collect()
+        let all: Vec<Option<u32>> = sides.chain(ends).flatten().collect();
+        (all.iter().flatten().copied().collect(), all.len())
     }
 }
