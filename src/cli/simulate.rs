@@ -30,6 +30,7 @@ Examples:
   partsight simulate --part grille --pose \"0 0 15deg 0 0 1.2\" --out grille.pcd
   partsight simulate --cases tried --num 40 --placement facing,placed,hard
   partsight simulate --cases tried --part objects,empty --num 9 --clutter on-floor
+  partsight simulate --cases booth --booth --num 80
 
 The same arguments give the same file. Cases are added to those of the folder; their truth is held against the shipped
 parts, and partsight evaluate counts how often they are recognised.
@@ -65,6 +66,9 @@ pub(super) struct SimulateArgs {
     /// What holds it
     #[arg(long, value_enum, default_value_t = StandChoice::None)]
     stand: StandChoice,
+    /// A paint booth before a camera on the robot's flange: cut by the picture, readings that end inside it, tubes and clamps that touch the part. The seed draws the pose, the stand and the walls
+    #[arg(long, conflicts_with_all = ["placement", "clutter", "stand"])]
+    booth: bool,
     /// Noise of the camera: 1 is a Kinect's, 0 none, 3 a bad day
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = parse_noise)]
     noise: f64,
@@ -139,6 +143,11 @@ impl SimulateArgs {
 
     /// The cell with this in it; the pose is drawn.
     fn cell(&self, subject: Subject, seed: u64) -> CellSetup {
+        if self.booth {
+            let mut setup = CellSetup::booth(subject, seed);
+            setup.noise.multiplier = self.noise;
+            return setup;
+        }
         let mut setup = CellSetup::new(subject, seed);
         setup.noise.multiplier = self.noise;
         setup.clutter = match self.clutter {

@@ -6,12 +6,13 @@ use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
 use super::assembly::Assembly;
+use super::booth;
 use super::clutter::{Clutter, on_floor, plank};
 use super::object::ObjectKind;
 use super::part::{PartKind, PartModel, Side};
 use super::placement::{Placed, Placement};
 use super::rasteriser::{Plane, Rendering, SurfaceLabel};
-use super::sensor::SensorNoise;
+use super::sensor::{Sensor, SensorNoise};
 use super::stand::{Stand, down_from_above, floor_below, post};
 use crate::capture::frame::Intrinsics;
 use crate::geometry::mesh::TriangleMesh;
@@ -61,6 +62,18 @@ pub enum PartPose {
     Drawn(Placement),
 }
 
+/// What surrounds the part, and which kind of camera sees it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Surroundings {
+    /// One wall and a floor before a Kinect.
+    #[default]
+    Plain,
+    /// A paint booth before a depth camera on the robot's flange. The seed draws the pose, the tubes and clamps that hold
+    /// the part, the walls and the field of view; placement, stand, clutter, wall and floor of the setup do not matter.
+    Booth,
+}
+
 /// All that a simulated frame depends on.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CellSetup {
@@ -82,6 +95,8 @@ pub struct CellSetup {
     pub floor: Metres,
     /// Draws the pose, the tilt of wall and floor, and the clutter.
     pub seed: u64,
+    /// What surrounds the part.
+    pub surroundings: Surroundings,
 }
 
 impl CellSetup {
@@ -97,6 +112,16 @@ impl CellSetup {
             wall: Metres(2.4),
             floor: Metres(1.05),
             seed,
+            surroundings: Surroundings::Plain,
+        }
+    }
+
+    /// A paint booth with the subject on a stand.
+    pub fn booth(subject: Subject, seed: u64) -> Self {
+        Self {
+            intrinsics: booth::CAMERA,
+            surroundings: Surroundings::Booth,
+            ..Self::new(subject, seed)
         }
     }
 
@@ -123,19 +148,26 @@ const STREAM: u64 = 0x00ce_11ce_11ce_11ce;
 
 /// Everything in its place, in camera space.
 pub(super) struct Cell<'a> {
-    part: &'a TriangleMesh,
+    pub(super) part: &'a TriangleMesh,
     pub(super) camera_from_part: RigidTransform,
     /// Whether all of the part lies within the frame.
     pub(super) fits_frame: bool,
-    wall: Plane,
-    floor: Plane,
-    stand: TriangleMesh,
-    clutter: TriangleMesh,
+    /// Everything else, drawn in this order.
+    pub(super) meshes: Vec<(TriangleMesh, SurfaceLabel)>,
+    pub(super) planes: Vec<(Plane, SurfaceLabel)>,
+    pub(super) sensor: Sensor,
 }
 
 impl<'a> Cell<'a> {
     /// Hangs the part and arranges the rest around it.
     pub(super) fn arrange(setup: &CellSetup, part: &'a TriangleMesh) -> Self {
+        match setup.surroundings {
+            Surroundings::Plain => Self::plain(setup, part),
+            Surroundings::Booth => booth::arrange(setup, part),
+        }
+    }
+
+    fn plain(setup: &CellSetup, part: &'a TriangleMesh) -> Self {
         let mut random = Pcg64::seed_from_u64(setup.seed ^ STREAM);
         let Placed {
             camera_from_part,
@@ -187,10 +219,12 @@ impl<'a> Cell<'a> {
             part,
             camera_from_part,
             fits_frame: fully_visible,
-            wall,
-            floor,
-            stand: stand.into_mesh(),
-            clutter: clutter.into_mesh(),
+            meshes: vec![
+                (stand.into_mesh(), SurfaceLabel::Stand),
+                (clutter.into_mesh(), SurfaceLabel::Clutter),
+            ],
+            planes: vec![(wall, SurfaceLabel::Wall), (floor, SurfaceLabel::Floor)],
+            sensor: Sensor::Kinect,
         }
     }
 
@@ -202,10 +236,12 @@ impl<'a> Cell<'a> {
     /// Draws everything but the part.
     pub(super) fn draw_rest(&self, rendering: &mut Rendering) {
         let camera = RigidTransform::identity();
-        rendering.draw_mesh(&self.stand, &camera, SurfaceLabel::Stand);
-        rendering.draw_mesh(&self.clutter, &camera, SurfaceLabel::Clutter);
-        rendering.draw_plane(&self.wall, SurfaceLabel::Wall);
-        rendering.draw_plane(&self.floor, SurfaceLabel::Floor);
+        for (mesh, label) in &self.meshes {
+            rendering.draw_mesh(mesh, &camera, *label);
+        }
+        for (plane, label) in &self.planes {
+            rendering.draw_plane(plane, *label);
+        }
     }
 }
 

@@ -7,9 +7,12 @@
 //! Placement ─► camera_from_part ──────────┼─► Cell ─► Rendering ─► DepthFrame + Truth
 //! Stand, Clutter, wall, floor ────────────┘  cell    rasteriser    sensor
 //! ```
+//!
+//! [`Surroundings::Booth`] replaces the second line: a paint booth before a camera on the robot's flange.
 
 mod assembly;
 mod beam;
+mod booth;
 mod cell;
 mod clutter;
 mod object;
@@ -26,7 +29,7 @@ mod stand;
 mod standing_cell;
 mod variation;
 
-pub use cell::{CellSetup, PartPose, Subject};
+pub use cell::{CellSetup, PartPose, Subject, Surroundings};
 pub use clutter::Clutter;
 pub use object::ObjectKind;
 pub use part::{PartKind, PartModel, Side};
@@ -36,3 +39,4 @@ pub use sensor::SensorNoise;
 pub use shot::{SimulatedFrame, Truth, frame, frame_of_mesh};
 pub use stand::Stand;
 pub use standing_cell::StandingCell;
+pub use variation::FIRST_OTHER_MAKE;

@@ -133,7 +133,8 @@ pub struct PartModel {
 }
 
 impl PartModel {
-    /// The part of car model `model_seed`; 0 is the standard car, any other seed another car of the same class.
+    /// The part of car model `model_seed`; 0 is the standard car, any other seed another car of the same class,
+    /// and from [`FIRST_OTHER_MAKE`](crate::simulate::FIRST_OTHER_MAKE) on one of another make.
     ///
     /// A part that is not sided is the same whatever `side` says.
     pub fn new(kind: PartKind, side: Side, model_seed: u64) -> Self {

@@ -30,11 +30,12 @@ use rand::{Rng as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
-use super::rasteriser::Rendering;
+use super::booth::RegisteredCamera;
+use super::rasteriser::{Rendering, SurfaceLabel};
 use crate::capture::frame::{DepthFrame, Intrinsics};
 
 /// Distance of projector and camera, metres.
-const BASELINE: f64 = 0.075;
+pub(super) const BASELINE: f64 = 0.075;
 /// Steps of the disparity per pixel.
 const STEPS_PER_PIXEL: f64 = 8.0;
 /// Axial noise at 1 m before quantisation, metres. Rounding to a step of 3.17 mm adds 0.92 mm; together 1.5 mm.
@@ -76,8 +77,34 @@ impl SensorNoise {
     }
 }
 
-/// The frame that the sensor delivers of a perfect rendering.
-pub(super) fn sense(rendering: &Rendering, noise: &SensorNoise) -> DepthFrame {
+/// The kinds of sensor.
+pub(super) enum Sensor {
+    /// See the [module](self).
+    Kinect,
+    /// See [`RegisteredCamera`].
+    Registered(RegisteredCamera),
+}
+
+impl Sensor {
+    /// The frame of a perfect rendering.
+    pub(super) fn sense(&self, rendering: &Rendering, noise: &SensorNoise) -> DepthFrame {
+        match self {
+            Self::Kinect => sense(rendering, noise),
+            Self::Registered(camera) => camera.sense(rendering, noise),
+        }
+    }
+
+    /// How many pixels of the rendering show the part and lie within the field of view.
+    pub(super) fn num_part_pixels(&self, rendering: &Rendering) -> usize {
+        match self {
+            Self::Kinect => rendering.num_pixels(SurfaceLabel::Part),
+            Self::Registered(camera) => camera.num_part_pixels(rendering),
+        }
+    }
+}
+
+/// The frame that a Kinect delivers of a perfect rendering.
+fn sense(rendering: &Rendering, noise: &SensorNoise) -> DepthFrame {
     let depth = if noise.multiplier > 0.0 {
         disturbed(rendering, noise)
     } else {
@@ -145,7 +172,8 @@ fn disturbed(rendering: &Rendering, noise: &SensorNoise) -> Vec<u16> {
                 continue;
             }
             let facing = f64::from(rendering.facing[pixel]);
-            let sigma = disparity_sigma(true_disparity, facing, focal_baseline) * noise.multiplier;
+            let sigma = disparity_sigma(true_disparity, facing, focal_baseline, AXIAL_AT_1M)
+                * noise.multiplier;
             let error = f64::from(axial[u]) * sigma;
             // A cast cuts off, which after adding a half is rounding; a negative disparity is out of range anyway.
             let steps = ((true_disparity + error) * STEPS_PER_PIXEL + 0.5) as u32;
@@ -158,10 +186,16 @@ fn disturbed(rendering: &Rendering, noise: &SensorNoise) -> Vec<u16> {
     depth
 }
 
-/// Standard deviation of the disparity before quantisation, pixels, on a surface at |cosine| `facing`.
-fn disparity_sigma(disparity: f64, facing: f64, focal_baseline: f64) -> f64 {
+/// Standard deviation of the disparity before quantisation, pixels, on a surface at |cosine| `facing`; `axial_at_1m` is
+/// that of the depth at 1 m, metres, on a surface that faces the camera.
+pub(super) fn disparity_sigma(
+    disparity: f64,
+    facing: f64,
+    focal_baseline: f64,
+    axial_at_1m: f64,
+) -> f64 {
     // dd = f·b/z² dz: an error of z that grows with z² is one of the disparity that is the same everywhere.
-    let upright = AXIAL_AT_1M * focal_baseline;
+    let upright = axial_at_1m * focal_baseline;
     if facing > 0.7 {
         return upright;
     }
@@ -194,7 +228,7 @@ fn loss_threshold(edge_nearness: u8, facing: f32) -> f32 {
 ///
 /// A surface point at column u with disparity d lies on the projector's column u - d. In each row the largest
 /// disparity on a projector column is lit, the others lie in its shadow.
-fn lit_by_projector(disparity: &[f32], camera: &Intrinsics) -> Vec<bool> {
+pub(super) fn lit_by_projector(disparity: &[f32], camera: &Intrinsics) -> Vec<bool> {
     let width = camera.width;
     // Disparity at the sensor's nearest range; nearer things cast a cut-off shadow.
     let margin = (camera.fx * BASELINE / RANGE.0).ceil() as usize;
@@ -227,7 +261,7 @@ fn lit_by_projector(disparity: &[f32], camera: &Intrinsics) -> Vec<bool> {
 }
 
 /// 2 at a jump of the disparity, 1 one pixel further away, 0 elsewhere.
-fn edge_nearness(disparity: &[f32], camera: &Intrinsics) -> Vec<u8> {
+pub(super) fn edge_nearness(disparity: &[f32], camera: &Intrinsics) -> Vec<u8> {
     let (width, height) = (camera.width, camera.height);
     let mut nearness = vec![0_u8; disparity.len()];
     let mut mark = |pixel: usize, value: u8| nearness[pixel] = nearness[pixel].max(value);
@@ -256,7 +290,7 @@ fn edge_nearness(disparity: &[f32], camera: &Intrinsics) -> Vec<u8> {
 }
 
 /// The disparity between pixel centres: bilinear on one surface, the nearest pixel's across a jump.
-fn sample(disparity: &[f32], camera: &Intrinsics, u: f32, v: f32) -> f32 {
+pub(super) fn sample(disparity: &[f32], camera: &Intrinsics, u: f32, v: f32) -> f32 {
     let (width, height) = (camera.width, camera.height);
     let u = u.clamp(0.0, (width - 1) as f32);
     let v = v.clamp(0.0, (height - 1) as f32);
@@ -285,7 +319,7 @@ fn sample(disparity: &[f32], camera: &Intrinsics, u: f32, v: f32) -> f32 {
 /// (1 4 6 4 1)/16 both ways.
 ///
 /// 25 weighted even draws are as good as normal out to three deviations, at a tenth of the cost of normal ones.
-struct SmoothNoise {
+pub(super) struct SmoothNoise {
     random: Pcg64,
     /// Even noise of one row on ± 1.
     draws: Vec<f32>,
@@ -298,7 +332,7 @@ impl SmoothNoise {
     const WEIGHTS: [f32; 5] = [1.0, 4.0, 6.0, 4.0, 1.0];
 
     /// Of several fields of one seed the one with this number: each draws where the one before ends.
-    fn new(camera: &Intrinsics, seed: u64, number: usize) -> Self {
+    pub(super) fn new(camera: &Intrinsics, seed: u64, number: usize) -> Self {
         let num_draws = (camera.width + 4).next_multiple_of(4);
         let mut random = Pcg64::seed_from_u64(seed);
         // Four draws come out of one number of the generator.
@@ -330,7 +364,7 @@ impl SmoothNoise {
         self.num_drawn += 1;
     }
 
-    fn next_row(&mut self, row: &mut [f32]) {
+    pub(super) fn next_row(&mut self, row: &mut [f32]) {
         self.draw();
         // Even noise on ± 1 has variance 1/3; the filter's squared weights add up to 70 per direction.
         let scale = 3.0_f32.sqrt() / 70.0;
@@ -353,7 +387,7 @@ mod tests {
     use nalgebra::Vector3;
 
     use super::*;
-    use crate::simulate::rasteriser::{Plane, SurfaceLabel};
+    use crate::simulate::rasteriser::Plane;
 
     fn flat_wall(z: f64) -> Rendering {
         let mut rendering = Rendering::new(Intrinsics::KINECT);

@@ -5,7 +5,6 @@ use serde::{Deserialize, Serialize};
 use super::cell::{Cell, CellSetup, Subject};
 use super::part::PartKind;
 use super::rasteriser::{Rendering, SurfaceLabel};
-use super::sensor::sense;
 use crate::capture::frame::{DepthFrame, Intrinsics};
 use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::rigid::RigidTransform;
@@ -20,9 +19,10 @@ pub struct Truth {
     /// enrolled part has other coordinates: those of the camera that saw it.
     #[serde(rename = "camera_from_model", with = "sixteen_numbers")]
     pub camera_from_part: RigidTransform,
-    /// Whether all of the part lies within the frame. Something may still stand before it.
+    /// Whether all of the part lies within the field of view. Something may still stand before it.
     pub fully_visible: bool,
-    /// Pixels that show the part, as a share of those that would with nothing before it and a frame without edges.
+    /// Pixels of the field of view that show the part, as a share of those that would with nothing before it and a
+    /// picture without edges: the share of its camera-facing surface that is in sight.
     pub visible_share: f64,
     /// What each pixel shows, row by row from the top left, before any noise: a pixel without a reading still has
     /// its label.
@@ -59,19 +59,21 @@ pub fn frame_of_mesh(setup: &CellSetup, mesh: &TriangleMesh) -> SimulatedFrame {
     let cell = Cell::arrange(setup, mesh);
     let mut rendering = Rendering::new(setup.intrinsics);
     cell.draw_part(&mut rendering);
+    let num_in_frame = rendering.num_pixels(SurfaceLabel::Part);
+    let num_in_view = cell.sensor.num_part_pixels(&rendering);
     let num_alone = if cell.fits_frame {
-        rendering.num_pixels(SurfaceLabel::Part)
+        num_in_frame
     } else {
         num_pixels_without_edges(mesh, &cell.camera_from_part, &setup.intrinsics)
     };
     cell.draw_rest(&mut rendering);
-    let num_visible = rendering.num_pixels(SurfaceLabel::Part);
+    let num_visible = cell.sensor.num_part_pixels(&rendering);
     SimulatedFrame {
-        frame: sense(&rendering, &setup.noise),
+        frame: cell.sensor.sense(&rendering, &setup.noise),
         truth: Truth {
             subject: setup.subject,
             camera_from_part: cell.camera_from_part,
-            fully_visible: cell.fits_frame,
+            fully_visible: cell.fits_frame && num_in_view == num_in_frame,
             visible_share: num_visible as f64 / num_alone.max(1) as f64,
             labels: rendering.labels,
         },

@@ -2,7 +2,7 @@
 
 use super::cell::{Cell, CellSetup, Subject, is_in_frame};
 use super::rasteriser::{Rendering, SurfaceLabel};
-use super::sensor::{SensorNoise, sense};
+use super::sensor::{Sensor, SensorNoise};
 use super::shot::{SimulatedFrame, Truth};
 use crate::capture::frame::Intrinsics;
 use crate::geometry::mesh::TriangleMesh;
@@ -16,6 +16,7 @@ pub struct StandingCell {
     camera_from_part: RigidTransform,
     /// Everything but the part.
     backdrop: Rendering,
+    sensor: Sensor,
 }
 
 impl StandingCell {
@@ -24,13 +25,14 @@ impl StandingCell {
         let cell = Cell::arrange(setup, &mesh);
         let mut backdrop = Rendering::new(setup.intrinsics);
         cell.draw_rest(&mut backdrop);
-        let camera_from_part = cell.camera_from_part;
+        let (camera_from_part, sensor) = (cell.camera_from_part, cell.sensor);
         Self {
             subject: setup.subject,
             mesh,
             intrinsics: setup.intrinsics,
             camera_from_part,
             backdrop,
+            sensor,
         }
     }
 
@@ -45,6 +47,7 @@ impl StandingCell {
         let mut rendering = Rendering::new(self.intrinsics);
         rendering.draw_mesh(&self.mesh, camera_from_part, SurfaceLabel::Part);
         let num_in_frame = rendering.num_pixels(SurfaceLabel::Part);
+        let num_in_view = self.sensor.num_part_pixels(&rendering);
         let fully_visible = is_in_frame(&self.mesh, camera_from_part, &self.intrinsics);
         let num_alone = if fully_visible || num_in_frame == 0 {
             num_in_frame
@@ -53,9 +56,9 @@ impl StandingCell {
             num_in_frame.max(self.num_pixels_without_edges(camera_from_part))
         };
         rendering.draw_behind(&self.backdrop);
-        let num_visible = rendering.num_pixels(SurfaceLabel::Part);
+        let num_visible = self.sensor.num_part_pixels(&rendering);
         SimulatedFrame {
-            frame: sense(&rendering, noise),
+            frame: self.sensor.sense(&rendering, noise),
             truth: Truth {
                 subject: if num_in_frame == 0 {
                     Subject::Nothing
@@ -63,7 +66,7 @@ impl StandingCell {
                     self.subject
                 },
                 camera_from_part: *camera_from_part,
-                fully_visible,
+                fully_visible: fully_visible && num_in_view == num_in_frame,
                 visible_share: num_visible as f64 / num_alone.max(1) as f64,
                 labels: rendering.labels,
             },

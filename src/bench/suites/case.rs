@@ -1,14 +1,19 @@
 //! What one frame of a suite came to.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 use serde::Serialize;
 
 use super::{SuiteFrame, libraries::enrolment_pose};
 use crate::{
     geometry::rigid::pose_error,
     pipeline::{Inspection, Timings, Verdict},
-    simulate::Truth,
-    stages::{confirm::Evidence, rank::MatchEntry},
+    simulate::{SurfaceLabel, Truth},
+    stages::{
+        confirm::Evidence,
+        pose::Uncertainty,
+        rank::MatchEntry,
+        segment::{PointLabel, Segmentation},
+    },
 };
 
 /// What one frame came to.
@@ -34,6 +39,13 @@ pub struct SuiteCase {
     pub reason: Option<String>,
     /// Whether it was named as another model of what is enrolled, at a pose that is only about right.
     pub is_approximate: bool,
+    /// Share of the part's camera-facing surface that is in sight; 0 if nothing hangs there.
+    pub visible_share: f64,
+    /// Readings that show the part and were taken for it, as a share of those that do either (intersection over
+    /// union); `None` if no reading shows the part.
+    pub part_iou: Option<f64>,
+    /// The bounds of the pose of a part that was named rightly, if it has any.
+    pub bounds: Option<Bounds>,
     /// Time of the whole inspection, milliseconds.
     pub total_ms: f64,
     /// The same by stage.
@@ -41,6 +53,26 @@ pub struct SuiteCase {
     pub timings: Timings,
     /// The first few of the ranking that were put in their place.
     pub contenders: Vec<Contender>,
+}
+
+/// Bounds of a pose beside its true error, both about the middle of what was seen of the part.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+pub struct Bounds {
+    /// Degrees.
+    pub turn_bound: f64,
+    /// Millimetres.
+    pub shift_bound: f64,
+    /// Degrees.
+    pub turn_off: f64,
+    /// Millimetres.
+    pub shift_off: f64,
+}
+
+impl Bounds {
+    /// Whether the pose is within both.
+    pub fn hold(&self) -> bool {
+        self.turn_off <= self.turn_bound && self.shift_off <= self.shift_bound
+    }
 }
 
 /// One reference at the pose that was found for it.
@@ -87,6 +119,9 @@ impl SuiteCase {
             is_unknown: inspection.verdict.is_unknown(),
             reason,
             is_approximate: inspection.verdict.is_approximate(),
+            visible_share: truth.visible_share,
+            part_iou: part_iou(truth, &inspection.segmentation),
+            bounds: bounds(frame, truth, inspection),
             timings: inspection.timings,
             total_ms: inspection.timings.total.as_secs_f64() * 1e3,
             contenders: inspection
@@ -123,6 +158,39 @@ impl SuiteCase {
         self.pose_off()
             .is_some_and(|off| off[0] <= 2.0 && off[1] <= 10.0)
     }
+}
+
+fn part_iou(truth: &Truth, segmentation: &Segmentation) -> Option<f64> {
+    let (mut num_both, mut num_true, mut num_taken) = (0_usize, 0_usize, 0_usize);
+    for (is, taken_for) in truth.labels.iter().zip(&segmentation.labels) {
+        let is_part = *is == SurfaceLabel::Part && *taken_for != PointLabel::NoReading;
+        let is_taken = *taken_for == PointLabel::Part;
+        num_true += usize::from(is_part);
+        num_taken += usize::from(is_taken);
+        num_both += usize::from(is_part && is_taken);
+    }
+    let num_either = num_true + num_taken - num_both;
+    (num_true > 0).then(|| num_both as f64 / num_either as f64)
+}
+
+fn bounds(frame: &SuiteFrame, truth: &Truth, inspection: &Inspection) -> Option<Bounds> {
+    let first = inspection.ranking.entries.first()?;
+    let pose = inspection.pose.as_ref()?.as_ref().ok()?;
+    let found = pose.uncertainty.filter(Uncertainty::is_held)?;
+    let seen = &inspection.segmentation.part.as_ref().ok()?.cloud.points;
+    if frame.expected.as_ref() != Some(&first.part) {
+        return None;
+    }
+    let sum: Vector3<f64> = seen.iter().map(|p| p.coords.cast::<f64>()).sum();
+    let middle = Point3::from(sum / seen.len().max(1) as f64);
+    let reference_from_camera = (truth.camera_from_part * enrolment_pose().inverse()).inverse();
+    let off = pose_error(&pose.target_from_source, &reference_from_camera, &middle);
+    Some(Bounds {
+        turn_bound: found.turn.degrees(),
+        shift_bound: found.shift.mm(),
+        turn_off: off.rotation.degrees(),
+        shift_off: off.shift.mm(),
+    })
 }
 
 fn contender(frame: &SuiteFrame, truth: &Truth, entry: &MatchEntry) -> Option<Contender> {

@@ -6,6 +6,7 @@
 mod case;
 mod closest;
 mod cut;
+mod figures;
 mod libraries;
 mod run;
 
@@ -14,14 +15,15 @@ use serde::Serialize;
 use self::cut::pushed_out_of_the_picture;
 pub(super) use self::libraries::enrol_part;
 pub use self::{
-    case::{Contender, SuiteCase},
+    case::{Bounds, Contender, SuiteCase},
     closest::Closest,
+    figures::SuiteFigures,
     libraries::{SuiteLibraries, enrol_standard_parts, enrolment_pose},
     run::{Confusion, SuiteResult, run_suite},
 };
 use crate::simulate::{
-    CellSetup, Clutter, ObjectKind, PartKind, PartPose, Placement, SensorNoise, Side, Stand,
-    Subject,
+    CellSetup, Clutter, FIRST_OTHER_MAKE, ObjectKind, PartKind, PartPose, Placement, SensorNoise,
+    Side, Stand, Subject,
 };
 
 /// Frames from this seed on are for choosing parameters.
@@ -52,11 +54,18 @@ pub enum Suite {
     BothSides,
     /// Enrolled parts that stand on the floor: ±30° yaw, leaning by up to 20°, every second time on another edge.
     Floor,
+    /// Enrolled parts on a stand in a paint booth, seen from the robot's flange: ±30°, any roll, 0.8 to 1.5 m, most of
+    /// them cut by the picture down to a quarter.
+    Booth,
+    /// Things that nobody enrolled on a stand in the booth, and stands without a part.
+    BoothUnknown,
+    /// The same parts of cars of other makes, placed: 6 to 12 % off in every dimension, and curved differently.
+    OtherMakes,
 }
 
 impl Suite {
     /// All of them.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 11] = [
         Self::Standard,
         Self::Placed,
         Self::OtherModels,
@@ -65,6 +74,9 @@ impl Suite {
         Self::Mirrored,
         Self::BothSides,
         Self::Floor,
+        Self::Booth,
+        Self::BoothUnknown,
+        Self::OtherMakes,
     ];
 
     /// The name in files and on the command line.
@@ -78,14 +90,23 @@ impl Suite {
             Self::Mirrored => "mirrored",
             Self::BothSides => "both_sides",
             Self::Floor => "floor",
+            Self::Booth => "booth",
+            Self::BoothUnknown => "booth_unknown",
+            Self::OtherMakes => "other_makes",
         }
     }
 
-    /// True if every frame shows one of the eight enrolled parts, so that a system which cannot refuse can be right.
+    /// True if every frame shows (nearly) all of one of the eight enrolled parts, or of its like from another model, so
+    /// that a system which compares whole shapes and cannot refuse can be right.
     pub fn is_for_all_systems(self) -> bool {
         match self {
             Self::Standard | Self::Placed | Self::OtherModels | Self::Hard | Self::Floor => true,
-            Self::Unknown | Self::Mirrored | Self::BothSides => false,
+            Self::Unknown
+            | Self::Mirrored
+            | Self::BothSides
+            | Self::Booth
+            | Self::BoothUnknown
+            | Self::OtherMakes => false,
         }
     }
 
@@ -113,10 +134,14 @@ impl Suite {
         };
         let sided = || PartKind::ALL.into_iter().filter(|kind| kind.is_sided());
         match self {
-            Self::Standard | Self::Placed | Self::OtherModels | Self::Hard | Self::Floor => {
-                PartKind::ALL.map(|kind| part(kind, Side::Left)).to_vec()
-            }
-            Self::Unknown => ObjectKind::ALL
+            Self::Standard
+            | Self::Placed
+            | Self::OtherModels
+            | Self::Hard
+            | Self::Floor
+            | Self::Booth
+            | Self::OtherMakes => PartKind::ALL.map(|kind| part(kind, Side::Left)).to_vec(),
+            Self::Unknown | Self::BoothUnknown => ObjectKind::ALL
                 .into_iter()
                 .map(Subject::Object)
                 .chain([Subject::Nothing])
@@ -132,6 +157,7 @@ impl Suite {
         let mut setup = CellSetup::new(subject, seed);
         match self {
             Self::Placed | Self::Unknown | Self::Mirrored | Self::BothSides => {}
+            Self::Booth | Self::BoothUnknown => setup = CellSetup::booth(subject, seed),
             Self::Standard => setup.pose = PartPose::Drawn(Placement::facing()),
             Self::Floor => {
                 setup.stand = Stand::Floor;
@@ -144,10 +170,13 @@ impl Suite {
                     ..Placement::placed()
                 });
             }
-            Self::OtherModels => {
+            Self::OtherModels | Self::OtherMakes => {
                 if let Subject::Part { model_seed, .. } = &mut setup.subject {
                     // Never 0, and other models for tuning than for measuring.
                     *model_seed = seed / 10_000 + pose;
+                    if self == Self::OtherMakes {
+                        *model_seed += FIRST_OTHER_MAKE;
+                    }
                 }
             }
             Self::Hard => {
@@ -230,7 +259,11 @@ mod tests {
 
     #[test]
     fn another_model_is_never_the_enrolled_one() {
-        for frame in Suite::OtherModels.frames(3, TUNING_SEED) {
+        let of = |suite: Suite| suite.frames(3, TUNING_SEED);
+        for frame in of(Suite::OtherModels)
+            .into_iter()
+            .chain(of(Suite::OtherMakes))
+        {
             let Subject::Part { model_seed, .. } = frame.setup.subject else {
                 panic!("a part");
             };

@@ -28,7 +28,12 @@ impl SuiteResult {
 
     /// Median time of an inspection, milliseconds.
     pub fn median_ms(&self) -> Option<f64> {
-        quantile(self.cases.iter().map(|case| case.total_ms), 0.5)
+        self.ms_quantile(0.5)
+    }
+
+    /// A quantile (0..1) of the time of an inspection, milliseconds.
+    pub fn ms_quantile(&self, share: f64) -> Option<f64> {
+        quantile(self.cases.iter().map(|case| case.total_ms), share)
     }
 
     /// A quantile (0..1) of how far the poses are off, degrees and millimetres, each by itself.

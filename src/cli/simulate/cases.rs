@@ -40,6 +40,7 @@ pub(super) fn run(
         let shot = frame(&setup);
         let difficulty = match &args.difficulty {
             Some(words) => words.clone(),
+            None if args.booth => "booth".to_owned(),
             None => placement.name().to_owned(),
         };
         let origin = format!("{} {difficulty} {seed}", name_of(subject));

@@ -13,7 +13,7 @@ use crate::simulate::variation::Variation;
 pub(super) fn build(vary: &mut Variation) -> Assembly {
     let curve = PlanCurve::new(&PlanShape {
         half_width: vary.overall(0.700),
-        front_radius: vary.of(2.6),
+        front_radius: vary.curvature(2.6),
         corner_radius: vary.of(0.16),
         end_heading: 1.47 + vary.shift(0.04),
         wrap: vary.of(0.36),

@@ -13,7 +13,7 @@ use crate::simulate::variation::Variation;
 pub(super) fn build(vary: &mut Variation) -> Assembly {
     let curve = PlanCurve::new(&PlanShape {
         half_width: vary.overall(0.700),
-        front_radius: vary.of(1.5),
+        front_radius: vary.curvature(1.5),
         corner_radius: vary.of(0.27),
         end_heading: 1.40 + vary.shift(0.06),
         wrap: vary.of(0.32),

@@ -14,7 +14,7 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
     let half_bottom = vary.of(0.330);
     let half_height = vary.overall(0.140);
     let rim = vary.of(0.026);
-    let bow = vary.of(1.9);
+    let bow = vary.curvature(1.9);
     let surface = |x: f64, y: f64| x * x / (2.0 * bow) + 0.16 * y + y * y / 1.6;
 
     let frame = Region::symmetric_outline(&[

@@ -59,7 +59,7 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
     let lower_beads = Region::slot((0.0, bottom - 0.5 * lower_beam), (0.20, 0.036), 0.016);
     let post_beads =
         Region::slot((upright - 0.5 * post + 0.006, 0.01), (0.026, 0.26), 0.012).on_both_sides();
-    let bow = vary.of(1.8);
+    let bow = vary.curvature(1.8);
     let lamp_set_back = vary.of(0.055);
 
     let lift = |x: f64, y: f64| {

@@ -34,8 +34,8 @@ impl SidePanel {
         Self {
             waist,
             tumblehome: vary.of(0.25),
-            bulge_radius: vary.of(1.7),
-            bow_radius: vary.of(4.5),
+            bulge_radius: vary.curvature(1.7),
+            bow_radius: vary.curvature(4.5),
             line: (0.075 + vary.shift(0.02), -0.05 + vary.shift(0.02)),
             line_height: vary.of(0.011),
             scallop: 0.33 + vary.shift(0.02),

@@ -63,8 +63,8 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
     ]);
     let plate = Region::slot((0.0, vary.of(0.215)), (vary.of(0.56), vary.of(0.135)), 0.02);
     let badge = Region::disc((0.0, vary.of(0.098)), 0.042);
-    let crown = vary.of(2.6);
-    let bow = vary.of(2.2);
+    let crown = vary.curvature(2.6);
+    let bow = vary.curvature(2.2);
     let lip = vary.of(0.012);
 
     let lift = |u: f64, v: f64| {
