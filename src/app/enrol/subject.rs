@@ -129,8 +129,15 @@ impl Segments {
         let part = found.part.as_ref().map(|part| part.indices.clone());
         let part = part.unwrap_or_default();
         all.add(SegmentKind::Surface, "Part", Fate::Kept, &part);
+        let stand = found.part.as_ref().map(|part| part.stand.clone());
+        let stand = stand.unwrap_or_default();
+        all.add(SegmentKind::Surface, "Stand", Fate::Dropped, &stand);
         let others = surfaces(scene, &found, params);
-        let others = others.iter().filter(|indices| **indices != part);
+        let is_other = |indices: &&Vec<u32>| {
+            let first = indices.first();
+            first.is_some() && first != part.first().into_iter().chain(stand.first()).min()
+        };
+        let others = others.iter().filter(is_other);
         for (number, indices) in others.take(Self::MAX_SURFACES).enumerate() {
             let title = format!("Surface {}", number + 1);
             all.add(SegmentKind::Surface, &title, Fate::Dropped, indices);

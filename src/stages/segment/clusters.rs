@@ -49,7 +49,7 @@ pub(super) fn connect(
     };
     let groups = match scene.cloud.grid {
         Some(grid) => connect_pixels(&scene.cloud.points, labels, grid, link),
-        None => connect_voxels(&scene.cloud.points, labels, link),
+        None => connect_voxels(&scene.cloud.points, labels),
     };
     let groups: Vec<Vec<u32>> = groups
         .into_iter()
@@ -65,7 +65,7 @@ pub(super) fn connect(
         .map(|(indices, in_front)| Members {
             cluster: Cluster {
                 in_front,
-                ..describe(scene, &indices, link)
+                ..describe(scene, &indices)
             },
             indices,
         })
@@ -180,14 +180,11 @@ fn connect_pixels(
     groups
 }
 
-/// Side of a voxel: two links wide, since an unorganised cloud may be sparser than a picture.
-fn voxel_size(link: Link) -> f32 {
-    2.0 * link.base
-}
+/// Side of a voxel, metres: an unorganised cloud may be far sparser than a picture.
+const VOXEL: f32 = 0.04;
 
-fn connect_voxels(points: &[Point3<f32>], labels: &[PointLabel], link: Link) -> Vec<Vec<u32>> {
-    let size = voxel_size(link);
-    let voxel_of = |p: &Point3<f32>| [p.x, p.y, p.z].map(|x| (x / size).floor() as i64);
+fn connect_voxels(points: &[Point3<f32>], labels: &[PointLabel]) -> Vec<Vec<u32>> {
+    let voxel_of = |p: &Point3<f32>| [p.x, p.y, p.z].map(|x| (x / VOXEL).floor() as i64);
     let mut forest = Forest {
         parents: Vec::new(),
     };
@@ -225,7 +222,7 @@ fn connect_voxels(points: &[Point3<f32>], labels: &[PointLabel], link: Link) -> 
     groups
 }
 
-fn describe(scene: &SceneCloud, indices: &[u32], link: Link) -> Cluster {
+fn describe(scene: &SceneCloud, indices: &[u32]) -> Cluster {
     let points = &scene.cloud.points;
     let area = if let Some(camera) = scene.intrinsics {
         // A pixel at depth z covers z²/(fx fy).
@@ -233,15 +230,14 @@ fn describe(scene: &SceneCloud, indices: &[u32], link: Link) -> Cluster {
         depths.map(|z| z * z).sum::<f64>() / (camera.fx * camera.fy)
     } else {
         // Without a camera: as many squares as the cluster fills voxels.
-        let size = voxel_size(link);
         let mut voxels: Vec<[i64; 3]> = indices
             .iter()
             .map(|&i| points[i as usize])
-            .map(|p| [p.x, p.y, p.z].map(|x| (x / size).floor() as i64))
+            .map(|p| [p.x, p.y, p.z].map(|x| (x / VOXEL).floor() as i64))
             .collect();
         voxels.sort_unstable();
         voxels.dedup();
-        voxels.len() as f64 * f64::from(size).powi(2)
+        voxels.len() as f64 * f64::from(VOXEL).powi(2)
     };
     Cluster {
         num_points: indices.len(),

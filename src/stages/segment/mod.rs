@@ -5,18 +5,20 @@
 //! large flat part would otherwise be taken for a third wall, and because a depth camera's noise grows with depth²:
 //! - a plane is background only if (nearly) everything else lies in front of it and it runs out of the picture;
 //! - a point belongs to a plane within a distance that follows the noise, which is measured on the largest plane;
-//! - of what is left, one connected surface is the part, not all of it: the largest, those inside the picture first.
+//! - of what is left, one connected surface is the part, not all of it: the one that fills most of the view, those first
+//!   that lie inside it and in front of others. Bars of a stand that touch it are taken off it.
 //!
 //! The noise is measured on the picture before a plane is known, so that a wall is found at any noise. A capture of the
 //! [`EmptyCell`] fixes wall, floor and whatever else always stands there.
 //!
-//! Known limits: whatever touches the part and was not there in the empty cell, such as a hanger, joins it.
+//! Known limits: whatever touches the part, was not there in the empty cell and is no bar joins it.
 
 mod clusters;
 mod empty_cell;
 mod noise;
 mod part;
 mod planes;
+mod stand;
 mod subset;
 
 use nalgebra::Point3;
@@ -48,7 +50,7 @@ pub struct SegmentParams {
     /// Most planes to take away, 0..4: wall, floor and one more.
     pub max_planes: usize,
     /// Neighbouring points further apart than this (plus the noise) are not connected, 5..100 mm. Raising it joins
-    /// what hangs close to the part, lowering it tears the part.
+    /// what hangs or stands close to the part, lowering it tears a part that is seen at a flat angle.
     pub link_distance: Metres,
     /// Less surface than this, seen from the camera, is no part, square metres, 0.001..1.
     pub min_part_area: f64,
@@ -64,7 +66,7 @@ impl Default for SegmentParams {
             noise_factor: 4.0,
             good_sample_probability: 0.99,
             max_planes: 3,
-            link_distance: Metres::from_mm(20.0),
+            link_distance: Metres::from_mm(8.0),
             min_part_area: 0.02,
             seed: 1,
         }
@@ -91,8 +93,7 @@ pub struct Segmentation {
     pub labels: Vec<PointLabel>,
     /// The planes taken away, in the order found.
     pub planes: Vec<BackgroundPlane>,
-    /// The connected surfaces left, largest first. The part is the largest that lies inside the picture, or one more
-    /// than twice as large that does not.
+    /// The connected surfaces left, largest first, each with the stand that touches it.
     pub clusters: Vec<Cluster>,
     /// Standard deviation of the depth at 1 m, measured on the largest plane, else as given in the parameters.
     pub noise_at_1m: Metres,

@@ -2,7 +2,7 @@
 
 use super::{
     BackgroundPlane, Cluster, MIN_POINTS, NoPart, PointLabel, SegmentParams, Segmentation,
-    clusters, label_readings,
+    clusters, label_readings, stand::take_stand_off,
 };
 use crate::{
     geometry::cloud::{Grid, PointCloud, is_finite},
@@ -15,8 +15,10 @@ use crate::{
 pub struct SegmentedPart {
     /// The part's points, metres, camera space, unorganised, in the scene's order.
     pub cloud: PointCloud,
-    /// For each of them its index in the scene.
+    /// For each of them its index in the scene, ascending.
     pub indices: Vec<u32>,
+    /// The places in the scene, ascending, of what touches the part and was taken for a stand's; not among the points.
+    pub stand: Vec<u32>,
     /// Standard deviation of a point's depth at 1 m; it grows with depth².
     pub noise_at_1m: Metres,
     /// True if the part reaches the edge of the picture, so that some of it may be missing.
@@ -78,9 +80,29 @@ impl SegmentedPart {
                 is_simulated: scene.is_simulated,
             },
             indices,
+            stand: Vec::new(),
             noise_at_1m,
             touches_edge,
         }
+    }
+
+    /// A connected surface without the stand that touches it.
+    fn of_surface(scene: &SceneCloud, surface: Vec<u32>, noise_at_1m: Metres) -> Self {
+        let (indices, stand) = take_stand_off(scene, surface);
+        let touches_edge = clusters::touches_edge(scene, &indices);
+        Self {
+            stand,
+            ..Self::of(&scene.cloud, indices, noise_at_1m, touches_edge)
+        }
+    }
+
+    /// The first of its points, or of its stand's: the first of the connected surface that it is of.
+    fn first_of_surface(&self) -> Option<&u32> {
+        self.indices
+            .first()
+            .into_iter()
+            .chain(self.stand.first())
+            .min()
     }
 }
 
@@ -128,40 +150,30 @@ pub fn other_parts(
     {
         return Vec::new();
     }
-    let taken = segmentation
-        .part
-        .as_ref()
-        .ok()
-        .and_then(|p| p.indices.first());
-    let mut others: Vec<(f64, bool, Vec<u32>)> = surfaces(scene, segmentation, params)
+    let part = segmentation.part.as_ref().ok();
+    let taken = part.and_then(SegmentedPart::first_of_surface);
+    let mut others: Vec<(f64, Vec<u32>)> = surfaces(scene, segmentation, params)
         .into_iter()
         .zip(&segmentation.clusters)
         .filter(|(indices, cluster)| is_candidate(cluster) && indices.first() != taken)
-        .map(|(indices, cluster)| (likelihood(cluster), cluster.touches_edge, indices))
+        .map(|(indices, cluster)| (likelihood(cluster), indices))
         .collect();
     others.sort_by(|a, b| b.0.total_cmp(&a.0));
     others
         .into_iter()
         .take(limit)
-        .map(|(_, touches_edge, indices)| {
-            SegmentedPart::of(
-                &scene.cloud,
-                indices,
-                segmentation.noise_at_1m,
-                touches_edge,
-            )
-        })
+        .map(|(_, surface)| SegmentedPart::of_surface(scene, surface, segmentation.noise_at_1m))
         .collect()
 }
 
 /// A surface that is the nearer one along less than this share of its border lies behind others.
 const IN_FRONT: f64 = 0.5;
 
-/// How likely a surface is the part: the larger the more, but what runs out of the view is more often a strip of floor
-/// or a neighbour than the part, and what lies behind others is a wall.
+/// How likely a surface is the part: the more of the view it fills, the more, since the camera looks at the part. But what
+/// runs out of the view is more often a strip of floor or a neighbour, and what lies behind others is a wall.
 fn likelihood(cluster: &Cluster) -> f64 {
     let in_front = (cluster.in_front / IN_FRONT).min(1.0).powi(2);
-    cluster.area * in_front * if cluster.touches_edge { 0.4 } else { 1.0 }
+    cluster.num_points as f64 * in_front * if cluster.touches_edge { 0.4 } else { 1.0 }
 }
 
 pub(super) fn take_part(
@@ -180,15 +192,11 @@ pub(super) fn take_part(
             if largest.cluster.area >= params.min_part_area
                 && largest.indices.len() >= MIN_POINTS =>
         {
-            for &i in &largest.indices {
+            let part = SegmentedPart::of_surface(scene, largest.indices.clone(), noise_at_1m);
+            for &i in &part.indices {
                 labels[i as usize] = PointLabel::Part;
             }
-            Ok(SegmentedPart::of(
-                &scene.cloud,
-                largest.indices.clone(),
-                noise_at_1m,
-                largest.cluster.touches_edge,
-            ))
+            Ok(part)
         }
         _ => Err(NoPart::OnlyBackground {
             knows_cell: scene.empty_cell.is_some(),

@@ -1,0 +1,382 @@
+//! Stands and hangers that touch the part: bars that do not go on from its surface are taken off it.
+//!
+//! An opening of the part's picture (J. Serra, "Image Analysis and Mathematical Morphology", 1982) leaves what is wider
+//! than a tube. Of what it takes away, corners and tips come back, and so does a bar that begins in the surface it
+//! touches, such as the frame of a window. A bar that begins a centimetre before or behind that surface is a stand's.
+//!
+//! Known limits: of a part that is bars all over nothing is taken off. A tube that lies in the surface beside the part, or
+//! is wider than 56 mm, stays; a thin tip that is bent by a centimetre goes.
+
+use nalgebra::{Point3, Vector3};
+
+use crate::{
+    capture::Intrinsics,
+    geometry::{cloud::Grid, plane::Plane},
+    stages::{field_of_view::FieldOfView, scene::SceneCloud},
+};
+
+/// Half the width from which on a bar is no tube, metres: stands are made of tubes of 20 to 50 mm.
+const RADIUS: f32 = 0.028;
+/// Half the width of the gaps that are closed where an opening leaves too little, metres: the slots of a grille.
+const CLOSED: f32 = 0.016;
+/// Share of the part that an opening leaves, at least.
+const LEAST_LEFT: f64 = 0.55;
+/// Smaller pieces that an opening leaves, shares of the largest, are feet and joints of the stand.
+const LEAST_PIECE: f64 = 0.2;
+/// What ends this close to the body is a corner or a tip of it, metres.
+const TIP: f32 = 0.085;
+/// How far from the place where a bar begins its own surface and that of the body are compared, metres.
+const NEAR: f32 = 0.06;
+/// A bar that begins this far from the surface it touches is a stand's, metres.
+const STEP: f64 = 0.0095;
+/// A strip that begins along this many times its depth is the folded edge of a sheet.
+const FOLD: f32 = 2.5;
+/// Pixels of the scene per cell of the mask, each way.
+const CELL: usize = 2;
+
+/// Divides a connected surface, by its points' places in the scene in ascending order, into the part and what belongs to
+/// a stand.
+pub(super) fn take_stand_off(scene: &SceneCloud, surface: Vec<u32>) -> (Vec<u32>, Vec<u32>) {
+    let picture = scene.cloud.grid.zip(scene.intrinsics);
+    let mask = picture.and_then(|(grid, camera)| Mask::of(scene, grid, camera, &surface));
+    let Some(stand) = mask.as_ref().and_then(Mask::stand) else {
+        return (surface, Vec::new());
+    };
+    let mask = mask.expect("what has a stand has a mask");
+    surface
+        .into_iter()
+        .partition(|i| !stand[mask.cell_of(*i as usize)])
+}
+
+/// A surface in cells of a few pixels, with a margin around it.
+struct Mask {
+    grid: Grid,
+    camera: Intrinsics,
+    /// First cell, column and row.
+    first: [usize; 2],
+    width: usize,
+    height: usize,
+    /// Whether the surface is there.
+    is_set: Vec<bool>,
+    /// Whether the camera cannot see there: the surface may go on.
+    is_beyond: Vec<bool>,
+    /// Depth of the surface, its mean where it is not, metres.
+    depth: Vec<f32>,
+}
+
+/// Cells around the surface.
+const MARGIN: usize = 4;
+
+impl Mask {
+    fn of(scene: &SceneCloud, grid: Grid, camera: Intrinsics, surface: &[u32]) -> Option<Self> {
+        let cell = |i: u32| {
+            [
+                i as usize % grid.width / CELL,
+                i as usize / grid.width / CELL,
+            ]
+        };
+        let (mut low, mut high) = ([usize::MAX; 2], [0; 2]);
+        let mut sum = 0.0_f64;
+        for &i in surface {
+            for (axis, at) in cell(i).into_iter().enumerate() {
+                low[axis] = low[axis].min(at);
+                high[axis] = high[axis].max(at);
+            }
+            sum += f64::from(scene.cloud.points[i as usize].z);
+        }
+        let mean = (sum / surface.len() as f64) as f32;
+        // Nothing is a tube where a tube is hardly a cell wide, or where the whole surface is not wider than one.
+        let radius = RADIUS * camera.fx as f32 / mean / CELL as f32;
+        if surface.is_empty() || !(radius >= 1.0) {
+            return None;
+        }
+        let first = low.map(|at| at.saturating_sub(MARGIN));
+        let [width, height] = [0, 1].map(|axis| high[axis] + MARGIN + 1 - first[axis]);
+        let num = width * height;
+        let mut mask = Self {
+            grid,
+            camera,
+            first,
+            width,
+            height,
+            is_set: vec![false; num],
+            is_beyond: vec![false; num],
+            depth: vec![mean; num],
+        };
+        for &i in surface {
+            let at = mask.cell_of(i as usize);
+            mask.is_set[at] = true;
+            mask.depth[at] = scene.cloud.points[i as usize].z;
+        }
+        if let Some(view) = scene.field_of_view() {
+            mask.mark_beyond(view);
+        }
+        Some(mask)
+    }
+
+    fn mark_beyond(&mut self, view: &FieldOfView) {
+        for at in 0..self.is_set.len() {
+            let [u, v] = self.pixel_of(at);
+            let is_seen = view.contains(u as i64, v as i64);
+            self.is_beyond[at] = !self.is_set[at] && (!is_seen || view.ends_at(u, v, 0));
+        }
+    }
+
+    fn cell_of(&self, pixel: usize) -> usize {
+        let (u, v) = (pixel % self.grid.width, pixel / self.grid.width);
+        (v / CELL - self.first[1]) * self.width + u / CELL - self.first[0]
+    }
+
+    /// The first pixel of a cell.
+    fn pixel_of(&self, cell: usize) -> [usize; 2] {
+        let (column, row) = (cell % self.width, cell / self.width);
+        [
+            (column + self.first[0]) * CELL,
+            (row + self.first[1]) * CELL,
+        ]
+    }
+
+    /// Side of a cell on the surface, metres.
+    fn size(&self, cell: usize) -> f32 {
+        self.depth[cell] / self.camera.fx as f32 * CELL as f32
+    }
+
+    fn point(&self, cell: usize) -> Point3<f64> {
+        let [u, v] = self.pixel_of(cell);
+        self.camera
+            .point_at(u as f64, v as f64, f64::from(self.depth[cell]))
+    }
+
+    /// Which cells are a stand's; `None` if none is.
+    fn stand(&self) -> Option<Vec<bool>> {
+        let num = self.is_set.iter().filter(|is_set| **is_set).count() as f64;
+        let (core, left) = [&self.is_set, &self.closed()]
+            .into_iter()
+            .map(|filled| self.opened(filled))
+            .find(|(_, left)| count(left) >= LEAST_LEFT * num)?;
+        let pieces = self.components(&left);
+        let largest = pieces.iter().map(Vec::len).max()? as f64;
+        let mut body = vec![false; left.len()];
+        for &cell in pieces
+            .iter()
+            .filter(|piece| piece.len() as f64 >= LEAST_PIECE * largest)
+            .flatten()
+        {
+            body[cell] = true;
+        }
+        let is_off = |i: usize| self.is_set[i] && !body[i];
+        let off: Vec<bool> = (0..body.len()).map(is_off).collect();
+        let body_core: Vec<bool> = core.iter().zip(&body).map(|(a, b)| *a && *b).collect();
+        let from_core = self.distances(&body_core);
+        let mut stand = vec![false; body.len()];
+        for bar in self.components(&off) {
+            let reach = bar.iter().map(|&i| from_core[i] * self.size(i));
+            let reach = reach.fold(0.0, f32::max);
+            if reach > TIP && self.is_of_a_stand(&bar, &off, &body, reach) {
+                for cell in bar {
+                    stand[cell] = true;
+                }
+            }
+        }
+        stand.contains(&true).then_some(stand)
+    }
+
+    /// True if a bar does not go on from the surface of the body that it touches.
+    fn is_of_a_stand(&self, bar: &[usize], off: &[bool], body: &[bool], reach: f32) -> bool {
+        let is_beside = |cell: &usize| self.neighbours(*cell).any(|beside| body[beside]);
+        let touching: Vec<usize> = bar.iter().copied().filter(is_beside).collect();
+        let Some(&first) = touching.first() else {
+            // Held by single pixels.
+            return true;
+        };
+        let size = self.size(first);
+        if touching.len() as f32 * size > FOLD * reach {
+            return false;
+        }
+        let steps = (NEAR / size) as usize;
+        let own = self.around(&touching, off, steps);
+        let beside = self.around(&touching, body, steps);
+        let Some(surface) = Plane::fit(beside.iter().map(|&i| (self.point(i), 1.0))) else {
+            return true;
+        };
+        let sum: Vector3<f64> = own.iter().map(|&i| self.point(i).coords).sum();
+        let middle = Point3::from(sum / own.len() as f64);
+        surface.signed_distance(&middle).abs() > STEP
+    }
+
+    /// The cells that are wider than a tube, and those of the surface that lie around them.
+    fn opened(&self, filled: &[bool]) -> (Vec<bool>, Vec<bool>) {
+        let is_gap = |i: usize| !filled[i] && !self.is_beyond[i];
+        let from_gap = self.distances(&(0..filled.len()).map(is_gap).collect::<Vec<_>>());
+        let is_core = |i: usize| filled[i] && from_gap[i] * self.size(i) > RADIUS;
+        let core: Vec<bool> = (0..filled.len()).map(is_core).collect();
+        let from_core = self.distances(&core);
+        // A cell more than the radius: distances are taken between the middles of cells.
+        let is_left = |i: usize| self.is_set[i] && (from_core[i] - 1.0) * self.size(i) <= RADIUS;
+        let left = (0..filled.len()).map(is_left).collect();
+        (core, left)
+    }
+
+    /// The surface with its narrow gaps filled.
+    fn closed(&self) -> Vec<bool> {
+        let from_set = self.distances(&self.is_set);
+        let is_far = |i: usize| from_set[i] * self.size(i) > CLOSED;
+        let far: Vec<bool> = (0..from_set.len()).map(is_far).collect();
+        let from_far = self.distances(&far);
+        let is_filled = |i: usize| self.is_set[i] || from_far[i] * self.size(i) > CLOSED;
+        (0..from_far.len()).map(is_filled).collect()
+    }
+
+    /// Distance of each cell to the nearest true one, in cells: chamfer 3-4 (G. Borgefors, "Distance transformations in
+    /// digital images", Computer Vision, Graphics, and Image Processing 34(3), 1986).
+    fn distances(&self, to: &[bool]) -> Vec<f32> {
+        const FAR: i32 = 1 << 20;
+        let (width, height) = (self.width, self.height);
+        let mut third: Vec<i32> = to.iter().map(|is| if *is { 0 } else { FAR }).collect();
+        // The outermost cells are margin and have no neighbours on all sides.
+        for row in 1..height {
+            for i in row * width + 1..(row + 1) * width - 1 {
+                let above = third[i - width] + 3;
+                let aside = third[i - width - 1].min(third[i - width + 1]) + 4;
+                third[i] = third[i].min(third[i - 1] + 3).min(above).min(aside);
+            }
+        }
+        for row in (0..height - 1).rev() {
+            for i in (row * width + 1..(row + 1) * width - 1).rev() {
+                let below = third[i + width] + 3;
+                let aside = third[i + width - 1].min(third[i + width + 1]) + 4;
+                third[i] = third[i].min(third[i + 1] + 3).min(below).min(aside);
+            }
+        }
+        third.into_iter().map(|third| third as f32 / 3.0).collect()
+    }
+
+    fn neighbours(&self, cell: usize) -> impl Iterator<Item = usize> + use<> {
+        let (width, num) = (self.width as i64, self.is_set.len() as i64);
+        [
+            -width - 1,
+            -width,
+            -width + 1,
+            -1,
+            1,
+            width - 1,
+            width,
+            width + 1,
+        ]
+        .into_iter()
+        .map(move |step| cell as i64 + step)
+        .filter(move |beside| (0..num).contains(beside))
+        .map(|beside| beside as usize)
+    }
+
+    /// The connected pieces of a set of cells.
+    fn components(&self, cells: &[bool]) -> Vec<Vec<usize>> {
+        let mut left = cells.to_vec();
+        let mut pieces = Vec::new();
+        for start in 0..left.len() {
+            if std::mem::take(&mut left[start]) {
+                let mut piece = vec![start];
+                let mut at = 0;
+                while let Some(&cell) = piece.get(at) {
+                    at += 1;
+                    let beside = self.neighbours(cell);
+                    piece.extend(beside.filter(|beside| std::mem::take(&mut left[*beside])));
+                }
+                pieces.push(piece);
+            }
+        }
+        pieces
+    }
+
+    /// The cells of a set that lie so many steps from some cells, walking within the set.
+    fn around(&self, start: &[usize], cells: &[bool], num_steps: usize) -> Vec<usize> {
+        let mut is_new = cells.to_vec();
+        let mut found: Vec<usize> = Vec::new();
+        let mut last: Vec<usize> = start.to_vec();
+        for _ in 0..num_steps {
+            let beside = last.iter().flat_map(|&cell| self.neighbours(cell));
+            last = beside.filter(|i| std::mem::take(&mut is_new[*i])).collect();
+            found.extend(&last);
+        }
+        found
+    }
+}
+
+fn count(cells: &[bool]) -> f64 {
+    cells.iter().filter(|is_set| **is_set).count() as f64
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::geometry::cloud::PointCloud;
+
+    const CAMERA: Intrinsics = Intrinsics::KINECT;
+
+    /// What a camera sees of a sheet of 0.6 m by 0.4 m with the frame of a window above it, and of a tube of 40 mm that
+    /// begins so far behind the sheet's lower edge and goes down; true where it is the tube's.
+    fn on_a_stand(behind: f64) -> (SceneCloud, Vec<bool>) {
+        let mut is_tube = Vec::new();
+        let points = (0..CAMERA.width * CAMERA.height).map(|i| {
+            let at = CAMERA.point_at((i % CAMERA.width) as f64, (i / CAMERA.width) as f64, 1.2);
+            let on_sheet = at.x.abs() < 0.3 && (-0.1..0.3).contains(&at.y);
+            let in_frame = at.x.abs() < 0.3 && (-0.3..-0.1).contains(&at.y);
+            let in_window = at.x.abs() < 0.255 && at.y > -0.255;
+            let on_tube = at.x.abs() < 0.02 && (0.3..0.5).contains(&at.y);
+            is_tube.push(on_tube);
+            let z = match (on_sheet || in_frame && !in_window, on_tube) {
+                (true, _) => 1.2,
+                // It leans away from the sheet.
+                (_, true) => 1.2 + behind + (at.y - 0.3) * 0.3,
+                _ => f64::NAN,
+            };
+            (at * (z / 1.2)).cast()
+        });
+        let cloud = PointCloud {
+            points: points.collect(),
+            grid: Some(Grid {
+                width: CAMERA.width,
+                height: CAMERA.height,
+            }),
+            ..PointCloud::default()
+        };
+        (SceneCloud::new(cloud, Some(CAMERA)), is_tube)
+    }
+
+    fn taken_off(scene: &SceneCloud) -> (Vec<u32>, Vec<u32>) {
+        let surface = scene.cloud.finite().map(|(i, _)| i as u32).collect();
+        take_stand_off(scene, surface)
+    }
+
+    #[test]
+    fn a_tube_behind_the_sheet_is_taken_off_and_the_frame_of_a_window_is_not() {
+        let (scene, is_tube) = on_a_stand(0.006);
+        let (part, stand) = taken_off(&scene);
+        assert!(stand.iter().all(|i| is_tube[*i as usize]));
+        let num_tube = scene.cloud.finite().filter(|(i, _)| is_tube[*i]).count();
+        assert!(
+            stand.len() as f64 > 0.75 * num_tube as f64,
+            "{} of {num_tube}",
+            stand.len()
+        );
+        assert_eq!(part.len() + stand.len(), scene.cloud.num_finite());
+    }
+
+    #[test]
+    fn a_part_of_bars_and_a_part_alone_stay_whole() {
+        let (mut scene, is_tube) = on_a_stand(0.006);
+        for (p, is_tube) in scene.cloud.points.iter_mut().zip(&is_tube) {
+            if *is_tube {
+                *p = Point3::new(f32::NAN, f32::NAN, f32::NAN);
+            }
+        }
+        assert_eq!(taken_off(&scene).1, []);
+        for p in &mut scene.cloud.points {
+            // Every sixth centimetre, so that nothing is wider than a tube or a closed gap away from the next.
+            if (p.x * 100.0).rem_euclid(10.0) > 4.0 && (p.y * 100.0).rem_euclid(10.0) > 4.0 {
+                *p = Point3::new(f32::NAN, f32::NAN, f32::NAN);
+            }
+        }
+        assert_eq!(taken_off(&scene).1, []);
+    }
+}
