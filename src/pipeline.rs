@@ -4,6 +4,7 @@
 
 mod identity;
 pub mod live;
+mod mirror;
 mod rejection;
 mod verdict;
 mod watch;
@@ -27,12 +28,13 @@ use crate::{
     },
 };
 
+use self::{mirror::look_into_the_mirror, verdict::verdict, watch::StageClock};
 pub use self::{
+    mirror::{MirrorTally, OnlyMirrored},
     rejection::{Rejection, Unrecognisable},
     verdict::{AcceptParams, Verdict},
     watch::{Cancelled, Stage, Timings, Unwatched, Watch},
 };
-use self::{verdict::verdict, watch::StageClock};
 
 /// All parameters of an inspection.
 #[derive(Clone, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -171,45 +173,6 @@ fn look_elsewhere(
             inspection.segmentation.take(part);
             found.keep(inspection);
         }
-    }
-    Ok(())
-}
-
-/// A mirror image must score this much more than the part itself to be spoken of.
-const MIRROR_LEAD: f64 = 0.3;
-
-/// Says so if the mirror image of an enrolled part fits, and the part itself does not: a part of the other side.
-fn look_into_the_mirror(
-    inspection: &mut Inspection,
-    scene: &SceneCloud,
-    library: &Library,
-    recipe: &Recipe,
-    clock: &StageClock<'_>,
-) -> Result<(), Cancelled> {
-    let Ok(part) = &inspection.segmentation.part else {
-        return Ok(());
-    };
-    if inspection.best_score() + MIRROR_LEAD >= 1.0 {
-        // No score can lead by that much.
-        return Ok(());
-    }
-    let scene = scene.mirrored();
-    let found = inspect_surface(&part.mirrored(&scene), &scene, library, recipe, clock)?;
-    let score = found.best_score();
-    let is_clear = score
-        > recipe
-            .accept
-            .unknown_below
-            .max(inspection.best_score() + MIRROR_LEAD);
-    if let (true, Verdict::Part { rejected, .. }, Some(seen)) = (
-        is_clear,
-        &mut inspection.verdict,
-        found.ranking.entries.first(),
-    ) {
-        *rejected = Some(Rejection::Mirrored {
-            part: seen.part.clone(),
-            score,
-        });
     }
     Ok(())
 }

@@ -19,7 +19,7 @@ use std::{
 
 use jiff::Timestamp;
 use partsight::{
-    capture::{DepthFrame, Intrinsics},
+    capture::{DepthFrame, Distortion, Intrinsics},
     files::write_atomically,
     history::{
         Detail, Filter, History, KeepFrames, NewEntry, PastVerdict, Record, Retention, Summary,
@@ -55,6 +55,7 @@ fn scene(number: i64) -> SceneCloud {
         fy: 65.0,
         cx: 39.5,
         cy: 29.5,
+        distortion: Distortion::NONE,
     };
     let depth = (0..80 * 60).map(|i| 900 + ((i * 31 + number * 17) % 700) as u16);
     scene_from_frame(&DepthFrame {

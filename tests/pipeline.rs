@@ -1,5 +1,8 @@
 //! The whole inspection: moved and turned parts, poison, cancelling, the same bits for the same scene.
 
+#[path = "pipeline/cameras.rs"]
+mod cameras;
+
 use std::cell::Cell;
 
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};

@@ -16,7 +16,7 @@ use crate::{
     history::{FrameRecord, HistoryError, read_frame},
     simulate::{CellSetup, ObjectKind, PartKind, PartPose, Placement, Side, Subject, frame},
     stages::{
-        scene::{SceneCloud, scene_from_cloud, scene_from_frame},
+        scene::{SceneCloud, scene_from_frame, scene_from_image},
         segment::EmptyCell,
     },
 };
@@ -296,8 +296,8 @@ impl SceneSource {
                 let opened = files::open(path)?;
                 let warnings = opened.warnings().into_iter().map(Into::into).collect();
                 let scene = match opened {
-                    Opened::Cloud(cloud) => scene_from_cloud(cloud),
-                    Opened::Depth(frame) => scene_from_frame(&frame),
+                    Opened::Cloud(cloud) => scene_from_image(Image::Cloud(cloud)),
+                    Opened::Depth(frame) => scene_from_image(Image::Depth(frame)),
                     Opened::Mesh(_) => {
                         return Err(SceneError::MeshIsNoScene { path: path.clone() });
                     }
@@ -335,12 +335,8 @@ impl SceneSource {
 
 impl From<capture::Captured> for Captured {
     fn from(frame: capture::Captured) -> Self {
-        let scene = match frame.image {
-            Image::Depth(depth) => scene_from_frame(&depth),
-            Image::Cloud(cloud) => scene_from_cloud(cloud),
-        };
         Self {
-            scene: Arc::new(scene),
+            scene: Arc::new(scene_from_image(frame.image)),
             origin: Origin::Frame {
                 name: frame.name,
                 is_simulated: frame.is_simulated,

@@ -33,6 +33,7 @@ use self::{
     search::Found,
 };
 use super::{
+    distortion::Distortion,
     error::{CaptureError, CaptureWarning},
     frame::{DepthFrame, Intrinsics},
     open::Listed,
@@ -340,6 +341,7 @@ fn usual_camera(mode: &FrameMode) -> Intrinsics {
         // As libfreenect has it in `freenect_camera_to_world`.
         cx: width / 2.0,
         cy: height / 2.0,
+        distortion: Distortion::NONE,
     }
 }
 

@@ -8,11 +8,12 @@ use std::{
 
 use super::console::{Advised as _, Console};
 use crate::{
+    capture::Image,
     error::Advice,
     files::{self, FileError, FileWarning, Opened},
     geometry::cloud::PointCloud,
     stages::{
-        scene::{SceneCloud, cloud_of, scene_from_cloud, scene_from_frame},
+        scene::{SceneCloud, cloud_of, scene_from_image},
         segment::{EmptyCell, EmptyCellError},
     },
 };
@@ -73,8 +74,8 @@ pub(super) fn open_scene(path: &Path) -> OpenedScene {
     };
     let warnings = opened.warnings();
     let scene = match opened {
-        Opened::Cloud(cloud) => scene_from_cloud(cloud),
-        Opened::Depth(frame) => scene_from_frame(&frame),
+        Opened::Cloud(cloud) => scene_from_image(Image::Cloud(cloud)),
+        Opened::Depth(frame) => scene_from_image(Image::Depth(frame)),
         Opened::Mesh(_) => {
             return Err(InputError::MeshIsNoScene {
                 path: path.display().to_string(),

@@ -26,7 +26,7 @@ use crate::{
     capture::{FeedItem, SourceSpec},
     error::Advice,
     library::Library,
-    pipeline::{self, Recipe, Unwatched},
+    pipeline::{self, MirrorTally, Recipe, Unwatched},
     report::{CaptureLine, InspectionLine, ReportFolder, stage_pictures},
     robot::RobotFrame,
     stages::{
@@ -51,6 +51,9 @@ Examples:
   partsight inspect --source watch:/mnt/scanner --json
 
 Files: PCD, PLY, XYZ or CSV text, or a 16-bit depth PNG with its intrinsics in a JSON beside it; metres.
+The JSON has width, height, fx, fy, cx, cy and metres_per_unit, and may have k1 k2 p1 p2 k3 k4 k5 k6 (OpenCV's lens
+distortion), \"mirrored\": true (left and right are exchanged in the image) and \"rotated\": 90, 180 or 270 (degrees clockwise
+to turn the image by). All of it is about the image as it is stored.
 Exit codes: 0 every input accepted, 1 something was not accepted, 2 something could not be read.
 Without a part to compare with, because the library is empty or cannot be loaded, nothing is inspected: one error, no
 line of JSON, exit code 2.
@@ -134,11 +137,15 @@ fn inspect(
         telling,
         report,
         recording,
+        mirrored: MirrorTally::default(),
     };
     let outcome = match &args.source {
         Some(source) => inspect_source(source, args.frames, &mut one, console),
         None => inspect_files(args.files.len(), scenes, &mut one, console),
     };
+    if let Some(suspicion) = one.mirrored.suspicion() {
+        console.warn(&suspicion, &suspicion);
+    }
     if let Some(recording) = one.recording {
         recording.finish(console);
     }
@@ -171,6 +178,7 @@ struct Inspector {
     telling: Telling,
     report: Option<ReportFolder>,
     recording: Option<Recording>,
+    mirrored: MirrorTally,
 }
 
 impl Inspector {
@@ -229,11 +237,13 @@ impl Inspector {
             telling,
             report,
             recording,
+            mirrored,
         } = self;
         let name = path.display().to_string();
         before(&mut scene, empty_cell.as_ref(), &name, console);
         let scene = Arc::new(scene);
         let inspection = pipeline::run(&scene, library, recipe, &Unwatched)?;
+        mirrored.add(&inspection.verdict);
         let file_says_simulated = capture.is_none() && scene.cloud.is_simulated;
         let taken = Taken {
             scene: &name,

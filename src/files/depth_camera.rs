@@ -2,14 +2,18 @@
 
 use std::path::Path;
 
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Serialize, de::IgnoredAny};
 
 use super::error::FileError;
 use super::source::read_bytes;
-use crate::capture::frame::{DepthFrame, Intrinsics};
+use crate::capture::{
+    Distortion,
+    frame::{DepthFrame, Intrinsics},
+};
 
-/// The camera of a depth image, as the JSON beside it says.
+/// The camera of a depth image, as the JSON beside it says. All its numbers are about the image as it is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(try_from = "Written")]
 pub struct DepthCamera {
     /// The camera itself.
     #[serde(flatten)]
@@ -17,13 +21,142 @@ pub struct DepthCamera {
     /// Metres that one unit of the image stands for, above 0.
     pub metres_per_unit: f64,
     /// True of a simulated camera.
-    #[serde(
-        default,
-        rename = "simulated",
-        skip_serializing_if = "std::ops::Not::not"
-    )]
+    #[serde(rename = "simulated", skip_serializing_if = "std::ops::Not::not")]
     pub is_simulated: bool,
+    /// How the stored image differs from what the camera saw.
+    #[serde(flatten)]
+    pub stored: Stored,
 }
+
+/// How a stored image differs from what the camera saw. It is put right on loading.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Stored {
+    /// True if left and right are exchanged. This is put right first.
+    #[serde(rename = "mirrored", skip_serializing_if = "std::ops::Not::not")]
+    pub is_mirrored: bool,
+    /// How the image then has to be turned, clockwise.
+    #[serde(rename = "rotated", skip_serializing_if = "Turn::is_none")]
+    pub turn: Turn,
+}
+
+/// A clockwise turn of an image, in degrees.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "i64", into = "i64")]
+pub enum Turn {
+    /// 0.
+    #[default]
+    None,
+    /// 90: the left edge comes to the top.
+    Quarter,
+    /// 180.
+    Half,
+    /// 270: the right edge comes to the top.
+    ThreeQuarters,
+}
+
+impl Turn {
+    #[expect(
+        clippy::trivially_copy_pass_by_ref,
+        reason = "serde hands over a reference"
+    )]
+    fn is_none(&self) -> bool {
+        *self == Self::None
+    }
+}
+
+impl TryFrom<i64> for Turn {
+    type Error = String;
+
+    fn try_from(degrees: i64) -> Result<Self, String> {
+        Ok(match degrees {
+            0 => Self::None,
+            90 => Self::Quarter,
+            180 => Self::Half,
+            270 => Self::ThreeQuarters,
+            _ => return Err(format!("rotated is {degrees}, expected 0, 90, 180 or 270")),
+        })
+    }
+}
+
+impl From<Turn> for i64 {
+    fn from(turn: Turn) -> Self {
+        match turn {
+            Turn::None => 0,
+            Turn::Quarter => 90,
+            Turn::Half => 180,
+            Turn::ThreeQuarters => 270,
+        }
+    }
+}
+
+/// The JSON as people and other programs write it.
+#[derive(Deserialize)]
+struct Written {
+    #[serde(flatten)]
+    intrinsics: Intrinsics,
+    metres_per_unit: Option<f64>,
+    /// Metres per unit, or units per metre: there are programs that write the one, and others the other.
+    depth_scale: Option<f64>,
+    #[serde(default)]
+    simulated: bool,
+    #[serde(flatten)]
+    stored: Stored,
+    distortion: Option<WrittenDistortion>,
+}
+
+/// Coefficients that do not stand beside the other numbers.
+#[derive(Deserialize)]
+#[serde(untagged)]
+enum WrittenDistortion {
+    Named(Distortion),
+    Listed(Vec<f64>),
+    Other(IgnoredAny),
+}
+
+/// A unit is shorter than this, and a metre has more units than one over it, metres: it tells the two meanings of
+/// `depth_scale` apart.
+const LONGEST_UNIT: f64 = 0.1;
+
+impl TryFrom<Written> for DepthCamera {
+    type Error = String;
+
+    fn try_from(written: Written) -> Result<Self, String> {
+        let metres_per_unit = match (written.metres_per_unit, written.depth_scale) {
+            (Some(metres), _) => metres,
+            (None, Some(scale)) if scale < LONGEST_UNIT => scale,
+            (None, Some(scale)) if scale > 1.0 / LONGEST_UNIT => 1.0 / scale,
+            (None, Some(scale)) => {
+                return Err(format!(
+                    "depth_scale is {scale}, expected metres per unit such as 0.001, or units per metre such as 1000"
+                ));
+            }
+            (None, None) => return Err("missing field `metres_per_unit`".into()),
+        };
+        let mut intrinsics = written.intrinsics;
+        let listed = match written.distortion {
+            Some(WrittenDistortion::Named(distortion)) => distortion,
+            Some(WrittenDistortion::Listed(list)) => {
+                Distortion::from_list(&list).ok_or_else(|| {
+                    "distortion has more coefficients than k1 k2 p1 p2 k3 k4 k5 k6".to_owned()
+                })?
+            }
+            Some(WrittenDistortion::Other(_)) | None => Distortion::NONE,
+        };
+        if intrinsics.distortion.is_none() {
+            intrinsics.distortion = listed;
+        }
+        Ok(Self {
+            intrinsics,
+            metres_per_unit,
+            is_simulated: written.simulated,
+            stored: written.stored,
+        })
+    }
+}
+
+/// What is wrong with a camera whose pixels do not all see a ray of their own.
+const FOLDS: &str = "the distortion folds back inside the picture";
 
 impl DepthCamera {
     /// The camera that took a frame.
@@ -32,6 +165,7 @@ impl DepthCamera {
             intrinsics: frame.intrinsics,
             metres_per_unit: frame.metres_per_unit,
             is_simulated: frame.is_simulated,
+            stored: Stored::default(),
         }
     }
 
@@ -43,7 +177,12 @@ impl DepthCamera {
         };
         let camera: Self =
             serde_json::from_slice(&read_bytes(path)?).map_err(|error| bad(error.to_string()))?;
-        camera.checked().map_err(bad)
+        camera.checked().map_err(|found| match found {
+            found if found == FOLDS => FileError::FoldingDistortion {
+                path: path.to_owned(),
+            },
+            found => bad(found),
+        })
     }
 
     /// The same again if it can be a camera, else what is wrong.
@@ -56,15 +195,17 @@ impl DepthCamera {
         if !(intrinsics.fx > 0.0 && intrinsics.fy > 0.0 && metres_per_unit > 0.0) {
             return Err("fx, fy and metres_per_unit must be above 0".into());
         }
-        if !(intrinsics.fx + intrinsics.fy + intrinsics.cx + intrinsics.cy + metres_per_unit)
-            .is_finite()
-        {
+        let sum = intrinsics.fx + intrinsics.fy + intrinsics.cx + intrinsics.cy + metres_per_unit;
+        if !(sum.is_finite() && intrinsics.distortion.is_finite()) {
             return Err("a number is not finite".into());
+        }
+        if !intrinsics.is_invertible() {
+            return Err(FOLDS.into());
         }
         Ok(self)
     }
 
-    /// The frame of these depths, which make a picture of `size` pixels; else what is wrong.
+    /// The frame of these depths, which make a picture of `size` pixels, as the camera saw it; else what is wrong.
     pub(crate) fn frame(self, size: (usize, usize), depth: Vec<u16>) -> Result<DepthFrame, String> {
         let Intrinsics { width, height, .. } = self.intrinsics;
         if (width, height) != size {
@@ -73,11 +214,201 @@ impl DepthCamera {
                 size.0, size.1
             ));
         }
-        Ok(DepthFrame {
+        let stored = DepthFrame {
             intrinsics: self.intrinsics,
             metres_per_unit: self.metres_per_unit,
             depth,
             is_simulated: self.is_simulated,
-        })
+        };
+        Ok(self.stored.put_right(stored))
+    }
+}
+
+impl Stored {
+    /// The frame as the camera saw it.
+    fn put_right(self, mut frame: DepthFrame) -> DepthFrame {
+        if self.is_mirrored {
+            let width = frame.intrinsics.width.max(1);
+            frame.depth.chunks_mut(width).for_each(<[u16]>::reverse);
+            frame.intrinsics = frame.intrinsics.mirrored();
+        }
+        let turned = frame.intrinsics.turned_clockwise();
+        match self.turn {
+            Turn::None => {}
+            Turn::Quarter => {
+                frame.depth = turned_clockwise(&frame);
+                frame.intrinsics = turned;
+            }
+            Turn::Half => {
+                frame.depth.reverse();
+                frame.intrinsics = turned.turned_clockwise();
+            }
+            Turn::ThreeQuarters => {
+                frame.depth = turned_clockwise(&frame);
+                frame.depth.reverse();
+                frame.intrinsics = turned.turned_clockwise().turned_clockwise();
+            }
+        }
+        frame
+    }
+}
+
+fn turned_clockwise(frame: &DepthFrame) -> Vec<u16> {
+    let Intrinsics { width, height, .. } = frame.intrinsics;
+    let mut turned = Vec::with_capacity(frame.depth.len());
+    for u in 0..width {
+        // From the bottom up: the left column becomes the top row.
+        turned.extend((0..height).rev().map(|v| frame.depth[v * width + u]));
+    }
+    turned
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn camera(extra: &str) -> Result<DepthCamera, String> {
+        let json =
+            format!(r#"{{"width":4,"height":3,"fx":500,"fy":501.5,"cx":1.25,"cy":0.5{extra}}}"#);
+        serde_json::from_str(&json).map_err(|error| error.to_string())
+    }
+
+    #[test]
+    fn coefficients_stand_beside_the_other_numbers_or_in_a_field_of_their_own() {
+        let expected = Distortion {
+            k1: -0.1,
+            k2: 0.02,
+            p1: 0.003,
+            k5: 4.0,
+            ..Distortion::NONE
+        };
+        for extra in [
+            r#""k1":-0.1,"k2":0.02,"p1":0.003,"k5":4"#,
+            r#""distortion":{"k1":-0.1,"k2":0.02,"p1":0.003,"k5":4}"#,
+            r#""distortion":[-0.1,0.02,0.003,0,0,0,4,0]"#,
+        ] {
+            let camera = camera(&format!(r#","metres_per_unit":0.001,{extra}"#)).expect(extra);
+            assert_eq!(camera.intrinsics.distortion, expected, "{extra}");
+            let json = serde_json::to_string(&camera).expect("JSON");
+            assert_eq!(
+                serde_json::from_str::<DepthCamera>(&json).expect("read again"),
+                camera
+            );
+        }
+        let plain = camera(r#","metres_per_unit":0.001,"distortion":"none","lens":7"#);
+        let plain = plain.expect("other fields are read over");
+        assert!(plain.intrinsics.distortion.is_none());
+        let json = serde_json::to_string(&plain).expect("JSON");
+        assert_eq!(
+            json,
+            r#"{"width":4,"height":3,"fx":500.0,"fy":501.5,"cx":1.25,"cy":0.5,"metres_per_unit":0.001}"#
+        );
+        let prism = camera(r#","metres_per_unit":0.001,"distortion":[0,0,0,0,0,0,0,0,0.1]"#);
+        assert!(
+            prism
+                .expect_err("a thin prism")
+                .contains("more coefficients")
+        );
+    }
+
+    #[test]
+    fn the_unit_has_more_than_one_name() {
+        let unit = |extra: &str| camera(extra).map(|camera| camera.metres_per_unit);
+        assert_eq!(unit(r#","metres_per_unit":0.25"#), Ok(0.25));
+        assert_eq!(unit(r#","depth_scale":0.00025"#), Ok(0.00025));
+        assert_eq!(unit(r#","depth_scale":4000"#), Ok(0.00025));
+        assert_eq!(
+            unit(r#","metres_per_unit":0.001,"depth_scale":4000"#),
+            Ok(0.001)
+        );
+        assert!(unit(r#","depth_scale":1"#).is_err_and(|error| error.contains("depth_scale")));
+        assert!(unit("").is_err_and(|error| error.contains("metres_per_unit")));
+    }
+
+    /// Columns and rows of a frame whose depths are their places in the stored image.
+    fn loaded(extra: &str) -> DepthFrame {
+        let camera = camera(&format!(
+            r#","metres_per_unit":0.001,"p1":0.02,"p2":0.05{extra}"#
+        ));
+        let camera = camera.and_then(DepthCamera::checked).expect(extra);
+        camera.frame((4, 3), (0..12).collect()).expect("4×3")
+    }
+
+    #[test]
+    fn a_flag_puts_the_stored_image_right() {
+        let expected: [(&str, usize, [u16; 12]); 7] = [
+            ("", 4, [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11]),
+            (
+                r#","mirrored":true"#,
+                4,
+                [3, 2, 1, 0, 7, 6, 5, 4, 11, 10, 9, 8],
+            ),
+            (
+                r#","rotated":90"#,
+                3,
+                [8, 4, 0, 9, 5, 1, 10, 6, 2, 11, 7, 3],
+            ),
+            (
+                r#","rotated":180"#,
+                4,
+                [11, 10, 9, 8, 7, 6, 5, 4, 3, 2, 1, 0],
+            ),
+            (
+                r#","rotated":270"#,
+                3,
+                [3, 7, 11, 2, 6, 10, 1, 5, 9, 0, 4, 8],
+            ),
+            // Turned round as it is stored, then turned a quarter clockwise.
+            (
+                r#","mirrored":true,"rotated":90"#,
+                3,
+                [11, 7, 3, 10, 6, 2, 9, 5, 1, 8, 4, 0],
+            ),
+            (
+                r#","mirrored":false,"rotated":0"#,
+                4,
+                [0, 1, 2, 3, 4, 5, 6, 7, 8, 9, 10, 11],
+            ),
+        ];
+        for (extra, width, depth) in expected {
+            let frame = loaded(extra);
+            assert_eq!(
+                (frame.intrinsics.width, &frame.depth[..]),
+                (width, &depth[..]),
+                "{extra}"
+            );
+        }
+        assert!(camera(r#","metres_per_unit":0.001,"rotated":45"#).is_err());
+    }
+
+    #[test]
+    fn the_rays_turn_with_the_image() {
+        let stored = loaded("");
+        for (extra, mirror, clockwise) in [
+            (r#","mirrored":true"#, true, 0),
+            (r#","rotated":90"#, false, 1),
+            (r#","rotated":180"#, false, 2),
+            (r#","rotated":270"#, false, 3),
+            (r#","mirrored":true,"rotated":270"#, true, 3),
+        ] {
+            let frame = loaded(extra);
+            let (camera, width) = (frame.intrinsics, frame.intrinsics.width);
+            for (i, place) in frame.depth.iter().enumerate() {
+                let found = camera.point_at((i % width) as f64, (i / width) as f64, 1.0);
+                let (u, v) = (f64::from(place % 4), f64::from(place / 4));
+                let mut expected = stored.intrinsics.point_at(u, v, 1.0);
+                if mirror {
+                    expected.x = -expected.x;
+                }
+                for _ in 0..clockwise {
+                    // Right becomes down, down becomes left.
+                    (expected.x, expected.y) = (-expected.y, expected.x);
+                }
+                assert!(
+                    (found - expected).norm() < 1e-9,
+                    "{extra}: {found} {expected}"
+                );
+            }
+        }
     }
 }

@@ -7,15 +7,20 @@
 //! {"width":640,"height":480,"fx":525.0,"fy":525.0,"cx":319.5,"cy":239.5,"metres_per_unit":0.001}
 //! ```
 //!
-//! The fields are those of [`Intrinsics`] and [`DepthFrame`]; of a simulated camera `"simulated":true` besides. Others
-//! are read over. Images of one camera may share an
-//! `intrinsics.json` in their folder: an image without a JSON of its own has that camera.
+//! The fields are those of [`Intrinsics`] and [`DepthFrame`], and all are about the image as it is stored; of a simulated
+//! camera `"simulated":true` besides. May be added: OpenCV's coefficients of the lens distortion by name (`k1` to `k6`,
+//! `p1`, `p2`), or in its order as `distortion`; how the stored image differs from what the camera saw
+//! ([`Stored`](super::Stored)), which is put right on loading; `depth_scale` instead of `metres_per_unit`. Others are
+//! read over. Images of one camera may share an `intrinsics.json` in their folder: an image without a JSON of its own
+//! has that camera.
 
 use std::io::{self, Cursor, Write};
 use std::path::{Path, PathBuf};
 
 use image::codecs::png::{PngDecoder, PngEncoder};
-use image::{ExtendedColorType, ImageDecoder as _, ImageEncoder as _, ImageError, Limits};
+use image::{
+    DynamicImage, ExtendedColorType, ImageDecoder as _, ImageEncoder as _, ImageError, Limits,
+};
 
 use super::depth_camera::DepthCamera;
 use super::error::FileError;
@@ -159,11 +164,11 @@ fn decode(source: Source<'_>) -> Result<((usize, usize), Vec<u16>), FileError> {
     if num_bytes > most {
         return Err(source.truncated("PNG", source.bytes.len(), num_bytes / MAX_DEFLATE_RATIO));
     }
-    let mut bytes = vec![0; num_bytes];
-    decoder.read_image(&mut bytes).map_err(wrong)?;
-    let pairs = bytes.chunks_exact(2).filter_map(|pair| pair.first_chunk());
-    let depth = pairs.map(|pair| u16::from_ne_bytes(*pair)).collect();
-    Ok(((width, height), depth))
+    match DynamicImage::from_decoder(decoder).map_err(wrong)? {
+        DynamicImage::ImageLuma16(image) => Ok(((width, height), image.into_raw())),
+        // The kind was checked above.
+        _ => Err(source.damaged("it is no 16-bit greyscale image")),
+    }
 }
 
 /// What the first chunk of a PNG says, as far as it matters here.

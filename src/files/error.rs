@@ -168,6 +168,15 @@ pub enum FileError {
         /// Where the intrinsics were looked for.
         json: PathBuf,
     },
+    /// The lens distortion is not one-to-one inside the picture.
+    #[error(
+        "{}: bad intrinsics: the distortion folds back inside the picture, so that some pixels see no ray",
+        path.display()
+    )]
+    FoldingDistortion {
+        /// The JSON.
+        path: PathBuf,
+    },
     /// The description of the camera cannot be used.
     #[error("{}: bad intrinsics: {found}", path.display())]
     BadIntrinsics {
@@ -340,6 +349,11 @@ impl Advice for FileError {
             Self::BadIntrinsics { path, .. } => {
                 format!("Correct {}, for example to {EXAMPLE_JSON}", path.display())
             }
+            Self::FoldingDistortion { path } => format!(
+                "Check k1 to k6, p1 and p2 in {}: they are OpenCV's, for the image at this width and height; without them \
+                 the lens is taken for a pinhole",
+                path.display()
+            ),
             Self::WrongPngKind { .. } => {
                 "Save the depth image itself as 16-bit greyscale PNG, not the picture drawn from it"
                     .into()

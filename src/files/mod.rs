@@ -48,7 +48,7 @@ pub(crate) use self::cause::{advice_on, words_of};
 pub(crate) use self::cells::{cells, content_lines, number_in};
 pub(crate) use self::checksum::crc32;
 pub(crate) use self::counting_order::in_counting_order;
-pub use self::depth_camera::DepthCamera;
+pub use self::depth_camera::{DepthCamera, Stored, Turn};
 pub use self::depth_png::write_depth_png;
 pub use self::error::{Expected, FileError, NoFile};
 pub(crate) use self::open::open_bytes;

@@ -7,7 +7,7 @@ use jiff::{SignedDuration, Timestamp};
 
 use super::{Detail, History, NewEntry, PastVerdict, Record, Summary};
 use crate::{
-    capture::{DepthFrame, Intrinsics},
+    capture::{DepthFrame, Distortion, Intrinsics},
     geometry::rigid::from_euler_zyx,
     pipeline::Recipe,
     stages::scene::{SceneCloud, scene_from_frame},
@@ -28,6 +28,7 @@ pub(super) fn scene(seed: u16) -> Arc<SceneCloud> {
         fy: 26.0,
         cx: 15.5,
         cy: 11.5,
+        distortion: Distortion::NONE,
     };
     let depth = (0..32 * 24_u32).map(|i| (900 + (i * 7 + u32::from(seed) * 13) % 400) as u16);
     Arc::new(scene_from_frame(&DepthFrame {

@@ -5,6 +5,7 @@
 //! and what the picture alone does not tell. What the empty cell looked like is kept once for all frames before it.
 
 use std::{
+    borrow::Cow,
     fs, io,
     path::{Path, PathBuf},
     sync::{
@@ -19,15 +20,15 @@ use serde::{Deserialize, Serialize};
 
 use super::error::HistoryError;
 use crate::{
-    capture::{DepthFrame, Intrinsics},
+    capture::{DepthFrame, Image, Intrinsics},
     files::{
-        DepthCamera, Opened, crc32,
+        DepthCamera, Opened, Stored, crc32,
         depth_png::{FOLDER_CAMERA, read_depths, write_camera, write_depths},
         open_bytes, read_bytes, write_atomically, write_pcd,
     },
     geometry::cloud::{Grid, PointCloud},
     stages::{
-        scene::{PictureEdge, SceneCloud, scene_from_frame},
+        scene::{PictureEdge, SceneCloud, full_scene, reduced_scene},
         segment::EmptyCell,
     },
 };
@@ -49,6 +50,9 @@ pub struct FrameRecord {
     /// Of a depth image: metres that one unit stands for.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub metres_per_unit: Option<f64>,
+    /// Of a picture that was reduced: readings along the side of a block.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub block_side: Option<usize>,
     /// True if no camera read it.
     #[serde(default, skip_serializing_if = "std::ops::Not::not")]
     pub is_simulated: bool,
@@ -79,7 +83,7 @@ pub(super) fn write(
         at.strftime("%Y%m%dT%H%M%S%3f"),
         std::process::id()
     );
-    let depth = as_depth(scene);
+    let (depth, cloud) = content_of(scene);
     let ending = if depth.is_some() { "png" } else { "pcd" };
     let file = format!("{stem}.{ending}");
     let path = folder.join(&file);
@@ -89,7 +93,7 @@ pub(super) fn write(
             write_its_camera(&path, &DepthCamera::of(frame))?;
             write_depths(&mut content, frame)
         }
-        None => write_pcd(&mut content, &scene.cloud),
+        None => write_pcd(&mut content, cloud),
     };
     packed.map_err(|error| HistoryError::io(&path, error))?;
     write_atomically(&path, |writer| writer.write_all(&content))?;
@@ -99,8 +103,11 @@ pub(super) fn write(
         bytes: content.len() as u64,
         crc32: crc32(&content),
         edge: scene.edge,
-        camera: scene.intrinsics,
+        camera: depth
+            .as_ref()
+            .map_or(scene.intrinsics, |frame| Some(frame.intrinsics)),
         metres_per_unit: depth.map(|frame| frame.metres_per_unit),
+        block_side: scene.reduced.as_ref().map(|reduced| reduced.block_side),
         is_simulated: scene.cloud.is_simulated,
         empty_cell: empty_cell
             .map(|cell| write_cell(folder, cell))
@@ -118,6 +125,15 @@ fn write_its_camera(path: &Path, camera: &DepthCamera) -> Result<(), HistoryErro
         Err(_) => write_camera(&shared, camera)?,
     }
     Ok(())
+}
+
+/// What the camera gave: a depth image, else a cloud.
+fn content_of(scene: &SceneCloud) -> (Option<Cow<'_, DepthFrame>>, &PointCloud) {
+    match scene.reduced.as_ref().map(|reduced| &*reduced.original) {
+        Some(Image::Depth(frame)) => (Some(Cow::Borrowed(frame)), &scene.cloud),
+        Some(Image::Cloud(cloud)) => (None, cloud),
+        None => (as_depth(scene).map(Cow::Owned), &scene.cloud),
+    }
 }
 
 /// The depth image that a scene was made of, if it gives the very same points again.
@@ -142,7 +158,7 @@ fn as_depth(scene: &SceneCloud) -> Option<DepthFrame> {
             depth: depths.collect::<Option<_>>()?,
             is_simulated: scene.cloud.is_simulated,
         };
-        let again = scene_from_frame(&frame).cloud.points;
+        let again = full_scene(&frame).cloud.points;
         let same = points.iter().zip(&again).all(|(a, b)| is_same(a, b));
         same.then_some(frame)
     })
@@ -189,19 +205,25 @@ pub fn read(folder: &Path, frame: &FrameRecord) -> Result<SceneCloud, HistoryErr
     if crc32(&bytes) != frame.crc32 {
         return Err(damaged("it does not have its checksum"));
     }
-    let mut scene = match (frame.metres_per_unit, frame.camera) {
+    let original = match (frame.metres_per_unit, frame.camera) {
         (Some(metres_per_unit), Some(intrinsics)) => {
             let (size, depth) = read_depths(&path, &bytes)?;
             let camera = DepthCamera {
                 intrinsics,
                 metres_per_unit,
                 is_simulated: frame.is_simulated,
+                stored: Stored::default(),
             };
             let camera = camera.checked().map_err(|what| damaged(&what))?;
-            scene_from_frame(&camera.frame(size, depth).map_err(|what| damaged(&what))?)
+            Image::Depth(camera.frame(size, depth).map_err(|what| damaged(&what))?)
         }
-        (None, intrinsics) => SceneCloud::new(cloud_of(&path, &bytes)?, intrinsics),
+        (None, _) => Image::Cloud(cloud_of(&path, &bytes)?),
         (Some(_), None) => return Err(damaged("its camera is missing")),
+    };
+    let mut scene = match (frame.block_side, original) {
+        (Some(side), original) => reduced_scene(Arc::new(original), side.max(1)),
+        (None, Image::Depth(depth)) => full_scene(&depth),
+        (None, Image::Cloud(cloud)) => SceneCloud::new(cloud, frame.camera),
     };
     scene.edge = frame.edge;
     if let Some(file) = &frame.empty_cell {
@@ -279,8 +301,9 @@ pub(super) fn files_of(folder: &Path, file: &str) -> [PathBuf; 2] {
 mod tests {
     use super::*;
     use crate::{
+        capture::Distortion,
         simulate::{CellSetup, PartKind, Side, frame},
-        stages::scene::scene_from_cloud,
+        stages::scene::{scene_from_cloud, scene_from_frame},
     };
 
     fn captured() -> SceneCloud {
@@ -334,6 +357,46 @@ mod tests {
             assert_eq!(ending(&record), Some("pcd"));
             assert_same(&scene, &read(folder.path(), &record).expect("read"));
         }
+    }
+
+    #[test]
+    fn of_a_reduced_picture_every_reading_is_kept_and_the_same_scene_comes_back() {
+        let width = 1280;
+        let depth = (0..width * 960).map(|i| (6000 + i % width * 2 + i / width * 3) as u16);
+        let frame = DepthFrame {
+            intrinsics: Intrinsics {
+                width,
+                height: 960,
+                fx: 1050.0,
+                fy: 1050.0,
+                cx: 639.5,
+                cy: 479.5,
+                distortion: Distortion {
+                    k1: -0.1,
+                    ..Distortion::NONE
+                },
+            },
+            metres_per_unit: 0.0002,
+            depth: depth.collect(),
+            is_simulated: false,
+        };
+        let folder = tempfile::tempdir().expect("a folder");
+        let scene = scene_from_frame(&frame);
+        assert_eq!(scene.cloud.points.len(), 640 * 480);
+        let record = write(folder.path(), &scene, Timestamp::UNIX_EPOCH).expect("written");
+        let record = record.expect("kept");
+        assert_same(&scene, &read(folder.path(), &record).expect("read"));
+        let opened = crate::files::open(&folder.path().join(&record.file)).expect("opened");
+        assert_eq!(opened, Opened::Depth(frame.clone()));
+        // As a cloud with rows and columns.
+        let scene = scene_from_cloud(full_scene(&frame).cloud);
+        assert_eq!(scene.cloud.points.len(), 640 * 480);
+        let record = write(folder.path(), &scene, Timestamp::UNIX_EPOCH).expect("written");
+        let record = record.expect("kept");
+        assert_eq!(ending(&record), Some("pcd"));
+        assert_same(&scene, &read(folder.path(), &record).expect("read"));
+        let opened = crate::files::open(&folder.path().join(&record.file)).expect("opened");
+        assert!(matches!(opened, Opened::Cloud(cloud) if cloud.points.len() == width * 960));
     }
 
     #[test]

@@ -1,5 +1,6 @@
 //! Why a part was not accepted, or nothing could be recognised, and what to do about it.
 
+use super::mirror::PUT_RIGHT;
 use crate::{
     error::Advice,
     stages::{
@@ -77,6 +78,16 @@ pub enum Rejection {
     )]
     Mirrored {
         /// The part whose mirror image it looks like.
+        part: String,
+        /// How well the mirror image fits.
+        score: f64,
+    },
+    /// It is enrolled, and the image shows it mirrored.
+    #[error(
+        "it fits {part} only as its mirror image (which scores {score:.2}), and {part} has no other side: left and right are probably exchanged in the image"
+    )]
+    MirroredImage {
+        /// The part that the mirrored image shows.
         part: String,
         /// How well the mirror image fits.
         score: f64,
@@ -196,6 +207,7 @@ impl Advice for Rejection {
             Self::Mirrored { .. } => {
                 "Enrol the part of this side under a name of its own, and do not paint it with the other side's path".into()
             }
+            Self::MirroredImage { .. } => format!("Do not move the robot by this image: {PUT_RIGHT}"),
             Self::Unconfirmed { .. } => "Have the pose estimated too, with --pose global".into(),
             Self::NoPose(error) => error.advice(),
             Self::NotSteady { .. } => "Let the part hang still for a second".into(),

@@ -77,7 +77,11 @@ impl Verdict {
         };
         matches!(
             rejected,
-            Some(Rejection::Unknown { .. } | Rejection::Mirrored { .. })
+            Some(
+                Rejection::Unknown { .. }
+                    | Rejection::Mirrored { .. }
+                    | Rejection::MirroredImage { .. }
+            )
         )
     }
 
@@ -145,7 +149,7 @@ pub(super) fn verdict(
 const MAY_BE_ANOTHER: f64 = 0.55;
 
 /// How much speaks for a part of the same type that is not this one; above 1 it is one.
-fn unlikeness(evidence: &Evidence, accept: &AcceptParams) -> f64 {
+pub(super) fn unlikeness(evidence: &Evidence, accept: &AcceptParams) -> f64 {
     let relief = evidence.relief_m / accept.max_relief.0;
     let missing = evidence.missing / accept.max_missing;
     let outline = evidence.outline_shift_m.unwrap_or(0.0) / accept.max_outline_shift.0;

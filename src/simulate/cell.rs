@@ -87,7 +87,7 @@ pub struct CellSetup {
     pub clutter: Clutter,
     /// The sensor's noise, with a seed of its own: the same scene can be captured again.
     pub noise: SensorNoise,
-    /// The camera.
+    /// The camera. The simulated one is a pinhole: a distortion is left out.
     pub intrinsics: Intrinsics,
     /// Distance of the wall on the optical axis, 2.2 to 3.0 m; moved back where the part reaches farther.
     pub wall: Metres,

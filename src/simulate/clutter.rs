@@ -153,5 +153,6 @@ fn quartered(camera: &Intrinsics) -> Intrinsics {
         fy: camera.fy / 4.0,
         cx: shrink(camera.cx),
         cy: shrink(camera.cy),
+        distortion: camera.distortion,
     }
 }

@@ -7,7 +7,7 @@
 use nalgebra::{Point3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::capture::frame::Intrinsics;
+use crate::capture::{Distortion, frame::Intrinsics};
 use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::rigid::RigidTransform;
 
@@ -60,11 +60,14 @@ pub(super) struct Rendering {
 }
 
 impl Rendering {
-    /// Empty images.
+    /// Empty images of a pinhole camera: straight edges are drawn as straight lines.
     pub(super) fn new(intrinsics: Intrinsics) -> Self {
         let num_pixels = intrinsics.width * intrinsics.height;
         Self {
-            intrinsics,
+            intrinsics: Intrinsics {
+                distortion: Distortion::NONE,
+                ..intrinsics
+            },
             depth: vec![f32::INFINITY; num_pixels],
             facing: vec![0.0; num_pixels],
             labels: vec![SurfaceLabel::Background; num_pixels],
@@ -217,6 +220,7 @@ mod tests {
         fy: 52.5,
         cx: 31.5,
         cy: 23.5,
+        distortion: Distortion::NONE,
     };
 
     /// Moeller-Trumbore, for every triangle: slow and obvious.

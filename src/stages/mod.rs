@@ -15,6 +15,7 @@ pub mod field_of_view;
 pub mod pose;
 pub mod project;
 pub mod rank;
+mod reduce;
 pub mod reference;
 pub mod scene;
 pub mod segment;

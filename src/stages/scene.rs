@@ -1,17 +1,25 @@
 //! The scene: the points that a camera sees, in camera space.
 //!
-//! A depth frame becomes an organised cloud by the pinhole model. For an organised cloud that came without a camera
+//! A depth frame becomes an organised cloud on the rays of its camera. For an organised cloud that came without a camera
 //! the intrinsics are fitted from the points themselves, because x/z of a pinhole camera is linear in the column:
 //! later stages ask the camera what it would have seen at a place. A capture saved as bare points (PLY, XYZ) has lost
 //! its rows and columns, but not its viewpoint: it is put back onto a picture, so that it is inspected as well.
+
+mod picture;
 
 use std::sync::{Arc, OnceLock};
 
 use nalgebra::Point3;
 
-use super::{field_of_view::FieldOfView, segment::EmptyCell};
+use self::picture::{fit_intrinsics, organised};
+pub use super::reduce::SceneParams;
+use super::{
+    field_of_view::FieldOfView,
+    reduce::{reduced_depths, reduced_points},
+    segment::EmptyCell,
+};
 use crate::{
-    capture::{DepthFrame, Image, Intrinsics},
+    capture::{DepthFrame, Image, Intrinsics, Rays},
     files::Opened,
     geometry::cloud::{Grid, PointCloud, is_finite},
 };
@@ -27,9 +35,20 @@ pub struct SceneCloud {
     pub edge: PictureEdge,
     /// What the same camera saw without a part, if that was captured.
     pub empty_cell: Option<Arc<EmptyCell>>,
+    /// What it was reduced from, if the picture was finer than the method needs.
+    pub reduced: Option<Reduced>,
     /// Made when it is first asked for.
     #[doc(hidden)]
     pub field_of_view: OnceLock<FieldOfView>,
+}
+
+/// What a scene was reduced from.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Reduced {
+    /// The capture, every reading of it.
+    pub original: Arc<Image>,
+    /// Readings along the side of a block that became one, at least 2.
+    pub block_side: usize,
 }
 
 impl SceneCloud {
@@ -72,10 +91,7 @@ impl SceneCloud {
             is_simulated: self.cloud.is_simulated,
             ..PointCloud::default()
         };
-        let intrinsics = self.intrinsics.map(|camera| Intrinsics {
-            cx: camera.width as f64 - 1.0 - camera.cx,
-            ..camera
-        });
+        let intrinsics = self.intrinsics.map(Intrinsics::mirrored);
         // The empty cell is only of use before the part is found.
         Self {
             edge: self.edge,
@@ -102,227 +118,143 @@ const MESH_POINTS: usize = 16_000;
 pub fn cloud_of(opened: Opened) -> Option<PointCloud> {
     match opened {
         Opened::Cloud(cloud) => Some(cloud),
-        Opened::Depth(frame) => Some(scene_from_frame(&frame).cloud),
+        Opened::Depth(frame) => Some(scene_from_image(Image::Depth(frame)).cloud),
         Opened::Mesh(mesh) => mesh.sample_evenly(MESH_POINTS, 1),
     }
 }
 
-/// The points of a depth frame; pixels without a reading become NaN.
+/// The points of a depth frame; pixels without a reading become NaN. A picture finer than the method needs is reduced.
 pub fn scene_from_frame(frame: &DepthFrame) -> SceneCloud {
-    let camera = &frame.intrinsics;
+    match SceneParams::default().block_side(grid_of(&frame.intrinsics)) {
+        1 => full_scene(frame),
+        _ => scene_from_image(Image::Depth(frame.clone())),
+    }
+}
+
+fn grid_of(camera: &Intrinsics) -> Grid {
+    Grid {
+        width: camera.width,
+        height: camera.height,
+    }
+}
+
+/// As [`scene_from_frame`], with a point for every pixel.
+pub fn full_scene(frame: &DepthFrame) -> SceneCloud {
+    let scale = frame.metres_per_unit as f32;
+    let metres = |units: &u16| match units {
+        0 => f32::NAN,
+        units => f32::from(*units) * scale,
+    };
+    scene_of_depths(frame, frame.intrinsics, frame.depth.iter().map(metres))
+}
+
+fn scene_of_depths(
+    frame: &DepthFrame,
+    camera: Intrinsics,
+    mut depths: impl Iterator<Item = f32>,
+) -> SceneCloud {
+    let given = &frame.intrinsics;
     assert_eq!(
         frame.depth.len(),
-        camera.width * camera.height,
+        given.width * given.height,
         "a frame holds width × height readings"
     );
-    let scale = frame.metres_per_unit as f32;
-    // x/z per column and y/z per row, so that the inner loop is three multiplications.
-    let x_over_z: Vec<f32> = (0..camera.width)
-        .map(|u| ((u as f64 - camera.cx) / camera.fx) as f32)
-        .collect();
-    let mut points = Vec::with_capacity(frame.depth.len());
-    for (v, row) in frame.depth.chunks_exact(camera.width).enumerate() {
-        let y_over_z = ((v as f64 - camera.cy) / camera.fy) as f32;
-        points.extend(row.iter().zip(&x_over_z).map(|(&units, &x_over_z)| {
-            let z = if units == 0 {
-                f32::NAN
-            } else {
-                f32::from(units) * scale
-            };
-            Point3::new(x_over_z * z, y_over_z * z, z)
-        }));
+    let rays = Rays::of(&camera);
+    let mut points = Vec::with_capacity(camera.width * camera.height);
+    for v in 0..camera.height {
+        rays.append_row(v, depths.by_ref().take(camera.width), &mut points);
     }
     let cloud = PointCloud {
         points,
-        grid: Some(Grid {
-            width: camera.width,
-            height: camera.height,
-        }),
+        grid: Some(grid_of(&camera)),
         is_simulated: frame.is_simulated,
         ..PointCloud::default()
     };
-    SceneCloud::new(cloud, Some(*camera))
+    SceneCloud::new(cloud, Some(camera))
 }
 
-/// What a source captured, as a scene.
+/// A capture as a scene in which `side` × `side` readings are one. Bare points, which have no rows and columns, give an
+/// empty scene.
+///
+/// # Panics
+/// If `side` is 0.
+pub fn reduced_scene(original: Arc<Image>, side: usize) -> SceneCloud {
+    let scene = match &*original {
+        Image::Depth(frame) => {
+            let grid = grid_of(&frame.intrinsics);
+            let depths = reduced_depths(&frame.depth, grid, side, frame.metres_per_unit as f32);
+            let camera = frame.intrinsics.in_blocks(side);
+            scene_of_depths(frame, camera, depths.into_iter())
+        }
+        Image::Cloud(cloud) => {
+            let grid = cloud.grid.unwrap_or(Grid {
+                width: 0,
+                height: 0,
+            });
+            let coarse = Grid {
+                width: grid.width / side,
+                height: grid.height / side,
+            };
+            let reduced = PointCloud {
+                points: reduced_points(&cloud.points, grid, side),
+                grid: Some(coarse),
+                is_simulated: cloud.is_simulated,
+                ..PointCloud::default()
+            };
+            picture_of(reduced, coarse)
+        }
+    };
+    SceneCloud {
+        reduced: Some(Reduced {
+            original,
+            block_side: side,
+        }),
+        ..scene
+    }
+}
+
+/// What a source captured, as a scene; a picture finer than the method needs is reduced.
 pub fn scene_from_image(image: Image) -> SceneCloud {
-    match image {
-        Image::Depth(frame) => scene_from_frame(&frame),
-        Image::Cloud(cloud) => scene_from_cloud(cloud),
+    scene_with(image, &SceneParams::default())
+}
+
+/// As [`scene_from_image`], by other parameters.
+pub fn scene_with(image: Image, params: &SceneParams) -> SceneCloud {
+    let grid = match &image {
+        Image::Depth(frame) => Some(grid_of(&frame.intrinsics)),
+        Image::Cloud(cloud) => cloud.grid,
+    };
+    match (grid.map_or(1, |grid| params.block_side(grid)), image) {
+        (1, Image::Depth(frame)) => full_scene(&frame),
+        (1, Image::Cloud(cloud)) => match cloud.grid {
+            Some(grid) => picture_of(cloud, grid),
+            None => organised(&cloud).unwrap_or_else(|| SceneCloud::new(cloud, None)),
+        },
+        (side, image) => reduced_scene(Arc::new(image), side),
     }
 }
 
 /// A loaded cloud as a scene in camera space.
 ///
-/// An organised cloud keeps its grid, and the camera is fitted. A cloud without rows and columns that one camera at
-/// the origin can have seen is put back onto a picture of its own density; any other stays as it is.
+/// An organised cloud keeps its grid, and the camera is fitted; one finer than the method needs is reduced. A cloud
+/// without rows and columns that one camera at the origin can have seen is put back onto a picture of its own density;
+/// any other stays as it is.
 pub fn scene_from_cloud(cloud: PointCloud) -> SceneCloud {
-    let intrinsics = match cloud.grid {
-        Some(grid) => fit_intrinsics(&cloud.points, grid),
-        None => match organised(&cloud) {
-            Some(scene) => return scene,
-            None => None,
-        },
-    };
-    SceneCloud::new(cloud, intrinsics)
+    scene_from_image(Image::Cloud(cloud))
 }
 
-/// Fewer points than this are no picture.
-const MIN_PICTURE_POINTS: usize = 1000;
-/// Nearer than this no depth camera reads, metres.
-const NEAREST_READING: f32 = 0.05;
-/// Width or height of the picture over its distance: 120° of view.
-const WIDEST_VIEW: f32 = 3.5;
-/// Points per pixel of the picture that they are put back onto. A capture exported as bare points has lost at most
-/// its pixels without a reading; with about one point and a half per pixel few pixels stay empty.
-const POINTS_PER_PIXEL: f64 = 1.4;
-/// Share of the points that may lie behind another in the same pixel, by more than [`SAME_SURFACE`]: more means that
-/// no single camera saw them.
-const MAX_HIDDEN_SHARE: f64 = 0.02;
-/// Share of the pixels that are filled at least: a part cut out of its scene leaves the corners of its picture empty,
-/// and the edge of such a picture is no edge of the camera's view.
-const MIN_FILLED_SHARE: f64 = 0.75;
-/// Difference in depth, relative to the depth, up to which two points of a pixel are of one surface.
-const SAME_SURFACE: f32 = 0.05;
-
-/// Puts points back onto the picture of a camera at the origin; `None` if no such camera saw them all.
-fn organised(cloud: &PointCloud) -> Option<SceneCloud> {
-    let ratios = |p: &Point3<f32>| [p.x / p.z, p.y / p.z];
-    let (mut low, mut high) = ([f32::INFINITY; 2], [f32::NEG_INFINITY; 2]);
-    let mut num_points = 0_usize;
-    for (_, p) in cloud.finite() {
-        if p.z < NEAREST_READING {
-            return None;
-        }
-        num_points += 1;
-        for (axis, ratio) in ratios(p).into_iter().enumerate() {
-            low[axis] = low[axis].min(ratio);
-            high[axis] = high[axis].max(ratio);
-        }
-    }
-    let [across, down] = [0, 1].map(|axis| high[axis] - low[axis]);
-    let is_picture = across > 0.0 && down > 0.0 && across.max(down) < WIDEST_VIEW;
-    if num_points < MIN_PICTURE_POINTS || !is_picture {
-        return None;
-    }
-    let focal = (num_points as f64 / POINTS_PER_PIXEL / f64::from(across * down)).sqrt();
-    let [width, height] = [across, down].map(|x| (f64::from(x) * focal) as usize + 1);
-    if width.min(height) < 8 {
-        return None;
-    }
-    let mut nearest: Vec<Option<u32>> = vec![None; width * height];
-    let mut num_hidden = 0_usize;
-    for (i, p) in cloud.finite() {
-        let [u, v] = ratios(p);
-        let column = (f64::from(u - low[0]) * focal) as usize;
-        let row = (f64::from(v - low[1]) * focal) as usize;
-        let slot = &mut nearest[row.min(height - 1) * width + column.min(width - 1)];
-        if let Some(holder) = *slot {
-            let held = cloud.points[holder as usize].z;
-            num_hidden += usize::from((held - p.z).abs() > SAME_SURFACE * p.z);
-            if held <= p.z {
-                continue;
-            }
-        }
-        *slot = Some(i as u32);
-    }
-    let num_filled = nearest.iter().flatten().count();
-    let is_full = num_filled as f64 >= MIN_FILLED_SHARE * nearest.len() as f64;
-    if !is_full || num_hidden as f64 > MAX_HIDDEN_SHARE * num_points as f64 {
-        return None;
-    }
-    let none = Point3::new(f32::NAN, f32::NAN, f32::NAN);
-    let pick = |slot: &Option<u32>| slot.map_or(none, |i| cloud.points[i as usize]);
-    Some(SceneCloud {
-        cloud: PointCloud {
-            points: nearest.iter().map(pick).collect(),
-            grid: Some(Grid { width, height }),
-            is_simulated: cloud.is_simulated,
-            ..PointCloud::default()
-        },
-        // A ratio falls into the pixel whose centre is half a pixel further.
-        intrinsics: Some(Intrinsics {
-            width,
-            height,
-            fx: focal,
-            fy: focal,
-            cx: -f64::from(low[0]) * focal - 0.5,
-            cy: -f64::from(low[1]) * focal - 0.5,
-        }),
-        edge: PictureEdge::Points,
-        ..SceneCloud::default()
-    })
-}
-
-/// Fits column = fx · x/z + cx and row = fy · y/z + cy; `None` when the fit is off by more than a pixel (rms) or the
-/// points lie behind the camera: then no pinhole camera at the origin took them.
-fn fit_intrinsics(points: &[Point3<f32>], grid: Grid) -> Option<Intrinsics> {
-    let mut columns = LineFit::default();
-    let mut rows = LineFit::default();
-    // A few thousand readings fix four numbers; an odd stride visits all columns.
-    let stride = (points.len() / 4000).max(1) | 1;
-    for (i, p) in points.iter().enumerate().step_by(stride) {
-        if !is_finite(p) {
-            continue;
-        }
-        if p.z <= 0.0 {
-            return None;
-        }
-        columns.add(f64::from(p.x / p.z), (i % grid.width) as f64);
-        rows.add(f64::from(p.y / p.z), (i / grid.width) as f64);
-    }
-    let (fx, cx) = columns.solve()?;
-    let (fy, cy) = rows.solve()?;
-    (fx > 0.0 && fy > 0.0).then_some(Intrinsics {
-        width: grid.width,
-        height: grid.height,
-        fx,
-        fy,
-        cx,
-        cy,
-    })
-}
-
-/// Least squares for pixel = focal · ratio + centre.
-#[derive(Default)]
-struct LineFit {
-    num: f64,
-    x: f64,
-    y: f64,
-    xx: f64,
-    xy: f64,
-    yy: f64,
-}
-
-impl LineFit {
-    fn add(&mut self, x: f64, y: f64) {
-        self.num += 1.0;
-        self.x += x;
-        self.y += y;
-        self.xx += x * x;
-        self.xy += x * y;
-        self.yy += y * y;
-    }
-
-    fn solve(&self) -> Option<(f64, f64)> {
-        if self.num < 100.0 {
-            return None;
-        }
-        let xx = self.xx - self.x * self.x / self.num;
-        let xy = self.xy - self.x * self.y / self.num;
-        let yy = self.yy - self.y * self.y / self.num;
-        if xx <= 0.0 {
-            return None;
-        }
-        let slope = xy / xx;
-        let rms = ((yy - slope * xy).max(0.0) / self.num).sqrt();
-        (rms < 1.0).then(|| (slope, (self.y - slope * self.x) / self.num))
-    }
+/// An organised cloud as a scene.
+fn picture_of(cloud: PointCloud, grid: Grid) -> SceneCloud {
+    let camera = fit_intrinsics(&cloud.points, grid);
+    SceneCloud::new(cloud, camera)
 }
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Vector2;
+
     use super::*;
+    use crate::capture::Distortion;
 
     fn tilted_wall() -> DepthFrame {
         let intrinsics = Intrinsics::KINECT;
@@ -347,6 +279,109 @@ mod tests {
             let (u, v) = frame.intrinsics.pixel_of(&p.cast()).expect("in front");
             assert!((u - (i % 640) as f64).abs() < 1e-3 && (v - (i / 640) as f64).abs() < 1e-3);
         }
+    }
+
+    #[test]
+    fn behind_a_lens_points_lie_on_the_rays_that_opencv_undistorts_to() {
+        let mut frame = tilted_wall();
+        frame.intrinsics.distortion = Distortion {
+            k1: -0.28,
+            k2: 0.07,
+            p1: 0.0007,
+            p2: -0.0003,
+            k3: 0.01,
+            ..Distortion::NONE
+        };
+        let scene = scene_from_frame(&frame);
+        // cv2.undistortPoints of OpenCV 5.0.0.
+        let expected: [([usize; 2], [f32; 2]); 5] = [
+            ([0, 0], [-0.745798537, -0.560043476]),
+            ([639, 0], [0.747765217, -0.561041324]),
+            ([320, 240], [0.000952381, 0.000952379]),
+            ([100, 400], [-0.454699858, 0.332314015]),
+            ([639, 479], [0.745451299, 0.557815179]),
+        ];
+        for ([u, v], [x, y]) in expected {
+            let p = scene.cloud.points[v * 640 + u];
+            let off = Vector2::new(p.x / p.z - x, p.y / p.z - y).norm();
+            assert!(off < 1e-6, "{u}, {v}: {p} is off by {off}");
+        }
+        let camera = scene.intrinsics.expect("a camera");
+        for (i, p) in scene.cloud.finite().step_by(97) {
+            let (u, v) = camera.pixel_of(&p.cast()).expect("in front");
+            assert!((u - (i % 640) as f64).abs() < 1e-3 && (v - (i / 640) as f64).abs() < 1e-3);
+        }
+        // In the mirror too.
+        let mirrored = scene.mirrored();
+        let camera = mirrored.intrinsics.expect("a camera");
+        for (i, p) in mirrored.cloud.finite().step_by(97) {
+            let (u, v) = camera.pixel_of(&p.cast()).expect("in front");
+            assert!((u - (i % 640) as f64).abs() < 1e-3 && (v - (i / 640) as f64).abs() < 1e-3);
+        }
+    }
+
+    /// A tilted plane before a camera of 2560×1920 pixels with a lens.
+    fn fine_plane() -> (DepthFrame, crate::geometry::plane::Plane) {
+        let intrinsics = Intrinsics {
+            width: 2560,
+            height: 1920,
+            fx: 2100.0,
+            fy: 2100.0,
+            cx: 1300.0,
+            cy: 900.0,
+            distortion: Distortion {
+                k1: 0.05,
+                p1: 0.001,
+                ..Distortion::NONE
+            },
+        };
+        let at = |x, y, z| Point3::new(x, y, z);
+        let corners = [at(0.0, 0.0, 1.5), at(1.0, 0.0, 2.0), at(0.0, 1.0, 1.2)];
+        let plane = crate::geometry::plane::Plane::through(&corners[0], &corners[1], &corners[2]);
+        let plane = plane.expect("a plane");
+        let rays = full_scene(&DepthFrame {
+            intrinsics,
+            metres_per_unit: 1.0,
+            depth: vec![1; 2560 * 1920],
+            is_simulated: false,
+        });
+        let depth = rays.cloud.points.iter().map(|ray| {
+            let z = -plane.offset / plane.normal.dot(&ray.coords.cast());
+            (z / 0.00005 + 0.5) as u16
+        });
+        let frame = DepthFrame {
+            intrinsics,
+            metres_per_unit: 0.00005,
+            depth: depth.collect(),
+            is_simulated: false,
+        };
+        (frame, plane)
+    }
+
+    #[test]
+    fn a_fine_picture_is_reduced_onto_exact_rays() {
+        let (frame, plane) = fine_plane();
+        let from_frame = scene_from_frame(&frame);
+        let from_cloud = scene_from_cloud(full_scene(&frame).cloud);
+        for scene in [&from_frame, &from_cloud] {
+            let grid = scene.cloud.grid.expect("rows and columns");
+            assert_eq!((grid.width, grid.height), (640, 480));
+            assert_eq!(scene.cloud.num_finite(), grid.num_cells());
+            for p in &scene.cloud.points {
+                let off = plane.signed_distance(&p.cast()).abs();
+                assert!(off < 0.000_03, "{p} is {off} m off the plane");
+            }
+        }
+        let camera = from_frame.intrinsics.expect("a camera");
+        for (i, p) in from_frame.cloud.finite().step_by(97) {
+            let (u, v) = camera.pixel_of(&p.cast()).expect("in front");
+            assert!((u - (i % 640) as f64).abs() < 1e-3 && (v - (i / 640) as f64).abs() < 1e-3);
+            let off = (p - from_cloud.cloud.points[i]).norm();
+            assert!(off < 0.000_05, "a cloud gives another point, {off} m off");
+        }
+        let reduced = from_frame.reduced.expect("what it was reduced from");
+        assert_eq!(reduced.block_side, 4);
+        assert!(*reduced.original == Image::Depth(frame));
     }
 
     #[test]

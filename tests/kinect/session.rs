@@ -3,7 +3,10 @@
 use std::{fs, path::Path};
 
 use partsight::{
-    capture::frame::{DepthFrame, Intrinsics},
+    capture::{
+        Distortion,
+        frame::{DepthFrame, Intrinsics},
+    },
     simulate::{CellSetup, PartKind, PartPose, Placement, Side, Subject, frame},
 };
 
@@ -24,6 +27,7 @@ pub(crate) const CAMERA: Intrinsics = Intrinsics {
     fy: 575.8157,
     cx: 320.0,
     cy: 240.0,
+    distortion: Distortion::NONE,
 };
 
 /// What such a camera sees of the simulated cell: a fender, nothing, a front door.

@@ -263,6 +263,10 @@ fn refused(verdict: &Verdict, title_of: &dyn Fn(&str) -> String) -> Option<Strin
             Rejection::Mirrored { part, .. } => {
                 format!("it looks like the mirror image of {}", title_of(part))
             }
+            Rejection::MirroredImage { part, .. } => format!(
+                "it fits {} only as its mirror image: the image is probably mirrored",
+                title_of(part)
+            ),
             other @ (Rejection::NoPose(_)
             | Rejection::NotSteady { .. }
             | Rejection::FewFrames { .. }

@@ -16,7 +16,7 @@ use crate::{
         frame::Intrinsics,
         read::file_name,
     },
-    files::{DepthCamera, depth_png::FOLDER_CAMERA, read_bytes},
+    files::{DepthCamera, Stored, Turn, depth_png::FOLDER_CAMERA, read_bytes},
 };
 
 pub(super) const LIST: &str = "depth.txt";
@@ -25,6 +25,10 @@ const ASSUMED: DepthCamera = DepthCamera {
     intrinsics: Intrinsics::KINECT,
     metres_per_unit: 1.0 / 5000.0,
     is_simulated: false,
+    stored: Stored {
+        is_mirrored: false,
+        turn: Turn::None,
+    },
 };
 
 pub(super) fn frames(folder: &Path, camera: Option<&Path>) -> Result<Frames, CaptureError> {

@@ -104,6 +104,12 @@ fn every_kind_of_image_survives() {
         fy: 1.0 / 3.0,
         cx: -0.1,
         cy: 1e-300,
+        distortion: crate::capture::Distortion {
+            k1: -1e-9 / 3.0,
+            p2: 1e-200,
+            k6: 1e-300,
+            ..crate::capture::Distortion::NONE
+        },
     };
     let dark = DepthFrame {
         intrinsics: awkward,

@@ -1,4 +1,5 @@
 use super::*;
+use crate::capture::Distortion;
 use crate::error::Advice as _;
 use crate::files::{Opened, crc32, open};
 
@@ -11,6 +12,7 @@ fn frame() -> DepthFrame {
             fy: 501.5,
             cx: 1.0,
             cy: 0.5,
+            distortion: Distortion::NONE,
         },
         metres_per_unit: 0.001,
         depth: vec![0, 1, 256, 1000, 65_535, 700],
@@ -202,4 +204,43 @@ fn a_camera_is_no_capture_and_nothing_else_is_overwritten_by_one() {
     let error = write_depth_png(&path, &frame()).unwrap_err();
     assert!(matches!(error, FileError::ForeignSidecar { .. }));
     assert_eq!(std::fs::read_to_string(&json).unwrap(), "{\"shift\": 3}");
+}
+
+#[test]
+fn a_lens_that_folds_inside_the_picture_is_refused_with_advice() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("frame.png");
+    let mut frame = frame();
+    frame.intrinsics = Intrinsics {
+        width: 3,
+        height: 2,
+        fx: 2.0,
+        fy: 2.0,
+        ..frame.intrinsics
+    };
+    write_depth_png(&path, &frame).unwrap();
+    assert!(open(&path).is_ok());
+    frame.intrinsics.distortion.k1 = -0.5;
+    write_depth_png(&path, &frame).unwrap();
+    let error = open(&path).unwrap_err();
+    assert!(
+        matches!(error, FileError::FoldingDistortion { .. }),
+        "{error}"
+    );
+    assert!(error.to_string().contains("folds") && error.advice().contains("k1"));
+}
+
+#[test]
+fn a_distorted_frame_survives_being_written_and_read() {
+    let folder = tempfile::tempdir().unwrap();
+    let path = folder.path().join("frame.png");
+    let mut frame = frame();
+    frame.intrinsics.distortion = Distortion {
+        k1: 5.210_000_000_000_001,
+        k4: 5.55,
+        p2: 1.0 / 3e4,
+        ..Distortion::NONE
+    };
+    write_depth_png(&path, &frame).unwrap();
+    assert_eq!(open(&path).unwrap(), Opened::Depth(frame));
 }

@@ -6,9 +6,8 @@
 
 use std::{collections::VecDeque, sync::Arc};
 
-use nalgebra::Point3;
-
 use crate::{
+    capture::Rays,
     geometry::parallel::{map_in_order, num_cores},
     stages::{scene::SceneCloud, segment::noise_of_picture},
 };
@@ -78,23 +77,22 @@ impl DepthAverage {
         };
         let noise = noise_of_picture(last).map_or(USUAL_NOISE, |noise| noise.0 as f32);
         let gate = SAME_SURFACE * noise;
+        let rays = Rays::of(&camera);
         let rows = map_in_order(
             grid.height,
             num_cores(),
             || Vec::with_capacity(self.frames.len()),
             |readings: &mut Vec<f32>, v| {
-                let y_over_z = ((v as f64 - camera.cy) / camera.fy) as f32;
                 let pixels = v * grid.width..(v + 1) * grid.width;
-                let point = |pixel: usize| {
+                let depth = |pixel: usize| {
                     readings.clear();
                     let depths = self.frames.iter().map(|scene| scene.cloud.points[pixel].z);
                     readings.extend(depths.filter(|z| *z > 0.0).map(f32::recip));
-                    let z = settled(readings, self.frames.len(), gate).map_or(f32::NAN, f32::recip);
-                    let u = pixel - v * grid.width;
-                    let x_over_z = ((u as f64 - camera.cx) / camera.fx) as f32;
-                    Point3::new(x_over_z * z, y_over_z * z, z)
+                    settled(readings, self.frames.len(), gate).map_or(f32::NAN, f32::recip)
                 };
-                pixels.map(point).collect::<Vec<_>>()
+                let mut points = Vec::with_capacity(grid.width);
+                rays.append_row(v, pixels.map(depth), &mut points);
+                points
             },
         );
         let mut scene = SceneCloud {

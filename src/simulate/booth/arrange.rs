@@ -13,7 +13,7 @@ use super::{
     walls::walls,
 };
 use crate::{
-    capture::frame::Intrinsics,
+    capture::{Distortion, frame::Intrinsics},
     geometry::mesh::TriangleMesh,
     simulate::{
         cell::{Cell, CellSetup, PartPose, Subject, is_in_frame},
@@ -31,6 +31,7 @@ pub(in crate::simulate) const CAMERA: Intrinsics = Intrinsics {
     fy: 469.0,
     cx: 325.0,
     cy: 232.0,
+    distortion: Distortion::NONE,
 };
 
 /// Keeps the draws of the booth apart from others made with the same seed.

@@ -8,7 +8,7 @@ use rand_pcg::Pcg64;
 
 use super::field_of_view::FieldOfView;
 use crate::{
-    capture::frame::Intrinsics,
+    capture::{Distortion, frame::Intrinsics},
     geometry::{mesh::TriangleMesh, rigid::RigidTransform},
     simulate::rasteriser::{Rendering, SurfaceLabel},
 };
@@ -158,6 +158,7 @@ pub(super) fn seen_surface(
         fy: 90.0,
         cx: 99.5,
         cy: 99.5,
+        distortion: Distortion::NONE,
     };
     let pose = RigidTransform::from_parts(Translation3::new(0.0, 0.0, DEPTH), *camera_from_part);
     let mut rendering = Rendering::new(small);

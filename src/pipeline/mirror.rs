@@ -1,0 +1,227 @@
+//! What fits only in a mirror: a part of the other side of the car, or an image whose left and right are exchanged.
+//!
+//! One capture tells the two apart only where a part of the other side cannot be: of a part that a car has once, as its
+//! name says, and of one that is nearly its own mirror image. An image of a part that is exactly symmetric looks right
+//! either way. Several captures tell more, see [`MirrorTally`].
+
+use std::collections::BTreeSet;
+
+use super::{
+    Inspection, Recipe, Surface, inspect_surface,
+    rejection::Rejection,
+    verdict::{Verdict, unlikeness},
+    watch::{Cancelled, StageClock},
+};
+use crate::{error::Advice, library::Library, stages::scene::SceneCloud};
+
+/// A mirror image must score this much more than the part itself to be spoken of.
+const MIRROR_LEAD: f64 = 0.3;
+/// Where the part itself is nearly as good, its mirror image must be this many times closer to it.
+const CLOSER: f64 = 2.0;
+
+/// Says so if the mirror image of an enrolled part fits, and the part itself does not.
+pub(super) fn look_into_the_mirror(
+    inspection: &mut Inspection,
+    scene: &SceneCloud,
+    library: &Library,
+    recipe: &Recipe,
+    clock: &StageClock<'_>,
+) -> Result<(), Cancelled> {
+    let Ok(part) = &inspection.segmentation.part else {
+        return Ok(());
+    };
+    let is_other_model = matches!(
+        inspection.verdict,
+        Verdict::Part {
+            rejected: Some(Rejection::AnotherModel { .. }),
+            ..
+        }
+    );
+    if !is_other_model && inspection.best_score() + MIRROR_LEAD >= 1.0 {
+        // No score can lead by that much.
+        return Ok(());
+    }
+    let scene = scene.mirrored();
+    let found = inspect_surface(&part.mirrored(&scene), &scene, library, recipe, clock)?;
+    let seen = if is_other_model {
+        closer_in_the_mirror(inspection, &found, recipe)
+    } else {
+        only_in_the_mirror(inspection, &found, recipe)
+    };
+    if let (Some(seen), Verdict::Part { rejected, .. }) = (seen, &mut inspection.verdict) {
+        *rejected = Some(seen);
+    }
+    Ok(())
+}
+
+/// The mirror image of a part that is nothing like the part itself.
+fn only_in_the_mirror(
+    inspection: &Inspection,
+    found: &Surface,
+    recipe: &Recipe,
+) -> Option<Rejection> {
+    let seen = found.ranking.entries.first()?;
+    let least = inspection.best_score() + MIRROR_LEAD;
+    let (part, score) = (seen.part.clone(), seen.score);
+    (score > recipe.accept.unknown_below.max(least)).then(|| {
+        if is_central(&part) {
+            Rejection::MirroredImage { part, score }
+        } else {
+            Rejection::Mirrored { part, score }
+        }
+    })
+}
+
+/// The mirror image of a part that is nearly symmetric: such a part has no other side.
+fn closer_in_the_mirror(
+    inspection: &Inspection,
+    found: &Surface,
+    recipe: &Recipe,
+) -> Option<Rejection> {
+    let (straight, mirrored) = (
+        inspection.ranking.entries.first()?,
+        found.ranking.entries.first()?,
+    );
+    let is_accepted = found.verdict.as_ref().is_some_and(Verdict::is_accepted);
+    let unlike = |evidence| unlikeness(evidence, &recipe.accept);
+    let is_closer =
+        CLOSER * unlike(mirrored.evidence.as_ref()?) < unlike(straight.evidence.as_ref()?);
+    (is_accepted && is_closer && mirrored.part == straight.part).then(|| Rejection::MirroredImage {
+        part: mirrored.part.clone(),
+        score: mirrored.score,
+    })
+}
+
+/// Words for parts that a car has once.
+const CENTRAL: [&str; 13] = [
+    "bumper",
+    "trunk",
+    "tailgate",
+    "hatch",
+    "hood",
+    "bonnet",
+    "grille",
+    "grill",
+    "radiator",
+    "roof",
+    "windshield",
+    "windscreen",
+    "spoiler",
+];
+/// Words for a side, or for a piece of one.
+const SIDES: [&str; 9] = [
+    "left", "right", "l", "r", "lh", "rh", "side", "corner", "driver",
+];
+
+/// True if the name says that a car has the part once, in its middle.
+fn is_central(part: &str) -> bool {
+    let mut words = part.split(|c: char| !c.is_ascii_alphabetic());
+    words.clone().any(|word| CENTRAL.contains(&word)) && !words.any(|word| SIDES.contains(&word))
+}
+
+/// What the captures of one call or one source say about their images being mirrored.
+///
+/// A single part of the other side is common, and so are many captures of it. Parts of several names that all fit only
+/// in a mirror, with none that fits as it is, are more often the images.
+#[derive(Clone, Debug, Default)]
+pub struct MirrorTally {
+    num_mirrored: usize,
+    parts: BTreeSet<String>,
+    is_any_straight: bool,
+}
+
+/// All that was recognised was recognised in a mirror.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+#[error(
+    "everything that was recognised ({num_captures} captures: {}) fits only as its mirror image: left and right may be exchanged in the images",
+    parts.join(", ")
+)]
+pub struct OnlyMirrored {
+    /// Captures that show mirror images.
+    pub num_captures: usize,
+    /// The parts whose mirror images they show.
+    pub parts: Vec<String>,
+}
+
+impl Advice for OnlyMirrored {
+    fn advice(&self) -> String {
+        format!("If these are the enrolled parts and not those of the other side: {PUT_RIGHT}")
+    }
+}
+
+/// How an image is put right whose left and right are exchanged.
+pub(super) const PUT_RIGHT: &str = "compare an image with the part, and if left and right are exchanged, add \"mirrored\": true \
+     to the JSON with the camera's intrinsics (see partsight help inspect)";
+
+impl MirrorTally {
+    /// Counts a verdict.
+    pub fn add(&mut self, verdict: &Verdict) {
+        match verdict {
+            Verdict::Part {
+                rejected:
+                    Some(Rejection::Mirrored { part, .. } | Rejection::MirroredImage { part, .. }),
+                ..
+            } => {
+                self.num_mirrored += 1;
+                self.parts.insert(part.clone());
+            }
+            Verdict::Part { .. } => self.is_any_straight |= !verdict.is_unknown(),
+            Verdict::NoPart(_) => {}
+        }
+    }
+
+    /// The suspicion, if there is one.
+    pub fn suspicion(&self) -> Option<OnlyMirrored> {
+        (self.parts.len() >= 2 && !self.is_any_straight).then(|| OnlyMirrored {
+            num_captures: self.num_mirrored,
+            parts: self.parts.iter().cloned().collect(),
+        })
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::simulate::PartKind;
+
+    #[test]
+    fn names_tell_which_parts_a_car_has_once() {
+        for kind in PartKind::ALL {
+            assert_eq!(is_central(kind.name()), !kind.is_sided(), "{kind}");
+        }
+        assert!(is_central("golf-7-hood") && is_central("rear_bumper2"));
+        assert!(!is_central("bumper_corner") && !is_central("grille_left") && !is_central("cover"));
+    }
+
+    #[test]
+    fn several_parts_that_fit_only_in_a_mirror_raise_the_suspicion_and_one_that_fits_ends_it() {
+        let verdict = |rejected| Verdict::Part {
+            part: "fender".into(),
+            score: 0.0,
+            margin: 0.0,
+            rejected,
+            is_approximate: false,
+        };
+        let mirrored = |part: &str| {
+            verdict(Some(Rejection::Mirrored {
+                part: part.into(),
+                score: 1.0,
+            }))
+        };
+        let mut tally = MirrorTally::default();
+        for _ in 0..5 {
+            tally.add(&mirrored("fender"));
+        }
+        assert_eq!(tally.suspicion(), None, "a series of one right-hand part");
+        tally.add(&verdict(Some(Rejection::Unknown {
+            nearest: "fender".into(),
+            score: 0.0,
+        })));
+        tally.add(&mirrored("front_door"));
+        let suspicion = tally.suspicion().expect("two parts");
+        assert_eq!(suspicion.num_captures, 6);
+        assert_eq!(suspicion.parts, ["fender", "front_door"]);
+        tally.add(&verdict(None));
+        assert_eq!(tally.suspicion(), None);
+    }
+}
