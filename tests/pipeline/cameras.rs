@@ -4,6 +4,7 @@ use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use partsight::{
     bench::suites::enrolment_pose,
     capture::{DepthFrame, Distortion, Intrinsics},
+    files::{Opened, depth_png::write_depth_png, open},
     geometry::rigid::{RigidTransform, pose_error},
     pipeline::{Inspection, MirrorTally, Recipe, Rejection, Verdict},
     simulate::{CellSetup, PartKind, PartPose, SensorNoise, Side, frame},
@@ -158,4 +159,27 @@ fn parts_of_several_names_that_are_all_mirrored_raise_a_suspicion() {
         Side::Left,
     )));
     assert_eq!(tally.suspicion(), None);
+}
+
+#[test]
+fn a_file_that_says_its_image_is_mirrored_gives_the_frame_that_the_camera_saw() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("stored.png");
+    let mut camera = Intrinsics::KINECT;
+    (camera.cx, camera.distortion.p2) = (300.0, 0.001);
+    let frame = DepthFrame {
+        intrinsics: camera,
+        ..seen_by(Intrinsics::KINECT, PartKind::Fender, Side::Left)
+    };
+    let stored = DepthFrame {
+        intrinsics: camera.mirrored(),
+        ..mirrored(frame.clone())
+    };
+    write_depth_png(&path, &stored).expect("written");
+    assert_eq!(open(&path).expect("opened"), Opened::Depth(stored));
+    let json = path.with_extension("json");
+    let text = std::fs::read_to_string(&json).expect("the camera");
+    let flagged = text.replacen('{', "{\"mirrored\": true,", 1);
+    std::fs::write(&json, flagged).expect("written");
+    assert_eq!(open(&path).expect("opened"), Opened::Depth(frame));
 }

@@ -1,5 +1,6 @@
 use super::*;
 use crate::{
+    capture::{DepthFrame, Intrinsics},
     cases::{Found, Truth, found_in},
     error::Advice as _,
     pipeline::{Recipe, Unwatched},
@@ -38,6 +39,30 @@ fn bits(scene: &SceneCloud) -> Vec<[u32; 3]> {
     // One NaN is as good as another.
     bits.map(|cell| cell.map(|x| if f32::from_bits(x).is_nan() { 1 } else { x }))
         .collect()
+}
+
+#[test]
+fn the_lens_of_a_kept_scene_is_kept() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let cases = CaseFolder::at(folder.path().join("cases"));
+    let mut camera = Intrinsics {
+        width: 8,
+        height: 6,
+        ..Intrinsics::KINECT
+    };
+    (camera.distortion.k1, camera.distortion.p2) = (-0.1 / 3.0, 1e-4);
+    let scene = scene_from_frame(&DepthFrame {
+        intrinsics: camera,
+        metres_per_unit: 0.001,
+        depth: (1000..1048).collect(),
+        is_simulated: false,
+    });
+    let kept = cases.keep(&scene, about("lens")).expect("kept");
+    let again = cases.read_scene(&kept).expect("read");
+    assert_eq!(
+        (bits(&again), again.intrinsics),
+        (bits(&scene), Some(camera))
+    );
 }
 
 #[test]
