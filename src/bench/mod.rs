@@ -3,6 +3,7 @@
 //! Speed is reported here and nowhere else: as medians on the machine at hand, beside the budgets that the design
 //! names, never asserted by a test. The window, which shows some of these, is measured beside it.
 
+pub mod bounds;
 pub mod calibration;
 mod history;
 mod processor_time;

@@ -173,10 +173,11 @@ fn show(pose: &PoseEstimate, time_ms: f64, console: &mut Console) {
     );
     if let Some(bounds) = pose.uncertainty {
         let (shift, turn) = (bounds.shift.mm(), bounds.turn.degrees());
-        let text = if bounds.is_held() {
-            format!("off by less than {shift:.2} mm and {turn:.3} degrees in 95 of 100 cases")
-        } else {
-            "nothing holds it".to_owned()
+        let text = match bounds.freedom {
+            None => {
+                format!("off by less than {shift:.2} mm and {turn:.3} degrees in 95 of 100 cases")
+            }
+            Some(freedom) => format!("unconstrained: {freedom}"),
         };
         row("bounds", text);
     }

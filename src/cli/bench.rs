@@ -1,5 +1,6 @@
 //! `partsight bench`: how often right, how far off, how long, on simulated frames.
 
+mod bounds;
 mod calibration;
 mod confusions;
 mod history;
@@ -38,6 +39,8 @@ Examples:
   partsight bench table1 --csv table1.csv
   partsight bench table1 --part fender --part grille
   partsight bench registration --poses 125
+  partsight bench bounds --poses 10
+  partsight bench bounds --mesh car.gltf#Door_FL --mesh car.gltf#Trunk_Lid
   partsight bench scaling --plot scaling.png
   partsight bench window
   partsight bench live --minutes 10
@@ -71,6 +74,9 @@ pub(super) struct BenchArgs {
     /// Of table1: write every attempt to this file as comma-separated values
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
+    /// Of bounds: enrol and render this mesh instead of the simulated parts, with its outside towards the camera; may be given several times
+    #[arg(long, value_name = "FILE#NAME")]
+    mesh: Vec<PathBuf>,
     /// Of scaling: draw the times into this file
     #[arg(long, value_name = "PNG")]
     plot: Option<PathBuf>,
@@ -99,6 +105,8 @@ enum Bench {
     Table1,
     /// Poses of clouds that share no point: whole, single views, hidden, noisy, with stray points, and what the genetic algorithm adds
     Registration,
+    /// Whether poses are as exact as their bounds say: whole and cut views of parts of other car models, enrolled themselves, or of meshes
+    Bounds,
     /// Ranking by 1, 2, 4 and 8 workers over a growing number of references: from where do several pay?
     Scaling,
     #[cfg(feature = "window")]
@@ -122,6 +130,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         Bench::Calibration => calibration::run(args, console),
         Bench::Table1 => table1::run(args, console),
         Bench::Registration => registration::run(args, console),
+        Bench::Bounds => bounds::run(args, console),
         Bench::Scaling => scaling::run(args, console),
         #[cfg(feature = "window")]
         Bench::Window => window::run(args, console),
@@ -144,6 +153,12 @@ fn check(args: &BenchArgs) -> anyhow::Result<()> {
         return Err(advised_error(
             "--suite goes with recognition",
             "Ask for it: partsight bench recognition --suite all",
+        ));
+    }
+    if bench != Bench::Bounds && !args.mesh.is_empty() {
+        return Err(advised_error(
+            "--mesh goes with bounds",
+            "Ask for it: partsight bench bounds --mesh FILE#NAME",
         ));
     }
     if bench != Bench::Recognition && (args.only_ours || args.pictures.is_some()) {

@@ -134,15 +134,13 @@ pub(super) fn show_card(
     if let Some(Ok(pose)) = &inspection.pose
         && let Some(bounds) = pose.uncertainty
     {
-        let text = if bounds.is_held() {
-            format!(
+        let text = match bounds.freedom {
+            None => format!(
                 "off by less than {:.1} mm and {:.2} degrees in 95 of 100 cases",
                 bounds.shift.mm(),
                 bounds.turn.degrees()
-            )
-        } else {
-            "none: nothing about the part's shape holds this pose, it could slide or turn"
-                .to_owned()
+            ),
+            Some(freedom) => format!("unconstrained: {freedom}"),
         };
         line("bounds", text);
     }

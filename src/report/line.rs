@@ -93,9 +93,11 @@ struct PoseLine<'a> {
     method: &'static str,
     rms_m: f64,
     overlap: f64,
-    /// The pose is within these of the truth in 95 of 100 cases; null if nothing holds it.
+    /// The pose is within these of the truth in 95 of 100 cases; null of an unconstrained one.
     shift_bound_m: Option<f64>,
     turn_bound_rad: Option<f64>,
+    /// How the part could move, if the pose is unconstrained.
+    unconstrained: Option<String>,
     stopped: &'static str,
     ambiguous: bool,
     approximate: bool,
@@ -215,6 +217,10 @@ impl<'a> InspectionLine<'a> {
                 overlap: pose.fit.overlap,
                 shift_bound_m: bounds_of(pose).map(|bounds| bounds.shift.0),
                 turn_bound_rad: bounds_of(pose).map(|bounds| bounds.turn.0),
+                unconstrained: pose
+                    .uncertainty
+                    .and_then(|bounds| bounds.freedom)
+                    .map(|freedom| freedom.to_string()),
                 stopped: pose.stopped.name(),
                 ambiguous: pose.is_ambiguous(),
                 approximate: inspection.verdict.is_approximate(),

@@ -317,7 +317,7 @@ fn true_error(ui: &mut Ui, state: &State, theme: &Theme) {
         });
         let (turn, shift) = match off {
             Ok(Some((turn, shift))) => (state.units.angle(turn), state.units.length(shift)),
-            Ok(None) => ("nothing holds it".into(), String::new()),
+            Ok(None) => ("unconstrained".into(), String::new()),
             Err(_) => ("no pose".into(), String::new()),
         };
         let text = |text: String| RichText::new(text).color(theme.text);

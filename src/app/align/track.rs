@@ -195,7 +195,9 @@ pub(super) fn in_the_window(error: &PoseError) -> Trouble {
 fn doubted(doubt: &Doubt, pair: &Pair) -> Trouble {
     let advice = match doubt {
         Doubt::Ambiguous { .. } => "Check which way round the part lies".into(),
-        Doubt::Loose => "Look for an edge or a bend that only one place of the part has".into(),
+        Doubt::Loose { .. } => {
+            "Look for an edge or a bend that only one place of the part has".into()
+        }
         Doubt::Unsettled { .. } => "Try another method, or a start that is nearer".into(),
         // They do show the same.
         Doubt::LittleOverlap { .. } if pair.truth.is_some() => {

@@ -20,7 +20,7 @@ use crate::{
     error::Advice as _,
     geometry::rigid::RigidTransform,
     pipeline::{Rejection, Verdict, live::Stillness},
-    stages::pose::{PoseEstimate, Uncertainty},
+    stages::pose::PoseEstimate,
 };
 
 /// What the card says first.
@@ -353,12 +353,14 @@ fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem, theme: &Theme) {
         "overlap",
         &format!("{:.0} %", pose.fit.overlap * 100.0),
     );
-    if let Some(bounds) = pose.uncertainty.filter(Uncertainty::is_held) {
-        let (shift, turn) = (units.length(bounds.shift.0), units.angle(bounds.turn.0));
-        row(ui, theme, "off by, 95 %", &format!("< {shift} · {turn}"));
-    } else if pose.uncertainty.is_some() {
-        let text = "Nothing about its shape holds the pose: it could slide or turn";
-        ui.label(RichText::new(text).color(theme.warning));
+    if let Some(bounds) = pose.uncertainty {
+        if let Some(freedom) = bounds.freedom {
+            let text = format!("Unconstrained: {freedom}");
+            ui.label(RichText::new(text).color(theme.warning));
+        } else {
+            let (shift, turn) = (units.length(bounds.shift.0), units.angle(bounds.turn.0));
+            row(ui, theme, "off by, 95 %", &format!("< {shift} · {turn}"));
+        }
     }
     if let Some(runner_up) = pose.runner_up {
         row(

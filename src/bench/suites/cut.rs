@@ -10,22 +10,22 @@ use crate::{
     simulate::Placed,
 };
 
-/// Shares of the part that are pushed out.
-const SHARES: std::ops::Range<f64> = 0.10..0.25;
 /// Points that the share is counted on.
 const NUM_POINTS: usize = 2000;
 /// Keeps the draws apart from others made with the same seed.
 const STREAM: u64 = 0x0c07_0c07_0c07_0c07;
 
-/// A pose from which 10 to 25 % of the part's surface lies beyond one edge of the picture, drawn by the seed.
-pub(super) fn pushed_out_of_the_picture(
+/// A pose from which a share of the part's surface within this range lies beyond one edge of the picture, drawn by the
+/// seed.
+pub(in crate::bench) fn pushed_out_of_the_picture(
     mesh: &TriangleMesh,
     placed: &Placed,
     camera: &Intrinsics,
+    shares: std::ops::Range<f64>,
     seed: u64,
 ) -> RigidTransform {
     let mut random = Pcg64::seed_from_u64(seed ^ STREAM);
-    let share = random.random_range(SHARES);
+    let share = random.random_range(shares);
     let direction = [(1.0, 0.0), (-1.0, 0.0), (0.0, 1.0), (0.0, -1.0)][random.random_range(0..4)];
     let hung: Vec<Point3<f64>> = mesh
         .sample_evenly(NUM_POINTS, seed)

@@ -12,8 +12,6 @@ mod run;
 
 use serde::Serialize;
 
-use self::cut::pushed_out_of_the_picture;
-pub(super) use self::libraries::enrol_part;
 pub use self::{
     case::{Bounds, Contender, SuiteCase},
     closest::Closest,
@@ -21,6 +19,7 @@ pub use self::{
     libraries::{SuiteLibraries, enrol_standard_parts, enrolment_pose},
     run::{Confusion, SuiteResult, run_suite},
 };
+pub(super) use self::{cut::pushed_out_of_the_picture, libraries::enrol_part};
 use crate::simulate::{
     CellSetup, Clutter, FIRST_OTHER_MAKE, ObjectKind, PartKind, PartPose, Placement, SensorNoise,
     Side, Stand, Subject,
@@ -30,6 +29,8 @@ use crate::simulate::{
 pub const TUNING_SEED: u64 = 3_000_000;
 /// Frames from this seed on are only measured.
 pub const MEASURING_SEED: u64 = 9_000_000;
+/// Share of the part beyond the picture in every second frame of [`Suite::Hard`].
+const PUSHED_OUT: std::ops::Range<f64> = 0.10..0.25;
 /// Seeds that one suite may use: more frames than anybody waits for.
 const SEEDS_PER_SUITE: u64 = 100_000;
 
@@ -189,7 +190,13 @@ impl Suite {
                 (setup.clutter, setup.pose) = if pose.is_multiple_of(2) {
                     (Clutter::InFront, PartPose::Fixed(placed.camera_from_part))
                 } else {
-                    let pushed = pushed_out_of_the_picture(&mesh, &placed, &setup.intrinsics, seed);
+                    let pushed = pushed_out_of_the_picture(
+                        &mesh,
+                        &placed,
+                        &setup.intrinsics,
+                        PUSHED_OUT,
+                        seed,
+                    );
                     (Clutter::OnFloor, PartPose::Fixed(pushed))
                 };
                 if pose / 2 % 2 == 1 {

@@ -1,9 +1,11 @@
 //! The points of outline and openings, for an exhaustive search of the closest.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 
 /// Points looked at side by side.
 const LANES: usize = 8;
+/// A neighbour this many times as far away as the other one is no neighbour.
+const SAME_OUTLINE: f32 = 3.0;
 
 /// A few hundred points in columns of eight, which the processor looks at all at once. Neighbours along an outline are
 /// neighbours in a column, so most columns are too far away as a whole.
@@ -64,13 +66,20 @@ impl EdgePoints {
         (0..self.num).map(|i| self.point(i))
     }
 
-    fn point(&self, i: usize) -> Point3<f32> {
+    /// The point of a number below [`Self::len`].
+    pub fn point(&self, i: usize) -> Point3<f32> {
         let [x, y, z] = &self.groups[i / LANES];
         Point3::new(x[i % LANES], y[i % LANES], z[i % LANES])
     }
 
     /// The closest point within reach, with its squared distance.
     pub fn closest(&self, at: &Point3<f32>, reach_sq: f32) -> Option<(Point3<f32>, f32)> {
+        let (number, distance_sq) = self.closest_number(at, reach_sq)?;
+        Some((self.point(number), distance_sq))
+    }
+
+    /// The number of the closest point within reach, with its squared distance.
+    pub fn closest_number(&self, at: &Point3<f32>, reach_sq: f32) -> Option<(usize, f32)> {
         let mut best = (reach_sq, usize::MAX);
         for (number, boxes) in self.boxes.iter().enumerate() {
             let at_least = distances_to_boxes_sq(boxes, at);
@@ -80,7 +89,24 @@ impl EdgePoints {
                 }
             }
         }
-        (best.1 != usize::MAX).then(|| (self.point(best.1), best.0))
+        (best.1 != usize::MAX).then_some((best.1, best.0))
+    }
+
+    /// Unit vector along the outline at a point, from its neighbours; `None` of a point by itself.
+    ///
+    /// A neighbour that is several times as far away as the other belongs to another outline.
+    pub fn along(&self, number: usize) -> Option<Vector3<f32>> {
+        let at = self.point(number);
+        let to = |other: Option<usize>| {
+            let other = other.filter(|other| *other < self.num)?;
+            Some(self.point(other) - at).filter(|step| step.norm_squared() > 0.0)
+        };
+        let steps = [to(number.checked_sub(1)), to(Some(number + 1))];
+        let lengths = steps.map(|step| step.map_or(f32::INFINITY, |step| step.norm()));
+        let least = lengths[0].min(lengths[1]);
+        let step = |side: usize| steps[side].filter(|_| lengths[side] <= SAME_OUTLINE * least);
+        let along = step(1).unwrap_or_default() - step(0).unwrap_or_default();
+        along.try_normalize(1e-9)
     }
 
     /// Betters the squared distance and the number of the closest point so far.
@@ -122,6 +148,25 @@ mod tests {
 
     fn point() -> impl Strategy<Value = Point3<f32>> {
         prop::array::uniform3(-1.0_f32..1.0).prop_map(Point3::from)
+    }
+
+    #[test]
+    fn an_outline_runs_along_its_neighbours_and_ends_at_a_gap() {
+        let row = (0..5).map(|i| Point3::new(i as f32 * 0.01, 0.0, 0.0));
+        let column = (0..5).map(|i| Point3::new(0.5, 0.2 + i as f32 * 0.01, 0.0));
+        let points: Vec<Point3<f32>> = row.chain(column).collect();
+        let edges = EdgePoints::new(&points, 100);
+        for (number, expected) in [
+            (0, Vector3::x()),
+            (2, Vector3::x()),
+            (4, Vector3::x()),
+            (5, Vector3::y()),
+            (9, Vector3::y()),
+        ] {
+            let along = edges.along(number).expect("neighbours");
+            assert!((along - expected).norm() < 1e-5, "{number}: {along}");
+        }
+        assert_eq!(EdgePoints::new(&points[..1], 100).along(0), None);
     }
 
     proptest! {

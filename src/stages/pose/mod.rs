@@ -29,7 +29,7 @@ pub use self::{
     locate::locate,
     prepared::PreparedTarget,
     quality::{Fit, Sight},
-    uncertainty::Uncertainty,
+    uncertainty::{Axis, Freedom, Uncertainty},
 };
 
 /// Fewer points than this do not fix a pose.
@@ -176,8 +176,8 @@ impl PoseEstimate {
             Some(Doubt::Ambiguous {
                 ratio: runner_up.ratio,
             })
-        } else if self.uncertainty.is_some_and(|u| !u.is_held()) {
-            Some(Doubt::Loose)
+        } else if let Some(freedom) = self.uncertainty.and_then(|u| u.freedom) {
+            Some(Doubt::Loose { freedom })
         } else if self.stopped == Stopped::IterationLimit {
             Some(Doubt::Unsettled {
                 num_iterations: self.iterations.len(),
@@ -214,8 +214,11 @@ pub enum Doubt {
         ratio: f64,
     },
     /// The source could slide or turn, and still lie on the target.
-    #[error("nothing holds the pose: the clouds could slide or turn along each other")]
-    Loose,
+    #[error("the pose is unconstrained: {freedom}")]
+    Loose {
+        /// How it could move most easily.
+        freedom: Freedom,
+    },
     /// The search was still moving when its iterations were used up.
     #[error("the pose was still moving after {num_iterations} iterations")]
     Unsettled {
@@ -231,7 +234,7 @@ impl crate::error::Advice for Doubt {
                 "Check that both clouds show the same thing and share at least half of it".into()
             }
             Self::Ambiguous { .. } => "Say where to start with --initial".into(),
-            Self::Loose => {
+            Self::Loose { .. } => {
                 "Use clouds that show more of the part: an edge, a bend, a corner".into()
             }
             Self::Unsettled { .. } => "Run it again from the pose found, with --initial".into(),

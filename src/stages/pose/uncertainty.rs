@@ -1,29 +1,40 @@
 //! How far off a pose may be: bounds that follow from the residuals.
 //!
 //! The pose minimises a weighted sum of squared distances, so its covariance is that of an M-estimator, the "sandwich"
-//! H⁻¹ M H⁻¹ with H = Σ w J Jᵀ and M = Σ w² r² J Jᵀ (P. J. Huber, "The behavior of maximum likelihood estimates under
-//! nonstandard conditions", Fifth Berkeley Symposium, 1967): it takes the scatter from the residuals themselves and
-//! needs no model of the noise. J is a pair's change by turn and shift, about the middle of the source.
+//! H⁻¹ M H⁻¹ with H = Σ ψ′ J Jᵀ (P. J. Huber, "The behavior of maximum likelihood estimates under nonstandard conditions",
+//! Fifth Berkeley Symposium, 1967). J is a pair's change by turn and shift, about the middle of the source; ψ′, how the
+//! pull of a pair changes with its distance, is the weight less what the weight loses.
 //!
-//! Neighbouring points err together: a camera rounds depths in steps, a normal is the mean over neighbours. So pulls
-//! are summed over patches of the part before they are squared, and only patches count as independent (K.-Y. Liang and
-//! S. L. Zeger, "Longitudinal data analysis using generalized linear models", Biometrika 73(1), 1986).
+//! Neighbouring pairs err together: a camera rounds depths in steps, and a whole side of an outline lies some
+//! millimetres off where readings are lost. So pairs are taken together by region, an outline also by the side it is on
+//! (K.-Y. Liang and S. L. Zeger, "Longitudinal data analysis using generalized linear models", Biometrika 73(1), 1986),
+//! and M = b² Σ g gᵀ, with g = Σ w J over a region and b² the mean square of the regions' mean distances: with so few
+//! regions one figure for all is steadier than the products of each. Outlines add what a view's outline is never better
+//! known than.
 //!
-//! The bounds are about the pose of least squares. A pose found another way is off it by a step, which is added.
+//! What holds the pose, H, is counted with care in two places. An edge point holds the part across the outline, not
+//! along it: further along there is a closest point as well. And normals that are a little off feign a hold where
+//! there is none (on a plane they point to every side); that is taken off, and where it is most of the hold, the pose
+//! is unconstrained.
 //!
-//! Noisy normals feign a hold that is not there: on a plane they point a little to every side. What they would feign
-//! by their own scatter is therefore taken off H; where nothing is left, the pose is free that way.
+//! The bounds are about the pose of this model. Closest points pull along an outline too, so the refinement ends a
+//! step away from it, which is added.
 //!
 //! Known limits: an error that all points share, as of a camera's scale, shows in no residual.
+
+mod freedom;
+mod normals;
 
 use std::collections::BTreeMap;
 
 use nalgebra::{Matrix3, Matrix6, Point3, Vector3, Vector6};
 
+pub use self::freedom::{Axis, Freedom};
+use self::{freedom::Frame, normals::tilt_sq};
 use super::{
     closest::Closest,
     equations::edge_share,
-    refine::{Level, Source, Target},
+    refine::{Level, Search, Source, Target},
 };
 use crate::{
     geometry::rigid::RigidTransform,
@@ -37,30 +48,39 @@ pub struct Uncertainty {
     pub shift: Metres,
     /// How far the source may be turned; infinite where nothing holds it.
     pub turn: Radians,
+    /// How the source can move most easily, if the pose is unconstrained.
+    pub freedom: Option<Freedom>,
 }
 
 impl Uncertainty {
-    /// Nothing holds the pose.
-    const FREE: Self = Self {
-        shift: Metres(f64::INFINITY),
-        turn: Radians(f64::INFINITY),
-    };
+    fn free(freedom: Freedom) -> Self {
+        Self {
+            shift: Metres(f64::INFINITY),
+            turn: Radians(f64::INFINITY),
+            freedom: Some(freedom),
+        }
+    }
 
     /// False if the source may slide or turn without anything in the way.
     pub fn is_held(&self) -> bool {
-        self.turn.0 < LOOSE.0 && self.shift.0.is_finite()
+        self.freedom.is_none()
     }
 }
 
-/// A pose that may turn by so much, some half a degree, is not held: a spray path bears no more.
-const LOOSE: Radians = Radians(0.01);
-/// 95 % of a normal distribution in three dimensions lies within this squared distance, in standard deviations.
-const WITHIN_SQ: f64 = 7.815;
-/// Side of a patch, in root mean square distances of the points from their middle: some forty on a part.
-const PATCH: f64 = 0.4;
-/// Neighbours that a normal is the mean of, about, and the radius they lie within, in spacings.
-const NORMAL_NEIGHBOURS: f64 = 28.0;
-const NORMAL_RADIUS: f64 = 3.0;
+/// Beyond this, some two degrees, and beyond the reach of its pairs, bounds are a guess, and the pose is unconstrained.
+const LOOSE: Radians = Radians(0.035);
+/// Where more of the hold than this is feigned, there is none.
+const FEIGNED: f64 = 0.5;
+/// Side of a region of the surface and of the outline, in root mean square distances of the points from their middle.
+/// An outline's errors reach further.
+const REGION: f64 = 1.2;
+const OUTLINE_REGION: f64 = 1.5;
+/// What a stretch of an outline may be off by, where the residuals do not show it: a pixel at 1.5 m, metres.
+const OUTLINE_ERROR: f64 = 0.003;
+/// By what the scatter of turns and shifts exceeds the model's, on parts of other cars in frames of the tuning seeds
+/// (`partsight bench bounds --seed 3000000`).
+const TURN_FACTOR: f64 = 1.15;
+const SHIFT_FACTOR: f64 = 1.4;
 
 /// The bounds of a pose that a refinement at this level ended at, from the closest points of the source's surface.
 pub fn uncertainty(
@@ -70,76 +90,118 @@ pub fn uncertainty(
     pose: &RigidTransform,
     level: &Level,
 ) -> Uncertainty {
-    let reach_sq = (3.0 * level.scale).powi(2) as f32;
+    let reach_sq = (3.0 * level.scale).powi(2);
     let per_scale_sq = 1.0 / (level.scale * level.scale);
     let closest = &closest[..level.num_surface.min(closest.len())];
     let pairs: Vec<Pair> = closest
         .iter()
-        .filter_map(|closest| {
-            let near = closest.on_surface(target, f64::from(reach_sq))?;
-            Some(Pair {
-                at: closest.at.cast(),
-                normal: near.normal,
-                off: near.off,
-                weight: (-near.distance_sq * per_scale_sq).exp(),
-            })
-        })
+        .filter_map(|closest| Pair::of(closest, target, reach_sq, per_scale_sq))
         .collect();
     let weight_sum: f64 = pairs.iter().map(|p| p.weight).sum();
     if pairs.len() < 12 || weight_sum <= 0.0 {
-        return Uncertainty::FREE;
+        return Uncertainty::free(Freedom::Anyhow);
     }
-    let middle = pairs
-        .iter()
-        .map(|p| p.at.coords * p.weight)
-        .sum::<Vector3<f64>>()
-        / weight_sum;
-    let scatter_sq = pairs.iter().map(|p| p.weight * p.off * p.off).sum::<f64>() / weight_sum;
-    let radius = NORMAL_RADIUS * target.spacing;
-    let tilt_sq = 4.0 * scatter_sq / (NORMAL_NEIGHBOURS * radius * radius);
+    let sum = pairs.iter().map(|p| p.at.coords * p.weight);
+    let middle = sum.sum::<Vector3<f64>>() / weight_sum;
+    let squares = pairs.iter().map(|p| {
+        let out = p.at.coords - middle;
+        out * out.transpose()
+    });
+    let frame = Frame::of(&(squares.sum::<Matrix3<f64>>() / pairs.len() as f64));
 
-    let mean_sq = pairs
-        .iter()
-        .map(|p| (p.at.coords - middle).norm_squared())
-        .sum::<f64>();
-    let patch = PATCH * (mean_sq / pairs.len() as f64).sqrt();
-    let mut sums = Sums::new(middle, patch);
+    let mut sums = Sums::new(middle, per_scale_sq);
+    let mut surface = Regions::new(middle, REGION * frame.radius);
     for pair in &pairs {
-        // ψ'(r) of the Welsch weight: what holds a pose is how the pull changes with the distance.
-        let stiffness = pair.weight * (1.0 - 2.0 * pair.off * pair.off * per_scale_sq);
-        sums.add(&pair.at, &pair.normal, pair.weight * pair.off, stiffness);
-        for along in tangents(&pair.normal) {
-            sums.take_off(&pair.at, &along, pair.weight * tilt_sq);
-        }
+        let lever = sums.add(&pair.at, &pair.normal, pair.off, pair.weight);
+        surface.add(&pair.at, None, &lever, pair.off, pair.weight);
     }
+    let feigned = feigned(&pairs, &middle, tilt_sq(&pairs, target));
     let edges = &source.edges[..level.num_edges.min(source.edges.len())];
+    let mut outline = Regions::new(middle, OUTLINE_REGION * frame.radius);
+    let share = edge_share(closest.len(), edges.len().max(1));
     let moved = pose.cast::<f32>();
     for p in edges {
         let at = moved * p;
-        let Some((closest, distance_sq)) = target.edges.closest(&at, reach_sq) else {
+        let Some(edge) = EdgePair::of(&at, &middle, target, reach_sq as f32) else {
             continue;
         };
-        let weight =
-            edge_share(closest.len(), edges.len()) * (-f64::from(distance_sq) * per_scale_sq).exp();
-        let away: Vector3<f64> = (closest - at).cast();
-        for axis in 0..3 {
-            sums.add(
-                &at.cast(),
-                &Vector3::ith(axis, 1.0),
-                weight * away[axis],
-                weight,
-            );
-        }
+        let weight = share * (-edge.away.norm_squared() * per_scale_sq).exp();
+        let at = at.cast();
+        sums.add(&at, &edge.normal, edge.away.dot(&edge.normal), weight);
+        let off = edge.away.dot(&edge.outwards);
+        let lever = sums.add(&at, &edge.outwards, off, weight);
+        outline.add(&at, Some(&edge.outwards), &lever, off, weight);
     }
-    sums.bounds().unwrap_or(Uncertainty::FREE)
+    let spread = surface.spread(0.0) + outline.spread(OUTLINE_ERROR);
+    sums.bounds(&feigned, &spread, &frame, Metres(3.0 * level.scale))
 }
 
+/// A source point and the surface of the target.
 struct Pair {
     at: Point3<f64>,
+    /// Of the target point.
+    index: usize,
     normal: Vector3<f64>,
     /// Distance along the normal, metres.
     off: f64,
+    /// Squared distance to the target point along the surface, square metres.
+    beside_sq: f64,
     weight: f64,
+}
+
+impl Pair {
+    fn of(
+        closest: &Closest,
+        target: &Target<'_>,
+        reach_sq: f64,
+        per_scale_sq: f64,
+    ) -> Option<Self> {
+        let near = closest.on_surface(target, reach_sq)?;
+        Some(Self {
+            at: closest.at.cast(),
+            index: closest.target?.index,
+            normal: near.normal,
+            off: near.off,
+            beside_sq: (near.distance_sq - near.off * near.off).max(0.0),
+            weight: (-near.distance_sq * per_scale_sq).exp(),
+        })
+    }
+}
+
+/// A source's edge point and the outline of the target.
+struct EdgePair {
+    /// To the closest point of the outline, metres.
+    away: Vector3<f64>,
+    /// Of the surface there.
+    normal: Vector3<f64>,
+    /// Along the surface, across the outline.
+    outwards: Vector3<f64>,
+}
+
+impl EdgePair {
+    fn of(
+        at: &Point3<f32>,
+        middle: &Vector3<f64>,
+        target: &Target<'_>,
+        reach_sq: f32,
+    ) -> Option<Self> {
+        let (number, _) = target.edges.closest_number(at, reach_sq)?;
+        let closest = target.edges.point(number);
+        let along = target.edges.along(number)?;
+        let near = target.nearest(Search::Field, &closest, f32::INFINITY)?;
+        let normal: Vector3<f64> = target.cloud.normals.as_deref()?.get(near.index)?.cast();
+        let across = along.cast().cross(&normal).try_normalize(1e-6)?;
+        let out = closest.coords.cast() - middle;
+        Some(Self {
+            away: (closest - at).cast(),
+            normal,
+            outwards: if across.dot(&out) < 0.0 {
+                -across
+            } else {
+                across
+            },
+        })
+    }
 }
 
 fn tangents(normal: &Vector3<f64>) -> [Vector3<f64>; 2] {
@@ -147,74 +209,209 @@ fn tangents(normal: &Vector3<f64>) -> [Vector3<f64>; 2] {
     [aside, normal.cross(&aside)]
 }
 
-/// The sums of the sandwich.
-struct Sums {
-    middle: Vector3<f64>,
-    /// Side of a patch, metres.
-    patch: f64,
-    /// H
-    hold: Matrix6<f64>,
-    /// w r J by patch.
-    pulls: BTreeMap<[i32; 3], Vector6<f64>>,
+/// How a distance along a direction changes with turn and shift.
+fn change(from_middle: &Vector3<f64>, direction: &Vector3<f64>) -> Vector6<f64> {
+    let turn = from_middle.cross(direction);
+    Vector6::new(
+        turn.x,
+        turn.y,
+        turn.z,
+        direction.x,
+        direction.y,
+        direction.z,
+    )
 }
 
-impl Sums {
-    fn new(middle: Vector3<f64>, patch: f64) -> Self {
+/// The hold that normals feign which are off by this angle, squared, anyhow.
+fn feigned(pairs: &[Pair], middle: &Vector3<f64>, tilt_sq: f64) -> Matrix6<f64> {
+    let mut hold = Matrix6::zeros();
+    for pair in pairs {
+        for along in tangents(&pair.normal) {
+            let change = change(&(pair.at.coords - middle), &along);
+            hold += change * change.transpose() * (pair.weight * tilt_sq);
+        }
+    }
+    hold
+}
+
+/// Pairs by region.
+struct Regions {
+    middle: Vector3<f64>,
+    /// Side of a region, metres.
+    side: f64,
+    regions: BTreeMap<[i32; 6], Region>,
+}
+
+#[derive(Default)]
+struct Region {
+    weight: f64,
+    /// Σ w r
+    pull: f64,
+    /// Σ w J
+    lever: Vector6<f64>,
+}
+
+impl Regions {
+    fn new(middle: Vector3<f64>, side: f64) -> Self {
         Self {
             middle,
-            patch: patch.max(f64::MIN_POSITIVE),
-            hold: Matrix6::zeros(),
-            pulls: BTreeMap::new(),
+            side: side.max(f64::MIN_POSITIVE),
+            regions: BTreeMap::new(),
         }
     }
 
-    /// How a distance along a direction changes with turn and shift.
-    fn change(&self, at: &Point3<f64>, direction: &Vector3<f64>) -> Vector6<f64> {
-        let turn = (at.coords - self.middle).cross(direction);
-        Vector6::new(
-            turn.x,
-            turn.y,
-            turn.z,
-            direction.x,
-            direction.y,
-            direction.z,
-        )
+    /// Adds a pair, by its place and the side that it is on.
+    fn add(
+        &mut self,
+        at: &Point3<f64>,
+        facing: Option<&Vector3<f64>>,
+        change: &Vector6<f64>,
+        off: f64,
+        weight: f64,
+    ) {
+        let cell = ((at.coords - self.middle) / self.side).map(|x| x.floor() as i32);
+        // Six sides and what lies between.
+        let facing = facing.map_or(Vector3::zeros(), |f| f.map(|x| (1.2 * x).round() as i32));
+        let key = [cell.x, cell.y, cell.z, facing.x, facing.y, facing.z];
+        let region = self.regions.entry(key).or_default();
+        region.weight += weight;
+        region.pull += weight * off;
+        region.lever += change * weight;
     }
 
-    fn add(&mut self, at: &Point3<f64>, direction: &Vector3<f64>, pull: f64, stiffness: f64) {
-        let change = self.change(at, direction);
-        self.hold += change * change.transpose() * stiffness;
-        let patch = ((at.coords - self.middle) / self.patch).map(|x| x.floor() as i32);
-        *self.pulls.entry(patch.into()).or_default() += change * pull;
-    }
-
-    fn take_off(&mut self, at: &Point3<f64>, direction: &Vector3<f64>, stiffness: f64) {
-        let change = self.change(at, direction);
-        self.hold -= change * change.transpose() * stiffness;
-    }
-
-    /// `None` where nothing holds the pose.
-    fn bounds(&self) -> Option<Uncertainty> {
-        let inverse = self.hold.cholesky()?.inverse();
-        let num = self.pulls.len() as f64;
-        let pulls = self.pulls.values();
-        // What six parameters fit of so many patches is missing in the residuals.
-        let spread: Matrix6<f64> = pulls
-            .map(|pull| pull * pull.transpose())
-            .sum::<Matrix6<f64>>()
-            * (num / (num - 6.0).max(1.0));
-        let covariance = inverse * spread * inverse;
-        // ICP ends where points are close, not where surfaces are: what it has still to go counts in full.
-        let to_go = inverse * self.pulls.values().sum::<Vector6<f64>>();
-        let bound = |first: usize| {
-            let block: Matrix3<f64> = covariance.fixed_view::<3, 3>(first, first).into_owned();
-            let scatter = (WITHIN_SQ * block.symmetric_eigenvalues().max().max(0.0)).sqrt();
-            scatter + to_go.fixed_rows::<3>(first).norm()
-        };
-        let (turn, shift) = (bound(0), bound(3));
-        (turn.is_finite() && shift.is_finite()).then_some(Uncertainty {
-            shift: Metres(shift),
-            turn: Radians(turn),
-        })
+    /// Their share of M, if the mean distance of a region has at least this standard deviation besides what is seen.
+    fn spread(&self, at_least: f64) -> Matrix6<f64> {
+        let regions = || self.regions.values().filter(|region| region.weight > 0.0);
+        let weight_sum: f64 = regions().map(|region| region.weight).sum();
+        let squares = regions().map(|region| region.pull * region.pull / region.weight);
+        // What the pose could fit of so many regions is missing in the residuals: half of its six parameters each.
+        let num = regions().count() as f64;
+        let seen_sq =
+            squares.sum::<f64>() / weight_sum.max(f64::MIN_POSITIVE) * num / (num - 3.0).max(1.0);
+        let levers = regions().map(|region| region.lever * region.lever.transpose());
+        levers.sum::<Matrix6<f64>>() * (seen_sq + at_least * at_least)
     }
 }
+
+/// The sums over all pairs.
+struct Sums {
+    middle: Vector3<f64>,
+    per_scale_sq: f64,
+    /// H
+    hold: Matrix6<f64>,
+    /// Σ w r J
+    pull: Vector6<f64>,
+}
+
+impl Sums {
+    fn new(middle: Vector3<f64>, per_scale_sq: f64) -> Self {
+        Self {
+            middle,
+            per_scale_sq,
+            hold: Matrix6::zeros(),
+            pull: Vector6::zeros(),
+        }
+    }
+
+    /// Adds a distance along a direction, and returns its change.
+    fn add(
+        &mut self,
+        at: &Point3<f64>,
+        direction: &Vector3<f64>,
+        off: f64,
+        weight: f64,
+    ) -> Vector6<f64> {
+        let change = change(&(at.coords - self.middle), direction);
+        // ψ'(r) of the Welsch weight.
+        let stiffness = weight * (1.0 - 2.0 * off * off * self.per_scale_sq);
+        self.hold += change * change.transpose() * stiffness;
+        self.pull += change * (weight * off);
+        change
+    }
+
+    fn bounds(
+        &self,
+        feigned: &Matrix6<f64>,
+        spread: &Matrix6<f64>,
+        frame: &Frame,
+        reach: Metres,
+    ) -> Uncertainty {
+        if let Some(motion) = self.free_motion(feigned, frame) {
+            return Uncertainty::free(frame.freedom(&motion));
+        }
+        let Some(hold) = (self.hold - feigned).cholesky() else {
+            return Uncertainty::free(Freedom::Anyhow);
+        };
+        let inverse = hold.inverse();
+        let covariance = inverse * spread * inverse;
+        // ICP ends where points are close, not where surfaces are: what it has still to go counts in full.
+        let to_go = inverse * self.pull;
+        let block = |first: usize| covariance.fixed_view::<3, 3>(first, first).into_owned();
+        let bound = |first: usize, factor: f64| {
+            factor * within_95(&block(first)) + to_go.fixed_rows::<3>(first).norm()
+        };
+        let (turn, shift) = (bound(0, TURN_FACTOR), bound(3, SHIFT_FACTOR));
+        let widest = |first: usize| {
+            let eigen = block(first).symmetric_eigen();
+            let widest = eigen.eigenvectors.column(eigen.eigenvalues.imax());
+            frame.nearest(&widest.into_owned())
+        };
+        let freedom = if !(shift <= reach.0) {
+            Some(Freedom::Slide(widest(3)))
+        } else if !(turn <= LOOSE.0) {
+            Some(Freedom::Turn(widest(0)))
+        } else {
+            None
+        };
+        Uncertainty {
+            shift: Metres(shift),
+            turn: Radians(turn),
+            freedom,
+        }
+    }
+
+    /// The motion that most of the hold against is feigned, if there is one: turn, then shift.
+    fn free_motion(&self, feigned: &Matrix6<f64>, frame: &Frame) -> Option<Vector6<f64>> {
+        // Turns in units of what they move a point by, so that the softest motion is found by its length.
+        let per_turn = 1.0 / frame.radius.max(f64::MIN_POSITIVE);
+        let units = Vector6::new(per_turn, per_turn, per_turn, 1.0, 1.0, 1.0);
+        let units = Matrix6::from_diagonal(&units);
+        let (hold, feigned) = (units * self.hold * units, units * feigned * units);
+        if !hold.iter().chain(&feigned).all(|x| x.is_finite()) {
+            return Some(Vector6::zeros());
+        }
+        let Some(root) = hold.cholesky().map(|c| c.l()) else {
+            let eigen = hold.symmetric_eigen();
+            let softest = eigen.eigenvectors.column(eigen.eigenvalues.imin());
+            return Some(units * softest);
+        };
+        // The largest feigned/hold: with hold = L Lᵀ an eigenvalue of L⁻¹ feigned L⁻ᵀ.
+        let half = root.solve_lower_triangular(&feigned)?;
+        let whole = root.solve_lower_triangular(&half.transpose())?;
+        let eigen = whole.symmetric_eigen();
+        let most = eigen.eigenvalues.imax();
+        if eigen.eigenvalues[most] < FEIGNED {
+            return None;
+        }
+        let motion =
+            root.tr_solve_lower_triangular(&eigen.eigenvectors.column(most).into_owned())?;
+        Some(units * motion)
+    }
+}
+
+/// The length that a normal variable of this covariance keeps below in 95 of 100 cases: its square is taken for a
+/// scaled χ² (F. E. Satterthwaite, "An approximate distribution of estimates of variance components", Biometrics
+/// Bulletin 2(6), 1946), whose quantile is that of E. B. Wilson and M. M. Hilferty, "The distribution of chi-square",
+/// PNAS 17(12), 1931.
+fn within_95(covariance: &Matrix3<f64>) -> f64 {
+    const QUANTILE: f64 = 1.645;
+    let (mean, square) = (covariance.trace(), (covariance * covariance).trace());
+    if !(mean > 0.0) {
+        return 0.0;
+    }
+    let per_degree = 2.0 / 9.0 * square / (mean * mean);
+    (mean * (1.0 - per_degree + QUANTILE * per_degree.sqrt()).powi(3)).sqrt()
+}
+
+#[cfg(test)]
+mod tests;

@@ -149,7 +149,7 @@ impl Rows<'_, '_> {
                 );
                 self.row("off by, 95 %", &text);
             }
-            None => self.row("off by, 95 %", "not known"),
+            None => self.row("off by, 95 %", "unconstrained, or not worked out"),
         }
         if let Some(ratio) = fit.runner_up_ratio {
             self.row("next best pose", &format!("{ratio:.1}× worse"));

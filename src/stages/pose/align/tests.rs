@@ -152,7 +152,7 @@ fn what_fits_in_many_places_is_doubted_and_never_sure() {
             let doubt = pose.doubt();
             assert!(doubt.is_some(), "{name} by {method:?}: {pose:?}");
             if method == PoseMethod::Global {
-                let fits = matches!(doubt, Some(Doubt::Ambiguous { .. } | Doubt::Loose));
+                let fits = matches!(doubt, Some(Doubt::Ambiguous { .. } | Doubt::Loose { .. }));
                 assert!(fits, "{name}: {doubt:?}");
             }
         }

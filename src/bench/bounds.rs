@@ -1,0 +1,207 @@
+//! Whether poses are as exact as their bounds say, on parts whose truth is exact.
+//!
+//! Each part is enrolled, seen in simulated frames, and inspected. The error of the pose is taken where its bounds hold:
+//! at the middle of what was seen. Bounds deserve their name if 95 of 100 errors lie within them, and are of use if they
+//! are not many times the error.
+
+mod subject;
+
+use nalgebra::{Point3, Vector3};
+use serde::Serialize;
+
+pub use self::subject::{BoundsLibrary, Subject};
+use super::suites::pushed_out_of_the_picture;
+use crate::{
+    geometry::rigid::{PoseError, pose_error},
+    pipeline::{Cancelled, Inspection, Recipe, Watch, run},
+    simulate::{self, CellSetup, PartPose, Placement, frame_of_mesh},
+    stages::{
+        pose::{Doubt, Uncertainty},
+        scene::scene_from_frame,
+    },
+    units::{Metres, Radians},
+};
+
+/// How much of a part is in the picture.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum View {
+    /// All of it, ±30° to the camera, any roll, 1 to 2 m away.
+    Whole,
+    /// The same, with 20 to 50 % of it beyond an edge of the picture.
+    Cut,
+}
+
+impl View {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Whole, Self::Cut];
+
+    /// In a word.
+    pub fn name(self) -> &'static str {
+        match self {
+            Self::Whole => "whole",
+            Self::Cut => "cut",
+        }
+    }
+}
+
+/// One frame.
+#[derive(Clone, Debug, PartialEq)]
+pub struct BoundsCase {
+    /// What hung there.
+    pub part: String,
+    /// How much of it was in the picture.
+    pub view: View,
+    /// The frame's seed.
+    pub seed: u64,
+    /// Whether it was named.
+    pub is_named: bool,
+    /// Whether it was accepted.
+    pub is_accepted: bool,
+    /// The pose, if it was named.
+    pub found: Option<FoundPose>,
+}
+
+/// A pose beside the truth.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct FoundPose {
+    /// How far off, the shift at the middle of what was seen.
+    pub error: PoseError,
+    /// How far off it may be.
+    pub bounds: Option<Uncertainty>,
+    /// Why it should not be relied upon.
+    pub doubt: Option<Doubt>,
+}
+
+impl FoundPose {
+    /// True of a pose that is not another one altogether: within 5° and 40 mm.
+    pub fn is_near(&self) -> bool {
+        self.error.rotation.degrees() <= 5.0 && self.error.shift.mm() <= 40.0
+    }
+
+    /// The bounds, unless nothing holds the pose.
+    pub fn held(&self) -> Option<Uncertainty> {
+        self.bounds.filter(Uncertainty::is_held)
+    }
+}
+
+fn placement() -> Placement {
+    Placement {
+        yaw: Radians::from_degrees(30.0),
+        pitch: Radians::from_degrees(30.0),
+        nearest: Metres(1.0),
+        farthest: Metres(2.0),
+        ..Placement::placed()
+    }
+}
+
+/// Share of the part that a cut view leaves out.
+const CUT: std::ops::Range<f64> = 0.2..0.5;
+
+/// Inspects every part of a library in `num_poses` frames of each view; `after_each` is called with every case.
+pub fn bounds_cases(
+    library: &BoundsLibrary,
+    num_poses: u64,
+    first_seed: u64,
+    watch: &dyn Watch,
+    mut after_each: impl FnMut(&BoundsCase),
+) -> Result<Vec<BoundsCase>, Cancelled> {
+    let mut cases = Vec::new();
+    let mut seeds = first_seed..;
+    for subject in &library.subjects {
+        for view in View::ALL {
+            for seed in seeds.by_ref().take(num_poses as usize) {
+                let case = inspected(subject, library, view, seed, watch)?;
+                after_each(&case);
+                cases.push(case);
+            }
+        }
+    }
+    Ok(cases)
+}
+
+fn inspected(
+    subject: &Subject,
+    library: &BoundsLibrary,
+    view: View,
+    seed: u64,
+    watch: &dyn Watch,
+) -> Result<BoundsCase, Cancelled> {
+    let mut setup = CellSetup::new(simulate::Subject::Nothing, seed);
+    setup.pose = PartPose::Drawn(placement());
+    if view == View::Cut {
+        let placed = placement().draw(&subject.mesh, &setup.intrinsics, seed);
+        let pushed =
+            pushed_out_of_the_picture(&subject.mesh, &placed, &setup.intrinsics, CUT, seed);
+        setup.pose = PartPose::Fixed(pushed);
+    }
+    let shot = frame_of_mesh(&setup, &subject.mesh);
+    let scene = scene_from_frame(&shot.frame);
+    let inspection = run(&scene, &library.library, &Recipe::default(), watch)?;
+    let first = inspection.ranking.entries.first();
+    let is_named = first.is_some_and(|entry| entry.part == subject.name);
+    let part_from_camera = (shot.truth.camera_from_part * subject.mesh_from_part).inverse();
+    let pose = inspection
+        .pose
+        .as_ref()
+        .and_then(|pose| pose.as_ref().ok())
+        .filter(|_| is_named);
+    let found = pose
+        .zip(middle_of_seen(&inspection))
+        .map(|(pose, middle)| FoundPose {
+            error: pose_error(&pose.target_from_source, &part_from_camera, &middle),
+            bounds: pose.uncertainty,
+            doubt: pose.doubt(),
+        });
+    Ok(BoundsCase {
+        part: subject.name.clone(),
+        view,
+        seed,
+        is_named,
+        is_accepted: inspection.verdict.is_accepted(),
+        found,
+    })
+}
+
+fn middle_of_seen(inspection: &Inspection) -> Option<Point3<f64>> {
+    let part = inspection.segmentation.part.as_ref().ok()?;
+    let points = &part.cloud.points;
+    let sum = points
+        .iter()
+        .fold(Vector3::zeros(), |sum: Vector3<f64>, p| {
+            sum + p.coords.cast::<f64>()
+        });
+    Some(Point3::from(sum / points.len().max(1) as f64))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{pipeline::Unwatched, simulate::PartKind};
+
+    #[test]
+    fn parts_of_another_car_are_found_within_their_bounds_mostly() {
+        let mut library = BoundsLibrary::captured(3_000_007).expect("parts can be enrolled");
+        let kinds = [PartKind::FrontDoor, PartKind::Fender];
+        library
+            .subjects
+            .retain(|subject| kinds.iter().any(|kind| kind.name() == subject.name));
+        let cases = bounds_cases(&library, 4, 3_000_000, &Unwatched, |_| ()).expect("to the end");
+        assert_eq!(cases.len(), 16);
+        let found = cases.iter().filter(|case| case.is_accepted);
+        let found: Vec<FoundPose> = found.filter_map(|case| case.found).collect();
+        assert!(found.len() >= 6, "{} accepted", found.len());
+        let held: Vec<(FoundPose, Uncertainty)> = found
+            .iter()
+            .filter_map(|found| Some((*found, found.held()?)))
+            .collect();
+        assert!(held.len() + 1 >= found.len(), "{found:?}");
+        let within = |(found, bounds): &&(FoundPose, Uncertainty)| {
+            found.error.shift.0 <= bounds.shift.0 && found.error.rotation.0 <= bounds.turn.0
+        };
+        assert!(
+            held.iter().filter(within).count() + 2 >= held.len(),
+            "{held:?}"
+        );
+    }
+}

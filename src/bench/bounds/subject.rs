@@ -1,0 +1,129 @@
+//! Parts whose surface is known, enrolled.
+
+use nalgebra::{Point3, UnitQuaternion, Vector3};
+
+use crate::{
+    bench::suites::{enrol_part, enrolled_name, enrolment_pose},
+    geometry::{mesh::TriangleMesh, principal::principal_axes, rigid::RigidTransform},
+    library::{About, EnrolError, EnrolParams, Library, PartName, enrol_mesh},
+    simulate::{PartKind, PartModel, Side},
+};
+
+/// A part that is rendered and inspected.
+#[derive(Clone, Debug)]
+pub struct Subject {
+    /// The name that it is enrolled by.
+    pub name: String,
+    /// Its surface, centred, its face towards -z: as the simulated cell hangs parts.
+    pub mesh: TriangleMesh,
+    /// Takes the reference's space into the mesh's.
+    pub mesh_from_part: RigidTransform,
+}
+
+/// Parts enrolled together.
+#[derive(Clone, Debug)]
+pub struct BoundsLibrary {
+    /// How they were enrolled, in a word.
+    pub title: String,
+    /// What they are inspected against.
+    pub library: Library,
+    /// The parts, in the library's order.
+    pub subjects: Vec<Subject>,
+}
+
+impl BoundsLibrary {
+    /// The eight parts of a car model, each enrolled from one capture.
+    pub fn captured(model_seed: u64) -> Result<Self, EnrolError> {
+        let mut all = Self::empty("captured");
+        for kind in PartKind::ALL {
+            let reference = enrol_part(kind, Side::Left, model_seed, &EnrolParams::default())?;
+            all.library.references.push(reference);
+            all.subjects.push(Subject {
+                name: enrolled_name(kind, Side::Left),
+                mesh: PartModel::new(kind, Side::Left, model_seed).into_mesh(),
+                mesh_from_part: enrolment_pose().inverse(),
+            });
+        }
+        Ok(all)
+    }
+
+    /// The same parts, enrolled from their meshes.
+    pub fn simulated_meshes(model_seed: u64) -> Result<Self, EnrolError> {
+        let meshes = PartKind::ALL.map(|kind| {
+            let mesh = PartModel::new(kind, Side::Left, model_seed).into_mesh();
+            (kind.name().to_owned(), mesh)
+        });
+        Self::of_meshes(meshes)
+    }
+
+    /// Any meshes, in metres.
+    pub fn of_meshes(
+        meshes: impl IntoIterator<Item = (String, TriangleMesh)>,
+    ) -> Result<Self, EnrolError> {
+        let mut all = Self::empty("mesh");
+        for (number, (name, mesh)) in meshes.into_iter().enumerate() {
+            let plain = PartName::new(&name.to_lowercase());
+            let spare =
+                || PartName::new(&format!("part_{number}")).expect("our own names are valid");
+            let about = About {
+                name: plain.unwrap_or_else(|_| spare()),
+                title: name,
+                notes: String::new(),
+                from: "mesh".to_owned(),
+                at: jiff::Timestamp::UNIX_EPOCH,
+                simulated: true,
+            };
+            let reference = enrol_mesh(&mesh, &about, &EnrolParams::default())?.reference;
+            reference.make_ready();
+            all.library.references.push(reference);
+            let mesh_from_part = hung_from_mesh(&mesh);
+            let hang = |p: &Point3<f32>| (mesh_from_part * p.cast::<f64>()).cast();
+            all.subjects.push(Subject {
+                name: about.name.as_str().to_owned(),
+                mesh: TriangleMesh {
+                    vertices: mesh.vertices.iter().map(hang).collect(),
+                    triangles: mesh.triangles,
+                },
+                mesh_from_part,
+            });
+        }
+        Ok(all)
+    }
+
+    fn empty(title: &str) -> Self {
+        Self {
+            title: title.to_owned(),
+            library: Library::default(),
+            subjects: Vec::new(),
+        }
+    }
+}
+
+/// Less of the area than this faces one way more than the other: the mesh is closed.
+const LEAST_ONE_SIDED: f64 = 0.2;
+
+/// Centres a mesh and turns its face, the side that more of its area looks to, towards -z: the camera. Of a closed mesh
+/// that is a side of its flattest extent.
+fn hung_from_mesh(mesh: &TriangleMesh) -> RigidTransform {
+    let corner = |i: u32| mesh.vertices[i as usize].cast::<f64>();
+    let facing = mesh.triangles.iter().fold(Vector3::zeros(), |sum, t| {
+        let (a, b, c) = (corner(t[0]), corner(t[1]), corner(t[2]));
+        sum + (b - a).cross(&(c - a)) / 2.0
+    });
+    let vertices = mesh.vertices.iter().map(|p| (p.cast::<f64>(), 1.0));
+    let flat = || principal_axes(vertices).map(|axes| axes.axes.column(2).into_owned());
+    let face = if facing.norm() > LEAST_ONE_SIDED * mesh.area() {
+        Some(facing)
+    } else {
+        flat()
+    };
+    let turn = face
+        .and_then(|face| UnitQuaternion::rotation_between(&face, &-Vector3::z()))
+        .unwrap_or_else(|| {
+            UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
+        });
+    let middle = mesh.bounds().map_or(Point3::origin(), |(low, high)| {
+        nalgebra::center(&low, &high).cast()
+    });
+    RigidTransform::from_parts((-(turn * middle.coords)).into(), turn)
+}

@@ -1,0 +1,81 @@
+//! The direction in which a pose is unconstrained, in words.
+
+use std::fmt;
+
+use nalgebra::{Matrix3, Vector3, Vector6};
+
+/// How a part could move and still lie on the reference.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Freedom {
+    /// Along an axis.
+    Slide(Axis),
+    /// About an axis.
+    Turn(Axis),
+    /// Too little of the part lies on the reference to tell.
+    Anyhow,
+}
+
+/// An axis of what was seen of the part.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Axis {
+    /// Its largest extent.
+    Long,
+    /// Across that, along its surface.
+    Short,
+    /// Square to its surface.
+    Normal,
+}
+
+impl Axis {
+    const ALL: [Self; 3] = [Self::Long, Self::Short, Self::Normal];
+}
+
+impl fmt::Display for Freedom {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(match self {
+            Self::Slide(Axis::Long) => "it can slide along its long side",
+            Self::Slide(Axis::Short) => "it can slide along its short side",
+            Self::Slide(Axis::Normal) => "it can move square to its surface",
+            Self::Turn(Axis::Long) => "it can turn about its long side",
+            Self::Turn(Axis::Short) => "it can turn about its short side",
+            Self::Turn(Axis::Normal) => "it can turn about the axis square to its surface",
+            Self::Anyhow => "it can slide or turn",
+        })
+    }
+}
+
+/// The principal axes of what was seen, and its size.
+pub(super) struct Frame {
+    /// Unit vectors as columns, in the order of [`Axis::ALL`].
+    axes: Matrix3<f64>,
+    /// Root mean square distance from the middle, metres: what a turn by one radian moves a point by.
+    pub(super) radius: f64,
+}
+
+impl Frame {
+    /// From the covariance of the points.
+    pub(super) fn of(covariance: &Matrix3<f64>) -> Self {
+        let eigen = covariance.symmetric_eigen();
+        let mut order = [0, 1, 2];
+        order.sort_by(|a, b| eigen.eigenvalues[*b].total_cmp(&eigen.eigenvalues[*a]));
+        Self {
+            axes: Matrix3::from_columns(&order.map(|i| eigen.eigenvectors.column(i).into_owned())),
+            radius: covariance.trace().max(0.0).sqrt(),
+        }
+    }
+
+    /// The freedom that a motion stands for: turn in radians, then shift in metres, about the middle.
+    pub(super) fn freedom(&self, motion: &Vector6<f64>) -> Freedom {
+        let (turn, shift) = (motion.fixed_rows::<3>(0), motion.fixed_rows::<3>(3));
+        if turn.norm() * self.radius > shift.norm() {
+            Freedom::Turn(self.nearest(&turn.into_owned()))
+        } else {
+            Freedom::Slide(self.nearest(&shift.into_owned()))
+        }
+    }
+
+    /// The axis nearest to a direction.
+    pub(super) fn nearest(&self, direction: &Vector3<f64>) -> Axis {
+        Axis::ALL[self.axes.tr_mul(direction).iamax()]
+    }
+}
