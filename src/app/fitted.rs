@@ -63,7 +63,7 @@ impl Shelved {
             // One that has no outline any more keeps the one it has, and its place.
             let cloud = loaded.cloud.clone();
             let prepared = Reference::prepare(&loaded.name, cloud, meta.coverage, &params);
-            Some(prepared.unwrap_or_else(|_| loaded.clone()))
+            Some(prepared.map_or_else(|_| loaded.clone(), |prepared| prepared.with_cut(loaded.cut)))
         });
         let library = Arc::new(Library {
             references: references.collect::<Option<_>>()?,

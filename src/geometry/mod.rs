@@ -5,7 +5,6 @@ pub mod mesh;
 pub mod nearest;
 pub mod nearest_field;
 pub mod normals;
-pub mod outline_field;
 pub mod parallel;
 pub mod plane;
 pub mod polygon;

@@ -18,7 +18,7 @@ use crate::{
         voxel::downsample,
     },
     stages::{
-        reference::{Coverage, Reference, ReferenceError, ReferenceParams},
+        reference::{Coverage, Reference, ReferenceError, ReferenceParams, ViewCut},
         scene::SceneCloud,
         segment::{NoPart, SegmentParams, SegmentedPart, segment},
     },
@@ -140,7 +140,7 @@ pub fn enrol_captured(
     params: &EnrolParams,
 ) -> Result<Enrolled, EnrolError> {
     let found = segment(scene, &params.segment).part?;
-    enrol_one_side(&found, about, params)
+    enrol_one_side(&found, scene, about, params)
 }
 
 /// Enrols those points of a captured scene, by their places in it, ascending: what a person took for the part.
@@ -158,12 +158,13 @@ pub fn enrol_selected(
             needed: MIN_POINTS,
         });
     }
-    enrol_one_side(&found, about, params)
+    enrol_one_side(&found, scene, about, params)
 }
 
 /// Enrols what was found in a scene, as a camera at the origin saw it.
 fn enrol_one_side(
     found: &SegmentedPart,
+    scene: &SceneCloud,
     about: &About,
     params: &EnrolParams,
 ) -> Result<Enrolled, EnrolError> {
@@ -174,6 +175,7 @@ fn enrol_one_side(
         how: How::Segmented,
         num_points: found.cloud.points.len(),
         voxel: Some(voxel),
+        cut: ViewCut::of(found, scene),
     };
     let mut enrolled = assemble(cloud, &source, about, params)?;
     if found.touches_edge {
@@ -216,6 +218,7 @@ pub fn enrol_whole(
         how: How::WholeCloud,
         num_points,
         voxel: Some(voxel),
+        cut: ViewCut::default(),
     };
     assemble(thin, &source, about, params)
 }
@@ -236,6 +239,7 @@ pub fn enrol_mesh(
         how: How::Mesh,
         num_points: cloud.points.len(),
         voxel: None,
+        cut: ViewCut::default(),
     };
     assemble(cloud, &source, about, params)
 }
@@ -246,6 +250,7 @@ struct Source {
     how: How,
     num_points: usize,
     voxel: Option<Metres>,
+    cut: ViewCut,
 }
 
 fn assemble(
@@ -261,7 +266,8 @@ fn assemble(
         cloud.clone(),
         source.coverage,
         &params.reference,
-    )?;
+    )?
+    .with_cut(source.cut);
     let signature =
         StoredSignature::of(&reference, &params.reference).ok_or(ReferenceError::NoOutline {
             num_points: reference.cloud.points.len(),
@@ -276,6 +282,7 @@ fn assemble(
             coverage: source.coverage,
             simulated: about.simulated,
             cloud: CloudCheck::of_cloud(&cloud),
+            cut: source.cut,
             enrolled: Enrolment {
                 at: about.at,
                 from: about.from.clone(),

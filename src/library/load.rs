@@ -154,7 +154,8 @@ fn read_entry(
         let meta = read_meta(entry)?;
         let cloud = read_cloud(entry, &meta.cloud)?;
         let mut reference =
-            Reference::prepare(meta.part_name().as_str(), cloud, meta.coverage, params)?;
+            Reference::prepare(meta.part_name().as_str(), cloud, meta.coverage, params)?
+                .with_cut(meta.cut);
         meta.name.as_str().clone_into(&mut reference.enrolled_as);
         let mut troubles = troubles(entry, &reference, look, params);
         if look == Look::Thorough

@@ -12,7 +12,7 @@ use crate::{
     stages::{
         contour::ContourParams,
         project::ProjectParams,
-        reference::{Coverage, Reference, ReferenceParams},
+        reference::{Coverage, Reference, ReferenceParams, ViewCut},
         signature::{LiteralSignature, SignatureParams},
     },
 };
@@ -57,6 +57,9 @@ pub struct PartMeta {
     pub simulated: bool,
     /// The cloud that belongs to it.
     pub cloud: CloudCheck,
+    /// Where the view that it was captured from cut it off; nothing of an entry that says nothing of it.
+    #[serde(default, skip_serializing_if = "ViewCut::is_nothing")]
+    pub cut: ViewCut,
     /// How it came into the library.
     pub enrolled: Enrolment,
     /// The nozzle's path over it, if one was stored.

@@ -3,14 +3,15 @@
 //! Outlines are alike where parts are not, and fail where a part is half hidden. So every placement of the best-ranked
 //! references becomes a start of a pose, refined coarsely; each reference's best is refined further, and its score
 //! then follows from distances and from what the camera sees: is the scene's part on the reference, and is the
-//! reference in the scene? Where only a piece of a part is in sight, the stretches of its outline that are not its own
-//! are left out, and the piece is laid onto all references by itself.
+//! reference in the scene? Where only a piece of a part is in sight, of the scene's or of the reference's, only what
+//! both show is compared, and the piece is laid onto the references by itself.
 
 mod candidate;
+mod coarse;
 mod ends;
 mod evidence;
+mod local_normal;
 mod outline_shift;
-mod partial;
 
 use nalgebra::{Point3, Vector3};
 use rand::{SeedableRng as _, seq::SliceRandom as _};
@@ -18,10 +19,11 @@ use rand_pcg::Pcg64;
 
 pub use self::evidence::{Evidence, FEATURES, NUM_FEATURES};
 use self::{
-    candidate::{Candidate, Trial},
+    candidate::Candidate,
+    coarse::Laid,
     ends::{Outline, outline_of},
+    local_normal::LocalNormals,
     outline_shift::outline_shift,
-    partial::Piece,
 };
 use crate::{
     stages::{
@@ -33,7 +35,7 @@ use crate::{
             uncertainty::uncertainty,
         },
         rank::{MatchEntry, MatchRanking, Query},
-        reference::Reference,
+        reference::{Reference, border::BorderPoint},
         scene::SceneCloud,
         segment::SegmentedPart,
     },
@@ -95,15 +97,14 @@ const FIRST: [Level; 2] = [
         search: Search::Field,
     },
 ];
-/// The plane of a piece is not that of the part: a piece starts further off.
+/// A piece is laid on by two points of its border: it starts further off.
 const FIRST_OF_A_PIECE: [Level; 2] = [
     Level {
-        scale: 0.06,
-        max_steps: 10,
+        max_steps: 7,
         ..FIRST[0]
     },
     Level {
-        max_steps: 6,
+        max_steps: 5,
         ..FIRST[1]
     },
 ];
@@ -154,7 +155,7 @@ pub fn confirm(
     ranking: MatchRanking,
     params: &ConfirmParams,
 ) -> (MatchRanking, Result<PoseEstimate, PoseError>) {
-    let seen = Seen::new(scene, params);
+    let seen = Seen::new(scene, references, params);
     if seen.source.surface.len() < 20 {
         let error = PoseError::TooFewPoints {
             which: "source",
@@ -163,31 +164,27 @@ pub fn confirm(
         };
         return (ranking, Err(error));
     }
-    let num_looked_at = match &seen.piece {
-        // What a piece looks like from afar says little: all are looked at.
-        Some(_) => params.num_references.max(NUM_FOR_A_PIECE),
-        None => params.num_references,
-    }
-    .min(ranking.entries.len());
-    let trials: Vec<Vec<Trial>> = ranking.entries[..num_looked_at]
-        .iter()
-        .map(|entry| seen.coarse_trials(&references[entry.reference], &entry.placements))
-        .collect();
-    let costs = trials.iter().flatten().map(|trial| trial.cost);
-    let least = costs.fold(f64::INFINITY, f64::min);
+    let mut entries = ranking.entries;
+    let num_looked_at = seen.put_forward(&mut entries, references, params);
+    let trials = seen.trials(&entries[..num_looked_at], references);
+    let costs = trials.iter().flatten().filter(|trial| !trial.is_piece);
+    let least = costs.map(|trial| trial.cost).fold(f64::INFINITY, f64::min);
     let mut trials = trials.into_iter();
-    let mut confirmed: Vec<(MatchEntry, Option<Candidate>)> = ranking
-        .entries
+    let mut confirmed: Vec<(MatchEntry, Option<Candidate>)> = entries
         .into_iter()
-        .map(|mut entry| {
+        .enumerate()
+        .map(|(number, mut entry)| {
             let candidate = trials.next().and_then(|trials| {
                 // What is far off already will not win: it is scored where it is.
-                let is_worth_more = trials.first()?.cost < HOPELESS * least;
+                let first = trials.first()?;
+                let is_worth_more = first.is_piece || first.cost < HOPELESS * least;
                 let levels: &[Level] = if is_worth_more { &SECOND } else { &[] };
                 seen.best_candidate(&references[entry.reference], &trials, levels)
             });
             entry.score = match &candidate {
                 Some(candidate) => candidate.evidence.score(),
+                // Whatever a piece was laid onto without success is not it.
+                None if number < num_looked_at => 0.0,
                 None => entry.score * UNCONFIRMED,
             };
             (entry, candidate)
@@ -230,28 +227,79 @@ struct Seen<'a> {
     scene: &'a Scene<'a>,
     source: Source,
     centre: Point3<f64>,
+    /// Length of the outline that is the part's own, metres.
+    own_m: f64,
     /// Share of the outline where only the view ends.
     cut_share: f64,
-    /// `None` if a whole part is in sight.
-    piece: Option<Piece>,
+    /// `None` if a whole part is in sight, and whole ones are enrolled.
+    laid: Option<Laid>,
     tolerance: Tolerance,
 }
 
+/// References that are cut off and looked at whatever they rank.
+const MOST_CUT_REFERENCES: usize = 8;
+
 impl<'a> Seen<'a> {
-    fn new(scene: &'a Scene<'a>, params: &ConfirmParams) -> Self {
+    fn new(scene: &'a Scene<'a>, references: &[Reference], params: &ConfirmParams) -> Self {
         let outline = outline_of(scene);
         let source = thinned_source(scene, &outline, params);
+        let are_whole = || {
+            references
+                .iter()
+                .all(|reference| reference.cut.is_nothing())
+        };
+        let is_whole = outline.cut_share < CUT_SHARE && are_whole();
+        let laid = (!is_whole).then(|| {
+            Laid::new(
+                &source.surface,
+                oriented_border(scene, &outline),
+                params.seed,
+            )
+        });
         Self {
             scene,
             centre: centre_of(&source.surface),
             source,
+            own_m: outline.own.len() as f64 * scene.query.plane.pixel.0,
             cut_share: outline.cut_share,
-            piece: piece_of(scene, &outline),
+            laid,
             tolerance: Tolerance {
                 base: params.tolerance,
                 noise_at_1m: scene.part.noise_at_1m,
             },
         }
+    }
+
+    /// What is laid onto a reference as a piece; `None` where both are whole.
+    fn piece_for(&self, reference: &Reference) -> Option<&Laid> {
+        let is_piece = self.cut_share >= CUT_SHARE || !reference.cut.is_nothing();
+        self.laid.as_ref().filter(|_| is_piece)
+    }
+
+    /// Puts the entries that are to be looked at to the front, and counts them.
+    fn put_forward(
+        &self,
+        entries: &mut [MatchEntry],
+        references: &[Reference],
+        params: &ConfirmParams,
+    ) -> usize {
+        if self.cut_share >= CUT_SHARE {
+            // What a piece looks like from afar says little: all are looked at.
+            return params
+                .num_references
+                .max(NUM_FOR_A_PIECE)
+                .min(entries.len());
+        }
+        let mut num = params.num_references.min(entries.len());
+        let most = num + MOST_CUT_REFERENCES;
+        for i in num..entries.len() {
+            let is_cut = !references[entries[i].reference].cut.is_nothing();
+            if is_cut && num < most {
+                entries[num..=i].rotate_right(1);
+                num += 1;
+            }
+        }
+        num
     }
 
     /// Refines a candidate to the end.
@@ -269,6 +317,7 @@ impl<'a> Seen<'a> {
         candidate.uncertainty = Some(uncertainty(source, &closest, &target, pose, &THIRD[2]));
         (candidate.fit, candidate.evidence) =
             self.weigh(reference, candidate.view, pose, &closest, NUM_LOOKED_FOR);
+        candidate.evidence.rival = candidate.rival;
         let view = &reference.views[candidate.view];
         let noise = self.scene.part.noise_at_1m;
         candidate.evidence.outline_shift_m = outline_shift(
@@ -278,6 +327,7 @@ impl<'a> Seen<'a> {
             &view.plane_from_part,
             pose,
             noise,
+            &reference.cut,
         );
     }
 }
@@ -311,25 +361,29 @@ fn thinned_source(scene: &Scene<'_>, outline: &Outline, params: &ConfirmParams) 
 const CUT_SHARE: f64 = 0.04;
 /// References that a piece is laid onto.
 const NUM_FOR_A_PIECE: usize = 16;
-/// Spacing of the points that stand for a piece's area, pixels.
-const PIECE_SPACING: usize = 6;
+/// Points of the border that get a normal.
+const NUM_ORIENTED: usize = 80;
 
-/// The piece of a part that the scene shows; `None` if it shows a whole part.
-fn piece_of(scene: &Scene<'_>, outline: &Outline) -> Option<Piece> {
-    if outline.cut_share < CUT_SHARE {
-        return None;
-    }
-    let plane = scene.query.plane;
-    let image = &plane.image;
-    let mut area = Vec::new();
-    for row in (0..image.height).step_by(PIECE_SPACING) {
-        for column in (0..image.width).step_by(PIECE_SPACING) {
-            if image.is_set(column as i64, row as i64) {
-                area.push(plane.plane_point(column as f64, row as f64));
-            }
-        }
-    }
-    Piece::new(outline.own.iter().map(nalgebra::Point3::xy), &area)
+/// The part's own border with the surface's normals, camera space.
+fn oriented_border(scene: &Scene<'_>, outline: &Outline) -> Vec<BorderPoint> {
+    let camera_from_plane = scene.query.plane.plane_from_camera.inverse();
+    let normals = LocalNormals::new(scene);
+    let step = outline.own.len().div_ceil(NUM_ORIENTED).max(1);
+    let points = outline.own.iter().zip(&outline.along).step_by(step);
+    points
+        .filter_map(|(at, along)| {
+            let at = camera_from_plane * at;
+            let normal = normals.at(&at)?;
+            let along = (camera_from_plane * along).cast::<f32>();
+            // Along the border, and in the surface.
+            let along = (along - normal * along.dot(&normal)).try_normalize(0.3)?;
+            Some(BorderPoint {
+                at: at.cast(),
+                along,
+                normal,
+            })
+        })
+        .collect()
 }
 
 fn centre_of(points: &[Point3<f32>]) -> Point3<f64> {

@@ -5,7 +5,7 @@
 //! shapes. The paper keeps the largest border; we keep the openings inside it too, and always the same direction:
 //! the outline runs counter-clockwise in plane space (x right, y up), openings clockwise.
 
-use nalgebra::{Point2, Point3};
+use nalgebra::{Point2, Point3, Vector3};
 
 use crate::{
     error::Advice,
@@ -142,6 +142,27 @@ impl Contour {
 pub fn lift_border(border: &[Point2<f64>], plane: &PlaneImage) -> Vec<Point3<f64>> {
     let lifted = |p: &Point2<f64>| height_near(plane, p).map(|z| Point3::new(p.x, p.y, z));
     border.iter().filter_map(lifted).collect()
+}
+
+/// Points of a border on either side that fix its direction: some 4 cm.
+const TANGENT: usize = 9;
+
+/// The points of one closed border, on the surface, each with the unit vector along it: plane space. `None` where no
+/// reading is close by.
+pub fn lift_oriented(
+    border: &[Point2<f64>],
+    plane: &PlaneImage,
+) -> Vec<Option<(Point3<f64>, Vector3<f64>)>> {
+    let heights: Vec<Option<f64>> = border.iter().map(|p| height_near(plane, p)).collect();
+    let n = border.len();
+    let oriented = |i: usize| {
+        let height = heights[i]?;
+        let at = |i: usize| border[i].coords.push(heights[i].unwrap_or(height));
+        let (before, after) = ((i + n - TANGENT % n) % n, (i + TANGENT) % n);
+        let along = (at(after) - at(before)).try_normalize(1e-9)?;
+        Some((Point3::from(at(i)), along))
+    };
+    (0..n).map(oriented).collect()
 }
 
 /// The height of the surface at the reading nearest to a plane point, at most two pixels away.

@@ -4,22 +4,27 @@
 //! is seen from, so we keep several *views*: the reference cloud as a camera would see it from in front and from
 //! some 20 to 25 degrees around. A view goes through the same projection, contour and signature as a scene.
 
+pub mod border;
+mod view_cut;
 mod viewpoints;
 
 use std::sync::OnceLock;
 
-use nalgebra::{Isometry2, Point2, Point3};
+use nalgebra::{Isometry2, Point2, Point3, Vector3};
 
-pub use self::viewpoints::seen_around;
-use self::viewpoints::{VIEW_DISTANCE, viewpoints, visible_from};
+use self::{
+    border::{Border, BorderPoint},
+    viewpoints::{VIEW_DISTANCE, viewpoints, visible_from},
+};
+pub use self::{view_cut::ViewCut, viewpoints::seen_around};
 use crate::{
     error::Advice,
     geometry::{
-        cloud::PointCloud, nearest::KdTree, nearest_field::NearestField,
-        outline_field::OutlineField, raster::PackedImage, rigid::RigidTransform,
+        cloud::PointCloud, nearest::KdTree, nearest_field::NearestField, raster::PackedImage,
+        rigid::RigidTransform,
     },
     stages::{
-        contour::{Contour, ContourParams, find_contour},
+        contour::{Contour, ContourParams, find_contour, lift_oriented},
         correlation::{LiteralReference, RaySpectra},
         pose::{PoseError, PreparedTarget, edge_points::EdgePoints, refine::Target},
         project::{PlaneImage, ProjectParams, project_weighted},
@@ -101,6 +106,11 @@ pub struct Reference {
     pub spectra: RaySpectra,
     /// What only the paper's matcher looks at, and so made when it is first asked for.
     literal: OnceLock<LiteralReference>,
+    /// Where the view that it was captured from cut it off.
+    pub cut: ViewCut,
+    /// Oriented points and their pairs, from each side that it can be seen from; made when the first piece of a part is
+    /// laid onto it.
+    borders: OnceLock<Vec<Border>>,
     /// Likewise: the default pose begins from placements and needs none of it.
     whole: OnceLock<Result<PreparedTarget, PoseError>>,
 }
@@ -124,8 +134,6 @@ pub struct ReferenceView {
     pub signature: FanSignature,
     /// Outline and openings on the surface, part space; made when a pose is first tried from this view.
     edges: OnceLock<EdgePoints>,
-    /// Field of nearest points around outline and openings; made when the first piece of a part is laid onto it.
-    outline_field: OnceLock<OutlineField>,
 }
 
 /// Side of a pixel of the packed image, metres: finer than the spacing of the points that are looked up in it, and a
@@ -184,6 +192,8 @@ impl Reference {
             spectra: spectra_of(&views),
             views,
             literal: OnceLock::new(),
+            cut: ViewCut::default(),
+            borders: OnceLock::new(),
             whole: OnceLock::new(),
         })
     }
@@ -199,7 +209,8 @@ impl Reference {
             tree,
             field,
             edges: view.edges.get_or_init(|| {
-                let edges = sheet_edges(view, cloud, field);
+                let edges = sheet_edges(view, cloud, field, &self.cut);
+                let edges: Vec<Point3<f32>> = edges.iter().map(|edge| edge.at).collect();
                 EdgePoints::new(&edges, NUM_EDGES)
             }),
             spacing: SPACING,
@@ -214,6 +225,32 @@ impl Reference {
         for view in 0..self.views.len() {
             self.target(view);
         }
+    }
+
+    /// The same part, captured in a view that cut it off so.
+    #[must_use]
+    pub fn with_cut(self, cut: ViewCut) -> Self {
+        Self { cut, ..self }
+    }
+
+    /// Its border from each side that it can be seen from.
+    pub fn borders(&self) -> &[Border] {
+        self.borders.get_or_init(|| {
+            let Some(front) = self.views.first() else {
+                return Vec::new();
+            };
+            let normal = |view: &ReferenceView| view.plane_from_part.inverse() * Vector3::z();
+            let turned = |view: &&ReferenceView| normal(view).dot(&normal(front));
+            let back = self
+                .views
+                .iter()
+                .min_by(|a, b| turned(a).total_cmp(&turned(b)))
+                .filter(|view| turned(view) < -0.9);
+            std::iter::once(front)
+                .chain(back)
+                .map(|view| Border::new(&sheet_edges(view, &self.cloud, &self.field, &self.cut)))
+                .collect()
+        })
     }
 
     /// Search tree over the cloud.
@@ -271,6 +308,8 @@ impl Reference {
             spectra: spectra_of(&views),
             views,
             literal: OnceLock::new(),
+            cut: ViewCut::default(),
+            borders: OnceLock::new(),
             whole: OnceLock::new(),
         }
     }
@@ -295,7 +334,6 @@ impl ReferenceView {
                 .image
                 .packed((PACKED_PIXEL / plane.pixel.0).round() as usize),
             image_area: plane.image.num_set() as f64 * plane.pixel.0.powi(2),
-            outline_field: OnceLock::new(),
             plane_from_part: plane.plane_from_camera,
             plane,
             contour,
@@ -319,14 +357,6 @@ impl ReferenceView {
         Some(Self::new(*viewpoint, plane, contour, signature))
     }
 
-    /// The nearest points of outline and openings, in the view's plane space.
-    pub fn outline_field(&self) -> &OutlineField {
-        self.outline_field.get_or_init(|| {
-            let borders = std::iter::once(&self.contour.outline).chain(&self.contour.openings);
-            OutlineField::new(borders.flatten().copied().collect())
-        })
-    }
-
     /// The transform of view-plane space into a scene's plane space, in the plane, that turns by `turn` and carries
     /// the view's centroid to the scene's.
     pub fn scene_plane_from_view_plane(
@@ -344,20 +374,35 @@ impl ReferenceView {
 /// away, and that outline wanders over the surface as the viewpoint moves.
 const LEAST_FACING_AT_EDGE: f64 = 0.5;
 
+/// A border this close to where the view cut the part off is the view's, metres.
+const AT_CUT: f64 = 0.02;
+
 /// The points of outline and openings, in the cloud's space, where the sheet itself ends.
-fn sheet_edges(view: &ReferenceView, cloud: &PointCloud, field: &NearestField) -> Vec<Point3<f32>> {
+fn sheet_edges(
+    view: &ReferenceView,
+    cloud: &PointCloud,
+    field: &NearestField,
+    cut: &ViewCut,
+) -> Vec<BorderPoint> {
     let cloud_from_plane = view.plane_from_part.inverse();
-    let is_sheet_edge = |p: &Point3<f32>| {
-        let Some((nearest, normals)) = field.nearest(p).zip(cloud.normals.as_ref()) else {
-            return true;
-        };
-        let towards = (view.viewpoint - p.cast::<f64>()).normalize();
-        normals[nearest.index].cast::<f64>().dot(&towards) >= LEAST_FACING_AT_EDGE
+    let edge = |(at, along): (Point3<f64>, Vector3<f64>)| {
+        let at = cloud_from_plane * at;
+        if cut.depth_inside(&at) < AT_CUT {
+            return None;
+        }
+        let towards = (view.viewpoint - at).normalize();
+        let nearest = field.nearest(&at.cast()).zip(cloud.normals.as_ref());
+        let normal = nearest.map_or(towards, |(n, normals)| normals[n.index].cast());
+        (normal.dot(&towards) >= LEAST_FACING_AT_EDGE).then(|| BorderPoint {
+            at: at.cast(),
+            along: (cloud_from_plane * along).cast(),
+            normal: normal.cast(),
+        })
     };
-    view.contour
-        .lifted(&view.plane)
-        .iter()
-        .map(|p| (cloud_from_plane * p).cast())
-        .filter(is_sheet_edge)
+    let borders = std::iter::once(&view.contour.outline).chain(&view.contour.openings);
+    borders
+        .flat_map(|border| lift_oriented(border, &view.plane))
+        .flatten()
+        .filter_map(edge)
         .collect()
 }

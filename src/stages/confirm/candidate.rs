@@ -4,6 +4,7 @@ use nalgebra::{Isometry2, Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use super::{
     COST_LIMIT, FIRST, FIRST_OF_A_PIECE, HOPELESS, Seen,
+    coarse::{Laid, Start},
     evidence::{Evidence, facing_view},
 };
 use crate::{
@@ -15,7 +16,7 @@ use crate::{
             quality::Fit,
             refine::{Level, Refined, Search, cost, refine},
         },
-        rank::Placement,
+        rank::{MatchEntry, Placement},
         reference::Reference,
     },
 };
@@ -31,6 +32,8 @@ pub(super) struct Candidate {
     /// `None` as long as it is not refined to the end.
     pub(super) uncertainty: Option<Uncertainty>,
     pub(super) runner_up: Option<RunnerUp>,
+    /// The score of the best other pose, 0 if none was weighed.
+    pub(super) rival: f64,
 }
 
 impl Candidate {
@@ -59,41 +62,76 @@ impl Candidate {
 pub(super) struct Trial {
     view: usize,
     refined: Refined,
+    /// Square metres of a whole part, without a unit of a piece.
     pub(super) cost: f64,
+    /// Whether it is a piece that is laid on.
+    pub(super) is_piece: bool,
 }
 
 /// Poses of a whole part on one reference that are refined: too few points decide between the two ways round.
 const POSES_OF_A_WHOLE: usize = 2;
 /// Poses of a piece: it may lie in several places along the part.
-const POSES_OF_A_PIECE: usize = 8;
-/// Starts of a piece that lie this close, turn (degrees) and shift (millimetres), are of one place, seen in
-/// neighbouring views.
-const SAME_PLACE: (f64, f64) = (35.0, 60.0);
-/// Starts of a piece from one place.
-const STARTS_OF_A_PLACE: usize = 2;
+const POSES_OF_A_PIECE: usize = 3;
+/// Starts of a piece on all references that are refined.
+const MOST_REFINED: usize = 16;
+/// A start of a piece that costs this much more than the best one is not refined; nor is a pose weighed.
+const WORSE_START: f64 = 0.5;
+const WORSE_POSE: f64 = 0.35;
 /// Points of the part and of the reference on which the first figures are taken.
 const NUM_MEASURED: usize = 500;
 const NUM_LOOKED_FOR: usize = 700;
-/// Starts of a piece in all.
-const MAX_STARTS: usize = 16;
 
 impl Seen<'_> {
-    /// The poses that the placements of one reference lead to, the cheapest first.
-    pub(super) fn coarse_trials(
+    /// Of each entry the poses that its placements lead to, the cheapest first; of a piece only those that are worth a
+    /// refinement.
+    pub(super) fn trials(
         &self,
-        reference: &Reference,
-        placements: &[Placement],
-    ) -> Vec<Trial> {
-        let first = match &self.piece {
-            Some(_) => &FIRST_OF_A_PIECE,
-            None => &FIRST,
+        entries: &[MatchEntry],
+        references: &[Reference],
+    ) -> Vec<Vec<Trial>> {
+        let mut starts: Vec<(usize, Start)> = Vec::new();
+        for (number, entry) in entries.iter().enumerate() {
+            let reference = &references[entry.reference];
+            if let Some(laid) = self.piece_for(reference) {
+                let placed = self.distinct_starts(reference, &entry.placements);
+                let placed = placed.into_iter().map(|start| start.1);
+                let of_reference = self.coarse_starts(laid, reference, placed);
+                starts.extend(of_reference.into_iter().map(|start| (number, start)));
+            }
+        }
+        starts.sort_by(|a, b| a.1.cost.total_cmp(&b.1.cost));
+        let least = starts.first().map_or(0.0, |best| best.1.cost);
+        starts.truncate(MOST_REFINED);
+        starts.retain(|start| start.1.cost < least + WORSE_START);
+        let of_entry = |(number, entry): (usize, &MatchEntry)| {
+            let reference = &references[entry.reference];
+            let mut trials: Vec<Trial> = match self.piece_for(reference) {
+                Some(laid) => starts
+                    .iter()
+                    .filter(|start| start.0 == number)
+                    .filter_map(|(_, start)| {
+                        let pose = &start.target_from_source;
+                        let view = facing_view(reference, pose);
+                        self.attempt(reference, view, pose, &FIRST_OF_A_PIECE, Some(laid))
+                    })
+                    .collect(),
+                None => self
+                    .distinct_starts(reference, &entry.placements)
+                    .into_iter()
+                    .filter_map(|(view, start)| self.attempt(reference, view, &start, &FIRST, None))
+                    .collect(),
+            };
+            trials.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+            trials
         };
-        let mut trials: Vec<Trial> = self
-            .distinct_starts(reference, placements)
-            .into_iter()
-            .filter_map(|(view, start)| self.attempt(reference, view, &start, first))
-            .collect();
-        trials.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        let mut trials: Vec<Vec<Trial>> = entries.iter().enumerate().map(of_entry).collect();
+        let of_pieces = trials.iter().flatten().filter(|trial| trial.is_piece);
+        let least = of_pieces
+            .map(|trial| trial.cost)
+            .fold(f64::INFINITY, f64::min);
+        for trials in &mut trials {
+            trials.retain(|trial| !trial.is_piece || trial.cost < least + WORSE_POSE);
+        }
         trials
     }
 
@@ -104,7 +142,8 @@ impl Seen<'_> {
         trials: &[Trial],
         levels: &[Level],
     ) -> Option<Candidate> {
-        let num_poses = match &self.piece {
+        let laid = self.piece_for(reference);
+        let num_poses = match laid {
             Some(_) => POSES_OF_A_PIECE,
             None => POSES_OF_A_WHOLE,
         };
@@ -122,13 +161,13 @@ impl Seen<'_> {
             .into_iter()
             .take(num_poses)
             .filter_map(|trial| {
-                let may_win = trial.cost < HOPELESS * least;
-                self.finer(reference, trial, if may_win { levels } else { &[] })
+                let may_win = trial.is_piece || trial.cost < HOPELESS * least;
+                self.finer(reference, trial, if may_win { levels } else { &[] }, laid)
             })
             .collect();
         finer.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-        // The cost does not know what hides a piece, the evidence does; for a whole part the cost is enough.
-        let num_weighed = match &self.piece {
+        // For a whole part the cost is enough.
+        let num_weighed = match laid {
             Some(_) => finer.len(),
             None => 1,
         };
@@ -138,20 +177,34 @@ impl Seen<'_> {
             .filter_map(|trial| self.weighed(reference, trial))
             .collect();
         weighed.sort_by(|a, b| b.evidence.score().total_cmp(&a.evidence.score()));
-        let mut best = weighed.into_iter().next()?;
+        let mut weighed = weighed.into_iter();
+        let mut best = weighed.next()?;
         let pose = best.refined.target_from_source;
         let is_other =
-            |trial: &&Trial| self.is_apart(&pose, &trial.refined.target_from_source, POSE_APART);
-        best.runner_up = finer.iter().find(is_other).map(|other| RunnerUp {
+            |pose_of_other: &RigidTransform| self.is_apart(&pose, pose_of_other, POSE_APART);
+        best.rival = weighed
+            .find(|other| is_other(&other.refined.target_from_source))
+            .map_or(0.0, |other| other.evidence.score());
+        best.evidence.rival = best.rival;
+        let other = finer
+            .iter()
+            .find(|trial| is_other(&trial.refined.target_from_source));
+        best.runner_up = other.map(|other| RunnerUp {
             target_from_source: other.refined.target_from_source,
             ratio: (other.cost / best.cost.max(f64::MIN_POSITIVE)).max(1.0),
         });
         Some(best)
     }
 
-    fn finer(&self, reference: &Reference, trial: &Trial, levels: &[Level]) -> Option<Trial> {
+    fn finer(
+        &self,
+        reference: &Reference,
+        trial: &Trial,
+        levels: &[Level],
+        laid: Option<&Laid>,
+    ) -> Option<Trial> {
         let start = &trial.refined.target_from_source;
-        let mut finer = self.attempt(reference, trial.view, start, levels)?;
+        let mut finer = self.attempt(reference, trial.view, start, levels, laid)?;
         let before = trial.refined.iterations.iter().copied();
         finer.refined.iterations.splice(0..0, before);
         Some(finer)
@@ -172,6 +225,7 @@ impl Seen<'_> {
             fit,
             evidence,
             runner_up: None,
+            rival: 0.0,
             uncertainty: None,
         })
     }
@@ -183,17 +237,6 @@ impl Seen<'_> {
         placements: &[Placement],
     ) -> Vec<(usize, RigidTransform)> {
         let mut starts: Vec<(usize, RigidTransform)> = Vec::new();
-        let of_piece = self.piece.as_ref().map(|piece| piece.starts(reference));
-        for (view, flat) in of_piece.unwrap_or_default() {
-            let start = self.start_of(reference, view, &flat);
-            let is_near = |s: &&(usize, RigidTransform)| !self.is_apart(&s.1, &start, SAME_PLACE);
-            if starts.iter().filter(is_near).count() < STARTS_OF_A_PLACE {
-                starts.push((view, start));
-            }
-            if starts.len() == MAX_STARTS {
-                break;
-            }
-        }
         for placement in placements {
             let view = &reference.views[placement.view];
             let centroid = &self.scene.query.signature.centroid;
@@ -213,14 +256,19 @@ impl Seen<'_> {
         view: usize,
         start: &RigidTransform,
         levels: &[Level],
+        laid: Option<&Laid>,
     ) -> Option<Trial> {
         let target = reference.target(view)?;
         let refined = refine(&self.source, &target, start, levels);
         let level = levels.last().unwrap_or(&FIRST[1]);
         let pose = &refined.target_from_source;
-        let cost = cost(&self.source, &target, pose, level, COST_LIMIT);
+        let cost = match laid {
+            Some(laid) => self.coarse_cost(laid, reference, pose),
+            None => cost(&self.source, &target, pose, level, COST_LIMIT),
+        };
         Some(Trial {
             view,
+            is_piece: laid.is_some(),
             refined,
             cost,
         })
@@ -243,7 +291,12 @@ impl Seen<'_> {
     }
 
     /// True if two poses, which map from the scene, are apart there by more than a turn and a shift.
-    fn is_apart(&self, a: &RigidTransform, b: &RigidTransform, limits: (f64, f64)) -> bool {
+    pub(super) fn is_apart(
+        &self,
+        a: &RigidTransform,
+        b: &RigidTransform,
+        limits: (f64, f64),
+    ) -> bool {
         let apart = pose_error(a, b, &self.centre);
         apart.rotation.degrees() > limits.0 || apart.shift.mm() > limits.1
     }

@@ -5,10 +5,10 @@
 //! to something nearer (it hides the part), or to something farther (the part ends there). Pixels without a reading
 //! are passed over, because a structured-light sensor has none in the shadow of what is nearer.
 
-use nalgebra::{Point2, Point3, Vector2};
+use nalgebra::{Point2, Point3, Vector2, Vector3};
 
 use super::Scene;
-use crate::geometry::cloud::is_finite;
+use crate::{geometry::cloud::is_finite, stages::contour::lift_oriented};
 
 /// How far outwards a reading is looked for, pixels: a shadow beside something half a metre nearer is 15 wide.
 const WALK: i64 = 32;
@@ -25,6 +25,8 @@ const TANGENT: usize = 4;
 pub(super) struct Outline {
     /// Points where the part ends, openings included.
     pub(super) own: Vec<Point3<f64>>,
+    /// Unit vectors along the border at each of them, the surface to their left.
+    pub(super) along: Vec<Vector3<f64>>,
     /// Share of the outline where only the view ends, 0..1.
     pub(super) cut_share: f64,
 }
@@ -34,12 +36,12 @@ pub(super) fn outline_of(scene: &Scene<'_>) -> Outline {
     let query = &scene.query;
     let outline = &query.contour.outline;
     let camera_from_plane = query.plane.plane_from_camera.inverse();
-    let mut own = Vec::with_capacity(outline.len());
     let (mut num_cut, mut num) = (0.0_f64, 0.0_f64);
     let n = outline.len();
     let is_part = PartMask::new(scene);
-    for (i, point) in outline.iter().enumerate() {
-        let Some(lifted) = crate::stages::contour::lift_border(&[*point], query.plane).pop() else {
+    let mut own: Vec<(Point3<f64>, Vector3<f64>)> = Vec::with_capacity(n);
+    for (i, oriented) in lift_oriented(outline, query.plane).into_iter().enumerate() {
+        let Some((lifted, along)) = oriented else {
             continue;
         };
         num += 1.0;
@@ -48,25 +50,27 @@ pub(super) fn outline_of(scene: &Scene<'_>) -> Outline {
             outline[(i + TANGENT) % n],
         );
         // The outline runs counter-clockwise: outwards is to the right.
-        let along: Vector2<f64> = after - before;
-        let outwards = Vector2::new(along.y, -along.x);
+        let beside: Vector2<f64> = after - before;
+        let outwards = Vector2::new(beside.y, -beside.x);
         let is_cut = is_part.as_ref().is_some_and(|mask| {
             mask.is_cut(&(camera_from_plane * lifted), || {
                 let out = outwards.try_normalize(1e-9)? * 0.02;
-                Some(camera_from_plane * (lifted + nalgebra::Vector3::new(out.x, out.y, 0.0)))
+                Some(camera_from_plane * (lifted + Vector3::new(out.x, out.y, 0.0)))
             })
         });
         if is_cut {
             num_cut += 1.0;
         } else {
-            own.push(lifted);
+            own.push((lifted, along));
         }
     }
     for opening in &query.contour.openings {
-        own.extend(crate::stages::contour::lift_border(opening, query.plane));
+        own.extend(lift_oriented(opening, query.plane).into_iter().flatten());
     }
+    let (own, along) = own.into_iter().unzip();
     Outline {
         own,
+        along,
         cut_share: num_cut / num.max(1.0),
     }
 }

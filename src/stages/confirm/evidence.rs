@@ -38,8 +38,16 @@ use crate::{
 /// What speaks for and against a reference at its pose. Distances are cut off at 40 mm, so one stray counts little.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 pub struct Evidence {
-    /// Share of the part's points that lie off the reference, 0..1.
+    /// Share of the part's points that lie off the reference, of those that its view could show, 0..1.
     pub off: f64,
+    /// Share of the part's points beyond where the reference's view cut it off, 0..1.
+    pub beyond: f64,
+    /// Area of the part that lies on the reference, square metres.
+    pub seen_m2: f64,
+    /// Length of the part's outline that lies on the reference's, metres.
+    pub edge_m: f64,
+    /// The score of the best other pose of the same reference; 0 if none was weighed.
+    pub rival: f64,
     /// Share of the reference that the camera looks through, of what it sees or looks through, 0..1.
     pub missing: f64,
     /// Share of the reference that something nearer hides, 0..1.
@@ -62,6 +70,10 @@ pub struct Evidence {
 
 /// Distances beyond this count as this, metres.
 const FAR: f64 = 0.04;
+/// A point this close to where the reference's view ends may lie beyond it, metres.
+const AT_CUT: f64 = 0.015;
+/// An edge this close to the reference's lies on it, metres.
+const ON_EDGE: f64 = 0.02;
 /// Side of a patch, metres: some 40 points of a door, and less than the radius of anything pressed into a sheet.
 const PATCH: f32 = 0.12;
 /// Fewer points than this make no mean.
@@ -94,14 +106,26 @@ impl Seen<'_> {
             tolerance,
             num_looked_for,
         );
+        let is_beyond = |at: &Point3<f32>| reference.cut.depth_inside(&at.cast()) < AT_CUT;
+        let shared = || {
+            measured
+                .iter()
+                .zip(closest)
+                .filter(|(_, c)| !is_beyond(&c.at))
+        };
+        let (shared_points, shared_closest): (Vec<Point3<f32>>, Vec<Closest>) =
+            shared().map(|(p, c)| (*p, *c)).unzip();
         let fit = Fit {
             sight,
-            ..measure_fit(measured, closest, &target, tolerance)
+            ..measure_fit(&shared_points, &shared_closest, &target, tolerance)
         };
+        let beyond = 1.0 - shared_points.len() as f64 / measured.len().max(1) as f64;
+        let (outline_m, edge_share) =
+            outline_distance(&self.source, &target, target_from_source, &is_beyond);
         let noise = |p: &Point3<f32>| scene.part.noise_at_1m.0 * f64::from(p.z * p.z);
-        let noise_sq = measured.iter().map(|p| noise(p).powi(2)).sum::<f64>();
-        let noise_sq = noise_sq / measured.len().max(1) as f64;
-        let relief_sq = relief(closest, &target).powi(2);
+        let noise_sq = shared_points.iter().map(|p| noise(p).powi(2)).sum::<f64>();
+        let noise_sq = noise_sq / shared_points.len().max(1) as f64;
+        let relief_sq = relief(&shared_closest, &target).powi(2);
         let evidence = Evidence {
             off: 1.0 - fit.overlap,
             missing: sight.map_or(0.0, |s| {
@@ -112,7 +136,11 @@ impl Seen<'_> {
             relief_m: (relief_sq - NOISE_LEFT * NOISE_LEFT * noise_sq)
                 .max(0.0)
                 .sqrt(),
-            outline_m: outline_distance(&self.source, &target, target_from_source),
+            outline_m,
+            beyond,
+            seen_m2: scene.query.contour.area * (1.0 - beyond) * fit.overlap,
+            edge_m: self.own_m * edge_share,
+            rival: 0.0,
             outline_shift_m: None,
             cut: self.cut_share,
             facing: facing(reference, view, target_from_source),
@@ -144,21 +172,32 @@ fn relief(closest: &[Closest], target: &Target<'_>) -> f64 {
     (sum / num.max(1.0)).sqrt()
 }
 
-/// Mean distance of the part's edges to the reference's.
+/// Mean distance of the part's edges to the reference's, and the share of them that lies there.
 fn outline_distance(
     source: &Source,
     target: &Target<'_>,
     target_from_source: &RigidTransform,
-) -> f64 {
+    is_beyond: &dyn Fn(&Point3<f32>) -> bool,
+) -> (f64, f64) {
     if source.edges.is_empty() || target.edges.is_empty() {
-        return FAR;
+        return (FAR, 0.0);
     }
     let moved = target_from_source.cast::<f32>();
-    let distances = source.edges.iter().map(|p| {
-        let closest = target.edges.closest(&(moved * p), (FAR * FAR) as f32);
-        closest.map_or(FAR, |c| f64::from(c.1).sqrt())
-    });
-    distances.sum::<f64>() / source.edges.len() as f64
+    let (mut num, mut num_on, mut sum) = (0.0_f64, 0.0, 0.0);
+    for p in &source.edges {
+        let at = moved * p;
+        if !is_beyond(&at) {
+            let closest = target.edges.closest(&at, (FAR * FAR) as f32);
+            let off = closest.map_or(FAR, |c| f64::from(c.1).sqrt());
+            num += 1.0;
+            num_on += if off < ON_EDGE { 1.0 } else { 0.0 };
+            sum += off;
+        }
+    }
+    if num < 1.0 {
+        return (FAR, 0.0);
+    }
+    (sum / num, num_on / source.edges.len() as f64)
 }
 
 /// The view of a reference that its pose shows most squarely.
@@ -180,12 +219,13 @@ fn facing(reference: &Reference, view: usize, target_from_source: &RigidTransfor
 /// A part that is seen at more than 61° to its face is not recognised: hardly a point of it says anything, and a strip
 /// of anything fits it.
 const LEAST_FACING: f64 = 0.48;
-/// Nor is a part of which less than this share is in sight: a strip of floor lies well on the end of a bumper.
-const LEAST_IN_SIGHT: f64 = 0.6;
+/// Nor is a part of which less than this lies on the reference, square metres: a strip of floor lies well on the end of
+/// a bumper.
+const LEAST_SEEN: f64 = 0.05;
+/// Nor is what shows hardly an edge of its own, metres.
+const LEAST_EDGE: f64 = 0.35;
 /// What a perfect fit of a part that is hardly seen scores.
 const HARDLY_SEEN: f64 = 0.4;
-/// Nor is what has hardly an outline of its own.
-const MOST_CUT: f64 = 0.5;
 
 impl Evidence {
     /// What the score is made of: each 0 for a perfect fit, and some 1 where a fit becomes doubtful. Shares beyond 0.4
@@ -194,16 +234,16 @@ impl Evidence {
         [
             self.off.min(0.4) / 0.1,
             self.missing.min(0.4) / 0.1,
-            self.outside / 0.25,
             self.relief_m / 0.005,
             self.outline_m / 0.01,
+            (0.1 / self.seen_m2.max(0.01)).min(2.0),
+            (0.5 / self.edge_m.max(0.05)).min(2.0),
         ]
     }
 
     /// True if enough of the part would be in sight to tell it from something else.
     pub fn is_seen(&self) -> bool {
-        let in_sight = (1.0 - self.outside) * (1.0 - self.hidden);
-        self.facing >= LEAST_FACING && in_sight >= LEAST_IN_SIGHT && self.cut <= MOST_CUT
+        self.facing >= LEAST_FACING && self.seen_m2 >= LEAST_SEEN && self.edge_m >= LEAST_EDGE
     }
 
     /// The probability that the part hangs there and stands where it was found, 0..1; at most 0.4 for what is hardly
@@ -218,9 +258,9 @@ impl Evidence {
 
 /// The model of the score, as `bench calibration` fits it on the tuning seeds.
 const CONSTANT: f64 = 10.4;
-const WEIGHTS: [f64; NUM_FEATURES] = [-2.43, -5.13, -1.06, -1.52, -2.0];
+const WEIGHTS: [f64; NUM_FEATURES] = [-2.43, -5.13, -1.52, -2.0, -0.3, -0.3];
 
 /// Figures that a score is made of.
-pub const NUM_FEATURES: usize = 5;
+pub const NUM_FEATURES: usize = 6;
 /// Their names, in order.
-pub const FEATURES: [&str; NUM_FEATURES] = ["off", "missing", "outside", "relief", "outline"];
+pub const FEATURES: [&str; NUM_FEATURES] = ["off", "missing", "relief", "outline", "area", "edge"];

@@ -15,6 +15,7 @@ use crate::{
     stages::{
         contour::Contour,
         pose::refine::{Search, Source, Target},
+        reference::ViewCut,
     },
     units::Metres,
 };
@@ -45,6 +46,7 @@ pub(super) fn outline_shift(
     plane_from_part: &RigidTransform,
     target_from_source: &RigidTransform,
     noise_at_1m: Metres,
+    cut: &ViewCut,
 ) -> Option<f64> {
     let reference = Borders::of(contour);
     let camera = target_from_source * Point3::origin();
@@ -67,7 +69,8 @@ pub(super) fn outline_shift(
     let mut offs: Vec<([i32; 3], f64)> = Vec::with_capacity(source.edges.len());
     for p in &source.edges {
         let p = target_from_source * p.cast::<f64>();
-        if is_edge(&p) != Some(true) {
+        // Close to where the view cut the reference off, its border is no edge.
+        if cut.depth_inside(&p) < FAR || is_edge(&p) != Some(true) {
             continue;
         }
         let at = (plane_from_part * p).xy();
@@ -222,7 +225,15 @@ mod tests {
             edges: rim(width, height).into_iter().chain(slot).collect(),
         };
         let (same, noise) = (RigidTransform::identity(), Metres::from_mm(1.5));
-        outline_shift(&source, &target, &contour, &same, &same, noise)
+        outline_shift(
+            &source,
+            &target,
+            &contour,
+            &same,
+            &same,
+            noise,
+            &ViewCut::default(),
+        )
     }
 
     #[test]

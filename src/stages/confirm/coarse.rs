@@ -1,0 +1,332 @@
+//! Where a piece of a part may lie on a reference, and how well, before anything is refined.
+//!
+//! Centroid and rays of a piece are not those of the part, so the ranking's placements are off. Pairs of oriented border
+//! points are looked up among the reference's ([`crate::stages::reference::border`]); each that fits is a pose. Most of
+//! them fail on the first points that are laid on; the others are scored by the part's surface and border on the
+//! reference, and by where the camera looks past the reference. Only what both views show is compared: nothing that
+//! lies outside one of them speaks against a pose.
+
+use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
+use rand::{SeedableRng as _, seq::SliceRandom as _};
+use rand_pcg::Pcg64;
+
+use super::Seen;
+use crate::{
+    geometry::{cloud::is_finite, rigid::RigidTransform},
+    stages::reference::{
+        Reference,
+        border::{Border, BorderPair, BorderPoint, frame_of},
+    },
+};
+
+/// Points of a piece's border that are paired.
+const NUM_BORDER: usize = 56;
+/// Pairs that are looked up in each reference.
+const NUM_PAIRS: usize = 220;
+/// Points of the surface that a pose is scored on, and those that it is first tried on.
+const NUM_SURFACE: usize = 72;
+const NUM_TRIED: usize = 16;
+/// Points of a reference that are looked for in the scene.
+const NUM_LOOKED_FOR: usize = 90;
+/// How far two distances between border points may differ, metres: the reference's are some 4 cm apart.
+const DISTANCE_OFF: f32 = 0.022;
+/// How far two angles may differ, radians.
+const ANGLE_OFF: f32 = 0.24;
+/// Cosine of the angle between two normals that belong together.
+const NORMAL_OFF: f32 = 0.87;
+/// Distances beyond this count as this, metres.
+const FAR: f32 = 0.045;
+/// Points off among those tried first from which on a pose is dropped.
+const MOST_OFF: usize = 4;
+/// Share of the border tried first that must find the reference's.
+const LEAST_BORDER: f32 = 0.45;
+/// Poses of a reference that are scored.
+const MOST_SCORED: usize = 240;
+/// Poses kept of a reference.
+const MOST_KEPT: usize = 6;
+/// Poses that lie this close, turn (degrees) and shift (millimetres), lead to the same one.
+const SAME: (f64, f64) = (12.0, 45.0);
+/// A point this close to where the reference's view ends, metres, may lie beyond it.
+const AT_CUT: f64 = 0.01;
+/// What the camera looks past is farther than the reference by at least this, metres, plus the noise.
+const PAST: f64 = 0.035;
+/// Fewer points than this in both views score nothing.
+const LEAST_SHARED: usize = 6;
+/// What a part costs that lies wholly beyond the reference's view.
+const UNSEEN: f32 = 0.6;
+/// What a reference costs that the camera looks past altogether.
+const LOOKED_PAST: f32 = 3.0;
+
+/// A pose of a reference that may be right.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Start {
+    /// 0 for a perfect fit.
+    pub(super) cost: f64,
+    /// The pose.
+    pub(super) target_from_source: RigidTransform,
+}
+
+/// What of a piece is laid onto references, camera space.
+pub(super) struct Laid {
+    surface: Vec<Point3<f32>>,
+    border: Vec<BorderPoint>,
+    pairs: Vec<BorderPair>,
+}
+
+impl Laid {
+    /// Any first points of surface and border are spread over the piece.
+    pub(super) fn new(surface: &[Point3<f32>], mut border: Vec<BorderPoint>, seed: u64) -> Self {
+        let mut rng = Pcg64::seed_from_u64(seed);
+        border.shuffle(&mut rng);
+        border.truncate(NUM_BORDER);
+        let numbers = 0..border.len();
+        let all = numbers
+            .clone()
+            .flat_map(|i| (i + 1..border.len()).map(move |j| [i, j]));
+        let mut pairs: Vec<BorderPair> = all
+            .filter_map(|[i, j]| BorderPair::of([&border[i], &border[j]], [i as u16, j as u16]))
+            .filter(|pair| !pair.is_straight())
+            .collect();
+        pairs.shuffle(&mut rng);
+        pairs.truncate(NUM_PAIRS);
+        Self {
+            surface: surface[..NUM_SURFACE.min(surface.len())].to_vec(),
+            border,
+            pairs,
+        }
+    }
+}
+
+impl Seen<'_> {
+    /// The best few poses of a reference, none of them refined; `others` are scored with them.
+    pub(super) fn coarse_starts(
+        &self,
+        laid: &Laid,
+        reference: &Reference,
+        others: impl Iterator<Item = RigidTransform>,
+    ) -> Vec<Start> {
+        let mut poses: Vec<(f32, Isometry3<f32>)> = Vec::new();
+        for border in reference.borders() {
+            for pair in &laid.pairs {
+                self.lay_pair(laid, reference, border, pair, &mut poses);
+            }
+        }
+        if poses.len() > MOST_SCORED {
+            poses.select_nth_unstable_by(MOST_SCORED, |a, b| a.0.total_cmp(&b.0));
+            poses.truncate(MOST_SCORED);
+        }
+        let mut starts: Vec<Start> = poses
+            .iter()
+            .map(|(_, pose)| pose.cast())
+            .chain(others)
+            .map(|target_from_source| Start {
+                cost: self.coarse_cost(laid, reference, &target_from_source),
+                target_from_source,
+            })
+            .collect();
+        starts.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        let mut kept: Vec<Start> = Vec::with_capacity(MOST_KEPT);
+        for start in starts {
+            let pose = &start.target_from_source;
+            if kept
+                .iter()
+                .all(|k| self.is_apart(&k.target_from_source, pose, SAME))
+            {
+                kept.push(start);
+            }
+            if kept.len() == MOST_KEPT {
+                break;
+            }
+        }
+        kept
+    }
+
+    /// All poses in which a pair of the piece's border lies on one of the reference's, as far as the first points agree.
+    fn lay_pair(
+        &self,
+        laid: &Laid,
+        reference: &Reference,
+        border: &Border,
+        pair: &BorderPair,
+        poses: &mut Vec<(f32, Isometry3<f32>)>,
+    ) {
+        let ours = pair.of.map(|i| &laid.border[usize::from(i)]);
+        let Some((middle, axes)) = frame_of(ours) else {
+            return;
+        };
+        let (least, most) = (pair.distance - DISTANCE_OFF, pair.distance + DISTANCE_OFF);
+        for theirs in border.pairs_between(least, most) {
+            let is_alike =
+                (0..2).all(|end| angle_between(pair.angles[end], theirs.angles[end]) < ANGLE_OFF);
+            if !is_alike {
+                continue;
+            }
+            let points = theirs.of.map(|i| &border.points[usize::from(i)]);
+            let Some((onto, their_axes)) = frame_of(points) else {
+                continue;
+            };
+            let turn: Matrix3<f32> = their_axes * axes.transpose();
+            let are_turned_alike = ours
+                .iter()
+                .zip(points)
+                .all(|(a, b)| (turn * a.normal).dot(&b.normal) > NORMAL_OFF);
+            if !are_turned_alike {
+                continue;
+            }
+            let shift = onto - turn * middle.coords;
+            if let Some(off) = try_on(laid, reference, border, &turn, &shift.coords) {
+                let turn =
+                    UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(turn));
+                poses.push((off, Isometry3::from_parts(shift.coords.into(), turn)));
+            }
+        }
+    }
+
+    /// How badly a pose fits, 0 for a perfect fit: the part on the reference, its border on the reference's, and the
+    /// reference where the camera looks past it.
+    pub(super) fn coarse_cost(
+        &self,
+        laid: &Laid,
+        reference: &Reference,
+        target_from_source: &RigidTransform,
+    ) -> f64 {
+        let moved = target_from_source.cast::<f32>();
+        let is_beyond = |at: &Point3<f32>| reference.cut.depth_inside(&at.cast()) < AT_CUT;
+        let (mut num, mut off) = (0_usize, 0.0_f32);
+        for p in &laid.surface {
+            let at = moved * p;
+            if !is_beyond(&at) {
+                num += 1;
+                off += reference
+                    .field
+                    .nearest(&at)
+                    .map_or(1.0, |n| clipped(n.distance_sq));
+            }
+        }
+        if num < LEAST_SHARED {
+            return f64::INFINITY;
+        }
+        let num_surface = laid.surface.len().max(1);
+        let beyond = 1.0 - num as f32 / num_surface as f32;
+        let surface = off / num as f32;
+        let (mut num, mut off) = (0.0_f32, 0.0_f32);
+        for p in &laid.border {
+            let at = moved * p.at;
+            if !is_beyond(&at) {
+                num += 1.0;
+                let nearest = reference
+                    .borders()
+                    .iter()
+                    .filter_map(|border| border.field.nearest(&at));
+                let least = nearest.map(|n| n.distance_sq).fold(f32::INFINITY, f32::min);
+                off += clipped(least);
+            }
+        }
+        let border = if num > 0.0 { off / num } else { 0.0 };
+        let past = self.looked_past(reference, target_from_source);
+        f64::from(surface + border + LOOKED_PAST * past + UNSEEN * beyond)
+    }
+
+    /// Share of a reference that the camera looks past, of what it sees or looks past.
+    fn looked_past(&self, reference: &Reference, target_from_source: &RigidTransform) -> f32 {
+        let scene = self.scene.scene;
+        let (Some(camera), Some(normals)) = (scene.intrinsics, reference.cloud.normals.as_deref())
+        else {
+            return 0.0;
+        };
+        let camera_from_target = target_from_source.inverse();
+        let viewer = target_from_source * Point3::origin();
+        let points = &reference.cloud.points;
+        let step = (points.len() / NUM_LOOKED_FOR).max(1);
+        let (mut seen, mut past) = (0.0_f32, 0.0_f32);
+        for (p, normal) in points.iter().zip(normals).step_by(step) {
+            let p: Point3<f64> = p.cast();
+            let towards: Vector3<f64> = viewer - p;
+            let facing = normal.cast::<f64>().dot(&towards);
+            if facing < 0.3 * towards.norm() {
+                continue;
+            }
+            let at = camera_from_target * p;
+            let Some((u, v)) = camera.pixel_of(&at) else {
+                continue;
+            };
+            let (u, v) = ((u + 0.5).floor(), (v + 0.5).floor());
+            let is_inside =
+                u >= 0.0 && v >= 0.0 && u < camera.width as f64 && v < camera.height as f64;
+            if !is_inside {
+                continue;
+            }
+            let reading = &scene.cloud.points[v as usize * camera.width + u as usize];
+            if !is_finite(reading) {
+                continue;
+            }
+            let reach = PAST + 3.0 * self.tolerance.noise_at_1m.0 * at.z * at.z;
+            let beyond = f64::from(reading.z) - at.z;
+            if beyond > reach {
+                past += 1.0;
+            } else if beyond > -reach {
+                seen += 1.0;
+            }
+        }
+        if seen + past > 0.0 {
+            past / (seen + past)
+        } else {
+            1.0
+        }
+    }
+}
+
+/// Mean squared distance of the first points at a pose, or `None` as soon as too many of them are off.
+fn try_on(
+    laid: &Laid,
+    reference: &Reference,
+    border: &Border,
+    turn: &Matrix3<f32>,
+    shift: &Vector3<f32>,
+) -> Option<f32> {
+    let (mut num, mut num_off, mut sum) = (0_usize, 0_usize, 0.0_f32);
+    for p in laid.surface.iter().take(NUM_TRIED) {
+        let at = Point3::from(turn * p.coords + shift);
+        if reference.cut.depth_inside(&at.cast()) < AT_CUT {
+            continue;
+        }
+        num += 1;
+        let off = reference
+            .field
+            .nearest(&at)
+            .map_or(1.0, |n| clipped(n.distance_sq));
+        num_off += usize::from(off >= 1.0);
+        sum += off;
+        if num_off >= MOST_OFF {
+            return None;
+        }
+    }
+    if num < LEAST_SHARED {
+        return None;
+    }
+    let surface = sum / num as f32;
+    let (mut num, mut num_on, mut sum) = (0.0_f32, 0.0_f32, 0.0_f32);
+    for p in laid.border.iter().take(NUM_TRIED) {
+        let at = Point3::from(turn * p.at.coords + shift);
+        if reference.cut.depth_inside(&at.cast()) < AT_CUT {
+            continue;
+        }
+        num += 1.0;
+        let off = border
+            .field
+            .nearest(&at)
+            .map_or(1.0, |n| clipped(n.distance_sq));
+        num_on += if off < 1.0 { 1.0 } else { 0.0 };
+        sum += off;
+    }
+    (num_on >= LEAST_BORDER * num).then(|| surface + sum / num.max(1.0))
+}
+
+fn clipped(distance_sq: f32) -> f32 {
+    (distance_sq / (FAR * FAR)).min(1.0)
+}
+
+fn angle_between(a: f32, b: f32) -> f32 {
+    let off = (a - b).abs();
+    off.min(std::f32::consts::TAU - off)
+}

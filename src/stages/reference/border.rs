@@ -1,0 +1,115 @@
+//! The border of a part as oriented points, and the pairs of them by which a piece of it is found again.
+//!
+//! Two points of a border with their directions and the surface's normals fix a pose, and their distance and the angles
+//! between fit few other pairs: after B. Drost, M. Ulrich, N. Navab and S. Ilic, "Model globally, match locally:
+//! efficient and robust 3D object recognition", CVPR 2010, with points of borders as in C. Choi, Y. Taguchi, O. Tuzel,
+//! M.-Y. Liu and S. Ramalingam, "Voting-based pose estimation for robotic assembly using a 3D sensor", ICRA 2012. The
+//! pairs are sorted by distance rather than hashed, and poses are scored rather than voted for.
+
+use nalgebra::{Matrix3, Point3, Vector3};
+
+use crate::geometry::nearest_field::NearestField;
+
+/// A point where the surface ends.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct BorderPoint {
+    /// Where.
+    pub at: Point3<f32>,
+    /// Unit vector along the border, the surface to its left as seen from in front.
+    pub along: Vector3<f32>,
+    /// Unit normal of the surface, towards the viewer.
+    pub normal: Vector3<f32>,
+}
+
+/// Two points of a border, in order.
+#[derive(Clone, Copy, Debug)]
+pub struct BorderPair {
+    /// Metres.
+    pub distance: f32,
+    /// Angles from the border to the other point, about the normal, radians, at each of the two.
+    pub angles: [f32; 2],
+    /// Indices of the two points.
+    pub of: [u16; 2],
+}
+
+/// The border of a reference from one side.
+#[derive(Clone, Debug)]
+pub struct Border {
+    /// Evenly spread points.
+    pub points: Vec<BorderPoint>,
+    /// All pairs that can be used, by their distance.
+    pub pairs: Vec<BorderPair>,
+    /// The nearest of all its points, not only the evenly spread ones.
+    pub field: NearestField,
+}
+
+/// Points of a reference's border that are paired: one in some 4 cm of a door's.
+const NUM_POINTS: usize = 128;
+/// Nearer pairs fix no pose, metres.
+pub const LEAST_DISTANCE: f32 = 0.15;
+/// Cells of the field of nearest points and how far it answers, metres.
+const FIELD_CELL: f32 = 0.02;
+const FIELD_BAND: f32 = 0.06;
+
+impl Border {
+    /// Of oriented points, part space.
+    pub fn new(all: &[BorderPoint]) -> Self {
+        let step = all.len().div_ceil(NUM_POINTS).max(1);
+        let points: Vec<BorderPoint> = all.iter().step_by(step).copied().collect();
+        let positions: Vec<Point3<f32>> = all.iter().map(|p| p.at).collect();
+        let mut pairs = Vec::with_capacity(points.len() * points.len());
+        for (i, a) in points.iter().enumerate() {
+            for (j, b) in points.iter().enumerate().filter(|(j, _)| *j != i) {
+                pairs.extend(BorderPair::of([a, b], [i as u16, j as u16]));
+            }
+        }
+        pairs.sort_unstable_by(|a, b| a.distance.total_cmp(&b.distance));
+        Self {
+            points,
+            pairs,
+            field: NearestField::new(&positions, FIELD_CELL, FIELD_BAND),
+        }
+    }
+
+    /// The pairs whose distance lies between two.
+    pub fn pairs_between(&self, least: f32, most: f32) -> &[BorderPair] {
+        let first = self.pairs.partition_point(|pair| pair.distance < least);
+        let last = self.pairs.partition_point(|pair| pair.distance <= most);
+        &self.pairs[first..last.max(first)]
+    }
+}
+
+impl BorderPair {
+    /// `None` if the two are too close.
+    pub fn of([a, b]: [&BorderPoint; 2], of: [u16; 2]) -> Option<Self> {
+        let towards = b.at - a.at;
+        let distance = towards.norm();
+        (distance >= LEAST_DISTANCE).then(|| Self {
+            distance,
+            angles: [angle(a, &towards), angle(b, &-towards)],
+            of,
+        })
+    }
+
+    /// True if the two lie on one straight border, along which they could slide.
+    pub fn is_straight(&self) -> bool {
+        self.angles.iter().all(|a| a.sin().abs() < STRAIGHT)
+    }
+}
+
+/// Sine of the angle to a straight border below which a point lies on it.
+const STRAIGHT: f32 = 0.25;
+
+fn angle(from: &BorderPoint, towards: &Vector3<f32>) -> f32 {
+    let inwards = from.normal.cross(&from.along);
+    towards.dot(&inwards).atan2(towards.dot(&from.along))
+}
+
+/// Middle and axes of a pair: along it, and the mean normal across.
+pub fn frame_of([a, b]: [&BorderPoint; 2]) -> Option<(Point3<f32>, Matrix3<f32>)> {
+    let x = (b.at - a.at).try_normalize(1e-6)?;
+    let normal = a.normal + b.normal;
+    let z = (normal - x * normal.dot(&x)).try_normalize(0.5)?;
+    let middle = nalgebra::center(&a.at, &b.at);
+    Some((middle, Matrix3::from_columns(&[x, z.cross(&x), z])))
+}

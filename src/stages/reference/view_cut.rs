@@ -1,0 +1,114 @@
+//! Where the view that a reference was captured from cut the part off.
+//!
+//! A door is larger than what a camera on a robot's flange sees of it. The border of such a reference is only partly the
+//! part's own; elsewhere the part goes on, and nothing beyond speaks against it. The borders of a field of view are
+//! straight, so each is a plane through the camera, the origin of part space.
+//!
+//! Known limits: a border that something nearer made is taken for the part's own.
+
+use nalgebra::Point3;
+
+use crate::stages::{
+    scene::{PictureEdge, SceneCloud},
+    segment::SegmentedPart,
+};
+
+/// Tangents x / z and y / z of the planes that cut the part off; `None` on a side where it ends by itself.
+#[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
+pub struct ViewCut {
+    /// Towards negative x.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub left: Option<f64>,
+    /// Towards positive x.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub right: Option<f64>,
+    /// Towards negative y.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub top: Option<f64>,
+    /// Towards positive y.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub bottom: Option<f64>,
+}
+
+/// A part that comes so close to the border of the view is cut by it, pixels.
+const AT_EDGE: i64 = 8;
+/// Shortest stretch of the border that cuts, share of the part's rows or columns.
+const LEAST_STRETCH: f64 = 0.04;
+/// Rows or columns of such a stretch at least.
+const LEAST_LINES: usize = 6;
+
+impl ViewCut {
+    /// Of a part in a captured scene; nothing is cut where the scene is no picture.
+    pub fn of(part: &SegmentedPart, scene: &SceneCloud) -> Self {
+        let (Some(camera), Some(grid)) = (scene.intrinsics, scene.cloud.grid) else {
+            return Self::default();
+        };
+        if scene.edge != PictureEdge::View {
+            return Self::default();
+        }
+        let mut rows: Vec<Option<[usize; 2]>> = vec![None; grid.height];
+        let mut columns: Vec<Option<[usize; 2]>> = vec![None; grid.width];
+        for &i in &part.indices {
+            let (u, v) = (i as usize % grid.width, i as usize / grid.width);
+            widen(&mut rows[v], u);
+            widen(&mut columns[u], v);
+        }
+        let is_inside =
+            |u: i64, v: i64| u >= 0 && v >= 0 && u < grid.width as i64 && v < grid.height as i64;
+        let side = |lines: &[Option<[usize; 2]>], end: usize, is_row: bool| {
+            let way = if end == 0 { -AT_EDGE } else { AT_EDGE };
+            let ends = lines.iter().enumerate().filter_map(|(line, extent)| {
+                let at = (*extent)?[end];
+                let (u, v) = if is_row { (at, line) } else { (line, at) };
+                let (du, dv) = if is_row { (way, 0) } else { (0, way) };
+                (!is_inside(u as i64 + du, v as i64 + dv)).then_some(at)
+            });
+            let mut ends: Vec<usize> = ends.collect();
+            let num_lines = lines.iter().flatten().count() as f64;
+            if ends.len() < LEAST_LINES.max((LEAST_STRETCH * num_lines) as usize) {
+                return None;
+            }
+            let middle = ends.len() / 2;
+            let (_, median, _) = ends.select_nth_unstable(middle);
+            let (centre, focal) = if is_row {
+                (camera.cx, camera.fx)
+            } else {
+                (camera.cy, camera.fy)
+            };
+            Some(((*median as f64 - centre) / focal * 1e5).round() / 1e5)
+        };
+        Self {
+            left: side(&rows, 0, true),
+            right: side(&rows, 1, true),
+            top: side(&columns, 0, false),
+            bottom: side(&columns, 1, false),
+        }
+    }
+
+    /// True if the view cut nothing off.
+    pub fn is_nothing(&self) -> bool {
+        *self == Self::default()
+    }
+
+    /// How far a point of part space lies within the planes, metres; below 0 beyond one of them.
+    pub fn depth_inside(&self, p: &Point3<f64>) -> f64 {
+        let Self {
+            left,
+            right,
+            top,
+            bottom,
+        } = self;
+        let sides = [
+            left.map(|t| p.x - t * p.z),
+            right.map(|t| t * p.z - p.x),
+            top.map(|t| p.y - t * p.z),
+            bottom.map(|t| t * p.z - p.y),
+        ];
+        sides.into_iter().flatten().fold(f64::INFINITY, f64::min)
+    }
+}
+
+fn widen(extent: &mut Option<[usize; 2]>, at: usize) {
+    let [first, last] = extent.unwrap_or([at, at]);
+    *extent = Some([first.min(at), last.max(at)]);
+}
