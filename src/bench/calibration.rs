@@ -183,7 +183,7 @@ mod tests {
     fn the_weights_that_made_the_samples_are_found_again() {
         let truth = Model {
             constant: 3.0,
-            weights: [-2.0, -1.0, 0.0, -1.5, -0.5],
+            weights: [-2.0, -1.0, -1.5, -0.5, -0.7, 0.6],
         };
         let mut random = Pcg64::seed_from_u64(8);
         let samples: Vec<Sample> = (0..20_000)
@@ -192,6 +192,12 @@ mod tests {
                     off: random.random_range(0.0..0.4),
                     missing: random.random_range(0.0..0.4),
                     hidden: 0.0,
+                    beyond: 0.0,
+                    seen_m2: random.random_range(0.05..0.5),
+                    edge_m: random.random_range(0.25..4.0),
+                    rival: 0.0,
+                    shape: 1.0,
+                    shape_lead: 0.0,
                     outside: random.random_range(0.0..0.5),
                     relief_m: random.random_range(0.0..0.01),
                     outline_m: random.random_range(0.0..0.04),

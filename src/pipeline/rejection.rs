@@ -64,6 +64,36 @@ pub enum Rejection {
         /// Share of the reference that is not there, 0..1.
         missing: f64,
     },
+    /// Of its type, but of another make: its dimensions or its shape differ.
+    #[error(
+        "it is of the type of {part}, but not the enrolled one: another make, of other dimensions or another shape"
+    )]
+    AnotherMake {
+        /// The enrolled part of its type.
+        part: String,
+        /// The probability that it is of this type, 0..1.
+        likeness: f64,
+    },
+    /// The piece in sight fits as well at another place of the same part.
+    #[error(
+        "what is in sight of {part} fits almost equally well at another place of it (margin {margin:.2}, needed {threshold:.2})"
+    )]
+    AmbiguousPose {
+        /// Best match.
+        part: String,
+        /// Lead of the best pose over the next.
+        margin: f64,
+        /// Least lead.
+        threshold: f64,
+    },
+    /// Nothing in sight keeps the pose from sliding or turning.
+    #[error(
+        "what is in sight of {part} could slide or turn along it: no edge or bend holds the pose"
+    )]
+    LoosePose {
+        /// Best match.
+        part: String,
+    },
     /// Nothing enrolled is like it.
     #[error("unknown: nothing enrolled is like it; the nearest, {nearest}, scores {score:.2}")]
     Unknown {
@@ -198,7 +228,10 @@ impl Advice for Rejection {
             Self::HardlySeen { .. } => {
                 "Turn the part so that its face looks at the camera, all of it inside the picture, and capture again".into()
             }
-            Self::AnotherModel { part, .. } => format!(
+            Self::AmbiguousPose { .. } | Self::LoosePose { .. } => {
+                "Move the camera so that it sees a corner or another edge of the part, and capture again".into()
+            }
+            Self::AnotherModel { part, .. } | Self::AnotherMake { part, .. } => format!(
                 "If this one is to be painted too, enrol it as one more reference of {part}"
             ),
             Self::Unknown { .. } => {

@@ -24,6 +24,9 @@ pub struct AcceptParams {
     /// A best guess below this score, 0..1, is not named: what hangs there is more likely unknown. Raising it names
     /// fewer parts that are half hidden.
     pub unknown_below: f64,
+    /// A part that is not an enrolled one is named as another make of it from this likeness on, 0..1. Raising it calls
+    /// more of them unknown, and fewer other things by a part's name.
+    pub min_likeness: f64,
     /// How far the surface may bulge or sink from the reference's, 0.5..20 mm root mean square beyond the noise; more
     /// is another model of the part. Raising it accepts other models too, at a pose that is only about right.
     pub max_relief: Metres,
@@ -41,6 +44,7 @@ impl Default for AcceptParams {
             min_score: 0.9,
             min_margin: 0.05,
             unknown_below: 0.5,
+            min_likeness: 0.7,
             max_relief: Metres::from_mm(4.0),
             max_missing: 0.008,
             max_outline_shift: Metres::from_mm(10.0),
@@ -128,6 +132,18 @@ pub(super) fn verdict(
             margin,
             threshold: accept.min_margin,
         }),
+        (_, Some(evidence)) if best.score - evidence.rival < accept.min_margin => {
+            Some(Rejection::AmbiguousPose {
+                part: best.part.clone(),
+                margin: best.score - evidence.rival,
+                threshold: accept.min_margin,
+            })
+        }
+        (Some(Ok(pose)), Some(evidence)) if evidence.is_piece() && !is_held(pose) => {
+            Some(Rejection::LoosePose {
+                part: best.part.clone(),
+            })
+        }
         _ => other_model.map(|evidence| Rejection::AnotherModel {
             part: best.part.clone(),
             relief: Metres(evidence.relief_m),
@@ -142,6 +158,10 @@ pub(super) fn verdict(
         rejected,
         is_approximate: unlike > MAY_BE_ANOTHER,
     }
+}
+
+fn is_held(pose: &PoseEstimate) -> bool {
+    pose.uncertainty.is_none_or(|bounds| bounds.is_held())
 }
 
 /// From this share of what another model is refused at, a pose is called approximate: four fifths of the other models
@@ -167,6 +187,14 @@ fn too_low(best: &MatchEntry, accept: &AcceptParams) -> Rejection {
     match best.evidence {
         Some(evidence) if !evidence.is_seen() && score > WORTH_NAMING => {
             Rejection::HardlySeen { part, score }
+        }
+        Some(evidence)
+            if score < accept.unknown_below && evidence.likeness() >= accept.min_likeness =>
+        {
+            Rejection::AnotherMake {
+                part,
+                likeness: evidence.likeness(),
+            }
         }
         Some(_) if score < accept.unknown_below => Rejection::Unknown {
             nearest: part,

@@ -17,7 +17,7 @@ use nalgebra::{Point3, Vector3};
 use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
-pub use self::evidence::{Evidence, FEATURES, NUM_FEATURES};
+pub use self::evidence::{Evidence, FEATURES, NUM_FEATURES, NUM_TYPE_FEATURES, TYPE_FEATURES};
 use self::{
     candidate::Candidate,
     coarse::Laid,
@@ -155,6 +155,7 @@ pub fn confirm(
     ranking: MatchRanking,
     params: &ConfirmParams,
 ) -> (MatchRanking, Result<PoseEstimate, PoseError>) {
+    let shapes = Shapes::of(&ranking);
     let seen = Seen::new(scene, references, params);
     if seen.source.surface.len() < 20 {
         let error = PoseError::TooFewPoints {
@@ -204,7 +205,14 @@ pub fn confirm(
         .into_iter()
         .map(|(mut entry, candidate)| {
             entry.pose = candidate.as_ref().map(Candidate::estimate);
-            entry.evidence = candidate.map(|c| c.evidence);
+            entry.evidence = candidate.map(|c| {
+                let (shape, shape_lead) = shapes.of_entry(&entry);
+                Evidence {
+                    shape,
+                    shape_lead,
+                    ..c.evidence
+                }
+            });
             entry
         })
         .collect();
@@ -213,6 +221,31 @@ pub fn confirm(
         MatchRanking { entries },
         pose.ok_or(PoseError::NoReferenceCloud),
     )
+}
+
+/// What the ranking said of each reference.
+struct Shapes {
+    /// Part and score, best first.
+    scores: Vec<(usize, String, f64)>,
+}
+
+impl Shapes {
+    fn of(ranking: &MatchRanking) -> Self {
+        let entries = ranking.entries.iter();
+        Self {
+            scores: entries
+                .map(|entry| (entry.reference, entry.part.clone(), entry.score))
+                .collect(),
+        }
+    }
+
+    /// The score of a reference, and its lead over other parts.
+    fn of_entry(&self, entry: &MatchEntry) -> (f64, f64) {
+        let own = self.scores.iter().find(|s| s.0 == entry.reference);
+        let own = own.map_or(0.0, |s| s.2);
+        let next = self.scores.iter().find(|s| s.1 != entry.part);
+        (own, own - next.map_or(0.0, |s| s.2))
+    }
 }
 
 fn sort_by_score(confirmed: &mut [(MatchEntry, Option<Candidate>)]) {

@@ -256,6 +256,13 @@ fn refused(verdict: &Verdict, title_of: &dyn Fn(&str) -> String) -> Option<Strin
                 "its surface is off by {relief}, its outline by {outline}, {:.1} % of it is missing: another model",
                 missing * 100.0
             ),
+            Rejection::AnotherMake { likeness, .. } => {
+                format!("of the same type with a probability of {likeness:.2}: another make")
+            }
+            Rejection::AmbiguousPose {
+                margin, threshold, ..
+            } => format!("its lead over another pose is {margin:.2}, below {threshold:.2}"),
+            Rejection::LoosePose { .. } => "nothing in sight holds the pose".into(),
             Rejection::HardlySeen { score, .. } => {
                 format!("score {score:.2}: hardly in sight")
             }

@@ -55,8 +55,13 @@ impl Headline {
                         complaint: None,
                     },
                     // Of its type beyond doubt.
-                    Some(reason @ Rejection::AnotherModel { .. }) => Self {
-                        title: format!("{nearest}, another model"),
+                    Some(
+                        reason @ (Rejection::AnotherModel { .. } | Rejection::AnotherMake { .. }),
+                    ) => Self {
+                        title: match reason {
+                            Rejection::AnotherMake { .. } => format!("{nearest}, another make"),
+                            _ => format!("{nearest}, another model"),
+                        },
                         nearest: None,
                         is_accepted: false,
                         is_open: false,

@@ -22,14 +22,14 @@ use crate::{
 /// Points of a piece's border that are paired.
 const NUM_BORDER: usize = 56;
 /// Pairs that are looked up in each reference.
-const NUM_PAIRS: usize = 220;
+const NUM_PAIRS: usize = 150;
 /// Points of the surface that a pose is scored on, and those that it is first tried on.
-const NUM_SURFACE: usize = 72;
+const NUM_SURFACE: usize = 56;
 const NUM_TRIED: usize = 16;
 /// Points of a reference that are looked for in the scene.
-const NUM_LOOKED_FOR: usize = 90;
+const NUM_LOOKED_FOR: usize = 60;
 /// How far two distances between border points may differ, metres: the reference's are some 4 cm apart.
-const DISTANCE_OFF: f32 = 0.022;
+const DISTANCE_OFF: f32 = 0.02;
 /// How far two angles may differ, radians.
 const ANGLE_OFF: f32 = 0.24;
 /// Cosine of the angle between two normals that belong together.
@@ -41,7 +41,7 @@ const MOST_OFF: usize = 4;
 /// Share of the border tried first that must find the reference's.
 const LEAST_BORDER: f32 = 0.45;
 /// Poses of a reference that are scored.
-const MOST_SCORED: usize = 240;
+const MOST_SCORED: usize = 100;
 /// Poses kept of a reference.
 const MOST_KEPT: usize = 6;
 /// Poses that lie this close, turn (degrees) and shift (millimetres), lead to the same one.

@@ -22,7 +22,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::Seen;
+use super::{CUT_SHARE, Seen};
 use crate::{
     geometry::rigid::RigidTransform,
     stages::{
@@ -64,8 +64,12 @@ pub struct Evidence {
     pub outline_shift_m: Option<f64>,
     /// Share of the part's outline where only the view ends, 0..1.
     pub cut: f64,
-    /// Cosine of the angle that the reference's face is seen at.
+    /// Mean cosine of the angle that the reference is seen at, where the part lies on it.
     pub facing: f64,
+    /// What the ranking scored: how alike the whole shapes are, 0..1.
+    pub shape: f64,
+    /// How much more that is than for any other part; below 0 if another is more alike.
+    pub shape_lead: f64,
 }
 
 /// Distances beyond this count as this, metres.
@@ -143,10 +147,30 @@ impl Seen<'_> {
             rival: 0.0,
             outline_shift_m: None,
             cut: self.cut_share,
-            facing: facing(reference, view, target_from_source),
+            facing: mean_facing(&shared_closest, &target, target_from_source),
+            shape: 0.0,
+            shape_lead: 0.0,
         };
         (fit, evidence)
     }
+}
+
+/// Mean cosine between the reference's surface and the rays that see it.
+fn mean_facing(
+    closest: &[Closest],
+    target: &Target<'_>,
+    target_from_source: &RigidTransform,
+) -> f64 {
+    let camera = target_from_source * Point3::origin();
+    let cosines = closest.iter().filter_map(|closest| {
+        let near = closest.on_surface(target, FAR * FAR)?;
+        let ray = closest.at.cast::<f64>() - camera;
+        Some(-near.normal.dot(&ray.normalize()))
+    });
+    let (num, sum) = cosines.fold((0.0_f64, 0.0), |(num, sum), cosine| {
+        (num + 1.0, sum + cosine)
+    });
+    sum / num.max(1.0)
 }
 
 /// Root mean square of the patches' mean signed distances.
@@ -241,6 +265,34 @@ impl Evidence {
         ]
     }
 
+    /// True if a part of it, or of its reference, is out of sight.
+    pub fn is_piece(&self) -> bool {
+        self.cut >= CUT_SHARE || self.beyond > 0.0
+    }
+
+    /// The probability that a whole part is of the same type as the reference, of whatever make, 0..1; 0 for a piece,
+    /// whose shape is not that of the part.
+    pub fn likeness(&self) -> f64 {
+        if self.is_piece() {
+            return 0.0;
+        }
+        let weighted = self.type_features().into_iter().zip(TYPE_WEIGHTS);
+        let sum: f64 = weighted.map(|(x, weight)| weight * x).sum();
+        1.0 / (1.0 + (-(TYPE_CONSTANT + sum)).exp())
+    }
+
+    /// What the likeness is made of.
+    pub fn type_features(&self) -> [f64; NUM_TYPE_FEATURES] {
+        [
+            self.off.min(0.6) / 0.1,
+            self.missing.min(0.6) / 0.1,
+            self.relief_m / 0.005,
+            self.outline_m / 0.01,
+            (1.0 - self.shape) / 0.1,
+            self.shape_lead / 0.1,
+        ]
+    }
+
     /// True if enough of the part would be in sight to tell it from something else.
     pub fn is_seen(&self) -> bool {
         self.facing >= LEAST_FACING && self.seen_m2 >= LEAST_SEEN && self.edge_m >= LEAST_EDGE
@@ -264,3 +316,13 @@ const WEIGHTS: [f64; NUM_FEATURES] = [-2.43, -5.13, -1.52, -2.0, -0.3, -0.3];
 pub const NUM_FEATURES: usize = 6;
 /// Their names, in order.
 pub const FEATURES: [&str; NUM_FEATURES] = ["off", "missing", "relief", "outline", "area", "edge"];
+
+/// The model of the likeness, fitted likewise.
+const TYPE_CONSTANT: f64 = 10.0;
+const TYPE_WEIGHTS: [f64; NUM_TYPE_FEATURES] = [-0.5, -0.5, -0.5, -0.5, -2.0, 1.0];
+
+/// Figures that a likeness is made of.
+pub const NUM_TYPE_FEATURES: usize = 6;
+/// Their names, in order.
+pub const TYPE_FEATURES: [&str; NUM_TYPE_FEATURES] =
+    ["off", "missing", "relief", "outline", "shape", "lead"];
