@@ -10,7 +10,7 @@ use crate::{
         pose::{PoseError, PoseEstimate},
         rank::{MatchEntry, MatchRanking, Matcher},
     },
-    units::Metres,
+    units::{Metres, Radians},
 };
 
 /// When a verdict counts.
@@ -160,8 +160,13 @@ pub(super) fn verdict(
     }
 }
 
+/// Bounds within which the pose of a piece is of use.
+const MOST_SHIFT: Metres = Metres(0.02);
+const MOST_TURN: Radians = Radians(0.035);
+
 fn is_held(pose: &PoseEstimate) -> bool {
-    pose.uncertainty.is_none_or(|bounds| bounds.is_held())
+    pose.uncertainty
+        .is_none_or(|bounds| bounds.shift.0 <= MOST_SHIFT.0 && bounds.turn.0 <= MOST_TURN.0)
 }
 
 /// From this share of what another model is refused at, a pose is called approximate: four fifths of the other models

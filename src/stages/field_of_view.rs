@@ -78,6 +78,16 @@ impl FieldOfView {
         row.is_some_and(|&[first, last]| u >= i64::from(first) && u <= i64::from(last))
     }
 
+    /// First and last column of a row that the camera could deliver readings in; near surfaces end some pixels inside.
+    pub fn row_ends(&self, v: usize) -> Option<[u32; 2]> {
+        self.ends[0].get(v).copied()
+    }
+
+    /// First and last row of a column, likewise.
+    pub fn column_ends(&self, u: usize) -> Option<[u32; 2]> {
+        self.ends[1].get(u).copied()
+    }
+
     /// True if a reading at this column and row is within `margin` pixels of where the view ends.
     pub fn ends_at(&self, u: usize, v: usize, margin: u32) -> bool {
         let is_end = |along: &[[u32; 2]], line: usize, at: usize| {

@@ -247,7 +247,7 @@ const LEAST_FACING: f64 = 0.48;
 /// a bumper.
 const LEAST_SEEN: f64 = 0.05;
 /// Nor is what shows hardly an edge of its own, metres.
-const LEAST_EDGE: f64 = 0.35;
+const LEAST_EDGE: f64 = 0.15;
 /// What a perfect fit of a part that is hardly seen scores.
 const HARDLY_SEEN: f64 = 0.4;
 

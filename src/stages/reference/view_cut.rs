@@ -8,10 +8,7 @@
 
 use nalgebra::Point3;
 
-use crate::stages::{
-    scene::{PictureEdge, SceneCloud},
-    segment::SegmentedPart,
-};
+use crate::stages::{scene::SceneCloud, segment::SegmentedPart};
 
 /// Tangents x / z and y / z of the planes that cut the part off; `None` on a side where it ends by itself.
 #[derive(Clone, Copy, Debug, Default, PartialEq, serde::Serialize, serde::Deserialize)]
@@ -31,7 +28,7 @@ pub struct ViewCut {
 }
 
 /// A part that comes so close to the border of the view is cut by it, pixels.
-const AT_EDGE: i64 = 8;
+const AT_EDGE: u32 = 6;
 /// Shortest stretch of the border that cuts, share of the part's rows or columns.
 const LEAST_STRETCH: f64 = 0.04;
 /// Rows or columns of such a stretch at least.
@@ -43,9 +40,9 @@ impl ViewCut {
         let (Some(camera), Some(grid)) = (scene.intrinsics, scene.cloud.grid) else {
             return Self::default();
         };
-        if scene.edge != PictureEdge::View {
+        let Some(view) = scene.field_of_view() else {
             return Self::default();
-        }
+        };
         let mut rows: Vec<Option<[usize; 2]>> = vec![None; grid.height];
         let mut columns: Vec<Option<[usize; 2]>> = vec![None; grid.width];
         for &i in &part.indices {
@@ -53,15 +50,15 @@ impl ViewCut {
             widen(&mut rows[v], u);
             widen(&mut columns[u], v);
         }
-        let is_inside =
-            |u: i64, v: i64| u >= 0 && v >= 0 && u < grid.width as i64 && v < grid.height as i64;
         let side = |lines: &[Option<[usize; 2]>], end: usize, is_row: bool| {
-            let way = if end == 0 { -AT_EDGE } else { AT_EDGE };
             let ends = lines.iter().enumerate().filter_map(|(line, extent)| {
                 let at = (*extent)?[end];
-                let (u, v) = if is_row { (at, line) } else { (line, at) };
-                let (du, dv) = if is_row { (way, 0) } else { (0, way) };
-                (!is_inside(u as i64 + du, v as i64 + dv)).then_some(at)
+                let of_line = if is_row {
+                    view.row_ends(line)
+                } else {
+                    view.column_ends(line)
+                };
+                (of_line?[end].abs_diff(at as u32) <= AT_EDGE).then_some(at)
             });
             let mut ends: Vec<usize> = ends.collect();
             let num_lines = lines.iter().flatten().count() as f64;
