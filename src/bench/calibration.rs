@@ -4,91 +4,133 @@
 //! Logistic regression with a small ridge penalty by Newton's method (D. R. Cox, "The regression analysis of binary
 //! sequences", Journal of the Royal Statistical Society B 20(2), 1958). Every contender of every frame is one sample,
 //! so an unknown object speaks against each part that it resembles. Right is a contender whose name is right and whose
-//! pose is within 5° and 40 mm; parts of other car models count as right then too.
+//! pose is within 5° and 40 mm; parts of other car models count as right then too. The likeness is fitted likewise: there
+//! right is a whole part whose name is right, of whatever model or make.
 
-use nalgebra::{SMatrix, SVector};
+use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
 use super::suites::SuiteResult;
-use crate::stages::confirm::{Evidence, NUM_FEATURES};
+use crate::stages::confirm::{Evidence, FEATURES, TYPE_FEATURES};
 
-/// Weights and one constant.
-const SIZE: usize = NUM_FEATURES + 1;
 /// Keeps the weights finite where the samples are told apart without a fault.
 const RIDGE: f64 = 1e-4;
 /// A pose within this is right: degrees and millimetres.
 const RIGHT_POSE: [f64; 2] = [5.0, 40.0];
+
+/// What a model gives the probability of.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Question {
+    /// Is it the part, at its place? The score.
+    Part,
+    /// Is it a part of this type? The likeness.
+    Type,
+}
+
+impl Question {
+    /// The names of the features.
+    pub fn features(self) -> &'static [&'static str] {
+        match self {
+            Self::Part => &FEATURES,
+            Self::Type => &TYPE_FEATURES,
+        }
+    }
+
+    fn of(self, evidence: &Evidence) -> Vec<f64> {
+        match self {
+            Self::Part => evidence.features().to_vec(),
+            Self::Type => evidence.type_features().to_vec(),
+        }
+    }
+}
 
 /// One contender of one frame.
 #[derive(Clone, Copy, Debug)]
 pub struct Sample {
     /// What speaks for and against it.
     pub evidence: Evidence,
-    /// Whether it is the part, at its place.
+    /// Whether the answer is yes.
     pub is_right: bool,
 }
 
-/// The contenders of all frames.
-pub fn samples(results: &[SuiteResult]) -> Vec<Sample> {
+/// The contenders of all frames; for the type only the first of each, and only whole parts.
+pub fn samples(results: &[SuiteResult], question: Question) -> Vec<Sample> {
     let cases = results.iter().flat_map(|result| &result.cases);
-    cases
-        .flat_map(|case| &case.contenders)
-        .map(|contender| Sample {
-            evidence: contender.evidence,
-            is_right: contender
-                .pose_off
-                .is_some_and(|off| off[0] <= RIGHT_POSE[0] && off[1] <= RIGHT_POSE[1]),
-        })
-        .collect()
+    match question {
+        Question::Part => cases
+            .flat_map(|case| &case.contenders)
+            .map(|contender| Sample {
+                evidence: contender.evidence,
+                is_right: contender
+                    .pose_off
+                    .is_some_and(|off| off[0] <= RIGHT_POSE[0] && off[1] <= RIGHT_POSE[1]),
+            })
+            .collect(),
+        Question::Type => cases
+            .filter_map(|case| {
+                let first = case.contenders.first()?;
+                let is_whole = !first.evidence.is_piece();
+                is_whole.then(|| Sample {
+                    evidence: first.evidence,
+                    is_right: case.expected.as_ref() == Some(&first.part),
+                })
+            })
+            .collect(),
+    }
 }
 
 /// A fitted model and how well it does on other samples.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
 pub struct Model {
+    /// What it answers.
+    pub question: Question,
     /// The constant.
     pub constant: f64,
-    /// A weight per feature of [`Evidence::features`].
-    pub weights: [f64; NUM_FEATURES],
+    /// A weight per feature.
+    pub weights: Vec<f64>,
 }
 
 impl Model {
     /// Fits the features that are switched on.
-    pub fn fit(samples: &[Sample], is_on: [bool; NUM_FEATURES]) -> Self {
-        let row = |sample: &Sample| row_of(&sample.evidence, is_on);
-        let mut weights = SVector::<f64, SIZE>::zeros();
+    pub fn fit(samples: &[Sample], question: Question, is_on: &[bool]) -> Self {
+        let size = is_on.len() + 1;
+        let row = |sample: &Sample| {
+            let features = question.of(&sample.evidence);
+            let on = features.iter().zip(is_on);
+            let on = on.map(|(x, is_on)| if *is_on { *x } else { 0.0 });
+            DVector::from_iterator(size, std::iter::once(1.0).chain(on))
+        };
+        let mut weights = DVector::<f64>::zeros(size);
         for _ in 0..50 {
-            let mut gradient = -weights * RIDGE * samples.len() as f64;
+            let mut gradient = -&weights * RIDGE * samples.len() as f64;
             gradient[0] = 0.0;
-            let mut hessian =
-                SMatrix::<f64, SIZE, SIZE>::identity() * (RIDGE * samples.len() as f64);
+            let mut hessian = DMatrix::<f64>::identity(size, size) * (RIDGE * samples.len() as f64);
             for sample in samples {
                 let x = row(sample);
                 let p = logistic(weights.dot(&x));
-                gradient += x * (f64::from(u8::from(sample.is_right)) - p);
-                hessian += x * x.transpose() * (p * (1.0 - p));
+                gradient += &x * (f64::from(u8::from(sample.is_right)) - p);
+                hessian += &x * x.transpose() * (p * (1.0 - p));
             }
             let Some(step) = hessian.cholesky().map(|c| c.solve(&gradient)) else {
                 break;
             };
-            weights += step;
+            weights += &step;
             if step.norm() < 1e-8 {
                 break;
             }
         }
         Self {
+            question,
             constant: weights[0],
-            weights: std::array::from_fn(|i| weights[i + 1]),
+            weights: weights.iter().skip(1).copied().collect(),
         }
     }
 
     /// The probability of being right.
     pub fn probability(&self, evidence: &Evidence) -> f64 {
-        let sum: f64 = self
-            .weights
-            .iter()
-            .zip(evidence.features())
-            .map(|(w, x)| w * x)
-            .sum();
+        let features = self.question.of(evidence);
+        let sum: f64 = self.weights.iter().zip(features).map(|(w, x)| w * x).sum();
         logistic(self.constant + sum)
     }
 
@@ -115,15 +157,6 @@ impl Model {
         }
         errors
     }
-}
-
-fn row_of(evidence: &Evidence, is_on: [bool; NUM_FEATURES]) -> SVector<f64, SIZE> {
-    let features = evidence.features();
-    SVector::from_fn(|i, _| match i.checked_sub(1) {
-        None => 1.0,
-        Some(i) if is_on[i] => features[i],
-        Some(_) => 0.0,
-    })
 }
 
 fn logistic(x: f64) -> f64 {
@@ -183,7 +216,8 @@ mod tests {
     fn the_weights_that_made_the_samples_are_found_again() {
         let truth = Model {
             constant: 3.0,
-            weights: [-2.0, -1.0, -1.5, -0.5, -0.7, 0.6],
+            question: Question::Part,
+            weights: vec![-2.0, -1.0, -1.0, -1.5, -0.5, -0.7, 0.6],
         };
         let mut random = Pcg64::seed_from_u64(8);
         let samples: Vec<Sample> = (0..20_000)
@@ -193,6 +227,7 @@ mod tests {
                     missing: random.random_range(0.0..0.4),
                     hidden: 0.0,
                     beyond: 0.0,
+                    beside: random.random_range(0.0..0.3),
                     seen_m2: random.random_range(0.05..0.5),
                     edge_m: random.random_range(0.25..4.0),
                     rival: 0.0,
@@ -211,7 +246,7 @@ mod tests {
                 }
             })
             .collect();
-        let found = Model::fit(&samples, [true; NUM_FEATURES]);
+        let found = Model::fit(&samples, Question::Part, &[true; FEATURES.len()]);
         for (found, truth) in found.weights.iter().zip(truth.weights) {
             assert!((found - truth).abs() < 0.15, "{found} instead of {truth}");
         }

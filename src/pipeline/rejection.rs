@@ -86,14 +86,6 @@ pub enum Rejection {
         /// Least lead.
         threshold: f64,
     },
-    /// Nothing in sight keeps the pose from sliding or turning.
-    #[error(
-        "what is in sight of {part} could slide or turn along it: no edge or bend holds the pose"
-    )]
-    LoosePose {
-        /// Best match.
-        part: String,
-    },
     /// Nothing enrolled is like it.
     #[error("unknown: nothing enrolled is like it; the nearest, {nearest}, scores {score:.2}")]
     Unknown {
@@ -228,7 +220,7 @@ impl Advice for Rejection {
             Self::HardlySeen { .. } => {
                 "Turn the part so that its face looks at the camera, all of it inside the picture, and capture again".into()
             }
-            Self::AmbiguousPose { .. } | Self::LoosePose { .. } => {
+            Self::AmbiguousPose { .. } => {
                 "Move the camera so that it sees a corner or another edge of the part, and capture again".into()
             }
             Self::AnotherModel { part, .. } | Self::AnotherMake { part, .. } => format!(

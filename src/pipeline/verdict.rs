@@ -10,7 +10,7 @@ use crate::{
         pose::{PoseError, PoseEstimate},
         rank::{MatchEntry, MatchRanking, Matcher},
     },
-    units::{Metres, Radians},
+    units::Metres,
 };
 
 /// When a verdict counts.
@@ -139,11 +139,6 @@ pub(super) fn verdict(
                 threshold: accept.min_margin,
             })
         }
-        (Some(Ok(pose)), Some(evidence)) if evidence.is_piece() && !is_held(pose) => {
-            Some(Rejection::LoosePose {
-                part: best.part.clone(),
-            })
-        }
         _ => other_model.map(|evidence| Rejection::AnotherModel {
             part: best.part.clone(),
             relief: Metres(evidence.relief_m),
@@ -160,15 +155,6 @@ pub(super) fn verdict(
     }
 }
 
-/// Bounds within which the pose of a piece is of use.
-const MOST_SHIFT: Metres = Metres(0.02);
-const MOST_TURN: Radians = Radians(0.035);
-
-fn is_held(pose: &PoseEstimate) -> bool {
-    pose.uncertainty
-        .is_none_or(|bounds| bounds.shift.0 <= MOST_SHIFT.0 && bounds.turn.0 <= MOST_TURN.0)
-}
-
 /// From this share of what another model is refused at, a pose is called approximate: four fifths of the other models
 /// reach it, and one in thirty of the enrolled ones.
 const MAY_BE_ANOTHER: f64 = 0.55;
@@ -176,7 +162,9 @@ const MAY_BE_ANOTHER: f64 = 0.55;
 /// How much speaks for a part of the same type that is not this one; above 1 it is one.
 pub(super) fn unlikeness(evidence: &Evidence, accept: &AcceptParams) -> f64 {
     let relief = evidence.relief_m / accept.max_relief.0;
-    let missing = evidence.missing / accept.max_missing;
+    // The rim is known to some millimetres only, and the smaller the piece, the more of it is rim.
+    let in_sight = (1.0 - evidence.outside) * (1.0 - evidence.hidden);
+    let missing = evidence.missing / accept.max_missing * in_sight.sqrt();
     let outline = evidence.outline_shift_m.unwrap_or(0.0) / accept.max_outline_shift.0;
     relief.max(missing).max(outline)
 }

@@ -262,7 +262,6 @@ fn refused(verdict: &Verdict, title_of: &dyn Fn(&str) -> String) -> Option<Strin
             Rejection::AmbiguousPose {
                 margin, threshold, ..
             } => format!("its lead over another pose is {margin:.2}, below {threshold:.2}"),
-            Rejection::LoosePose { .. } => "nothing in sight holds the pose".into(),
             Rejection::HardlySeen { score, .. } => {
                 format!("score {score:.2}: hardly in sight")
             }

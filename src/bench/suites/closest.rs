@@ -100,6 +100,7 @@ mod tests {
             missing: 0.0,
             hidden: 0.0,
             beyond: 0.0,
+            beside: 0.0,
             seen_m2: 0.3,
             edge_m: 2.0,
             rival: 0.0,

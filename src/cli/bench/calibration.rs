@@ -6,14 +6,13 @@ use serde::Serialize;
 use super::{BenchArgs, recognition::Frames, write_json};
 use crate::{
     bench::{
-        calibration::{Model, Sample, bands, samples},
+        calibration::{Model, Question, Sample, bands, samples},
         suites::{Suite, SuiteResult, TUNING_SEED},
     },
     cli::{
         Outcome,
         console::{Console, Table},
     },
-    stages::confirm::{FEATURES, NUM_FEATURES},
 };
 
 /// What `--json` writes.
@@ -22,7 +21,7 @@ struct CalibrationFile<'a> {
     schema: u32,
     simulated: bool,
     first_seed: u64,
-    model: Model,
+    models: [Model; 2],
     suites: &'a [SuiteResult],
 }
 
@@ -36,11 +35,33 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     let first_seed = args.seed.unwrap_or(TUNING_SEED);
     let frames = Frames::from_seed(&Suite::ALL, num_poses, first_seed);
     let results = frames.inspect(console)?;
+    console.line(&format_args!("Simulated: {}.", frames.words()));
+    let models = [Question::Part, Question::Type].map(|question| fit(&results, question, console));
+    show_bands(&results, console);
+    if let Some(path) = &args.json {
+        let file = CalibrationFile {
+            schema: 1,
+            simulated: true,
+            first_seed,
+            models,
+            suites: &results,
+        };
+        write_json(path, &file)?;
+    }
+    Ok(Outcome::Accepted)
+}
+
+/// Fits a model, and shows what each feature is worth to it.
+fn fit(results: &[SuiteResult], question: Question, console: &mut Console) -> Model {
     // One half of the subjects is fitted on, the other is measured, and the other way round.
-    let (odd, even) = halves(&results);
+    let (odd, even) = halves(results, question);
+    let what = match question {
+        Question::Part => "The score",
+        Question::Type => "The likeness",
+    };
+    console.line(&"");
     console.line(&format_args!(
-        "Simulated: {}; {} contenders, {} of them right.",
-        frames.words(),
+        "{what}: {} contenders, {} of them right.",
         odd.len() + even.len(),
         odd.iter().chain(&even).filter(|s| s.is_right).count()
     ));
@@ -51,9 +72,13 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         "wrong from 0.9 on",
         "right below 0.9",
     ]);
-    let all = [true; NUM_FEATURES];
-    let mut row = |what: String, is_on: [bool; NUM_FEATURES]| {
-        let models = [Model::fit(&odd, is_on), Model::fit(&even, is_on)];
+    let features = question.features();
+    let all = vec![true; features.len()];
+    let mut row = |what: String, is_on: &[bool]| {
+        let models = [
+            Model::fit(&odd, question, is_on),
+            Model::fit(&even, question, is_on),
+        ];
         let loss = f64::midpoint(models[0].log_loss(&even), models[1].log_loss(&odd));
         let errors = [
             models[0].errors(&even, ACCEPTED),
@@ -66,45 +91,34 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
             (errors[0][1] + errors[1][1]).to_string(),
         ]);
     };
-    row("all".to_owned(), all);
-    for (i, name) in FEATURES.iter().enumerate() {
-        let mut is_on = all;
+    row("all".to_owned(), &all);
+    for (i, name) in features.iter().enumerate() {
+        let mut is_on = all.clone();
         is_on[i] = false;
-        row(format!("without {name}"), is_on);
+        row(format!("without {name}"), &is_on);
     }
-    for (i, name) in FEATURES.iter().enumerate() {
-        let mut is_on = [false; NUM_FEATURES];
+    for (i, name) in features.iter().enumerate() {
+        let mut is_on = vec![false; features.len()];
         is_on[i] = true;
-        row(format!("{name} alone"), is_on);
+        row(format!("{name} alone"), &is_on);
     }
     table.show(console);
     let both: Vec<Sample> = odd.iter().chain(&even).copied().collect();
-    let model = Model::fit(&both, all);
+    let model = Model::fit(&both, question, &all);
     console.line(&"");
     console.line(&format_args!(
         "Fitted on all: constant {:.2}",
         model.constant
     ));
-    for (name, weight) in FEATURES.iter().zip(model.weights) {
+    for (name, weight) in features.iter().zip(&model.weights) {
         console.line(&format_args!("  {name}  {weight:.2}"));
     }
     console.line(&"");
-    show_bands(&results, console);
-    if let Some(path) = &args.json {
-        let file = CalibrationFile {
-            schema: 1,
-            simulated: true,
-            first_seed,
-            model,
-            suites: &results,
-        };
-        write_json(path, &file)?;
-    }
-    Ok(Outcome::Accepted)
+    model
 }
 
 /// The contenders of every second subject, and the others.
-fn halves(results: &[SuiteResult]) -> (Vec<Sample>, Vec<Sample>) {
+fn halves(results: &[SuiteResult], question: Question) -> (Vec<Sample>, Vec<Sample>) {
     let half = |is_odd: bool| {
         let half_of = |result: &SuiteResult| {
             let cases = result.cases.iter();
@@ -116,7 +130,7 @@ fn halves(results: &[SuiteResult]) -> (Vec<Sample>, Vec<Sample>) {
                     .collect(),
             }
         };
-        samples(&results.iter().map(half_of).collect::<Vec<_>>())
+        samples(&results.iter().map(half_of).collect::<Vec<_>>(), question)
     };
     (half(true), half(false))
 }

@@ -74,6 +74,9 @@ const POSES_OF_A_WHOLE: usize = 2;
 const POSES_OF_A_PIECE: usize = 3;
 /// Starts of a piece on all references that are refined.
 const MOST_REFINED: usize = 16;
+/// Where the best start costs more than this, nothing enrolled is there: so few are refined, to say how far off it is.
+const HOPELESS_START: f64 = 1.3;
+const FEW_REFINED: usize = 3;
 /// A start of a piece that costs this much more than the best one is not refined; nor is a pose weighed.
 const WORSE_START: f64 = 0.5;
 const WORSE_POSE: f64 = 0.35;
@@ -101,7 +104,11 @@ impl Seen<'_> {
         }
         starts.sort_by(|a, b| a.1.cost.total_cmp(&b.1.cost));
         let least = starts.first().map_or(0.0, |best| best.1.cost);
-        starts.truncate(MOST_REFINED);
+        starts.truncate(if least < HOPELESS_START {
+            MOST_REFINED
+        } else {
+            FEW_REFINED
+        });
         starts.retain(|start| start.1.cost < least + WORSE_START);
         let of_entry = |(number, entry): (usize, &MatchEntry)| {
             let reference = &references[entry.reference];

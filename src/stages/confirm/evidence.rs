@@ -28,10 +28,10 @@ use crate::{
     stages::{
         pose::{
             closest::Closest,
-            quality::{Fit, look_for, measure_fit},
+            quality::{Fit, Tolerance, look_for, measure_fit},
             refine::{Source, Target},
         },
-        reference::Reference,
+        reference::{Reference, ReferenceView},
     },
 };
 
@@ -40,6 +40,8 @@ use crate::{
 pub struct Evidence {
     /// Share of the part's points that lie off the reference, of those that its view could show, 0..1.
     pub off: f64,
+    /// The share of them that lies off and beside the reference, as a stand does that was taken for part of it, 0..1.
+    pub beside: f64,
     /// Share of the part's points beyond where the reference's view cut it off, 0..1.
     pub beyond: f64,
     /// Area of the part that lies on the reference, square metres.
@@ -142,6 +144,12 @@ impl Seen<'_> {
                 .sqrt(),
             outline_m,
             beyond,
+            beside: beside(
+                &shared_points,
+                &shared_closest,
+                tolerance,
+                &reference.views[view],
+            ),
             seen_m2: scene.query.contour.area * (1.0 - beyond) * fit.overlap,
             edge_m: self.own_m * edge_share,
             rival: 0.0,
@@ -153,6 +161,28 @@ impl Seen<'_> {
         };
         (fit, evidence)
     }
+}
+
+/// Share of the points that lie off the reference and outside its silhouette.
+fn beside(
+    points: &[Point3<f32>],
+    closest: &[Closest],
+    tolerance: Tolerance,
+    view: &ReferenceView,
+) -> f64 {
+    let plane = &view.plane;
+    let is_beside = |(p, closest): &(&Point3<f32>, &Closest)| {
+        let reach = tolerance.at_depth(f64::from(p.z));
+        let is_on = closest
+            .target
+            .is_some_and(|n| f64::from(n.distance_sq) < reach * reach);
+        let (column, row) = plane.pixel_of(&(view.plane_from_part * closest.at.cast::<f64>()).xy());
+        !is_on
+            && !plane
+                .image
+                .is_set(column.round() as i64, row.round() as i64)
+    };
+    points.iter().zip(closest).filter(is_beside).count() as f64 / points.len().max(1) as f64
 }
 
 /// Mean cosine between the reference's surface and the rays that see it.
@@ -256,7 +286,8 @@ impl Evidence {
     /// say no more than 0.4 does.
     pub fn features(&self) -> [f64; NUM_FEATURES] {
         [
-            self.off.min(0.4) / 0.1,
+            (self.off - self.beside).clamp(0.0, 0.4) / 0.1,
+            self.beside.min(0.4) / 0.1,
             self.missing.min(0.4) / 0.1,
             self.relief_m / 0.005,
             self.outline_m / 0.01,
@@ -284,7 +315,8 @@ impl Evidence {
     /// What the likeness is made of.
     pub fn type_features(&self) -> [f64; NUM_TYPE_FEATURES] {
         [
-            self.off.min(0.6) / 0.1,
+            (self.off - self.beside).clamp(0.0, 0.6) / 0.1,
+            self.beside.min(0.6) / 0.1,
             self.missing.min(0.6) / 0.1,
             self.relief_m / 0.005,
             self.outline_m / 0.01,
@@ -310,19 +342,22 @@ impl Evidence {
 
 /// The model of the score, as `bench calibration` fits it on the tuning seeds.
 const CONSTANT: f64 = 10.4;
-const WEIGHTS: [f64; NUM_FEATURES] = [-2.43, -5.13, -1.52, -2.0, -0.3, -0.3];
+const WEIGHTS: [f64; NUM_FEATURES] = [-2.43, -2.0, -5.13, -1.52, -2.0, -0.3, -0.3];
 
 /// Figures that a score is made of.
-pub const NUM_FEATURES: usize = 6;
+pub const NUM_FEATURES: usize = 7;
 /// Their names, in order.
-pub const FEATURES: [&str; NUM_FEATURES] = ["off", "missing", "relief", "outline", "area", "edge"];
+pub const FEATURES: [&str; NUM_FEATURES] = [
+    "within", "beside", "missing", "relief", "outline", "area", "edge",
+];
 
 /// The model of the likeness, fitted likewise.
 const TYPE_CONSTANT: f64 = 10.0;
-const TYPE_WEIGHTS: [f64; NUM_TYPE_FEATURES] = [-0.5, -0.5, -0.5, -0.5, -2.0, 1.0];
+const TYPE_WEIGHTS: [f64; NUM_TYPE_FEATURES] = [-0.5, -0.5, -0.5, -0.5, -0.5, -2.0, 1.0];
 
 /// Figures that a likeness is made of.
-pub const NUM_TYPE_FEATURES: usize = 6;
+pub const NUM_TYPE_FEATURES: usize = 7;
 /// Their names, in order.
-pub const TYPE_FEATURES: [&str; NUM_TYPE_FEATURES] =
-    ["off", "missing", "relief", "outline", "shape", "lead"];
+pub const TYPE_FEATURES: [&str; NUM_TYPE_FEATURES] = [
+    "within", "beside", "missing", "relief", "outline", "shape", "lead",
+];
