@@ -110,6 +110,17 @@ mod tests {
             let found = cell.frame(&cell.at_rest(), &setup.noise);
             assert!(found == frame(&setup), "seed {seed}");
         }
+        let booth = CellSetup::booth(
+            Subject::Part {
+                kind: PartKind::Fender,
+                side: Side::Left,
+                model_seed: 0,
+            },
+            7,
+        );
+        let cell = StandingCell::arrange(&booth, booth.subject.mesh());
+        let found = cell.frame(&cell.at_rest(), &booth.noise);
+        assert!(found.frame == frame(&booth).frame);
     }
 
     #[test]

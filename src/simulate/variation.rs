@@ -48,6 +48,15 @@ impl Variation {
         (self.share(1.0, 1.0..2.0) - 1.0) * reach
     }
 
+    /// How far the grid of a sheet has to reach: farther for another make.
+    pub(super) fn reach(&self, standard: f64) -> f64 {
+        if self.is_other_make {
+            standard * (1.0 + OTHER_MAKE.end)
+        } else {
+            standard
+        }
+    }
+
     /// 1 ± up to `spread`; for another make 1 ± something of `other_make`.
     fn share(&mut self, spread: f64, other_make: std::ops::Range<f64>) -> f64 {
         let Some(random) = &mut self.random else {

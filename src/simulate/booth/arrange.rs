@@ -67,7 +67,7 @@ pub(in crate::simulate) fn arrange<'a>(setup: &CellSetup, part: &'a TriangleMesh
         stand.floor,
         &mut random,
     );
-    let part_seed = random.random();
+    let camera_seed = random.random();
     let gloss = match setup.subject {
         Subject::Nothing => Gloss::none(),
         subject => Gloss::draw(subject, &seen, &camera_from_part, camera, &mut random),
@@ -84,6 +84,6 @@ pub(in crate::simulate) fn arrange<'a>(setup: &CellSetup, part: &'a TriangleMesh
         fits_frame: is_in_frame(part, &camera_from_part, camera),
         meshes,
         planes: walls.planes,
-        sensor: Sensor::Registered(RegisteredCamera::new(field_of_view, gloss, part_seed)),
+        sensor: Sensor::Registered(RegisteredCamera::new(field_of_view, gloss, camera_seed)),
     }
 }

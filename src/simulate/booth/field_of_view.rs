@@ -34,12 +34,6 @@ const BORDER_DEPTH: f64 = 2.2;
 const NO_BORDER: f64 = 0.15;
 
 impl FieldOfView {
-    /// All of the picture.
-    #[cfg(test)]
-    pub(super) fn whole() -> Self {
-        Self(None)
-    }
-
     pub(super) fn draw(camera: &Intrinsics, random: &mut Pcg64) -> Self {
         if random.random_bool(NO_BORDER) {
             return Self(None);

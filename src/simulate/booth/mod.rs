@@ -21,3 +21,6 @@ mod walls;
 
 pub(super) use arrange::{CAMERA, arrange};
 pub(super) use registered_camera::RegisteredCamera;
+
+#[cfg(test)]
+mod tests;

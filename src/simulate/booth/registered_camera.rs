@@ -26,7 +26,7 @@ const METRES_PER_UNIT: f64 = 0.001;
 /// Readings outside this range are lost, metres.
 const RANGE: std::ops::Range<f64> = 0.4..4.0;
 /// Axial noise at 1 m, metres.
-const AXIAL_AT_1M: std::ops::Range<f64> = 0.95e-3..1.7e-3;
+const AXIAL_AT_1M: std::ops::Range<f64> = 0.9e-3..1.6e-3;
 /// Share of the axial noise's variance that neighbours do not share.
 const WHITE: f64 = 0.06;
 /// Lateral noise, pixels: edges wander by this.

@@ -58,9 +58,14 @@ pub(super) fn trestle(
         .fold(f64::NEG_INFINITY, f64::max);
     let floor = Plane {
         normal: *down,
-        offset: lowest + random.random_range(0.3..1.0),
+        // A flange is not moved about at knee height.
+        offset: f64::max(
+            lowest + random.random_range(0.3..1.0),
+            random.random_range(0.9..1.5),
+        ),
     };
-    add_legs(&mut in_camera, &corners, &floor, &tube, random);
+    let backwards = camera_from_part * Vector3::z();
+    add_legs(&mut in_camera, &corners, &floor, &backwards, &tube, random);
     Trestle {
         tubes: in_camera,
         floor,
@@ -297,20 +302,27 @@ fn add_bar_beside(
     }
 }
 
-/// Legs from the frame's corners to the floor, a beam between two of them, a foot on each.
+/// Legs from the frame's corners to the floor, a beam between two of them, a foot on each. `backwards` points from the
+/// paint side to the other one.
 fn add_legs(
     tubes: &mut Assembly,
     corners: &[Point3<f64>; 4],
     floor: &Plane,
+    backwards: &Vector3<f64>,
     tube: &Tube,
     random: &mut Pcg64,
 ) {
     let mut level = || {
-        let v = Vector3::from_fn(|_, _| random.random_range(-0.3..0.3));
+        let v = Vector3::from_fn(|_, _| random.random_range(-0.2..0.2));
         v - floor.normal * floor.normal.dot(&v)
     };
+    // Below a part that leans forwards the legs slant back: they do not stand before it.
+    let down = &floor.normal;
+    let level_back = backwards - down * down.dot(backwards);
+    let needed = (0.05 - down.dot(backwards)).max(0.0);
+    let back = level_back * (needed / level_back.norm_squared().max(0.1));
     let legs = corners.map(|top| {
-        let along = floor.normal + level();
+        let along = floor.normal + back + level();
         // `along` goes down by one per unit of length.
         let foot = top + along * (floor.offset - floor.normal.dot(&top.coords));
         (top, foot)

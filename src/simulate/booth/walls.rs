@@ -21,6 +21,8 @@ pub(super) struct Walls {
 const BEHIND: std::ops::Range<f64> = 0.8..2.0;
 /// A second wall stays this far beside it.
 const BESIDE: std::ops::Range<f64> = 0.25..1.0;
+/// Larger boxes are built of pieces: the rasteriser tries every pixel of a triangle's box.
+const PIECE: f64 = 0.6;
 /// Fixtures are built out to this far from the wall's middle.
 const REACH: f64 = 2.4;
 
@@ -110,13 +112,23 @@ impl Wall {
 
     /// The same between two distances before the wall.
     fn add_box(&self, to: &mut Assembly, middle: [f64; 2], size: [f64; 2], out: [f64; 2]) {
-        let mut one = Assembly::default();
-        block(
-            &mut one,
-            Point3::new(middle[0], middle[1], -0.5 * (out[0] + out[1])),
-            Vector3::new(size[0], size[1], out[1] - out[0]),
-        );
-        to.add(&one.into_mesh(), |p| self.place(p));
+        let z = -f64::midpoint(out[0], out[1]);
+        let depth = out[1] - out[0];
+        let num = size.map(|s| (s / PIECE).ceil().max(1.0));
+        let [width, height] = [size[0] / num[0], size[1] / num[1]];
+        let mut pieces = Assembly::default();
+        for row in 0..num[1] as usize {
+            for column in 0..num[0] as usize {
+                let x = middle[0] + width * (column as f64 - 0.5 * (num[0] - 1.0));
+                let y = middle[1] + height * (row as f64 - 0.5 * (num[1] - 1.0));
+                block(
+                    &mut pieces,
+                    Point3::new(x, y, z),
+                    Vector3::new(width, height, depth),
+                );
+            }
+        }
+        to.add(&pieces.into_mesh(), |p| self.place(p));
     }
 
     /// Ribs, panels, frames and vents.
@@ -203,24 +215,19 @@ impl Wall {
             let place = side * random.random_range(0.45..1.1);
             let out = random.random_range(0.08..0.4);
             let lean: f64 = random.random_range(-0.35..0.35);
-            let mut column = Assembly::default();
-            // In pieces, as long tubes are.
-            for piece in 0..12 {
-                let down = -REACH + 0.4 * f64::from(piece) + 0.2;
-                block(
-                    &mut column,
-                    Point3::new(0.0, down, -out - 0.5 * width),
-                    Vector3::new(width, 0.4, width),
-                );
-            }
             let (sin, cos) = lean.sin_cos();
-            clutter.add(&column.into_mesh(), |p| {
-                self.place(Point3::new(
-                    place + cos * p.x - sin * p.y,
-                    sin * p.x + cos * p.y,
-                    p.z,
-                ))
-            });
+            let leaning = Self {
+                middle: self.place(Point3::new(place, 0.0, 0.0)),
+                along: self.along * cos + self.down * sin,
+                down: self.down * cos - self.along * sin,
+                ..*self
+            };
+            leaning.add_box(
+                clutter,
+                [0.0, 0.0],
+                [width, 2.0 * REACH],
+                [out, out + width],
+            );
         }
         if random.random_bool(0.35) {
             let height = random.random_range(0.03..0.1);

@@ -1,6 +1,7 @@
 use nalgebra::Point3;
 
 use super::*;
+use crate::simulate::FIRST_OTHER_MAKE;
 
 fn extents(mesh: &TriangleMesh) -> [f32; 3] {
     let first = mesh.vertices[0];
@@ -19,7 +20,7 @@ fn num_vertices_apart(a: &TriangleMesh, b: &TriangleMesh, apart: f32) -> usize {
 #[test]
 fn every_model_of_every_part_is_a_sound_mesh() {
     for kind in PartKind::ALL {
-        for model_seed in [0, 1, 2, 77, u64::MAX] {
+        for model_seed in [0, 1, 2, 77, FIRST_OTHER_MAKE, u64::MAX] {
             let mesh = PartModel::new(kind, Side::Left, model_seed).into_mesh();
             assert!(mesh.triangles.len() < 40_000, "{kind}");
             assert!(
@@ -156,6 +157,22 @@ fn another_model_seed_is_another_car_of_the_same_class() {
                 "{kind}"
             );
         }
+    }
+}
+
+#[test]
+fn another_make_differs_more_than_another_model() {
+    for kind in PartKind::ALL {
+        let standard = PartModel::new(kind, Side::Left, 0);
+        let num_apart = |model_seed| {
+            let other = PartModel::new(kind, Side::Left, model_seed);
+            num_vertices_apart(standard.mesh(), other.mesh(), 0.012)
+        };
+        let of_makes: usize = (FIRST_OTHER_MAKE..FIRST_OTHER_MAKE + 6)
+            .map(num_apart)
+            .sum();
+        let of_models: usize = (1..7).map(num_apart).sum();
+        assert!(of_makes > 2 * of_models, "{kind}: {of_makes}, {of_models}");
     }
 }
 

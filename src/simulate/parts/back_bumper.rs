@@ -68,7 +68,7 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
     Sheet {
         region: &outline.minus(diffuser).minus(exhaust).minus(reflectors),
         u_range: (-end - 0.01, end + 0.01),
-        v_range: (-0.28, 0.26),
+        v_range: (-vary.reach(0.28), vary.reach(0.26)),
         spacing: 0.0088,
         lift: &lift,
         fold: &|u, _| if u.abs() > end - 0.015 { 0.0 } else { 0.024 },

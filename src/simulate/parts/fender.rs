@@ -62,8 +62,8 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
     let mut fender = Assembly::default();
     Sheet {
         region: &outline.minus(arch).minus(blinker),
-        u_range: (-0.50, 0.50),
-        v_range: (-0.36, 0.36),
+        u_range: (-vary.reach(0.50), vary.reach(0.50)),
+        v_range: (-vary.reach(0.36), vary.reach(0.36)),
         spacing: 0.0075,
         lift: &lift,
         fold: &|x, y| {

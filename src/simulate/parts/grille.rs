@@ -56,8 +56,8 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
     }
     Sheet {
         region: &frame.minus(opening),
-        u_range: (-0.50, 0.50),
-        v_range: (-0.17, 0.17),
+        u_range: (-vary.reach(0.50), vary.reach(0.50)),
+        v_range: (-vary.reach(0.17), vary.reach(0.17)),
         spacing: 0.0060,
         lift: &|x, y| Point3::new(x, y, surface(x, y)),
         fold: &|_, _| 0.028,
@@ -65,8 +65,8 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
     .press_into(&mut grille);
     Sheet {
         region: &badge,
-        u_range: (-0.08, 0.08),
-        v_range: (-0.08, 0.08),
+        u_range: (-vary.reach(0.08), vary.reach(0.08)),
+        v_range: (-vary.reach(0.08), vary.reach(0.08)),
         spacing: 0.0050,
         // A shallow dome in front of the slats.
         lift: &|x, y| Point3::new(x, y, surface(0.0, y) - 0.010 + (x * x + y * y) * 3.0),

@@ -74,8 +74,8 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
     let mut support = Assembly::default();
     Sheet {
         region: &outline.minus(opening).minus(lamp).minus(latch).minus(slots),
-        u_range: (-0.62, 0.62),
-        v_range: (-0.30, 0.30),
+        u_range: (-vary.reach(0.62), vary.reach(0.62)),
+        v_range: (-vary.reach(0.30), vary.reach(0.30)),
         spacing: 0.0065,
         lift: &lift,
         // Deep flanges: the beams are open channels.

@@ -82,8 +82,8 @@ pub(super) fn build(vary: &mut Variation) -> Assembly {
     let mut lid = Assembly::default();
     Sheet {
         region: &outline,
-        u_range: (-0.58, 0.58),
-        v_range: (-0.34, 0.38),
+        u_range: (-vary.reach(0.58), vary.reach(0.58)),
+        v_range: (-vary.reach(0.34), vary.reach(0.38)),
         spacing: 0.0085,
         lift: &lift,
         fold: &|_, _| 0.022,

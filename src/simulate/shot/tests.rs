@@ -86,6 +86,21 @@ fn the_same_setup_gives_the_same_bits_and_another_seed_other_ones() {
     );
 }
 
+/// Bench results are compared from one version to the next: a frame of a seed may not change.
+#[test]
+fn the_plain_cell_gives_the_frames_it_always_gave() {
+    let sums = [
+        (PartKind::Fender, 4),
+        (PartKind::Grille, 2),
+        (PartKind::FrontDoor, 9),
+    ]
+    .map(|(kind, seed)| {
+        let depth = frame(&full_cell(kind, seed)).frame.depth;
+        depth.iter().map(|&units| u64::from(units)).sum::<u64>()
+    });
+    assert_eq!(sums, [3_035_843_436, 3_401_088_652, 3_096_570_384]);
+}
+
 #[test]
 fn every_surface_of_the_cell_is_seen_and_labelled() {
     let labels = frame(&full_cell(PartKind::Grille, 2)).truth.labels;
