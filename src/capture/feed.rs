@@ -46,6 +46,10 @@ impl Delivery {
 
 /// What a feed hands over.
 #[derive(Debug)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "nearly all are captures, each moved once"
+)]
 pub enum FeedItem {
     /// A capture.
     Captured(Captured),

@@ -18,11 +18,13 @@ enum Kind {
     /// Of a pinhole camera: x/z per column and y/z per row.
     Pinhole { columns: Vec<f32>, rows: Vec<f32> },
     /// Through a lens: both per pixel, row by row; NaN where the lens shows no ray.
-    Lens(Arc<Vec<[f32; 2]>>),
+    Lens(Table),
 }
 
+type Table = Arc<Vec<[f32; 2]>>;
+
 /// Cameras whose tables are kept, the one used last in front: a cell has one or two.
-static KNOWN: Mutex<Vec<(Intrinsics, Arc<Vec<[f32; 2]>>)>> = Mutex::new(Vec::new());
+static KNOWN: Mutex<Vec<(Intrinsics, Table)>> = Mutex::new(Vec::new());
 /// Tables kept; one of 0.3 million pixels takes 2.5 MB.
 const MAX_KNOWN: usize = 4;
 
@@ -78,7 +80,7 @@ impl Rays {
     }
 }
 
-fn known(camera: &Intrinsics) -> Arc<Vec<[f32; 2]>> {
+fn known(camera: &Intrinsics) -> Table {
     let lock = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
     let mut tables = lock();
     if let Some(place) = tables.iter().position(|(of, _)| of == camera) {

@@ -29,6 +29,10 @@ pub trait DepthSource {
 
 /// What a source has to give.
 #[derive(Debug)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "nearly all are captures, each moved once"
+)]
 pub enum Next {
     /// A capture.
     Captured(Captured),
