@@ -11,9 +11,10 @@ use super::{
 use crate::{
     error::Advice as _,
     files::{self, Opened},
+    geometry::cloud::Grid,
     library::{
-        About, EnrolParams, Enrolled, LibraryError, LibraryFolder, MAX_TITLE, PartName,
-        enrol_captured, enrol_mesh, enrol_whole, most_alike,
+        About, EnrolError, EnrolParams, Enrolled, LibraryError, LibraryFolder, MAX_TITLE, PartName,
+        enrol_captured, enrol_mesh, enrol_surface, enrol_whole, most_alike, surfaces_to_enrol,
     },
     stages::{
         reference::{Coverage, ReferenceParams},
@@ -28,6 +29,7 @@ Examples:
   partsight enrol capture.pcd --name front_door
   partsight enrol scan.ply --name grille --whole --notes \"spare, with badge\"
   partsight enrol other_make.pcd --name front_door_b --as front_door
+  partsight enrol booth.png --name fender --segment 2
   partsight enrol car.gltf#Door_FL --name door_left --library /media/stick/parts
 
 An organised cloud or a depth image is a captured scene: the part before the wall is taken out of it. Anything
@@ -47,9 +49,9 @@ pub(super) struct EnrolArgs {
     /// Take everything in the file
     #[arg(long, conflicts_with = "segment")]
     whole: bool,
-    /// Take the part that stands before the background
-    #[arg(long)]
-    segment: bool,
+    /// Take the part that stands before the background; with a number, that one of the surfaces found, the likeliest first
+    #[arg(long, value_name = "N", num_args = 0..=1)]
+    segment: Option<Option<usize>>,
     /// Name for people, such as "Front door, left"; at most 80 characters
     #[arg(long, value_name = "TEXT", default_value = "", value_parser = parse_title)]
     title: String,
@@ -161,9 +163,16 @@ fn enrolled_from(args: &EnrolArgs, console: &Console) -> anyhow::Result<Enrolled
     };
     let params = EnrolParams::default();
     let path = args.file.display();
-    let captured = |scene: &SceneCloud| enrol_captured(scene, &about, &params);
+    let captured = |scene: &SceneCloud| match args.segment.flatten() {
+        Some(number) => enrol_surface(scene, number, &about, &params),
+        None => enrol_captured(scene, &about, &params).inspect_err(|error| {
+            if let EnrolError::Background(_) = error {
+                list_surfaces(scene, &params, console);
+            }
+        }),
+    };
     let enrolled = match opened {
-        Opened::Mesh(_) if args.segment => {
+        Opened::Mesh(_) if args.segment.is_some() => {
             return Err(advised_error(
                 format!("{path}: a mesh has no background to take the part out of"),
                 "Leave --segment out",
@@ -174,11 +183,39 @@ fn enrolled_from(args: &EnrolArgs, console: &Console) -> anyhow::Result<Enrolled
             enrol_whole(&scene_from_frame(&frame).cloud, &about, &params)
         }
         Opened::Depth(frame) => captured(&scene_from_frame(&frame)),
-        Opened::Cloud(cloud) if args.segment || (cloud.grid.is_some() && !args.whole) => {
+        Opened::Cloud(cloud) if args.segment.is_some() || (cloud.grid.is_some() && !args.whole) => {
             captured(&scene_from_cloud(cloud))
         }
         Opened::Cloud(cloud) => enrol_whole(&cloud, &about, &params),
     };
     // The error speaks of the cloud, not of the file.
     enrolled.map_err(|error| advised_error(format!("{path}: {error}"), error.advice()))
+}
+
+/// The surfaces to choose from, with what tells them apart on the picture.
+fn list_surfaces(scene: &SceneCloud, params: &EnrolParams, console: &Console) {
+    let Some(Grid { width, .. }) = scene.cloud.grid else {
+        return;
+    };
+    for (part, number) in surfaces_to_enrol(scene, params)
+        .into_iter()
+        .flatten()
+        .zip(1..)
+    {
+        let (columns, rows) = (
+            part.indices.iter().map(|i| *i as usize % width),
+            part.indices.iter().map(|i| *i as usize / width),
+        );
+        let between = |least: Option<usize>, most: Option<usize>| {
+            format!("{} to {}", least.unwrap_or(0), most.unwrap_or(0))
+        };
+        let depth: f64 = part.cloud.points.iter().map(|p| f64::from(p.z)).sum();
+        console.note(&format_args!(
+            "surface {number}: {:.2} m² at {:.2} m, columns {}, rows {}",
+            part.surface.map_or(0.0, |surface| surface.area),
+            depth / part.indices.len().max(1) as f64,
+            between(columns.clone().min(), columns.max()),
+            between(rows.clone().min(), rows.max()),
+        ));
+    }
 }

@@ -20,7 +20,7 @@ use crate::{
     stages::{
         reference::{Coverage, Reference, ReferenceError, ReferenceParams, ViewCut},
         scene::SceneCloud,
-        segment::{NoPart, SegmentParams, SegmentedPart, segment},
+        segment::{BackgroundSign, NoPart, SegmentParams, SegmentedPart, other_parts, segment},
     },
     units::Metres,
 };
@@ -79,16 +79,23 @@ pub struct Enrolled {
 }
 
 /// Something odd about an enrolled part.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
 pub enum EnrolWarning {
-    /// The part reaches the edge of the picture.
-    #[error("the part reaches the edge of the picture, so some of it may be missing")]
+    /// The part reaches the border of the field of view.
+    #[error("the part reaches the border of the view, so some of it may be missing")]
     TouchesEdge,
+    /// What a person chose may be background.
+    #[error("this may be background: {0}")]
+    Background(BackgroundSign),
 }
 
 impl Advice for EnrolWarning {
     fn advice(&self) -> String {
-        "Move the camera back or centre the part, then enrol it again".into()
+        match self {
+            Self::TouchesEdge => "Move the camera back or centre the part, then enrol it again",
+            Self::Background(_) => "Check the picture, and take the part instead if it is not",
+        }
+        .into()
     }
 }
 
@@ -98,6 +105,17 @@ pub enum EnrolError {
     /// No part in the scene.
     #[error(transparent)]
     NoPart(#[from] NoPart),
+    /// The surface that would be taken is more likely background.
+    #[error("the surface found may be background: {0}")]
+    Background(BackgroundSign),
+    /// There are not that many surfaces.
+    #[error("the scene has no surface {wanted}; {found} were found")]
+    NoSuchSurface {
+        /// Number asked for, from 1.
+        wanted: usize,
+        /// Surfaces found.
+        found: usize,
+    },
     /// The cloud is no reference.
     #[error(transparent)]
     Reference(#[from] ReferenceError),
@@ -122,6 +140,10 @@ impl Advice for EnrolError {
         match self {
             Self::NoPart(error) => error.advice(),
             Self::Reference(error) => error.advice(),
+            Self::Background(_) => {
+                "Say which surface is the part with --segment N, or choose it in the window's Enrol workspace".into()
+            }
+            Self::NoSuchSurface { .. } => "Choose one of those found".into(),
             Self::TooFewPoints { .. } => {
                 "Capture the part from nearer, or export the cloud with more points".into()
             }
@@ -133,14 +155,60 @@ impl Advice for EnrolError {
 /// Least points of a whole cloud: fewer show no shape.
 const MIN_POINTS: usize = 100;
 
-/// Enrols the part that stands in a captured scene: from one side, in camera coordinates of that moment.
+/// Enrols the part that stands in a captured scene: from one side, in camera coordinates of that moment. What looks like
+/// background is refused.
 pub fn enrol_captured(
     scene: &SceneCloud,
     about: &About,
     params: &EnrolParams,
 ) -> Result<Enrolled, EnrolError> {
     let found = segment(scene, &params.segment).part?;
+    if let Some(sign) = found.background_sign() {
+        return Err(EnrolError::Background(sign));
+    }
     enrol_one_side(&found, scene, about, params)
+}
+
+/// Surfaces of a scene that a person may choose from.
+const MAX_SURFACES: usize = 8;
+
+/// The surfaces that may be the part of a captured scene, the likeliest first.
+pub fn surfaces_to_enrol(
+    scene: &SceneCloud,
+    params: &EnrolParams,
+) -> Result<Vec<SegmentedPart>, NoPart> {
+    let found = segment(scene, &params.segment);
+    let others = other_parts(scene, &found, &params.segment, MAX_SURFACES - 1);
+    Ok(std::iter::once(found.part?).chain(others).collect())
+}
+
+/// Enrols one of the [`surfaces_to_enrol`], by its number from 1.
+pub fn enrol_surface(
+    scene: &SceneCloud,
+    number: usize,
+    about: &About,
+    params: &EnrolParams,
+) -> Result<Enrolled, EnrolError> {
+    let all = surfaces_to_enrol(scene, params)?;
+    let chosen = number.checked_sub(1).and_then(|place| all.get(place));
+    let chosen = chosen.ok_or(EnrolError::NoSuchSurface {
+        wanted: number,
+        found: all.len(),
+    })?;
+    enrol_chosen(chosen, scene, about, params)
+}
+
+/// Enrols what a person chose: signs of background are warnings then.
+fn enrol_chosen(
+    found: &SegmentedPart,
+    scene: &SceneCloud,
+    about: &About,
+    params: &EnrolParams,
+) -> Result<Enrolled, EnrolError> {
+    let mut enrolled = enrol_one_side(found, scene, about, params)?;
+    let sign = found.background_sign();
+    enrolled.warnings.extend(sign.map(EnrolWarning::Background));
+    Ok(enrolled)
 }
 
 /// Enrols those points of a captured scene, by their places in it, ascending: what a person took for the part.
@@ -150,7 +218,7 @@ pub fn enrol_selected(
     about: &About,
     params: &EnrolParams,
 ) -> Result<Enrolled, EnrolError> {
-    let found = SegmentedPart::selected(scene, indices, params.segment.noise_at_1m);
+    let found = SegmentedPart::selected(scene, indices, &params.segment);
     let num_points = found.cloud.points.len();
     if num_points < MIN_POINTS {
         return Err(EnrolError::TooFewPoints {
@@ -158,7 +226,7 @@ pub fn enrol_selected(
             needed: MIN_POINTS,
         });
     }
-    enrol_one_side(&found, scene, about, params)
+    enrol_chosen(&found, scene, about, params)
 }
 
 /// Enrols what was found in a scene, as a camera at the origin saw it.

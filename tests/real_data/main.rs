@@ -3,6 +3,7 @@
 //! The data is looked for in `../shared/data` beside the crate, or where `PARTSIGHT_DATA` says. Without it the tests
 //! say so and pass; with `PARTSIGHT_REQUIRE_DATA=1` they fail.
 
+mod booth;
 mod files;
 mod registration;
 mod scenes;

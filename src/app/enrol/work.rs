@@ -204,8 +204,7 @@ fn enrol(
             enrol_selected(scene, &selection.indices, &about, params)
         }
         (Matter::Scene(scene), Taking::Whole) => {
-            let noise = params.segment.noise_at_1m;
-            let kept = SegmentedPart::selected(scene, &selection.indices, noise);
+            let kept = SegmentedPart::selected(scene, &selection.indices, &params.segment);
             enrol_whole(&kept.cloud, &about, params)
         }
     }

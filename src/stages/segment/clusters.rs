@@ -8,7 +8,11 @@ use std::collections::HashMap;
 use nalgebra::Point3;
 
 use super::{PointLabel, SegmentParams};
-use crate::{geometry::cloud::Grid, stages::scene::SceneCloud, units::Metres};
+use crate::{
+    geometry::cloud::{Grid, is_finite},
+    stages::scene::SceneCloud,
+    units::Metres,
+};
 
 /// One connected surface.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -22,6 +26,8 @@ pub struct Cluster {
     /// Share of its border to other surfaces along which it is the nearer one, 0..1: all of a part that nothing hides,
     /// hardly any of a wall. 1 if it borders on none, or without a picture.
     pub in_front: f64,
+    /// Share of its border along which the view ends, 0..1; 0 without a picture.
+    pub cut: f64,
 }
 
 pub(super) struct Members {
@@ -42,11 +48,7 @@ pub(super) fn connect(
     noise_at_1m: Metres,
     params: &SegmentParams,
 ) -> Vec<Members> {
-    let link = Link {
-        base: params.link_distance.0 as f32,
-        // The difference of two noisy depths has √2 of their deviation; four deviations hold all but strays.
-        noise: (4.0 * std::f64::consts::SQRT_2 * noise_at_1m.0) as f32,
-    };
+    let link = Link::new(noise_at_1m, params);
     let groups = match scene.cloud.grid {
         Some(grid) => connect_pixels(&scene.cloud.points, labels, grid, link),
         None => connect_voxels(&scene.cloud.points, labels),
@@ -55,18 +57,13 @@ pub(super) fn connect(
         .into_iter()
         .filter(|indices| indices.len() >= MIN_CLUSTER_POINTS)
         .collect();
-    let in_front = match scene.cloud.grid {
-        Some(grid) => shares_in_front(&scene.cloud.points, labels, &groups, grid, link),
-        None => vec![1.0; groups.len()],
-    };
+    let group_of = groups_of_points(labels, &groups);
+    let borders = borders_of(scene, &group_of, groups.len() + 1, link);
     let mut members: Vec<Members> = groups
         .into_iter()
-        .zip(in_front)
-        .map(|(indices, in_front)| Members {
-            cluster: Cluster {
-                in_front,
-                ..describe(scene, &indices)
-            },
+        .zip(borders)
+        .map(|(indices, border)| Members {
+            cluster: describe(scene, &indices, border),
             indices,
         })
         .collect();
@@ -81,6 +78,14 @@ struct Link {
 }
 
 impl Link {
+    fn new(noise_at_1m: Metres, params: &SegmentParams) -> Self {
+        Self {
+            base: params.link_distance.0 as f32,
+            // The difference of two noisy depths has √2 of their deviation; four deviations hold all but strays.
+            noise: (4.0 * std::f64::consts::SQRT_2 * noise_at_1m.0) as f32,
+        }
+    }
+
     fn joins(self, a: &Point3<f32>, b: &Point3<f32>) -> bool {
         let reach = self.base + self.noise * a.z * a.z;
         (a - b).norm_squared() < reach * reach
@@ -222,7 +227,7 @@ fn connect_voxels(points: &[Point3<f32>], labels: &[PointLabel]) -> Vec<Vec<u32>
     groups
 }
 
-fn describe(scene: &SceneCloud, indices: &[u32]) -> Cluster {
+fn describe(scene: &SceneCloud, indices: &[u32], border: Border) -> Cluster {
     let points = &scene.cloud.points;
     let area = if let Some(camera) = scene.intrinsics {
         // A pixel at depth z covers z²/(fx fy).
@@ -243,7 +248,8 @@ fn describe(scene: &SceneCloud, indices: &[u32]) -> Cluster {
         num_points: indices.len(),
         area,
         touches_edge: touches_edge(scene, indices),
-        in_front: 1.0,
+        in_front: border.in_front,
+        cut: border.cut,
     }
 }
 
@@ -251,47 +257,63 @@ fn describe(scene: &SceneCloud, indices: &[u32]) -> Cluster {
 const LINE_STEP: usize = 4;
 /// Pixels without a reading across which two surfaces border on each other: the shadow of one on the other.
 const SHADOW: usize = 40;
+/// Marks readings that are of no surface: pixels that mix the depths of two.
+const NO_GROUP: u32 = u32::MAX;
 
-/// For each group the share of its border to other surfaces, background included, along which it is the nearer one.
-fn shares_in_front(
-    points: &[Point3<f32>],
-    labels: &[PointLabel],
-    groups: &[Vec<u32>],
-    grid: Grid,
-    link: Link,
-) -> Vec<f64> {
-    const NOTHING: u32 = u32::MAX;
-    let Grid { width, height } = grid;
-    let background = groups.len() as u32;
-    let of_label = |label: &PointLabel| match label {
-        PointLabel::Background(_) => background,
-        _ => NOTHING,
+/// A reading this close to the end of the view is at it, pixels.
+const MARGIN: u32 = 2;
+
+/// What the border of a surface is like.
+#[derive(Clone, Copy)]
+struct Border {
+    /// See [`Cluster::in_front`].
+    in_front: f64,
+    /// See [`Cluster::cut`].
+    cut: f64,
+}
+
+impl Border {
+    const UNKNOWN: Self = Self {
+        in_front: 1.0,
+        cut: 0.0,
     };
-    // Specks are nothing: they are pixels that mix the depths of two surfaces.
-    let mut group_of: Vec<u32> = labels.iter().map(of_label).collect();
-    for (group, indices) in groups.iter().enumerate() {
-        for &i in indices {
-            group_of[i as usize] = group as u32;
-        }
-    }
-    let mut borders = vec![[0.0_f64; 2]; groups.len() + 1];
+}
+
+/// What borders on what in a scene's picture: `group_of` gives the surface of each point, below `num_groups`.
+fn borders_of(scene: &SceneCloud, group_of: &[u32], num_groups: usize, link: Link) -> Vec<Border> {
+    let Some(Grid { width, height }) = scene.cloud.grid else {
+        return vec![Border::UNKNOWN; num_groups];
+    };
+    let points = &scene.cloud.points;
+    let view = scene.field_of_view();
+    // Of each group how much of its border is nearer, farther, and only where the view ends.
+    let mut all = vec![[0.0_f64; 3]; num_groups];
     let mut walk = |pixels: &mut dyn Iterator<Item = usize>| {
         let mut before: Option<(usize, usize)> = None;
-        for (step, i) in pixels.enumerate().filter(|(_, i)| group_of[*i] != NOTHING) {
-            if let Some((last_step, j)) = before
-                && group_of[i] != group_of[j]
-                && step - last_step <= SHADOW
-                && !link.joins(&points[i], &points[j])
-            {
-                let (near, far) = if points[i].z < points[j].z {
-                    (i, j)
-                } else {
-                    (j, i)
-                };
-                borders[group_of[near] as usize][0] += 1.0;
-                borders[group_of[far] as usize][1] += 1.0;
+        let end_at = |all: &mut Vec<[f64; 3]>, i: usize| {
+            if view.is_some_and(|view| view.ends_at(i % width, i / width, MARGIN)) {
+                all[group_of[i] as usize][2] += 1.0;
+            }
+        };
+        for (step, i) in pixels.enumerate().filter(|(_, i)| group_of[*i] != NO_GROUP) {
+            match before {
+                None => end_at(&mut all, i),
+                Some((last_step, j)) => {
+                    let is_border = group_of[i] != group_of[j]
+                        && step - last_step <= SHADOW
+                        && !link.joins(&points[i], &points[j]);
+                    if is_border {
+                        let is_nearer = points[i].z < points[j].z;
+                        let (near, far) = if is_nearer { (i, j) } else { (j, i) };
+                        all[group_of[near] as usize][0] += 1.0;
+                        all[group_of[far] as usize][1] += 1.0;
+                    }
+                }
             }
             before = Some((step, i));
+        }
+        if let Some((_, i)) = before {
+            end_at(&mut all, i);
         }
     };
     for row in (0..height).step_by(LINE_STEP) {
@@ -300,21 +322,49 @@ fn shares_in_front(
     for column in (0..width).step_by(LINE_STEP) {
         walk(&mut (0..height).map(|row| row * width + column));
     }
-    borders.truncate(groups.len());
-    let share = |&[near, far]: &[f64; 2]| {
-        if near + far > 0.0 {
-            near / (near + far)
-        } else {
-            1.0
-        }
+    let share = |part: f64, of: f64, else_: f64| if of > 0.0 { part / of } else { else_ };
+    all.iter()
+        .map(|&[near, far, cut]| Border {
+            in_front: share(near, near + far, 1.0),
+            cut: share(cut, near + far + cut, 0.0),
+        })
+        .collect()
+}
+
+/// The surface of each point: its place in `groups`, the number of those for the background.
+fn groups_of_points(labels: &[PointLabel], groups: &[Vec<u32>]) -> Vec<u32> {
+    let of_label = |label: &PointLabel| match label {
+        PointLabel::Background(_) => groups.len() as u32,
+        _ => NO_GROUP,
     };
-    borders.iter().map(share).collect()
+    let mut group_of: Vec<u32> = labels.iter().map(of_label).collect();
+    for (group, indices) in groups.iter().enumerate() {
+        for &i in indices {
+            group_of[i as usize] = group as u32;
+        }
+    }
+    group_of
+}
+
+/// The figures of some points of a scene, all others taken for other surfaces.
+pub(super) fn figures_of(
+    scene: &SceneCloud,
+    indices: &[u32],
+    noise_at_1m: Metres,
+    params: &SegmentParams,
+) -> Cluster {
+    let is_other = |p: &Point3<f32>| if is_finite(p) { 1 } else { NO_GROUP };
+    let mut group_of: Vec<u32> = scene.cloud.points.iter().map(is_other).collect();
+    for &i in indices {
+        group_of[i as usize] = 0;
+    }
+    let border = borders_of(scene, &group_of, 2, Link::new(noise_at_1m, params))[0];
+    describe(scene, indices, border)
 }
 
 /// True if these points reach the border of the field of view.
 pub(super) fn touches_edge(scene: &SceneCloud, indices: &[u32]) -> bool {
     // A handful of stray pixels at the edge does not count.
-    const MARGIN: u32 = 2;
     const LEAST: usize = 10;
     let view = scene.cloud.grid.zip(scene.field_of_view());
     view.is_some_and(|(Grid { width, .. }, view)| {

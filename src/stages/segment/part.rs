@@ -2,10 +2,13 @@
 
 use super::{
     BackgroundPlane, Cluster, MIN_POINTS, NoPart, PointLabel, SegmentParams, Segmentation,
-    clusters, label_readings, stand::take_stand_off,
+    clusters, label_readings, noise_of_picture, stand::take_stand_off,
 };
 use crate::{
-    geometry::cloud::{Grid, PointCloud, is_finite},
+    geometry::{
+        cloud::{Grid, PointCloud, is_finite},
+        principal::principal_axes,
+    },
     stages::scene::SceneCloud,
     units::Metres,
 };
@@ -23,9 +26,64 @@ pub struct SegmentedPart {
     pub noise_at_1m: Metres,
     /// True if the part reaches the edge of the picture, so that some of it may be missing.
     pub touches_edge: bool,
+    /// What is known of the surface; `None` of a cloud that holds nothing but the part.
+    pub surface: Option<Cluster>,
 }
 
+/// Why a surface is more likely background than a part.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum BackgroundSign {
+    /// Others stand before it.
+    #[error("it lies behind other surfaces along {:.0} % of its border", share * 100.0)]
+    Behind {
+        /// Share of its border to other surfaces along which those are nearer, 0..1.
+        share: f64,
+    },
+    /// It runs out of the view on most sides.
+    #[error("the view cuts it off along {:.0} % of its border", share * 100.0)]
+    Cut {
+        /// Share of its border along which the view ends, 0..1.
+        share: f64,
+    },
+    /// It is as flat as a wall, and large.
+    #[error("it is a flat surface of {area:.2} m²")]
+    Flat {
+        /// Its area, square metres.
+        area: f64,
+    },
+}
+
+/// A surface of which the view cuts off more than this share of the border is as likely a wall.
+const MOST_CUT: f64 = 0.55;
+/// A flat surface of at least this is as likely a wall, square metres.
+const LARGE: f64 = 0.4;
+/// What a flat surface is out of plane by, beyond the noise, metres (standard deviation): a sheet of a car is pressed
+/// into a curve of centimetres.
+const FLAT: f64 = 0.003;
+
 impl SegmentedPart {
+    /// Why it is more likely background than a part, if there is a sign of that.
+    pub fn background_sign(&self) -> Option<BackgroundSign> {
+        let surface = self.surface?;
+        if surface.in_front < IN_FRONT {
+            let share = 1.0 - surface.in_front;
+            return Some(BackgroundSign::Behind { share });
+        }
+        if surface.cut > MOST_CUT {
+            return Some(BackgroundSign::Cut { share: surface.cut });
+        }
+        let area = surface.area;
+        (area > LARGE && self.is_flat()).then_some(BackgroundSign::Flat { area })
+    }
+
+    fn is_flat(&self) -> bool {
+        let points = self.cloud.points.iter().step_by(7);
+        let depth_sq = points.clone().map(|p| f64::from(p.z).powi(2)).sum::<f64>();
+        let noise = self.noise_at_1m.0 * depth_sq / points.len().max(1) as f64;
+        let principal = principal_axes(points.map(|p| (p.cast(), 1.0)));
+        principal.is_some_and(|principal| principal.variances[2].sqrt() < FLAT + noise)
+    }
+
     /// A cloud that holds nothing but the part.
     pub fn whole(cloud: &PointCloud) -> Self {
         let indices: Vec<u32> = cloud.finite().map(|(i, _)| i as u32).collect();
@@ -33,14 +91,23 @@ impl SegmentedPart {
     }
 
     /// The readings of a scene at these places, ascending.
-    pub fn selected(scene: &SceneCloud, indices: &[u32], noise_at_1m: Metres) -> Self {
+    pub fn selected(scene: &SceneCloud, indices: &[u32], params: &SegmentParams) -> Self {
         let is_reading = |i: &u32| {
             let point = scene.cloud.points.get(*i as usize);
             point.is_some_and(is_finite)
         };
         let indices: Vec<u32> = indices.iter().copied().filter(is_reading).collect();
-        let touches_edge = clusters::touches_edge(scene, &indices);
-        Self::of(&scene.cloud, indices, noise_at_1m, touches_edge)
+        let noise = noise_of_picture(scene).unwrap_or(params.noise_at_1m);
+        let surface = clusters::figures_of(scene, &indices, noise, params);
+        Self {
+            surface: Some(surface),
+            ..Self::of(
+                &scene.cloud,
+                indices,
+                params.noise_at_1m,
+                surface.touches_edge,
+            )
+        }
     }
 
     /// The same part in the mirrored scene.
@@ -83,15 +150,22 @@ impl SegmentedPart {
             stand: Vec::new(),
             noise_at_1m,
             touches_edge,
+            surface: None,
         }
     }
 
     /// A connected surface without the stand that touches it.
-    fn of_surface(scene: &SceneCloud, surface: Vec<u32>, noise_at_1m: Metres) -> Self {
-        let (indices, stand) = take_stand_off(scene, surface);
+    fn of_surface(
+        scene: &SceneCloud,
+        members: Vec<u32>,
+        surface: Cluster,
+        noise_at_1m: Metres,
+    ) -> Self {
+        let (indices, stand) = take_stand_off(scene, members);
         let touches_edge = clusters::touches_edge(scene, &indices);
         Self {
             stand,
+            surface: Some(surface),
             ..Self::of(&scene.cloud, indices, noise_at_1m, touches_edge)
         }
     }
@@ -152,17 +226,19 @@ pub fn other_parts(
     }
     let part = segmentation.part.as_ref().ok();
     let taken = part.and_then(SegmentedPart::first_of_surface);
-    let mut others: Vec<(f64, Vec<u32>)> = surfaces(scene, segmentation, params)
+    let mut others: Vec<(Cluster, Vec<u32>)> = surfaces(scene, segmentation, params)
         .into_iter()
         .zip(&segmentation.clusters)
         .filter(|(indices, cluster)| is_candidate(cluster) && indices.first() != taken)
-        .map(|(indices, cluster)| (likelihood(cluster), indices))
+        .map(|(indices, cluster)| (*cluster, indices))
         .collect();
-    others.sort_by(|a, b| b.0.total_cmp(&a.0));
+    others.sort_by(|a, b| likelihood(&b.0).total_cmp(&likelihood(&a.0)));
     others
         .into_iter()
         .take(limit)
-        .map(|(_, surface)| SegmentedPart::of_surface(scene, surface, segmentation.noise_at_1m))
+        .map(|(cluster, members)| {
+            SegmentedPart::of_surface(scene, members, cluster, segmentation.noise_at_1m)
+        })
         .collect()
 }
 
@@ -192,7 +268,8 @@ pub(super) fn take_part(
             if largest.cluster.area >= params.min_part_area
                 && largest.indices.len() >= MIN_POINTS =>
         {
-            let part = SegmentedPart::of_surface(scene, largest.indices.clone(), noise_at_1m);
+            let (members, cluster) = (largest.indices.clone(), largest.cluster);
+            let part = SegmentedPart::of_surface(scene, members, cluster, noise_at_1m);
             for &i in &part.indices {
                 labels[i as usize] = PointLabel::Part;
             }
