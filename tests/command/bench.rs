@@ -78,6 +78,17 @@ fn recognition_is_measured_beside_the_other_systems_and_its_worst_confusions_are
         assert_eq!(system["by_suite"][0]["num_frames"], 8);
     }
     assert_eq!(list(&file["closest"]), 8);
+    let figures = &file["figures"][0];
+    assert_eq!(figures["num_in_sight"], 8);
+    let num_accepted = figures["num_accepted"].as_u64().expect("a count");
+    let is_accepted = |case: &&Value| case["accepted"] == true && case["found"] == case["expected"];
+    let cases = file["suites"][0]["cases"].as_array().expect("a list");
+    assert_eq!(
+        cases.iter().filter(is_accepted).count() as u64,
+        num_accepted
+    );
+    assert!(figures["iou_median"].as_f64().is_some_and(|iou| iou > 0.9));
+    assert!(ran.out.contains("bounds hold"), "{}", ran.out);
     let drawn = fs::read_dir(place.path("why")).expect("a folder");
     let drawn = drawn.filter_map(|entry| entry.ok()?.file_name().into_string().ok());
     let num_contenders = drawn.filter(|name| name.ends_with(".contenders.png"));

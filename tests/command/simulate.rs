@@ -18,6 +18,39 @@ fn the_same_seed_gives_the_same_file() {
 }
 
 #[test]
+fn a_booth_draws_its_own_stand_and_pose() {
+    let place = Workplace::new();
+    let simulate = ["simulate", "--part", "fender", "--booth", "--seed", "3"];
+    let make = |out: &str| {
+        let more = ["--out", out, "--truth", "truth.json"];
+        place.accepted(&[&simulate[..], &more[..]].concat());
+        (
+            fs::read(place.path(out)).expect("written"),
+            place.json("truth.json"),
+        )
+    };
+    let (first, truth) = make("a.png");
+    assert!((first, &truth) == (make("b.png").0, &truth));
+    let share = truth["visible_share"].as_f64().expect("a number");
+    assert!((0.2..=1.0).contains(&share), "{share}");
+    let camera = place.json("a.json");
+    assert_eq!(camera["metres_per_unit"], 0.001);
+    for mine in [
+        ["--stand", "post"],
+        ["--clutter", "on-floor"],
+        ["--placement", "hard"],
+    ] {
+        let ran = place.run(&[&simulate[..], &mine[..], &["--out", "c.png"]].concat());
+        assert_eq!(ran.code, 2, "{mine:?}");
+        assert!(ran.err.contains("--booth"), "{}", ran.err);
+    }
+    let cases = ["simulate", "--cases", "kept", "--booth", "--num", "2"];
+    place.accepted(&cases);
+    let kept = fs::read_dir(place.path("kept")).expect("a folder");
+    assert!(kept.count() >= 2);
+}
+
+#[test]
 fn simulate_overwrites_neither_its_own_camera_nor_another_json() {
     let place = Workplace::new();
     let simulate = ["simulate", "--part", "grille", "--out"];

@@ -19,6 +19,8 @@ pub(super) struct Walls {
 
 /// The back wall stays this far behind the part, metres.
 const BEHIND: std::ops::Range<f64> = 0.8..2.0;
+/// Up to this angle to the view a wall is about square to it, radians.
+const SQUARE: f64 = 0.25;
 /// A second wall stays this far beside it.
 const BESIDE: std::ops::Range<f64> = 0.25..1.0;
 /// Larger boxes are built of pieces: the rasteriser tries every pixel of a triangle's box.
@@ -36,7 +38,11 @@ pub(super) fn walls(
     let mut fixtures = Assembly::default();
     let mut clutter = Assembly::default();
     // Square to the view as a rule, oblique at times.
-    let oblique = if random.random_bool(0.65) { 0.25 } else { 0.9 };
+    let oblique = if random.random_bool(0.65) {
+        SQUARE
+    } else {
+        0.8
+    };
     let heading: f64 = random.random_range(-oblique..oblique);
     let back = Wall::beyond(
         part,
@@ -50,12 +56,16 @@ pub(super) fn walls(
         (back.plane, SurfaceLabel::Wall),
         (floor, SurfaceLabel::Floor),
     ];
-    if random.random_bool(0.45) {
-        let quarter = if random.random_bool(0.5) {
-            std::f64::consts::FRAC_PI_2
+    // An oblique wall recedes beyond the sensor's range unless another one closes it off.
+    let is_closed_off = heading.abs() > SQUARE;
+    if is_closed_off || random.random_bool(0.4) {
+        let receding = -heading.signum();
+        let side = if is_closed_off || random.random_bool(0.5) {
+            receding
         } else {
-            -std::f64::consts::FRAC_PI_2
+            -receding
         };
+        let quarter = side * std::f64::consts::FRAC_PI_2;
         let beside = random.random_range(BESIDE);
         let side = Wall::beyond(part, camera_from_world, heading + quarter, beside);
         if random.random_bool(0.5) {
