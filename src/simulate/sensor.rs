@@ -83,7 +83,7 @@ pub(super) enum Sensor {
     /// See the [module](self).
     Kinect,
     /// See [`RegisteredCamera`].
-    Registered(RegisteredCamera),
+    Registered(Box<RegisteredCamera>),
 }
 
 impl Sensor {

@@ -78,12 +78,13 @@ pub(in crate::simulate) fn arrange<'a>(setup: &CellSetup, part: &'a TriangleMesh
         (walls.clutter.into_mesh(), SurfaceLabel::Clutter),
     ];
     meshes.retain(|(mesh, _)| !mesh.triangles.is_empty());
+    let sensor = RegisteredCamera::new(field_of_view, gloss, camera_seed);
     Cell {
         part,
         camera_from_part,
         fits_frame: is_in_frame(part, &camera_from_part, camera),
         meshes,
         planes: walls.planes,
-        sensor: Sensor::Registered(RegisteredCamera::new(field_of_view, gloss, camera_seed)),
+        sensor: Sensor::Registered(Box::new(sensor)),
     }
 }
