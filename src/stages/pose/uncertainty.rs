@@ -8,9 +8,9 @@
 //! Neighbouring pairs err together: a camera rounds depths in steps, and a whole side of an outline lies some
 //! millimetres off where readings are lost. So pairs are taken together by region, an outline also by the side it is on
 //! (K.-Y. Liang and S. L. Zeger, "Longitudinal data analysis using generalized linear models", Biometrika 73(1), 1986),
-//! and M = b² Σ g gᵀ, with g = Σ w J over a region and b² the mean square of the regions' mean distances: with so few
-//! regions one figure for all is steadier than the products of each. Outlines add what a view's outline is never better
-//! known than.
+//! and M = Σ G Gᵀ + b² Σ g gᵀ. G = Σ w r J over a patch is for what errs by itself. What a region shares has g = Σ w J
+//! over it, and b² is the mean square of the regions' mean distances: of so few, one figure is steadier than the products
+//! of each. Outlines add what a view's outline is never better known than.
 //!
 //! What holds the pose, H, is counted with care in two places. An edge point holds the part across the outline, not
 //! along it: further along there is a closest point as well. And normals that are a little off feign a hold where
@@ -24,13 +24,12 @@
 
 mod freedom;
 mod normals;
-
-use std::collections::BTreeMap;
+mod regions;
 
 use nalgebra::{Matrix3, Matrix6, Point3, Vector3, Vector6};
 
 pub use self::freedom::{Axis, Freedom};
-use self::{freedom::Frame, normals::tilt_sq};
+use self::{freedom::Frame, normals::tilt_sq, regions::Regions};
 use super::{
     closest::Closest,
     equations::edge_share,
@@ -69,18 +68,24 @@ impl Uncertainty {
 
 /// Beyond this, some two degrees, and beyond the reach of its pairs, bounds are a guess, and the pose is unconstrained.
 const LOOSE: Radians = Radians(0.035);
+/// The same where no outline is seen: closest points on a surface alone hold a pose in any shallow valley of E.
+const LOOSE_WITHOUT_OUTLINE: Radians = Radians(0.01);
 /// Where more of the hold than this is feigned, there is none.
 const FEIGNED: f64 = 0.5;
+/// Every so many pairs show what is feigned: it is a mean.
+const FEIGNED_EVERY: usize = 4;
 /// Side of a region of the surface and of the outline, in root mean square distances of the points from their middle.
 /// An outline's errors reach further.
 const REGION: f64 = 1.2;
+/// Side of a patch of the surface, likewise: what errs by itself, as the points of a cloud do.
+const PATCH: f64 = 0.4;
 const OUTLINE_REGION: f64 = 1.5;
 /// What a stretch of an outline may be off by, where the residuals do not show it: a pixel at 1.5 m, metres.
 const OUTLINE_ERROR: f64 = 0.003;
 /// By what the scatter of turns and shifts exceeds the model's, on parts of other cars in frames of the tuning seeds
 /// (`partsight bench bounds --seed 3000000`).
-const TURN_FACTOR: f64 = 1.15;
-const SHIFT_FACTOR: f64 = 1.4;
+const TURN_FACTOR: f64 = 1.1;
+const SHIFT_FACTOR: f64 = 1.2;
 
 /// The bounds of a pose that a refinement at this level ended at, from the closest points of the source's surface.
 pub fn uncertainty(
@@ -110,9 +115,11 @@ pub fn uncertainty(
     let frame = Frame::of(&(squares.sum::<Matrix3<f64>>() / pairs.len() as f64));
 
     let mut sums = Sums::new(middle, per_scale_sq);
+    let mut patches = Regions::new(middle, PATCH * frame.radius);
     let mut surface = Regions::new(middle, REGION * frame.radius);
     for pair in &pairs {
         let lever = sums.add(&pair.at, &pair.normal, pair.off, pair.weight);
+        patches.add(&pair.at, None, &lever, pair.off, pair.weight);
         surface.add(&pair.at, None, &lever, pair.off, pair.weight);
     }
     let feigned = feigned(&pairs, &middle, tilt_sq(&pairs, target));
@@ -132,8 +139,14 @@ pub fn uncertainty(
         let lever = sums.add(&at, &edge.outwards, off, weight);
         outline.add(&at, Some(&edge.outwards), &lever, off, weight);
     }
-    let spread = surface.spread(0.0) + outline.spread(OUTLINE_ERROR);
-    sums.bounds(&feigned, &spread, &frame, Metres(3.0 * level.scale))
+    let spread = patches.scatter() + surface.spread(0.0) + outline.spread(OUTLINE_ERROR);
+    let loose = if outline.is_empty() {
+        LOOSE_WITHOUT_OUTLINE
+    } else {
+        LOOSE
+    };
+    let limits = (loose, Metres(3.0 * level.scale));
+    sums.bounds(&feigned, &spread, &frame, limits)
 }
 
 /// A source point and the surface of the target.
@@ -225,72 +238,13 @@ fn change(from_middle: &Vector3<f64>, direction: &Vector3<f64>) -> Vector6<f64> 
 /// The hold that normals feign which are off by this angle, squared, anyhow.
 fn feigned(pairs: &[Pair], middle: &Vector3<f64>, tilt_sq: f64) -> Matrix6<f64> {
     let mut hold = Matrix6::zeros();
-    for pair in pairs {
+    for pair in pairs.iter().step_by(FEIGNED_EVERY) {
         for along in tangents(&pair.normal) {
             let change = change(&(pair.at.coords - middle), &along);
             hold += change * change.transpose() * (pair.weight * tilt_sq);
         }
     }
-    hold
-}
-
-/// Pairs by region.
-struct Regions {
-    middle: Vector3<f64>,
-    /// Side of a region, metres.
-    side: f64,
-    regions: BTreeMap<[i32; 6], Region>,
-}
-
-#[derive(Default)]
-struct Region {
-    weight: f64,
-    /// Σ w r
-    pull: f64,
-    /// Σ w J
-    lever: Vector6<f64>,
-}
-
-impl Regions {
-    fn new(middle: Vector3<f64>, side: f64) -> Self {
-        Self {
-            middle,
-            side: side.max(f64::MIN_POSITIVE),
-            regions: BTreeMap::new(),
-        }
-    }
-
-    /// Adds a pair, by its place and the side that it is on.
-    fn add(
-        &mut self,
-        at: &Point3<f64>,
-        facing: Option<&Vector3<f64>>,
-        change: &Vector6<f64>,
-        off: f64,
-        weight: f64,
-    ) {
-        let cell = ((at.coords - self.middle) / self.side).map(|x| x.floor() as i32);
-        // Six sides and what lies between.
-        let facing = facing.map_or(Vector3::zeros(), |f| f.map(|x| (1.2 * x).round() as i32));
-        let key = [cell.x, cell.y, cell.z, facing.x, facing.y, facing.z];
-        let region = self.regions.entry(key).or_default();
-        region.weight += weight;
-        region.pull += weight * off;
-        region.lever += change * weight;
-    }
-
-    /// Their share of M, if the mean distance of a region has at least this standard deviation besides what is seen.
-    fn spread(&self, at_least: f64) -> Matrix6<f64> {
-        let regions = || self.regions.values().filter(|region| region.weight > 0.0);
-        let weight_sum: f64 = regions().map(|region| region.weight).sum();
-        let squares = regions().map(|region| region.pull * region.pull / region.weight);
-        // What the pose could fit of so many regions is missing in the residuals: half of its six parameters each.
-        let num = regions().count() as f64;
-        let seen_sq =
-            squares.sum::<f64>() / weight_sum.max(f64::MIN_POSITIVE) * num / (num - 3.0).max(1.0);
-        let levers = regions().map(|region| region.lever * region.lever.transpose());
-        levers.sum::<Matrix6<f64>>() * (seen_sq + at_least * at_least)
-    }
+    hold * FEIGNED_EVERY as f64
 }
 
 /// The sums over all pairs.
@@ -334,7 +288,7 @@ impl Sums {
         feigned: &Matrix6<f64>,
         spread: &Matrix6<f64>,
         frame: &Frame,
-        reach: Metres,
+        (most_turn, most_shift): (Radians, Metres),
     ) -> Uncertainty {
         if let Some(motion) = self.free_motion(feigned, frame) {
             return Uncertainty::free(frame.freedom(&motion));
@@ -351,18 +305,8 @@ impl Sums {
             factor * within_95(&block(first)) + to_go.fixed_rows::<3>(first).norm()
         };
         let (turn, shift) = (bound(0, TURN_FACTOR), bound(3, SHIFT_FACTOR));
-        let widest = |first: usize| {
-            let eigen = block(first).symmetric_eigen();
-            let widest = eigen.eigenvectors.column(eigen.eigenvalues.imax());
-            frame.nearest(&widest.into_owned())
-        };
-        let freedom = if !(shift <= reach.0) {
-            Some(Freedom::Slide(widest(3)))
-        } else if !(turn <= LOOSE.0) {
-            Some(Freedom::Turn(widest(0)))
-        } else {
-            None
-        };
+        let is_held = turn <= most_turn.0 && shift <= most_shift.0;
+        let freedom = (!is_held).then(|| frame.widest(&covariance));
         Uncertainty {
             shift: Metres(shift),
             turn: Radians(turn),
@@ -372,10 +316,7 @@ impl Sums {
 
     /// The motion that most of the hold against is feigned, if there is one: turn, then shift.
     fn free_motion(&self, feigned: &Matrix6<f64>, frame: &Frame) -> Option<Vector6<f64>> {
-        // Turns in units of what they move a point by, so that the softest motion is found by its length.
-        let per_turn = 1.0 / frame.radius.max(f64::MIN_POSITIVE);
-        let units = Vector6::new(per_turn, per_turn, per_turn, 1.0, 1.0, 1.0);
-        let units = Matrix6::from_diagonal(&units);
+        let units = frame.units();
         let (hold, feigned) = (units * self.hold * units, units * feigned * units);
         if !hold.iter().chain(&feigned).all(|x| x.is_finite()) {
             return Some(Vector6::zeros());

@@ -2,7 +2,7 @@
 
 use std::fmt;
 
-use nalgebra::{Matrix3, Vector3, Vector6};
+use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 /// How a part could move and still lie on the reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -74,8 +74,27 @@ impl Frame {
         }
     }
 
+    /// The motion that a covariance allows most of.
+    pub(super) fn widest(&self, covariance: &Matrix6<f64>) -> Freedom {
+        let units = self.units();
+        let per_unit = Matrix6::from_diagonal(&units.diagonal().map(f64::recip));
+        let in_units = per_unit * covariance * per_unit;
+        if !in_units.iter().all(|x| x.is_finite()) {
+            return Freedom::Anyhow;
+        }
+        let eigen = in_units.symmetric_eigen();
+        let widest = eigen.eigenvectors.column(eigen.eigenvalues.imax());
+        self.freedom(&(units * widest))
+    }
+
+    /// Carries motions whose turns are counted by what they move a point by, metres, into radians.
+    pub(super) fn units(&self) -> Matrix6<f64> {
+        let per_turn = 1.0 / self.radius.max(1e-9);
+        Matrix6::from_diagonal(&Vector6::new(per_turn, per_turn, per_turn, 1.0, 1.0, 1.0))
+    }
+
     /// The axis nearest to a direction.
-    pub(super) fn nearest(&self, direction: &Vector3<f64>) -> Axis {
+    fn nearest(&self, direction: &Vector3<f64>) -> Axis {
         Axis::ALL[self.axes.tr_mul(direction).iamax()]
     }
 }
