@@ -172,6 +172,9 @@ fn look_elsewhere(
             best = found.best_score();
             inspection.segmentation.take(part);
             found.keep(inspection);
+            if inspection.verdict.is_accepted() {
+                break;
+            }
         }
     }
     Ok(())

@@ -18,7 +18,8 @@ use partsight::{
         Verdict, Watch, run,
     },
     simulate::{
-        CellSetup, Clutter, ObjectKind, PartKind, PartPose, SensorNoise, Side, Subject, frame,
+        CellSetup, Clutter, FIRST_OTHER_MAKE, ObjectKind, PartKind, PartPose, SensorNoise, Side,
+        Subject, frame,
     },
     stages::{
         pose::PoseMethod,
@@ -364,6 +365,60 @@ fn a_part_of_another_model_is_named_and_its_pose_is_marked_as_approximate() {
     }
     // A model that differs by millimetres only is the same to a camera of this noise.
     assert!(num_marked >= 6, "{num_marked} of 8");
+}
+
+#[test]
+fn a_part_half_out_of_the_picture_is_accepted_from_what_is_in_sight() {
+    let library = standard();
+    for (kind, right) in [
+        (PartKind::FrontDoor, 0.55),
+        (PartKind::BackDoor, -0.5),
+        (PartKind::Fender, 0.5),
+    ] {
+        let mut setup = CellSetup::with_part(kind, Side::Left, 0, 71);
+        let hung = Isometry3::translation(right, 0.05, 1.2);
+        setup.pose = PartPose::Fixed(hung);
+        let scene = scene_from_frame(&frame(&setup).frame);
+        let inspection = inspected(&scene, &library, &Recipe::default());
+        let is_named = matches!(
+            &inspection.verdict,
+            Verdict::Part { part, rejected: None, .. } if part == kind.name()
+        );
+        assert!(
+            is_named && inspection.touches_edge(),
+            "{kind}: {:?}",
+            inspection.verdict
+        );
+        let pose = inspection.pose.expect("asked for").expect("found");
+        let truth = hung * enrolment_pose().inverse();
+        let middle = enrolment_pose() * Point3::origin();
+        let off = pose_error(&pose.camera_from_part(), &truth, &middle);
+        assert!(
+            off.rotation.degrees() < 1.0 && off.shift.mm() < 10.0,
+            "{kind}: {off:?}"
+        );
+    }
+}
+
+#[test]
+fn a_part_of_another_make_is_named_as_one_and_never_accepted() {
+    let library = standard();
+    let mut num_named = 0;
+    for (kind, seed) in PartKind::ALL.into_iter().zip(81..) {
+        let setup = CellSetup::with_part(kind, Side::Left, FIRST_OTHER_MAKE + seed, seed);
+        let scene = scene_from_frame(&frame(&setup).frame);
+        let verdict = inspected(&scene, &library, &Recipe::default()).verdict;
+        assert!(!verdict.is_accepted(), "{kind}: {verdict:?}");
+        num_named += usize::from(matches!(
+            &verdict,
+            Verdict::Part {
+                part,
+                rejected: Some(Rejection::AnotherMake { .. } | Rejection::AnotherModel { .. }),
+                ..
+            } if part == kind.name()
+        ));
+    }
+    assert!(num_named >= 7, "{num_named} of 8");
 }
 
 #[test]

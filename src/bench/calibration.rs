@@ -4,13 +4,14 @@
 //! Logistic regression with a small ridge penalty by Newton's method (D. R. Cox, "The regression analysis of binary
 //! sequences", Journal of the Royal Statistical Society B 20(2), 1958). Every contender of every frame is one sample,
 //! so an unknown object speaks against each part that it resembles. Right is a contender whose name is right and whose
-//! pose is within 5° and 40 mm; parts of other car models count as right then too. The likeness is fitted likewise: there
+//! pose is within 5° and 40 mm. Parts of other car models are left out: a camera cannot tell all of them from the enrolled
+//! ones; those of other makes are never right. The likeness is fitted likewise: there
 //! right is a whole part whose name is right, of whatever model or make.
 
 use nalgebra::{DMatrix, DVector};
 use serde::Serialize;
 
-use super::suites::SuiteResult;
+use super::suites::{Suite, SuiteResult};
 use crate::stages::confirm::{Evidence, FEATURES, TYPE_FEATURES};
 
 /// Keeps the weights finite where the samples are told apart without a fault.
@@ -56,19 +57,24 @@ pub struct Sample {
 
 /// The contenders of all frames; for the type only the first of each, and only whole parts.
 pub fn samples(results: &[SuiteResult], question: Question) -> Vec<Sample> {
-    let cases = results.iter().flat_map(|result| &result.cases);
+    let of_suites = |is_used: fn(Suite) -> bool| {
+        let used = results.iter().filter(move |result| is_used(result.suite));
+        used.flat_map(|result| result.cases.iter().map(|case| (result.suite, case)))
+    };
     match question {
-        Question::Part => cases
-            .flat_map(|case| &case.contenders)
-            .map(|contender| Sample {
+        Question::Part => of_suites(|suite| suite != Suite::OtherModels)
+            .flat_map(|(suite, case)| case.contenders.iter().map(move |c| (suite, c)))
+            .map(|(suite, contender)| Sample {
                 evidence: contender.evidence,
-                is_right: contender
-                    .pose_off
-                    .is_some_and(|off| off[0] <= RIGHT_POSE[0] && off[1] <= RIGHT_POSE[1]),
+                is_right: suite != Suite::OtherMakes
+                    && contender
+                        .pose_off
+                        .is_some_and(|off| off[0] <= RIGHT_POSE[0] && off[1] <= RIGHT_POSE[1]),
             })
             .collect(),
-        Question::Type => cases
-            .filter_map(|case| {
+        // The mirror image of a part is of its type too, and is found another way.
+        Question::Type => of_suites(|suite| suite != Suite::Mirrored)
+            .filter_map(|(_, case)| {
                 let first = case.contenders.first()?;
                 let is_whole = !first.evidence.is_piece();
                 is_whole.then(|| Sample {
@@ -217,7 +223,7 @@ mod tests {
         let truth = Model {
             constant: 3.0,
             question: Question::Part,
-            weights: vec![-2.0, -1.0, -1.0, -1.5, -0.5, -0.7, 0.6],
+            weights: vec![-2.0, -1.0, -1.5, -0.7, 0.6],
         };
         let mut random = Pcg64::seed_from_u64(8);
         let samples: Vec<Sample> = (0..20_000)
@@ -227,12 +233,10 @@ mod tests {
                     missing: random.random_range(0.0..0.4),
                     hidden: 0.0,
                     beyond: 0.0,
-                    beside: random.random_range(0.0..0.3),
                     seen_m2: random.random_range(0.05..0.5),
                     edge_m: random.random_range(0.25..4.0),
                     rival: 0.0,
                     shape: 1.0,
-                    shape_lead: 0.0,
                     outside: random.random_range(0.0..0.5),
                     relief_m: random.random_range(0.0..0.01),
                     outline_m: random.random_range(0.0..0.04),

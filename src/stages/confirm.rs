@@ -155,7 +155,11 @@ pub fn confirm(
     ranking: MatchRanking,
     params: &ConfirmParams,
 ) -> (MatchRanking, Result<PoseEstimate, PoseError>) {
-    let shapes = Shapes::of(&ranking);
+    let shapes: Vec<(usize, f64)> = ranking
+        .entries
+        .iter()
+        .map(|e| (e.reference, e.score))
+        .collect();
     let seen = Seen::new(scene, references, params);
     if seen.source.surface.len() < 20 {
         let error = PoseError::TooFewPoints {
@@ -195,7 +199,10 @@ pub fn confirm(
     sort_by_score(&mut confirmed[..num_looked_at]);
     let best = confirmed.first().map_or(0.0, |c| c.0.score);
     for (entry, candidate) in &mut confirmed[..num_looked_at] {
-        if let Some(candidate) = candidate.as_mut().filter(|_| entry.score > CONTENDS * best) {
+        if let Some(candidate) = candidate
+            .as_mut()
+            .filter(|_| entry.score > (CONTENDS * best).max(HOPELESS_SCORE))
+        {
             seen.finish(&references[entry.reference], candidate);
             entry.score = candidate.evidence.score();
         }
@@ -206,10 +213,9 @@ pub fn confirm(
         .map(|(mut entry, candidate)| {
             entry.pose = candidate.as_ref().map(Candidate::estimate);
             entry.evidence = candidate.map(|c| {
-                let (shape, shape_lead) = shapes.of_entry(&entry);
+                let shape = shapes.iter().find(|shape| shape.0 == entry.reference);
                 Evidence {
-                    shape,
-                    shape_lead,
+                    shape: shape.map_or(0.0, |shape| shape.1),
                     ..c.evidence
                 }
             });
@@ -223,37 +229,14 @@ pub fn confirm(
     )
 }
 
-/// What the ranking said of each reference.
-struct Shapes {
-    /// Part and score, best first.
-    scores: Vec<(usize, String, f64)>,
-}
-
-impl Shapes {
-    fn of(ranking: &MatchRanking) -> Self {
-        let entries = ranking.entries.iter();
-        Self {
-            scores: entries
-                .map(|entry| (entry.reference, entry.part.clone(), entry.score))
-                .collect(),
-        }
-    }
-
-    /// The score of a reference, and its lead over other parts.
-    fn of_entry(&self, entry: &MatchEntry) -> (f64, f64) {
-        let own = self.scores.iter().find(|s| s.0 == entry.reference);
-        let own = own.map_or(0.0, |s| s.2);
-        let next = self.scores.iter().find(|s| s.1 != entry.part);
-        (own, own - next.map_or(0.0, |s| s.2))
-    }
-}
-
 fn sort_by_score(confirmed: &mut [(MatchEntry, Option<Candidate>)]) {
     confirmed.sort_by(|a, b| b.0.score.total_cmp(&a.0.score));
 }
 
 /// Whose score is more than this share of the best one's is refined to the end.
 const CONTENDS: f64 = 0.6;
+/// What scores less will not be accepted however exactly it is placed.
+const HOPELESS_SCORE: f64 = 1e-4;
 
 /// The scene's side of all comparisons, prepared once.
 struct Seen<'a> {

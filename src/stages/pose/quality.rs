@@ -64,7 +64,7 @@ pub struct Tolerance {
 
 impl Tolerance {
     /// Three standard deviations hold 997 of 1000.
-    pub(crate) fn at_depth(self, z: f64) -> f64 {
+    fn at_depth(self, z: f64) -> f64 {
         self.base.0 + 3.0 * self.noise_at_1m.0 * z * z
     }
 }

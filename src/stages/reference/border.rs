@@ -113,3 +113,48 @@ pub fn frame_of([a, b]: [&BorderPoint; 2]) -> Option<(Point3<f32>, Matrix3<f32>)
     let middle = nalgebra::center(&a.at, &b.at);
     Some((middle, Matrix3::from_columns(&[x, z.cross(&x), z])))
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    /// A flat disc of half a metre, seen from in front, counter-clockwise.
+    fn disc(num: usize) -> Vec<BorderPoint> {
+        (0..num)
+            .map(|i| {
+                let turn = i as f32 / num as f32 * std::f32::consts::TAU;
+                BorderPoint {
+                    at: Point3::new(0.5 * turn.cos(), 0.5 * turn.sin(), 0.0),
+                    along: Vector3::new(-turn.sin(), turn.cos(), 0.0),
+                    normal: Vector3::z(),
+                }
+            })
+            .collect()
+    }
+
+    #[test]
+    fn the_pairs_of_a_distance_are_those_of_a_plain_search() {
+        let border = Border::new(&disc(60));
+        let (least, most) = (0.4, 0.6);
+        let found = border.pairs_between(least, most).len();
+        let points = &border.points;
+        let is_between = |d: f32| d >= least && d <= most;
+        let pairs = points
+            .iter()
+            .flat_map(|a| points.iter().map(move |b| (b.at - a.at).norm()));
+        assert_eq!(found, pairs.filter(|d| is_between(*d)).count());
+        assert!(found > 0);
+    }
+
+    #[test]
+    fn the_angles_of_a_pair_on_a_circle_are_alike_and_the_surface_lies_to_the_left() {
+        let points = disc(60);
+        let pair = BorderPair::of([&points[0], &points[15]], [0, 15]).expect("far apart");
+        // A chord of a quarter meets the circle at an eighth of a turn on either side, inwards.
+        assert!((pair.angles[0] - std::f32::consts::FRAC_PI_4).abs() < 1e-3);
+        assert!((pair.angles[1] - 3.0 * std::f32::consts::FRAC_PI_4).abs() < 1e-3);
+        assert!(!pair.is_straight());
+        let (_, axes) = frame_of([&points[0], &points[15]]).expect("a frame");
+        assert!((axes.determinant() - 1.0).abs() < 1e-5);
+    }
+}

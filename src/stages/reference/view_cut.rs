@@ -109,3 +109,52 @@ fn widen(extent: &mut Option<[usize; 2]>, at: usize) {
     let [first, last] = extent.unwrap_or([at, at]);
     *extent = Some([first.min(at), last.max(at)]);
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        geometry::rigid::RigidTransform,
+        simulate::{CellSetup, PartKind, PartPose, Side, frame},
+        stages::{
+            scene::scene_from_frame,
+            segment::{SegmentParams, segment},
+        },
+    };
+
+    /// A front door hung so far to the right and down.
+    fn door_at(right: f64, down: f64) -> (ViewCut, SegmentedPart) {
+        let mut setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 0, 3);
+        setup.pose = PartPose::Fixed(RigidTransform::translation(right, down, 1.3));
+        let scene = scene_from_frame(&frame(&setup).frame);
+        let part = segment(&scene, &SegmentParams::default()).part;
+        let part = part.expect("a part");
+        (ViewCut::of(&part, &scene), part)
+    }
+
+    #[test]
+    fn a_part_within_the_view_is_not_cut() {
+        let (cut, part) = door_at(0.0, 0.0);
+        assert!(cut.is_nothing(), "{cut:?}");
+        let first: Point3<f64> = part.cloud.points[0].cast();
+        assert!(cut.depth_inside(&first) > 1e6);
+    }
+
+    #[test]
+    fn a_part_that_leaves_the_view_is_cut_on_that_side_alone() {
+        let (cut, part) = door_at(0.5, 0.0);
+        assert!(
+            cut.right.is_some() && cut.left.is_none() && cut.top.is_none() && cut.bottom.is_none(),
+            "{cut:?}"
+        );
+        let depths = part
+            .cloud
+            .points
+            .iter()
+            .map(|p| cut.depth_inside(&p.cast()));
+        let least = depths.fold(f64::INFINITY, f64::min);
+        // A pixel is some 2.5 mm there.
+        assert!(least > -0.03 && least < 0.005, "{least}");
+        assert!(cut.depth_inside(&Point3::new(2.0, 0.0, 1.3)) < -0.5);
+    }
+}
