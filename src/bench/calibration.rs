@@ -223,7 +223,7 @@ mod tests {
         let truth = Model {
             constant: 3.0,
             question: Question::Part,
-            weights: vec![-2.0, -1.0, -1.5, -0.7, 0.6],
+            weights: vec![-2.0, -1.0, -1.5, -2.0],
         };
         let mut random = Pcg64::seed_from_u64(8);
         let samples: Vec<Sample> = (0..20_000)
