@@ -14,6 +14,7 @@ pub mod library;
 pub mod pipeline;
 pub mod report;
 pub mod robot;
+pub mod scan;
 pub mod simulate;
 pub mod stages;
 pub mod units;

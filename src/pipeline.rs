@@ -6,6 +6,7 @@ mod identity;
 pub mod live;
 mod mirror;
 mod rejection;
+pub mod scan;
 mod verdict;
 mod watch;
 

@@ -186,6 +186,7 @@ impl Kinect {
             }),
             is_simulated: false,
             truth: None,
+            robot_from_flange: None,
             warnings: self.warnings.clone(),
         }
     }

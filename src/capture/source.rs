@@ -11,7 +11,10 @@ use super::{
     error::{CaptureError, CaptureWarning},
     frame::DepthFrame,
 };
-use crate::{geometry::cloud::PointCloud, simulate::Truth};
+use crate::{
+    geometry::{cloud::PointCloud, rigid::RigidTransform},
+    simulate::Truth,
+};
 
 /// Gives captures one at a time. Opened, used and dropped on one thread, so it need not be `Send`.
 pub trait DepthSource {
@@ -61,6 +64,8 @@ pub struct Captured {
     pub is_simulated: bool,
     /// What is known about it; without the labels of its pixels.
     pub truth: Option<Arc<Truth>>,
+    /// Where the arm that carries the camera stood: takes the flange's frame to the robot's base, if that was recorded.
+    pub robot_from_flange: Option<RigidTransform>,
     /// What is odd about it.
     pub warnings: Vec<CaptureWarning>,
 }

@@ -210,6 +210,20 @@ fn load(given: Option<&Path>, console: &Console) -> anyhow::Result<(PathBuf, Cel
     Ok((path, calibration))
 }
 
+/// The calibration named, which must be there and sound, or the user's own, if there is one.
+pub(super) fn calibration_if_any(
+    given: Option<&Path>,
+    console: &Console,
+) -> anyhow::Result<Option<CellCalibration>> {
+    if given.is_none() {
+        let path = default_path().ok();
+        if !path.is_some_and(|path| path.exists()) {
+            return Ok(None);
+        }
+    }
+    load(given, console).map(|(_, calibration)| Some(calibration))
+}
+
 /// A pose of the arm or the camera on the command line.
 fn robot_pose(text: &str) -> Result<WrittenPose, String> {
     parse_written_pose(text).map_err(|error| format!("{error}\n  to do: {}", error.advice()))

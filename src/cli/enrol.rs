@@ -1,12 +1,13 @@
 //! `partsight enrol`: makes a reference part of a file.
 
-use std::path::PathBuf;
+use std::path::{Path, PathBuf};
 
 use clap::Args;
 
 use super::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console, advised_error},
+    scan::{PosesChoice, open_scan},
 };
 use crate::{
     error::Advice as _,
@@ -14,7 +15,8 @@ use crate::{
     geometry::cloud::Grid,
     library::{
         About, EnrolError, EnrolParams, Enrolled, LibraryError, LibraryFolder, MAX_TITLE, PartName,
-        enrol_captured, enrol_mesh, enrol_surface, enrol_whole, most_alike, surfaces_to_enrol,
+        enrol_captured, enrol_mesh, enrol_scan, enrol_surface, enrol_whole, most_alike,
+        surfaces_to_enrol,
     },
     stages::{
         reference::{Coverage, ReferenceParams},
@@ -30,14 +32,22 @@ Examples:
   partsight enrol scan.ply --name grille --whole --notes \"spare, with badge\"
   partsight enrol other_make.pcd --name front_door_b --as front_door
   partsight enrol booth.png --name fender --segment 2
+  partsight enrol --scan frames/ --poses poses.json --name fender
   partsight enrol car.gltf#Door_FL --name door_left --library /media/stick/parts
 
 An organised cloud or a depth image is a captured scene: the part before the wall is taken out of it. Anything
-else is taken whole. A part of the same name is replaced; the former one is kept in the library's .trash folder.")]
+else is taken whole. A part of the same name is replaced; the former one is kept in the library's .trash folder.
+With --scan the frames are put together as partsight scan does it. The part's frame is then that of the camera at the
+first frame that was used, and it can be recognised from every side that most of its surface was seen from.")]
 pub(super) struct EnrolArgs {
     /// A captured scene, a cloud, or a mesh (one of a glTF by #NAME); metres
-    #[arg(value_name = "FILE")]
-    file: PathBuf,
+    #[arg(value_name = "FILE", required_unless_present = "scan")]
+    file: Option<PathBuf>,
+    /// Instead of a file: several frames of the part, each with the pose of its camera; a folder, a recording or files
+    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["file", "whole", "segment"])]
+    scan: Vec<PathBuf>,
+    #[command(flatten)]
+    poses: PosesChoice,
     /// Name of the part: lowercase letters, digits, _ and -
     #[arg(long)]
     name: PartName,
@@ -80,6 +90,7 @@ pub(super) fn run(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Out
     let sides = match part.meta.coverage {
         Coverage::OneSide => "seen from one side",
         Coverage::AllAround => "seen from all around",
+        Coverage::SeveralSides => "seen from several sides",
     };
     let of = part.meta.reference_of();
     let of = of.map_or_else(String::new, |of| format!(" as one more reference of {of}"));
@@ -143,26 +154,47 @@ pub(super) fn parse_title(text: &str) -> Result<String, String> {
     }
 }
 
-fn enrolled_from(args: &EnrolArgs, console: &Console) -> anyhow::Result<Enrolled> {
-    let opened = files::open(&args.file).advised()?;
-    for warning in opened.warnings() {
-        console.warn(
-            &format_args!("{}: {warning}", args.file.display()),
-            &warning,
-        );
-    }
-    let file_name = args.file.file_name().unwrap_or(args.file.as_os_str());
-    let about = About {
+/// What is said of a part; `simulated` as its file says.
+fn about(args: &EnrolArgs, from: &Path, simulated: bool) -> anyhow::Result<About> {
+    let file_name = from.file_name().unwrap_or(from.as_os_str());
+    Ok(About {
         name: args.name.clone(),
         title: args.title.clone(),
         notes: args.notes.clone(),
         from: file_name.to_string_lossy().into_owned(),
         // Whole seconds are enough for people.
         at: jiff::Timestamp::from_second(jiff::Timestamp::now().as_second())?,
-        simulated: args.simulated || opened.is_simulated(),
+        simulated: args.simulated || simulated,
+    })
+}
+
+fn enrolled_from_scan(
+    args: &EnrolArgs,
+    first: &Path,
+    console: &mut Console,
+) -> anyhow::Result<Enrolled> {
+    let scan = open_scan(&args.scan, &args.poses, console)?;
+    let about = about(args, first, scan.cloud.cloud.is_simulated)?;
+    enrol_scan(&scan, &about, &EnrolParams::default()).advised()
+}
+
+fn enrolled_from(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Enrolled> {
+    if let [first, ..] = args.scan.as_slice() {
+        return enrolled_from_scan(args, first, console);
+    }
+    let Some(file) = &args.file else {
+        return Err(advised_error(
+            "no file to enrol",
+            "Give a file, or --scan DIR",
+        ));
     };
+    let opened = files::open(file).advised()?;
+    for warning in opened.warnings() {
+        console.warn(&format_args!("{}: {warning}", file.display()), &warning);
+    }
+    let about = about(args, file, opened.is_simulated())?;
     let params = EnrolParams::default();
-    let path = args.file.display();
+    let path = file.display();
     let captured = |scene: &SceneCloud| match args.segment.flatten() {
         Some(number) => enrol_surface(scene, number, &about, &params),
         None => enrol_captured(scene, &about, &params).inspect_err(|error| {

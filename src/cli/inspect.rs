@@ -1,5 +1,6 @@
 //! `partsight inspect`: which part is it, and where?
 
+mod scan;
 mod spray;
 
 use std::{
@@ -19,6 +20,7 @@ use super::{
     input::{OpenedScene, Scenes, before, open_ahead, open_empty_cell},
     recipe::RecipeChoice,
     record::{HistoryChoice, Recording, Taken},
+    scan::PosesChoice,
     telling::{Columns, Telling},
     verdict::{outcome_of, show_in_robot},
 };
@@ -47,6 +49,7 @@ Examples:
   partsight inspect door.pcd --matcher paper --pose icp-ga
   partsight inspect door.pcd --json --calibration cell.toml
   partsight inspect door.pcd --calibration cell.toml --spray path.csv --spray-as kuka
+  partsight inspect --scan frames/ --poses poses.json --json
   partsight inspect --source simulated
   partsight inspect --source watch:/mnt/scanner --json
 
@@ -60,12 +63,20 @@ line of JSON, exit code 2.
 With --source: follows a camera, a recording or a folder until it ends, --frames were inspected, or Ctrl-C. Of a live
 camera the newest frame is inspected and those in between are dropped; of a recording or folder every one is inspected.
 Exit codes as with files; 1 also if nothing came. What can be a source: partsight capture --help
-Every inspection is written into the history (partsight history --help) after its verdict is shown; where that cannot be
+With --scan: one verdict on all frames together; partsight help scan says how their poses are given. camera_from_part is
+then the pose before the camera of the first frame that was used, and base_from_part that in the robot's base frame.
+Every inspection but that of a scan is written into the history (partsight history --help) after its verdict is shown; where that cannot be
 written there is a warning, and the exit code is the same.")]
 pub(super) struct InspectArgs {
     /// Captured scenes
-    #[arg(required_unless_present = "source", value_name = "FILE")]
+    #[arg(required_unless_present_any = ["source", "scan"], value_name = "FILE")]
     files: Vec<PathBuf>,
+    /// Instead of files: several frames of one part, each with the pose of its camera, for one verdict and one pose; a
+    /// folder, a recording or files
+    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["files", "source", "empty_cell", "spray", "report", "history"])]
+    scan: Vec<PathBuf>,
+    #[command(flatten)]
+    poses: PosesChoice,
     /// Instead of files: what a camera, a recording or a folder gives, as it comes
     #[arg(long, value_name = "SOURCE", value_parser = parse_source, conflicts_with = "files")]
     source: Option<SourceSpec>,
@@ -97,6 +108,9 @@ pub(super) struct InspectArgs {
 }
 
 pub(super) fn run(args: &InspectArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    if !args.scan.is_empty() {
+        return scan::inspect(args, console);
+    }
     open_ahead(&args.files, |scenes| inspect(args, scenes, console))
 }
 

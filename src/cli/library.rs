@@ -353,6 +353,7 @@ fn seen_from(coverage: Coverage) -> &'static str {
     match coverage {
         Coverage::OneSide => "one side",
         Coverage::AllAround => "all around",
+        Coverage::SeveralSides => "several sides",
     }
 }
 

@@ -20,6 +20,7 @@ mod library;
 mod recipe;
 mod record;
 mod report;
+mod scan;
 mod simulate;
 mod telling;
 mod verdict;
@@ -73,6 +74,7 @@ enum Command {
     Inspect(inspect::InspectArgs),
     Report(report::ReportArgs),
     Capture(capture::CaptureArgs),
+    Scan(scan::ScanArgs),
     Enrol(enrol::EnrolArgs),
     Library(library::LibraryArgs),
     Align(align::AlignArgs),
@@ -123,6 +125,7 @@ pub fn run(cli: Cli) -> Outcome {
         Some(Command::Inspect(args)) => inspect::run(&args, &mut console),
         Some(Command::Report(args)) => report::run(&args, &mut console),
         Some(Command::Capture(args)) => capture::run(&args, &mut console),
+        Some(Command::Scan(args)) => scan::run(&args, &mut console),
         Some(Command::Enrol(args)) => enrol::run(&args, &mut console),
         Some(Command::Library(args)) => library::run(&args, &mut console),
         Some(Command::Align(args)) => align::run(&args, &mut console),

@@ -1,6 +1,7 @@
 //! `partsight simulate`: a frame of the simulated cell as a file, or many of them as cases with their truth.
 
 mod cases;
+mod scan;
 
 use std::path::{Path, PathBuf};
 
@@ -29,6 +30,7 @@ Examples:
   partsight simulate --part front_door --side right --seed 7 --out door.png --truth door.truth.json
   partsight simulate --part grille --pose \"0 0 15deg 0 0 1.2\" --out grille.pcd
   partsight simulate --cases tried --num 40 --placement facing,placed,hard
+  partsight simulate --part fender --scan frames --shots 8
   partsight simulate --cases tried --part objects,empty --num 9 --clutter on-floor
   partsight simulate --cases booth --booth --num 80
 
@@ -73,7 +75,7 @@ pub(super) struct SimulateArgs {
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = parse_noise)]
     noise: f64,
     /// The file: .pcd (organised), .png (16-bit depth, intrinsics in a .json beside it), .ply or .xyz (points only)
-    #[arg(long, value_name = "FILE", required_unless_present = "cases")]
+    #[arg(long, value_name = "FILE", required_unless_present_any = ["cases", "scan"])]
     out: Option<PathBuf>,
     /// Write what is known about the frame as JSON: the part, its pose, how much of it is seen
     #[arg(long, value_name = "FILE")]
@@ -81,6 +83,13 @@ pub(super) struct SimulateArgs {
     /// Instead of one file: write cases with their truth into this folder
     #[arg(long, value_name = "DIR", conflicts_with_all = ["out", "truth", "pose"])]
     cases: Option<PathBuf>,
+    /// Instead of one file: write frames from several sides into this folder, with the poses that a robot would tell, for
+    /// partsight scan; the cell is another one
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["out", "truth", "pose", "cases", "placement", "clutter", "stand"])]
+    scan: Option<PathBuf>,
+    /// With --scan: how many frames
+    #[arg(long, value_name = "N", default_value_t = 8, requires = "scan", value_parser = parse_shots)]
+    shots: usize,
     /// With --cases: how many in all; the seeds follow each other
     #[arg(long, value_name = "N", default_value_t = 40, requires = "cases", value_parser = clap::value_parser!(u64).range(1..=100_000))]
     num: u64,
@@ -101,6 +110,13 @@ fn subject_names() -> Vec<&'static str> {
 const EMPTY: &str = "empty";
 const ALL: &str = "all";
 const OBJECTS: &str = "objects";
+
+fn parse_shots(text: &str) -> Result<usize, String> {
+    let shots = text.parse::<usize>().ok();
+    shots
+        .filter(|shots| (2..=64).contains(shots))
+        .ok_or_else(|| "expected a number from 2 to 64".into())
+}
 
 fn parse_noise(text: &str) -> Result<f64, String> {
     let noise = text.parse::<f64>().ok();
@@ -224,6 +240,9 @@ impl From<PlacementChoice> for Placement {
 pub(super) fn run(args: &SimulateArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     if let Some(folder) = &args.cases {
         return cases::run(folder, args, console);
+    }
+    if let Some(folder) = &args.scan {
+        return scan::run(folder, args, console);
     }
     let (subjects, out) = (args.subjects()?, args.out.as_deref());
     let (&[subject], &[placement], Some(out)) = (&subjects[..], &args.placement[..], out) else {

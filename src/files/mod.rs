@@ -54,7 +54,7 @@ pub use self::error::{Expected, FileError, NoFile};
 pub(crate) use self::open::open_bytes;
 pub use self::open::{FileWarning, Opened, open};
 pub use self::pcd::write_pcd;
-pub use self::ply::write_ply;
+pub use self::ply::{write_ply, write_ply_with};
 pub(crate) use self::source::read_bytes;
 pub(crate) use self::text::read_text;
 pub(crate) use self::write::{folder_of, sync_folder};

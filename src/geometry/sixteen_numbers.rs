@@ -18,3 +18,8 @@ pub fn deserialize<'de, D: Deserializer<'de>>(deserializer: D) -> Result<RigidTr
     from_row_major(&numbers, 1e-6)
         .ok_or_else(|| serde::de::Error::custom("the 16 numbers are not a rigid transform"))
 }
+
+/// A rigid transform that is written so, for places where `with` does not fit, such as within an `Option`.
+#[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(transparent)]
+pub struct SixteenNumbers(#[serde(with = "super::sixteen_numbers")] pub RigidTransform);

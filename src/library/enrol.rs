@@ -8,7 +8,9 @@ use nalgebra::{Point3, Vector3};
 
 use super::{
     name::PartName,
-    part::{CloudCheck, Enrolment, How, Part, PartMeta, SCHEMA_VERSION, StoredSignature},
+    part::{
+        CloudCheck, Enrolment, How, PLAIN_VERSION, Part, PartMeta, SCANNED_VERSION, StoredSignature,
+    },
     thumbnail,
 };
 use crate::{
@@ -17,6 +19,7 @@ use crate::{
         cloud::PointCloud, mesh::TriangleMesh, nearest::KdTree, normals::estimate_normals,
         voxel::downsample,
     },
+    scan::{Scan, unseen::unseen_share},
     stages::{
         reference::{Coverage, Reference, ReferenceError, ReferenceParams, ViewCut},
         scene::SceneCloud,
@@ -87,6 +90,14 @@ pub enum EnrolWarning {
     /// What a person chose may be background.
     #[error("this may be background: {0}")]
     Background(BackgroundSign),
+    /// The surface of a scan goes on where no frame looked.
+    #[error(
+        "{percent} % of the scanned surface's outline is where the view of every frame ends: the part may go on there"
+    )]
+    GoesOnUnseen {
+        /// Share of the outline, rounded.
+        percent: u8,
+    },
 }
 
 impl Advice for EnrolWarning {
@@ -94,6 +105,9 @@ impl Advice for EnrolWarning {
         match self {
             Self::TouchesEdge => "Move the camera back or centre the part, then enrol it again",
             Self::Background(_) => "Check the picture, and take the part instead if it is not",
+            Self::GoesOnUnseen { .. } => {
+                "Add frames that show the missing sides, then enrol it again"
+            }
         }
         .into()
     }
@@ -127,6 +141,12 @@ pub enum EnrolError {
         /// Least number of points.
         needed: usize,
     },
+    /// No frame of a scan shows a part.
+    #[error("no part was found in any of the {num_frames} frames")]
+    NoPartInScan {
+        /// Frames that were used.
+        num_frames: usize,
+    },
     /// A mesh without a surface.
     #[error("the mesh of {num_triangles} triangles has no area")]
     NoArea {
@@ -146,6 +166,9 @@ impl Advice for EnrolError {
             Self::NoSuchSurface { .. } => "Choose one of those found".into(),
             Self::TooFewPoints { .. } => {
                 "Capture the part from nearer, or export the cloud with more points".into()
+            }
+            Self::NoPartInScan { .. } => {
+                "Look at what was put together, partsight scan DIR --out scan.ply, and capture the part at least 10 cm before the background".into()
             }
             Self::NoArea { .. } => "Export the mesh again with its faces".into(),
         }
@@ -242,6 +265,7 @@ fn enrol_one_side(
         coverage: Coverage::OneSide,
         how: How::Segmented,
         num_points: found.cloud.points.len(),
+        num_shots: None,
         voxel: Some(voxel),
         cut: ViewCut::of(found, scene),
     };
@@ -275,16 +299,19 @@ pub fn enrol_whole(
     if thin.normals.is_none() {
         thin.normals = Some(match coverage {
             Coverage::OneSide => normals_towards(&thin, voxel, &Point3::origin()),
-            Coverage::AllAround => normals_towards(&thin, voxel, &middle(&thin))
-                .into_iter()
-                .map(|inward| -inward)
-                .collect(),
+            Coverage::AllAround | Coverage::SeveralSides => {
+                normals_towards(&thin, voxel, &middle(&thin))
+                    .into_iter()
+                    .map(|inward| -inward)
+                    .collect()
+            }
         });
     }
     let source = Source {
         coverage,
         how: How::WholeCloud,
         num_points,
+        num_shots: None,
         voxel: Some(voxel),
         cut: ViewCut::default(),
     };
@@ -306,17 +333,68 @@ pub fn enrol_mesh(
         coverage: Coverage::AllAround,
         how: How::Mesh,
         num_points: cloud.points.len(),
+        num_shots: None,
         voxel: None,
         cut: ViewCut::default(),
     };
     assemble(cloud, &source, about, params)
 }
 
+/// Enrols the part that was scanned, in the camera's frame of the first shot that was used.
+pub fn enrol_scan(
+    scan: &Scan,
+    about: &About,
+    params: &EnrolParams,
+) -> Result<Enrolled, EnrolError> {
+    let part = scan.cloud.part();
+    let num_points = part.cloud.points.len();
+    let num_shots = scan.used().count();
+    let first = scan.used().next().filter(|_| num_points >= MIN_POINTS);
+    let Some((_, first)) = first else {
+        return Err(EnrolError::NoPartInScan {
+            num_frames: num_shots,
+        });
+    };
+    let camera_from_base = first.base_from_camera.inverse().cast::<f32>();
+    let in_part_space = PointCloud {
+        points: part
+            .cloud
+            .points
+            .iter()
+            .map(|p| camera_from_base * p)
+            .collect(),
+        normals: part.cloud.normals.as_ref().map(|normals| {
+            let turned = normals.iter().map(|n| camera_from_base * n);
+            turned.collect()
+        }),
+        ..PointCloud::default()
+    };
+    let (cloud, voxel) = thinned(&in_part_space, params);
+    let source = Source {
+        coverage: Coverage::SeveralSides,
+        how: How::Scan,
+        num_points,
+        num_shots: Some(num_shots),
+        voxel: Some(voxel),
+    };
+    let mut enrolled = assemble(cloud, &source, about, params)?;
+    let percent = (100.0 * unseen_share(scan)).round() as u8;
+    if percent >= WORTH_A_WARNING {
+        let warning = EnrolWarning::GoesOnUnseen { percent };
+        enrolled.warnings.push(warning);
+    }
+    Ok(enrolled)
+}
+
+/// Shadows beside the part leave a few per cent of any outline unseen.
+const WORTH_A_WARNING: u8 = 10;
+
 /// What a cloud was made from.
 struct Source {
     coverage: Coverage,
     how: How,
     num_points: usize,
+    num_shots: Option<usize>,
     voxel: Option<Metres>,
     cut: ViewCut,
 }
@@ -342,7 +420,10 @@ fn assemble(
         })?;
     let part = Part {
         meta: PartMeta {
-            schema_version: SCHEMA_VERSION,
+            schema_version: match source.how {
+                How::Scan => SCANNED_VERSION,
+                How::Segmented | How::WholeCloud | How::Mesh => PLAIN_VERSION,
+            },
             name: about.name.clone(),
             part: None,
             title: about.title.clone(),
@@ -356,6 +437,7 @@ fn assemble(
                 from: about.from.clone(),
                 how: source.how,
                 num_points: source.num_points,
+                num_shots: source.num_shots,
                 voxel_mm: source.voxel.map(|v| (v.mm() * 100.0).round() / 100.0),
             },
             spray: None,

@@ -39,7 +39,7 @@ use crate::stages::reference::Reference;
 pub use self::{
     enrol::{
         About, EnrolError, EnrolParams, EnrolWarning, Enrolled, enrol_captured, enrol_mesh,
-        enrol_selected, enrol_surface, enrol_whole, surfaces_to_enrol,
+        enrol_scan, enrol_selected, enrol_surface, enrol_whole, surfaces_to_enrol,
     },
     error::LibraryError,
     likeness::{Likeness, likenesses, most_alike},

@@ -18,7 +18,11 @@ use crate::{
 };
 
 /// The version of the files that this program writes. It reads this one and older ones.
-pub const SCHEMA_VERSION: u32 = 1;
+pub const SCHEMA_VERSION: u32 = 2;
+/// What a part is written as unless it was scanned: older programs read that too.
+pub(super) const PLAIN_VERSION: u32 = 1;
+/// Of a part that was enrolled from a scan: older programs do not know its coverage.
+pub(super) const SCANNED_VERSION: u32 = 2;
 
 /// An enrolled part with everything its folder holds.
 #[derive(Clone, Debug, PartialEq)]
@@ -172,6 +176,9 @@ pub struct Enrolment {
     pub how: How,
     /// Points of the part before thinning; those sampled of a mesh.
     pub num_points: usize,
+    /// Captures that a scan was put together from; none if it was no scan.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub num_shots: Option<usize>,
     /// The cloud was thinned to one point per cube with edges of so many millimetres; none if it was not.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub voxel_mm: Option<f64>,
@@ -187,6 +194,8 @@ pub enum How {
     WholeCloud,
     /// A triangle mesh.
     Mesh,
+    /// Several captures put together; part space is the camera's frame of the first that was used.
+    Scan,
 }
 
 impl How {
@@ -196,6 +205,7 @@ impl How {
             Self::Segmented => "the part found in a captured scene",
             Self::WholeCloud => "a whole cloud",
             Self::Mesh => "a mesh",
+            Self::Scan => "a scan",
         }
     }
 }
@@ -256,7 +266,7 @@ impl StoredSignature {
         let signature = &view.signature;
         let literal = LiteralSignature::of(&view.contour.outline_pixels);
         Some(Self {
-            schema_version: SCHEMA_VERSION,
+            schema_version: PLAIN_VERSION,
             project: params.project.clone(),
             contour: params.contour.clone(),
             signature: params.signature.clone(),

@@ -61,7 +61,7 @@ impl Splats {
         let normals = cloud.normals.as_ref()?;
         let picture_from_part = match coverage {
             Coverage::OneSide => UnitQuaternion::identity(),
-            Coverage::AllAround => {
+            Coverage::AllAround | Coverage::SeveralSides => {
                 UnitQuaternion::from_axis_angle(&Vector3::x_axis(), std::f64::consts::PI)
                     * view.plane_from_part.rotation
             }
@@ -174,7 +174,7 @@ impl Splats {
 
 fn num_sides(coverage: Coverage) -> f64 {
     match coverage {
-        Coverage::OneSide => 1.0,
+        Coverage::OneSide | Coverage::SeveralSides => 1.0,
         Coverage::AllAround => 2.0,
     }
 }

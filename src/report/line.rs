@@ -39,6 +39,22 @@ pub struct InspectionLine<'a> {
     robot: Option<RobotLine<'a>>,
     ranking: Vec<RankLine<'a>>,
     timings_ms: Option<TimingsLine>,
+    /// Of several frames inspected together.
+    #[serde(skip_serializing_if = "Option::is_none")]
+    scan: Option<ScanLine<'a>>,
+}
+
+/// What a line says more of several frames that were inspected together.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct ScanLine<'a> {
+    /// Frames given.
+    pub frames: usize,
+    /// Those that were used.
+    pub used: usize,
+    /// The frame whose camera the pose is before.
+    pub reference_frame: &'a str,
+    /// Takes part space to the robot's base; null unless the part was accepted.
+    pub base_from_part: Option<[f64; 16]>,
 }
 
 /// Poses in the robot's base frame; see [`crate::robot`] for what each of them is.
@@ -162,6 +178,16 @@ impl<'a> InspectionLine<'a> {
             robot: None,
             ranking: Vec::new(),
             timings_ms: None,
+            scan: None,
+        }
+    }
+
+    /// The same line, of several frames inspected together.
+    #[must_use]
+    pub fn of_scan(self, scan: ScanLine<'a>) -> Self {
+        Self {
+            scan: Some(scan),
+            ..self
         }
     }
 

@@ -19,7 +19,7 @@ pub use self::{
     contenders::contenders_picture,
     evaluation::evaluation_picture,
     folder::{ReportError, ReportFolder},
-    line::{CaptureLine, InspectionLine, SCHEMA, TimingsLine},
+    line::{CaptureLine, InspectionLine, SCHEMA, ScanLine, TimingsLine},
     pictures::{Picture, segmentation_picture, stage_pictures, strip, write_png},
     scaling::{TimeCurve, scaling_picture, stacked},
 };

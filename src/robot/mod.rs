@@ -20,6 +20,7 @@
 pub mod calibration;
 mod convention;
 mod euler;
+pub mod frame_poses;
 pub mod hand_eye;
 pub mod pairs;
 pub mod part_target;

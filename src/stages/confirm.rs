@@ -10,6 +10,7 @@ mod candidate;
 mod coarse;
 mod ends;
 mod evidence;
+pub mod joint;
 mod local_normal;
 mod outline_shift;
 
@@ -143,6 +144,10 @@ const THIRD: [Level; 3] = [
         search: Search::Tree,
     },
 ];
+/// What the noise leaves of itself in the mean over a patch of points that several frames saw, metres.
+const NOISE_OF_JOINT: f64 = 0.001;
+/// Turn (degrees) and shift (millimetres) beyond which poses that several frames lead to are different ones.
+const POSES_APART: (f64, f64) = (3.0, 20.0);
 /// Distance at which a point counts as plainly off, metres.
 const COST_LIMIT: f64 = 0.04;
 /// A coarse pose that costs this many times the best one is not refined.

@@ -41,6 +41,9 @@ pub enum Coverage {
     OneSide,
     /// All around, as from a mesh: it can be recognised from both of its faces.
     AllAround,
+    /// A scan of several captures: it can be recognised from where most of its surface was seen. The normals point to
+    /// the cameras.
+    SeveralSides,
 }
 
 /// Parameters of [`Reference::prepare`]; those of the stages must be the ones used on scenes.

@@ -171,6 +171,7 @@ fn seen_from(coverage: Coverage) -> &'static str {
     match coverage {
         Coverage::OneSide => "Seen from one side",
         Coverage::AllAround => "Seen from all around",
+        Coverage::SeveralSides => "Seen from several sides",
     }
 }
 

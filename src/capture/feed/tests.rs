@@ -35,6 +35,7 @@ fn captured(number: u64) -> Captured {
         }),
         is_simulated: false,
         truth: None,
+        robot_from_flange: None,
         warnings: Vec::new(),
     }
 }

@@ -28,6 +28,7 @@ pub(super) fn frames(folder: &Path) -> Result<Frames, CaptureError> {
         taken_at: None,
         is_simulated: false,
         truth: None,
+        robot_from_flange: None,
         content: Content::Any,
     });
     Ok(Frames {

@@ -11,6 +11,7 @@ use serde::{Deserialize, Serialize};
 use crate::{
     capture::error::CaptureError,
     files::{DepthCamera, read_bytes},
+    geometry::sixteen_numbers::SixteenNumbers,
     simulate::Truth,
 };
 
@@ -44,6 +45,9 @@ pub(super) struct FrameLine {
     pub(super) camera: Option<DepthCamera>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) truth: Option<Truth>,
+    /// Where the arm that carries the camera stood.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub(super) robot_from_flange: Option<SixteenNumbers>,
 }
 
 /// What a manifest holds.

@@ -20,6 +20,7 @@ use crate::{
         depth_png::{FOLDER_CAMERA, write_camera, write_depths},
         write_pcd,
     },
+    geometry::sixteen_numbers::SixteenNumbers,
 };
 
 /// Writes captures into a folder as they come. There is nothing to finish: after every frame the recording is whole.
@@ -159,6 +160,7 @@ impl Recorder {
             simulated: captured.is_simulated,
             camera,
             truth: captured.truth.as_deref().cloned(),
+            robot_from_flange: captured.robot_from_flange.map(SixteenNumbers),
         })?;
         self.num_frames += 1;
         self.num_bytes += content.len() as u64;

@@ -22,6 +22,7 @@ use crate::{
         spec::{Pace, RecordingSpec},
     },
     files::{DepthCamera, crc32, depth_png::read_depths, open_bytes, read_bytes},
+    geometry::rigid::RigidTransform,
     simulate::Truth,
 };
 
@@ -53,6 +54,7 @@ pub(super) struct Recorded {
     pub(super) taken_at: Option<Timestamp>,
     pub(super) is_simulated: bool,
     pub(super) truth: Option<Arc<Truth>>,
+    pub(super) robot_from_flange: Option<RigidTransform>,
     pub(super) content: Content,
 }
 
@@ -132,6 +134,7 @@ fn of_recording(folder: &Path) -> Result<Frames, CaptureError> {
             simulated,
             camera,
             truth,
+            robot_from_flange,
             ..
         } = line;
         Recorded {
@@ -140,6 +143,7 @@ fn of_recording(folder: &Path) -> Result<Frames, CaptureError> {
             taken_at: Some(taken_at),
             is_simulated: simulated,
             truth: truth.map(Arc::new),
+            robot_from_flange: robot_from_flange.map(|pose| pose.0),
             content: Content::Listed(crc32, camera),
         }
     });
@@ -258,6 +262,7 @@ impl DepthSource for Replay {
                 is_simulated: frame.is_simulated || image.is_simulated(),
                 image,
                 truth: frame.truth.clone(),
+                robot_from_flange: frame.robot_from_flange,
                 warnings: self.warnings.drain(..).chain(warnings).collect(),
             })),
             // The drive was pulled out: all that follows would be missing, one by one.

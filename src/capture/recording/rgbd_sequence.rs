@@ -65,6 +65,7 @@ pub(super) fn frames(folder: &Path, camera: Option<&Path>) -> Result<Frames, Cap
             taken_at: seconds_since_1970(time),
             is_simulated: false,
             truth: None,
+            robot_from_flange: None,
             content: Content::Depth(camera),
         })
     });

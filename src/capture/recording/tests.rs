@@ -144,6 +144,7 @@ fn every_kind_of_image_survives() {
     let frames = images.map(|image| Captured {
         image,
         truth: None,
+        robot_from_flange: None,
         ..template.clone()
     });
     let folder = tempfile::tempdir().unwrap();

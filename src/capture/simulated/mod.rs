@@ -150,6 +150,7 @@ impl DepthSource for SimulatedCell {
             image,
             is_simulated: true,
             truth: Some(Arc::new(truth)),
+            robot_from_flange: None,
             warnings: Vec::new(),
         }))
     }

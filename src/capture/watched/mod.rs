@@ -143,6 +143,7 @@ impl WatchedFolder {
                     is_simulated: image.is_simulated(),
                     image,
                     truth: None,
+                    robot_from_flange: None,
                     warnings,
                 }));
             }

@@ -15,7 +15,7 @@ mod body;
 mod header;
 mod write;
 
-pub use self::write::write_ply;
+pub use self::write::{write_ply, write_ply_with};
 
 use nalgebra::Vector3;
 

@@ -8,6 +8,18 @@ use crate::geometry::cloud::PointCloud;
 ///
 /// PLY has no grid: cells without a reading are left out, and the cloud comes back unorganised.
 pub fn write_ply(writer: &mut dyn Write, cloud: &PointCloud) -> io::Result<()> {
+    write_ply_with(writer, cloud, &[])
+}
+
+/// As [`write_ply`], with further whole numbers of each point, each under its name; other programs may show them.
+///
+/// # Panics
+/// If a property has not one number per point.
+pub fn write_ply_with(
+    writer: &mut dyn Write,
+    cloud: &PointCloud,
+    properties: &[(&str, Vec<u32>)],
+) -> io::Result<()> {
     write!(
         writer,
         "ply\nformat binary_little_endian 1.0\ncomment metres\n{}element vertex {}\n\
@@ -28,6 +40,10 @@ pub fn write_ply(writer: &mut dyn Write, cloud: &PointCloud) -> io::Result<()> {
     if cloud.labels.is_some() {
         writer.write_all(b"property uint label\n")?;
     }
+    for (name, values) in properties {
+        assert_eq!(values.len(), cloud.points.len(), "one {name} per point");
+        writeln!(writer, "property uint {name}")?;
+    }
     writer.write_all(b"end_header\n")?;
     for (i, point) in cloud.finite() {
         for coordinate in point.iter() {
@@ -43,6 +59,9 @@ pub fn write_ply(writer: &mut dyn Write, cloud: &PointCloud) -> io::Result<()> {
         }
         if let Some(labels) = &cloud.labels {
             writer.write_all(&labels[i].to_le_bytes())?;
+        }
+        for (_, values) in properties {
+            writer.write_all(&values[i].to_le_bytes())?;
         }
     }
     Ok(())

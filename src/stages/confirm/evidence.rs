@@ -166,7 +166,7 @@ fn mean_facing(
 }
 
 /// Root mean square of the patches' mean signed distances.
-fn relief(closest: &[Closest], target: &Target<'_>) -> f64 {
+pub(super) fn relief(closest: &[Closest], target: &Target<'_>) -> f64 {
     let mut patches: Vec<([i32; 3], f64)> = closest
         .iter()
         .filter_map(|closest| {
@@ -189,7 +189,7 @@ fn relief(closest: &[Closest], target: &Target<'_>) -> f64 {
 }
 
 /// Mean distance of the part's edges to the reference's, and the share of them that lies there.
-fn outline_distance(
+pub(super) fn outline_distance(
     source: &Source,
     target: &Target<'_>,
     target_from_source: &RigidTransform,
@@ -226,7 +226,11 @@ pub(super) fn facing_view(reference: &Reference, target_from_source: &RigidTrans
 }
 
 /// Cosine of the angle between a view of a reference and where the camera is.
-fn facing(reference: &Reference, view: usize, target_from_source: &RigidTransform) -> f64 {
+pub(super) fn facing(
+    reference: &Reference,
+    view: usize,
+    target_from_source: &RigidTransform,
+) -> f64 {
     let part_from_plane = reference.views[view].plane_from_part.inverse();
     let towards = target_from_source * Point3::origin() - part_from_plane * Point3::origin();
     (part_from_plane * Vector3::z()).dot(&towards.normalize())

@@ -33,6 +33,13 @@ pub(super) fn viewpoints(cloud: &PointCloud, coverage: Coverage) -> Option<Vec<P
     let fronts: Vec<Vector3<f64>> = match coverage {
         Coverage::OneSide => vec![-principal.mean.coords.normalize()],
         Coverage::AllAround => vec![across, -across],
+        Coverage::SeveralSides => {
+            let directions = seen_directions(cloud);
+            let places = directions
+                .iter()
+                .map(|direction| principal.mean + direction * VIEW_DISTANCE);
+            return Some(places.collect()).filter(|places: &Vec<_>| !places.is_empty());
+        }
     };
     let around = |front: &Vector3<f64>| {
         let front = *front;
@@ -43,6 +50,55 @@ pub(super) fn viewpoints(cloud: &PointCloud, coverage: Coverage) -> Option<Vec<P
         })
     };
     Some(fronts.iter().flat_map(around).collect())
+}
+
+/// Directions that are tried, evenly over the sphere: some 7° apart.
+const NUM_DIRECTIONS: usize = 800;
+/// Normals that a direction is judged by.
+const NUM_NORMALS: usize = 2000;
+/// A part is looked at from where it shows at least this share of the most that it shows from anywhere.
+const LEAST_SHOWN: f64 = 0.55;
+/// Views are at least this far apart: no scene is then further than about 15° from one.
+const VIEWS_APART: f64 = 0.40;
+/// Most views of a scan.
+const MAX_VIEWS: usize = 24;
+
+/// Directions from which much of a surface is seen whose normals point to the cameras that saw it; the first shows most
+/// of it.
+fn seen_directions(cloud: &PointCloud) -> Vec<Vector3<f64>> {
+    let normals = cloud.normals.as_deref().unwrap_or_default();
+    let step = (normals.len() / NUM_NORMALS).max(1);
+    let normals: Vec<Vector3<f32>> = normals.iter().step_by(step).copied().collect();
+    // A Fibonacci spiral is even on the sphere.
+    let direction = |i: usize| {
+        let z = 1.0 - (2.0 * i as f64 + 1.0) / NUM_DIRECTIONS as f64;
+        let turn = i as f64 * std::f64::consts::PI * (3.0 - 5.0_f64.sqrt());
+        let r = (1.0 - z * z).sqrt();
+        Vector3::new(r * turn.cos(), r * turn.sin(), z)
+    };
+    let mut shown: Vec<(f32, Vector3<f64>)> = (0..NUM_DIRECTIONS)
+        .map(|i| {
+            let direction = direction(i);
+            let towards = direction.cast::<f32>();
+            let area = normals.iter().map(|n| n.dot(&towards).max(0.0)).sum();
+            (area, direction)
+        })
+        .collect();
+    shown.sort_by(|a, b| b.0.total_cmp(&a.0));
+    let most = shown.first().map_or(0.0, |first| f64::from(first.0));
+    let mut kept: Vec<Vector3<f64>> = Vec::new();
+    for (area, direction) in shown {
+        if f64::from(area) < LEAST_SHOWN * most || most <= 0.0 || kept.len() == MAX_VIEWS {
+            break;
+        }
+        if kept
+            .iter()
+            .all(|other| other.angle(&direction) > VIEWS_APART)
+        {
+            kept.push(direction);
+        }
+    }
+    kept
 }
 
 /// The places that views are taken from, each with the part of the cloud that a camera sees from there.

@@ -1,0 +1,61 @@
+//! `partsight inspect --scan`: one verdict on several frames.
+
+use super::InspectArgs;
+use crate::{
+    cli::{
+        Outcome,
+        console::Console,
+        scan::open_scan,
+        verdict::{outcome_of, show_card, show_in_robot},
+    },
+    geometry::rigid::row_major,
+    pipeline::{
+        Unwatched,
+        scan::{ScanInspection, run_scan},
+    },
+    report::{InspectionLine, ScanLine},
+    robot::RobotFrame,
+};
+
+pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let (_, load) = args.library.load_placed(console)?;
+    let scan = open_scan(&args.scan, &args.poses, console)?;
+    let ScanInspection {
+        inspection,
+        first,
+        base_from_part,
+        ..
+    } = run_scan(&scan, &load.library, &args.recipe.recipe(), &Unwatched)?;
+    let first = &scan.shots[first];
+    let (frames, used) = (scan.shots.len(), scan.used().count());
+    // The poses of the scan say where that camera was.
+    let robot = RobotFrame {
+        robot_from_camera: first.base_from_camera,
+        name: "the poses of the scan".into(),
+    };
+    let scene = match args.scan.as_slice() {
+        [one] => one.display().to_string(),
+        _ => format!("{frames} frames from {}", first.name),
+    };
+    let is_accepted = inspection.verdict.is_accepted();
+    let line = InspectionLine::of(&scene, &inspection).in_robot(Some(&robot), &inspection);
+    let line = line.of_scan(ScanLine {
+        frames,
+        used,
+        reference_frame: &first.name,
+        base_from_part: base_from_part
+            .filter(|_| is_accepted)
+            .map(|pose| row_major(&pose)),
+    });
+    if args.json {
+        console.line(&line.to_json());
+    } else {
+        let title = format!(
+            "{scene}, {used} of {frames} frames, as seen from {}",
+            first.name
+        );
+        show_card(&title, &inspection, &load.library, console);
+        show_in_robot(&robot, &inspection, &load.library, console);
+    }
+    Ok(outcome_of(&inspection))
+}

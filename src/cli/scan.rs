@@ -1,0 +1,135 @@
+//! `partsight scan`: several frames, each with its camera's pose, become one cloud.
+
+mod shots;
+mod telling;
+
+use std::path::{Path, PathBuf};
+
+use clap::Args;
+
+pub(super) use self::shots::open_scan;
+use self::telling::{ScanLine, show};
+use super::{
+    Outcome,
+    console::{Advised as _, Console, advised_error},
+};
+use crate::{
+    error::Advice as _,
+    files::{write_atomically, write_ply_with},
+    scan::{FusedCloud, Scan},
+};
+
+/// Where the camera was for each frame of a scan.
+#[derive(Debug, Args)]
+pub(super) struct PosesChoice {
+    /// With a scan: where the camera or the flange was for each frame (see partsight help scan); without it poses.json
+    /// beside the frames
+    #[arg(long, value_name = "FILE")]
+    poses: Option<PathBuf>,
+    /// With a scan whose poses are the flange's: where the camera sits on it, as written by `calibrate`; without it your
+    /// own, if there is one
+    #[arg(long = "scan-calibration", value_name = "FILE")]
+    calibration: Option<PathBuf>,
+}
+
+/// Put several frames of one part together, each taken at a known pose of the camera on the robot
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  partsight scan frames/ --out fender.ply
+  partsight scan frames/ --poses truth.json --out fender.ply --part-only
+  partsight scan booth/left2_*.png --poses booth/truth.json --out fender.ply --json
+
+Poses: a file such as
+  {\"frames\": {\"a.png\": {\"world_from_camera\": [16 numbers of the 4x4 matrix, row by row, metres]},
+              \"b.png\": {\"world_from_camera\": [...]}}}
+Where the robot gives the flange's pose, write base_from_flange instead; the hand-eye calibration then says where the
+camera sits. A recording made with partsight capture --robot-poses needs no such file.
+The poses may be off by some millimetres and tenths of a degree: they are refined against each other. A frame that does
+not fit is named and left out.
+The cloud is written in the robot's base frame, in metres, with normals; per point num_shots says how many frames saw
+it, bit k of seen_by that frame k did (of frames 32 and up seen_by_high), and part is 1 on the part.
+Exit codes: 0 every frame was used, 1 some were left out or no part was found, 2 it could not run.")]
+pub(super) struct ScanArgs {
+    /// A folder of frames, a recording, or the frames themselves
+    #[arg(required = true, value_name = "DIR")]
+    frames: Vec<PathBuf>,
+    #[command(flatten)]
+    poses: PosesChoice,
+    /// The cloud to write, PLY
+    #[arg(long, value_name = "FILE.ply", value_parser = ply_path)]
+    out: PathBuf,
+    /// Write the part alone, without the cell
+    #[arg(long)]
+    part_only: bool,
+    /// Write one line of JSON, and nothing else, to standard output
+    #[arg(long)]
+    json: bool,
+}
+
+fn ply_path(text: &str) -> Result<PathBuf, String> {
+    let path = PathBuf::from(text);
+    match path.extension() {
+        Some(ending) if ending.eq_ignore_ascii_case("ply") => Ok(path),
+        _ => Err("the cloud is written as PLY: end the name in .ply".into()),
+    }
+}
+
+pub(super) fn run(args: &ScanArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let scan = open_scan(&args.frames, &args.poses, console)?;
+    let part = scan.cloud.part();
+    let has_part = !part.cloud.points.is_empty();
+    let written = if args.part_only { &part } else { &scan.cloud };
+    if written.cloud.points.is_empty() {
+        return Err(advised_error(
+            "no frame shows a part before the background",
+            "Leave --part-only out to see what was put together",
+        ));
+    }
+    write(&args.out, written).advised()?;
+    if args.json {
+        let out = args.out.display().to_string();
+        console.line(&serde_json::to_string(&ScanLine::of(&scan, &part, &out))?);
+    } else {
+        show(&scan, &part, console);
+        console.line(&format_args!("Written to {}", args.out.display()));
+    }
+    let all_used = scan.shots.iter().all(|shot| shot.excluded.is_none());
+    Ok(if all_used && has_part {
+        Outcome::Accepted
+    } else {
+        Outcome::NotAccepted
+    })
+}
+
+/// Names the frames that were left out.
+pub(super) fn warn_of_excluded(scan: &Scan, console: &Console) {
+    for shot in &scan.shots {
+        if let Some(why) = &shot.excluded {
+            console.note(&format_args!("warning: {} is left out: {why}", shot.name));
+            console.note(&format_args!("  to do: {}", why.advice()));
+        }
+    }
+}
+
+/// The low and the high half of each mask.
+fn halves(masks: &[u64]) -> [Vec<u32>; 2] {
+    [0, 32].map(|shift| masks.iter().map(|mask| (mask >> shift) as u32).collect())
+}
+
+fn write(path: &Path, cloud: &FusedCloud) -> Result<(), crate::files::FileError> {
+    let [low, high] = halves(&cloud.seen_by);
+    let count = cloud.seen_by.iter().map(|mask| mask.count_ones());
+    let properties = [
+        ("num_shots", count.collect()),
+        ("seen_by", low),
+        ("seen_by_high", high),
+        (
+            "part",
+            cloud.is_part.iter().map(|&is| u32::from(is)).collect(),
+        ),
+    ];
+    write_atomically(path, |writer| {
+        write_ply_with(writer, &cloud.cloud, &properties)
+    })
+}

@@ -1,0 +1,328 @@
+//! The inspection of a scan: several frames, one verdict, one pose.
+//!
+//! Every frame is inspected by itself. What each finds is carried into the base space, refined to the points and edges
+//! that all frames see of the part, and held against all frames: a point of the reference is there if any frame sees it,
+//! missing if a frame looks through it and none sees it, hidden or outside only if it is so for all. The score and the
+//! verdict follow from this evidence as those of a single frame.
+
+use nalgebra::Point3;
+use rand::{SeedableRng as _, seq::SliceRandom as _};
+use rand_pcg::Pcg64;
+
+use super::{Cancelled, Inspection, Recipe, Unrecognisable, Verdict, Watch, run, verdict::verdict};
+use crate::{
+    geometry::{nearest::KdTree, rigid::RigidTransform},
+    library::Library,
+    scan::{
+        Scan, ScannedShot,
+        look::{Look, look},
+    },
+    stages::{
+        confirm::{
+            Evidence, Scene, UNCONFIRMED,
+            joint::{JointFit, JointPart, fit_jointly, own_outline},
+        },
+        pose::{PoseError, PoseEstimate, Sight, refine::Source},
+        rank::{MatchEntry, MatchRanking, Query},
+        reference::Reference,
+        segment::NoPart,
+    },
+    units::Metres,
+};
+
+/// What the inspection of a scan found.
+#[derive(Clone, Debug)]
+pub struct ScanInspection {
+    /// The whole as an inspection of the first frame that was used: ranking, pose and verdict are those of all frames.
+    pub inspection: Inspection,
+    /// The number of that frame among all shots.
+    pub first: usize,
+    /// Where the part is: takes part space to the robot's base.
+    pub base_from_part: Option<RigidTransform>,
+    /// Each frame's own inspection, by the number of its shot.
+    pub frames: Vec<(usize, Inspection)>,
+}
+
+/// Points of the part that references are refined to.
+const NUM_SURFACE: usize = 1500;
+/// Edge points of each frame.
+const NUM_EDGES: usize = 120;
+/// An edge point of a frame further than this from the fused part is that of something else, metres.
+const NEAR_PART: f32 = 0.015;
+/// References of a frame whose poses are held against the others.
+const NUM_ENTRIES: usize = 6;
+/// Points of a reference that are looked for in all frames.
+const NUM_LOOKED_FOR: usize = 2000;
+/// A surface seen at a flatter angle than this (cosine) is often lost by the camera, so its absence says nothing.
+const LEAST_FACING: f64 = 0.3;
+
+/// Recognises the part of a scan from all its frames together.
+pub fn run_scan(
+    scan: &Scan,
+    library: &Library,
+    recipe: &Recipe,
+    watch: &dyn Watch,
+) -> Result<ScanInspection, Cancelled> {
+    let mut frames = Vec::new();
+    for (number, shot) in scan.used() {
+        frames.push((number, run(&shot.scene, library, recipe, watch)?));
+    }
+    let (first, mut inspection) = frames
+        .iter()
+        .map(|(number, inspection)| (*number, inspection.clone()))
+        .next()
+        .ok_or(Cancelled)?;
+    let base_from_first = scan.shots[first].base_from_camera;
+    let Some(part) = joint_part(scan, &frames, recipe) else {
+        if inspection.segmentation.part.is_ok() {
+            inspection.verdict = Verdict::NoPart(Unrecognisable::from(nothing_in_common()));
+            inspection.pose = None;
+        }
+        return Ok(ScanInspection {
+            inspection,
+            first,
+            base_from_part: None,
+            frames,
+        });
+    };
+    let mut entries: Vec<MatchEntry> = Vec::new();
+    for (index, reference) in library.references.iter().enumerate() {
+        if watch.is_cancelled() {
+            return Err(Cancelled);
+        }
+        entries.extend(entry_of(scan, &frames, (index, reference), &part, recipe));
+    }
+    // A stable sort: equal scores keep the library's order.
+    entries.sort_by(|a, b| b.score.total_cmp(&a.score));
+    for entry in &mut entries {
+        if let Some(pose) = &mut entry.pose {
+            pose.target_from_source *= base_from_first;
+            for step in &mut pose.iterations {
+                step.target_from_source *= base_from_first;
+            }
+        }
+    }
+    let pose = entries.first().map(|best| {
+        let pose = best.pose.clone();
+        pose.ok_or(PoseError::NoReferenceCloud)
+    });
+    inspection.ranking = MatchRanking { entries };
+    inspection.verdict = verdict(&inspection.ranking, pose.as_ref(), recipe);
+    let camera_from_part = pose.as_ref().and_then(|pose| pose.as_ref().ok());
+    let base_from_part = camera_from_part.map(|pose| base_from_first * pose.camera_from_part());
+    inspection.pose = pose;
+    Ok(ScanInspection {
+        inspection,
+        first,
+        base_from_part,
+        frames,
+    })
+}
+
+fn nothing_in_common() -> NoPart {
+    NoPart::OnlyBackground {
+        planes: 0,
+        found: 0.0,
+        needed: crate::stages::segment::SegmentParams::default().min_part_area,
+        knows_cell: false,
+    }
+}
+
+/// What all frames see of the part; `None` without enough of it.
+fn joint_part(scan: &Scan, frames: &[(usize, Inspection)], recipe: &Recipe) -> Option<JointPart> {
+    let fused = scan.cloud.part();
+    let points = &fused.cloud.points;
+    if points.len() < 50 {
+        return None;
+    }
+    let mut random = Pcg64::seed_from_u64(recipe.confirm.seed);
+    let mut surface: Vec<Point3<f32>> = points
+        .iter()
+        .step_by((points.len() / NUM_SURFACE).max(1))
+        .copied()
+        .collect();
+    surface.shuffle(&mut random);
+    let tree = KdTree::new(points);
+    let mut edges: Vec<Point3<f32>> = Vec::new();
+    for (number, inspection) in frames {
+        let shot = &scan.shots[*number];
+        let (Ok(part), Some(plane), Some(contour), Some(signature)) = (
+            &inspection.segmentation.part,
+            &inspection.plane,
+            &inspection.contour,
+            &inspection.signature,
+        ) else {
+            continue;
+        };
+        let query = Query {
+            plane,
+            contour,
+            signature,
+        };
+        let own = own_outline(&Scene {
+            scene: &shot.scene,
+            part,
+            query,
+        });
+        let in_base = own
+            .points
+            .iter()
+            .map(|p| (shot.base_from_camera * p).cast::<f32>());
+        let of_part = in_base.filter(|p| tree.nearest(p, NEAR_PART * NEAR_PART).is_some());
+        let of_part: Vec<Point3<f32>> = of_part.collect();
+        edges.extend(of_part.iter().step_by((of_part.len() / NUM_EDGES).max(1)));
+    }
+    edges.shuffle(&mut random);
+    Some(JointPart {
+        source: Source { surface, edges },
+        cameras: scan
+            .used()
+            .map(|(_, shot)| Point3::from(shot.base_from_camera.translation.vector))
+            .collect(),
+        tolerance: recipe.confirm.tolerance,
+    })
+}
+
+/// One reference held against all frames; `None` if no frame ranked it.
+fn entry_of(
+    scan: &Scan,
+    frames: &[(usize, Inspection)],
+    (index, reference): (usize, &Reference),
+    part: &JointPart,
+    recipe: &Recipe,
+) -> Option<MatchEntry> {
+    let mut best: Option<&MatchEntry> = None;
+    let mut starts: Vec<(RigidTransform, &PoseEstimate)> = Vec::new();
+    for (number, inspection) in frames {
+        let ranked = inspection.ranking.entries.iter().enumerate();
+        let Some((rank, entry)) = ranked.into_iter().find(|(_, e)| e.reference == index) else {
+            continue;
+        };
+        if best.is_none_or(|best| entry.score > best.score) {
+            best = Some(entry);
+        }
+        if let Some(pose) = entry.pose.as_ref().filter(|_| rank < NUM_ENTRIES) {
+            let camera_from_base = scan.shots[*number].base_from_camera.inverse();
+            starts.push((pose.target_from_source * camera_from_base, pose));
+        }
+    }
+    let best = best?;
+    let fits = fit_jointly(reference, part, &starts).into_iter();
+    let weighed = fits.map(|fit| {
+        let (evidence, sight) = evidence(scan, reference, &fit, recipe.confirm.tolerance);
+        let mut pose = fit.estimate;
+        pose.fit.sight = sight;
+        (evidence, pose)
+    });
+    let found = weighed.reduce(|a, b| if b.0.score() > a.0.score() { b } else { a });
+    Some(match found {
+        Some((evidence, pose)) => MatchEntry {
+            score: evidence.score(),
+            pose: Some(pose),
+            evidence: Some(evidence),
+            ..best.clone()
+        },
+        None => MatchEntry {
+            score: best.score
+                * if best.pose.is_some() {
+                    UNCONFIRMED
+                } else {
+                    1.0
+                },
+            pose: None,
+            evidence: None,
+            ..best.clone()
+        },
+    })
+}
+
+/// What the frames see where a point of a reference should be, counted over its points.
+#[derive(Default)]
+struct Sights {
+    confirmed: f64,
+    missing: f64,
+    hidden: f64,
+    unknown: f64,
+    outside: f64,
+}
+
+/// The evidence of all frames for a reference at its pose.
+fn evidence(
+    scan: &Scan,
+    reference: &Reference,
+    fit: &JointFit,
+    tolerance: Metres,
+) -> (Evidence, Option<Sight>) {
+    let base_from_part = fit.estimate.camera_from_part();
+    let shots: Vec<(&ScannedShot, RigidTransform)> = scan
+        .used()
+        .map(|(_, shot)| (shot, shot.base_from_camera.inverse() * base_from_part))
+        .collect();
+    let cloud = &reference.cloud;
+    let normals = cloud.normals.as_deref().unwrap_or_default();
+    let step = (cloud.points.len() / NUM_LOOKED_FOR).max(1);
+    let mut sights = Sights::default();
+    for (point, normal) in cloud.points.iter().zip(normals).step_by(step) {
+        let (mut is_through, mut is_hidden, mut is_unknown, mut is_outside) =
+            (false, false, false, false);
+        let mut is_here = false;
+        for (shot, camera_from_part) in &shots {
+            let at = camera_from_part * point.cast::<f64>();
+            let normal = camera_from_part.rotation * normal.cast::<f64>();
+            if -normal.dot(&at.coords) < LEAST_FACING * at.coords.norm() {
+                continue;
+            }
+            let noise = 3.0 * shot.surface.noise_at_1m.0 * at.z * at.z;
+            match look(&shot.surface, &at, &normal, tolerance.0 + noise) {
+                Look::Here(_) => is_here = true,
+                Look::Through => is_through = true,
+                Look::Hidden => is_hidden = true,
+                Look::NoReading => is_unknown = true,
+                Look::Outside => is_outside = true,
+            }
+        }
+        let count = if is_here {
+            &mut sights.confirmed
+        } else if is_through {
+            &mut sights.missing
+        } else if is_unknown {
+            &mut sights.unknown
+        } else if is_hidden {
+            &mut sights.hidden
+        } else if is_outside {
+            &mut sights.outside
+        } else {
+            // It faces away from all cameras.
+            continue;
+        };
+        *count += 1.0;
+    }
+    let Sights {
+        confirmed,
+        missing,
+        hidden,
+        unknown,
+        outside,
+    } = sights;
+    let total = confirmed + missing + hidden + unknown;
+    let sight = (total >= 1.0).then(|| Sight {
+        confirmed: confirmed / total,
+        missing: missing / total,
+        hidden: hidden / total,
+        unknown: unknown / total,
+        outside: outside / (total + outside),
+    });
+    let evidence = Evidence {
+        off: fit.off,
+        missing: missing / (confirmed + missing).max(f64::MIN_POSITIVE),
+        hidden: sight.map_or(0.0, |s| s.hidden),
+        outside: sight.map_or(1.0, |s| s.outside),
+        relief_m: fit.relief_m,
+        outline_m: fit.outline_m,
+        outline_shift_m: None,
+        // Each frame may cut the part; together they see what is not outside.
+        cut: 0.0,
+        facing: fit.facing,
+    };
+    (evidence, sight)
+}

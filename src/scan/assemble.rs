@@ -1,0 +1,235 @@
+//! From shots to a scan.
+
+use std::sync::Arc;
+
+use nalgebra::{Point3, Vector3};
+
+use super::{
+    FusedCloud, Scan, ScanError, ScanParams, ScanStep, ScanWatch, ScannedShot, Shot, Surface,
+    error::MAX_SHOTS,
+    fuse::{Seen, fuse},
+    overlap::{Agreement, overlap},
+    part::keep_largest_piece,
+    register::{register, samples_of},
+    suspects::{Candidate, worst},
+};
+use crate::{
+    geometry::{
+        parallel::map_in_order,
+        rigid::{PoseError, RigidTransform, pose_error},
+    },
+    stages::segment::{Segmentation, segment},
+    units::{Metres, Radians},
+};
+
+/// Fewer readings on a surface than this fix no pose.
+const LEAST_READINGS: usize = 500;
+
+/// A shot on its way.
+struct Prepared {
+    surface: Arc<Surface>,
+    segmentation: Arc<Segmentation>,
+    /// The middle of what it sees, camera space.
+    middle: Point3<f64>,
+}
+
+/// Puts shots together: refines their poses, excludes those that do not fit, fuses the rest and finds the part.
+pub fn assemble(
+    shots: &[Shot],
+    params: &ScanParams,
+    watch: &dyn ScanWatch,
+) -> Result<Scan, ScanError> {
+    let found = shots.len();
+    if found < 2 {
+        return Err(ScanError::TooFewShots { found });
+    }
+    if found > MAX_SHOTS {
+        return Err(ScanError::TooManyShots { found });
+    }
+    let num_workers = params.register.num_workers;
+    let prepared = map_in_order(
+        found,
+        num_workers,
+        || (),
+        |(), i| {
+            if watch.is_cancelled() {
+                return Err(ScanError::Cancelled);
+            }
+            watch.begins(ScanStep::Shot(i));
+            prepare(&shots[i], params)
+        },
+    );
+    let prepared: Vec<Prepared> = prepared.into_iter().collect::<Result<_, _>>()?;
+    go_on(watch, ScanStep::Align)?;
+    let mut scanned: Vec<ScannedShot> = shots
+        .iter()
+        .zip(&prepared)
+        .map(|(shot, prepared)| ScannedShot::new(shot, prepared))
+        .collect();
+    align(&mut scanned, &prepared, params, watch)?;
+    go_on(watch, ScanStep::Fuse)?;
+    let mut cloud = fused(&scanned, params);
+    cloud.cloud.is_simulated = shots.iter().any(|shot| shot.scene.cloud.is_simulated);
+    count_new(&cloud, &mut scanned);
+    let (before, after) = agreement(&mut scanned, &cloud, num_workers);
+    Ok(Scan {
+        shots: scanned,
+        cloud,
+        before,
+        after,
+    })
+}
+
+fn go_on(watch: &dyn ScanWatch, next: ScanStep) -> Result<(), ScanError> {
+    if watch.is_cancelled() {
+        return Err(ScanError::Cancelled);
+    }
+    watch.begins(next);
+    Ok(())
+}
+
+fn prepare(shot: &Shot, params: &ScanParams) -> Result<Prepared, ScanError> {
+    let name = || shot.name.clone();
+    let num_finite = shot.scene.cloud.finite().take(LEAST_READINGS).count();
+    let surface = Surface::of(&shot.scene);
+    let too_few = |found| ScanError::TooFewReadings {
+        name: name(),
+        found,
+        needed: LEAST_READINGS,
+    };
+    let surface = match surface {
+        Some(surface) => surface,
+        None if num_finite < LEAST_READINGS => return Err(too_few(num_finite)),
+        None => return Err(ScanError::NoPicture { name: name() }),
+    };
+    if surface.num_surface < LEAST_READINGS {
+        return Err(too_few(surface.num_surface));
+    }
+    let samples = samples_of(&surface, LEAST_READINGS);
+    let sum = samples.iter().fold(Vector3::zeros(), |sum, &i| {
+        sum + surface.points[i as usize].coords.cast::<f64>()
+    });
+    Ok(Prepared {
+        middle: Point3::from(sum / samples.len() as f64),
+        surface: Arc::new(surface),
+        segmentation: Arc::new(segment(&shot.scene, &params.segment)),
+    })
+}
+
+impl ScannedShot {
+    fn new(shot: &Shot, prepared: &Prepared) -> Self {
+        Self {
+            name: shot.name.clone(),
+            scene: Arc::clone(&shot.scene),
+            surface: Arc::clone(&prepared.surface),
+            segmentation: Arc::clone(&prepared.segmentation),
+            given: shot.base_from_camera,
+            base_from_camera: shot.base_from_camera,
+            moved: PoseError {
+                rotation: Radians(0.0),
+                shift: Metres(0.0),
+            },
+            before: None,
+            after: None,
+            num_new: 0,
+            excluded: None,
+        }
+    }
+}
+
+/// Refines the poses and excludes the shot that least belongs, until all that are left belong together.
+fn align(
+    scanned: &mut [ScannedShot],
+    prepared: &[Prepared],
+    params: &ScanParams,
+    watch: &dyn ScanWatch,
+) -> Result<(), ScanError> {
+    let mut used: Vec<usize> = (0..scanned.len()).collect();
+    loop {
+        if watch.is_cancelled() {
+            return Err(ScanError::Cancelled);
+        }
+        let surfaces: Vec<&Surface> = used.iter().map(|&i| &*prepared[i].surface).collect();
+        let given: Vec<RigidTransform> = used.iter().map(|&i| scanned[i].given).collect();
+        let poses = register(&surfaces, &given, &params.register);
+        for (&i, pose) in used.iter().zip(&poses) {
+            scanned[i].base_from_camera = *pose;
+            scanned[i].moved = pose_error(pose, &scanned[i].given, &prepared[i].middle);
+        }
+        let candidates: Vec<Candidate<'_>> = used
+            .iter()
+            .map(|&i| Candidate {
+                surface: &prepared[i].surface,
+                segmentation: &prepared[i].segmentation,
+                base_from_camera: scanned[i].base_from_camera,
+                moved: scanned[i].moved,
+            })
+            .collect();
+        let num_workers = params.register.num_workers;
+        let Some((which, why)) = worst(&candidates, &params.suspect, num_workers) else {
+            return Ok(());
+        };
+        let number = used.remove(which);
+        scanned[number].excluded = Some(why);
+        if used.len() < 2 {
+            return Err(ScanError::NothingAgrees {
+                found: scanned.len(),
+                names: scanned.iter().map(|shot| shot.name.clone()).collect(),
+            });
+        }
+    }
+}
+
+/// How the shots that are used agree, at the robot's poses and at the refined ones.
+fn agreement(
+    scanned: &mut [ScannedShot],
+    cloud: &FusedCloud,
+    num_workers: usize,
+) -> (Agreement, Agreement) {
+    let is_used = |shot: &&mut ScannedShot| shot.excluded.is_none();
+    let mut used: Vec<&mut ScannedShot> = scanned.iter_mut().filter(is_used).collect();
+    let surfaces: Vec<Arc<Surface>> = used.iter().map(|s| Arc::clone(&s.surface)).collect();
+    let surfaces: Vec<&Surface> = surfaces.iter().map(|s| &**s).collect();
+    let given: Vec<RigidTransform> = used.iter().map(|s| s.given).collect();
+    let refined: Vec<RigidTransform> = used.iter().map(|s| s.base_from_camera).collect();
+    let part = cloud.part_cells();
+    let is_part = |point: &Point3<f64>| part.holds(point);
+    let before = overlap(&surfaces, &given, is_part, num_workers);
+    let after = overlap(&surfaces, &refined, is_part, num_workers);
+    let each = before.shots.iter().zip(&after.shots);
+    for (shot, (before, after)) in used.iter_mut().zip(each) {
+        shot.before = *before;
+        shot.after = *after;
+    }
+    (before, after)
+}
+
+fn fused(scanned: &[ScannedShot], params: &ScanParams) -> FusedCloud {
+    let seen: Vec<Seen<'_>> = scanned
+        .iter()
+        .enumerate()
+        .filter(|(_, shot)| shot.excluded.is_none())
+        .map(|(number, shot)| Seen {
+            number,
+            surface: &shot.surface,
+            base_from_camera: shot.base_from_camera,
+            labels: shot
+                .segmentation
+                .part
+                .is_ok()
+                .then_some(&shot.segmentation.labels[..]),
+        })
+        .collect();
+    let mut cloud = fuse(&seen, params.voxel, params.register.num_workers);
+    keep_largest_piece(&mut cloud);
+    cloud
+}
+
+/// Counts for each shot the points that no shot before it saw.
+fn count_new(cloud: &FusedCloud, scanned: &mut [ScannedShot]) {
+    for seen_by in &cloud.seen_by {
+        if let Some(shot) = scanned.get_mut(seen_by.trailing_zeros() as usize) {
+            shot.num_new += 1;
+        }
+    }
+}

@@ -1,0 +1,74 @@
+//! Why frames cannot be put together, and what to do about it.
+
+use crate::error::Advice;
+
+/// Most shots of a scan: which of them saw a point is kept in 64 bits.
+pub(super) const MAX_SHOTS: usize = 64;
+
+/// Why frames cannot be put together.
+#[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum ScanError {
+    /// One frame, or none.
+    #[error("the scan has {found} frames, at least 2 are needed")]
+    TooFewShots {
+        /// Frames given.
+        found: usize,
+    },
+    /// More than can be told apart.
+    #[error("the scan has {found} frames, at most {MAX_SHOTS} are taken")]
+    TooManyShots {
+        /// Frames given.
+        found: usize,
+    },
+    /// A cloud without rows and columns.
+    #[error(
+        "{name}: the points have no rows and columns, so what the camera looked past is not known"
+    )]
+    NoPicture {
+        /// The frame.
+        name: String,
+    },
+    /// So few readings that nothing can be registered.
+    #[error("{name}: the frame has {found} usable readings, at least {needed} are needed")]
+    TooFewReadings {
+        /// The frame.
+        name: String,
+        /// Readings on a surface.
+        found: usize,
+        /// Least number of them.
+        needed: usize,
+    },
+    /// Nothing that two frames see fits together.
+    #[error("no two of the {found} frames agree: {}", names.join(", "))]
+    NothingAgrees {
+        /// Frames given.
+        found: usize,
+        /// Their names.
+        names: Vec<String>,
+    },
+    /// The caller cancelled.
+    #[error("the scan was cancelled")]
+    Cancelled,
+}
+
+impl Advice for ScanError {
+    fn advice(&self) -> String {
+        match self {
+            Self::TooFewShots { found: 1 } => {
+                "Add frames from other sides, or use the one frame without --scan".into()
+            }
+            Self::TooFewShots { .. } => "Give the folder that holds the frames".into(),
+            Self::TooManyShots { .. } => "Leave out frames that show what others show".into(),
+            Self::NoPicture { .. } => {
+                "Record depth images, or clouds that keep the camera's rows and columns (organised PCD)".into()
+            }
+            Self::TooFewReadings { .. } => {
+                "Leave the frame out, or capture it again with the camera uncovered and 0.6 to 3 m from the part".into()
+            }
+            Self::NothingAgrees { .. } => {
+                "Check that each pose belongs to its frame, that they are poses of the camera in metres (for poses of the flange give base_from_flange), and that the part stood still".into()
+            }
+            Self::Cancelled => "Start it again".into(),
+        }
+    }
+}

@@ -1,0 +1,275 @@
+//! Fusion: the readings of all shots become one cloud.
+//!
+//! Readings are averaged per voxel by the inverse of their variance. Each mean is then looked for in every shot: those
+//! that see the surface there draw it along its normal, so that two shots that disagree by millimetres leave one layer
+//! and not two. What more shots look through than see is a flying pixel or something that moved, and is dropped.
+
+use nalgebra::{Point3, Vector3};
+
+use super::{
+    look::{Look, look},
+    surface::{Surface, Use},
+};
+use crate::{
+    geometry::{cloud::PointCloud, parallel::map_in_order, rigid::RigidTransform},
+    stages::segment::PointLabel,
+    units::Metres,
+};
+
+/// The points of a scan, in the robot's base frame.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct FusedCloud {
+    /// Unorganised points with unit normals towards the cameras that saw them.
+    pub cloud: PointCloud,
+    /// Which shots saw each point: bit k stands for the shot of number k among all shots of the scan.
+    pub seen_by: Vec<u64>,
+    /// Whether each point is the part.
+    pub is_part: Vec<bool>,
+}
+
+impl FusedCloud {
+    /// The part alone.
+    #[must_use]
+    pub fn part(&self) -> Self {
+        self.kept(&self.is_part)
+    }
+
+    /// Tells points on the part from others, to a centimetre.
+    pub(super) fn part_cells(&self) -> PartCells {
+        let points = self.cloud.points.iter().zip(&self.is_part);
+        let cells = points
+            .filter(|(_, is)| **is)
+            .map(|(p, _)| PartCells::cell(&p.cast()));
+        let mut cells: Vec<u64> = cells.collect();
+        cells.sort_unstable();
+        cells.dedup();
+        PartCells { cells }
+    }
+
+    /// The points that are marked.
+    #[must_use]
+    pub fn kept(&self, marks: &[bool]) -> Self {
+        fn pick<T: Copy>(all: &[T], marks: &[bool]) -> Vec<T> {
+            let marked = all.iter().zip(marks).filter(|(_, mark)| **mark);
+            marked.map(|(one, _)| *one).collect()
+        }
+        let normals = self.cloud.normals.as_ref();
+        Self {
+            cloud: PointCloud {
+                points: pick(&self.cloud.points, marks),
+                normals: normals.map(|all| pick(all, marks)),
+                is_simulated: self.cloud.is_simulated,
+                ..PointCloud::default()
+            },
+            seen_by: pick(&self.seen_by, marks),
+            is_part: pick(&self.is_part, marks),
+        }
+    }
+}
+
+/// The cubes of space that hold a part.
+pub(super) struct PartCells {
+    /// Their numbers, ascending.
+    cells: Vec<u64>,
+}
+
+impl PartCells {
+    fn cell(point: &Point3<f64>) -> u64 {
+        voxel_of(point, 100.0)
+    }
+
+    pub(super) fn holds(&self, point: &Point3<f64>) -> bool {
+        self.cells.binary_search(&Self::cell(point)).is_ok()
+    }
+}
+
+/// A shot as the fusion sees it.
+pub(super) struct Seen<'a> {
+    /// Its number among all shots of the scan.
+    pub(super) number: usize,
+    pub(super) surface: &'a Surface,
+    pub(super) base_from_camera: RigidTransform,
+    /// What its segmentation says of each reading; `None` if it found no part.
+    pub(super) labels: Option<&'a [PointLabel]>,
+}
+
+/// A fused point on its way.
+#[derive(Clone, Copy)]
+struct Voxel {
+    point: Point3<f64>,
+    normal: Vector3<f64>,
+    weight: f64,
+    seen_by: u64,
+    /// Above 0 if the shots take it for the part.
+    votes: i32,
+}
+
+/// A fused point and the readings it stands for lie within this along the normal, metres, beside three standard
+/// deviations: refined poses agree better.
+const TOLERANCE: f64 = 0.006;
+/// A shot that takes a point for background outvotes one that leaves it aside.
+const PART_VOTE: i32 = 2;
+const BACKGROUND_VOTE: i32 = -2;
+const REST_VOTE: i32 = -1;
+/// Voxels that one piece of parallel work takes.
+const PIECE: usize = 4096;
+/// Bits of a voxel's number along one axis.
+const BITS: u32 = 21;
+
+/// Fuses the readings of these shots; `is_part` of each point is the shots' vote.
+pub(super) fn fuse(shots: &[Seen<'_>], voxel: Metres, num_workers: usize) -> FusedCloud {
+    let means = means_of_readings(shots, voxel);
+    let pieces = means.len().div_ceil(PIECE);
+    let cameras: Vec<RigidTransform> = shots
+        .iter()
+        .map(|shot| shot.base_from_camera.inverse())
+        .collect();
+    let drawn = map_in_order(
+        pieces,
+        num_workers,
+        || (),
+        |(), piece| {
+            let start = piece * PIECE;
+            let end = means.len().min(start + PIECE);
+            let kept = means[start..end].iter();
+            kept.filter_map(|mean| drawn_to_surface(mean, shots, &cameras))
+                .collect::<Vec<Voxel>>()
+        },
+    );
+    let drawn: Vec<Voxel> = drawn.into_iter().flatten().collect();
+    let merged = merged(&drawn, voxel);
+    FusedCloud {
+        cloud: PointCloud {
+            points: merged.iter().map(|v| v.point.cast()).collect(),
+            normals: Some(merged.iter().map(|v| v.normal.cast()).collect()),
+            ..PointCloud::default()
+        },
+        seen_by: merged.iter().map(|v| v.seen_by).collect(),
+        is_part: merged.iter().map(|v| v.votes > 0).collect(),
+    }
+}
+
+/// The number of the voxel around a point.
+fn voxel_of(point: &Point3<f64>, per_metre: f64) -> u64 {
+    let along = |x: f64| {
+        // A robot's cell is metres wide; what is kilometres away lands in the outermost voxel.
+        let half = f64::from(1_u32 << (BITS - 1));
+        ((x * per_metre).floor() + half).clamp(0.0, 2.0 * half - 1.0) as u64
+    };
+    (along(point.z) << (2 * BITS)) | (along(point.y) << BITS) | along(point.x)
+}
+
+/// The mean of each voxel's readings, ordered by voxel.
+fn means_of_readings(shots: &[Seen<'_>], voxel: Metres) -> Vec<Voxel> {
+    let per_metre = 1.0 / voxel.0;
+    let mut readings: Vec<(u64, u32, u32)> = Vec::new();
+    for (k, shot) in shots.iter().enumerate() {
+        for (i, used) in shot.surface.uses.iter().enumerate() {
+            if *used != Use::None {
+                let at = shot.base_from_camera * shot.surface.points[i].cast::<f64>();
+                readings.push((voxel_of(&at, per_metre), k as u32, i as u32));
+            }
+        }
+    }
+    // The number of the reading makes the order one and only.
+    readings.sort_unstable();
+    readings
+        .chunk_by(|a, b| a.0 == b.0)
+        .map(|readings| {
+            let (mut point, mut normal, mut weight) = (Vector3::zeros(), Vector3::zeros(), 0.0);
+            for &(_, k, i) in readings {
+                let (shot, i) = (&shots[k as usize], i as usize);
+                let one = 1.0 / shot.surface.sigma(i).powi(2);
+                let at = shot.base_from_camera * shot.surface.points[i].cast::<f64>();
+                let facing = shot.base_from_camera.rotation * shot.surface.normals[i].cast::<f64>();
+                point += at.coords * one;
+                normal += facing * one;
+                weight += one;
+            }
+            Voxel {
+                point: Point3::from(point / weight),
+                normal: normal.try_normalize(1e-12).unwrap_or(normal),
+                weight,
+                seen_by: 0,
+                votes: 0,
+            }
+        })
+        .collect()
+}
+
+/// The mean of what all shots see at a point; `None` if they rather look through it.
+fn drawn_to_surface(mean: &Voxel, shots: &[Seen<'_>], cameras: &[RigidTransform]) -> Option<Voxel> {
+    let (mut num_here, mut num_through) = (0_u32, 0_u32);
+    let (mut off_sum, mut weight_sum) = (0.0, 0.0);
+    let (mut seen_by, mut votes) = (0_u64, 0);
+    for (shot, camera_from_base) in shots.iter().zip(cameras) {
+        let at = camera_from_base * mean.point;
+        let normal = camera_from_base.rotation * mean.normal;
+        // From behind, a sheet is another surface.
+        if normal.dot(&at.coords) > 0.0 {
+            continue;
+        }
+        let surface = shot.surface;
+        let noise = surface.noise_at_1m.0 * at.z * at.z;
+        match look(surface, &at, &normal, TOLERANCE + 3.0 * noise) {
+            Look::Here(i) => {
+                num_here += 1;
+                seen_by |= 1 << shot.number;
+                let weight = 1.0 / surface.sigma(i).powi(2);
+                off_sum += weight * normal.dot(&(surface.points[i].cast::<f64>() - at));
+                weight_sum += weight;
+                votes += match shot.labels.and_then(|labels| labels.get(i)) {
+                    Some(PointLabel::Part) => PART_VOTE,
+                    Some(PointLabel::Background(_)) => BACKGROUND_VOTE,
+                    Some(PointLabel::Rest) => REST_VOTE,
+                    Some(PointLabel::NoReading) | None => 0,
+                };
+            }
+            Look::Through => num_through += 1,
+            Look::Hidden | Look::NoReading | Look::Outside => {}
+        }
+    }
+    if num_here == 0 || 2 * num_through > num_here {
+        return None;
+    }
+    Some(Voxel {
+        point: mean.point + mean.normal * (off_sum / weight_sum),
+        weight: weight_sum,
+        seen_by,
+        votes,
+        ..*mean
+    })
+}
+
+/// Points that were drawn into one voxel become one, ordered by voxel.
+fn merged(voxels: &[Voxel], size: Metres) -> Vec<Voxel> {
+    let per_metre = 1.0 / size.0;
+    let numbered = voxels.iter().enumerate();
+    let mut order: Vec<(u64, u32)> = numbered
+        .map(|(i, v)| (voxel_of(&v.point, per_metre), i as u32))
+        .collect();
+    order.sort_unstable();
+    order
+        .chunk_by(|a, b| a.0 == b.0)
+        .map(|members| {
+            let first = &voxels[members[0].1 as usize];
+            let (mut point, mut normal, mut weight) = (Vector3::zeros(), Vector3::zeros(), 0.0);
+            let (mut seen_by, mut votes) = (0, 0);
+            for &(_, i) in members {
+                let one = &voxels[i as usize];
+                point += one.point.coords * one.weight;
+                normal += one.normal * one.weight;
+                weight += one.weight;
+                seen_by |= one.seen_by;
+                votes += one.votes;
+            }
+            Voxel {
+                point: Point3::from(point / weight),
+                normal: normal.try_normalize(1e-12).unwrap_or(first.normal),
+                weight,
+                seen_by,
+                votes,
+            }
+        })
+        .collect()
+}

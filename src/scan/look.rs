@@ -1,0 +1,75 @@
+//! What a shot's camera sees at a place: the surface, something behind it, something before it, or nothing.
+
+use nalgebra::{Point3, Vector3};
+
+use super::surface::{Surface, Use};
+
+/// What a camera sees at a place of the robot's base frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Look {
+    /// The surface is there: the index of the reading.
+    Here(usize),
+    /// The camera looks through the place to something behind it.
+    Through,
+    /// Something nearer is before it.
+    Hidden,
+    /// The place is in the picture, and there is no reading.
+    NoReading,
+    /// The place is outside the picture.
+    Outside,
+}
+
+/// Pixels around the expected one that may show the surface: poses are not perfect, and edges are ragged.
+const REACH: i64 = 1;
+
+/// Looks for a surface at a camera point with this normal (camera space; zero if unknown), within `tolerance` metres
+/// along the normal.
+///
+/// Through is only what all pixels around look through: beside an edge the next pixel shows the background.
+pub fn look(surface: &Surface, at: &Point3<f64>, normal: &Vector3<f64>, tolerance: f64) -> Look {
+    let Some((column, row)) = surface.pixel(at) else {
+        return Look::Outside;
+    };
+    // Along the ray a tilted surface is further off by as much as it is off along its normal.
+    let facing = -normal.dot(&at.coords) / at.coords.norm();
+    let along_ray = tolerance
+        / if *normal == Vector3::zeros() {
+            1.0
+        } else {
+            facing.max(0.3)
+        };
+    let (mut best, mut num_through, mut num_nearer) = (None::<(f64, usize)>, 0, 0);
+    for dv in -REACH..=REACH {
+        for du in -REACH..=REACH {
+            let Some(i) = surface.reading(column + du, row + dv) else {
+                continue;
+            };
+            let off = f64::from(surface.points[i].z) - at.z;
+            if off > along_ray {
+                num_through += 1;
+            } else if off < -along_ray {
+                num_nearer += 1;
+            } else {
+                // The expected pixel first, then the nearest in depth.
+                let cost = if du == 0 && dv == 0 {
+                    0.0
+                } else {
+                    1.0 + off.abs()
+                };
+                let usable = surface.uses[i] != Use::None;
+                if usable && best.is_none_or(|(least, _)| cost < least) {
+                    best = Some((cost, i));
+                }
+            }
+        }
+    }
+    match best {
+        Some((_, i)) => Look::Here(i),
+        None if num_nearer > 0 => Look::Hidden,
+        None if num_through >= LEAST_THROUGH => Look::Through,
+        None => Look::NoReading,
+    }
+}
+
+/// Fewer readings than this behind a place are an edge or a hole in the readings.
+const LEAST_THROUGH: usize = 6;

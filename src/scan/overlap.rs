@@ -1,0 +1,126 @@
+//! How well shots agree where they see the same surface.
+//!
+//! A reading is paired with what another shot shows at its place, and counts if that, projected back, lands on it again
+//! (mutual nearest readings) and is within [`REACH`]. Its distance is taken along the other reading's normal. Readings
+//! beside depth discontinuities are left out.
+
+use nalgebra::Point3;
+
+use super::{
+    pairs::{Met, meet},
+    register::samples_of,
+    surface::Surface,
+};
+use crate::{
+    geometry::{parallel::map_in_order, rigid::RigidTransform},
+    units::Metres,
+};
+
+/// Readings further apart than this are not of one surface, metres.
+pub const REACH: f64 = 0.015;
+/// Readings of each shot that are looked for in each other.
+const NUM_SAMPLES: usize = 4000;
+/// Fewer pairs than this are no overlap.
+pub const LEAST_PAIRS: usize = 50;
+
+/// Distances between the surfaces that shots see both.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct Overlap {
+    /// Root mean square of the distances.
+    pub rms: Metres,
+    /// Median of their magnitudes.
+    pub median: Metres,
+    /// Pairs of readings.
+    pub num_pairs: usize,
+}
+
+impl Overlap {
+    fn of(mut distances: Vec<f32>) -> Option<Self> {
+        let num_pairs = distances.len();
+        if num_pairs < LEAST_PAIRS {
+            return None;
+        }
+        let sum_sq: f64 = distances.iter().map(|d| f64::from(d * d)).sum();
+        let middle = num_pairs / 2;
+        let (_, median, _) = distances.select_nth_unstable_by(middle, f32::total_cmp);
+        Some(Self {
+            rms: Metres((sum_sq / num_pairs as f64).sqrt()),
+            median: Metres(f64::from(*median)),
+            num_pairs,
+        })
+    }
+}
+
+/// How shots agree.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Agreement {
+    /// Of all shots together; `None` without an overlap.
+    pub all: Option<Overlap>,
+    /// On the part alone.
+    pub part: Option<Overlap>,
+    /// Of each shot with all others, in order.
+    pub shots: Vec<Option<Overlap>>,
+}
+
+/// How shots agree at these poses; `is_part` says of a point of the base frame whether it is the part.
+pub fn overlap(
+    surfaces: &[&Surface],
+    poses: &[RigidTransform],
+    is_part: impl Fn(&Point3<f64>) -> bool + Sync,
+    num_workers: usize,
+) -> Agreement {
+    let n = surfaces.len();
+    let distances = map_in_order(
+        n,
+        num_workers,
+        || (),
+        |(), i| {
+            let samples = samples_of(surfaces[i], NUM_SAMPLES);
+            let others = (0..n).map(|j| {
+                if i == j {
+                    return Vec::new();
+                }
+                let (from, to) = (surfaces[i], surfaces[j]);
+                distances(from, &samples, to, &poses[i], &poses[j], &is_part)
+            });
+            others.collect::<Vec<Vec<(f32, bool)>>>()
+        },
+    );
+    let of_shot = |i: usize| {
+        let own = distances[i].iter().flatten();
+        let others = distances.iter().flat_map(|others| &others[i]);
+        Overlap::of(own.chain(others).map(|d| d.0).collect())
+    };
+    let all = || distances.iter().flatten().flatten();
+    Agreement {
+        all: Overlap::of(all().map(|d| d.0).collect()),
+        part: Overlap::of(all().filter(|d| d.1).map(|d| d.0).collect()),
+        shots: (0..n).map(of_shot).collect(),
+    }
+}
+
+/// Magnitudes of the distances of one shot's samples to the surface that another sees, and whether that is the part.
+fn distances(
+    from: &Surface,
+    samples: &[u32],
+    to: &Surface,
+    base_from_from: &RigidTransform,
+    base_from_to: &RigidTransform,
+    is_part: &(impl Fn(&Point3<f64>) -> bool + Sync),
+) -> Vec<(f32, bool)> {
+    let to_from = base_from_to.inverse() * base_from_from;
+    let from_base = base_from_from.inverse();
+    let distance = |&i: &u32| {
+        let met = meet(from, i as usize, to, &to_from, base_from_to, REACH);
+        let Met::Pair(pair) = met else { return None };
+        let (column, row) = from.pixel(&(from_base * pair.to))?;
+        let own = (
+            i64::from(i) % from.camera.width as i64,
+            i64::from(i) / from.camera.width as i64,
+        );
+        // Cameras at different distances see one reading of the other's at several of their own.
+        let is_mutual = (column - own.0).abs() <= 2 && (row - own.1).abs() <= 2;
+        is_mutual.then(|| (pair.off().abs() as f32, is_part(&pair.to)))
+    };
+    samples.iter().filter_map(distance).collect()
+}

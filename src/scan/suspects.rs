@@ -1,0 +1,211 @@
+//! Which shot does not belong: its pose is wrong, or the part stood elsewhere when it was taken.
+
+use super::{
+    pairs::{Met, meet},
+    register::samples_of,
+    surface::Surface,
+};
+use crate::{
+    geometry::{
+        parallel::map_in_order,
+        rigid::{PoseError, RigidTransform},
+    },
+    stages::segment::{PointLabel, Segmentation},
+    units::{Metres, Radians},
+};
+
+/// When a shot is excluded.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SuspectParams {
+    /// A pose that the refinement moves further than this is wrong, 5..100 mm where the frame's readings are.
+    pub max_shift: Metres,
+    /// The same for its turn, 0.5..10°.
+    pub max_turn: Radians,
+    /// Share of what a shot sees together with others that must agree, 0.2..0.9. Raising it excludes shots of a cell in
+    /// which other things move.
+    pub min_share: f64,
+}
+
+impl Default for SuspectParams {
+    fn default() -> Self {
+        Self {
+            max_shift: Metres::from_mm(25.0),
+            max_turn: Radians::from_degrees(2.0),
+            min_share: 0.6,
+        }
+    }
+}
+
+/// Why a shot was left out.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum Excluded {
+    /// The frame fits elsewhere.
+    #[error("its pose is wrong: the frame fits {} and {} away", moved.shift, moved.rotation)]
+    WrongPose {
+        /// From the robot's pose to the one at which it fits better.
+        moved: PoseError,
+    },
+    /// The frame fits nowhere near.
+    #[error("it contradicts the other frames: {:.0} % of what they see together agrees", share * 100.0)]
+    Contradicts {
+        /// Share that agrees, 0..1.
+        share: f64,
+    },
+    /// The cell agrees, and the part does not.
+    #[error("the part moved: the cell agrees with the other frames, {:.0} % of the part does", share * 100.0)]
+    PartMoved {
+        /// Share of the part that agrees, 0..1.
+        share: f64,
+    },
+}
+
+impl Excluded {
+    /// A word for tables and JSON.
+    pub fn name(&self) -> &'static str {
+        match self {
+            Self::WrongPose { .. } => "wrong_pose",
+            Self::Contradicts { .. } => "contradicts",
+            Self::PartMoved { .. } => "part_moved",
+        }
+    }
+}
+
+impl crate::error::Advice for Excluded {
+    fn advice(&self) -> String {
+        match self {
+            Self::WrongPose { .. } | Self::Contradicts { .. } => {
+                "Check that this pose belongs to this frame, and capture the frame again with the arm at rest".into()
+            }
+            Self::PartMoved { .. } => "Capture the frame again while the part stands still".into(),
+        }
+    }
+}
+
+/// A shot at its refined pose.
+pub(super) struct Candidate<'a> {
+    pub(super) surface: &'a Surface,
+    pub(super) segmentation: &'a Segmentation,
+    pub(super) base_from_camera: RigidTransform,
+    pub(super) moved: PoseError,
+}
+
+/// Readings that two shots see at one place: how many agree, and how many do not.
+#[derive(Clone, Copy, Debug, Default)]
+struct Count {
+    agree: f64,
+    against: f64,
+}
+
+impl Count {
+    fn add(&mut self, other: Self) {
+        self.agree += other.agree;
+        self.against += other.against;
+    }
+
+    /// Share that agrees; `None` of too few readings.
+    fn share(&self) -> Option<f64> {
+        let all = self.agree + self.against;
+        (all >= LEAST).then(|| self.agree / all)
+    }
+}
+
+/// Readings of each shot that are looked for in each other.
+const NUM_SAMPLES: usize = 3000;
+/// Fewer readings than this tell nothing.
+const LEAST: f64 = 60.0;
+/// Two surfaces further apart than this contradict each other: metres, beside three standard deviations.
+const AGREES: f64 = 0.008;
+/// Further apart they are no longer taken for one surface, metres.
+const REACH: f64 = 0.06;
+
+/// The shot that least belongs to the others, and why; `None` if all belong.
+pub(super) fn worst(
+    shots: &[Candidate<'_>],
+    params: &SuspectParams,
+    num_workers: usize,
+) -> Option<(usize, Excluded)> {
+    let n = shots.len();
+    let counts: Vec<Vec<[Count; 2]>> = map_in_order(
+        n,
+        num_workers,
+        || (),
+        |(), i| {
+            let samples = samples_of(shots[i].surface, NUM_SAMPLES);
+            let others = (0..n).map(|j| {
+                if i == j {
+                    return Default::default();
+                }
+                count(&shots[i], &samples, &shots[j])
+            });
+            others.collect()
+        },
+    );
+    let of_shot = |i: usize, which: usize| {
+        let mut sum = Count::default();
+        for j in 0..n {
+            sum.add(counts[i][j][which]);
+            sum.add(counts[j][i][which]);
+        }
+        sum.share()
+    };
+    let judged = shots.iter().enumerate().filter_map(|(i, shot)| {
+        // How far beyond its limit, 1 at the limit.
+        let moved = (shot.moved.shift.0 / params.max_shift.0)
+            .max(shot.moved.rotation.0 / params.max_turn.0);
+        let beyond =
+            |share: Option<f64>| share.map_or(0.0, |s| (1.0 - s) / (1.0 - params.min_share));
+        let (all, part) = (of_shot(i, 0), of_shot(i, 1));
+        let found = [
+            (moved, Excluded::WrongPose { moved: shot.moved }),
+            (
+                beyond(all),
+                Excluded::Contradicts {
+                    share: all.unwrap_or(0.0),
+                },
+            ),
+            (
+                beyond(part),
+                Excluded::PartMoved {
+                    share: part.unwrap_or(0.0),
+                },
+            ),
+        ];
+        let worst = found
+            .into_iter()
+            .reduce(|a, b| if b.0 > a.0 { b } else { a })?;
+        (worst.0 > 1.0).then_some((i, worst))
+    });
+    let worst = judged.reduce(|a, b| if b.1.0 > a.1.0 { b } else { a })?;
+    Some((worst.0, worst.1.1))
+}
+
+/// Everything, and the part alone.
+fn count(from: &Candidate<'_>, samples: &[u32], to: &Candidate<'_>) -> [Count; 2] {
+    let to_from = to.base_from_camera.inverse() * from.base_from_camera;
+    let mut counts = [Count::default(); 2];
+    for &i in samples {
+        let i = i as usize;
+        let met = meet(
+            from.surface,
+            i,
+            to.surface,
+            &to_from,
+            &to.base_from_camera,
+            REACH,
+        );
+        let agrees = match met {
+            Met::Pair(pair) => pair.off().abs() < AGREES + 3.0 * pair.sigma,
+            Met::Through => false,
+            Met::Nothing => continue,
+        };
+        let one = Count {
+            agree: f64::from(agrees),
+            against: f64::from(!agrees),
+        };
+        counts[0].add(one);
+        if from.segmentation.labels.get(i) == Some(&PointLabel::Part) {
+            counts[1].add(one);
+        }
+    }
+    counts
+}

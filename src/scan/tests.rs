@@ -1,0 +1,223 @@
+//! Simulated scans, held against the truth.
+
+use nalgebra::{Isometry3, Point3, Translation3};
+
+use super::*;
+use crate::{
+    geometry::{nearest::KdTree, rigid::pose_error},
+    simulate::{PartKind, ScanSetup, Side, SimulatedScan, Subject},
+    stages::scene::scene_from_frame,
+    units::Radians,
+};
+
+fn simulated(kind: PartKind, num_shots: usize, seed: u64) -> SimulatedScan {
+    SimulatedScan::new(ScanSetup {
+        subject: Subject::Part {
+            kind,
+            side: Side::Left,
+            model_seed: 0,
+        },
+        num_shots,
+        place_error: Metres::from_mm(3.0),
+        turn_error: Radians::from_degrees(0.3),
+        noise: 1.0,
+        seed,
+    })
+}
+
+fn shots_of(scan: &SimulatedScan) -> (Vec<Shot>, Vec<RigidTransform>) {
+    let simulated = scan.shots();
+    let truth = simulated.iter().map(|shot| shot.base_from_camera).collect();
+    let shots = simulated.iter().enumerate().map(|(k, shot)| Shot {
+        name: format!("shot {k}"),
+        scene: Arc::new(scene_from_frame(&shot.frame)),
+        base_from_camera: shot.given,
+    });
+    (shots.collect(), truth)
+}
+
+fn put_together(shots: &[Shot]) -> Scan {
+    assemble(shots, &ScanParams::default(), &Unwatched).expect("a scan")
+}
+
+/// The shared error of all cameras, which nothing seen can tell: the mean over the shots.
+fn shared_error(scan: &Scan, truth: &[RigidTransform]) -> RigidTransform {
+    let used = || {
+        scan.used()
+            .map(|(k, shot)| shot.base_from_camera * truth[k].inverse())
+    };
+    let n = used().count() as f64;
+    let middle = Point3::new(1.9, 0.0, 1.1);
+    let turn = used().fold(nalgebra::Vector3::zeros(), |sum, e| {
+        sum + e.rotation.scaled_axis()
+    }) / n;
+    let turn = nalgebra::UnitQuaternion::from_scaled_axis(turn);
+    let shift = used().fold(nalgebra::Vector3::zeros(), |sum, e| {
+        sum + (e * middle - middle)
+    }) / n;
+    Isometry3::from_parts(
+        Translation3::from(middle.coords + shift - turn * middle.coords),
+        turn,
+    )
+}
+
+#[test]
+fn poses_that_are_off_are_recovered() {
+    for (kind, seed) in [
+        (PartKind::Fender, 1),
+        (PartKind::FrontDoor, 2),
+        (PartKind::Grille, 3),
+    ] {
+        let (shots, truth) = shots_of(&simulated(kind, 6, seed));
+        let scan = put_together(&shots);
+        let shared = shared_error(&scan, &truth);
+        for (k, shot) in scan.used() {
+            let expected = shared * truth[k];
+            let error = pose_error(
+                &shot.base_from_camera,
+                &expected,
+                &Point3::new(0.0, 0.0, 1.35),
+            );
+            assert!(
+                error.shift.mm() < 1.0 && error.rotation.degrees() < 0.1,
+                "{kind:?} {}: {} and {}",
+                shot.name,
+                error.shift,
+                error.rotation
+            );
+        }
+        assert_eq!(scan.used().count(), 6);
+        let rms = |overlap: Option<Overlap>| overlap.expect("an overlap").rms.mm();
+        assert!(rms(scan.after.all) < 0.8 * rms(scan.before.all));
+    }
+}
+
+#[test]
+fn a_shot_whose_pose_is_wrong_is_named_and_left_out() {
+    for (seed, shift) in [
+        (5, [0.05, 0.0, 0.0]),
+        (6, [0.0, 0.05, 0.0]),
+        (7, [0.0, 0.0, -0.05]),
+    ] {
+        let (mut shots, _) = shots_of(&simulated(PartKind::Fender, 5, seed));
+        shots[2].base_from_camera.translation.vector += nalgebra::Vector3::from(shift);
+        let scan = put_together(&shots);
+        let excluded: Vec<usize> = (0..5)
+            .filter(|&k| scan.shots[k].excluded.is_some())
+            .collect();
+        assert_eq!(excluded, [2], "{shift:?}: {:?}", scan.shots[2].moved);
+        // Nothing of it is in the cloud.
+        assert!(scan.cloud.seen_by.iter().all(|mask| mask & 4 == 0));
+    }
+}
+
+#[test]
+fn a_shot_of_the_part_at_another_place_is_left_out() {
+    let simulated = simulated(PartKind::FrontDoor, 5, 11);
+    let (mut shots, _) = shots_of(&simulated);
+    let elsewhere = Translation3::new(-0.06, 0.05, 0.0) * simulated.base_from_model;
+    let moved = simulated.shot(3, &elsewhere);
+    shots[3].scene = Arc::new(scene_from_frame(&moved.frame));
+    let scan = put_together(&shots);
+    let excluded: Vec<usize> = (0..5)
+        .filter(|&k| scan.shots[k].excluded.is_some())
+        .collect();
+    assert_eq!(excluded, [3]);
+    let Some(Excluded::PartMoved { share }) = scan.shots[3].excluded else {
+        panic!("the part moved: {:?}", scan.shots[3].excluded);
+    };
+    assert!(share < 0.6, "{share}");
+}
+
+#[test]
+fn the_fused_part_is_the_part() {
+    let simulated = simulated(PartKind::Fender, 6, 21);
+    let (mut shots, truth) = shots_of(&simulated);
+    for (shot, truth) in shots.iter_mut().zip(&truth) {
+        shot.base_from_camera = *truth;
+    }
+    let scan = put_together(&shots);
+    let surface = simulated
+        .part()
+        .sample_evenly(40_000, 1)
+        .expect("a surface");
+    let in_base = surface
+        .points
+        .iter()
+        .map(|p| (simulated.base_from_model * p.cast::<f64>()).cast());
+    let in_base: Vec<Point3<f32>> = in_base.collect();
+    let tree = KdTree::new(&in_base);
+    let part = scan.cloud.part();
+    let distances = part.cloud.points.iter().map(|p| {
+        let nearest = tree.nearest(p, f32::INFINITY).expect("a surface");
+        f64::from(nearest.distance_sq).sqrt()
+    });
+    let distances: Vec<f64> = distances.collect();
+    let off = distances.iter().filter(|d| **d > 0.012).count() as f64 / distances.len() as f64;
+    assert!(off < 0.01, "{off} of the part's points lie off the part");
+    // What the cameras in front see of it: most of one face.
+    let fused = KdTree::new(&part.cloud.points);
+    let found = in_base
+        .iter()
+        .filter(|p| fused.nearest(p, 1e-4).is_some())
+        .count();
+    let share = found as f64 / in_base.len() as f64;
+    assert!(share > 0.85, "{share} of the part is in the cloud");
+    let by_many = part
+        .seen_by
+        .iter()
+        .filter(|mask| mask.count_ones() >= 2)
+        .count();
+    assert!(by_many as f64 > 0.8 * part.seen_by.len() as f64);
+}
+
+#[test]
+fn any_number_of_threads_gives_the_same_scan() {
+    let (shots, _) = shots_of(&simulated(PartKind::TrunkLid, 4, 31));
+    let by = |num_workers: usize| {
+        let mut params = ScanParams::default();
+        params.register.num_workers = num_workers;
+        let scan = assemble(&shots, &params, &Unwatched).expect("a scan");
+        let poses: Vec<RigidTransform> = scan.shots.iter().map(|s| s.base_from_camera).collect();
+        (scan.cloud, poses)
+    };
+    assert!(by(1) == by(3));
+}
+
+#[test]
+fn what_is_no_scan_is_refused_in_words() {
+    use crate::error::Advice as _;
+
+    let (shots, _) = shots_of(&simulated(PartKind::Fender, 2, 41));
+    let refused = |shots: &[Shot]| {
+        let error = assemble(shots, &ScanParams::default(), &Unwatched).expect_err("no scan");
+        assert!(!error.advice().is_empty());
+        error
+    };
+    assert_eq!(refused(&shots[..1]), ScanError::TooFewShots { found: 1 });
+    let many: Vec<Shot> = (0..65).map(|_| shots[0].clone()).collect();
+    assert_eq!(refused(&many), ScanError::TooManyShots { found: 65 });
+    let mut blind = shots.clone();
+    blind[1].scene = Arc::default();
+    assert!(matches!(
+        refused(&blind),
+        ScanError::TooFewReadings { found: 0, .. }
+    ));
+    let mut unorganised = shots.clone();
+    let mut scene = SceneCloud::clone(&shots[1].scene);
+    scene.cloud.grid = None;
+    unorganised[1].scene = Arc::new(scene);
+    assert!(matches!(refused(&unorganised), ScanError::NoPicture { .. }));
+    let mut apart = shots.clone();
+    apart[1].base_from_camera.translation.vector.z += 0.3;
+    assert!(matches!(refused(&apart), ScanError::NothingAgrees { .. }));
+
+    struct Impatient;
+    impl ScanWatch for Impatient {
+        fn is_cancelled(&self) -> bool {
+            true
+        }
+    }
+    let cancelled = assemble(&shots, &ScanParams::default(), &Impatient);
+    assert_eq!(cancelled.expect_err("cancelled"), ScanError::Cancelled);
+}

@@ -1,0 +1,212 @@
+//! A simulated scan: a part that stands still in a cell, seen by a camera that a robot carries around it.
+//!
+//! Unlike [`super::cell`], which arranges wall and floor around one camera, everything here has its place in the robot's
+//! base frame (z up), so that frames from several sides show the same cell. The poses that the robot tells are off the
+//! true ones by as much as is asked for.
+
+use nalgebra::{
+    Isometry3, Matrix3, Point3, Rotation3, Translation3, Unit, UnitQuaternion, Vector3,
+};
+use rand::{RngExt as _, SeedableRng as _};
+use rand_pcg::Pcg64;
+
+use super::assembly::Assembly;
+use super::cell::Subject;
+use super::rasteriser::{Rendering, SurfaceLabel};
+use super::sensor::{SensorNoise, sense};
+use crate::capture::frame::{DepthFrame, Intrinsics};
+use crate::geometry::mesh::TriangleMesh;
+use crate::geometry::rigid::RigidTransform;
+use crate::units::{Metres, Radians};
+
+/// All that a simulated scan depends on.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct ScanSetup {
+    /// What stands in the cell.
+    pub subject: Subject,
+    /// Frames.
+    pub num_shots: usize,
+    /// How far the camera is from where the robot says.
+    pub place_error: Metres,
+    /// How far it is turned from what the robot says.
+    pub turn_error: Radians,
+    /// Scales the camera's noise, 0..5; 1 is a Kinect's.
+    pub noise: f64,
+    /// Draws the places of the camera, the robot's errors and the noise.
+    pub seed: u64,
+}
+
+/// One frame of a simulated scan.
+#[derive(Clone, Debug, PartialEq)]
+pub struct SimulatedShot {
+    /// The frame.
+    pub frame: DepthFrame,
+    /// Where the camera truly was.
+    pub base_from_camera: RigidTransform,
+    /// Where the robot says that it was.
+    pub given: RigidTransform,
+}
+
+/// A simulated scan.
+pub struct SimulatedScan {
+    setup: ScanSetup,
+    part: TriangleMesh,
+    cell: TriangleMesh,
+    /// Where the part's model stands.
+    pub base_from_model: RigidTransform,
+}
+
+/// The middle of the part, base frame, metres.
+const MIDDLE: [f64; 3] = [1.9, 0.0, 1.1];
+/// Keeps the draws apart from others made with the same seed.
+const STREAM: u64 = 0x5ca9_5ca9_5ca9_5ca9;
+
+impl SimulatedScan {
+    /// Builds the part and the cell around it.
+    pub fn new(setup: ScanSetup) -> Self {
+        // The model looks at a camera with x right, y down and z away; the part looks back along the base's x.
+        let axes = Matrix3::new(0.0, 0.0, 1.0, -1.0, 0.0, 0.0, 0.0, -1.0, 0.0);
+        let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
+        let [x, y, z] = MIDDLE;
+        Self {
+            part: setup.subject.mesh(),
+            cell: cell(),
+            setup,
+            base_from_model: Isometry3::from_parts(Translation3::new(x, y, z), turn),
+        }
+    }
+
+    /// The part's surface in its own coordinates.
+    pub fn part(&self) -> &TriangleMesh {
+        &self.part
+    }
+
+    /// Takes all frames, with the part where it stands.
+    pub fn shots(&self) -> Vec<SimulatedShot> {
+        let all = (0..self.setup.num_shots).map(|k| self.shot(k, &self.base_from_model));
+        all.collect()
+    }
+
+    /// Takes the frame of number `k` with the part at a place of its own.
+    pub fn shot(&self, k: usize, base_from_model: &RigidTransform) -> SimulatedShot {
+        let setup = &self.setup;
+        let seed = setup.seed.wrapping_mul(1000).wrapping_add(k as u64);
+        let mut random = Pcg64::seed_from_u64(seed ^ STREAM);
+        let base_from_camera = self.camera(k, &mut random);
+        let camera_from_base = base_from_camera.inverse();
+        let mut rendering = Rendering::new(Intrinsics::KINECT);
+        let part = camera_from_base * base_from_model;
+        rendering.draw_mesh(&self.part, &part, SurfaceLabel::Part);
+        rendering.draw_mesh(&self.cell, &camera_from_base, SurfaceLabel::Clutter);
+        let noise = SensorNoise {
+            multiplier: setup.noise,
+            seed,
+        };
+        let frame = sense(&rendering, &noise);
+        let turn = UnitQuaternion::from_axis_angle(&direction(&mut random), setup.turn_error.0);
+        let shift = direction(&mut random).into_inner() * setup.place_error.0;
+        SimulatedShot {
+            frame,
+            base_from_camera,
+            given: Isometry3::from_parts(
+                Translation3::from(base_from_camera.translation.vector + shift),
+                turn * base_from_camera.rotation,
+            ),
+        }
+    }
+
+    /// From left to right around the part, by turns from above and below, 1.2 to 1.5 m away.
+    fn camera(&self, k: usize, random: &mut Pcg64) -> RigidTransform {
+        let mut jitter = |range: f64| range * (2.0 * random.random::<f64>() - 1.0);
+        let along = k as f64 / (self.setup.num_shots.max(2) - 1) as f64;
+        let yaw = f64::to_radians(-35.0 + 70.0 * along + jitter(4.0));
+        let up = if k.is_multiple_of(2) { 25.0 } else { -8.0 };
+        let pitch = f64::to_radians(up + jitter(4.0));
+        let distance = 1.35 + jitter(0.15);
+        let target = Point3::from(MIDDLE) + Vector3::new(0.0, jitter(0.1), jitter(0.1));
+        let back = Vector3::new(
+            -yaw.cos() * pitch.cos(),
+            yaw.sin() * pitch.cos(),
+            pitch.sin(),
+        );
+        let place = target + back * distance;
+        let forward = -back;
+        let down = -Vector3::z();
+        let down = (down - forward * forward.dot(&down)).normalize();
+        let axes = Matrix3::from_columns(&[down.cross(&forward), down, forward]);
+        let turn = UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(axes));
+        Isometry3::from_parts(Translation3::from(place.coords), turn)
+    }
+}
+
+/// A direction, evenly from all.
+fn direction(random: &mut Pcg64) -> Unit<Vector3<f64>> {
+    let z = 2.0 * random.random::<f64>() - 1.0;
+    let turn = std::f64::consts::TAU * random.random::<f64>();
+    let r = (1.0 - z * z).sqrt();
+    Unit::new_normalize(Vector3::new(r * turn.cos(), r * turn.sin(), z))
+}
+
+/// Floor, two walls and three boxes, base frame.
+fn cell() -> TriangleMesh {
+    let mut cell = Assembly::default();
+    let mut face = |corner: [f64; 3], along: [f64; 3], up: [f64; 3]| {
+        let corner = Point3::from(corner);
+        let (along, up) = (Vector3::from(along), Vector3::from(up));
+        let corners = [corner, corner + along, corner + along + up, corner + up];
+        let corners = corners.map(|p| cell.vertex(p));
+        cell.quad(corners);
+    };
+    face([-8.0, -8.0, 0.0], [16.0, 0.0, 0.0], [0.0, 16.0, 0.0]);
+    face([2.9, -8.0, 0.0], [0.0, 16.0, 0.0], [0.0, 0.0, 5.0]);
+    face([-8.0, 2.2, 0.0], [16.0, 0.0, 0.0], [0.0, 0.0, 5.0]);
+    for ([x, y], [length, width, height]) in [
+        ([2.2, 0.8], [0.5, 0.6, 0.6]),
+        ([2.4, -1.5], [0.4, 0.5, 1.3]),
+        ([1.7, -0.8], [0.5, 0.4, 0.35]),
+    ] {
+        face([x, y, 0.0], [0.0, width, 0.0], [0.0, 0.0, height]);
+        face([x + length, y, 0.0], [0.0, width, 0.0], [0.0, 0.0, height]);
+        face([x, y, 0.0], [length, 0.0, 0.0], [0.0, 0.0, height]);
+        face([x, y + width, 0.0], [length, 0.0, 0.0], [0.0, 0.0, height]);
+        face([x, y, height], [length, 0.0, 0.0], [0.0, width, 0.0]);
+    }
+    cell.into_mesh()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        geometry::rigid::pose_error,
+        simulate::{PartKind, Side},
+    };
+
+    #[test]
+    fn the_camera_looks_at_the_part_and_the_robot_errs_by_what_was_asked_for() {
+        let scan = SimulatedScan::new(ScanSetup {
+            subject: Subject::Part {
+                kind: PartKind::Fender,
+                side: Side::Left,
+                model_seed: 0,
+            },
+            num_shots: 3,
+            place_error: Metres::from_mm(3.0),
+            turn_error: Radians::from_degrees(0.3),
+            noise: 0.0,
+            seed: 4,
+        });
+        let shots = scan.shots();
+        assert_eq!(shots, scan.shots(), "the same seed gives the same frames");
+        for shot in &shots {
+            let error = pose_error(&shot.given, &shot.base_from_camera, &Point3::origin());
+            assert!((error.shift.mm() - 3.0).abs() < 1e-6);
+            assert!((error.rotation.degrees() - 0.3).abs() < 1e-6);
+            let middle = shot.base_from_camera.inverse() * Point3::from(MIDDLE);
+            assert!((1.0..1.7).contains(&middle.z), "{middle}");
+            // Floor and walls fill what the part leaves.
+            let num_readings = shot.frame.depth.iter().filter(|d| **d > 0).count();
+            assert!(num_readings as f64 > 0.95 * shot.frame.depth.len() as f64);
+        }
+    }
+}
