@@ -1,5 +1,7 @@
 //! `partsight capture`: records what a source gives.
 
+mod arm;
+
 use std::{
     ops::ControlFlow,
     path::{Path, PathBuf},
@@ -7,6 +9,7 @@ use std::{
 
 use clap::Args;
 
+use self::arm::{Arm, ArmChoice, ForFrame};
 use super::{
     Outcome,
     console::{Advised as _, Console, Table, advised_error},
@@ -30,6 +33,8 @@ pub(super) struct CaptureArgs {
     /// Folder of the recording, which is empty or not there yet
     #[arg(long, value_name = "DIR", required_unless_present = "list")]
     out: Option<PathBuf>,
+    #[command(flatten)]
+    arm: ArmChoice,
     /// List the sources that can be opened now
     #[arg(long, conflicts_with_all = ["source", "frames", "out"])]
     list: bool,
@@ -37,7 +42,10 @@ pub(super) struct CaptureArgs {
 
 pub(super) fn run(args: &CaptureArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     match (&args.source, &args.out) {
-        (Some(source), Some(out)) => record(source, out, args.frames, console),
+        (Some(source), Some(out)) => {
+            let arm = Arm::of(&args.arm)?;
+            record(source, out, (args.frames, arm), console)
+        }
         _ => Ok(show_list(console)),
     }
 }
@@ -45,9 +53,10 @@ pub(super) fn run(args: &CaptureArgs, console: &mut Console) -> anyhow::Result<O
 fn record(
     source: &SourceSpec,
     out: &Path,
-    frames: Option<u64>,
+    (frames, mut arm): (Option<u64>, Arm),
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
+    let frames = frames.or(arm.num_left());
     let mut recorder: Option<Recorder> = None;
     let mut outcome = Outcome::Accepted;
     let mut told: Vec<CaptureWarning> = Vec::new();
@@ -56,7 +65,7 @@ fn record(
         None => console.start_counting(),
     }
     let status = follow(source, console, |item, status, console| {
-        let captured = match item {
+        let mut captured = match item {
             FeedItem::Captured(captured) => captured,
             FeedItem::Skipped(skipped) => {
                 console.warn(
@@ -67,6 +76,13 @@ fn record(
                 return Ok(ControlFlow::Continue(()));
             }
         };
+        match arm.pose_for(&captured, source.is_live(), console)? {
+            // What is replayed may bring its own.
+            ForFrame::Record(None) => {}
+            ForFrame::Record(pose) => captured.robot_from_flange = pose,
+            ForFrame::TooEarly => return Ok(ControlFlow::Continue(())),
+            ForFrame::End => return Ok(ControlFlow::Break(())),
+        }
         for warning in &captured.warnings {
             if told.contains(warning) {
                 continue;

@@ -85,7 +85,7 @@ pub(super) struct SimulateArgs {
     cases: Option<PathBuf>,
     /// Instead of one file: write frames from several sides into this folder, with the poses that a robot would tell, for
     /// partsight scan; the cell is another one
-    #[arg(long, value_name = "DIR", conflicts_with_all = ["out", "truth", "pose", "cases", "placement", "clutter", "stand"])]
+    #[arg(long, value_name = "DIR", conflicts_with_all = ["out", "truth", "pose", "cases"])]
     scan: Option<PathBuf>,
     /// With --scan: how many frames
     #[arg(long, value_name = "N", default_value_t = 8, requires = "scan", value_parser = parse_shots)]

@@ -3,9 +3,16 @@
 //! The cloud is thinned to one point per cube, which evens it out, averages the sensor's noise and keeps the file
 //! small; normals are estimated on the thinned cloud. Part space is the coordinates as they came.
 
+mod problem;
+mod scan;
+
 use jiff::Timestamp;
 use nalgebra::{Point3, Vector3};
 
+pub use self::{
+    problem::{EnrolError, EnrolWarning},
+    scan::enrol_scan,
+};
 use super::{
     name::PartName,
     part::{
@@ -14,16 +21,14 @@ use super::{
     thumbnail,
 };
 use crate::{
-    error::Advice,
     geometry::{
         cloud::PointCloud, mesh::TriangleMesh, nearest::KdTree, normals::estimate_normals,
         voxel::downsample,
     },
-    scan::{Scan, unseen::unseen_share},
     stages::{
         reference::{Coverage, Reference, ReferenceError, ReferenceParams, ViewCut},
         scene::SceneCloud,
-        segment::{BackgroundSign, NoPart, SegmentParams, SegmentedPart, other_parts, segment},
+        segment::{NoPart, SegmentParams, SegmentedPart, other_parts, segment},
     },
     units::Metres,
 };
@@ -79,100 +84,6 @@ pub struct Enrolled {
     pub reference: Reference,
     /// What is odd about it.
     pub warnings: Vec<EnrolWarning>,
-}
-
-/// Something odd about an enrolled part.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum EnrolWarning {
-    /// The part reaches the border of the field of view.
-    #[error("the part reaches the border of the view, so some of it may be missing")]
-    TouchesEdge,
-    /// What a person chose may be background.
-    #[error("this may be background: {0}")]
-    Background(BackgroundSign),
-    /// The surface of a scan goes on where no frame looked.
-    #[error(
-        "{percent} % of the scanned surface's outline is where the view of every frame ends: the part may go on there"
-    )]
-    GoesOnUnseen {
-        /// Share of the outline, rounded.
-        percent: u8,
-    },
-}
-
-impl Advice for EnrolWarning {
-    fn advice(&self) -> String {
-        match self {
-            Self::TouchesEdge => "Move the camera back or centre the part, then enrol it again",
-            Self::Background(_) => "Check the picture, and take the part instead if it is not",
-            Self::GoesOnUnseen { .. } => {
-                "Add frames that show the missing sides, then enrol it again"
-            }
-        }
-        .into()
-    }
-}
-
-/// Why nothing could be enrolled.
-#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum EnrolError {
-    /// No part in the scene.
-    #[error(transparent)]
-    NoPart(#[from] NoPart),
-    /// The surface that would be taken is more likely background.
-    #[error("the surface found may be background: {0}")]
-    Background(BackgroundSign),
-    /// There are not that many surfaces.
-    #[error("the scene has no surface {wanted}; {found} were found")]
-    NoSuchSurface {
-        /// Number asked for, from 1.
-        wanted: usize,
-        /// Surfaces found.
-        found: usize,
-    },
-    /// The cloud is no reference.
-    #[error(transparent)]
-    Reference(#[from] ReferenceError),
-    /// Too few points.
-    #[error("the cloud has {found} points, at least {needed} are needed")]
-    TooFewPoints {
-        /// Finite points.
-        found: usize,
-        /// Least number of points.
-        needed: usize,
-    },
-    /// No frame of a scan shows a part.
-    #[error("no part was found in any of the {num_frames} frames")]
-    NoPartInScan {
-        /// Frames that were used.
-        num_frames: usize,
-    },
-    /// A mesh without a surface.
-    #[error("the mesh of {num_triangles} triangles has no area")]
-    NoArea {
-        /// Triangles of the mesh.
-        num_triangles: usize,
-    },
-}
-
-impl Advice for EnrolError {
-    fn advice(&self) -> String {
-        match self {
-            Self::NoPart(error) => error.advice(),
-            Self::Reference(error) => error.advice(),
-            Self::Background(_) => {
-                "Say which surface is the part with --segment N, or choose it in the window's Enrol workspace".into()
-            }
-            Self::NoSuchSurface { .. } => "Choose one of those found".into(),
-            Self::TooFewPoints { .. } => {
-                "Capture the part from nearer, or export the cloud with more points".into()
-            }
-            Self::NoPartInScan { .. } => {
-                "Look at what was put together, partsight scan DIR --out scan.ply, and capture the part at least 10 cm before the background".into()
-            }
-            Self::NoArea { .. } => "Export the mesh again with its faces".into(),
-        }
-    }
 }
 
 /// Least points of a whole cloud: fewer show no shape.
@@ -339,55 +250,6 @@ pub fn enrol_mesh(
     };
     assemble(cloud, &source, about, params)
 }
-
-/// Enrols the part that was scanned, in the camera's frame of the first shot that was used.
-pub fn enrol_scan(
-    scan: &Scan,
-    about: &About,
-    params: &EnrolParams,
-) -> Result<Enrolled, EnrolError> {
-    let part = scan.cloud.part();
-    let num_points = part.cloud.points.len();
-    let num_shots = scan.used().count();
-    let first = scan.used().next().filter(|_| num_points >= MIN_POINTS);
-    let Some((_, first)) = first else {
-        return Err(EnrolError::NoPartInScan {
-            num_frames: num_shots,
-        });
-    };
-    let camera_from_base = first.base_from_camera.inverse().cast::<f32>();
-    let in_part_space = PointCloud {
-        points: part
-            .cloud
-            .points
-            .iter()
-            .map(|p| camera_from_base * p)
-            .collect(),
-        normals: part.cloud.normals.as_ref().map(|normals| {
-            let turned = normals.iter().map(|n| camera_from_base * n);
-            turned.collect()
-        }),
-        ..PointCloud::default()
-    };
-    let (cloud, voxel) = thinned(&in_part_space, params);
-    let source = Source {
-        coverage: Coverage::SeveralSides,
-        how: How::Scan,
-        num_points,
-        num_shots: Some(num_shots),
-        voxel: Some(voxel),
-    };
-    let mut enrolled = assemble(cloud, &source, about, params)?;
-    let percent = (100.0 * unseen_share(scan)).round() as u8;
-    if percent >= WORTH_A_WARNING {
-        let warning = EnrolWarning::GoesOnUnseen { percent };
-        enrolled.warnings.push(warning);
-    }
-    Ok(enrolled)
-}
-
-/// Shadows beside the part leave a few per cent of any outline unseen.
-const WORTH_A_WARNING: u8 = 10;
 
 /// What a cloud was made from.
 struct Source {

@@ -9,7 +9,7 @@ use super::{
     error::MAX_SHOTS,
     fuse::{Seen, fuse},
     overlap::{Agreement, overlap},
-    part::keep_largest_piece,
+    part::keep_best_piece,
     register::{register, samples_of},
     suspects::{Candidate, worst},
 };
@@ -221,7 +221,7 @@ fn fused(scanned: &[ScannedShot], params: &ScanParams) -> FusedCloud {
         })
         .collect();
     let mut cloud = fuse(&seen, params.voxel, params.register.num_workers);
-    keep_largest_piece(&mut cloud);
+    keep_best_piece(&mut cloud);
     cloud
 }
 

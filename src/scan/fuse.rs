@@ -25,6 +25,8 @@ pub struct FusedCloud {
     pub seen_by: Vec<u64>,
     /// Whether each point is the part.
     pub is_part: Vec<bool>,
+    /// How many shots take each point for the part.
+    pub part_votes: Vec<u16>,
 }
 
 impl FusedCloud {
@@ -63,6 +65,7 @@ impl FusedCloud {
             },
             seen_by: pick(&self.seen_by, marks),
             is_part: pick(&self.is_part, marks),
+            part_votes: pick(&self.part_votes, marks),
         }
     }
 }
@@ -102,6 +105,8 @@ struct Voxel {
     seen_by: u64,
     /// Above 0 if the shots take it for the part.
     votes: i32,
+    /// Shots that take it for the part.
+    part_votes: u16,
 }
 
 /// A fused point and the readings it stands for lie within this along the normal, metres, beside three standard
@@ -146,6 +151,7 @@ pub(super) fn fuse(shots: &[Seen<'_>], voxel: Metres, num_workers: usize) -> Fus
         },
         seen_by: merged.iter().map(|v| v.seen_by).collect(),
         is_part: merged.iter().map(|v| v.votes > 0).collect(),
+        part_votes: merged.iter().map(|v| v.part_votes).collect(),
     }
 }
 
@@ -192,6 +198,7 @@ fn means_of_readings(shots: &[Seen<'_>], voxel: Metres) -> Vec<Voxel> {
                 weight,
                 seen_by: 0,
                 votes: 0,
+                part_votes: 0,
             }
         })
         .collect()
@@ -201,7 +208,7 @@ fn means_of_readings(shots: &[Seen<'_>], voxel: Metres) -> Vec<Voxel> {
 fn drawn_to_surface(mean: &Voxel, shots: &[Seen<'_>], cameras: &[RigidTransform]) -> Option<Voxel> {
     let (mut num_here, mut num_through) = (0_u32, 0_u32);
     let (mut off_sum, mut weight_sum) = (0.0, 0.0);
-    let (mut seen_by, mut votes) = (0_u64, 0);
+    let (mut seen_by, mut votes, mut part_votes) = (0_u64, 0, 0);
     for (shot, camera_from_base) in shots.iter().zip(cameras) {
         let at = camera_from_base * mean.point;
         let normal = camera_from_base.rotation * mean.normal;
@@ -218,7 +225,9 @@ fn drawn_to_surface(mean: &Voxel, shots: &[Seen<'_>], cameras: &[RigidTransform]
                 let weight = 1.0 / surface.sigma(i).powi(2);
                 off_sum += weight * normal.dot(&(surface.points[i].cast::<f64>() - at));
                 weight_sum += weight;
-                votes += match shot.labels.and_then(|labels| labels.get(i)) {
+                let label = shot.labels.and_then(|labels| labels.get(i));
+                part_votes += u16::from(label == Some(&PointLabel::Part));
+                votes += match label {
                     Some(PointLabel::Part) => PART_VOTE,
                     Some(PointLabel::Background(_)) => BACKGROUND_VOTE,
                     Some(PointLabel::Rest) => REST_VOTE,
@@ -237,6 +246,7 @@ fn drawn_to_surface(mean: &Voxel, shots: &[Seen<'_>], cameras: &[RigidTransform]
         weight: weight_sum,
         seen_by,
         votes,
+        part_votes,
         ..*mean
     })
 }
@@ -254,7 +264,7 @@ fn merged(voxels: &[Voxel], size: Metres) -> Vec<Voxel> {
         .map(|members| {
             let first = &voxels[members[0].1 as usize];
             let (mut point, mut normal, mut weight) = (Vector3::zeros(), Vector3::zeros(), 0.0);
-            let (mut seen_by, mut votes) = (0, 0);
+            let (mut seen_by, mut votes, mut part_votes) = (0, 0, 0);
             for &(_, i) in members {
                 let one = &voxels[i as usize];
                 point += one.point.coords * one.weight;
@@ -262,6 +272,7 @@ fn merged(voxels: &[Voxel], size: Metres) -> Vec<Voxel> {
                 weight += one.weight;
                 seen_by |= one.seen_by;
                 votes += one.votes;
+                part_votes = one.part_votes.max(part_votes);
             }
             Voxel {
                 point: Point3::from(point / weight),
@@ -269,6 +280,7 @@ fn merged(voxels: &[Voxel], size: Metres) -> Vec<Voxel> {
                 weight,
                 seen_by,
                 votes,
+                part_votes,
             }
         })
         .collect()

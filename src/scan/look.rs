@@ -30,6 +30,10 @@ pub fn look(surface: &Surface, at: &Point3<f64>, normal: &Vector3<f64>, toleranc
     let Some((column, row)) = surface.pixel(at) else {
         return Look::Outside;
     };
+    let seen = surface.field_of_view.as_ref();
+    if seen.is_some_and(|seen| !seen.contains(column, row)) {
+        return Look::Outside;
+    }
     // Along the ray a tilted surface is further off by as much as it is off along its normal.
     let facing = -normal.dot(&at.coords) / at.coords.norm();
     let along_ray = tolerance

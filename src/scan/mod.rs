@@ -9,7 +9,7 @@
 //! 2. [`register`]: the poses of all shots are refined together by point-to-plane ICP, held softly at the robot's.
 //! 3. [`suspects`]: a shot that contradicts the others is named, excluded, and the rest is refined anew.
 //! 4. [`fuse`]: the readings are averaged by their noise; what other shots look through is dropped.
-//! 5. [`part`]: the shots' segmentations vote on every point; the largest connected piece is the part.
+//! 5. [`part`]: the shots' segmentations vote on every point; the connected piece with the most votes is the part.
 //!
 //! The results are the same on any number of threads.
 //!

@@ -7,7 +7,7 @@
 use nalgebra::Point3;
 
 use super::{
-    pairs::{Met, meet},
+    pairs::{Met, Reach, meet},
     register::samples_of,
     surface::Surface,
 };
@@ -111,7 +111,11 @@ fn distances(
     let to_from = base_from_to.inverse() * base_from_from;
     let from_base = base_from_from.inverse();
     let distance = |&i: &u32| {
-        let met = meet(from, i as usize, to, &to_from, base_from_to, REACH);
+        let reach = Reach {
+            least: REACH,
+            sigmas: 0.0,
+        };
+        let met = meet(from, i as usize, to, &to_from, base_from_to, reach);
         let Met::Pair(pair) = met else { return None };
         let (column, row) = from.pixel(&(from_base * pair.to))?;
         let own = (

@@ -51,6 +51,15 @@ pub(super) enum Met {
 /// Normals that differ by more than some 45° are of two surfaces.
 const SAME_FACING: f32 = 0.7;
 
+/// How far apart two readings of one surface may be.
+#[derive(Clone, Copy, Debug)]
+pub(super) struct Reach {
+    /// Metres.
+    pub(super) least: f64,
+    /// Standard deviations of their distance, if that is more.
+    pub(super) sigmas: f64,
+}
+
 /// Projects one reading of a shot into another.
 pub(super) fn meet(
     from: &Surface,
@@ -58,7 +67,7 @@ pub(super) fn meet(
     to: &Surface,
     to_from: &RigidTransform,
     base_from_to: &RigidTransform,
-    reach: f64,
+    reach: Reach,
 ) -> Met {
     let at = to_from * from.points[i].cast::<f64>();
     let Some((column, row)) = to.pixel(&at) else {
@@ -74,9 +83,9 @@ pub(super) fn meet(
     let normal = to.normals[j];
     let own = to_from.rotation * from.normals[i].cast::<f64>();
     let faces = own.cast::<f32>().dot(&normal) > SAME_FACING;
-    let away = (seen - at).norm();
-    if away < reach && faces {
-        let sigma = from.sigma(i).hypot(to.sigma(j));
+    let sigma = from.sigma(i).hypot(to.sigma(j));
+    let reach = reach.least.max(reach.sigmas * sigma);
+    if (seen - at).norm() < reach && faces {
         return Met::Pair(Pair {
             from: base_from_to * at,
             to: base_from_to * seen,

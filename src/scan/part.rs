@@ -1,4 +1,5 @@
-//! Which fused points are the part: the shots' vote, then the largest connected piece.
+//! Which fused points are the part: the shots' vote, then the connected piece that most of the shots' votes are for. What
+//! few shots take for the part, however large, is something else that their segmentation took.
 
 use std::collections::BTreeMap;
 
@@ -8,8 +9,8 @@ use crate::units::Metres;
 /// Points of the part further apart than this are of two pieces. Segmentation links at the same distance.
 const LINK: Metres = Metres(0.02);
 
-/// Leaves only the largest connected piece of what the shots voted to be the part.
-pub(super) fn keep_largest_piece(cloud: &mut FusedCloud) {
+/// Leaves only the connected piece with the most votes of what the shots voted to be the part.
+pub(super) fn keep_best_piece(cloud: &mut FusedCloud) {
     let cell = |i: usize| -> [i32; 3] {
         let p = &cloud.cloud.points[i];
         [p.x, p.y, p.z].map(|x| (x / LINK.0 as f32).floor() as i32)
@@ -18,7 +19,7 @@ pub(super) fn keep_largest_piece(cloud: &mut FusedCloud) {
     for (i, _) in cloud.is_part.iter().enumerate().filter(|(_, is)| **is) {
         cells.entry(cell(i)).or_default().push(i as u32);
     }
-    let mut largest: Vec<u32> = Vec::new();
+    let (mut best, mut most) = (Vec::new(), 0);
     while let Some((start, members)) = cells.pop_first() {
         let mut piece = members;
         let mut open = vec![start];
@@ -35,12 +36,16 @@ pub(super) fn keep_largest_piece(cloud: &mut FusedCloud) {
                 }
             }
         }
-        if piece.len() > largest.len() {
-            largest = piece;
+        let votes = piece
+            .iter()
+            .map(|&i| u64::from(cloud.part_votes[i as usize]));
+        let votes = votes.sum();
+        if votes > most {
+            (best, most) = (piece, votes);
         }
     }
     cloud.is_part.fill(false);
-    for i in largest {
+    for i in best {
         cloud.is_part[i as usize] = true;
     }
 }
@@ -53,25 +58,30 @@ mod tests {
     use crate::geometry::cloud::PointCloud;
 
     #[test]
-    fn the_largest_of_two_pieces_stays() {
+    fn the_piece_that_most_votes_are_for_stays() {
         let row = |at: f32, n: usize| (0..n).map(move |i| Point3::new(i as f32 * 0.01, at, 0.0));
-        let points: Vec<_> = row(0.0, 30)
+        let points: Vec<_> = row(0.0, 60)
             .chain(row(0.1, 50))
             .chain(row(0.2, 90))
             .collect();
+        let of_row = |i: usize| {
+            [(0..60), (60..110), (110..200)]
+                .iter()
+                .position(|r| r.contains(&i))
+        };
+        let votes = |i: usize| [1, 3, 9][of_row(i).expect("a row")];
         let mut cloud = FusedCloud {
             seen_by: vec![1; points.len()],
             // The last row is the longest, and no part.
-            is_part: (0..points.len()).map(|i| i < 80).collect(),
+            is_part: (0..points.len()).map(|i| i < 110).collect(),
+            part_votes: (0..points.len()).map(votes).collect(),
             cloud: PointCloud::from_points(points),
         };
-        keep_largest_piece(&mut cloud);
+        keep_best_piece(&mut cloud);
+        let kept = cloud.is_part.iter().enumerate();
         assert!(
-            cloud
-                .is_part
-                .iter()
-                .enumerate()
-                .all(|(i, is)| *is == (30..80).contains(&i))
+            kept.into_iter()
+                .all(|(i, is)| *is == (60..110).contains(&i))
         );
         assert_eq!(cloud.part().cloud.points.len(), 50);
     }

@@ -14,7 +14,7 @@ use nalgebra::{
 };
 
 use super::{
-    pairs::{Met, Posed, meet},
+    pairs::{Met, Posed, Reach, meet},
     surface::{Surface, Use},
 };
 use crate::{
@@ -54,6 +54,8 @@ impl Default for RegisterParams {
 const LEVELS: [(f64, usize); 4] = [(0.03, 4), (0.015, 6), (0.008, 8), (0.005, 12)];
 /// Readings of two shots further apart than this, in scales, are not paired: exp(-9) is nothing.
 const REACH: f64 = 3.0;
+/// Nor is the scale less than this many standard deviations: far readings scatter by centimetres, and fix the turn.
+const SIGMAS: f64 = 2.0;
 /// What calibration and quantisation leave of a distance, metres, beside the noise.
 const FLOOR: f64 = 0.001;
 /// So many pairs say as much as one whose error is independent.
@@ -212,11 +214,14 @@ fn block_of(own: &Posed<'_>, other: &Posed<'_>, scale: f64) -> Block {
             other.surface,
             &other_from_own,
             &other.base_from_camera,
-            REACH * scale,
+            Reach {
+                least: REACH * scale,
+                sigmas: REACH * SIGMAS,
+            },
         );
         let Met::Pair(pair) = met else { continue };
         let off = pair.off();
-        let robust = (-(off / scale).powi(2)).exp();
+        let robust = (-(off / scale.max(SIGMAS * pair.sigma)).powi(2)).exp();
         let weight = robust / (CORRELATED * (pair.sigma.powi(2) + FLOOR * FLOOR));
         // off = n · (to - from); the own shot moves `from`, the other one `to`.
         let row = |at: &Point3<f64>, centre: &Point3<f64>| {

@@ -14,7 +14,7 @@ use nalgebra::{Matrix3, Point3, Vector3};
 use crate::{
     capture::frame::Intrinsics,
     geometry::cloud::is_finite,
-    stages::{scene::SceneCloud, segment::noise_of_picture},
+    stages::{field_of_view::FieldOfView, scene::SceneCloud, segment::noise_of_picture},
     units::Metres,
 };
 
@@ -43,6 +43,8 @@ pub struct Surface {
     pub uses: Vec<Use>,
     /// Standard deviation of a reading's depth at 1 m.
     pub noise_at_1m: Metres,
+    /// Where in the picture the camera delivers readings.
+    pub field_of_view: Option<FieldOfView>,
     /// Readings to register with.
     pub num_surface: usize,
 }
@@ -94,6 +96,7 @@ impl Surface {
             normals,
             num_surface: uses.iter().filter(|u| **u == Use::Surface).count(),
             uses,
+            field_of_view: scene.field_of_view().cloned(),
             noise_at_1m: noise_of_picture(scene).unwrap_or(NOISE),
         })
     }

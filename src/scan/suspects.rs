@@ -1,7 +1,7 @@
 //! Which shot does not belong: its pose is wrong, or the part stood elsewhere when it was taken.
 
 use super::{
-    pairs::{Met, meet},
+    pairs::{Met, Reach, meet},
     register::samples_of,
     surface::Surface,
 };
@@ -115,8 +115,11 @@ const NUM_SAMPLES: usize = 3000;
 const LEAST: f64 = 60.0;
 /// Two surfaces further apart than this contradict each other: metres, beside three standard deviations.
 const AGREES: f64 = 0.008;
-/// Further apart they are no longer taken for one surface, metres.
-const REACH: f64 = 0.06;
+/// Further apart they are no longer taken for one surface.
+const REACH: Reach = Reach {
+    least: 0.06,
+    sigmas: 4.0,
+};
 
 /// The shot that least belongs to the others, and why; `None` if all belong.
 pub(super) fn worst(
@@ -185,14 +188,8 @@ fn count(from: &Candidate<'_>, samples: &[u32], to: &Candidate<'_>) -> [Count; 2
     let mut counts = [Count::default(); 2];
     for &i in samples {
         let i = i as usize;
-        let met = meet(
-            from.surface,
-            i,
-            to.surface,
-            &to_from,
-            &to.base_from_camera,
-            REACH,
-        );
+        let base_from_to = &to.base_from_camera;
+        let met = meet(from.surface, i, to.surface, &to_from, base_from_to, REACH);
         let agrees = match met {
             Met::Pair(pair) => pair.off().abs() < AGREES + 3.0 * pair.sigma,
             Met::Through => false,

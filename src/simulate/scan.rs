@@ -13,7 +13,7 @@ use rand_pcg::Pcg64;
 use super::assembly::Assembly;
 use super::cell::Subject;
 use super::rasteriser::{Rendering, SurfaceLabel};
-use super::sensor::{SensorNoise, sense};
+use super::sensor::{Sensor, SensorNoise};
 use crate::capture::frame::{DepthFrame, Intrinsics};
 use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::rigid::RigidTransform;
@@ -102,7 +102,7 @@ impl SimulatedScan {
             multiplier: setup.noise,
             seed,
         };
-        let frame = sense(&rendering, &noise);
+        let frame = Sensor::Kinect.sense(&rendering, &noise);
         let turn = UnitQuaternion::from_axis_angle(&direction(&mut random), setup.turn_error.0);
         let shift = direction(&mut random).into_inner() * setup.place_error.0;
         SimulatedShot {
@@ -162,7 +162,7 @@ fn cell() -> TriangleMesh {
     face([-8.0, 2.2, 0.0], [16.0, 0.0, 0.0], [0.0, 0.0, 5.0]);
     for ([x, y], [length, width, height]) in [
         ([2.2, 0.8], [0.5, 0.6, 0.6]),
-        ([2.4, -1.5], [0.4, 0.5, 1.3]),
+        ([2.4, -1.5], [0.4, 0.5, 0.7]),
         ([1.7, -0.8], [0.5, 0.4, 0.35]),
     ] {
         face([x, y, 0.0], [0.0, width, 0.0], [0.0, 0.0, height]);

@@ -9,6 +9,7 @@ mod history;
 mod inspect;
 mod library;
 mod report;
+mod scan;
 mod simulate;
 mod sources;
 mod workplace;

@@ -6,6 +6,7 @@
 mod booth;
 mod files;
 mod registration;
+mod scan;
 mod scenes;
 mod silhouettes;
 

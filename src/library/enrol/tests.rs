@@ -126,7 +126,9 @@ fn too_few_points_and_lines_are_refused_by_name() {
     ));
     assert!(matches!(
         enrol_captured(&SceneCloud::default(), &about("x"), &params),
-        Err(EnrolError::NoPart(NoPart::TooFewPoints { .. }))
+        Err(EnrolError::NoPart(
+            crate::stages::segment::NoPart::TooFewPoints { .. }
+        ))
     ));
 }
 

@@ -1,0 +1,130 @@
+//! Where the arm that carries the camera stands while frames are recorded.
+
+use std::{
+    collections::VecDeque,
+    io::{self, BufRead as _},
+    path::{Path, PathBuf},
+    time::Instant,
+};
+
+use clap::Args;
+
+use crate::{
+    capture::Captured,
+    cli::console::{Advised as _, Console, advised_error},
+    error::Advice as _,
+    geometry::rigid::RigidTransform,
+    robot::{WrittenPose, pairs::read_arm_poses, parse_written_pose},
+};
+
+/// What is said of the arm.
+#[derive(Debug, Args)]
+pub(super) struct ArmChoice {
+    /// With a camera on the flange: where the arm stands for all frames, as `kuka X Y Z A B C`, or 16 numbers of a matrix
+    #[arg(long, value_name = "POSE", value_parser = written_pose, allow_hyphen_values = true, conflicts_with = "robot_poses")]
+    robot_pose: Option<WrittenPose>,
+    /// With a camera on the flange: a file with the arm's pose for each frame, a line each, the convention in a line
+    /// `# robot: kuka`; or - to read them from standard input, where each line takes one frame: for partsight scan
+    #[arg(long, value_name = "FILE")]
+    robot_poses: Option<PathBuf>,
+}
+
+fn written_pose(text: &str) -> Result<WrittenPose, String> {
+    parse_written_pose(text).map_err(|error| format!("{error}\n  to do: {}", error.advice()))
+}
+
+/// Gives each frame the arm's pose.
+pub(super) enum Arm {
+    /// Nobody says.
+    Unknown,
+    /// It stays.
+    Still(RigidTransform),
+    /// One pose after another.
+    Listed(VecDeque<RigidTransform>),
+    /// As they are typed, or another program writes them; one that came and has no frame yet, and when it came.
+    Typed(Option<(RigidTransform, Instant)>),
+}
+
+/// What becomes of a frame.
+pub(super) enum ForFrame {
+    /// It is recorded, at this pose of the arm.
+    Record(Option<RigidTransform>),
+    /// It was taken before the arm stood there.
+    TooEarly,
+    /// There are no more poses.
+    End,
+}
+
+impl Arm {
+    pub(super) fn of(choice: &ArmChoice) -> anyhow::Result<Self> {
+        Ok(match (&choice.robot_pose, &choice.robot_poses) {
+            (Some(written), _) => Self::Still(written.pose),
+            (None, Some(file)) if file == Path::new("-") => Self::Typed(None),
+            (None, Some(file)) => {
+                let (poses, _) = read_arm_poses(file, None).advised()?;
+                let poses = poses.into_iter().map(|pose| pose.robot_from_flange);
+                Self::Listed(poses.collect())
+            }
+            (None, None) => Self::Unknown,
+        })
+    }
+
+    /// Poses that are left, if that is known.
+    pub(super) fn num_left(&self) -> Option<u64> {
+        match self {
+            Self::Listed(poses) => Some(poses.len() as u64),
+            _ => None,
+        }
+    }
+
+    /// The pose for a frame that came; `is_live` of a camera, whose frames may be older than the pose.
+    pub(super) fn pose_for(
+        &mut self,
+        captured: &Captured,
+        is_live: bool,
+        console: &Console,
+    ) -> anyhow::Result<ForFrame> {
+        Ok(match self {
+            Self::Unknown => ForFrame::Record(None),
+            Self::Still(pose) => ForFrame::Record(Some(*pose)),
+            Self::Listed(poses) => match poses.pop_front() {
+                Some(pose) => ForFrame::Record(Some(pose)),
+                None => ForFrame::End,
+            },
+            Self::Typed(waiting) => {
+                if waiting.is_none() {
+                    console.note(&"Move the arm, then write its pose; an empty line ends");
+                    let Some(pose) = next_line()? else {
+                        return Ok(ForFrame::End);
+                    };
+                    *waiting = Some((pose, Instant::now()));
+                }
+                match *waiting {
+                    Some((_, since)) if is_live && captured.arrived < since => ForFrame::TooEarly,
+                    Some((pose, _)) => {
+                        *waiting = None;
+                        ForFrame::Record(Some(pose))
+                    }
+                    None => ForFrame::End,
+                }
+            }
+        })
+    }
+}
+
+/// The next pose of standard input; `None` at its end or after an empty line.
+fn next_line() -> anyhow::Result<Option<RigidTransform>> {
+    let mut line = String::new();
+    let num_bytes = io::stdin().lock().read_line(&mut line).map_err(|error| {
+        advised_error(
+            format!("standard input cannot be read: {error}"),
+            "Give the poses in a file",
+        )
+    })?;
+    if num_bytes == 0 || line.trim().is_empty() {
+        return Ok(None);
+    }
+    parse_written_pose(&line)
+        .advised()
+        .map(|written| Some(written.pose))
+}

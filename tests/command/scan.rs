@@ -1,0 +1,237 @@
+//! Scans: several frames with poses, put together, enrolled and inspected.
+
+use serde_json::{Value, json};
+
+use crate::workplace::{Workplace, matrix};
+
+/// A place with a simulated scan of the fender in `frames`.
+fn with_scan(shots: &str) -> Workplace {
+    let place = Workplace::new();
+    let part = ["simulate", "--part", "fender", "--seed", "3"];
+    place.accepted(&[&part[..], &["--scan", "frames", "--shots", shots]].concat());
+    place
+}
+
+/// Changes the poses of the scan.
+fn change_poses(place: &Workplace, change: impl FnOnce(&mut Value)) {
+    let mut poses = place.json("frames/poses.json");
+    change(&mut poses);
+    place.write("frames/poses.json", &poses.to_string());
+}
+
+fn pose_of<'a>(poses: &'a mut Value, frame: &str) -> &'a mut Value {
+    &mut poses["frames"][frame]["world_from_camera"]
+}
+
+#[test]
+fn a_scan_is_put_together_and_written() {
+    let place = with_scan("4");
+    let ran = place.accepted(&["scan", "frames", "--out", "all.ply"]);
+    assert!(ran.out.contains("frame-04.png"), "{}", ran.out);
+    assert!(ran.out.contains("the part together"), "{}", ran.out);
+    let only = [
+        "scan",
+        "frames",
+        "--out",
+        "part.ply",
+        "--part-only",
+        "--json",
+    ];
+    let line = place.accepted(&only).json();
+    let frames = line["frames"].as_array().expect("frames");
+    assert!(
+        frames.len() == 4 && frames.iter().all(|f| f["used"] == true),
+        "{line}"
+    );
+    let rms = |which: &str| line[which]["rms_m"].as_f64().expect("a number");
+    assert!(rms("after") < rms("before"));
+    // Each pose is nearer to the others' truth than the robot's was; the shared error remains.
+    let truth = place.json("frames/poses.json");
+    let relative = |pose: &dyn Fn(usize) -> Vec<f64>, k: usize, axis: usize| {
+        pose(k)[4 * axis + 3] - pose(0)[4 * axis + 3]
+    };
+    let named =
+        |k: usize, which: &str| matrix(&truth["frames"][format!("frame-{:02}.png", k + 1)][which]);
+    let refined = |k: usize| matrix(&frames[k]["base_from_camera"]);
+    let error = |pose: &dyn Fn(usize) -> Vec<f64>| {
+        let exact = |k: usize| named(k, "true_world_from_camera");
+        let off = |k: usize, axis: usize| relative(pose, k, axis) - relative(&exact, k, axis);
+        let sum_sq: f64 = (1..4)
+            .flat_map(|k| (0..3).map(move |axis| (k, axis)))
+            .map(|(k, axis)| off(k, axis).powi(2))
+            .sum();
+        sum_sq.sqrt()
+    };
+    let (after, before) = (error(&refined), error(&|k| named(k, "world_from_camera")));
+    assert!(after < 0.7 * before, "{after} {before}");
+    let num_points = line["num_part_points"].as_u64().expect("a number");
+    let written = std::fs::read(place.path("part.ply")).expect("written");
+    let head = String::from_utf8_lossy(&written[..600]).into_owned();
+    for expected in [
+        format!("element vertex {num_points}"),
+        "comment simulated".into(),
+        "property float nx".into(),
+        "property uint num_shots".into(),
+        "property uint seen_by".into(),
+    ] {
+        assert!(head.contains(&expected), "{expected}: {head}");
+    }
+    // Another program's cloud of it is a cloud for this one too.
+    place.accepted(&[
+        "enrol",
+        "part.ply",
+        "--name",
+        "copy",
+        "--whole",
+        "--library",
+        "parts",
+    ]);
+}
+
+#[test]
+fn a_frame_with_a_wrong_pose_is_named_and_left_out() {
+    let place = with_scan("4");
+    change_poses(&place, |poses| {
+        let pose = pose_of(poses, "frame-03.png");
+        pose[3] = json!(pose[3].as_f64().expect("a number") + 0.05);
+    });
+    let ran = place.coded(1, &["scan", "frames", "--out", "all.ply"]);
+    assert!(ran.err.contains("frame-03.png is left out"), "{}", ran.err);
+    assert!(ran.err.contains("to do"), "{}", ran.err);
+    let line = place
+        .coded(1, &["scan", "frames", "--out", "all.ply", "--json"])
+        .json();
+    let used = |k: usize| line["frames"][k]["used"].as_bool();
+    assert_eq!([0, 1, 2, 3].map(used), [true, true, false, true].map(Some));
+}
+
+#[test]
+fn poses_that_do_not_suffice_are_refused_with_advice() {
+    let refused = |place: &Workplace, args: &[&str], expected: &str| {
+        let ran = place.coded(2, &[&["scan", "frames"], args].concat());
+        assert!(ran.err.contains(expected), "{expected}: {}", ran.err);
+        assert!(
+            ran.err.contains("to do") || ran.err.contains("Usage"),
+            "{}",
+            ran.err
+        );
+    };
+    let out = ["--out", "all.ply"];
+    let place = with_scan("2");
+    refused(&place, &["--out", "all.pcd"], "end the name in .ply");
+    refused(
+        &place,
+        &["--out", "all.ply", "--poses", "none.json"],
+        "none.json: no such file",
+    );
+    change_poses(&place, |poses| {
+        let pose = pose_of(poses, "frame-02.png");
+        pose[0] = json!(3.0);
+    });
+    refused(&place, &out, "frame-02.png: the matrix is not rigid");
+    change_poses(&place, |poses| {
+        let frames = poses["frames"].as_object_mut().expect("frames");
+        frames.remove("frame-02.png");
+    });
+    refused(&place, &out, "no pose for frame-02.png (1 of 2 frames)");
+    std::fs::remove_file(place.path("frames/frame-02.png")).expect("removed");
+    refused(&place, &out, "the scan has 1 frames");
+    std::fs::remove_file(place.path("frames/poses.json")).expect("removed");
+    refused(&place, &out, "no poses");
+}
+
+#[test]
+fn a_scanned_part_is_enrolled_and_recognised_from_every_frame_and_from_all_together() {
+    let place = with_scan("6");
+    let enrol = [
+        "enrol",
+        "--scan",
+        "frames",
+        "--name",
+        "my_fender",
+        "--library",
+        "parts",
+    ];
+    let ran = place.accepted(&enrol);
+    assert!(ran.out.contains("seen from several sides"), "{}", ran.out);
+    let toml = place.read("parts/my_fender/part.toml");
+    for expected in [
+        "schema_version = 2",
+        "coverage = \"several_sides\"",
+        "how = \"scan\"",
+        "num_shots = 6",
+        "simulated = true",
+    ] {
+        assert!(toml.contains(expected), "{expected}: {toml}");
+    }
+    place.accepted(&["library", "verify", "--library", "parts"]);
+    // Another scan of the same part, at the same place in the cell.
+    let part = ["simulate", "--part", "fender", "--seed", "8"];
+    place.accepted(&[&part[..], &["--scan", "again", "--shots", "6"]].concat());
+    let inspect = ["inspect", "--scan", "again", "--library", "parts", "--json"];
+    let line = place.run(&inspect).json();
+    assert_eq!(line["part"], "my_fender", "{line}");
+    assert_eq!(line["scan"]["used"], 6);
+    assert_eq!(line["accepted"], true, "{line}");
+    // Part space is the camera's frame of the first frame that was enrolled, and the fender stood still.
+    let found = matrix(&line["scan"]["base_from_part"]);
+    let poses = place.json("frames/poses.json");
+    let expected = matrix(&poses["frames"]["frame-01.png"]["true_world_from_camera"]);
+    for (k, (found, expected)) in found.iter().zip(&expected).enumerate() {
+        // The robot's errors of both scans remain, as those of a pose 1.4 m away.
+        assert!(
+            (found - expected).abs() < 0.015,
+            "number {k}: {found} {expected}"
+        );
+    }
+    assert!(place.run(&inspect[..5]).out.contains("my_fender"));
+}
+
+#[test]
+fn a_recording_keeps_the_poses_of_the_arm() {
+    let place = with_scan("3");
+    let poses = place.json("frames/poses.json");
+    let line = |k: usize| {
+        let pose = matrix(&poses["frames"][format!("frame-{:02}.png", k + 1)]["world_from_camera"]);
+        pose.iter()
+            .map(ToString::to_string)
+            .collect::<Vec<_>>()
+            .join(" ")
+    };
+    let lines = [0, 1, 2].map(line).join("\n");
+    place.write("poses.csv", &format!("# robot: matrix\n{lines}\n"));
+    std::fs::remove_file(place.path("frames/poses.json")).expect("removed");
+    let capture = [
+        "capture",
+        "--source",
+        "recording:frames",
+        "--robot-poses",
+        "poses.csv",
+    ];
+    place.accepted(&[&capture[..], &["--out", "recorded"]].concat());
+    let missing = place.coded(2, &["scan", "recorded", "--out", "a.ply"]);
+    assert!(missing.err.contains("no calibration"), "{}", missing.err);
+    let identity = "1 0 0 0  0 1 0 0  0 0 1 0  0 0 0 1";
+    let set = [
+        "calibrate",
+        "set",
+        identity,
+        "--mount",
+        "eye-in-hand",
+        "--out",
+        "cell.toml",
+    ];
+    place.accepted(&set);
+    let scan = [
+        "scan",
+        "recorded",
+        "--scan-calibration",
+        "cell.toml",
+        "--out",
+        "a.ply",
+        "--json",
+    ];
+    let recorded = place.accepted(&scan).json();
+    assert_eq!(recorded["frames"].as_array().map(Vec::len), Some(3));
+    assert!(recorded["after"]["rms_m"].as_f64() < recorded["before"]["rms_m"].as_f64());
+}
