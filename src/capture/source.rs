@@ -65,7 +65,7 @@ pub struct Captured {
     /// What is known about it; without the labels of its pixels.
     pub truth: Option<Arc<Truth>>,
     /// Where the arm that carries the camera stood: takes the flange's frame to the robot's base, if that was recorded.
-    pub robot_from_flange: Option<RigidTransform>,
+    pub robot_from_flange: Option<Box<RigidTransform>>,
     /// What is odd about it.
     pub warnings: Vec<CaptureWarning>,
 }

@@ -79,7 +79,7 @@ fn record(
         match arm.pose_for(&captured, source.is_live(), console)? {
             // What is replayed may bring its own.
             ForFrame::Record(None) => {}
-            ForFrame::Record(pose) => captured.robot_from_flange = pose,
+            ForFrame::Record(pose) => captured.robot_from_flange = pose.map(Box::new),
             ForFrame::TooEarly => return Ok(ControlFlow::Continue(())),
             ForFrame::End => return Ok(ControlFlow::Break(())),
         }

@@ -231,7 +231,9 @@ impl Entry {
 
 fn matrix(numbers: &[f64]) -> Result<RigidTransform, EntryProblem> {
     let found = numbers.len();
-    let numbers = <&[f64; 16]>::try_from(numbers).map_err(|_| EntryProblem::Count { found })?;
+    let Ok(numbers) = <&[f64; 16]>::try_from(numbers) else {
+        return Err(EntryProblem::Count { found });
+    };
     let Some(pose) = from_row_major(numbers, COPIED) else {
         let across: [f64; 16] = std::array::from_fn(|i| numbers[i % 4 * 4 + i / 4]);
         return Err(match from_row_major(&across, COPIED) {
@@ -329,7 +331,7 @@ mod tests {
         let Some(FramePose::Camera(camera)) = poses.of("a.png") else {
             panic!("a camera's pose");
         };
-        assert_eq!(camera.translation.vector.z, 3.0);
+        assert!((camera.translation.vector.z - 3.0).abs() < 1e-12);
         let flange_from_camera = from_euler_zyx([0.0, 0.0, 1.5, 0.05, 0.0, 0.1]);
         let calibration = |camera| CellCalibration {
             name: String::new(),

@@ -162,6 +162,7 @@ fn align(
                 surface: &prepared[i].surface,
                 segmentation: &prepared[i].segmentation,
                 base_from_camera: scanned[i].base_from_camera,
+                given: scanned[i].given,
                 moved: scanned[i].moved,
             })
             .collect();

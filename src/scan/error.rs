@@ -9,13 +9,13 @@ pub(super) const MAX_SHOTS: usize = 64;
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum ScanError {
     /// One frame, or none.
-    #[error("the scan has {found} frames, at least 2 are needed")]
+    #[error("a scan needs at least 2 frames, found {found}")]
     TooFewShots {
         /// Frames given.
         found: usize,
     },
     /// More than can be told apart.
-    #[error("the scan has {found} frames, at most {MAX_SHOTS} are taken")]
+    #[error("a scan takes at most {MAX_SHOTS} frames, found {found}")]
     TooManyShots {
         /// Frames given.
         found: usize,

@@ -86,6 +86,8 @@ pub(super) struct Candidate<'a> {
     pub(super) surface: &'a Surface,
     pub(super) segmentation: &'a Segmentation,
     pub(super) base_from_camera: RigidTransform,
+    /// The robot's pose.
+    pub(super) given: RigidTransform,
     pub(super) moved: PoseError,
 }
 
@@ -145,9 +147,9 @@ pub(super) fn worst(
     );
     let of_shot = |i: usize, which: usize| {
         let mut sum = Count::default();
-        for j in 0..n {
+        for (j, of_other) in counts.iter().enumerate() {
             sum.add(counts[i][j][which]);
-            sum.add(counts[j][i][which]);
+            sum.add(of_other[i][which]);
         }
         sum.share()
     };
@@ -179,7 +181,47 @@ pub(super) fn worst(
         (worst.0 > 1.0).then_some((i, worst))
     });
     let worst = judged.reduce(|a, b| if b.1.0 > a.1.0 { b } else { a })?;
-    Some((worst.0, worst.1.1))
+    let (which, (_, why)) = worst;
+    Some((which, part_moved(shots, which).unwrap_or(why)))
+}
+
+/// That a shot's part moved, if its cell fits the other shots at the robot's pose at least as well as where the refinement
+/// put it: a part that stands elsewhere draws the pose along.
+fn part_moved(shots: &[Candidate<'_>], which: usize) -> Option<Excluded> {
+    let suspect = &shots[which];
+    let samples = samples_of(suspect.surface, NUM_SAMPLES);
+    let at = |base_from_camera: RigidTransform| {
+        let posed = Candidate {
+            base_from_camera,
+            ..*suspect
+        };
+        let others = shots.iter().enumerate().filter(|(j, _)| *j != which);
+        let (mut part, mut cell_fit) = (Count::default(), 0.0);
+        for (_, other) in others {
+            part.add(count(&posed, &samples, other)[1]);
+            cell_fit += fit_of_cell(&posed, &samples, other);
+        }
+        (part.share(), cell_fit)
+    };
+    let (part, as_given) = at(suspect.given);
+    let (_, as_moved) = at(suspect.base_from_camera);
+    let share = part.filter(|_| as_given > as_moved)?;
+    Some(Excluded::PartMoved { share })
+}
+
+/// How well the readings of the cell without the part lie on what another shot sees: 1 for each that lies on it.
+fn fit_of_cell(from: &Candidate<'_>, samples: &[u32], to: &Candidate<'_>) -> f64 {
+    let to_from = to.base_from_camera.inverse() * from.base_from_camera;
+    let fit = |&i: &u32| {
+        let i = i as usize;
+        let is_part = from.segmentation.labels.get(i) == Some(&PointLabel::Part);
+        let base_from_to = &to.base_from_camera;
+        match meet(from.surface, i, to.surface, &to_from, base_from_to, REACH) {
+            Met::Pair(pair) if !is_part => (-(pair.off() / pair.sigma).powi(2) / 2.0).exp(),
+            _ => 0.0,
+        }
+    };
+    samples.iter().map(fit).sum()
 }
 
 /// Everything, and the part alone.

@@ -160,7 +160,11 @@ impl Recorder {
             simulated: captured.is_simulated,
             camera,
             truth: captured.truth.as_deref().cloned(),
-            robot_from_flange: captured.robot_from_flange.map(SixteenNumbers),
+            robot_from_flange: captured
+                .robot_from_flange
+                .as_deref()
+                .copied()
+                .map(SixteenNumbers),
         })?;
         self.num_frames += 1;
         self.num_bytes += content.len() as u64;

@@ -262,7 +262,7 @@ impl DepthSource for Replay {
                 is_simulated: frame.is_simulated || image.is_simulated(),
                 image,
                 truth: frame.truth.clone(),
-                robot_from_flange: frame.robot_from_flange,
+                robot_from_flange: frame.robot_from_flange.map(Box::new),
                 warnings: self.warnings.drain(..).chain(warnings).collect(),
             })),
             // The drive was pulled out: all that follows would be missing, one by one.

@@ -76,7 +76,7 @@ fn of_folder(folder: &Path, console: &mut Console) -> anyhow::Result<Vec<Frame>>
                 frames.push(Frame {
                     scene: Arc::new(scene_from_image(captured.image)),
                     name: captured.name,
-                    recorded: captured.robot_from_flange,
+                    recorded: captured.robot_from_flange.map(|pose| *pose),
                 });
                 console.done();
             }

@@ -6,7 +6,7 @@ use crate::{
     cli::console::{Console, Table},
     geometry::rigid::row_major,
     report::SCHEMA,
-    scan::{FusedCloud, Overlap, Scan, ScannedShot},
+    scan::{Excluded, FusedCloud, Overlap, Scan, ScannedShot},
 };
 
 /// The line of `scan --json`; metres and radians.
@@ -78,7 +78,7 @@ impl<'a> FrameLine<'a> {
         Self {
             frame: &shot.name,
             used: shot.excluded.is_none(),
-            excluded: shot.excluded.as_ref().map(|why| why.name()),
+            excluded: shot.excluded.as_ref().map(Excluded::name),
             reason: shot.excluded.as_ref().map(ToString::to_string),
             moved_m: shot.moved.shift.0,
             moved_rad: shot.moved.rotation.0,
