@@ -207,9 +207,20 @@ fn entry_of(
         }
     }
     let best = best?;
+    let with_evidence = frames.iter().flat_map(|(_, inspection)| {
+        let entries = inspection.ranking.entries.iter();
+        entries.filter(|entry| entry.reference == index)
+    });
+    let of_frame = with_evidence
+        .filter_map(|entry| Some((entry.score, entry.evidence?)))
+        .reduce(|a, b| if b.0 > a.0 { b } else { a });
+    let Some((_, of_frame)) = of_frame else {
+        return Some(best.clone());
+    };
     let fits = fit_jointly(reference, part, &starts).into_iter();
     let weighed = fits.map(|fit| {
-        let (evidence, sight) = evidence(scan, reference, &fit, recipe.confirm.tolerance);
+        let (evidence, sight) =
+            evidence(scan, reference, &fit, (&of_frame, recipe.confirm.tolerance));
         let mut pose = fit.estimate;
         pose.fit.sight = sight;
         (evidence, pose)
@@ -246,12 +257,13 @@ struct Sights {
     outside: f64,
 }
 
-/// The evidence of all frames for a reference at its pose.
+/// The evidence of all frames for a reference at its pose; what only a single frame can tell is that of the frame that it
+/// fits best.
 fn evidence(
     scan: &Scan,
     reference: &Reference,
     fit: &JointFit,
-    tolerance: Metres,
+    (of_frame, tolerance): (&Evidence, Metres),
 ) -> (Evidence, Option<Sight>) {
     let base_from_part = fit.estimate.camera_from_part();
     let shots: Vec<(&ScannedShot, RigidTransform)> = scan
@@ -314,6 +326,7 @@ fn evidence(
     });
     let evidence = Evidence {
         off: fit.off,
+        beyond: 0.0,
         missing: missing / (confirmed + missing).max(f64::MIN_POSITIVE),
         hidden: sight.map_or(0.0, |s| s.hidden),
         outside: sight.map_or(1.0, |s| s.outside),
@@ -323,6 +336,7 @@ fn evidence(
         // Each frame may cut the part; together they see what is not outside.
         cut: 0.0,
         facing: fit.facing,
+        ..*of_frame
     };
     (evidence, sight)
 }

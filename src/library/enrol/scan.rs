@@ -7,7 +7,7 @@ use crate::{
     geometry::cloud::PointCloud,
     library::part::How,
     scan::{Scan, unseen::unseen_share},
-    stages::reference::Coverage,
+    stages::reference::{Coverage, ViewCut},
 };
 
 /// Enrols the part that was scanned, in the camera's frame of the first shot that was used.
@@ -42,6 +42,8 @@ pub fn enrol_scan(
     let (cloud, voxel) = thinned(&in_part_space, params);
     let source = Source {
         coverage: Coverage::SeveralSides,
+        // What ends a view of one frame is seen in another.
+        cut: ViewCut::default(),
         how: How::Scan,
         num_points,
         num_shots: Some(num_shots),

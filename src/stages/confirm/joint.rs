@@ -139,7 +139,7 @@ fn finished(
     Some(JointFit {
         off: 1.0 - fit.overlap,
         relief_m: relief_sq.max(0.0).sqrt(),
-        outline_m: outline_distance(&part.source, &target, &pose),
+        outline_m: outline_distance(&part.source, &target, &pose, &|_| false).0,
         facing: squarest.fold(0.0, f64::max),
         estimate: PoseEstimate {
             target_from_source: pose,
