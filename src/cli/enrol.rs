@@ -60,8 +60,8 @@ pub(super) struct EnrolArgs {
     #[arg(long, conflicts_with = "segment")]
     whole: bool,
     /// Take the part that stands before the background; with a number, that one of the surfaces found, the likeliest first
-    #[arg(long, value_name = "N", num_args = 0..=1)]
-    segment: Option<Option<usize>>,
+    #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "0")]
+    segment: Option<usize>,
     /// Name for people, such as "Front door, left"; at most 80 characters
     #[arg(long, value_name = "TEXT", default_value = "", value_parser = parse_title)]
     title: String,
@@ -195,7 +195,7 @@ fn enrolled_from(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Enro
     let about = about(args, file, opened.is_simulated())?;
     let params = EnrolParams::default();
     let path = file.display();
-    let captured = |scene: &SceneCloud| match args.segment.flatten() {
+    let captured = |scene: &SceneCloud| match args.segment.filter(|number| *number > 0) {
         Some(number) => enrol_surface(scene, number, &about, &params),
         None => enrol_captured(scene, &about, &params).inspect_err(|error| {
             if let EnrolError::Background(_) = error {

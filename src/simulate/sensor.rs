@@ -78,7 +78,6 @@ impl SensorNoise {
 }
 
 /// The kinds of sensor.
-#[expect(clippy::large_enum_variant, reason = "there is one per cell")]
 pub(super) enum Sensor {
     /// See the [module](self).
     Kinect,

@@ -313,7 +313,7 @@ impl<'a> Seen<'a> {
         }
         let mut num = params.num_references.min(entries.len());
         let most = num + MOST_CUT_REFERENCES;
-        for i in num..entries.len() {
+        for i in params.num_references..entries.len() {
             let is_cut = !references[entries[i].reference].cut.is_nothing();
             if is_cut && num < most {
                 entries[num..=i].rotate_right(1);

@@ -99,7 +99,7 @@ impl FieldOfView {
     }
 }
 
-fn length(&[first, last]: &[u32; 2]) -> f64 {
+fn length([first, last]: [u32; 2]) -> f64 {
     if first > last {
         0.0
     } else {
@@ -108,7 +108,7 @@ fn length(&[first, last]: &[u32; 2]) -> f64 {
 }
 
 fn area(rows: &[[u32; 2]]) -> f64 {
-    rows.iter().map(length).sum()
+    rows.iter().map(|row| length(*row)).sum()
 }
 
 /// A row without a pixel inside.
@@ -191,7 +191,7 @@ fn column_at(side: &[[f64; 2]], at: &mut usize, row: f64) -> f64 {
 
 fn is_plausible(rows: &[[u32; 2]], grid: Grid) -> bool {
     let num_rows = rows.iter().filter(|row| row[0] <= row[1]).count() as f64;
-    let widest = rows.iter().map(length).fold(0.0, f64::max);
+    let widest = rows.iter().map(|row| length(*row)).fold(0.0, f64::max);
     num_rows >= LEAST_EXTENT * grid.height as f64
         && widest >= LEAST_EXTENT * grid.width as f64
         && area(rows) >= LEAST_AREA * grid.num_cells() as f64

@@ -108,7 +108,7 @@ impl Seen<'_> {
         let mut poses: Vec<(f32, Isometry3<f32>)> = Vec::new();
         for border in reference.borders() {
             for pair in &laid.pairs {
-                self.lay_pair(laid, reference, border, pair, &mut poses);
+                Self::lay_pair(laid, reference, border, pair, &mut poses);
             }
         }
         if poses.len() > MOST_SCORED {
@@ -143,7 +143,6 @@ impl Seen<'_> {
 
     /// All poses in which a pair of the piece's border lies on one of the reference's, as far as the first points agree.
     fn lay_pair(
-        &self,
         laid: &Laid,
         reference: &Reference,
         border: &Border,

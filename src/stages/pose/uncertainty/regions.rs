@@ -9,7 +9,7 @@ pub(super) struct Regions {
     middle: Vector3<f64>,
     /// Side of a region, metres.
     side: f64,
-    regions: BTreeMap<[i32; 6], Region>,
+    by_place: BTreeMap<[i32; 6], Region>,
 }
 
 #[derive(Default)]
@@ -28,7 +28,7 @@ impl Regions {
         Self {
             middle,
             side: side.max(f64::MIN_POSITIVE),
-            regions: BTreeMap::new(),
+            by_place: BTreeMap::new(),
         }
     }
 
@@ -45,7 +45,7 @@ impl Regions {
         // Six sides and what lies between.
         let facing = facing.map_or(Vector3::zeros(), |f| f.map(|x| (1.2 * x).round() as i32));
         let key = [cell.x, cell.y, cell.z, facing.x, facing.y, facing.z];
-        let region = self.regions.entry(key).or_default();
+        let region = self.by_place.entry(key).or_default();
         region.weight += weight;
         region.pull += weight * off;
         region.lever += change * weight;
@@ -54,14 +54,14 @@ impl Regions {
 
     /// True without pairs.
     pub(super) fn is_empty(&self) -> bool {
-        self.regions.is_empty()
+        self.by_place.is_empty()
     }
 
     /// Σ G Gᵀ of the pulls G = Σ w r J of each region: M where a region's pairs err each by itself.
     pub(super) fn scatter(&self) -> Matrix6<f64> {
-        let num = self.regions.len() as f64;
+        let num = self.by_place.len() as f64;
         let moments = self
-            .regions
+            .by_place
             .values()
             .map(|r| r.moment * r.moment.transpose());
         // What six parameters fit of so many regions is missing in the residuals.
@@ -70,7 +70,7 @@ impl Regions {
 
     /// Their share of M, if the mean distance of a region has at least this standard deviation besides what is seen.
     pub(super) fn spread(&self, at_least: f64) -> Matrix6<f64> {
-        let regions = || self.regions.values().filter(|region| region.weight > 0.0);
+        let regions = || self.by_place.values().filter(|region| region.weight > 0.0);
         let weight_sum: f64 = regions().map(|region| region.weight).sum();
         let squares = regions().map(|region| region.pull * region.pull / region.weight);
         // What the pose could fit of so many regions is missing in the residuals: half of its six parameters each.
