@@ -221,7 +221,7 @@ mod tests {
     #[test]
     fn the_weights_that_made_the_samples_are_found_again() {
         let truth = Model {
-            constant: 3.0,
+            constant: 6.0,
             question: Question::Part,
             weights: vec![-2.0, -1.0, -1.5, -2.0],
         };
@@ -229,12 +229,12 @@ mod tests {
         let samples: Vec<Sample> = (0..20_000)
             .map(|_| {
                 let evidence = Evidence {
-                    off: random.random_range(0.0..0.4),
+                    off: random.random_range(0.0..0.2),
                     missing: random.random_range(0.0..0.4),
                     hidden: 0.0,
                     beyond: 0.0,
-                    seen_m2: random.random_range(0.05..0.5),
-                    edge_m: random.random_range(0.25..4.0),
+                    seen_m2: random.random_range(0.01..0.1),
+                    edge_m: random.random_range(0.05..0.5),
                     rival: 0.0,
                     shape: 1.0,
                     outside: random.random_range(0.0..0.5),
