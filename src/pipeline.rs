@@ -331,7 +331,7 @@ fn recognise(
             }
             let scene = Scene { scene, part, query };
             let (ranking, pose) = clock.time(Stage::Pose, || {
-                confirm(&scene, references, ranking, &params)
+                confirm(&scene, references, &ranking, &params)
             })?;
             inspection.ranking = ranking;
             inspection.pose = Some(pose);

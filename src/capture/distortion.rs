@@ -248,6 +248,7 @@ mod tests {
     };
 
     #[test]
+    #[expect(clippy::unreadable_literal, reason = "as OpenCV prints them")]
     fn rays_are_seen_where_opencv_projects_them() {
         // cv2.projectPoints of OpenCV 5.0.0: fx 525, fy 531, cx 319.5, cy 239.5.
         let expected = [

@@ -96,6 +96,7 @@ impl Wired {
             image: Image::Depth(frame_of_mesh(&setup, mesh).frame),
             is_simulated: true,
             truth: None,
+            robot_from_flange: None,
             warnings: Vec::new(),
         }
     }

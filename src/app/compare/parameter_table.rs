@@ -41,7 +41,7 @@ macro_rules! number {
 
 /// All parameters, group by group in the order of the flow.
 #[rustfmt::skip]
-pub const PARAMETERS: [Parameter; 65] = [
+pub const PARAMETERS: [Parameter; 66] = [
     number!("segment.plane_distance", "Plane distance", Segmentation, Front, Millimetres, [1.0, 50.0], 1,
         |r| r.segment.plane_distance.0, |r, v| r.segment.plane_distance = Metres(v),
         "The paper's d_t: a point closer than this (plus the noise) to a background plane belongs to it. Raising it eats what is near the wall."),
@@ -237,6 +237,9 @@ pub const PARAMETERS: [Parameter; 65] = [
     number!("accept.min_score", "Accept from", Acceptance, Front, None, [0.0, 1.0], 2,
         |r| r.accept.min_score, |r, v| r.accept.min_score = v,
         "Least score. Raising it turns wrong verdicts into rejections, and some right ones too."),
+    number!("accept.min_likeness", "Another make from", Acceptance, Fold, None, [0.0, 1.0], 2,
+        |r| r.accept.min_likeness, |r, v| r.accept.min_likeness = v,
+        "A part that is not an enrolled one is named as another make of it from this likeness on. Raising it calls more of them unknown."),
     number!("accept.min_margin", "Margin at least", Acceptance, Front, None, [0.0, 1.0], 2,
         |r| r.accept.min_margin, |r, v| r.accept.min_margin = v,
         "Least lead over the next part. Raising it rejects parts that are alike."),

@@ -147,7 +147,7 @@ fn by_outline(
     let mut ranking: MatchRanking = rank(&query, references, &recipe.rank);
     if let Some(scene) = confirm_in {
         let scene = Scene { scene, part, query };
-        ranking = confirm(&scene, references, ranking, &recipe.confirm).0;
+        ranking = confirm(&scene, references, &ranking, &recipe.confirm).0;
     }
     ranking.entries.first().map(|entry| entry.reference)
 }

@@ -208,11 +208,11 @@ fn a_damaged_description_is_named_and_the_others_load() {
 #[test]
 fn a_newer_schema_is_refused_in_words_whatever_else_it_says() {
     let (_guard, library, damaged) = two_parts();
-    fs::write(damaged.join(META), "schema_version = 2\ncolour = \"red\"\n").expect("written");
+    fs::write(damaged.join(META), "schema_version = 3\ncolour = \"red\"\n").expect("written");
     let loaded = load(&library);
     assert!(matches!(
         problem(&loaded),
-        EntryError::Newer { found: 2, known: 1 }
+        EntryError::Newer { found: 3, known: 2 }
     ));
     assert!(loaded.problems[0].to_string().contains("newer version"));
 }

@@ -48,7 +48,7 @@ pub(super) fn connect(
     noise_at_1m: Metres,
     params: &SegmentParams,
 ) -> Vec<Members> {
-    let link = Link::new(noise_at_1m, params);
+    let link = Link::new(scene, noise_at_1m, params);
     let groups = match scene.cloud.grid {
         Some(grid) => connect_pixels(&scene.cloud.points, labels, grid, link),
         None => connect_voxels(&scene.cloud.points, labels),
@@ -74,20 +74,25 @@ pub(super) fn connect(
 #[derive(Clone, Copy)]
 struct Link {
     base: f32,
+    /// Side of a pixel at 1 m.
+    pixel: f32,
     noise: f32,
 }
 
 impl Link {
-    fn new(noise_at_1m: Metres, params: &SegmentParams) -> Self {
+    fn new(scene: &SceneCloud, noise_at_1m: Metres, params: &SegmentParams) -> Self {
         Self {
             base: params.link_distance.0 as f32,
+            pixel: scene
+                .intrinsics
+                .map_or(0.0, |camera| 1.0 / camera.fx as f32),
             // The difference of two noisy depths has √2 of their deviation; four deviations hold all but strays.
             noise: (4.0 * std::f64::consts::SQRT_2 * noise_at_1m.0) as f32,
         }
     }
 
     fn joins(self, a: &Point3<f32>, b: &Point3<f32>) -> bool {
-        let reach = self.base + self.noise * a.z * a.z;
+        let reach = self.base + (self.pixel + self.noise * a.z) * a.z;
         (a - b).norm_squared() < reach * reach
     }
 }
@@ -358,7 +363,7 @@ pub(super) fn figures_of(
     for &i in indices {
         group_of[i as usize] = 0;
     }
-    let border = borders_of(scene, &group_of, 2, Link::new(noise_at_1m, params))[0];
+    let border = borders_of(scene, &group_of, 2, Link::new(scene, noise_at_1m, params))[0];
     describe(scene, indices, border)
 }
 

@@ -49,7 +49,7 @@ pub struct SegmentParams {
     pub good_sample_probability: f64,
     /// Most planes to take away, 0..4: wall, floor and one more.
     pub max_planes: usize,
-    /// Neighbouring points further apart than this (plus the noise) are not connected, 5..100 mm. Raising it joins
+    /// Neighbouring points further apart than this (plus a pixel and the noise) are not connected, 5..100 mm. Raising it joins
     /// what hangs or stands close to the part, lowering it tears a part that is seen at a flat angle.
     pub link_distance: Metres,
     /// Less surface than this, seen from the camera, is no part, square metres, 0.001..1.
@@ -66,7 +66,7 @@ impl Default for SegmentParams {
             noise_factor: 4.0,
             good_sample_probability: 0.99,
             max_planes: 3,
-            link_distance: Metres::from_mm(8.0),
+            link_distance: Metres::from_mm(6.0),
             min_part_area: 0.02,
             seed: 1,
         }

@@ -54,7 +54,7 @@ pub enum BackgroundSign {
 }
 
 /// A surface of which the view cuts off more than this share of the border is as likely a wall.
-const MOST_CUT: f64 = 0.55;
+const MOST_CUT: f64 = 0.5;
 /// A flat surface of at least this is as likely a wall, square metres.
 const LARGE: f64 = 0.4;
 /// What a flat surface is out of plane by, beyond the noise, metres (standard deviation): a sheet of a car is pressed

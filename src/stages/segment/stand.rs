@@ -372,8 +372,8 @@ mod tests {
         }
         assert!(taken_off(&scene).1.is_empty());
         for p in &mut scene.cloud.points {
-            // Every sixth centimetre, so that nothing is wider than a tube or a closed gap away from the next.
-            if (p.x * 100.0).rem_euclid(10.0) > 4.0 && (p.y * 100.0).rem_euclid(10.0) > 4.0 {
+            // Bars of 2 cm, 8 cm apart: nothing is wider than a tube, and no gap is closed.
+            if (p.x * 100.0).rem_euclid(10.0) > 2.0 && (p.y * 100.0).rem_euclid(10.0) > 2.0 {
                 *p = Point3::new(f32::NAN, f32::NAN, f32::NAN);
             }
         }

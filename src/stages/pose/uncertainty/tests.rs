@@ -57,7 +57,7 @@ fn rim(shape: Shape) -> Vec<Point3<f32>> {
         [-0.5, -0.3],
     ];
     let sides = corners.windows(2).flat_map(|ends| {
-        let length = (ends[1][0] - ends[0][0] as f64).hypot(ends[1][1] - ends[0][1]);
+        let length = f64::hypot(ends[1][0] - ends[0][0], ends[1][1] - ends[0][1]);
         let num = (length / 0.015).round() as usize;
         let along = |i: usize, axis: usize| {
             ends[0][axis] + (ends[1][axis] - ends[0][axis]) * i as f64 / num as f64
