@@ -28,7 +28,11 @@ pub(super) struct PosesChoice {
     poses: Option<PathBuf>,
     /// With a scan whose poses are the flange's: where the camera sits on it, as written by `calibrate`; without it your
     /// own, if there is one
-    #[arg(id = "scan_calibration", long = "scan-calibration", value_name = "FILE")]
+    #[arg(
+        id = "scan_calibration",
+        long = "scan-calibration",
+        value_name = "FILE"
+    )]
     calibration: Option<PathBuf>,
 }
 

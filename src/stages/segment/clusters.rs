@@ -26,8 +26,8 @@ pub struct Cluster {
     /// Share of its border to other surfaces along which it is the nearer one, 0..1: all of a part that nothing hides,
     /// hardly any of a wall. 1 if it borders on none, or without a picture.
     pub in_front: f64,
-    /// Share of its border along which the view ends, 0..1; 0 without a picture.
-    pub cut: f64,
+    /// Sides of the view on which it is cut off, 0..4; 0 without a picture.
+    pub sides_cut: usize,
 }
 
 pub(super) struct Members {
@@ -254,7 +254,7 @@ fn describe(scene: &SceneCloud, indices: &[u32], border: Border) -> Cluster {
         area,
         touches_edge: touches_edge(scene, indices),
         in_front: border.in_front,
-        cut: border.cut,
+        sides_cut: border.sides_cut,
     }
 }
 
@@ -268,19 +268,22 @@ const NO_GROUP: u32 = u32::MAX;
 /// A reading this close to the end of the view is at it, pixels.
 const MARGIN: u32 = 2;
 
+/// Lines that end with the view from which on a surface is cut off on that side: some 20 pixels.
+const LEAST_CUT: f64 = 5.0;
+
 /// What the border of a surface is like.
 #[derive(Clone, Copy)]
 struct Border {
     /// See [`Cluster::in_front`].
     in_front: f64,
-    /// See [`Cluster::cut`].
-    cut: f64,
+    /// See [`Cluster::sides_cut`].
+    sides_cut: usize,
 }
 
 impl Border {
     const UNKNOWN: Self = Self {
         in_front: 1.0,
-        cut: 0.0,
+        sides_cut: 0,
     };
 }
 
@@ -291,18 +294,19 @@ fn borders_of(scene: &SceneCloud, group_of: &[u32], num_groups: usize, link: Lin
     };
     let points = &scene.cloud.points;
     let view = scene.field_of_view();
-    // Of each group how much of its border is nearer, farther, and only where the view ends.
-    let mut all = vec![[0.0_f64; 3]; num_groups];
-    let mut walk = |pixels: &mut dyn Iterator<Item = usize>| {
+    // Of each group how much of its border is nearer and farther, and how much ends with the view on the left, on the
+    // right, at the top and at the bottom.
+    let mut all = vec![[0.0_f64; 6]; num_groups];
+    let mut walk = |sides: [usize; 2], pixels: &mut dyn Iterator<Item = usize>| {
         let mut before: Option<(usize, usize)> = None;
-        let end_at = |all: &mut Vec<[f64; 3]>, i: usize| {
+        let end_at = |all: &mut Vec<[f64; 6]>, side: usize, i: usize| {
             if view.is_some_and(|view| view.ends_at(i % width, i / width, MARGIN)) {
-                all[group_of[i] as usize][2] += 1.0;
+                all[group_of[i] as usize][side] += 1.0;
             }
         };
         for (step, i) in pixels.enumerate().filter(|(_, i)| group_of[*i] != NO_GROUP) {
             match before {
-                None => end_at(&mut all, i),
+                None => end_at(&mut all, sides[0], i),
                 Some((last_step, j)) => {
                     let is_border = group_of[i] != group_of[j]
                         && step - last_step <= SHADOW
@@ -318,20 +322,23 @@ fn borders_of(scene: &SceneCloud, group_of: &[u32], num_groups: usize, link: Lin
             before = Some((step, i));
         }
         if let Some((_, i)) = before {
-            end_at(&mut all, i);
+            end_at(&mut all, sides[1], i);
         }
     };
     for row in (0..height).step_by(LINE_STEP) {
-        walk(&mut (row * width..(row + 1) * width));
+        walk([2, 3], &mut (row * width..(row + 1) * width));
     }
     for column in (0..width).step_by(LINE_STEP) {
-        walk(&mut (0..height).map(|row| row * width + column));
+        walk([4, 5], &mut (0..height).map(|row| row * width + column));
     }
-    let share = |part: f64, of: f64, else_: f64| if of > 0.0 { part / of } else { else_ };
     all.iter()
-        .map(|&[near, far, cut]| Border {
-            in_front: share(near, near + far, 1.0),
-            cut: share(cut, near + far + cut, 0.0),
+        .map(|&[near, far, ref ends @ ..]| Border {
+            in_front: if near + far > 0.0 {
+                near / (near + far)
+            } else {
+                1.0
+            },
+            sides_cut: ends.iter().filter(|num| **num >= LEAST_CUT).count(),
         })
         .collect()
 }

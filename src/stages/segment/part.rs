@@ -40,10 +40,10 @@ pub enum BackgroundSign {
         share: f64,
     },
     /// It runs out of the view on most sides.
-    #[error("the view cuts it off along {:.0} % of its border", share * 100.0)]
+    #[error("the view cuts it off on {sides} sides")]
     Cut {
-        /// Share of its border along which the view ends, 0..1.
-        share: f64,
+        /// Sides of the view that it reaches.
+        sides: usize,
     },
     /// It is as flat as a wall, and large.
     #[error("it is a flat surface of {area:.2} m²")]
@@ -53,8 +53,8 @@ pub enum BackgroundSign {
     },
 }
 
-/// A surface of which the view cuts off more than this share of the border is as likely a wall.
-const MOST_CUT: f64 = 0.5;
+/// A surface that is cut off on as many sides is as likely a wall.
+const MOST_CUT: usize = 3;
 /// A flat surface of at least this is as likely a wall, square metres.
 const LARGE: f64 = 0.4;
 /// What a flat surface is out of plane by, beyond the noise, metres (standard deviation): a sheet of a car is pressed
@@ -69,8 +69,10 @@ impl SegmentedPart {
             let share = 1.0 - surface.in_front;
             return Some(BackgroundSign::Behind { share });
         }
-        if surface.cut > MOST_CUT {
-            return Some(BackgroundSign::Cut { share: surface.cut });
+        if surface.sides_cut >= MOST_CUT {
+            return Some(BackgroundSign::Cut {
+                sides: surface.sides_cut,
+            });
         }
         let area = surface.area;
         (area > LARGE && self.is_flat()).then_some(BackgroundSign::Flat { area })
