@@ -60,7 +60,7 @@ pub struct Shot {
     pub base_from_camera: RigidTransform,
 }
 
-/// Parameters of [`assemble`]. The defaults work untouched for a Kinect-like camera on a robot's flange.
+/// Parameters of [`assemble()`]. The defaults work untouched for a Kinect-like camera on a robot's flange.
 #[derive(Clone, Debug, PartialEq)]
 pub struct ScanParams {
     /// Edge of the voxels that the readings are averaged in, 1..20 mm. Lowering it keeps more detail and noise.
@@ -84,7 +84,7 @@ impl Default for ScanParams {
     }
 }
 
-/// The steps of [`assemble`], as progress is reported.
+/// The steps of [`assemble()`], as progress is reported.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum ScanStep {
     /// Normals and segmentation of the shot of this index.
@@ -95,7 +95,7 @@ pub enum ScanStep {
     Fuse,
 }
 
-/// How a caller follows and stops [`assemble`].
+/// How a caller follows and stops [`assemble()`].
 pub trait ScanWatch: Sync {
     /// A step begins; those of several shots may begin at once, on other threads.
     fn begins(&self, _step: ScanStep) {}

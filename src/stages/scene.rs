@@ -282,7 +282,11 @@ mod tests {
     }
 
     #[test]
-    #[expect(clippy::excessive_precision, reason = "as OpenCV prints them")]
+    #[expect(
+        clippy::excessive_precision,
+        clippy::unreadable_literal,
+        reason = "as OpenCV prints them"
+    )]
     fn behind_a_lens_points_lie_on_the_rays_that_opencv_undistorts_to() {
         let mut frame = tilted_wall();
         frame.intrinsics.distortion = Distortion {
