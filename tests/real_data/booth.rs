@@ -155,7 +155,11 @@ fn a_curtain_that_hides_nothing_is_not_enrolled_unless_somebody_says_so() {
         refused.err()
     );
     let surfaces = surfaces_to_enrol(&scene, &params).expect("surfaces");
-    let near = |part: &SegmentedPart| part.cloud.points.iter().all(|p| p.z < 1.35);
+    let mean_depth = |part: &SegmentedPart| {
+        let points = &part.cloud.points;
+        points.iter().map(|p| f64::from(p.z)).sum::<f64>() / points.len() as f64
+    };
+    let near = |part: &SegmentedPart| mean_depth(part) < 1.3;
     let fender = surfaces.iter().position(near).expect("the fender");
     let enrolled = enrol_surface(&scene, fender + 1, &about("fender"), &params);
     let warned = enrolled.expect("a part").warnings;
