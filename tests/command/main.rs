@@ -3,6 +3,7 @@
 mod align;
 mod bench;
 mod calibrate;
+mod docs;
 mod errors_and_help;
 mod evaluate;
 mod history;
