@@ -171,7 +171,7 @@ impl Advice for FramePosesError {
                 "Add the poses of these frames to the file, or move the frames out of the folder".into()
             }
             Self::NoCalibration { .. } => {
-                "Give the hand-eye calibration with --calibration, or make one: partsight calibrate hand-eye pairs.csv --mount eye-in-hand".into()
+                "Give the hand-eye calibration with --scan-calibration, or make one: partsight calibrate hand-eye pairs.csv --mount eye-in-hand".into()
             }
             Self::CameraIsFixed { .. } => {
                 "Give the calibration of the camera on the flange (--mount eye-in-hand), or the camera's own poses as world_from_camera".into()
