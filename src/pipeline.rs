@@ -24,7 +24,7 @@ use crate::{
         rank::{MatchRanking, Matcher, Query, RankParams, place, rank},
         reference::Reference,
         scene::SceneCloud,
-        segment::{SegmentParams, Segmentation, SegmentedPart, other_parts, segment},
+        segment::{SegmentParams, Segmentation, SegmentedPart, other_parts, segment, without_bars},
         signature::{FanSignature, SignatureParams, describe},
     },
 };
@@ -164,7 +164,14 @@ fn look_elsewhere(
     clock: &StageClock<'_>,
 ) -> Result<(), Cancelled> {
     let others = clock.time(Stage::Segment, || {
-        other_parts(scene, &inspection.segmentation, &recipe.segment, MAX_OTHERS)
+        let found = &inspection.segmentation;
+        let bare = found
+            .part
+            .as_ref()
+            .ok()
+            .and_then(|part| without_bars(scene, part));
+        let others = other_parts(scene, found, &recipe.segment, MAX_OTHERS);
+        bare.into_iter().chain(others).collect::<Vec<_>>()
     })?;
     let mut best = inspection.best_score().max(WORTH_CHANGING);
     for part in others {

@@ -4,7 +4,10 @@ use super::mirror::PUT_RIGHT;
 use crate::{
     error::Advice,
     stages::{
-        contour::ContourError, pose::PoseError, project::ProjectError, segment::NoPart,
+        contour::ContourError,
+        pose::{Freedom, PoseError},
+        project::ProjectError,
+        segment::NoPart,
         signature::SignatureError,
     },
     units::Metres,
@@ -85,6 +88,14 @@ pub enum Rejection {
         margin: f64,
         /// Least lead.
         threshold: f64,
+    },
+    /// What is in sight fits as well at places beside this one.
+    #[error("nothing in sight holds the pose of {part}: {freedom}")]
+    Unconstrained {
+        /// Best match.
+        part: String,
+        /// How it can move and still fit.
+        freedom: Freedom,
     },
     /// Nothing enrolled is like it.
     #[error("unknown: nothing enrolled is like it; the nearest, {nearest}, scores {score:.2}")]
@@ -220,7 +231,7 @@ impl Advice for Rejection {
             Self::HardlySeen { .. } => {
                 "Turn the part so that its face looks at the camera, all of it inside the picture, and capture again".into()
             }
-            Self::AmbiguousPose { .. } => {
+            Self::AmbiguousPose { .. } | Self::Unconstrained { .. } => {
                 "Move the camera so that it sees a corner or another edge of the part, and capture again".into()
             }
             Self::AnotherModel { part, .. } | Self::AnotherMake { part, .. } => format!(

@@ -44,7 +44,7 @@ impl Default for AcceptParams {
             min_score: 0.9,
             min_margin: 0.05,
             unknown_below: 0.5,
-            min_likeness: 0.7,
+            min_likeness: 0.6,
             max_relief: Metres::from_mm(4.0),
             max_missing: 0.008,
             max_outline_shift: Metres::from_mm(10.0),
@@ -120,6 +120,7 @@ pub(super) fn verdict(
     let margin = best.score - next.map_or(0.0, |n| n.score);
     let unlike = best.evidence.map_or(0.0, |e| unlikeness(&e, accept));
     let other_model = best.evidence.filter(|_| unlike > 1.0);
+    let freedom = |pose: &PoseEstimate| pose.uncertainty.and_then(|u| u.freedom);
     let rejected = match (pose, best.evidence) {
         (Some(Err(error)), _) => Some(Rejection::NoPose(*error)),
         (None, _) if recipe.rank.matcher == Matcher::Paper => Some(Rejection::Unconfirmed {
@@ -137,6 +138,12 @@ pub(super) fn verdict(
                 part: best.part.clone(),
                 margin: best.score - evidence.rival,
                 threshold: accept.min_margin,
+            })
+        }
+        (Some(Ok(pose)), _) if freedom(pose).is_some() => {
+            freedom(pose).map(|freedom| Rejection::Unconstrained {
+                part: best.part.clone(),
+                freedom,
             })
         }
         _ => other_model.map(|evidence| Rejection::AnotherModel {

@@ -273,6 +273,9 @@ fn refused(verdict: &Verdict, title_of: &dyn Fn(&str) -> String) -> Option<Strin
                 "it fits {} only as its mirror image: the image is probably mirrored",
                 title_of(part)
             ),
+            Rejection::Unconstrained { freedom, .. } => {
+                format!("the pose is unconstrained: {freedom}")
+            }
             other @ (Rejection::NoPose(_)
             | Rejection::NotSteady { .. }
             | Rejection::FewFrames { .. }

@@ -20,9 +20,9 @@ use crate::{
 };
 
 /// Points of a piece's border that are paired.
-const NUM_BORDER: usize = 56;
+const NUM_BORDER: usize = 80;
 /// Pairs that are looked up in each reference.
-const NUM_PAIRS: usize = 150;
+const NUM_PAIRS: usize = 450;
 /// Points of the surface that a pose is scored on, and those that it is first tried on.
 const NUM_SURFACE: usize = 56;
 const NUM_TRIED: usize = 16;
@@ -153,13 +153,7 @@ impl Seen<'_> {
         let Some((middle, axes)) = frame_of(ours) else {
             return;
         };
-        let (least, most) = (pair.distance - DISTANCE_OFF, pair.distance + DISTANCE_OFF);
-        for theirs in border.pairs_between(least, most) {
-            let is_alike =
-                (0..2).all(|end| angle_between(pair.angles[end], theirs.angles[end]) < ANGLE_OFF);
-            if !is_alike {
-                continue;
-            }
+        for theirs in border.pairs_like(*pair, DISTANCE_OFF, ANGLE_OFF) {
             let points = theirs.of.map(|i| &border.points[usize::from(i)]);
             let Some((onto, their_axes)) = frame_of(points) else {
                 continue;
@@ -323,9 +317,4 @@ fn try_on(
 
 fn clipped(distance_sq: f32) -> f32 {
     (distance_sq / (FAR * FAR)).min(1.0)
-}
-
-fn angle_between(a: f32, b: f32) -> f32 {
-    let off = (a - b).abs();
-    off.min(std::f32::consts::TAU - off)
 }

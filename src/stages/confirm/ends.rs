@@ -75,25 +75,30 @@ pub(super) fn outline_of(scene: &Scene<'_>) -> Outline {
     }
 }
 
-/// Which pixels show the part.
+/// Which pixels show the part, and which the stand that was taken off it.
 struct PartMask<'a> {
     scene: &'a Scene<'a>,
     camera: crate::capture::frame::Intrinsics,
     is_part: Vec<bool>,
+    is_stand: Vec<bool>,
 }
 
 impl<'a> PartMask<'a> {
     fn new(scene: &'a Scene<'a>) -> Option<Self> {
         let camera = scene.scene.intrinsics?;
         scene.scene.cloud.grid?;
-        let mut is_part = vec![false; scene.scene.cloud.points.len()];
-        for &i in &scene.part.indices {
-            *is_part.get_mut(i as usize)? = true;
-        }
+        let mark = |indices: &[u32]| {
+            let mut is_marked = vec![false; scene.scene.cloud.points.len()];
+            for &i in indices {
+                *is_marked.get_mut(i as usize)? = true;
+            }
+            Some(is_marked)
+        };
         Some(Self {
             scene,
             camera,
-            is_part,
+            is_part: mark(&scene.part.indices)?,
+            is_stand: mark(&scene.part.stand)?,
         })
     }
 
@@ -139,7 +144,10 @@ impl<'a> PartMask<'a> {
             }
             let i = (v * width + u) as usize;
             if !self.is_part[i] && is_finite(&points[i]) {
-                return f64::from(points[i].z) < at.z - STEP_NEARER - noise;
+                let beyond = f64::from(points[i].z) - at.z;
+                let reach = STEP_NEARER + noise;
+                // Where a stand was taken off the part, nobody saw the part end.
+                return beyond < -reach || (self.is_stand[i] && beyond < reach);
             }
         }
         false

@@ -17,7 +17,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::{CUT_SHARE, Seen};
+use super::Seen;
 use crate::{
     geometry::rigid::RigidTransform,
     stages::{
@@ -244,6 +244,8 @@ const LEAST_FACING: f64 = 0.48;
 const LEAST_SEEN: f64 = 0.05;
 /// Nor is what shows hardly an edge of its own, metres.
 const LEAST_EDGE: f64 = 0.15;
+/// Share of the outline that may be cut in the shape of a whole part.
+const MOST_CUT: f64 = 0.1;
 /// What a perfect fit of a part that is hardly seen scores.
 const HARDLY_SEEN: f64 = 0.4;
 
@@ -259,9 +261,9 @@ impl Evidence {
         ]
     }
 
-    /// True if a part of it, or of its reference, is out of sight.
+    /// True if so much of the part, or of its reference, is out of sight that its whole shape is not the part's.
     pub fn is_piece(&self) -> bool {
-        self.cut >= CUT_SHARE || self.beyond > 0.0
+        self.cut >= MOST_CUT || self.beyond > 0.0
     }
 
     /// The probability that a whole part is of the same type as the reference, of whatever make, 0..1; 0 for a piece,

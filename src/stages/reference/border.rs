@@ -4,7 +4,7 @@
 //! between fit few other pairs: after B. Drost, M. Ulrich, N. Navab and S. Ilic, "Model globally, match locally:
 //! efficient and robust 3D object recognition", CVPR 2010, with points of borders as in C. Choi, Y. Taguchi, O. Tuzel,
 //! M.-Y. Liu and S. Ramalingam, "Voting-based pose estimation for robotic assembly using a 3D sensor", ICRA 2012. The
-//! pairs are sorted by distance rather than hashed, and poses are scored rather than voted for.
+//! poses that pairs lead to are scored rather than voted for.
 
 use nalgebra::{Matrix3, Point3, Vector3};
 
@@ -37,8 +37,10 @@ pub struct BorderPair {
 pub struct Border {
     /// Evenly spread points.
     pub points: Vec<BorderPoint>,
-    /// All pairs that can be used, by their distance.
-    pub pairs: Vec<BorderPair>,
+    /// All pairs that can be used, bin by bin.
+    pairs: Vec<BorderPair>,
+    /// Where each bin of distance and first angle begins among the pairs; one more than there are bins.
+    bins: Vec<u32>,
     /// The nearest of all its points, not only the evenly spread ones.
     pub field: NearestField,
 }
@@ -47,6 +49,10 @@ pub struct Border {
 const NUM_POINTS: usize = 128;
 /// Nearer pairs fix no pose, metres.
 pub const LEAST_DISTANCE: f32 = 0.15;
+/// Distances beyond this share a bin, metres; the widths of bins, metres and number around.
+const FARTHEST: f32 = 2.4;
+const DISTANCE_BIN: f32 = 0.04;
+const NUM_ANGLES: usize = 24;
 /// Cells of the field of nearest points and how far it answers, metres.
 const FIELD_CELL: f32 = 0.02;
 const FIELD_BAND: f32 = 0.06;
@@ -63,20 +69,62 @@ impl Border {
                 pairs.extend(BorderPair::of([a, b], [i as u16, j as u16]));
             }
         }
-        pairs.sort_unstable_by(|a, b| a.distance.total_cmp(&b.distance));
+        let bin = |pair: &BorderPair| {
+            distance_bin(pair.distance) * NUM_ANGLES + angle_bin(pair.angles[0])
+        };
+        pairs.sort_by_cached_key(bin);
+        let num_bins = (distance_bin(FARTHEST) + 1) * NUM_ANGLES;
+        let begins = |number: usize| pairs.partition_point(|pair| bin(pair) < number) as u32;
+        let bins = (0..=num_bins).map(begins).collect();
         Self {
             points,
             pairs,
+            bins,
             field: NearestField::new(&positions, FIELD_CELL, FIELD_BAND),
         }
     }
 
-    /// The pairs whose distance lies between two.
-    pub fn pairs_between(&self, least: f32, most: f32) -> &[BorderPair] {
-        let first = self.pairs.partition_point(|pair| pair.distance < least);
-        let last = self.pairs.partition_point(|pair| pair.distance <= most);
-        &self.pairs[first..last.max(first)]
+    /// The pairs whose distance and angles differ from those of a pair by less than these, metres and radians.
+    pub fn pairs_like(
+        &self,
+        pair: BorderPair,
+        distance_off: f32,
+        angle_off: f32,
+    ) -> impl Iterator<Item = &BorderPair> {
+        let distances = distance_bin((pair.distance - distance_off).max(0.0))
+            ..=distance_bin(pair.distance + distance_off);
+        let reach = (angle_off / BIN_ANGLE).ceil() as usize;
+        let middle = angle_bin(pair.angles[0]) + NUM_ANGLES;
+        let bins = distances.flat_map(move |distance| {
+            let angles = middle - reach..=middle + reach;
+            angles.map(move |angle| distance * NUM_ANGLES + angle % NUM_ANGLES)
+        });
+        let in_bins = bins.flat_map(|bin| {
+            let ends = [bin, bin + 1].map(|end| self.bins[end] as usize);
+            &self.pairs[ends[0]..ends[1]]
+        });
+        in_bins.filter(move |other| {
+            (other.distance - pair.distance).abs() < distance_off
+                && (0..2).all(|end| angle_between(pair.angles[end], other.angles[end]) < angle_off)
+        })
     }
+}
+
+/// Width of a bin of angles, radians.
+const BIN_ANGLE: f32 = std::f32::consts::TAU / NUM_ANGLES as f32;
+
+fn distance_bin(distance: f32) -> usize {
+    (distance.min(FARTHEST) / DISTANCE_BIN) as usize
+}
+
+fn angle_bin(angle: f32) -> usize {
+    let turns = angle / std::f32::consts::TAU;
+    ((turns - turns.floor()) * NUM_ANGLES as f32) as usize % NUM_ANGLES
+}
+
+fn angle_between(a: f32, b: f32) -> f32 {
+    let off = (a - b).abs();
+    off.min(std::f32::consts::TAU - off)
 }
 
 impl BorderPair {
@@ -133,17 +181,33 @@ mod tests {
     }
 
     #[test]
-    fn the_pairs_of_a_distance_are_those_of_a_plain_search() {
-        let border = Border::new(&disc(60));
-        let (least, most) = (0.4, 0.6);
-        let found = border.pairs_between(least, most).len();
-        let points = &border.points;
-        let is_between = |d: f32| d >= least && d <= most;
-        let pairs = points
-            .iter()
-            .flat_map(|a| points.iter().map(move |b| (b.at - a.at).norm()));
-        assert_eq!(found, pairs.filter(|d| is_between(*d)).count());
-        assert!(found > 0);
+    fn the_pairs_like_one_are_those_of_a_plain_search() {
+        let points = disc(60);
+        let border = Border::new(&points);
+        let pairs = || (0..60).flat_map(|i| (0..60).map(move |j| [i, j]));
+        let of = |[i, j]: [u16; 2]| {
+            BorderPair::of([&points[usize::from(i)], &points[usize::from(j)]], [i, j])
+        };
+        for wanted in [[0, 7], [12, 40], [59, 3]].map(|ends| of(ends).expect("far apart")) {
+            let mut found: Vec<[u16; 2]> = border
+                .pairs_like(wanted, 0.1, 0.24)
+                .map(|pair| pair.of)
+                .collect();
+            let is_like = |other: &BorderPair| {
+                (other.distance - wanted.distance).abs() < 0.1
+                    && (0..2).all(|end| {
+                        (other.angles[end] - wanted.angles[end]).sin().abs() < 0.24_f32.sin()
+                            && (other.angles[end] - wanted.angles[end]).cos() > 0.0
+                    })
+            };
+            let mut plain: Vec<[u16; 2]> = pairs()
+                .filter(|ends| of(*ends).is_some_and(|pair| is_like(&pair)))
+                .collect();
+            found.sort_unstable();
+            plain.sort_unstable();
+            assert!(found.len() >= 60, "{}", found.len());
+            assert_eq!(found, plain);
+        }
     }
 
     #[test]

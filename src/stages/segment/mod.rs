@@ -27,7 +27,7 @@ pub use self::{
     clusters::Cluster,
     empty_cell::{EmptyCell, EmptyCellError},
     noise::noise_of_picture,
-    part::{BackgroundSign, SegmentedPart, other_parts, pieces, surfaces},
+    part::{BackgroundSign, SegmentedPart, other_parts, pieces, surfaces, without_bars},
     planes::BackgroundPlane,
 };
 use crate::{error::Advice, stages::scene::SceneCloud, units::Metres};

@@ -2,7 +2,8 @@
 
 use super::{
     BackgroundPlane, Cluster, MIN_POINTS, NoPart, PointLabel, SegmentParams, Segmentation,
-    clusters, label_readings, noise_of_picture, stand::take_stand_off,
+    clusters, label_readings, noise_of_picture,
+    stand::{Bars, take_stand_off},
 };
 use crate::{
     geometry::{
@@ -162,8 +163,9 @@ impl SegmentedPart {
         members: Vec<u32>,
         surface: Cluster,
         noise_at_1m: Metres,
+        bars: Bars,
     ) -> Self {
-        let (indices, stand) = take_stand_off(scene, members);
+        let (indices, stand) = take_stand_off(scene, members, bars);
         let touches_edge = clusters::touches_edge(scene, &indices);
         Self {
             stand,
@@ -239,13 +241,34 @@ pub fn other_parts(
         .into_iter()
         .take(limit)
         .map(|(cluster, members)| {
-            SegmentedPart::of_surface(scene, members, cluster, segmentation.noise_at_1m)
+            SegmentedPart::of_surface(
+                scene,
+                members,
+                cluster,
+                segmentation.noise_at_1m,
+                Bars::OffSurface,
+            )
         })
         .collect()
 }
 
 /// A surface that is the nearer one along less than this share of its border lies behind others.
 const IN_FRONT: f64 = 0.5;
+
+/// Fewer points than this share more on bars make no other part.
+const LEAST_ON_BARS: f64 = 0.05;
+
+/// The part without any bar, its stand's or its own; `None` where that takes nothing more off.
+pub fn without_bars(scene: &SceneCloud, part: &SegmentedPart) -> Option<SegmentedPart> {
+    let mut members = part.indices.clone();
+    members.extend(&part.stand);
+    members.sort_unstable();
+    let least = part.indices.len() as f64 * LEAST_ON_BARS;
+    let bare =
+        SegmentedPart::of_surface(scene, members, part.surface?, part.noise_at_1m, Bars::All);
+    let num_taken = part.indices.len() as f64 - bare.indices.len() as f64;
+    (num_taken > least && bare.indices.len() >= MIN_POINTS).then_some(bare)
+}
 
 /// How likely a surface is the part: the more of the view it fills, the more, since the camera looks at the part. But what
 /// runs out of the view is more often a strip of floor or a neighbour, and what lies behind others is a wall.
@@ -271,7 +294,8 @@ pub(super) fn take_part(
                 && largest.indices.len() >= MIN_POINTS =>
         {
             let (members, cluster) = (largest.indices.clone(), largest.cluster);
-            let part = SegmentedPart::of_surface(scene, members, cluster, noise_at_1m);
+            let part =
+                SegmentedPart::of_surface(scene, members, cluster, noise_at_1m, Bars::OffSurface);
             for &i in &part.indices {
                 labels[i as usize] = PointLabel::Part;
             }

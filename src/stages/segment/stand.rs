@@ -21,6 +21,9 @@ const RADIUS: f32 = 0.028;
 const CLOSED: f32 = 0.016;
 /// Share of the part that an opening leaves, at least.
 const LEAST_LEFT: f64 = 0.55;
+/// The same where all bars are taken off, and how much wider those may be: two tubes beside each other, or one and its clamp.
+const LEAST_BARE: f64 = 0.25;
+const WIDE: f32 = 1.6;
 /// Smaller pieces that an opening leaves, shares of the largest, are feet and joints of the stand.
 const LEAST_PIECE: f64 = 0.2;
 /// What ends this close to the body is a corner or a tip of it, metres.
@@ -34,12 +37,25 @@ const FOLD: f32 = 2.5;
 /// Pixels of the scene per cell of the mask, each way.
 const CELL: usize = 2;
 
+/// Which bars are taken off.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum Bars {
+    /// Those that do not go on from the surface they touch.
+    OffSurface,
+    /// All, even where little is left: whether they are the part's is for the references to say.
+    All,
+}
+
 /// Divides a connected surface, by its points' places in the scene in ascending order, into the part and what belongs to
 /// a stand.
-pub(super) fn take_stand_off(scene: &SceneCloud, surface: Vec<u32>) -> (Vec<u32>, Vec<u32>) {
+pub(super) fn take_stand_off(
+    scene: &SceneCloud,
+    surface: Vec<u32>,
+    bars: Bars,
+) -> (Vec<u32>, Vec<u32>) {
     let picture = scene.cloud.grid.zip(scene.intrinsics);
     let mask = picture.and_then(|(grid, camera)| Mask::of(scene, grid, camera, &surface));
-    let Some(stand) = mask.as_ref().and_then(Mask::stand) else {
+    let Some(stand) = mask.as_ref().and_then(|mask| mask.stand(bars)) else {
         return (surface, Vec::new());
     };
     let mask = mask.expect("what has a stand has a mask");
@@ -148,12 +164,16 @@ impl Mask {
     }
 
     /// Which cells are a stand's; `None` if none is.
-    fn stand(&self) -> Option<Vec<bool>> {
+    fn stand(&self, bars: Bars) -> Option<Vec<bool>> {
+        let (half_width, tip, least_left) = match bars {
+            Bars::OffSurface => (RADIUS, TIP, LEAST_LEFT),
+            Bars::All => (WIDE * RADIUS, WIDE * TIP, LEAST_BARE),
+        };
         let num = self.is_set.iter().filter(|is_set| **is_set).count() as f64;
         let (core, left) = [&self.is_set, &self.closed()]
             .into_iter()
-            .map(|filled| self.opened(filled))
-            .find(|(_, left)| count(left) >= LEAST_LEFT * num)?;
+            .map(|filled| self.opened(filled, half_width))
+            .find(|(_, left)| count(left) >= least_left * num)?;
         let pieces = self.components(&left);
         let largest = pieces.iter().map(Vec::len).max()? as f64;
         let mut body = vec![false; left.len()];
@@ -172,7 +192,7 @@ impl Mask {
         for bar in self.components(&off) {
             let reach = bar.iter().map(|&i| from_core[i] * self.size(i));
             let reach = reach.fold(0.0, f32::max);
-            if reach > TIP && self.is_of_a_stand(&bar, &off, &body, reach) {
+            if reach > tip && (bars == Bars::All || self.is_of_a_stand(&bar, &off, &body, reach)) {
                 for cell in bar {
                     stand[cell] = true;
                 }
@@ -205,14 +225,15 @@ impl Mask {
     }
 
     /// The cells that are wider than a tube, and those of the surface that lie around them.
-    fn opened(&self, filled: &[bool]) -> (Vec<bool>, Vec<bool>) {
+    fn opened(&self, filled: &[bool], half_width: f32) -> (Vec<bool>, Vec<bool>) {
         let is_gap = |i: usize| !filled[i] && !self.is_beyond[i];
         let from_gap = self.distances(&(0..filled.len()).map(is_gap).collect::<Vec<_>>());
-        let is_core = |i: usize| filled[i] && from_gap[i] * self.size(i) > RADIUS;
+        let is_core = |i: usize| filled[i] && from_gap[i] * self.size(i) > half_width;
         let core: Vec<bool> = (0..filled.len()).map(is_core).collect();
         let from_core = self.distances(&core);
         // A cell more than the radius: distances are taken between the middles of cells.
-        let is_left = |i: usize| self.is_set[i] && (from_core[i] - 1.0) * self.size(i) <= RADIUS;
+        let is_left =
+            |i: usize| self.is_set[i] && (from_core[i] - 1.0) * self.size(i) <= half_width;
         let left = (0..filled.len()).map(is_left).collect();
         (core, left)
     }
@@ -345,7 +366,7 @@ mod tests {
 
     fn taken_off(scene: &SceneCloud) -> (Vec<u32>, Vec<u32>) {
         let surface = scene.cloud.finite().map(|(i, _)| i as u32).collect();
-        take_stand_off(scene, surface)
+        take_stand_off(scene, surface, Bars::OffSurface)
     }
 
     #[test]
