@@ -129,10 +129,15 @@ pub fn run(
         Ok(first) => {
             first?.keep(&mut inspection);
             if may_be_another(&inspection, recipe) {
+                let likeliest = inspection.segmentation.part.clone();
                 look_elsewhere(&mut inspection, scene, library, recipe, &clock)?;
-            }
-            if may_be_another(&inspection, recipe) {
-                look_into_the_mirror(&mut inspection, scene, library, recipe, &clock)?;
+                if may_be_another(&inspection, recipe) {
+                    look_into_the_mirror(&mut inspection, scene, library, recipe, &clock)?;
+                }
+                if may_be_another(&inspection, recipe) && !inspection.verdict.is_likeness() {
+                    let part = likeliest.as_ref().expect("it was inspected");
+                    look_without_bars(&mut inspection, part, scene, library, recipe, &clock)?;
+                }
             }
         }
         Err(no_part) => inspection.verdict = Verdict::NoPart(no_part.into()),
@@ -164,14 +169,7 @@ fn look_elsewhere(
     clock: &StageClock<'_>,
 ) -> Result<(), Cancelled> {
     let others = clock.time(Stage::Segment, || {
-        let found = &inspection.segmentation;
-        let bare = found
-            .part
-            .as_ref()
-            .ok()
-            .and_then(|part| without_bars(scene, part));
-        let others = other_parts(scene, found, &recipe.segment, MAX_OTHERS);
-        bare.into_iter().chain(others).collect::<Vec<_>>()
+        other_parts(scene, &inspection.segmentation, &recipe.segment, MAX_OTHERS)
     })?;
     let mut best = inspection.best_score().max(WORTH_CHANGING);
     for part in others {
@@ -183,6 +181,25 @@ fn look_elsewhere(
             if inspection.verdict.is_accepted() {
                 break;
             }
+        }
+    }
+    Ok(())
+}
+
+/// Looks once more at a surface without any bar: they may be a stand's.
+fn look_without_bars(
+    inspection: &mut Inspection,
+    part: &SegmentedPart,
+    scene: &SceneCloud,
+    library: &Library,
+    recipe: &Recipe,
+    clock: &StageClock<'_>,
+) -> Result<(), Cancelled> {
+    if let Some(bare) = clock.time(Stage::Segment, || without_bars(scene, part))? {
+        let found = inspect_surface(&bare, scene, library, recipe, clock)?;
+        if found.best_score() > inspection.best_score().max(WORTH_CHANGING) {
+            inspection.segmentation.take(bare);
+            found.keep(inspection);
         }
     }
     Ok(())

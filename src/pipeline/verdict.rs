@@ -7,7 +7,7 @@ use super::{
 use crate::{
     stages::{
         confirm::Evidence,
-        pose::{PoseError, PoseEstimate},
+        pose::{PoseError, PoseEstimate, PoseMethod},
         rank::{MatchEntry, MatchRanking, Matcher},
     },
     units::Metres,
@@ -89,6 +89,23 @@ impl Verdict {
         )
     }
 
+    /// True if it is like an enrolled part without being it: of another model or make, or its mirror image.
+    pub(super) fn is_likeness(&self) -> bool {
+        let rejected = match self {
+            Self::Part { rejected, .. } => rejected.as_ref(),
+            Self::NoPart(_) => None,
+        };
+        matches!(
+            rejected,
+            Some(
+                Rejection::AnotherModel { .. }
+                    | Rejection::AnotherMake { .. }
+                    | Rejection::Mirrored { .. }
+                    | Rejection::MirroredImage { .. }
+            )
+        )
+    }
+
     /// True if it may be another model of the part, so that the pose is only about right.
     pub fn is_approximate(&self) -> bool {
         matches!(
@@ -140,7 +157,8 @@ pub(super) fn verdict(
                 threshold: accept.min_margin,
             })
         }
-        (Some(Ok(pose)), _) if freedom(pose).is_some() => {
+        // The other methods' bounds do without the outline, and are wider than need be.
+        (Some(Ok(pose)), _) if pose.method == PoseMethod::Global && freedom(pose).is_some() => {
             freedom(pose).map(|freedom| Rejection::Unconstrained {
                 part: best.part.clone(),
                 freedom,
