@@ -19,8 +19,11 @@ use std::{
 
 use jiff::Timestamp;
 use partsight::{
-    capture::{DepthFrame, Distortion, Intrinsics},
     files::write_atomically,
+    geometry::{
+        depth_frame::{DepthFrame, Intrinsics},
+        distortion::Distortion,
+    },
     history::{
         Detail, Filter, History, KeepFrames, NewEntry, PastVerdict, Record, Retention, Summary,
     },

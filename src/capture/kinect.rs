@@ -33,12 +33,14 @@ use self::{
     search::Found,
 };
 use super::{
-    distortion::Distortion,
     error::{CaptureError, CaptureWarning},
-    frame::{DepthFrame, Intrinsics},
     open::Listed,
     source::{Captured, DepthSource, Image, Next},
     spec::{KinectSpec, SourceSpec},
+};
+use crate::geometry::{
+    depth_frame::{DepthFrame, Intrinsics},
+    distortion::Distortion,
 };
 
 /// A Kinect that sends nothing while it is waited for so long is lost. It takes about a second from the start to its first frame.

@@ -8,14 +8,11 @@
 //! A [`DepthSource`] is opened, used and dropped on one thread: some camera libraries want that. [`Feed`] is that
 //! thread; whoever can wait for frames on its own thread may also use a source directly.
 
-mod distortion;
 mod error;
 mod feed;
-pub mod frame;
 mod kinect;
 mod open;
 mod rate;
-mod rays;
 mod read;
 mod recording;
 mod simulated;
@@ -23,14 +20,11 @@ mod source;
 mod spec;
 mod watched;
 
-pub use self::distortion::Distortion;
 pub use self::error::{CaptureError, CaptureWarning, Recovery};
 pub use self::feed::{Delivery, Feed, FeedItem, FeedState, FeedStatus};
-pub use self::frame::{DepthFrame, Intrinsics};
 pub use self::kinect::{KinectError, KinectWarning};
 pub use self::open::{Listed, list, open};
 pub use self::rate::FrameRate;
-pub use self::rays::Rays;
 pub use self::recording::{Recorder, Replay};
 pub use self::simulated::SimulatedCell;
 pub use self::source::{Captured, DepthSource, Image, Next, Skipped};

@@ -7,12 +7,9 @@ use std::{
 
 use jiff::Timestamp;
 
-use super::{
-    error::{CaptureError, CaptureWarning},
-    frame::DepthFrame,
-};
+use super::error::{CaptureError, CaptureWarning};
 use crate::{
-    geometry::{cloud::PointCloud, rigid::RigidTransform},
+    geometry::{cloud::PointCloud, depth_frame::DepthFrame, rigid::RigidTransform},
     simulate::Truth,
 };
 

@@ -5,8 +5,7 @@ use serde::{Deserialize, Serialize};
 
 use super::judge::{Found, Truth};
 use crate::{
-    capture::frame::Intrinsics,
-    geometry::{rigid::RigidTransform, sixteen_numbers},
+    geometry::{depth_frame::Intrinsics, rigid::RigidTransform, sixteen_numbers},
     stages::scene::PictureEdge,
 };
 

@@ -6,9 +6,9 @@ use serde::{Deserialize, Serialize, de::IgnoredAny};
 
 use super::error::FileError;
 use super::source::read_bytes;
-use crate::capture::{
-    Distortion,
-    frame::{DepthFrame, Intrinsics},
+use crate::geometry::{
+    depth_frame::{DepthFrame, Intrinsics},
+    distortion::Distortion,
 };
 
 /// The camera of a depth image, as the JSON beside it says. All its numbers are about the image as it is stored.

@@ -26,7 +26,7 @@ use super::depth_camera::DepthCamera;
 use super::error::FileError;
 use super::source::Source;
 use super::write::write_atomically;
-use crate::capture::frame::{DepthFrame, Intrinsics};
+use crate::geometry::depth_frame::{DepthFrame, Intrinsics};
 
 /// Where the camera of a depth image stands: the same name ending in `.json`.
 pub fn intrinsics_path(image: &Path) -> PathBuf {

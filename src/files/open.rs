@@ -7,9 +7,9 @@ use thiserror::Error;
 use super::error::FileError;
 use super::source::{Source, read_bytes};
 use super::{depth_png, gltf, obj, pcd, ply, stl, xyz};
-use crate::capture::frame::DepthFrame;
 use crate::error::Advice;
 use crate::geometry::cloud::PointCloud;
+use crate::geometry::depth_frame::DepthFrame;
 use crate::geometry::mesh::TriangleMesh;
 use crate::units::Metres;
 

@@ -1,6 +1,8 @@
-//! Points, transforms and the searches over them, free of any file, camera or stage.
+//! Points, depth frames, transforms and the searches over them, free of any file, device or stage.
 
 pub mod cloud;
+pub mod depth_frame;
+pub mod distortion;
 pub mod mesh;
 pub mod nearest;
 pub mod nearest_field;
@@ -10,6 +12,7 @@ pub mod plane;
 pub mod polygon;
 pub mod principal;
 pub mod raster;
+pub mod rays;
 pub mod rigid;
 pub mod sixteen_numbers;
 pub mod voxel;

@@ -7,8 +7,11 @@ use jiff::{SignedDuration, Timestamp};
 
 use super::{Detail, History, NewEntry, PastVerdict, Record, Summary};
 use crate::{
-    capture::{DepthFrame, Distortion, Intrinsics},
-    geometry::rigid::from_euler_zyx,
+    geometry::{
+        depth_frame::{DepthFrame, Intrinsics},
+        distortion::Distortion,
+        rigid::from_euler_zyx,
+    },
     pipeline::Recipe,
     stages::scene::{SceneCloud, scene_from_frame},
 };

@@ -20,13 +20,16 @@ use serde::{Deserialize, Serialize};
 
 use super::error::HistoryError;
 use crate::{
-    capture::{DepthFrame, Image, Intrinsics},
+    capture::Image,
     files::{
         DepthCamera, Opened, Stored, crc32,
         depth_png::{FOLDER_CAMERA, read_depths, write_camera, write_depths},
         open_bytes, read_bytes, write_atomically, write_pcd,
     },
-    geometry::cloud::{Grid, PointCloud},
+    geometry::{
+        cloud::{Grid, PointCloud},
+        depth_frame::{DepthFrame, Intrinsics},
+    },
     stages::{
         scene::{PictureEdge, SceneCloud, full_scene, reduced_scene},
         segment::EmptyCell,
@@ -301,7 +304,7 @@ pub(super) fn files_of(folder: &Path, file: &str) -> [PathBuf; 2] {
 mod tests {
     use super::*;
     use crate::{
-        capture::Distortion,
+        geometry::distortion::Distortion,
         simulate::{CellSetup, PartKind, Side, frame},
         stages::scene::{scene_from_cloud, scene_from_frame},
     };

@@ -10,7 +10,7 @@ use super::{
     pictures::{DARK, LIGHT, OPENING, PART, Picture},
 };
 use crate::{
-    capture::frame::Intrinsics,
+    geometry::depth_frame::Intrinsics,
     library::Library,
     pipeline::Inspection,
     stages::{pose::PoseEstimate, rank::MatchEntry, reference::Reference, scene::SceneCloud},

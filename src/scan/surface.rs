@@ -12,8 +12,7 @@
 use nalgebra::{Matrix3, Point3, Vector3};
 
 use crate::{
-    capture::frame::Intrinsics,
-    geometry::cloud::is_finite,
+    geometry::{cloud::is_finite, depth_frame::Intrinsics},
     stages::{field_of_view::FieldOfView, scene::SceneCloud, segment::noise_of_picture},
     units::Metres,
 };
@@ -196,7 +195,7 @@ fn plane_at(
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{capture::DepthFrame, stages::scene::scene_from_frame};
+    use crate::{geometry::depth_frame::DepthFrame, stages::scene::scene_from_frame};
 
     /// A board 1 m away, turned by some 30°, before a wall 2 m away.
     fn board_before_wall() -> (SceneCloud, Vector3<f64>) {

@@ -14,7 +14,7 @@ use super::placement::{Placed, Placement};
 use super::rasteriser::{Plane, Rendering, SurfaceLabel};
 use super::sensor::{Sensor, SensorNoise};
 use super::stand::{Stand, down_from_above, floor_below, post};
-use crate::capture::frame::Intrinsics;
+use crate::geometry::depth_frame::Intrinsics;
 use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::rigid::RigidTransform;
 use crate::units::{Metres, Radians};

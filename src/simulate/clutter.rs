@@ -9,7 +9,7 @@ use super::assembly::Assembly;
 use super::beam::block;
 use super::object::ObjectKind;
 use super::rasteriser::{Plane, Rendering, SurfaceLabel};
-use crate::capture::frame::Intrinsics;
+use crate::geometry::depth_frame::Intrinsics;
 
 /// What else is in the cell.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]

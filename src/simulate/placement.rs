@@ -9,7 +9,7 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 use serde::{Deserialize, Serialize};
 
-use crate::capture::frame::Intrinsics;
+use crate::geometry::depth_frame::Intrinsics;
 use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::rigid::RigidTransform;
 use crate::units::{Metres, Radians};

@@ -7,9 +7,9 @@
 use nalgebra::{Point3, Vector3};
 use serde::{Deserialize, Serialize};
 
-use crate::capture::{Distortion, frame::Intrinsics};
 use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::rigid::RigidTransform;
+use crate::geometry::{depth_frame::Intrinsics, distortion::Distortion};
 
 /// What a pixel shows.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]

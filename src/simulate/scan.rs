@@ -14,7 +14,7 @@ use super::assembly::Assembly;
 use super::cell::Subject;
 use super::rasteriser::{Rendering, SurfaceLabel};
 use super::sensor::{Sensor, SensorNoise};
-use crate::capture::frame::{DepthFrame, Intrinsics};
+use crate::geometry::depth_frame::{DepthFrame, Intrinsics};
 use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::rigid::RigidTransform;
 use crate::units::{Metres, Radians};

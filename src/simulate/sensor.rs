@@ -32,7 +32,7 @@ use serde::{Deserialize, Serialize};
 
 use super::booth::RegisteredCamera;
 use super::rasteriser::{Rendering, SurfaceLabel};
-use crate::capture::frame::{DepthFrame, Intrinsics};
+use crate::geometry::depth_frame::{DepthFrame, Intrinsics};
 
 /// Distance of projector and camera, metres.
 pub(super) const BASELINE: f64 = 0.075;

@@ -5,7 +5,7 @@ use serde::{Deserialize, Serialize};
 use super::cell::{Cell, CellSetup, Subject};
 use super::part::PartKind;
 use super::rasteriser::{Rendering, SurfaceLabel};
-use crate::capture::frame::{DepthFrame, Intrinsics};
+use crate::geometry::depth_frame::{DepthFrame, Intrinsics};
 use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::rigid::RigidTransform;
 use crate::geometry::sixteen_numbers;

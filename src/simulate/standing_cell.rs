@@ -4,7 +4,7 @@ use super::cell::{Cell, CellSetup, Subject, is_in_frame};
 use super::rasteriser::{Rendering, SurfaceLabel};
 use super::sensor::{Sensor, SensorNoise};
 use super::shot::{SimulatedFrame, Truth};
-use crate::capture::frame::Intrinsics;
+use crate::geometry::depth_frame::Intrinsics;
 use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::rigid::RigidTransform;
 

@@ -19,9 +19,13 @@ use super::{
     segment::EmptyCell,
 };
 use crate::{
-    capture::{DepthFrame, Image, Intrinsics, Rays},
+    capture::Image,
     files::Opened,
-    geometry::cloud::{Grid, PointCloud, is_finite},
+    geometry::{
+        cloud::{Grid, PointCloud, is_finite},
+        depth_frame::{DepthFrame, Intrinsics},
+        rays::Rays,
+    },
 };
 
 /// The points of one capture, in camera space.
@@ -254,7 +258,7 @@ mod tests {
     use nalgebra::Vector2;
 
     use super::*;
-    use crate::capture::Distortion;
+    use crate::geometry::distortion::Distortion;
 
     fn tilted_wall() -> DepthFrame {
         let intrinsics = Intrinsics::KINECT;

@@ -5,9 +5,10 @@ use std::{ffi::OsStr, fs, path::Path, sync::mpsc, time::Duration};
 use partsight::{
     capture::{
         CaptureWarning, Captured, Delivery, Feed, FeedState, Image, KinectError, KinectSpec,
-        KinectWarning, Next, SourceSpec, frame::DepthFrame,
+        KinectWarning, Next, SourceSpec,
     },
     error::Advice as _,
+    geometry::depth_frame::DepthFrame,
     library::LibraryFolder,
     pipeline::{Recipe, Unwatched, Verdict, run},
     stages::{reference::ReferenceParams, scene::scene_from_frame},

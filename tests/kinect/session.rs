@@ -3,9 +3,9 @@
 use std::{fs, path::Path};
 
 use partsight::{
-    capture::{
-        Distortion,
-        frame::{DepthFrame, Intrinsics},
+    geometry::{
+        depth_frame::{DepthFrame, Intrinsics},
+        distortion::Distortion,
     },
     simulate::{CellSetup, PartKind, PartPose, Placement, Side, Subject, frame},
 };

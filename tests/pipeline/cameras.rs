@@ -3,9 +3,12 @@
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use partsight::{
     bench::suites::enrolment_pose,
-    capture::{DepthFrame, Distortion, Intrinsics},
     files::{Opened, depth_png::write_depth_png, open},
-    geometry::rigid::{RigidTransform, pose_error},
+    geometry::{
+        depth_frame::{DepthFrame, Intrinsics},
+        distortion::Distortion,
+        rigid::{RigidTransform, pose_error},
+    },
     pipeline::{Inspection, MirrorTally, Recipe, Rejection, Verdict},
     simulate::{CellSetup, PartKind, PartPose, SensorNoise, Side, frame},
     stages::scene::scene_from_frame,

@@ -6,7 +6,7 @@ use super::{
     scene::{Line, LineSet},
     style::Role,
 };
-use crate::{capture::frame::Intrinsics, units::Metres};
+use crate::{geometry::depth_frame::Intrinsics, units::Metres};
 
 /// The three axes of a space, each of the given length; move the set to where the space stands.
 pub fn axes(length: Metres) -> LineSet {

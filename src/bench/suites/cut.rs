@@ -5,8 +5,7 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
 use crate::{
-    capture::frame::Intrinsics,
-    geometry::{mesh::TriangleMesh, rigid::RigidTransform},
+    geometry::{depth_frame::Intrinsics, mesh::TriangleMesh, rigid::RigidTransform},
     simulate::Placed,
 };
 

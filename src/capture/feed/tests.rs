@@ -7,11 +7,9 @@ use jiff::Timestamp;
 
 use super::*;
 use crate::{
-    capture::{
-        frame::{DepthFrame, Intrinsics},
-        source::Image,
-    },
+    capture::source::Image,
     files::FileError,
+    geometry::depth_frame::{DepthFrame, Intrinsics},
 };
 
 /// Long enough for a machine at work with other things; what is waited for comes at once.

@@ -13,10 +13,10 @@ use super::replay::{Content, Frames, Recorded};
 use crate::{
     capture::{
         error::{CaptureError, CaptureWarning},
-        frame::Intrinsics,
         read::file_name,
     },
     files::{DepthCamera, Stored, Turn, depth_png::FOLDER_CAMERA, read_bytes},
+    geometry::depth_frame::Intrinsics,
 };
 
 pub(super) const LIST: &str = "depth.txt";

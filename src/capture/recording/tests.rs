@@ -8,14 +8,16 @@ use super::*;
 use crate::{
     capture::{
         error::{CaptureError, CaptureWarning},
-        frame::{DepthFrame, Intrinsics},
         open::open,
         source::{Captured, DepthSource, Image, Next},
         spec::{Pace, SourceSpec},
     },
     error::Advice as _,
     files::Opened,
-    geometry::cloud::{Grid, PointCloud},
+    geometry::{
+        cloud::{Grid, PointCloud},
+        depth_frame::{DepthFrame, Intrinsics},
+    },
 };
 
 fn spec(kind: &str, folder: &Path) -> SourceSpec {
@@ -104,11 +106,11 @@ fn every_kind_of_image_survives() {
         fy: 1.0 / 3.0,
         cx: -0.1,
         cy: 1e-300,
-        distortion: crate::capture::Distortion {
+        distortion: crate::geometry::distortion::Distortion {
             k1: -1e-9 / 3.0,
             p2: 1e-200,
             k6: 1e-300,
-            ..crate::capture::Distortion::NONE
+            ..crate::geometry::distortion::Distortion::NONE
         },
     };
     let dark = DepthFrame {

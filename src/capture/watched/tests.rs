@@ -2,12 +2,12 @@ use std::{fs, io::Write as _, path::Path};
 
 use super::*;
 use crate::{
-    capture::{
-        frame::{DepthFrame, Intrinsics},
-        source::Image,
-    },
+    capture::source::Image,
     files::{depth_png::intrinsics_path, save_cloud, write_depth_png},
-    geometry::cloud::PointCloud,
+    geometry::{
+        cloud::PointCloud,
+        depth_frame::{DepthFrame, Intrinsics},
+    },
 };
 
 /// A folder whose looks are made by hand, so that no test waits for a clock.

@@ -1,8 +1,8 @@
 use super::*;
 use crate::{
-    capture::{DepthFrame, Intrinsics},
     cases::{Found, Truth, found_in},
     error::Advice as _,
+    geometry::depth_frame::{DepthFrame, Intrinsics},
     pipeline::{Recipe, Unwatched},
     simulate::{CellSetup, PartKind, PartPose, Placement, Side, Subject, frame},
     stages::scene::{PictureEdge, scene_from_cloud, scene_from_frame},

@@ -1,7 +1,7 @@
 use super::*;
-use crate::capture::Distortion;
 use crate::error::Advice as _;
 use crate::files::{Opened, crc32, open};
+use crate::geometry::distortion::Distortion;
 
 fn frame() -> DepthFrame {
     DepthFrame {

@@ -74,10 +74,10 @@ fn every_small_file_cut_anywhere_opens_or_fails_by_name() {
         }
     }
     let frame = DepthFrame {
-        intrinsics: crate::capture::frame::Intrinsics {
+        intrinsics: crate::geometry::depth_frame::Intrinsics {
             width: 2,
             height: 2,
-            ..crate::capture::frame::Intrinsics::KINECT
+            ..crate::geometry::depth_frame::Intrinsics::KINECT
         },
         metres_per_unit: 0.001,
         depth: vec![0, 1, 2, 3],

@@ -7,8 +7,10 @@
 use std::{collections::VecDeque, sync::Arc};
 
 use crate::{
-    capture::Rays,
-    geometry::parallel::{map_in_order, num_cores},
+    geometry::{
+        parallel::{map_in_order, num_cores},
+        rays::Rays,
+    },
     stages::{scene::SceneCloud, segment::noise_of_picture},
 };
 

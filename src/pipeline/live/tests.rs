@@ -4,8 +4,11 @@ use nalgebra::{Translation3, UnitQuaternion};
 
 use super::*;
 use crate::{
-    capture::frame::{DepthFrame, Intrinsics},
-    geometry::{mesh::TriangleMesh, rigid::RigidTransform},
+    geometry::{
+        depth_frame::{DepthFrame, Intrinsics},
+        mesh::TriangleMesh,
+        rigid::RigidTransform,
+    },
     library::{Library, open_library},
     pipeline::{Recipe, Unwatched, run},
     simulate::{CellSetup, PartKind, PartPose, Placement, SensorNoise, Side, frame_of_mesh},

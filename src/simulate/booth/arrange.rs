@@ -13,8 +13,7 @@ use super::{
     walls::walls,
 };
 use crate::{
-    capture::{Distortion, frame::Intrinsics},
-    geometry::mesh::TriangleMesh,
+    geometry::{depth_frame::Intrinsics, distortion::Distortion, mesh::TriangleMesh},
     simulate::{
         cell::{Cell, CellSetup, PartPose, Subject, is_in_frame},
         part::{PartKind, PartModel, Side},

@@ -6,7 +6,7 @@
 use rand::{Rng as _, RngExt as _};
 use rand_pcg::Pcg64;
 
-use crate::{capture::frame::Intrinsics, simulate::sensor::BASELINE};
+use crate::{geometry::depth_frame::Intrinsics, simulate::sensor::BASELINE};
 
 /// The part of the picture in which the sensor gives readings.
 pub(super) struct FieldOfView(Option<Borders>);

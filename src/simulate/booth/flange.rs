@@ -8,8 +8,9 @@ use rand_pcg::Pcg64;
 
 use super::field_of_view::FieldOfView;
 use crate::{
-    capture::{Distortion, frame::Intrinsics},
-    geometry::{mesh::TriangleMesh, rigid::RigidTransform},
+    geometry::{
+        depth_frame::Intrinsics, distortion::Distortion, mesh::TriangleMesh, rigid::RigidTransform,
+    },
     simulate::rasteriser::{Rendering, SurfaceLabel},
 };
 

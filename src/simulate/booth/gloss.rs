@@ -5,8 +5,7 @@ use rand::RngExt as _;
 use rand_pcg::Pcg64;
 
 use crate::{
-    capture::frame::Intrinsics,
-    geometry::rigid::RigidTransform,
+    geometry::{depth_frame::Intrinsics, rigid::RigidTransform},
     simulate::{
         cell::Subject,
         part::{PartKind, Side},

@@ -11,7 +11,7 @@ use rand_pcg::Pcg64;
 
 use super::{field_of_view::FieldOfView, gloss::Gloss};
 use crate::{
-    capture::frame::{DepthFrame, Intrinsics},
+    geometry::depth_frame::{DepthFrame, Intrinsics},
     simulate::{
         rasteriser::{Rendering, SurfaceLabel},
         sensor::{

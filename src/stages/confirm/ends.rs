@@ -78,7 +78,7 @@ pub(super) fn outline_of(scene: &Scene<'_>) -> Outline {
 /// Which pixels show the part, and which the stand that was taken off it.
 struct PartMask<'a> {
     scene: &'a Scene<'a>,
-    camera: crate::capture::frame::Intrinsics,
+    camera: crate::geometry::depth_frame::Intrinsics,
     is_part: Vec<bool>,
     is_stand: Vec<bool>,
 }

@@ -3,9 +3,10 @@
 use nalgebra::Point3;
 
 use super::{PictureEdge, SceneCloud};
-use crate::{
-    capture::{Distortion, Intrinsics},
-    geometry::cloud::{Grid, PointCloud, is_finite},
+use crate::geometry::{
+    cloud::{Grid, PointCloud, is_finite},
+    depth_frame::Intrinsics,
+    distortion::Distortion,
 };
 
 /// Fewer points than this are no picture.

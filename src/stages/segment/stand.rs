@@ -10,8 +10,7 @@
 use nalgebra::{Point3, Vector3};
 
 use crate::{
-    capture::Intrinsics,
-    geometry::{cloud::Grid, plane::Plane},
+    geometry::{cloud::Grid, depth_frame::Intrinsics, plane::Plane},
     stages::{field_of_view::FieldOfView, scene::SceneCloud},
 };
 

@@ -6,8 +6,7 @@ use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use super::*;
 use crate::{
-    capture::frame::Intrinsics,
-    geometry::{mesh::TriangleMesh, rigid::RigidTransform},
+    geometry::{depth_frame::Intrinsics, mesh::TriangleMesh, rigid::RigidTransform},
     simulate::{
         CellSetup, Clutter, PartKind, PartPose, Placement, SensorNoise, Side, frame_of_mesh,
     },

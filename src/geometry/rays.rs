@@ -4,7 +4,7 @@ use std::sync::{Arc, Mutex, PoisonError};
 
 use nalgebra::Point3;
 
-use super::frame::Intrinsics;
+use super::depth_frame::Intrinsics;
 
 /// x/z and y/z of the ray of every pixel.
 #[derive(Clone, Debug)]
@@ -121,7 +121,7 @@ fn table_of(camera: &Intrinsics) -> Vec<[f32; 2]> {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::capture::Distortion;
+    use crate::geometry::distortion::Distortion;
 
     #[test]
     fn every_pixel_has_the_ray_that_the_lens_shows_there() {
