@@ -12,7 +12,6 @@ mod watch;
 
 use crate::{
     library::Library,
-    robot::stand_off::StandOffParams,
     stages::{
         confirm::{ConfirmParams, Scene, UNCONFIRMED, confirm},
         contour::{Contour, ContourParams, find_contour},
@@ -26,6 +25,7 @@ use crate::{
         scene::SceneCloud,
         segment::{SegmentParams, Segmentation, SegmentedPart, other_parts, segment, without_bars},
         signature::{FanSignature, SignatureParams, describe},
+        stand_off::StandOffParams,
     },
 };
 

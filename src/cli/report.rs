@@ -26,8 +26,8 @@ use crate::{
         },
         stage_pictures,
     },
-    robot::{Convention, RobotFrame, stand_off::stand_off},
-    stages::{reference::Reference, scene::SceneCloud, segment::EmptyCell},
+    robot::{Convention, RobotFrame},
+    stages::{reference::Reference, scene::SceneCloud, segment::EmptyCell, stand_off::stand_off},
 };
 
 /// Write the pose report of captured scenes: which part, where, and in the robot's numbers

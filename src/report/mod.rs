@@ -1,5 +1,4 @@
-//! What an inspection leaves behind: a line of JSON for machines, pictures of its stages and the nozzle's stand-off for
-//! people.
+//! What an inspection leaves behind: a line of JSON for machines, pictures of its stages and the pose report for people.
 
 mod canvas;
 mod chart;
@@ -12,8 +11,6 @@ mod pictures;
 pub mod pose_report;
 mod scaling;
 mod score_plots;
-
-pub use crate::robot::stand_off;
 
 pub use self::{
     contenders::contenders_picture,

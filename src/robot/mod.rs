@@ -24,10 +24,8 @@ pub mod frame_poses;
 pub mod hand_eye;
 pub mod pairs;
 pub mod part_target;
-mod ray;
 mod robot_pose;
 pub mod spray;
-pub mod stand_off;
 mod written;
 
 use crate::geometry::rigid::RigidTransform;

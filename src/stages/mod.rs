@@ -5,7 +5,8 @@
 //!           scene        segment         project        contour    signature       rank            pose
 //! ```
 //!
-//! `reference` prepares an enrolled part for the last two, `correlation` is the signal processing below `rank`.
+//! `reference` prepares an enrolled part for the last two, `correlation` is the signal processing below `rank`. `stand_off`
+//! follows the pose where it is shown: how far the nozzle would be from the part.
 
 pub mod confirm;
 pub mod contour;
@@ -20,3 +21,4 @@ pub mod reference;
 pub mod scene;
 pub mod segment;
 pub mod signature;
+pub mod stand_off;

@@ -7,15 +7,13 @@ use crate::{
     app::viewport::{Line, LineSet, PointSet, Role, furniture},
     geometry::rigid::RigidTransform,
     pipeline::Inspection,
-    robot::{
-        spray::{Band, CarriedPath},
-        stand_off::{NozzleRay, StandOff},
-    },
+    robot::spray::{Band, CarriedPath},
     stages::{
         contour::lift_border,
         pose::PoseEstimate,
         reference::{Reference, ReferenceView},
         scene::SceneCloud,
+        stand_off::{NozzleRay, StandOff},
     },
     units::Metres,
 };

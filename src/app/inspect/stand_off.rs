@@ -9,7 +9,7 @@ use crate::{
         unit_system::UnitSystem,
         widgets::{Mark, Scale, heading, mark, row, sentence},
     },
-    robot::stand_off::{StandOff, StandOffParams},
+    stages::stand_off::{StandOff, StandOffParams},
 };
 
 /// Draws the section; nothing without a pose.

@@ -23,11 +23,11 @@ use crate::{
         live::{Standing, Stillness},
     },
     report::InspectionLine,
-    robot::{
-        spray::{CarriedPath, carry},
+    robot::spray::{CarriedPath, carry},
+    stages::{
+        scene::SceneCloud,
         stand_off::{StandOff, StandOffError, stand_off},
     },
-    stages::scene::SceneCloud,
 };
 
 /// Get a scene and inspect it.

@@ -16,8 +16,8 @@ use crate::{
     robot::{
         Convention, RobotFrame,
         spray::{SprayExport, carry, default_path, take_former_away},
-        stand_off::StandOffParams,
     },
+    stages::stand_off::StandOffParams,
 };
 
 /// Whether and how the spray path is written.

@@ -9,11 +9,11 @@ use crate::{
     cli::console::Advised as _,
     error::Advice,
     library::{PartName, SprayPath},
-    robot::{
-        spray::{Band, against_reference},
+    robot::spray::{Band, against_reference},
+    stages::{
+        reference::{Reference, ReferenceParams},
         stand_off::StandOffParams,
     },
-    stages::reference::{Reference, ReferenceParams},
 };
 
 /// Store the nozzle's path over a part, or show what is stored

@@ -14,15 +14,15 @@ use nalgebra::Point3;
 use schemars::JsonSchema;
 use serde::Serialize;
 
-use super::{
-    line::{TimingsLine, status_of},
-    stand_off::{StandOff, StandOffError, StandOffParams},
-};
+use super::line::{TimingsLine, status_of};
 use crate::{
     error::Advice,
     pipeline::{Inspection, Recipe, Verdict},
     robot::{Convention, RobotFrame},
-    stages::pose::PoseEstimate,
+    stages::{
+        pose::PoseEstimate,
+        stand_off::{StandOff, StandOffError, StandOffParams},
+    },
 };
 
 pub use self::{

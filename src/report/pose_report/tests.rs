@@ -5,11 +5,12 @@ use crate::{
     geometry::rigid::{RigidTransform, from_euler_zyx},
     library::{LibraryFolder, LibraryLoad},
     pipeline::{Unwatched, run},
-    report::{Picture, stage_pictures, stand_off::stand_off},
+    report::{Picture, stage_pictures},
     simulate::{CellSetup, PartKind, Side, Subject, frame},
     stages::{
         reference::{Reference, ReferenceParams},
         scene::{SceneCloud, scene_from_frame},
+        stand_off::stand_off,
     },
 };
 

@@ -8,8 +8,8 @@ use serde::Serialize;
 use super::{Band, CarriedPath, MOST_TILT};
 use crate::{
     files::{FileError, write_atomically},
-    robot::stand_off::StandOffParams,
     robot::{Convention, RobotFrame, RobotPose, RobotValue},
+    stages::stand_off::StandOffParams,
 };
 
 /// The version of both files.

@@ -21,14 +21,16 @@ mod tests;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
 
-use super::{
-    ray::{Ray, SeenSurface, Surface},
-    stand_off::StandOffParams,
-};
 use crate::{
     geometry::{cloud::PointCloud, rigid::RigidTransform},
     library::{PathPoint, SprayPath},
-    stages::reference::Reference,
+    stages::{
+        reference::Reference,
+        stand_off::{
+            StandOffParams,
+            ray::{Ray, ReferenceSurface, SeenSurface},
+        },
+    },
     units::{Metres, Radians},
 };
 
@@ -159,7 +161,7 @@ pub fn against_reference(
     reference: &Reference,
     params: &StandOffParams,
 ) -> Vec<Band> {
-    let Some(surface) = Surface::of(reference) else {
+    let Some(surface) = ReferenceSurface::of(reference) else {
         return vec![Band::NotSeen; path.points().len()];
     };
     let bands = path.points().iter().map(|point| {
@@ -209,14 +211,18 @@ fn tool_frame(point: &PathPoint) -> RigidTransform {
 }
 
 /// Where the ray of a nozzle meets a surface; both in one space.
-fn meeting(nozzle: &RigidTransform, surface: &Surface<'_>, expected: Metres) -> Option<Met> {
+fn meeting(
+    nozzle: &RigidTransform,
+    surface: &ReferenceSurface<'_>,
+    expected: Metres,
+) -> Option<Met> {
     let mouth: Point3<f64> = nozzle.translation.vector.into();
     let ray = Ray {
         // Micrometres are left of a metre in f32, far below what a nozzle notices.
         mouth: mouth.cast(),
         direction: (nozzle * Vector3::z()).cast(),
     };
-    let (distance, normal) = ray.meets(surface, expected.0 as f32)?;
+    let (distance, normal) = ray.intersect(surface, expected.0 as f32)?;
     let cosine = f64::from(-ray.direction.dot(&normal));
     Some(Met {
         distance: Metres(f64::from(distance)),

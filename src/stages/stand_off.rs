@@ -21,9 +21,11 @@
 //! Known limits: the surface is the reference cloud's, locally flat between its points; a surface that lies further
 //! than 0.4 m from where it was taught is not looked for; flatter than 80° to the ray counts as not met.
 
+pub(crate) mod ray;
+
 use nalgebra::{Isometry3, Point3, Vector3};
 
-use super::ray::{Ray, Surface};
+use self::ray::{Ray, ReferenceSurface};
 use crate::{
     geometry::rigid::RigidTransform,
     stages::reference::Reference,
@@ -134,7 +136,7 @@ pub fn stand_off(
     let (Some(normals), Some((low, high))) = (&cloud.normals, cloud.bounds()) else {
         return Err(StandOffError::NoSurface);
     };
-    let surface = Surface::of(reference).ok_or(StandOffError::NoSurface)?;
+    let surface = ReferenceSurface::of(reference).ok_or(StandOffError::NoSurface)?;
     let middle = nalgebra::center(&low, &high);
     let sees = |p: &Point3<f32>, normal: &Vector3<f32>| {
         let at = camera_from_part * p.cast::<f64>();
@@ -159,7 +161,7 @@ pub fn stand_off(
                 mouth: part_from_camera * (*s + *n * d0),
                 direction: -(part_from_camera * *n),
             };
-            let (distance, normal) = ray.meets(&surface, d0)?;
+            let (distance, normal) = ray.intersect(&surface, d0)?;
             let mouth = (**s + *n * d0).cast::<f64>();
             let direction = -n.cast::<f64>();
             let cosine = f64::from(-ray.direction.dot(&normal));

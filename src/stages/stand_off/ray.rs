@@ -26,7 +26,7 @@ const BESIDE: f32 = 1.5 * SPACING as f32;
 const SEEN_RADIUS: Metres = Metres(4.0 * SPACING);
 
 /// A surface of points with unit normals, evenly spaced.
-pub(super) struct Surface<'a> {
+pub(crate) struct ReferenceSurface<'a> {
     points: &'a [Point3<f32>],
     normals: &'a [Vector3<f32>],
     tree: &'a KdTree,
@@ -34,9 +34,9 @@ pub(super) struct Surface<'a> {
     field: Option<&'a NearestField>,
 }
 
-impl<'a> Surface<'a> {
+impl<'a> ReferenceSurface<'a> {
     /// The surface of an enrolled part, part space; `None` without normals.
-    pub(super) fn of(reference: &'a Reference) -> Option<Self> {
+    pub(crate) fn of(reference: &'a Reference) -> Option<Self> {
         Some(Self {
             points: &reference.cloud.points,
             normals: reference.cloud.normals.as_ref()?,
@@ -54,14 +54,14 @@ impl<'a> Surface<'a> {
 }
 
 /// What a camera at the origin saw of a part, as a surface; camera space.
-pub(super) struct SeenSurface {
+pub(crate) struct SeenSurface {
     points: Vec<Point3<f32>>,
     normals: Vec<Vector3<f32>>,
     tree: KdTree,
 }
 
 impl SeenSurface {
-    pub(super) fn of(seen: &PointCloud) -> Self {
+    pub(crate) fn of(seen: &PointCloud) -> Self {
         let points = downsample(seen, Metres(SPACING)).points;
         let tree = KdTree::new(&points);
         let normals = estimate_normals(&points, &tree, SEEN_RADIUS, &Point3::origin());
@@ -72,8 +72,8 @@ impl SeenSurface {
         }
     }
 
-    pub(super) fn surface(&self) -> Surface<'_> {
-        Surface {
+    pub(crate) fn surface(&self) -> ReferenceSurface<'_> {
+        ReferenceSurface {
             points: &self.points,
             normals: &self.normals,
             tree: &self.tree,
@@ -83,10 +83,10 @@ impl SeenSurface {
 }
 
 /// A nozzle and the way it points, in the surface's space.
-pub(super) struct Ray {
-    pub(super) mouth: Point3<f32>,
+pub(crate) struct Ray {
+    pub(crate) mouth: Point3<f32>,
     /// Unit length.
-    pub(super) direction: Vector3<f32>,
+    pub(crate) direction: Vector3<f32>,
 }
 
 impl Ray {
@@ -95,9 +95,9 @@ impl Ray {
     }
 
     /// Where the ray goes through the face of the surface, nearest to `expected`: how far along, and the normal there.
-    pub(super) fn meets(
+    pub(crate) fn intersect(
         &self,
-        surface: &Surface<'_>,
+        surface: &ReferenceSurface<'_>,
         expected: f32,
     ) -> Option<(f32, Vector3<f32>)> {
         let num_steps = (2.0 * REACH / STEP) as usize;
@@ -123,7 +123,7 @@ impl Ray {
     }
 
     /// Height above the surface near the point at `t`, if that surface faces the nozzle.
-    fn height(&self, surface: &Surface<'_>, t: f32) -> Option<f32> {
+    fn height(&self, surface: &ReferenceSurface<'_>, t: f32) -> Option<f32> {
         let at = self.at(t);
         let nearest = surface.near(&at)?;
         let normal = surface.normals.get(nearest.index)?;
@@ -132,7 +132,7 @@ impl Ray {
     }
 
     /// The crossing about `t` by the points that are truly nearest; `None` where the surface ends before it.
-    fn settled(&self, surface: &Surface<'_>, mut t: f32) -> Option<(f32, Vector3<f32>)> {
+    fn settled(&self, surface: &ReferenceSurface<'_>, mut t: f32) -> Option<(f32, Vector3<f32>)> {
         let mut normal = Vector3::zeros();
         // The first step reaches the plane of the nearest point, the second that of the point nearest to there.
         for _ in 0..2 {
