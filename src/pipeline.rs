@@ -13,14 +13,14 @@ mod watch;
 use crate::{
     library::Library,
     stages::{
-        confirm::{ConfirmParams, Scene, UNCONFIRMED, confirm},
+        confirm::{ConfirmParams, ConfirmedRanking, Scene, UNCONFIRMED, confirm},
         contour::{Contour, ContourParams, find_contour},
         pose::{
             AlignParams, PoseError, PoseEstimate, PoseMethod, icp::IcpParams, icp_ga::IcpGaParams,
             locate,
         },
         project::{PlaneImage, ProjectParams, project},
-        rank::{MatchRanking, Matcher, Query, RankParams, place, rank},
+        rank::{Matcher, Query, RankParams, place, rank},
         reference::Reference,
         scene::SceneCloud,
         segment::{SegmentParams, Segmentation, SegmentedPart, other_parts, segment, without_bars},
@@ -93,7 +93,7 @@ pub struct Inspection {
     /// Signature.
     pub signature: Option<FanSignature>,
     /// References, best first; after a pose was confirmed, in the order of the confirmed score.
-    pub ranking: MatchRanking,
+    pub ranking: ConfirmedRanking,
     /// The pose of the first-ranked part, if asked for.
     pub pose: Option<Result<PoseEstimate, PoseError>>,
     /// The verdict.
@@ -118,7 +118,7 @@ pub fn run(
         plane: None,
         contour: None,
         signature: None,
-        ranking: MatchRanking::default(),
+        ranking: ConfirmedRanking::default(),
         pose: None,
         verdict: Verdict::NoPart(Unrecognisable::EmptyLibrary),
         timings: Timings::default(),
@@ -211,7 +211,7 @@ struct Surface {
     plane: Option<PlaneImage>,
     contour: Option<Contour>,
     signature: Option<FanSignature>,
-    ranking: MatchRanking,
+    ranking: ConfirmedRanking,
     pose: Option<Result<PoseEstimate, PoseError>>,
     verdict: Option<Verdict>,
 }
@@ -316,12 +316,12 @@ fn recognise(
         signature,
     };
     let references = &library.references;
-    inspection.ranking = clock.time(Stage::Rank, || rank(&query, references, &recipe.rank))?;
-    let Some(first) = inspection.ranking.entries.first() else {
+    let mut ranking = clock.time(Stage::Rank, || rank(&query, references, &recipe.rank))?;
+    let Some(first) = ranking.entries.first_mut() else {
         return Ok(Err(Unrecognisable::EmptyLibrary));
     };
     match recipe.pose {
-        PoseChoice::Skip => {}
+        PoseChoice::Skip => inspection.ranking = ConfirmedRanking::untried(&ranking, 1.0),
         PoseChoice::By(method @ (PoseMethod::Icp | PoseMethod::IcpGa)) => {
             let reference = &references[first.reference];
             let is_cancelled = || clock.is_cancelled();
@@ -337,20 +337,17 @@ fn recognise(
                 return Err(Cancelled);
             }
             // The order is the matcher's; what the first is worth shows at its pose.
-            for entry in &mut inspection.ranking.entries {
-                entry.score *= UNCONFIRMED;
-            }
-            inspection.ranking.entries[0].score = pose.as_ref().map_or(0.0, |p| p.fit.score());
-            inspection.ranking.entries[0].pose = pose.as_ref().ok().cloned();
+            let mut confirmed = ConfirmedRanking::untried(&ranking, UNCONFIRMED);
+            confirmed.entries[0].score = pose.as_ref().map_or(0.0, |p| p.fit.score());
+            confirmed.entries[0].pose = pose.as_ref().ok().cloned();
+            inspection.ranking = confirmed;
             inspection.pose = Some(pose);
         }
         PoseChoice::By(PoseMethod::Global) => {
-            let mut ranking = std::mem::take(&mut inspection.ranking);
             let mut params = recipe.confirm.clone();
             if recipe.rank.matcher == Matcher::Paper {
                 // The paper's choice stands: only that one is put in its place.
                 params.num_references = 1;
-                let first = &mut ranking.entries[0];
                 first.placements = place(&query, &references[first.reference], &recipe.rank);
             }
             let scene = Scene { scene, part, query };

@@ -9,11 +9,8 @@ use crate::{
     pipeline::Inspection,
     report::stage_pictures,
     stages::{
-        contour::Contour,
-        rank::{MatchEntry, Placement},
-        reference::ReferenceView,
-        scene::SceneCloud,
-        signature::FanSignature,
+        confirm::ConfirmedMatch, contour::Contour, rank::Placement, reference::ReferenceView,
+        scene::SceneCloud, signature::FanSignature,
     },
 };
 
@@ -93,7 +90,7 @@ pub enum Alignment {
 }
 
 impl Alignment {
-    fn of(entry: &MatchEntry, inspection: &Inspection, library: &Library) -> Self {
+    fn of(entry: &ConfirmedMatch, inspection: &Inspection, library: &Library) -> Self {
         let reference = library.references.get(entry.reference);
         let is_flat = reference.is_none_or(|reference| reference.cloud.points.is_empty());
         match (&entry.pose, &inspection.pose) {
@@ -212,7 +209,7 @@ impl Curves {
 
 impl Candidate {
     fn of(
-        entry: &MatchEntry,
+        entry: &ConfirmedMatch,
         inspection: &Inspection,
         scene: &FanSignature,
         library: &Library,

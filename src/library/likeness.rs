@@ -8,7 +8,7 @@ use super::Library;
 use crate::{
     error::Advice,
     stages::{
-        confirm::{ConfirmParams, Scene, confirm},
+        confirm::{ConfirmParams, ConfirmedRanking, Scene, confirm},
         rank::{Query, RankParams, rank},
         reference::{Coverage, Reference},
         scene::SceneCloud,
@@ -78,9 +78,8 @@ pub fn likenesses(reference: &Reference, coverage: Coverage, library: &Library) 
         signature: &view.signature,
     };
     let ranking = rank(&query, &others, &RankParams::default());
-    let outlines = ranking.clone();
     let outline_score = |other: usize| {
-        let mut entries = outlines.entries.iter();
+        let mut entries = ranking.entries.iter();
         entries
             .find(|e| e.reference == other)
             .map_or(0.0, |e| e.score)
@@ -95,7 +94,7 @@ pub fn likenesses(reference: &Reference, coverage: Coverage, library: &Library) 
             confirm(&scene, &others, &ranking, &ConfirmParams::default()).0
         }
         // Not what a camera sees at once: judged by its outline.
-        Coverage::AllAround | Coverage::SeveralSides => ranking,
+        Coverage::AllAround | Coverage::SeveralSides => ConfirmedRanking::untried(&ranking, 1.0),
     };
     let figure = |other: usize, score: f64| match outline_score(other) {
         // Surfaces alone are blind one way: a small part lies well on any large one.

@@ -19,11 +19,11 @@ use crate::{
     },
     stages::{
         confirm::{
-            Evidence, Scene, UNCONFIRMED,
+            ConfirmedMatch, ConfirmedRanking, Evidence, Scene, UNCONFIRMED,
             joint::{JointFit, JointPart, fit_jointly, own_outline},
         },
         pose::{PoseError, PoseEstimate, Sight, refine::Source},
-        rank::{MatchEntry, MatchRanking, Query},
+        rank::Query,
         reference::Reference,
         segment::NoPart,
     },
@@ -85,7 +85,7 @@ pub fn run_scan(
             frames,
         });
     };
-    let mut entries: Vec<MatchEntry> = Vec::new();
+    let mut entries: Vec<ConfirmedMatch> = Vec::new();
     for (index, reference) in library.references.iter().enumerate() {
         if watch.is_cancelled() {
             return Err(Cancelled);
@@ -106,7 +106,7 @@ pub fn run_scan(
         let pose = best.pose.clone();
         pose.ok_or(PoseError::NoReferenceCloud)
     });
-    inspection.ranking = MatchRanking { entries };
+    inspection.ranking = ConfirmedRanking { entries };
     inspection.verdict = verdict(&inspection.ranking, pose.as_ref(), recipe);
     let camera_from_part = pose.as_ref().and_then(|pose| pose.as_ref().ok());
     let base_from_part = camera_from_part.map(|pose| base_from_first * pose.camera_from_part());
@@ -190,8 +190,8 @@ fn entry_of(
     (index, reference): (usize, &Reference),
     part: &JointPart,
     recipe: &Recipe,
-) -> Option<MatchEntry> {
-    let mut best: Option<&MatchEntry> = None;
+) -> Option<ConfirmedMatch> {
+    let mut best: Option<&ConfirmedMatch> = None;
     let mut starts: Vec<(RigidTransform, &PoseEstimate)> = Vec::new();
     for (number, inspection) in frames {
         let ranked = inspection.ranking.entries.iter().enumerate();
@@ -227,13 +227,13 @@ fn entry_of(
     });
     let found = weighed.reduce(|a, b| if b.0.score() > a.0.score() { b } else { a });
     Some(match found {
-        Some((evidence, pose)) => MatchEntry {
+        Some((evidence, pose)) => ConfirmedMatch {
             score: evidence.score(),
             pose: Some(pose),
             evidence: Some(evidence),
             ..best.clone()
         },
-        None => MatchEntry {
+        None => ConfirmedMatch {
             score: best.score
                 * if best.pose.is_some() {
                     UNCONFIRMED

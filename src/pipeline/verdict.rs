@@ -6,9 +6,9 @@ use super::{
 };
 use crate::{
     stages::{
-        confirm::Evidence,
+        confirm::{ConfirmedMatch, ConfirmedRanking, Evidence},
         pose::{PoseError, PoseEstimate, PoseMethod},
-        rank::{MatchEntry, MatchRanking, Matcher},
+        rank::Matcher,
     },
     units::Metres,
 };
@@ -125,7 +125,7 @@ impl Verdict {
 
 /// What the results of all stages come to.
 pub(super) fn verdict(
-    ranking: &MatchRanking,
+    ranking: &ConfirmedRanking,
     pose: Option<&Result<PoseEstimate, PoseError>>,
     recipe: &Recipe,
 ) -> Verdict {
@@ -200,7 +200,7 @@ const WORTH_NAMING: f64 = 0.3;
 const PIECE: f64 = 0.05;
 
 /// Why a score is too low: nobody knows the part, or too little of it is seen.
-fn too_low(best: &MatchEntry, accept: &AcceptParams) -> Rejection {
+fn too_low(best: &ConfirmedMatch, accept: &AcceptParams) -> Rejection {
     let (part, score, threshold) = (best.part.clone(), best.score, accept.min_score);
     match best.evidence {
         Some(evidence) if !evidence.is_seen() && score > WORTH_NAMING => {

@@ -13,7 +13,9 @@ use crate::{
     geometry::depth_frame::Intrinsics,
     library::Library,
     pipeline::Inspection,
-    stages::{pose::PoseEstimate, rank::MatchEntry, reference::Reference, scene::SceneCloud},
+    stages::{
+        confirm::ConfirmedMatch, pose::PoseEstimate, reference::Reference, scene::SceneCloud,
+    },
     units::Metres,
 };
 
@@ -108,7 +110,12 @@ impl<'a> View<'a> {
         OFF.0 + 3.0 * self.noise_at_1m * depth * depth
     }
 
-    fn panel(&self, entry: &MatchEntry, pose: &PoseEstimate, reference: &Reference) -> RgbImage {
+    fn panel(
+        &self,
+        entry: &ConfirmedMatch,
+        pose: &PoseEstimate,
+        reference: &Reference,
+    ) -> RgbImage {
         let [from, to] = self.corners;
         let size = [0, 1].map(|axis| (to[axis] - from[axis]) * SCALE);
         let (width, height) = (size[0].max(LEAST_WIDTH), size[1] + 2.0 * HEAD);

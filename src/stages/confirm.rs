@@ -8,6 +8,7 @@
 
 mod candidate;
 mod coarse;
+mod confirmed_match;
 mod ends;
 mod evidence;
 pub mod joint;
@@ -18,13 +19,16 @@ use nalgebra::{Point3, Vector3};
 use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
-pub use self::evidence::{Evidence, FEATURES, NUM_FEATURES, NUM_TYPE_FEATURES, TYPE_FEATURES};
 use self::{
     candidate::Candidate,
     coarse::Laid,
     ends::{Outline, outline_of},
     local_normal::LocalNormals,
     outline_shift::outline_shift,
+};
+pub use self::{
+    confirmed_match::{ConfirmedMatch, ConfirmedRanking},
+    evidence::{Evidence, FEATURES, NUM_FEATURES, NUM_TYPE_FEATURES, TYPE_FEATURES},
 };
 use crate::{
     stages::{
@@ -154,7 +158,7 @@ const COST_LIMIT: f64 = 0.04;
 const HOPELESS: f64 = 2.5;
 
 /// The ranking by confirmed scores, and the pose of the first.
-type Confirmed = (MatchRanking, Result<PoseEstimate, PoseError>);
+type Confirmed = (ConfirmedRanking, Result<PoseEstimate, PoseError>);
 
 /// Draws of the border points of a piece: one in three misses a part that is half hidden and noisy.
 const MOST_DRAWS: u64 = 3;
@@ -163,7 +167,7 @@ const MISSED_BELOW: f64 = 0.1;
 /// It is drawn again only where a start cost less than this: 0.6 is a good fit, and where nothing is enrolled they cost more.
 const NEARLY: f64 = 1.3;
 
-/// Re-orders the ranking by the confirmed scores, and gives the pose of the first. Each entry keeps its own pose.
+/// Orders the matches by their confirmed scores, and gives the pose of the first.
 pub fn confirm(
     scene: &Scene<'_>,
     references: &[Reference],
@@ -177,7 +181,7 @@ pub fn confirm(
             seed: params.seed + draw,
             ..params.clone()
         };
-        let (confirmed, least_cost) = confirm_drawn(scene, references, ranking.clone(), &params);
+        let (confirmed, least_cost) = confirm_drawn(scene, references, ranking, &params);
         let may_be_missed =
             score(&confirmed) < MISSED_BELOW && least_cost.is_some_and(|cost| cost < NEARLY);
         if best
@@ -197,14 +201,9 @@ pub fn confirm(
 fn confirm_drawn(
     scene: &Scene<'_>,
     references: &[Reference],
-    ranking: MatchRanking,
+    ranking: &MatchRanking,
     params: &ConfirmParams,
 ) -> (Confirmed, Option<f64>) {
-    let shapes: Vec<(usize, f64)> = ranking
-        .entries
-        .iter()
-        .map(|e| (e.reference, e.score))
-        .collect();
     let seen = Seen::new(scene, references, params);
     if seen.source.surface.len() < 20 {
         let error = PoseError::TooFewPoints {
@@ -212,9 +211,9 @@ fn confirm_drawn(
             found: seen.source.surface.len(),
             needed: 20,
         };
-        return ((ranking, Err(error)), None);
+        return ((ConfirmedRanking::untried(ranking, 1.0), Err(error)), None);
     }
-    let mut entries = ranking.entries;
+    let mut entries: Vec<&MatchEntry> = ranking.entries.iter().collect();
     let num_looked_at = seen.put_forward(&mut entries, references, params);
     let trials = seen.trials(&entries[..num_looked_at], references);
     let costs = trials.iter().flatten().filter(|trial| !trial.is_piece);
@@ -222,10 +221,10 @@ fn confirm_drawn(
     let of_pieces = trials.iter().flatten().filter(|trial| trial.is_piece);
     let least_of_pieces = of_pieces.map(|trial| trial.cost).min_by(f64::total_cmp);
     let mut trials = trials.into_iter();
-    let mut confirmed: Vec<(MatchEntry, Option<Candidate>)> = entries
+    let mut tried: Vec<Tried<'_>> = entries
         .into_iter()
         .enumerate()
-        .map(|(number, mut entry)| {
+        .map(|(number, entry)| {
             let candidate = trials.next().and_then(|trials| {
                 // What is far off already will not win: it is scored where it is.
                 let first = trials.first()?;
@@ -233,52 +232,71 @@ fn confirm_drawn(
                 let levels: &[Level] = if is_worth_more { &SECOND } else { &[] };
                 seen.best_candidate(&references[entry.reference], &trials, levels)
             });
-            entry.score = match &candidate {
+            let score = match &candidate {
                 Some(candidate) => candidate.evidence.score(),
                 // Whatever a piece was laid onto without success is not it.
                 None if number < num_looked_at => 0.0,
                 None => entry.score * UNCONFIRMED,
             };
-            (entry, candidate)
+            Tried {
+                entry,
+                score,
+                candidate,
+            }
         })
         .collect();
     // Those that were not looked at stay behind those that were.
-    sort_by_score(&mut confirmed[..num_looked_at]);
-    let best = confirmed.first().map_or(0.0, |c| c.0.score);
-    for (entry, candidate) in &mut confirmed[..num_looked_at] {
-        if let Some(candidate) = candidate
+    sort_by_score(&mut tried[..num_looked_at]);
+    let best = tried.first().map_or(0.0, |first| first.score);
+    for tried in &mut tried[..num_looked_at] {
+        if let Some(candidate) = tried
+            .candidate
             .as_mut()
-            .filter(|_| entry.score > (CONTENDS * best).max(HOPELESS_SCORE))
+            .filter(|_| tried.score > (CONTENDS * best).max(HOPELESS_SCORE))
         {
-            seen.finish(&references[entry.reference], candidate);
-            entry.score = candidate.evidence.score();
+            seen.finish(&references[tried.entry.reference], candidate);
+            tried.score = candidate.evidence.score();
         }
     }
-    sort_by_score(&mut confirmed[..num_looked_at]);
-    let entries: Vec<MatchEntry> = confirmed
-        .into_iter()
-        .map(|(mut entry, candidate)| {
-            entry.pose = candidate.as_ref().map(Candidate::estimate);
-            entry.evidence = candidate.map(|c| {
-                let shape = shapes.iter().find(|shape| shape.0 == entry.reference);
-                Evidence {
-                    shape: shape.map_or(0.0, |shape| shape.1),
-                    ..c.evidence
-                }
-            });
-            entry
-        })
-        .collect();
+    sort_by_score(&mut tried[..num_looked_at]);
+    let entries: Vec<ConfirmedMatch> = tried.into_iter().map(Tried::confirmed).collect();
     let pose = entries.first().and_then(|first| first.pose.clone());
     let confirmed = (
-        MatchRanking { entries },
+        ConfirmedRanking { entries },
         pose.ok_or(PoseError::NoReferenceCloud),
     );
     (confirmed, least_of_pieces)
 }
 
-fn sort_by_score(confirmed: &mut [(MatchEntry, Option<Candidate>)]) {
-    confirmed.sort_by(|a, b| b.0.score.total_cmp(&a.0.score));
+/// A match on its way through the confirmation.
+struct Tried<'a> {
+    entry: &'a MatchEntry,
+    score: f64,
+    /// `None` if it was not tried, or has no cloud.
+    candidate: Option<Candidate>,
+}
+
+impl Tried<'_> {
+    fn confirmed(self) -> ConfirmedMatch {
+        let Self {
+            entry,
+            score,
+            candidate,
+        } = self;
+        ConfirmedMatch {
+            score,
+            pose: candidate.as_ref().map(Candidate::estimate),
+            evidence: candidate.map(|candidate| Evidence {
+                shape: entry.score,
+                ..candidate.evidence
+            }),
+            ..ConfirmedMatch::untried(entry, 1.0)
+        }
+    }
+}
+
+fn sort_by_score(tried: &mut [Tried<'_>]) {
+    tried.sort_by(|a, b| b.score.total_cmp(&a.score));
 }
 
 /// Whose score is more than this share of the best one's is refined to the end.
@@ -343,7 +361,7 @@ impl<'a> Seen<'a> {
     /// Puts the entries that are to be looked at to the front, and counts them.
     fn put_forward(
         &self,
-        entries: &mut [MatchEntry],
+        entries: &mut [&MatchEntry],
         references: &[Reference],
         params: &ConfirmParams,
     ) -> usize {

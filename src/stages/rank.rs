@@ -15,9 +15,7 @@ pub use self::placement::Placement;
 use crate::{
     geometry::parallel::{map_in_order, num_cores},
     stages::{
-        confirm::Evidence,
         contour::Contour,
-        pose::PoseEstimate,
         project::PlaneImage,
         reference::Reference,
         signature::{FanSignature, LiteralSignature},
@@ -90,11 +88,6 @@ pub struct MatchEntry {
     pub distance: f64,
     /// Placements, best first; the paper's matcher finds none.
     pub placements: Vec<Placement>,
-    /// Where the confirmation put it; `None` if it ranked too low to be tried, or has no cloud. The first's is refined
-    /// to the end, the others' as far as it took to see that they are not the first.
-    pub pose: Option<PoseEstimate>,
-    /// What speaks for and against it at that pose.
-    pub evidence: Option<Evidence>,
 }
 
 /// All references, best first.
@@ -102,22 +95,6 @@ pub struct MatchEntry {
 pub struct MatchRanking {
     /// One entry per reference, in descending order of score.
     pub entries: Vec<MatchEntry>,
-}
-
-impl MatchRanking {
-    /// The best entry of each part, best first: a part may be enrolled by several references.
-    pub fn by_part(&self) -> impl Iterator<Item = &MatchEntry> {
-        let entries = &self.entries;
-        entries.iter().enumerate().filter_map(|(i, entry)| {
-            let is_first = entries[..i].iter().all(|before| before.part != entry.part);
-            is_first.then_some(entry)
-        })
-    }
-
-    /// The best entry of a part other than the first.
-    pub fn runner_up(&self) -> Option<&MatchEntry> {
-        self.by_part().nth(1)
-    }
 }
 
 /// Ranks all references.
@@ -178,8 +155,6 @@ fn rank_literally(
                 + 0.5 * (least / distance.max(f64::MIN_POSITIVE)).min(1.0),
             distance,
             placements: Vec::new(),
-            pose: None,
-            evidence: None,
         })
         .collect()
 }
@@ -202,8 +177,6 @@ fn rank_by_overlap(
                 .first()
                 .map_or(f64::INFINITY, |p| p.outline_distance.0),
             placements,
-            pose: None,
-            evidence: None,
         }
     };
     let prepare = || Placer::new(query, params);

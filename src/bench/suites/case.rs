@@ -9,9 +9,8 @@ use crate::{
     pipeline::{Inspection, Timings, Verdict},
     simulate::{SurfaceLabel, Truth},
     stages::{
-        confirm::Evidence,
+        confirm::{ConfirmedMatch, Evidence},
         pose::Uncertainty,
-        rank::MatchEntry,
         segment::{PointLabel, Segmentation},
     },
 };
@@ -193,7 +192,7 @@ fn bounds(frame: &SuiteFrame, truth: &Truth, inspection: &Inspection) -> Option<
     })
 }
 
-fn contender(frame: &SuiteFrame, truth: &Truth, entry: &MatchEntry) -> Option<Contender> {
+fn contender(frame: &SuiteFrame, truth: &Truth, entry: &ConfirmedMatch) -> Option<Contender> {
     let is_there = frame.expected.as_ref() == Some(&entry.part);
     let pose_off = entry.pose.as_ref().filter(|_| is_there).map(|pose| {
         // The reference's space is the camera's when the part was enrolled.

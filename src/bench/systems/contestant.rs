@@ -18,7 +18,7 @@ use crate::{
             vfh::{ViewHistogram, describe_vfh, describe_views, nearest_reference},
         },
         project::project,
-        rank::{MatchRanking, Matcher, Query, rank},
+        rank::{Matcher, Query, rank},
         reference::{Coverage, Reference, ReferenceError, ReferenceParams},
         scene::SceneCloud,
         segment::SegmentedPart,
@@ -144,12 +144,13 @@ fn by_outline(
         contour: &contour,
         signature: &signature,
     };
-    let mut ranking: MatchRanking = rank(&query, references, &recipe.rank);
-    if let Some(scene) = confirm_in {
-        let scene = Scene { scene, part, query };
-        ranking = confirm(&scene, references, &ranking, &recipe.confirm).0;
-    }
-    ranking.entries.first().map(|entry| entry.reference)
+    let ranking = rank(&query, references, &recipe.rank);
+    let Some(scene) = confirm_in else {
+        return ranking.entries.first().map(|entry| entry.reference);
+    };
+    let scene = Scene { scene, part, query };
+    let (confirmed, _) = confirm(&scene, references, &ranking, &recipe.confirm);
+    confirmed.entries.first().map(|entry| entry.reference)
 }
 
 fn by_views(

@@ -89,7 +89,7 @@ impl Seen<'_> {
     /// refinement.
     pub(super) fn trials(
         &self,
-        entries: &[MatchEntry],
+        entries: &[&MatchEntry],
         references: &[Reference],
     ) -> Vec<Vec<Trial>> {
         let mut starts: Vec<(usize, Start)> = Vec::new();
@@ -110,7 +110,7 @@ impl Seen<'_> {
             FEW_REFINED
         });
         starts.retain(|start| start.1.cost < least + WORSE_START);
-        let of_entry = |(number, entry): (usize, &MatchEntry)| {
+        let of_entry = |(number, entry): (usize, &&MatchEntry)| {
             let reference = &references[entry.reference];
             let mut trials: Vec<Trial> = match self.piece_for(reference) {
                 Some(laid) => starts

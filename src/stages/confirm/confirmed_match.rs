@@ -1,0 +1,86 @@
+//! What the confirmation makes of a ranking.
+
+use super::Evidence;
+use crate::stages::{
+    pose::PoseEstimate,
+    rank::{MatchEntry, MatchRanking, Placement},
+};
+
+/// A ranked reference with what its pose says about it.
+#[derive(Clone, Debug, PartialEq)]
+pub struct ConfirmedMatch {
+    /// Index of the reference among those ranked.
+    pub reference: usize,
+    /// The part's name.
+    pub part: String,
+    /// The name that the reference is enrolled under; another than the part's where it is one of several.
+    pub enrolled_as: String,
+    /// 0..1, 1 for the same shape.
+    pub score: f64,
+    /// The matcher's own distance, see [`MatchEntry::distance`].
+    pub distance: f64,
+    /// Placements by the matcher, best first; the paper's matcher finds none.
+    pub placements: Vec<Placement>,
+    /// Its pose; `None` if it ranked too low to be tried, or has no cloud. The first's is refined to the end, the others'
+    /// as far as it took to see that they are not the first.
+    pub pose: Option<PoseEstimate>,
+    /// What speaks for and against it at that pose; ICP and ICP-GA collect none.
+    pub evidence: Option<Evidence>,
+}
+
+impl ConfirmedMatch {
+    /// A match that was not tried, with its score times `weight`.
+    pub fn untried(entry: &MatchEntry, weight: f64) -> Self {
+        let MatchEntry {
+            reference,
+            part,
+            enrolled_as,
+            score,
+            distance,
+            placements,
+        } = entry.clone();
+        Self {
+            reference,
+            part,
+            enrolled_as,
+            score: score * weight,
+            distance,
+            placements,
+            pose: None,
+            evidence: None,
+        }
+    }
+}
+
+/// All references, best first.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ConfirmedRanking {
+    /// One entry per reference, in descending order of score; those that were not tried stay behind those that were.
+    pub entries: Vec<ConfirmedMatch>,
+}
+
+impl ConfirmedRanking {
+    /// The ranking as the matcher left it, every score times `weight`.
+    pub fn untried(ranking: &MatchRanking, weight: f64) -> Self {
+        let entries = ranking.entries.iter();
+        Self {
+            entries: entries
+                .map(|entry| ConfirmedMatch::untried(entry, weight))
+                .collect(),
+        }
+    }
+
+    /// The best entry of each part, best first: a part may be enrolled by several references.
+    pub fn by_part(&self) -> impl Iterator<Item = &ConfirmedMatch> {
+        let entries = &self.entries;
+        entries.iter().enumerate().filter_map(|(i, entry)| {
+            let is_first = entries[..i].iter().all(|before| before.part != entry.part);
+            is_first.then_some(entry)
+        })
+    }
+
+    /// The best entry of a part other than the first.
+    pub fn runner_up(&self) -> Option<&ConfirmedMatch> {
+        self.by_part().nth(1)
+    }
+}
