@@ -2,6 +2,8 @@
 
 use std::{path::PathBuf, sync::Arc};
 
+/// The name under which most of the window knows it.
+pub use super::user_error::UserError as Trouble;
 use super::{
     align::{AlignAnswer, AlignRequest},
     compare::{CompareAnswer, CompareRequest},
@@ -15,7 +17,6 @@ use super::{
     worker::Desk,
     writing::{WriteRequest, Written},
 };
-use crate::error::Advice;
 
 /// What the window asks for.
 #[derive(Clone, Debug)]
@@ -81,25 +82,6 @@ pub enum Answer {
 
 /// An answer, or what went wrong.
 pub type Outcome = Result<Answer, Trouble>;
-
-/// Something that went wrong, and what to do about it.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Trouble {
-    /// What went wrong.
-    pub what: String,
-    /// What to do.
-    pub advice: String,
-}
-
-impl Trouble {
-    /// From an error that brings its advice.
-    pub fn of<E: std::fmt::Display + Advice>(error: &E) -> Self {
-        Self {
-            what: error.to_string(),
-            advice: error.advice(),
-        }
-    }
-}
 
 /// Does what is asked; `None` when it was cancelled. Called from the thread of the request's lane.
 pub fn answer(request: Request, shelf: &Shelf, desk: &dyn Desk<Outcome>) -> Option<Outcome> {

@@ -25,6 +25,7 @@ use super::{
     roles::{self, RoleAction},
     settings,
     shelf::Shelf,
+    shell::task::TaskRunner,
     state::{Notice, Source, State, ThemeChoice, Workspace},
     theme::Theme,
     viewport::{ViewError, ViewportGpu},
@@ -90,6 +91,8 @@ impl Window {
         let (remembered, trouble) = settings.as_deref().map(settings::load).unwrap_or_default();
         let kept = Arc::new(Keeper::new(history));
         let repaint = ctx.clone();
+        let runner = TaskRunner::new(move || repaint.request_repaint());
+        let repaint = ctx.clone();
         let history_writer = Writer::start(Arc::clone(&kept), move || repaint.request_repaint())?;
         let shelf = Shelf::new(library.or_else(|| remembered.library.clone()), camera)
             .with_history(Arc::clone(&kept));
@@ -112,7 +115,7 @@ impl Window {
                 reason: "the window draws without one".into(),
             });
         let mut window = Self {
-            memory: Memory::start(settings, remembered.clone())?,
+            memory: Memory::new(settings, remembered.clone(), &runner),
             state: State {
                 compare: CompareState::with_folder(cases),
                 ..remembered.into_state()

@@ -1,0 +1,3 @@
+//! What every workspace stands on.
+
+pub mod task;

@@ -1,0 +1,601 @@
+//! Background tasks. A [`Task`] belongs to whoever wants its result; nobody else sees it.
+//!
+//! Each run of a task has a channel of its own. Replacing or cancelling a run drops the receiving end, so whatever the old
+//! run still sends is lost: results need no generation numbers. Progress is a value that is overwritten, not an event.
+
+use std::{
+    any::Any,
+    fmt, io,
+    panic::{AssertUnwindSafe, catch_unwind},
+    sync::{
+        Arc, Mutex, MutexGuard, PoisonError,
+        atomic::{AtomicBool, Ordering},
+        mpsc::{Receiver, SyncSender, TryRecvError, TrySendError, sync_channel},
+    },
+    thread::{self, JoinHandle},
+};
+
+use crate::{
+    app::user_error::UserError,
+    pipeline::{Cancelled, Stage, Watch},
+};
+
+/// Starts the threads of tasks, and wakes the window when one has something to read. Clones share it.
+#[derive(Clone)]
+pub struct TaskRunner {
+    wake: Arc<dyn Fn() + Send + Sync>,
+    threads: Threads,
+}
+
+/// Where jobs run.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Threads {
+    /// On a thread per task.
+    OnePerTask,
+    /// Nowhere until [`Task::run_waiting`].
+    #[cfg(test)]
+    None,
+}
+
+impl TaskRunner {
+    /// `wake` is called from the threads and asks for another frame.
+    pub fn new(wake: impl Fn() + Send + Sync + 'static) -> Self {
+        Self {
+            wake: Arc::new(wake),
+            threads: Threads::OnePerTask,
+        }
+    }
+
+    /// Jobs wait until a test runs them with [`Task::run_waiting`].
+    #[cfg(test)]
+    pub(in crate::app) fn without_threads() -> Self {
+        Self {
+            threads: Threads::None,
+            ..Self::new(|| {})
+        }
+    }
+
+    /// Parts that may wait to be read.
+    fn max_unread(&self) -> usize {
+        match self.threads {
+            Threads::OnePerTask => 32,
+            // Writer and reader are the same thread.
+            #[cfg(test)]
+            Threads::None => 4096,
+        }
+    }
+}
+
+impl fmt::Debug for TaskRunner {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.debug_tuple("TaskRunner").field(&self.threads).finish()
+    }
+}
+
+/// What a task reports.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum TaskEvent<T> {
+    /// A part of the result; the run goes on.
+    Partial(T),
+    /// The run has ended.
+    Done(T),
+    /// The run has failed or panicked.
+    Failed(UserError),
+}
+
+/// Why a job has no result.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub enum TaskError {
+    /// It was cancelled.
+    Cancelled,
+    /// It failed.
+    Failed(UserError),
+}
+
+impl From<UserError> for TaskError {
+    fn from(error: UserError) -> Self {
+        Self::Failed(error)
+    }
+}
+
+impl From<Cancelled> for TaskError {
+    fn from(_: Cancelled) -> Self {
+        Self::Cancelled
+    }
+}
+
+/// A run as the top bar shows it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Running {
+    /// What is being done, for a person.
+    pub title: String,
+    /// The pipeline stage begun last.
+    pub stage: Option<Stage>,
+    /// Steps done, and steps in all.
+    pub progress: Option<(usize, usize)>,
+}
+
+/// One job at a time, on a thread that starts with the first; the newest job replaces the one before.
+///
+/// Dropping the task cancels its job and waits for the thread.
+pub struct Task<T> {
+    name: &'static str,
+    runner: TaskRunner,
+    run: Option<Run<T>>,
+    queue: JobQueue,
+}
+
+/// The newest run.
+struct Run<T> {
+    running: Running,
+    shared: Arc<RunShared<T>>,
+    events: Receiver<TaskEvent<T>>,
+}
+
+/// What a run and its job share.
+struct RunShared<T> {
+    is_cancelled: AtomicBool,
+    progress: Mutex<Progress>,
+    /// Set by [`TaskContext::latest`], taken by [`Task::poll`].
+    latest: Mutex<Option<T>>,
+}
+
+#[derive(Clone, Copy, Default)]
+struct Progress {
+    stage: Option<Stage>,
+    steps: Option<(usize, usize)>,
+}
+
+impl<T: Send + 'static> Task<T> {
+    /// A task without a job. The thread has this name.
+    pub fn new(name: &'static str, runner: &TaskRunner) -> Self {
+        Self {
+            name,
+            runner: runner.clone(),
+            run: None,
+            queue: JobQueue::default(),
+        }
+    }
+
+    /// Runs the job in place of the one before, which is cancelled. `title` says what it does, for a person.
+    pub fn start(
+        &mut self,
+        title: impl Into<String>,
+        job: impl FnOnce(&TaskContext<T>) -> Result<T, TaskError> + Send + 'static,
+    ) {
+        self.cancel();
+        let (sender, events) = sync_channel(self.runner.max_unread());
+        let shared = Arc::new(RunShared {
+            is_cancelled: AtomicBool::new(false),
+            progress: Mutex::default(),
+            latest: Mutex::new(None),
+        });
+        let running = Running {
+            title: title.into(),
+            stage: None,
+            progress: None,
+        };
+        let context = TaskContext {
+            shared: Arc::clone(&shared),
+            events: sender.clone(),
+            wake: Arc::clone(&self.runner.wake),
+        };
+        self.run = Some(Run {
+            running,
+            shared,
+            events,
+        });
+        let job = Box::new(move || context.run(job));
+        if let Err(error) = self.queue.push(job, self.name, self.runner.threads) {
+            let failed = UserError {
+                what: format!("The system gives no thread for this: {error}"),
+                advice: "Close other programs and try again".into(),
+            };
+            // The channel is empty and its other end is ours.
+            let _ = sender.send(TaskEvent::Failed(failed));
+        }
+    }
+
+    /// Cancels the job, running or waiting; it reports nothing any more.
+    pub fn cancel(&mut self) {
+        if let Some(run) = self.run.take() {
+            run.shared.is_cancelled.store(true, Ordering::Relaxed);
+        }
+    }
+
+    /// The next event, without waiting; `None` if there is none.
+    pub fn poll(&mut self) -> Option<TaskEvent<T>> {
+        let run = self.run.as_mut()?;
+        let progress = *lock(&run.shared.progress);
+        run.running.stage = progress.stage;
+        run.running.progress = progress.steps;
+        let event = match run.events.try_recv() {
+            Ok(event) => event,
+            // In this order: the latest part is newer than the queued ones.
+            Err(TryRecvError::Empty) => TaskEvent::Partial(lock(&run.shared.latest).take()?),
+            Err(TryRecvError::Disconnected) => {
+                self.run = None;
+                return None;
+            }
+        };
+        if !matches!(event, TaskEvent::Partial(_)) {
+            self.run = None;
+        }
+        Some(event)
+    }
+
+    /// The run that has not ended, as of the last [`poll`](Self::poll).
+    pub fn running(&self) -> Option<&Running> {
+        self.run.as_ref().map(|run| &run.running)
+    }
+
+    /// Runs the waiting job on this thread; false if none waits.
+    #[cfg(test)]
+    pub(in crate::app) fn run_waiting(&self) -> bool {
+        let job = lock(&self.queue.waiting).take();
+        job.map(|job| job()).is_some()
+    }
+}
+
+impl<T> Drop for Task<T> {
+    fn drop(&mut self) {
+        // Before the queue waits for its thread, which may itself wait for somebody to read.
+        if let Some(run) = self.run.take() {
+            run.shared.is_cancelled.store(true, Ordering::Relaxed);
+        }
+    }
+}
+
+impl<T> fmt::Debug for Task<T> {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        let running = self.run.as_ref().map(|run| &run.running);
+        f.debug_tuple(self.name).field(&running).finish()
+    }
+}
+
+/// The job's side of a run: progress out, cancellation in.
+pub struct TaskContext<T> {
+    shared: Arc<RunShared<T>>,
+    events: SyncSender<TaskEvent<T>>,
+    wake: Arc<dyn Fn() + Send + Sync>,
+}
+
+impl<T> TaskContext<T> {
+    /// Reports the steps done, and the steps in all.
+    pub fn progress(&self, done: usize, total: usize) {
+        lock(&self.shared.progress).steps = Some((done, total));
+        (self.wake)();
+    }
+
+    /// Hands over a part of the result. Waits while the window has not read the parts before.
+    pub fn partial(&self, part: T) {
+        // A cancelled run has no reader.
+        let _ = self.events.send(TaskEvent::Partial(part));
+        (self.wake)();
+    }
+
+    /// Hands over a part in place of the one handed over so before, if that was not read yet.
+    pub fn latest(&self, part: T) {
+        *lock(&self.shared.latest) = Some(part);
+        (self.wake)();
+    }
+
+    /// True if the part of the last [`latest`](Self::latest) was read.
+    pub fn is_latest_read(&self) -> bool {
+        lock(&self.shared.latest).is_none()
+    }
+
+    /// An error once the run is cancelled.
+    pub fn check(&self) -> Result<(), TaskError> {
+        if self.is_cancelled() {
+            Err(TaskError::Cancelled)
+        } else {
+            Ok(())
+        }
+    }
+
+    fn run(self, job: impl FnOnce(&Self) -> Result<T, TaskError>) {
+        if self.is_cancelled() {
+            return;
+        }
+        // What a job shares with others (a loaded library) is only ever replaced whole.
+        let ended = catch_unwind(AssertUnwindSafe(|| job(&self)));
+        let event = match ended {
+            Ok(Ok(result)) => Some(TaskEvent::Done(result)),
+            Ok(Err(TaskError::Failed(error))) => Some(TaskEvent::Failed(error)),
+            Ok(Err(TaskError::Cancelled)) => None,
+            Err(panic) => Some(TaskEvent::Failed(panicked(panic.as_ref()))),
+        };
+        let Self { events, wake, .. } = self;
+        if let Some(event) = event {
+            let _ = events.send(event);
+        }
+        drop(events);
+        wake();
+    }
+}
+
+impl<T> Watch for TaskContext<T> {
+    fn begins(&self, stage: Stage) {
+        lock(&self.shared.progress).stage = Some(stage);
+        (self.wake)();
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.shared.is_cancelled.load(Ordering::Relaxed)
+    }
+}
+
+fn panicked(panic: &(dyn Any + Send)) -> UserError {
+    let text = panic.downcast_ref::<&str>().map(ToString::to_string);
+    let text = text.or_else(|| panic.downcast_ref::<String>().cloned());
+    let message = text.unwrap_or_else(|| "no message".into());
+    UserError {
+        what: format!("The work broke off inside the program: {message}"),
+        advice: "Try again; if it happens again, keep the file and report it".into(),
+    }
+}
+
+type Job = Box<dyn FnOnce() + Send>;
+
+/// A thread and the one job that waits for it.
+#[derive(Default)]
+struct JobQueue {
+    waiting: Arc<Mutex<Option<Job>>>,
+    thread: Option<JobThread>,
+}
+
+struct JobThread {
+    /// Dropping it ends the thread.
+    filled: SyncSender<()>,
+    handle: JoinHandle<()>,
+}
+
+impl JobQueue {
+    /// Puts the job in place of the one that waits.
+    fn push(&mut self, job: Job, name: &'static str, threads: Threads) -> io::Result<()> {
+        *lock(&self.waiting) = Some(job);
+        match threads {
+            #[cfg(test)]
+            Threads::None => return Ok(()),
+            Threads::OnePerTask => {}
+        }
+        let thread = match &self.thread {
+            Some(thread) => thread,
+            None => self
+                .thread
+                .insert(JobThread::start(name, Arc::clone(&self.waiting))?),
+        };
+        match thread.filled.try_send(()) {
+            // Full: the thread has yet to look.
+            Ok(()) | Err(TrySendError::Full(())) => Ok(()),
+            Err(TrySendError::Disconnected(())) => Err(io::ErrorKind::BrokenPipe.into()),
+        }
+    }
+}
+
+impl JobThread {
+    fn start(name: &'static str, waiting: Arc<Mutex<Option<Job>>>) -> io::Result<Self> {
+        let (filled, is_filled) = sync_channel(1);
+        let handle = thread::Builder::new().name(name.into()).spawn(move || {
+            while is_filled.recv().is_ok() {
+                let job = lock(&waiting).take();
+                // Jobs catch their own panics.
+                if let Some(job) = job {
+                    job();
+                }
+            }
+        })?;
+        Ok(Self { filled, handle })
+    }
+}
+
+impl Drop for JobQueue {
+    fn drop(&mut self) {
+        *lock(&self.waiting) = None;
+        if let Some(JobThread { filled, handle }) = self.thread.take() {
+            drop(filled);
+            let _ = handle.join();
+        }
+    }
+}
+
+fn lock<V>(mutex: &Mutex<V>) -> MutexGuard<'_, V> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
+}
+
+#[cfg(test)]
+mod tests {
+    use std::{
+        sync::mpsc::channel,
+        time::{Duration, Instant},
+    };
+
+    use super::*;
+
+    fn task<T: Send + 'static>() -> Task<T> {
+        Task::new("test", &TaskRunner::new(|| {}))
+    }
+
+    /// The next event, waited for.
+    fn next<T: Send + 'static>(task: &mut Task<T>) -> TaskEvent<T> {
+        let until = Instant::now() + Duration::from_secs(10);
+        while Instant::now() < until {
+            if let Some(event) = task.poll() {
+                return event;
+            }
+            thread::sleep(Duration::from_millis(1));
+        }
+        panic!("no event within ten seconds");
+    }
+
+    fn until_cancelled<T>(context: &TaskContext<T>) -> Result<T, TaskError> {
+        let until = Instant::now() + Duration::from_secs(60);
+        while Instant::now() < until {
+            context.check()?;
+            thread::sleep(Duration::from_millis(1));
+        }
+        panic!("never cancelled");
+    }
+
+    #[test]
+    fn the_newest_job_replaces_the_running_and_the_waiting_one() {
+        let mut task = task();
+        let (began, begins) = channel();
+        task.start("first", move |context| {
+            began.send(()).expect("waited for");
+            until_cancelled(context)
+        });
+        begins.recv().expect("begun");
+        task.start("second", |_| panic!("it was replaced before it began"));
+        task.start("third", |_| Ok(3));
+        assert_eq!(
+            task.running().map(|running| running.title.as_str()),
+            Some("third")
+        );
+        assert_eq!(next(&mut task), TaskEvent::Done(3));
+        assert!(task.running().is_none() && task.poll().is_none());
+    }
+
+    #[test]
+    fn what_a_replaced_job_still_sends_is_never_read() {
+        let mut task = task();
+        let (sent, sends) = channel();
+        task.start("old", move |context| {
+            context.partial(1);
+            sends.recv().expect("released");
+            context.partial(2);
+            context.latest(3);
+            Ok(4)
+        });
+        assert_eq!(next(&mut task), TaskEvent::Partial(1));
+        task.start("new", |_| Ok(5));
+        sent.send(()).expect("it waits");
+        assert_eq!(next(&mut task), TaskEvent::Done(5));
+    }
+
+    #[test]
+    fn a_cancelled_job_reports_nothing_and_the_task_goes_on() {
+        let mut task = task();
+        task.start("cancelled", until_cancelled);
+        task.cancel();
+        assert!(task.running().is_none() && task.poll().is_none());
+        task.start("next", |_| Ok("done"));
+        assert_eq!(next(&mut task), TaskEvent::Done("done"));
+    }
+
+    #[test]
+    fn dropping_cancels_the_job_and_waits_for_it() {
+        let mut task = task::<()>();
+        let (began, begins) = channel();
+        let (ended, ends) = channel();
+        task.start("running", move |context| {
+            began.send(()).expect("waited for");
+            let result = until_cancelled(context);
+            ended.send(()).expect("waited for");
+            result
+        });
+        begins.recv().expect("begun");
+        drop(task);
+        ends.try_recv().expect("it ended before the drop did");
+    }
+
+    #[test]
+    fn dropping_does_not_wait_for_parts_to_be_read() {
+        let mut task = task();
+        let (began, begins) = channel();
+        task.start("talkative", move |context| {
+            began.send(()).expect("waited for");
+            loop {
+                context.partial([0; 64]);
+                context.check()?;
+            }
+        });
+        begins.recv().expect("begun");
+        drop(task);
+    }
+
+    #[test]
+    fn a_panic_is_a_failure_and_the_next_job_runs() {
+        let mut task = task::<u32>();
+        task.start("breaks", |_| panic!("seven is too much"));
+        let TaskEvent::Failed(error) = next(&mut task) else {
+            panic!("the panic was not reported");
+        };
+        assert!(error.what.contains("seven is too much"), "{}", error.what);
+        assert!(!error.advice.is_empty());
+        task.start("works", |_| Ok(8));
+        assert_eq!(next(&mut task), TaskEvent::Done(8));
+    }
+
+    #[test]
+    fn a_failure_keeps_its_advice() {
+        let mut task = task::<u32>();
+        let error = UserError {
+            what: "broken".into(),
+            advice: "Mend it".into(),
+        };
+        let given = error.clone();
+        task.start("fails", move |_| Err(given.into()));
+        assert_eq!(next(&mut task), TaskEvent::Failed(error));
+    }
+
+    #[test]
+    fn progress_is_what_was_reported_last() {
+        let mut task = task();
+        let (go_on, waits) = channel::<()>();
+        task.start("counting", move |context| {
+            context.begins(Stage::Segment);
+            context.begins(Stage::Rank);
+            context.progress(1, 3);
+            context.progress(2, 3);
+            context.partial("counted");
+            waits.recv().expect("released");
+            Ok("done")
+        });
+        assert_eq!(next(&mut task), TaskEvent::Partial("counted"));
+        assert!(task.poll().is_none());
+        let running = task.running().expect("it waits");
+        assert_eq!(
+            (running.stage, running.progress),
+            (Some(Stage::Rank), Some((2, 3)))
+        );
+        go_on.send(()).expect("it waits");
+        assert_eq!(next(&mut task), TaskEvent::Done("done"));
+    }
+
+    #[test]
+    fn of_the_latest_parts_only_the_newest_waits() {
+        let mut task = task();
+        let (told, tells) = channel();
+        let (go_on, waits) = channel::<()>();
+        task.start("live", move |context| {
+            (1..=100).for_each(|number| context.latest(number));
+            told.send(context.is_latest_read()).expect("waited for");
+            waits.recv().expect("released");
+            told.send(context.is_latest_read()).expect("waited for");
+            Ok(0)
+        });
+        assert!(!tells.recv().expect("told"), "nobody has read it");
+        assert_eq!(next(&mut task), TaskEvent::Partial(100));
+        go_on.send(()).expect("it waits");
+        assert!(tells.recv().expect("told"), "it was read");
+        assert_eq!(next(&mut task), TaskEvent::Done(0));
+    }
+
+    #[test]
+    fn without_threads_a_job_runs_when_the_test_says_so() {
+        let mut task = Task::new("test", &TaskRunner::without_threads());
+        task.start("replaced", |_| Ok(1));
+        task.start("waiting", |context| {
+            (0..100).for_each(|number| context.partial(number));
+            Ok(100)
+        });
+        assert!(task.running().is_some() && task.poll().is_none());
+        assert!(task.run_waiting() && !task.run_waiting());
+        for number in 0..100 {
+            assert_eq!(task.poll(), Some(TaskEvent::Partial(number)));
+        }
+        assert_eq!(task.poll(), Some(TaskEvent::Done(100)));
+    }
+}

@@ -1,0 +1,24 @@
+//! A failure as a person reads it.
+
+use std::fmt::Display;
+
+use crate::error::Advice;
+
+/// What went wrong, and what to do about it.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct UserError {
+    /// What went wrong.
+    pub what: String,
+    /// What to do; may be empty.
+    pub advice: String,
+}
+
+impl UserError {
+    /// From an error that brings its advice.
+    pub fn of<E: Display + Advice>(error: &E) -> Self {
+        Self {
+            what: error.to_string(),
+            advice: error.advice(),
+        }
+    }
+}
