@@ -3,7 +3,6 @@
 use std::{path::PathBuf, sync::Arc};
 
 use super::{
-    align::{self, AlignAction, AlignAsk},
     answers,
     compare::{self, CompareAction},
     enrol::{self, EnrolAction},
@@ -82,8 +81,10 @@ pub enum Action {
     Enrol(EnrolAction),
     /// Of the Compare workspace.
     Compare(CompareAction),
-    /// Of the Align workspace.
-    Align(AlignAction),
+    /// The key at this place of a workspace's own was pressed.
+    Press(Workspace, usize),
+    /// Cancel what a workspace is at.
+    CancelTask(Workspace),
     /// Of the History workspace.
     History(HistoryAction),
     /// Of the robot's cell.
@@ -117,8 +118,6 @@ pub enum Ask {
     CasesFolder,
     /// What an earlier run of all cases has written.
     EarlierRun,
-    /// Something of the Align workspace.
-    Align(AlignAsk),
     /// A scene, a whole cloud or a mesh to enrol.
     Part,
     /// A calibration of the robot's cell.
@@ -145,6 +144,10 @@ pub enum Effect {
     CancelWork(Lane),
     /// Show the system's dialog.
     ShowDialog(Ask),
+    /// Have a workspace do what its key at this place does.
+    Press(Workspace, usize),
+    /// Have a workspace cancel what it is at.
+    CancelTask(Workspace),
     /// Put this on the clipboard.
     CopyText(String),
     /// Have this written into the history.
@@ -237,7 +240,8 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::Inspect(action) => return inspect::state::apply(state, action),
         Action::Enrol(action) => return enrol::apply(state, action),
         Action::Compare(action) => return compare::apply(state, action),
-        Action::Align(action) => return align::apply(state, action),
+        Action::Press(workspace, place) => return Some(Effect::Press(workspace, place)),
+        Action::CancelTask(workspace) => return Some(Effect::CancelTask(workspace)),
         Action::History(action) => return history::apply(state, action),
         Action::Robot(action) => return robot::apply(state, action),
         Action::Hear(lane, news) => return answers::hear(state, lane, news),
@@ -281,7 +285,6 @@ fn chosen(state: &mut State, ask: Ask, path: PathBuf) -> Option<Effect> {
             state.inspect.picture_to = Some(path);
             None
         }
-        Ask::Align(ask) => align::apply(state, AlignAction::Chosen(ask, path)),
         Ask::Calibration => robot::apply(state, RobotAction::Load(path)),
         Ask::PartPath => enrol::apply(state, EnrolAction::StorePath(path)),
         Ask::SprayPath => inspect::state::write_spray_path(state, path),
@@ -292,7 +295,7 @@ fn chosen(state: &mut State, ask: Ask, path: PathBuf) -> Option<Effect> {
 /// Asks for a scene from the source: to be inspected, or to be enrolled while that is in front. To be inspected it is a
 /// single one, and ends following the source.
 pub(super) fn capture(state: &mut State) -> Effect {
-    let (source, what) = match &state.source {
+    let (source, what) = match &state.session.source {
         Source::Cell(choice) => {
             state.num_captures += 1;
             let source = SceneSource::Cell {

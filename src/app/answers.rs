@@ -7,7 +7,7 @@ use std::{
 
 use super::{
     action::{Effect, inspect_again, notify},
-    align, compare, enrol,
+    compare, enrol,
     history::{self, TakenIn},
     inspect::work::Inspected,
     job::{Answer, Outcome, Trouble},
@@ -53,7 +53,6 @@ fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> 
         Ok(Answer::History(looked)) => return history::take(state, *looked),
         Ok(Answer::Enrol(answer)) => return enrol::hear(state, Ok(answer)),
         Ok(Answer::Compare(answer)) => return compare::hear(state, Ok(answer)),
-        Ok(Answer::Align(answer)) => return align::hear(state, Ok(answer)),
         Ok(Answer::Library(library)) => {
             use_library(state, &library);
             return inspect_again(state);
@@ -66,7 +65,6 @@ fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> 
             match lane {
                 Lane::Enrol | Lane::Library => return enrol::hear(state, Err(trouble)),
                 Lane::Compare => return compare::hear(state, Err(trouble)),
-                Lane::Align => return align::hear(state, Err(trouble)),
                 Lane::Inspect => without_scene(state),
                 Lane::Live => return live::hear(state, Err(trouble)),
                 Lane::Write | Lane::History | Lane::Robot => {}
@@ -78,8 +76,9 @@ fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> 
 
 /// A file that could not be inspected is no recent one.
 fn without_scene(state: &mut State) {
-    if let Source::File(path) = &state.source {
-        state.recent.retain(|known| known != path);
+    let session = &mut state.session;
+    if let Source::File(path) = &session.source {
+        session.recent.retain(|known| known != path);
     }
 }
 

@@ -1,34 +1,39 @@
 //! Above the workspaces: the top bar.
 
-use egui::{
-    Align, Button, Frame, Layout, Margin, Panel, Rect, RichText, Stroke, StrokeKind, Ui, Vec2,
-};
+use egui::{Align, Button, Frame, Layout, Margin, Panel, RichText, Ui, Vec2};
 
+pub(super) use super::widgets::{focus_ring, labelled, shortened};
 use super::{
     action::{Action, Ask},
     live::{self, LiveAction},
     robot::RobotAction,
     shelf::LibraryShown,
+    shell::task::Running,
     source::file_name,
     source_menu,
     state::{StagePanel, State, Workspace},
-    theme::{ROUNDING, Theme, font, space},
+    theme::{Theme, font, space},
 };
 
 /// In a narrower window the bar has no room for every key.
 pub(super) const NARROW: f32 = 1100.0;
 
-/// Shows which hand-drawn control has the focus.
-pub(super) fn focus_ring(ui: &Ui, rect: Rect, response: &egui::Response, theme: &Theme) {
-    if response.has_focus() {
-        let stroke = Stroke::new(2.0, theme.accent);
-        ui.painter()
-            .rect_stroke(rect.shrink(1.0), ROUNDING, stroke, StrokeKind::Inside);
-    }
+/// What the bar says of the work going on.
+pub(super) struct Progress {
+    /// The work.
+    pub(super) running: Running,
+    /// What cancels it.
+    pub(super) cancel: Action,
 }
 
 /// The bar at the top.
-pub(super) fn top_bar(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+pub(super) fn top_bar(
+    ui: &mut Ui,
+    state: &State,
+    work: Option<Progress>,
+    theme: &Theme,
+    actions: &mut Vec<Action>,
+) {
     let frame = Frame::new()
         .fill(theme.panel)
         .inner_margin(Margin::symmetric(14, 0));
@@ -58,9 +63,9 @@ pub(super) fn top_bar(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut V
                     actions.push(Action::Ask(Ask::Scene));
                 }
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-                    settings(ui, state, theme, actions);
+                    settings(ui, state, work.is_some(), theme, actions);
                     ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                        progress(ui, state, theme, actions);
+                        progress(ui, state, work, theme, actions);
                     });
                 });
             });
@@ -113,30 +118,14 @@ fn robot_button(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Act
     }
 }
 
-/// A button that is called by its text alone, whatever shortcut it shows.
-pub(super) fn labelled(ui: &mut Ui, button: Button<'_>, label: &str) -> egui::Response {
-    let response = ui.add(button.min_size(Vec2::splat(space::TARGET)));
-    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, label));
-    response
-}
-
-/// The text, its middle left out where it is too long.
-pub(super) fn shortened(text: &str, most: usize) -> String {
-    let letters: Vec<char> = text.chars().collect();
-    if letters.len() <= most {
-        return text.to_owned();
-    }
-    let half = most / 2;
-    let (head, tail) = (&letters[..half], &letters[letters.len() - half..]);
-    format!(
-        "{}…{}",
-        head.iter().collect::<String>(),
-        tail.iter().collect::<String>()
-    )
-}
-
 /// From right to left: help, colours, units, library.
-fn settings(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+fn settings(
+    ui: &mut Ui,
+    state: &State,
+    is_at_work: bool,
+    theme: &Theme,
+    actions: &mut Vec<Action>,
+) {
     let key = RichText::new("F1").font(font::small());
     let help = Button::new("Help").shortcut_text(key.color(theme.weak_text));
     if labelled(ui, help, "Help").clicked() {
@@ -159,7 +148,7 @@ fn settings(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>
         actions.push(Action::SwitchUnits);
     }
     // What is at work, and the way out of it, come first.
-    let has_room = state.work().is_none() || ui.available_width() > 480.0;
+    let has_room = !is_at_work || ui.available_width() > 480.0;
     if let Some(library) = state.library.as_ref().filter(|_| has_room) {
         library_menu(ui, state, library, actions);
     }
@@ -195,8 +184,14 @@ fn library_menu(ui: &mut Ui, state: &State, library: &LibraryShown, actions: &mu
 }
 
 /// What is being worked on, and the way out.
-fn progress(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
-    let Some((lane, work)) = state.work() else {
+fn progress(
+    ui: &mut Ui,
+    state: &State,
+    work: Option<Progress>,
+    theme: &Theme,
+    actions: &mut Vec<Action>,
+) {
+    let Some(Progress { running, cancel }) = work else {
         // There the verdict card says it.
         if state.is_live() && state.workspace != Workspace::Inspect {
             live::chip(ui, state, theme);
@@ -205,11 +200,13 @@ fn progress(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>
     };
     ui.add_space(space::SMALL);
     if labelled(ui, Button::new("Cancel"), "Cancel").clicked() {
-        actions.push(Action::Cancel(lane));
+        actions.push(cancel);
     }
     ui.add(egui::Spinner::new().size(18.0).color(theme.accent));
-    let text = match (work.progress, work.stage.map(StagePanel::of)) {
-        (Some((done, total)), _) => format!("{} · {done} of {total}", shortened(&work.what, 28)),
+    let text = match (running.progress, running.stage.map(StagePanel::of)) {
+        (Some((done, total)), _) => {
+            format!("{} · {done} of {total}", shortened(&running.title, 28))
+        }
         (None, Some(panel)) => {
             let place = StagePanel::ALL
                 .iter()
@@ -218,7 +215,7 @@ fn progress(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>
                 + 1;
             format!("{} · {place} of {}", panel.title(), StagePanel::ALL.len())
         }
-        (None, None) => shortened(&work.what, 28),
+        (None, None) => shortened(&running.title, 28),
     };
     ui.add(egui::Label::new(RichText::new(text).color(theme.weak_text)).truncate());
 }

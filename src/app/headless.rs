@@ -24,6 +24,7 @@ pub use self::{
 };
 use super::{
     action::Action,
+    shell::{context::ShellContext, workspace::Workspace},
     viewport::ViewError,
     window::{Window, WindowOptions},
 };
@@ -148,7 +149,7 @@ impl HeadlessWindow {
         let begun = Instant::now();
         loop {
             self.frame(Vec::new(), Pace::InStep);
-            if self.window.state().works.is_empty() {
+            if self.window.is_idle() {
                 break;
             }
             if begun.elapsed().as_secs() > 60 {
@@ -165,6 +166,14 @@ impl HeadlessWindow {
     /// Does what a person could cause.
     pub fn act(&mut self, action: Action) {
         self.window.act(action, &self.ctx);
+    }
+
+    /// Does something in the workspace of this type.
+    pub fn with<W: Workspace, R>(
+        &mut self,
+        act: impl FnOnce(&mut W, &mut ShellContext<'_>) -> R,
+    ) -> Option<R> {
+        self.window.with(&self.ctx, act)
     }
 
     /// Draws one frame in which this happens.

@@ -5,7 +5,6 @@ use std::{path::PathBuf, sync::Arc};
 /// The name under which most of the window knows it.
 pub use super::user_error::UserError as Trouble;
 use super::{
-    align::{AlignAnswer, AlignRequest},
     compare::{CompareAnswer, CompareRequest},
     enrol::{EnrolAnswer, EnrolRequest},
     history::{LookRequest, Looked},
@@ -31,8 +30,6 @@ pub enum Request {
     Enrol(EnrolRequest),
     /// Something of the Compare workspace.
     Compare(CompareRequest),
-    /// Something of the Align workspace.
-    Align(AlignRequest),
     /// Something of the robot's cell.
     Robot(RobotRequest),
     /// Write a file.
@@ -49,7 +46,6 @@ impl Request {
             Self::Live(_) => Lane::Live,
             Self::Enrol(request) => request.lane(),
             Self::Compare(_) => Lane::Compare,
-            Self::Align(_) => Lane::Align,
             Self::Robot(_) => Lane::Robot,
             Self::Write(_) => Lane::Write,
             Self::History(_) => Lane::History,
@@ -70,8 +66,6 @@ pub enum Answer {
     Enrol(EnrolAnswer),
     /// Something of the Compare workspace.
     Compare(CompareAnswer),
-    /// Something of the Align workspace.
-    Align(AlignAnswer),
     /// Something of the robot's cell.
     Robot(RobotAnswer),
     /// What was written.
@@ -97,7 +91,6 @@ pub fn answer(request: Request, shelf: &Shelf, desk: &dyn Desk<Outcome>) -> Opti
         }),
         Request::Enrol(request) => super::enrol::answer(request, shelf, desk),
         Request::Compare(request) => super::compare::answer(request, shelf, desk),
-        Request::Align(request) => super::align::answer(request, shelf, desk),
         Request::Write(request) => {
             Some(super::writing::answer(&request, shelf).map(Answer::Written))
         }

@@ -6,24 +6,18 @@ use egui::{
 
 use super::{
     action::{Action, Ask},
-    align,
     bars::labelled,
     compare, enrol, history, inspect,
     live::LiveAction,
     robot::RobotAction,
     roles::RoleAction,
+    shell::key_binding::{self, KeyBinding},
     state::{HelpPage, State, Workspace},
     theme::{Theme, font, space},
 };
 
-/// A shortcut, what it causes, and how the list names both.
-pub(in crate::app) struct Shortcut {
-    pub(in crate::app) modifiers: Modifiers,
-    pub(in crate::app) key: Key,
-    pub(in crate::app) keys: &'static str,
-    pub(in crate::app) does: &'static str,
-    pub(in crate::app) action: fn() -> Action,
-}
+/// A shortcut of the window, or of a workspace that the window knows by name.
+pub(in crate::app) type Shortcut = key_binding::Shortcut<Action>;
 
 /// The shortcuts of the whole window.
 const SHORTCUTS: [Shortcut; 12] = [
@@ -148,9 +142,18 @@ fn of_workspace(workspace: Workspace) -> &'static [Shortcut] {
         Workspace::Inspect => &inspect::SHORTCUTS,
         Workspace::Enrol => &enrol::SHORTCUTS,
         Workspace::Compare => &compare::SHORTCUTS,
-        Workspace::Align => &align::SHORTCUTS,
+        Workspace::Align => &[],
         Workspace::History => &history::SHORTCUTS,
     }
+}
+
+/// What a key causes.
+#[derive(Clone, Copy)]
+enum Pressed {
+    /// What the workspace says, by the place of the key among its own.
+    Own(usize),
+    /// This.
+    Named(fn() -> Action),
 }
 
 /// What the keys cause. Called after the panels, so that a focused control has its keys first.
@@ -160,6 +163,7 @@ fn of_workspace(workspace: Workspace) -> &'static [Shortcut] {
 pub(super) fn shortcuts(
     ctx: &egui::Context,
     state: &State,
+    own: &[KeyBinding],
     space_is_free: bool,
     actions: &mut Vec<Action>,
 ) {
@@ -170,19 +174,27 @@ pub(super) fn shortcuts(
         return;
     }
     let is_pressing = !space_is_free && ctx.memory(|memory| memory.focused().is_some());
-    for shortcut in of_workspace(state.workspace).iter().chain(&SHORTCUTS) {
-        let is_plain = shortcut.modifiers.is_none();
+    let workspace = state.workspace;
+    let own = own.iter().copied().enumerate();
+    let own = own.map(|(place, binding)| (binding, Pressed::Own(place)));
+    let named = of_workspace(workspace).iter().chain(&SHORTCUTS);
+    let named = named.map(|shortcut| (shortcut.binding(), Pressed::Named(shortcut.action)));
+    for (binding, pressed) in own.chain(named) {
+        let is_plain = binding.modifiers.is_none();
         // In a text that is being written, Ctrl Z takes back what was written.
-        let is_of_text = is_plain || shortcut.key == Key::Z;
-        let presses = matches!(shortcut.key, Key::Space | Key::Enter);
+        let is_of_text = is_plain || binding.key == Key::Z;
+        let presses = matches!(binding.key, Key::Space | Key::Enter);
         // A text has no use for Escape but to be left: what is open closes by the same press.
-        let is_taken = is_writing || was_writing && shortcut.key != Key::Escape;
+        let is_taken = is_writing || was_writing && binding.key != Key::Escape;
         if presses && is_pressing || is_of_text && is_taken {
             continue;
         }
-        let keys = KeyboardShortcut::new(shortcut.modifiers, shortcut.key);
+        let keys = KeyboardShortcut::new(binding.modifiers, binding.key);
         if ctx.input_mut(|input| input.consume_shortcut(&keys)) {
-            actions.push((shortcut.action)());
+            actions.push(match pressed {
+                Pressed::Own(place) => Action::Press(workspace, place),
+                Pressed::Named(action) => action(),
+            });
         }
     }
     if is_writing || was_writing {
@@ -208,7 +220,13 @@ fn remember_writing(ctx: &egui::Context, is_writing: bool) -> bool {
 }
 
 /// The list of shortcuts.
-pub(super) fn help(ctx: &egui::Context, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+pub(super) fn help(
+    ctx: &egui::Context,
+    state: &State,
+    own: &[KeyBinding],
+    theme: &Theme,
+    actions: &mut Vec<Action>,
+) {
     if state.help == HelpPage::Closed {
         return;
     }
@@ -230,8 +248,9 @@ pub(super) fn help(ctx: &egui::Context, state: &State, theme: &Theme, actions: &
                 .spacing(vec2(24.0, 6.0));
             ScrollArea::vertical().max_height(room).show(ui, |ui| {
                 list.show(ui, |ui| {
-                    let own = of_workspace(state.workspace).iter();
-                    let named = SHORTCUTS.iter().chain(own).map(|s| (s.keys, s.does));
+                    let own = own.iter().map(|binding| (binding.keys, binding.does));
+                    let named = of_workspace(state.workspace).iter();
+                    let named = SHORTCUTS.iter().chain(named).map(|s| (s.keys, s.does));
                     let of_rail = RAIL_KEYS.into_iter().zip(Workspace::ALL);
                     let of_rail = of_rail.map(|((_, keys), workspace)| (keys, workspace.title()));
                     let of_picture = match state.workspace {
@@ -239,7 +258,7 @@ pub(super) fn help(ctx: &egui::Context, state: &State, theme: &Theme, actions: &
                         _ => &[],
                     };
                     let others = of_picture.iter().copied().chain(OTHER_KEYS);
-                    for (keys, does) in named.chain(of_rail).chain(others) {
+                    for (keys, does) in named.chain(own).chain(of_rail).chain(others) {
                         ui.label(RichText::new(keys).font(font::body_strong()));
                         ui.label(RichText::new(does).color(theme.weak_text));
                         ui.end_row();

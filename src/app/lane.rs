@@ -11,8 +11,6 @@ pub enum Lane {
     Enrol,
     /// Inspects again with other parameters, and runs kept cases.
     Compare,
-    /// Aligns clouds.
-    Align,
     /// Writes files that a person asked for.
     Write,
     /// Changes the library: what it began it finishes.
@@ -25,12 +23,11 @@ pub enum Lane {
 
 impl Lane {
     /// Every lane.
-    pub const ALL: [Self; 9] = [
+    pub const ALL: [Self; 8] = [
         Self::Inspect,
         Self::Live,
         Self::Enrol,
         Self::Compare,
-        Self::Align,
         Self::Write,
         Self::Library,
         Self::History,
@@ -44,7 +41,6 @@ impl Lane {
             Self::Live => "live",
             Self::Enrol => "enrol",
             Self::Compare => "compare",
-            Self::Align => "align",
             Self::Write => "write",
             Self::Library => "library",
             Self::History => "look",

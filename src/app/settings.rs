@@ -15,7 +15,7 @@ use super::{
     robot::{RememberedCell, RobotState},
     roles::{LOCK_AFTER, Pin, RoleState, is_operators},
     source::CellChoice,
-    state::{Source, State, ThemeChoice, Workspace},
+    state::{Session, Source, State, ThemeChoice, Workspace},
     unit_system::UnitSystem,
 };
 use crate::{capture::SourceSpec, files::write_atomically, pipeline::Recipe, robot::Convention};
@@ -154,7 +154,7 @@ impl Settings {
 
     /// The state to start in.
     pub fn into_state(self) -> State {
-        State {
+        let session = Session {
             theme: self.theme,
             units: self.units,
             workspace: match &self.pin {
@@ -170,6 +170,10 @@ impl Settings {
                 RememberedSource::Camera(spec) => Source::Camera(Box::new(spec)),
             },
             recipe: Arc::new(self.recipe.unwrap_or_default()),
+            ..Session::default()
+        };
+        State {
+            session,
             live: LiveState::averaging(self.average),
             roles: RoleState::starting(self.pin, self.lock_after),
             cell: RobotState {

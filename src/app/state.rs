@@ -1,51 +1,35 @@
 //! What the window knows: plain data, without any type of the user interface.
 
-use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
+use std::{
+    collections::BTreeMap,
+    ops::{Deref, DerefMut},
+};
 
+pub use super::shell::{
+    notice::{Notice, NoticeKind},
+    session::{Session, Shown, Source, ThemeChoice, WorkspaceKind as Workspace},
+};
 use super::{
     action::Effect,
-    align::AlignState,
     compare::CompareState,
     enrol::EnrolState,
     history::HistoryState,
-    inspect::{state::InspectState, work::Inspected},
-    job::{Request, Trouble},
+    inspect::state::InspectState,
+    job::Request,
     lane::Lane,
     live::{self, LiveState},
     robot::RobotState,
     roles::RoleState,
-    shelf::LibraryShown,
-    source::CellChoice,
-    unit_system::UnitSystem,
 };
-use crate::{
-    capture::SourceSpec,
-    pipeline::{Recipe, Stage},
-    robot::{Convention, RobotFrame},
-    stages::segment::EmptyCell,
-};
+use crate::pipeline::Stage;
 
 /// Everything that the panels read. Only [`apply`](super::action::apply) changes it.
 #[derive(Debug, Default)]
 pub struct State {
-    /// What Capture takes a scene from.
-    pub source: Source,
-    /// What the camera saw without a part, if that was taken.
-    pub empty_cell: Option<Arc<EmptyCell>>,
-    /// The last result.
-    pub shown: Option<Shown>,
+    /// What the workspaces share.
+    pub session: Session,
     /// What is being worked on, by whom; while a scene is, the result shown is old.
     pub works: BTreeMap<Lane, Work>,
-    /// The workspace in front.
-    pub workspace: Workspace,
-    /// Units that lengths and angles are shown in.
-    pub units: UnitSystem,
-    /// Colours.
-    pub theme: ThemeChoice,
-    /// In which numbers the robot is told a pose.
-    pub convention: Convention,
-    /// Where the camera stands in the robot's base frame, if the cell is calibrated.
-    pub robot: Option<Arc<RobotFrame>>,
     /// The cell's calibration, and the dialog about it.
     pub cell: RobotState,
     /// What a person should know, oldest first.
@@ -56,14 +40,6 @@ pub struct State {
     pub candidate: usize,
     /// Whether the list of shortcuts is open.
     pub help: HelpPage,
-    /// Scenes opened last, the newest first.
-    pub recent: Vec<PathBuf>,
-    /// The library's folder that a person chose in the window.
-    pub chosen_library: Option<PathBuf>,
-    /// The library in use, once loaded.
-    pub library: Option<Arc<LibraryShown>>,
-    /// The parameters that scenes are inspected with.
-    pub recipe: Arc<Recipe>,
     /// How many frames of the simulated cell were asked for.
     pub num_captures: u64,
     /// The generation of the newest request.
@@ -78,10 +54,22 @@ pub struct State {
     pub enrol: EnrolState,
     /// Of the Compare workspace.
     pub compare: CompareState,
-    /// Of the Align workspace.
-    pub align: AlignState,
     /// Of the History workspace.
     pub history: HistoryState,
+}
+
+impl Deref for State {
+    type Target = Session;
+
+    fn deref(&self) -> &Session {
+        &self.session
+    }
+}
+
+impl DerefMut for State {
+    fn deref_mut(&mut self) -> &mut Session {
+        &mut self.session
+    }
 }
 
 impl State {
@@ -132,36 +120,6 @@ impl State {
     }
 }
 
-/// Where Capture takes a scene from.
-#[derive(Clone, Debug, PartialEq)]
-pub enum Source {
-    /// The simulated cell.
-    Cell(CellChoice),
-    /// A file, read again at each capture.
-    File(PathBuf),
-    /// A camera, a recording, a watched folder, or the simulated cell as somebody has set it up.
-    Camera(Box<SourceSpec>),
-}
-
-impl Default for Source {
-    fn default() -> Self {
-        Self::Cell(CellChoice::default())
-    }
-}
-
-/// A result, and the number by which what was made for it is known.
-#[derive(Clone, Debug)]
-pub struct Shown {
-    /// The generation of the request that it answers.
-    pub generation: u64,
-    /// The result.
-    pub inspected: Arc<Inspected>,
-    /// True if it was taken out of the history.
-    pub is_past: bool,
-    /// Of a frame among others: which session of following it belongs to.
-    pub session: Option<u64>,
-}
-
 /// A request at work.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Work {
@@ -175,82 +133,14 @@ pub struct Work {
     pub progress: Option<(usize, usize)>,
 }
 
-/// The workspaces.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Workspace {
-    /// The operator's: which part is it, and is it accepted?
-    #[default]
-    Inspect,
-    /// New parts.
-    Enrol,
-    /// The engineer's: why was this taken for that?
-    Compare,
-    /// Methods of pose estimation side by side.
-    Align,
-    /// What was inspected before.
-    History,
-}
-
 impl Workspace {
-    /// Every workspace, in the order of the rail and of the number keys.
-    pub const ALL: [Self; 5] = [
-        Self::Inspect,
-        Self::Enrol,
-        Self::Compare,
-        Self::Align,
-        Self::History,
-    ];
-
-    /// What a person calls it.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::Inspect => "Inspect",
-            Self::Enrol => "Enrol",
-            Self::Compare => "Compare",
-            Self::Align => "Align",
-            Self::History => "History",
-        }
-    }
-
     /// Who works for it.
     pub fn lane(self) -> Option<Lane> {
         match self {
             Self::Inspect => Some(Lane::Inspect),
             Self::Enrol => Some(Lane::Enrol),
             Self::Compare => Some(Lane::Compare),
-            Self::Align => Some(Lane::Align),
-            Self::History => None,
-        }
-    }
-}
-
-/// Colours.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum ThemeChoice {
-    /// Light on dark.
-    #[default]
-    Dark,
-    /// Dark on light.
-    Light,
-}
-
-impl ThemeChoice {
-    /// What a person calls it.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::Dark => "Dark",
-            Self::Light => "Light",
-        }
-    }
-
-    /// The other one.
-    #[must_use]
-    pub fn other(self) -> Self {
-        match self {
-            Self::Dark => Self::Light,
-            Self::Light => Self::Dark,
+            Self::Align | Self::History => None,
         }
     }
 }
@@ -263,58 +153,6 @@ pub enum HelpPage {
     Closed,
     /// Open.
     Open,
-}
-
-/// What a notice is about.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum NoticeKind {
-    /// Something deserves a look.
-    #[default]
-    Look,
-    /// Something was done.
-    Done,
-    /// Something was done that can be taken back.
-    Undoable,
-}
-
-/// Something that a person should know.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Notice {
-    /// What it is about.
-    pub kind: NoticeKind,
-    /// What happened.
-    pub what: String,
-    /// What to do about it; may be empty.
-    pub advice: String,
-}
-
-impl Notice {
-    /// Something was done.
-    pub fn done(what: impl Into<String>) -> Self {
-        Self {
-            kind: NoticeKind::Done,
-            what: what.into(),
-            advice: String::new(),
-        }
-    }
-
-    /// Something was done that can be taken back.
-    pub fn undoable(what: impl Into<String>) -> Self {
-        Self {
-            kind: NoticeKind::Undoable,
-            ..Self::done(what)
-        }
-    }
-}
-
-impl From<Trouble> for Notice {
-    fn from(Trouble { what, advice }: Trouble) -> Self {
-        Self {
-            kind: NoticeKind::Look,
-            what,
-            advice,
-        }
-    }
 }
 
 /// The pictures of the stage strip, in order.

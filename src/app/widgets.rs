@@ -1,8 +1,11 @@
 //! Small things that several panels draw.
 
-use egui::{Align, Align2, Color32, Layout, Painter, Pos2, Rect, RichText, Stroke, Ui, pos2, vec2};
+use egui::{
+    Align, Align2, Button, Color32, Layout, Painter, Pos2, Rect, RichText, Stroke, StrokeKind, Ui,
+    Vec2, pos2, vec2,
+};
 
-use super::theme::{Theme, font};
+use super::theme::{ROUNDING, Theme, font, space};
 
 /// What a mark says beside its colour.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -111,4 +114,35 @@ impl Scale {
 pub(super) fn curve(values: &[f32], across: &Scale, up: &Scale) -> Vec<Pos2> {
     let place = |(i, value): (usize, &f32)| pos2(across.at(i as f32), up.at(*value));
     values.iter().enumerate().map(place).collect()
+}
+
+/// Shows which hand-drawn control has the focus.
+pub(super) fn focus_ring(ui: &Ui, rect: Rect, response: &egui::Response, theme: &Theme) {
+    if response.has_focus() {
+        let stroke = Stroke::new(2.0, theme.accent);
+        ui.painter()
+            .rect_stroke(rect.shrink(1.0), ROUNDING, stroke, StrokeKind::Inside);
+    }
+}
+
+/// A button that is called by its text alone, whatever shortcut it shows.
+pub(super) fn labelled(ui: &mut Ui, button: Button<'_>, label: &str) -> egui::Response {
+    let response = ui.add(button.min_size(Vec2::splat(space::TARGET)));
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, label));
+    response
+}
+
+/// The text, its middle left out where it is too long.
+pub(super) fn shortened(text: &str, most: usize) -> String {
+    let letters: Vec<char> = text.chars().collect();
+    if letters.len() <= most {
+        return text.to_owned();
+    }
+    let half = most / 2;
+    let (head, tail) = (&letters[..half], &letters[letters.len() - half..]);
+    format!(
+        "{}…{}",
+        head.iter().collect::<String>(),
+        tail.iter().collect::<String>()
+    )
 }

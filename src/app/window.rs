@@ -1,17 +1,17 @@
 //! The window as eframe drives it: fetch news, draw the last result, apply what was done.
 
-use std::{collections::BTreeMap, io, path::PathBuf, sync::Arc, task::Poll, time::Duration};
+use std::{any::Any, collections::BTreeMap, io, path::PathBuf, sync::Arc, time::Duration};
 
 use eframe::egui_wgpu::RenderState;
 use egui::{CentralPanel, Frame, Ui};
 
 use super::{
     action::{Action, Ask, Effect, apply},
-    align::AlignPanel,
-    bars,
+    align::AlignWorkspace,
+    bars::{self, Progress},
     camera::Camera,
     compare::{self, CompareState},
-    dialog::Dialog,
+    dialog,
     enrol::EnrolPanel,
     headless::WorkCounts,
     history::{self, HistoryAction, HistoryJob, HistoryPanel},
@@ -25,8 +25,14 @@ use super::{
     roles::{self, RoleAction},
     settings,
     shelf::Shelf,
-    shell::task::TaskRunner,
-    state::{Notice, Source, State, ThemeChoice, Workspace},
+    shell::{
+        context::{Services, ShellContext},
+        file_dialog::{DialogLock, FileDialog},
+        message::Message,
+        task::{Running, TaskRunner},
+        workspace::Workspace,
+    },
+    state::{Notice, Source, State, ThemeChoice, Workspace as WorkspaceKind},
     theme::Theme,
     viewport::{ViewError, ViewportGpu},
     worker::Worker,
@@ -60,12 +66,15 @@ pub struct Window {
     history_writer: Writer,
     kept: Arc<Keeper>,
     memory: Memory,
-    dialog: Option<Dialog>,
+    dialog: FileDialog<Ask>,
+    services: Services,
+    workspaces: Vec<Box<dyn Workspace>>,
+    /// What the workspaces have sent and was not done yet.
+    messages: Vec<Message>,
     installed: Option<ThemeChoice>,
     gpu: Result<ViewportGpu, ViewError>,
     inspect: InspectPanel,
     enrol: EnrolPanel,
-    align: AlignPanel,
     history: HistoryPanel,
     /// When a hand was last on the window, seconds on egui's clock.
     touched: f64,
@@ -123,12 +132,17 @@ impl Window {
             workers,
             history_writer,
             kept,
-            dialog: None,
+            dialog: FileDialog::default(),
+            services: Services {
+                shelf,
+                dialogs: DialogLock::default(),
+            },
+            workspaces: vec![Box::new(AlignWorkspace::new(&gpu, &runner))],
+            messages: Vec::new(),
             installed: None,
             gpu: gpu.clone(),
             inspect: InspectPanel::new(gpu.clone()),
             enrol: EnrolPanel::new(gpu.clone()),
-            align: AlignPanel::new(&gpu),
             history: HistoryPanel::new(),
             touched: ctx.input(|input| input.time),
         };
@@ -175,8 +189,14 @@ impl Window {
                 }
             }
             Effect::ShowDialog(ask) => {
-                // One at a time: a second would hide behind the first.
-                self.dialog.get_or_insert_with(|| Dialog::open(ask, ctx));
+                let lock = &self.services.dialogs;
+                self.dialog.open(ask, &dialog::request(ask), lock, ctx);
+            }
+            Effect::Press(kind, place) => {
+                self.lend(kind, ctx, |workspace, cx| workspace.press(place, cx));
+            }
+            Effect::CancelTask(kind) => {
+                self.lend(kind, ctx, |workspace, _| workspace.cancel());
             }
             Effect::CopyText(text) => ctx.copy_text(text),
             Effect::History(job) => self.write_history(job),
@@ -187,6 +207,85 @@ impl Window {
                 }
             }
         }
+    }
+
+    /// The workspace of this type.
+    pub fn workspace<W: Workspace>(&self) -> Option<&W> {
+        let mut all = self.workspaces.iter();
+        all.find_map(|workspace| (workspace.as_ref() as &dyn Any).downcast_ref())
+    }
+
+    /// Lends the workspace of this type the shell, as when a person does something in it.
+    pub fn with<W: Workspace, R>(
+        &mut self,
+        ctx: &egui::Context,
+        act: impl FnOnce(&mut W, &mut ShellContext<'_>) -> R,
+    ) -> Option<R> {
+        let kind = self.workspace::<W>()?.kind();
+        self.lend(kind, ctx, |workspace, cx| {
+            let workspace = (workspace as &mut dyn Any).downcast_mut()?;
+            Some(act(workspace, cx))
+        })?
+    }
+
+    fn hosted(&self, kind: WorkspaceKind) -> Option<&dyn Workspace> {
+        let mut all = self.workspaces.iter().map(Box::as_ref);
+        all.find(|workspace| workspace.kind() == kind)
+    }
+
+    /// Lends a workspace the shell, and does what it sends.
+    fn lend<R>(
+        &mut self,
+        kind: WorkspaceKind,
+        ctx: &egui::Context,
+        act: impl FnOnce(&mut dyn Workspace, &mut ShellContext<'_>) -> R,
+    ) -> Option<R> {
+        let mut all = self.workspaces.iter_mut();
+        let workspace = all.find(|workspace| workspace.kind() == kind)?;
+        let (session, services) = (&self.state.session, &self.services);
+        let mut cx = ShellContext::new(ctx, session, services, &mut self.messages);
+        let done = act(workspace.as_mut(), &mut cx);
+        for message in std::mem::take(&mut self.messages) {
+            self.deliver(message, ctx);
+        }
+        Some(done)
+    }
+
+    fn deliver(&mut self, message: Message, ctx: &egui::Context) {
+        match message {
+            Message::Notify(notice) => self.act(Action::Notify(notice), ctx),
+            Message::CopyText(text) => ctx.copy_text(text),
+        }
+    }
+
+    /// The work that the top bar tells of: the front workspace's own, else any.
+    fn work(&self) -> Option<Progress> {
+        let of_hosted = |workspace: &dyn Workspace| {
+            let running = workspace.running()?.clone();
+            let cancel = Action::CancelTask(workspace.kind());
+            Some(Progress { running, cancel })
+        };
+        let own = self.hosted(self.state.workspace).and_then(of_hosted);
+        let named = || {
+            let (lane, work) = self.state.work()?;
+            let running = Running {
+                title: work.what.clone(),
+                stage: work.stage,
+                progress: work.progress,
+            };
+            let cancel = Action::Cancel(lane);
+            Some(Progress { running, cancel })
+        };
+        own.or_else(named).or_else(|| {
+            let mut all = self.workspaces.iter().map(Box::as_ref);
+            all.find_map(of_hosted)
+        })
+    }
+
+    /// True while nothing is at work.
+    pub fn is_idle(&self) -> bool {
+        let mut all = self.workspaces.iter();
+        self.state.works.is_empty() && all.all(|workspace| workspace.is_idle())
     }
 
     fn write_history(&self, job: HistoryJob) {
@@ -222,15 +321,16 @@ impl Window {
 
     /// A source that is not there any more gives way to the simulated cell.
     fn forget_a_vanished_file(&mut self) {
-        if let Source::File(path) = &self.state.source
+        let session = &mut self.state.session;
+        if let Source::File(path) = &session.source
             && !path.exists()
         {
             let gone = Trouble {
                 what: format!("{} is not there any more", path.display()),
                 advice: "The simulated cell takes its place".into(),
             };
-            self.state.recent.retain(|known| known != path);
-            self.state.source = Source::default();
+            session.recent.retain(|known| known != path);
+            session.source = Source::default();
             self.state.notices.push(gone.into());
         }
     }
@@ -276,11 +376,13 @@ impl Window {
         for news in self.kept.take_news() {
             self.act(Action::History(HistoryAction::Hear(news)), ctx);
         }
-        if let Some(Poll::Ready(closed)) = self.dialog.as_mut().map(Dialog::poll) {
-            self.dialog = None;
-            if let Some(action) = closed {
-                self.act(action, ctx);
-            }
+        for kind in WorkspaceKind::ALL {
+            self.lend(kind, ctx, |workspace, cx| workspace.update(cx));
+        }
+        match self.dialog.poll() {
+            Some((ask, Ok(path))) => self.act(Action::Chosen(ask, path), ctx),
+            Some((_, Err(notice))) => self.act(Action::Notify(notice), ctx),
+            None => {}
         }
         self.take_drops(ctx);
         if let Some(notice) = self.memory.keep(&self.state, ctx) {
@@ -297,35 +399,40 @@ impl Window {
         let ctx = ui.ctx().clone();
         let theme = Theme::of(self.state.theme);
         let mut actions = Vec::new();
-        bars::top_bar(ui, &self.state, theme, &mut actions);
+        let work = self.work();
+        bars::top_bar(ui, &self.state, work, theme, &mut actions);
         rail::ui(ui, &self.state, theme, &mut actions);
-        let canvas = match self.state.workspace {
+        let front = self.state.workspace;
+        let canvas = match front {
             // Its view covers everything: a software driver paints what is beneath all the same.
-            Workspace::Inspect => Frame::new(),
+            WorkspaceKind::Inspect => Frame::new(),
             _ => Frame::new().fill(theme.canvas),
         };
         CentralPanel::default()
             .frame(canvas)
-            .show(ui, |ui| match self.state.workspace {
-                Workspace::Inspect => self.inspect.ui(ui, &self.state, theme, &mut actions),
-                Workspace::Enrol => self.enrol.ui(ui, &self.state, theme, &mut actions),
-                Workspace::Compare => compare::ui(ui, &self.state, theme, &mut actions),
-                Workspace::Align => self.align.ui(ui, &self.state, theme, &mut actions),
-                Workspace::History => self.history.ui(ui, &self.state, theme, &mut actions),
+            .show(ui, |ui| match front {
+                WorkspaceKind::Inspect => self.inspect.ui(ui, &self.state, theme, &mut actions),
+                WorkspaceKind::Enrol => self.enrol.ui(ui, &self.state, theme, &mut actions),
+                WorkspaceKind::Compare => compare::ui(ui, &self.state, theme, &mut actions),
+                WorkspaceKind::History => self.history.ui(ui, &self.state, theme, &mut actions),
+                WorkspaceKind::Align => {
+                    self.lend(front, &ctx, |workspace, cx| workspace.ui(ui, cx));
+                }
             });
-        let view_has_focus = match self.state.workspace {
-            Workspace::Inspect => self.inspect.view_has_focus(),
-            Workspace::Enrol => self.enrol.view_has_focus(),
-            Workspace::Align => self.align.view_has_focus(),
-            Workspace::Compare | Workspace::History => false,
+        let hosted = self.hosted(front);
+        let view_has_focus = match front {
+            WorkspaceKind::Inspect => self.inspect.view_has_focus(),
+            WorkspaceKind::Enrol => self.enrol.view_has_focus(),
+            _ => hosted.is_some_and(Workspace::has_key_focus),
         };
+        let keys = hosted.map_or_else(Vec::new, Workspace::key_bindings);
         notices::ui(&ctx, &self.state, theme, &mut actions);
         live::set_up(&ctx, &self.state, theme, &mut actions);
         history::keeping_ui(&ctx, &self.state, theme, &mut actions);
         roles::dialog(&ctx, &self.state, theme, &mut actions);
         robot::ui(&ctx, &self.state, theme, &mut actions);
-        keys::help(&ctx, &self.state, theme, &mut actions);
-        keys::shortcuts(&ctx, &self.state, view_has_focus, &mut actions);
+        keys::help(&ctx, &self.state, &keys, theme, &mut actions);
+        keys::shortcuts(&ctx, &self.state, &keys, view_has_focus, &mut actions);
         for action in actions {
             self.act(action, &ctx);
         }

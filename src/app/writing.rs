@@ -31,13 +31,6 @@ use crate::{
 /// What is to be written.
 #[derive(Clone, Debug)]
 pub enum WriteRequest {
-    /// A text file.
-    Text {
-        /// Where to.
-        path: PathBuf,
-        /// Its contents.
-        text: String,
-    },
     /// An inspection: a line of JSON, the pictures of its stages, and the pose report as JSON, PDF and a row of CSV.
     Report {
         /// Where to.
@@ -101,14 +94,6 @@ pub(super) fn answer(request: &WriteRequest, shelf: &Shelf) -> Result<Written, T
     match request {
         WriteRequest::Past { filter, to } => {
             super::history::write_past(filter, to, shelf.history())
-        }
-        WriteRequest::Text { path, text } => {
-            write_atomically(path, |writer| writer.write_all(text.as_bytes()))
-                .map_err(|error| Trouble::of(&error))?;
-            Ok(Written {
-                what: format!("Wrote {}", path.display()),
-                path: path.clone(),
-            })
         }
         WriteRequest::Report {
             folder,
@@ -272,30 +257,4 @@ fn on_paper(shot: &ViewShot) -> ViewShot {
     let mut shot = shot.clone();
     shot.style.colours = ViewColours::light();
     shot
-}
-
-#[cfg(test)]
-mod tests {
-    use super::*;
-
-    #[test]
-    fn a_text_is_written_whole_and_a_missing_folder_is_said_in_words() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let path = folder.path().join("table.csv");
-        let text = "part,e_m2\nfender,1e-7\n".to_owned();
-        let written = answer(
-            &WriteRequest::Text {
-                path: path.clone(),
-                text: text.clone(),
-            },
-            &Shelf::default(),
-        );
-        let what = written.expect("written").what;
-        assert_eq!(what, format!("Wrote {}", path.display()));
-        assert_eq!(std::fs::read_to_string(&path).expect("read"), text);
-        let path = folder.path().join("missing").join("table.csv");
-        let trouble =
-            answer(&WriteRequest::Text { path, text }, &Shelf::default()).expect_err("refused");
-        assert!(!trouble.what.is_empty() && !trouble.advice.is_empty());
-    }
 }

@@ -5,15 +5,13 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use partsight::{
     app::{
         WindowOptions,
-        action::{Action, Ask},
-        align::{AlignAsk, Pairing, Playback, Start},
-        lane::Lane,
+        align::{AlignAction, AlignFile, AlignState, AlignWorkspace, Pairing, Playback, Start},
         state::{NoticeKind, Workspace},
     },
     stages::pose::PoseMethod,
 };
 
-use super::set_up::{SMALL, USUAL, WindowHarness, open_with, settle, wait_until};
+use super::set_up::{SMALL, USUAL, WindowHarness, open_with, settle, wait_for};
 
 fn open_at(size: Vec2) -> WindowHarness {
     let mut harness = open_with(size, WindowOptions::default());
@@ -26,6 +24,11 @@ fn open() -> WindowHarness {
     open_at(USUAL)
 }
 
+fn own(harness: &WindowHarness) -> &AlignState {
+    let workspace = harness.state().workspace::<AlignWorkspace>();
+    workspace.expect("the workspace").state()
+}
+
 /// Presses without waiting for what comes of it.
 fn press_quickly(harness: &mut WindowHarness, label: &str) {
     harness.get_by_label(label).click();
@@ -34,7 +37,7 @@ fn press_quickly(harness: &mut WindowHarness, label: &str) {
 
 /// The iteration shown, as it stands in the text.
 fn place(harness: &WindowHarness) -> usize {
-    harness.state().state().align.place.round() as usize
+    own(harness).place.round() as usize
 }
 
 #[test]
@@ -48,7 +51,7 @@ fn a_part_from_t4_is_aligned_by_every_method_and_scrubbed() {
     press_quickly(&mut harness, "Run");
     settle(&mut harness);
     let num_methods = PoseMethod::ALL.len();
-    let align = &harness.state().state().align;
+    let align = own(&harness);
     let shown = align.shown.as_ref().expect("a result");
     assert_eq!(shown.pair.title, "Fender, left from T4");
     assert_eq!(shown.runs.len(), num_methods);
@@ -80,7 +83,7 @@ fn a_part_from_t4_is_aligned_by_every_method_and_scrubbed() {
     let num_captures = harness.state().state().num_captures;
     harness.key_press(Key::Space);
     harness.run_steps(3);
-    assert_eq!(harness.state().state().align.playback, Playback::Playing);
+    assert_eq!(own(&harness).playback, Playback::Playing);
     assert!(place(&harness) > 0);
     press_quickly(&mut harness, "Pause");
     let paused = place(&harness);
@@ -113,17 +116,20 @@ fn a_drag_on_the_plot_scrubs() {
 fn a_cancelled_table_keeps_its_rows_and_a_row_opens() {
     let mut harness = open();
     press_quickly(&mut harness, "Run Table I");
-    wait_until(&mut harness, |state| !state.align.table.rows.is_empty());
+    wait_for(&mut harness, |window| {
+        let workspace = window.workspace::<AlignWorkspace>();
+        workspace.is_some_and(|align| !align.state().table.rows.is_empty())
+    });
     harness.get_by_label_contains(" of 40 done");
     press_quickly(&mut harness, "Cancel Table I");
-    assert!(harness.state().state().works.is_empty());
-    let num = harness.state().state().align.table.rows.len();
+    assert!(harness.state().is_idle());
+    let num = own(&harness).table.rows.len();
     assert!((1..40).contains(&num), "{num} rows");
     harness.get_by_label(&format!("Stopped at {num} of 40"));
     harness.run_steps(5);
-    assert_eq!(harness.state().state().align.table.rows.len(), num);
+    assert_eq!(own(&harness).table.rows.len(), num);
 
-    let row = &harness.state().state().align.table.rows[0];
+    let row = &own(&harness).table.rows[0];
     let label = format!("{}, T1", row.title);
     let title = format!("{} from T1", row.title);
     harness.get_by_label_contains(&label).click();
@@ -140,8 +146,11 @@ fn a_cancelled_table_keeps_its_rows_and_a_row_opens() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("table1.csv");
     let context = harness.ctx.clone();
-    let chosen = Action::Chosen(Ask::Align(AlignAsk::TableFile), path.clone());
-    harness.state_mut().act(chosen, &context);
+    let chosen = AlignAction::Chosen(AlignFile::TableFile, path.clone());
+    let window = harness.state_mut();
+    window.with(&context, |workspace: &mut AlignWorkspace, cx| {
+        workspace.state_mut().apply(chosen, cx);
+    });
     settle(&mut harness);
     let text = std::fs::read_to_string(&path).expect("written");
     assert_eq!(text.lines().count(), 1 + num);
@@ -160,7 +169,7 @@ fn the_part_of_the_scene_in_front_is_aligned_to_the_reference() {
     settle(&mut harness);
     harness.get_by_label("Simulated frame 1 onto Front door, left");
     harness.get_by_label("Off by less than, in 95 of 100 cases");
-    let align = &harness.state().state().align;
+    let align = own(&harness);
     let shown = align.shown.as_ref().expect("a result");
     let global = shown
         .tracks()
@@ -190,10 +199,7 @@ fn a_custom_start_is_written_and_a_random_one_comes_again() {
         .type_text("0deg 10mm 0 0");
     harness.run_steps(2);
     press_quickly(&mut harness, "Use this start");
-    assert!(matches!(
-        harness.state().state().align.start,
-        Start::Custom(_)
-    ));
+    assert!(matches!(own(&harness).start, Start::Custom(_)));
     assert!(harness.query_by_label("Use this start").is_none());
 
     press_quickly(&mut harness, "Random");
@@ -201,7 +207,7 @@ fn a_custom_start_is_written_and_a_random_one_comes_again() {
     let ends = |harness: &mut WindowHarness| {
         press_quickly(harness, "Run");
         settle(harness);
-        let align = &harness.state().state().align;
+        let align = own(harness);
         let shown = align.shown.as_ref().expect("a result");
         let poses = shown.tracks().map(|(_, track)| track.poses.clone());
         poses.collect::<Vec<_>>()
@@ -221,7 +227,7 @@ fn a_run_is_cancelled_at_once() {
         cancel.click();
     }
     harness.run_steps(2);
-    assert!(!harness.state().state().works.contains_key(&Lane::Align));
+    assert!(own(&harness).running().is_none());
 }
 
 #[test]

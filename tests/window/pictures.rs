@@ -17,7 +17,7 @@ use partsight::{
     app::{
         Window, WindowOptions,
         action::{Action, Ask},
-        align::{AlignAction, AlignAnswer, MethodRun},
+        align::{AlignWorkspace, MethodRun},
         camera::Camera,
         inspect::work::{InspectRequest, Inspected, inspect},
         job::Answer,
@@ -122,32 +122,19 @@ fn open_with(size: Vec2, inspected: Inspected) -> WindowHarness {
 
 /// The same alignments once more, as if every method took the same time.
 fn run_again_in_no_time(harness: &mut WindowHarness) {
-    let shown = harness.state().state().align.shown.as_ref();
-    let shown = shown.expect("aligned");
-    let (pair, runs) = (Arc::clone(&shown.pair), shown.runs.clone());
-    let mut answers = vec![AlignAnswer::Prepared(pair)];
-    answers.extend(runs.iter().map(|run| {
-        let mut run = MethodRun::clone(run);
-        run.time = Duration::from_millis(100);
-        AlignAnswer::Ran(Arc::new(run))
-    }));
     let context = harness.ctx.clone();
     let window = harness.state_mut();
-    window.act(Action::Align(AlignAction::Run), &context);
-    let generation = window.state().generation;
-    let told = |outcome| News::Partly {
-        generation,
-        outcome: Ok(Answer::Align(outcome)),
-    };
-    for answer in answers {
-        window.act(Action::Hear(Lane::Align, told(answer)), &context);
-    }
-    // The thread's own answers are wanted by nobody any more.
-    let finished = News::Done {
-        generation,
-        outcome: Ok(Answer::Align(AlignAnswer::Finished)),
-    };
-    window.act(Action::Hear(Lane::Align, finished), &context);
+    window.with(&context, |workspace: &mut AlignWorkspace, _| {
+        let align = workspace.state_mut();
+        let shown = align.shown.as_ref().expect("aligned");
+        let (pair, runs) = (Arc::clone(&shown.pair), shown.runs.clone());
+        let runs = runs.iter().map(|run| {
+            let mut run = MethodRun::clone(run);
+            run.time = Duration::from_millis(100);
+            Arc::new(run)
+        });
+        align.show(pair, runs);
+    });
     settle(harness);
 }
 

@@ -39,9 +39,10 @@ pub(crate) fn open() -> WindowHarness {
 
 /// Draws until nothing is at work any more.
 pub(crate) fn settle(harness: &mut WindowHarness) {
-    wait_until(harness, |state| {
+    wait_for(harness, |window| {
+        let state = window.state();
         let is_behind = state.workspace == Workspace::Compare && state.is_compare_behind();
-        state.works.is_empty() && !is_behind && state.history.is_settled()
+        window.is_idle() && !is_behind && state.history.is_settled()
     });
     harness.run_steps(8);
     // Wherever a test comes by: nothing to be pressed or filled in without a name.
@@ -49,15 +50,20 @@ pub(crate) fn settle(harness: &mut WindowHarness) {
 }
 
 /// Draws until the state is so.
+pub(crate) fn wait_until(harness: &mut WindowHarness, is_so: impl Fn(&State) -> bool) {
+    wait_for(harness, |window| is_so(window.state()));
+}
+
+/// Draws until the window is so.
 ///
 /// The window's clock goes on for what moves on the screen, then hardly any more: how long the work takes must not
 /// decide which notices still stand.
-pub(crate) fn wait_until(harness: &mut WindowHarness, is_so: impl Fn(&State) -> bool) {
+pub(crate) fn wait_for(harness: &mut WindowHarness, is_so: impl Fn(&Window) -> bool) {
     let until = Instant::now() + Duration::from_mins(3);
     let moving = (0..20).map(|_| 0.1);
     let mut ticks = moving.chain(std::iter::repeat(1e-3));
     harness.step();
-    while !is_so(harness.state().state()) {
+    while !is_so(harness.state()) {
         assert!(Instant::now() < until, "still working after three minutes");
         thread::sleep(Duration::from_millis(5));
         let time = harness.ctx.input(|input| input.time) + ticks.next().unwrap_or_default();

@@ -7,16 +7,15 @@ use egui::{
 use super::{
     custom::Form,
     start::Start,
-    state::{AlignAction, AlignAsk, AlignState, Pairing},
+    state::{AlignAction, AlignFile, AlignState, Pairing},
     views::Look,
 };
 use crate::app::{
-    action::{Action, Ask},
-    bars::{labelled, shortened},
+    shell::session::Session,
     source::file_name,
-    state::State,
     theme::{Theme, font, space},
     viewport::StandardView,
+    widgets::{labelled, shortened},
 };
 
 /// Longest name shown of a file.
@@ -26,8 +25,7 @@ const NAME: usize = 22;
 const REMARK: f32 = 18.0;
 
 /// The height that everything takes.
-pub(super) fn height(state: &State) -> f32 {
-    let align = &state.align;
+pub(super) fn height(align: &AlignState) -> f32 {
     let rows = 2.0 * space::TARGET + space::SMALL;
     if align.pairing != Pairing::MovedCopy || align.custom.form == Form::Closed {
         return rows;
@@ -39,24 +37,25 @@ pub(super) fn height(state: &State) -> f32 {
 /// Draws it; answers from where the views are to look, if a person said so.
 pub(super) fn ui(
     ui: &mut Ui,
-    state: &State,
+    align: &AlignState,
+    session: &Session,
     theme: &Theme,
-    actions: &mut Vec<Action>,
+    actions: &mut Vec<AlignAction>,
 ) -> Option<Look> {
     let mut look = None;
     ui.horizontal(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            run(ui, state, theme, actions);
+            run(ui, align, session, theme, actions);
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                 for pairing in Pairing::ALL {
-                    let is_chosen = state.align.pairing == pairing;
+                    let is_chosen = align.pairing == pairing;
                     if choice(ui, is_chosen, pairing.title()).clicked() {
-                        actions.push(Action::Align(AlignAction::Choose(pairing)));
+                        actions.push(AlignAction::Choose(pairing));
                     }
                 }
-                if state.align.pairing != Pairing::Files {
+                if align.pairing != Pairing::Files {
                     ui.add_space(space::SMALL);
-                    part_menu(ui, state, actions);
+                    part_menu(ui, align, session, actions);
                 }
             });
         });
@@ -65,17 +64,17 @@ pub(super) fn ui(
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             look = look_menu(ui);
             ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                match state.align.pairing {
-                    Pairing::MovedCopy => starts(ui, state, theme, actions),
-                    Pairing::Scene => scene(ui, state, theme),
-                    Pairing::Files => files(ui, state, actions),
+                match align.pairing {
+                    Pairing::MovedCopy => starts(ui, align, theme, actions),
+                    Pairing::Scene => scene(ui, align, session, theme),
+                    Pairing::Files => files(ui, align, actions),
                 }
             });
         });
     });
-    let is_writing = state.align.custom.form == Form::Open;
-    if state.align.pairing == Pairing::MovedCopy && is_writing {
-        custom(ui, state, theme, actions);
+    let is_writing = align.custom.form == Form::Open;
+    if align.pairing == Pairing::MovedCopy && is_writing {
+        custom(ui, align, theme, actions);
     }
     look
 }
@@ -106,8 +105,14 @@ fn choice(ui: &mut Ui, is_chosen: bool, text: &str) -> Response {
     ui.add(button.min_size(Vec2::splat(space::TARGET)))
 }
 
-fn run(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
-    let missing = AlignState::choice(state).err();
+fn run(
+    ui: &mut Ui,
+    align: &AlignState,
+    session: &Session,
+    theme: &Theme,
+    actions: &mut Vec<AlignAction>,
+) {
+    let missing = align.choice(session).err();
     let text = RichText::new("Run").font(font::body_strong());
     let key = RichText::new("R").font(font::small());
     let button = Button::new(text.color(theme.on_accent))
@@ -121,16 +126,16 @@ fn run(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
         None => clicked.on_hover_text("Align by every method (R)"),
     };
     if clicked.clicked() {
-        actions.push(Action::Align(AlignAction::Run));
+        actions.push(AlignAction::Run);
     }
 }
 
-fn part_menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
-    let Some(library) = &state.library else {
+fn part_menu(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut Vec<AlignAction>) {
+    let Some(library) = &session.library else {
         ui.label("The library is being loaded");
         return;
     };
-    let chosen = AlignState::chosen_part(state);
+    let chosen = align.chosen_part(session);
     let place = chosen.and_then(|name| library.place_of(name));
     let title = place.map_or("none", |place| library.title(place));
     let menu = ui.menu_button(format!("Part · {} ▼", shortened(title, 24)), |ui| {
@@ -141,7 +146,7 @@ fn part_menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
                 .selectable_label(chosen == Some(name), part.shown_title())
                 .clicked()
             {
-                actions.push(Action::Align(AlignAction::ChoosePart(name.to_owned())));
+                actions.push(AlignAction::ChoosePart(name.to_owned()));
                 ui.close();
             }
         }
@@ -151,14 +156,14 @@ fn part_menu(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
 }
 
 /// Starts of a moved copy.
-fn starts(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
-    let start = state.align.start;
+fn starts(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut Vec<AlignAction>) {
+    let start = align.start;
     ui.label(RichText::new("Start").color(theme.weak_text));
     for place in 0..Start::NUM_PAPER {
         let paper = Start::Paper(place);
         let button = choice(ui, start == paper, &paper.title());
         if button.on_hover_text(numbers(paper)).clicked() {
-            actions.push(Action::Align(AlignAction::ChooseStart(paper)));
+            actions.push(AlignAction::ChooseStart(paper));
         }
     }
     let is_custom = matches!(start, Start::Custom(_));
@@ -168,12 +173,12 @@ fn starts(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) 
         Start::Paper(_) | Start::Random(_) => button,
     };
     if button.clicked() {
-        actions.push(Action::Align(AlignAction::ToggleCustom));
+        actions.push(AlignAction::ToggleCustom);
     }
     let is_random = matches!(start, Start::Random(_));
     let button = choice(ui, is_random, "Random").on_hover_text("The next random start");
     if button.clicked() {
-        actions.push(Action::Align(AlignAction::DrawStart));
+        actions.push(AlignAction::DrawStart);
     }
     if let Start::Random(seed) = start {
         let mut number = seed;
@@ -183,7 +188,7 @@ fn starts(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) 
         ui.accesskit_node_builder(field.id, |node| node.set_label(label));
         if field.on_hover_text(numbers(start)).changed() {
             let start = Start::Random(number);
-            actions.push(Action::Align(AlignAction::ChooseStart(start)));
+            actions.push(AlignAction::ChooseStart(start));
         }
     }
 }
@@ -204,8 +209,8 @@ fn numbers(start: Start) -> String {
 }
 
 /// A start being written.
-fn custom(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
-    let custom = &state.align.custom;
+fn custom(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut Vec<AlignAction>) {
+    let custom = &align.custom;
     ui.horizontal(|ui| {
         let mut text = custom.text.clone();
         let field = TextEdit::singleline(&mut text)
@@ -218,7 +223,7 @@ fn custom(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) 
         let is_entered =
             field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
         if field.changed() {
-            actions.push(Action::Align(AlignAction::WriteCustom(text)));
+            actions.push(AlignAction::WriteCustom(text));
         }
         let use_it = ui
             .add_enabled_ui(custom.is_start(), |ui| {
@@ -226,7 +231,7 @@ fn custom(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) 
             })
             .inner;
         if use_it.clicked() || is_entered {
-            actions.push(Action::Align(AlignAction::UseCustom));
+            actions.push(AlignAction::UseCustom);
         }
     });
     let plain = "Radians and metres, or with a unit: deg, mm, cm, m; R = Rz·Ry·Rx";
@@ -246,9 +251,9 @@ fn custom(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) 
 }
 
 /// Which scene is aligned.
-fn scene(ui: &mut Ui, state: &State, theme: &Theme) {
+fn scene(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme) {
     ui.set_min_height(space::TARGET);
-    let text = match (&state.shown, AlignState::choice(state)) {
+    let text = match (&session.shown, align.choice(session)) {
         (Some(shown), Ok(_)) => {
             let inspected = &shown.inspected;
             let num = inspected.figures.num_part;
@@ -264,22 +269,22 @@ fn scene(ui: &mut Ui, state: &State, theme: &Theme) {
 }
 
 /// Which files are aligned.
-fn files(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
-    for (role, path, ask) in [
-        ("Source", &state.align.source, AlignAsk::Source),
-        ("Target", &state.align.target, AlignAsk::Target),
+fn files(ui: &mut Ui, align: &AlignState, actions: &mut Vec<AlignAction>) {
+    for (role, path, file) in [
+        ("Source", &align.source, AlignFile::Source),
+        ("Target", &align.target, AlignFile::Target),
     ] {
         let text = match path {
             Some(path) => format!("{role} · {}", shortened(&file_name(path), NAME)),
             None => format!("{role}…"),
         };
-        let hover = match ask {
-            AlignAsk::Source => "The cloud or mesh that is moved",
-            AlignAsk::Target | AlignAsk::TableFile => "The cloud or mesh that stays",
+        let hover = match file {
+            AlignFile::Source => "The cloud or mesh that is moved",
+            AlignFile::Target | AlignFile::TableFile => "The cloud or mesh that stays",
         };
         let button = labelled(ui, Button::new(&text), &format!("{role}…"));
         if button.on_hover_text(hover).clicked() {
-            actions.push(Action::Ask(Ask::Align(ask)));
+            actions.push(AlignAction::Ask(file));
         }
     }
 }

@@ -24,23 +24,24 @@ mod work;
 
 use egui::{Frame, Key, Margin, Modifiers, Panel, Ui};
 
-pub(super) use self::work::answer;
 pub use self::{
     custom::{CustomStart, Form},
     pair::{Pair, PairSource},
     playback::{Comparison, Playback},
     start::Start,
-    state::{AlignAction, AlignAsk, AlignState, Pairing, apply, hear},
+    state::{AlignAction, AlignFile, AlignResult, AlignState, Pairing},
     table::{TableCell, TableFigures, TableRow, TableShown},
     track::{MethodRun, Track},
-    work::{AlignAnswer, AlignRequest},
 };
 use self::{side::SidePanel, views::LinkedViews};
 use super::{
-    action::Action,
-    keys::Shortcut,
-    state::State,
-    theme::Theme,
+    shell::{
+        context::ShellContext,
+        key_binding::{KeyBinding, Shortcut},
+        session::WorkspaceKind,
+        task::{Running, TaskRunner},
+        workspace::Workspace,
+    },
     viewport::{ViewError, ViewportGpu},
 };
 
@@ -50,83 +51,129 @@ const SIDE: [f32; 2] = [340.0, 300.0];
 const PLOT: [f32; 2] = [236.0, 200.0];
 
 /// The shortcuts of this workspace.
-pub(in crate::app) const SHORTCUTS: [Shortcut; 4] = [
+const SHORTCUTS: [Shortcut<AlignAction>; 4] = [
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::R,
         keys: "R",
         does: "Run every method",
-        action: || Action::Align(AlignAction::Run),
+        action: || AlignAction::Run,
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::P,
         keys: "P, or Space on the plot",
         does: "Play or pause the iterations",
-        action: || Action::Align(AlignAction::TogglePlay),
+        action: || AlignAction::TogglePlay,
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::Comma,
         keys: ", or \u{2190} on the plot",
         does: "One iteration back",
-        action: || Action::Align(AlignAction::Step(-1.0)),
+        action: || AlignAction::Step(-1.0),
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::Period,
         keys: ". or \u{2192} on the plot",
         does: "One iteration on",
-        action: || Action::Align(AlignAction::Step(1.0)),
+        action: || AlignAction::Step(1.0),
     },
 ];
 
-/// What the workspace keeps between frames.
-pub(super) struct AlignPanel {
+/// The workspace.
+pub struct AlignWorkspace {
+    state: AlignState,
     views: LinkedViews,
     side: SidePanel,
 }
 
-impl AlignPanel {
-    pub(super) fn new(gpu: &Result<ViewportGpu, ViewError>) -> Self {
+impl AlignWorkspace {
+    /// Before anything was aligned.
+    pub fn new(gpu: &Result<ViewportGpu, ViewError>, runner: &TaskRunner) -> Self {
         Self {
+            state: AlignState::new(runner),
             views: LinkedViews::new(gpu),
             side: SidePanel::default(),
         }
     }
 
-    /// True while keys go to a 3-D view.
-    pub(super) fn view_has_focus(&self) -> bool {
-        self.views.has_focus()
+    /// What it knows.
+    pub fn state(&self) -> &AlignState {
+        &self.state
     }
 
-    pub(super) fn ui(
-        &mut self,
-        ui: &mut Ui,
-        state: &State,
-        theme: &Theme,
-        actions: &mut Vec<Action>,
-    ) {
+    /// The same, to be changed without a person.
+    pub fn state_mut(&mut self) -> &mut AlignState {
+        &mut self.state
+    }
+}
+
+impl Workspace for AlignWorkspace {
+    fn kind(&self) -> WorkspaceKind {
+        WorkspaceKind::Align
+    }
+
+    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
+        let Self { state, views, side } = self;
+        let (session, theme) = (cx.session, cx.theme);
+        let mut actions = Vec::new();
         let size = ui.available_size();
         let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
         Panel::right("table one")
             .exact_size(if size.x > 1100.0 { SIDE[0] } else { SIDE[1] })
             .resizable(false)
             .frame(panel(Margin::symmetric(18, 14)))
-            .show(ui, |ui| self.side.ui(ui, state, theme, actions));
+            .show(ui, |ui| side.ui(ui, state, session, theme, &mut actions));
         let look = Panel::top("alignment")
             .exact_size(choosing::height(state) + 16.0)
             .resizable(false)
             .frame(panel(Margin::symmetric(12, 8)))
-            .show(ui, |ui| choosing::ui(ui, state, theme, actions));
+            .show(ui, |ui| {
+                choosing::ui(ui, state, session, theme, &mut actions)
+            });
         if let Some(look) = look.inner {
-            self.views.look(look);
+            views.look(look);
         }
         Panel::bottom("iterations")
             .exact_size(if size.y > 760.0 { PLOT[0] } else { PLOT[1] })
             .resizable(false)
             .frame(panel(Margin::symmetric(14, 8)))
-            .show(ui, |ui| scrubber::ui(ui, state, theme, actions));
-        self.views.ui(ui, state, theme);
+            .show(ui, |ui| scrubber::ui(ui, state, theme, &mut actions));
+        views.ui(ui, state, session, theme);
+        for action in actions {
+            state.apply(action, cx);
+        }
+    }
+
+    fn update(&mut self, cx: &mut ShellContext<'_>) {
+        self.state.update(cx);
+    }
+
+    fn key_bindings(&self) -> Vec<KeyBinding> {
+        SHORTCUTS.iter().map(Shortcut::binding).collect()
+    }
+
+    fn press(&mut self, place: usize, cx: &mut ShellContext<'_>) {
+        if let Some(shortcut) = SHORTCUTS.get(place) {
+            self.state.apply((shortcut.action)(), cx);
+        }
+    }
+
+    fn running(&self) -> Option<&Running> {
+        self.state.running()
+    }
+
+    fn cancel(&mut self) {
+        self.state.cancel();
+    }
+
+    fn has_key_focus(&self) -> bool {
+        self.views.has_focus()
+    }
+
+    fn is_idle(&self) -> bool {
+        self.running().is_none() && !self.state.is_writing()
     }
 }

@@ -11,9 +11,9 @@ use super::start::Start;
 use crate::{
     app::{
         inspect::work::Inspected,
-        job::Trouble,
         shelf::{Shelf, Shelved},
         source::file_name,
+        user_error::UserError,
         viewport::{PointSet, Role},
     },
     files,
@@ -79,7 +79,7 @@ pub struct Pair {
     /// Middle of the source's points, where shifts are compared; source space.
     pub middle: Point3<f64>,
     /// What is odd about the files.
-    pub warnings: Vec<Trouble>,
+    pub warnings: Vec<UserError>,
 }
 
 /// E is measured over so many points of the source, up to twice as many.
@@ -87,18 +87,18 @@ const SAMPLE: usize = 4_000;
 
 impl Pair {
     /// Reads and prepares both clouds.
-    pub fn of(source: &PairSource, shelf: &Shelf) -> Result<Self, Trouble> {
+    pub fn of(source: &PairSource, shelf: &Shelf) -> Result<Self, UserError> {
         match source {
             PairSource::MovedCopy { part, start } => {
-                let shelved = shelf.get().map_err(|error| Trouble::of(&error))?;
+                let shelved = shelf.get().map_err(|error| UserError::of(&error))?;
                 let (reference, title) = find(&shelved, part)?;
                 Ok(Self::moved_copy(reference, title, *start))
             }
             PairSource::Scene { inspected, part } => {
-                let shelved = shelf.get().map_err(|error| Trouble::of(&error))?;
+                let shelved = shelf.get().map_err(|error| UserError::of(&error))?;
                 let (reference, title) = find(&shelved, part)?;
                 let found = inspected.inspection.segmentation.part.as_ref();
-                let found = found.map_err(Trouble::of)?;
+                let found = found.map_err(UserError::of)?;
                 let title = format!("{} onto {title}", inspected.origin.title());
                 let target = PointCloud::from_points(reference.cloud.points.iter().copied());
                 let prepared = reference.whole().cloned();
@@ -208,10 +208,10 @@ fn drawn(cloud: &PointCloud, role: Role) -> PointSet {
 }
 
 /// The enrolled part of this name, and its name for people.
-fn find<'a>(shelved: &'a Shelved, part: &str) -> Result<(&'a Reference, &'a str), Trouble> {
+fn find<'a>(shelved: &'a Shelved, part: &str) -> Result<(&'a Reference, &'a str), UserError> {
     let place = shelved.shown.place_of(part);
     let reference = place.and_then(|place| shelved.library.references.get(place));
-    let reference = reference.ok_or_else(|| Trouble {
+    let reference = reference.ok_or_else(|| UserError {
         what: format!("the library has no part {part}"),
         advice: "Choose another part".into(),
     })?;
@@ -219,10 +219,10 @@ fn find<'a>(shelved: &'a Shelved, part: &str) -> Result<(&'a Reference, &'a str)
     Ok((reference, title))
 }
 
-fn open(path: &Path, warnings: &mut Vec<Trouble>) -> Result<PointCloud, Trouble> {
-    let opened = files::open(path).map_err(|error| Trouble::of(&error))?;
-    warnings.extend(opened.warnings().iter().map(Trouble::of));
-    let cloud = cloud_of(opened).ok_or_else(|| Trouble {
+fn open(path: &Path, warnings: &mut Vec<UserError>) -> Result<PointCloud, UserError> {
+    let opened = files::open(path).map_err(|error| UserError::of(&error))?;
+    warnings.extend(opened.warnings().iter().map(UserError::of));
+    let cloud = cloud_of(opened).ok_or_else(|| UserError {
         what: format!("{}: the mesh has no area", path.display()),
         advice: "Export the mesh again with its faces".into(),
     })?;

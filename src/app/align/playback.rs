@@ -3,8 +3,8 @@
 use std::sync::Arc;
 
 use super::{
-    AlignState,
     pair::Pair,
+    state::AlignState,
     track::{MethodRun, Track},
 };
 
@@ -83,7 +83,7 @@ impl AlignState {
     }
 
     /// A method has run: the first of a pair brings the pair to the front.
-    pub(super) fn take_in(&mut self, run: Arc<MethodRun>) {
+    pub(super) fn add_run(&mut self, run: Arc<MethodRun>) {
         match (self.coming.take(), &mut self.shown) {
             (Some(pair), shown) => {
                 let runs = vec![run];

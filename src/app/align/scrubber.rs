@@ -11,29 +11,26 @@ use super::{
     state::{AlignAction, AlignState},
 };
 use crate::app::{
-    action::Action,
-    bars::{focus_ring, labelled},
-    state::State,
     theme::{Theme, font, space},
+    widgets::{focus_ring, labelled},
 };
 
 /// Page Up and Page Down go so many iterations.
 const PAGE: f32 = 10.0;
 
 /// Draws heading and plot.
-pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
-    let align = &state.align;
+pub(super) fn ui(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut Vec<AlignAction>) {
     let Some(shown) = align.shown.as_ref().filter(|shown| shown.last_place() > 0) else {
-        none(ui, state, theme);
+        none(ui, align, theme);
         return;
     };
     if align.playback == Playback::Playing {
         let seconds = ui.input(|input| input.stable_dt).min(0.1);
-        actions.push(Action::Align(AlignAction::Advance(seconds)));
+        actions.push(AlignAction::Advance(seconds));
         ui.request_repaint();
     }
-    heading(ui, shown, state, theme, actions);
-    if AlignState::is_pair_at_work(state) && align.coming.is_some() {
+    heading(ui, shown, align, theme, actions);
+    if align.is_pair_at_work() && align.coming.is_some() {
         ui.multiply_opacity(0.55);
     }
     let rect = ui.available_rect_before_wrap();
@@ -42,16 +39,16 @@ pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Ac
     let response = ui.interact(rect, id, sense);
     ui.allocate_rect(rect, Sense::hover());
     let axes = Axes::of(shown, rect);
-    describe(ui, &response, state);
+    describe(ui, &response, align);
     if response.clicked() || response.drag_started() {
         response.request_focus();
     }
     if (response.clicked() || response.dragged())
         && let Some(at) = response.interact_pointer_pos()
     {
-        actions.push(Action::Align(AlignAction::Scrub(axes.place_at(at.x))));
+        actions.push(AlignAction::Scrub(axes.place_at(at.x)));
     }
-    keys(ui, &response, state, actions);
+    keys(ui, &response, align, actions);
     plot::paint(ui.painter(), &axes, shown, align.place, theme);
     focus_ring(ui, rect, &response, theme);
 }
@@ -59,9 +56,9 @@ pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Ac
 fn heading(
     ui: &mut Ui,
     shown: &Comparison,
-    state: &State,
+    align: &AlignState,
     theme: &Theme,
-    actions: &mut Vec<Action>,
+    actions: &mut Vec<AlignAction>,
 ) {
     ui.horizontal(|ui| {
         ui.label(
@@ -72,16 +69,16 @@ fn heading(
         let title = RichText::new(&shown.pair.title).font(font::small());
         ui.label(title.color(theme.weak_text));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            let text = match state.align.playback {
+            let text = match align.playback {
                 Playback::Paused => "Play",
                 Playback::Playing => "Pause",
             };
             let key = RichText::new("P").font(font::small());
             let button = Button::new(text).shortcut_text(key.color(theme.weak_text));
             if labelled(ui, button, text).clicked() {
-                actions.push(Action::Align(AlignAction::TogglePlay));
+                actions.push(AlignAction::TogglePlay);
             }
-            let place = state.align.place.round();
+            let place = align.place.round();
             let text = format!("iteration {place} of {}", shown.last_place());
             let hint = if ui.available_width() > 340.0 {
                 " · drag to scrub, P to play"
@@ -95,9 +92,9 @@ fn heading(
 }
 
 /// Names the scrubber for a screen reader.
-fn describe(ui: &Ui, response: &Response, state: &State) {
-    let last = state.align.last_place() as f64;
-    let place = f64::from(state.align.place.round());
+fn describe(ui: &Ui, response: &Response, align: &AlignState) {
+    let last = align.last_place() as f64;
+    let place = f64::from(align.place.round());
     ui.accesskit_node_builder(response.id, |node| {
         node.set_role(egui::accesskit::Role::Slider);
         node.set_label("Iteration shown");
@@ -114,7 +111,7 @@ fn describe(ui: &Ui, response: &Response, state: &State) {
 }
 
 /// Keys of the scrubber while it has the focus; what a screen reader asks for, always.
-fn keys(ui: &Ui, response: &Response, state: &State, actions: &mut Vec<Action>) {
+fn keys(ui: &Ui, response: &Response, align: &AlignState, actions: &mut Vec<AlignAction>) {
     let id = response.id;
     let mut steps = ui.input(|input| {
         let times = |asked| input.num_accesskit_action_requests(id, asked) as f32;
@@ -134,29 +131,29 @@ fn keys(ui: &Ui, response: &Response, state: &State, actions: &mut Vec<Action>) 
         steps += pressed(Key::ArrowRight) - pressed(Key::ArrowLeft);
         steps += PAGE * (pressed(Key::PageUp) - pressed(Key::PageDown));
         if pressed(Key::Home) > 0.0 {
-            actions.push(Action::Align(AlignAction::Scrub(0.0)));
+            actions.push(AlignAction::Scrub(0.0));
         }
         if pressed(Key::End) > 0.0 {
-            let last = state.align.last_place() as f32;
-            actions.push(Action::Align(AlignAction::Scrub(last)));
+            let last = align.last_place() as f32;
+            actions.push(AlignAction::Scrub(last));
         }
         if pressed(Key::Space) > 0.0 {
-            actions.push(Action::Align(AlignAction::TogglePlay));
+            actions.push(AlignAction::TogglePlay);
         }
     }
     if steps != 0.0 {
-        actions.push(Action::Align(AlignAction::Step(steps)));
+        actions.push(AlignAction::Step(steps));
     }
 }
 
 /// Before there is a curve.
-fn none(ui: &mut Ui, state: &State, theme: &Theme) {
+fn none(ui: &mut Ui, align: &AlignState, theme: &Theme) {
     ui.label(
         RichText::new("E(R, t), m²")
             .font(font::body_strong())
             .color(theme.text),
     );
-    let text = match &state.align.shown {
+    let text = match &align.shown {
         Some(_) => "No method found a pose: there is no way to show",
         None => "Run shows here how the mean squared distance E falls, iteration by iteration",
     };

@@ -7,15 +7,12 @@ use egui::{
     Ui, pos2, vec2,
 };
 
-use super::{AlignAction, AlignAsk, AlignState, Start, TableRow, series};
+use super::{AlignAction, AlignFile, AlignState, Start, TableRow, series};
 use crate::{
     app::{
-        action::{Action, Ask},
-        bars::{focus_ring, labelled},
-        lane::Lane,
-        state::State,
+        shell::session::Session,
         theme::{ROUNDING, Theme, font, space},
-        widgets::heading,
+        widgets::{focus_ring, heading, labelled},
     },
     stages::pose::{PoseMethod, Uncertainty},
 };
@@ -37,24 +34,25 @@ impl SidePanel {
     pub(super) fn ui(
         &mut self,
         ui: &mut Ui,
-        state: &State,
+        align: &AlignState,
+        session: &Session,
         theme: &Theme,
-        actions: &mut Vec<Action>,
+        actions: &mut Vec<AlignAction>,
     ) {
-        let table = &state.align.table;
+        let table = &align.table;
         ui.label(
             RichText::new("Table I")
                 .font(font::verdict())
                 .color(theme.text),
         );
-        let is_at_work = AlignState::is_table_at_work(state);
-        progress(ui, state, theme, actions);
+        let is_at_work = align.is_table_at_work();
+        progress(ui, align, session, theme, actions);
         egui::Panel::bottom("true error")
             .resizable(false)
             .show_separator_line(false)
             .frame(egui::Frame::new())
             .show(ui, |ui| {
-                true_error(ui, state, theme);
+                true_error(ui, align, session, theme);
                 if !table.rows.is_empty() {
                     ui.add_space(space::MEDIUM);
                     export(ui, theme, actions);
@@ -73,7 +71,7 @@ impl SidePanel {
         self.num_seen = table.rows.len();
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             ui.spacing_mut().item_spacing.y = 0.0;
-            rows(ui, state, theme, actions);
+            rows(ui, align, session, theme, actions);
             if is_at_work && has_new {
                 ui.scroll_to_cursor(Some(Align::BOTTOM));
             }
@@ -82,15 +80,21 @@ impl SidePanel {
 }
 
 /// How far the table is, and how to begin, go on or stop.
-fn progress(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
-    let table = &state.align.table;
-    let num_parts = state
+fn progress(
+    ui: &mut Ui,
+    align: &AlignState,
+    session: &Session,
+    theme: &Theme,
+    actions: &mut Vec<AlignAction>,
+) {
+    let table = &align.table;
+    let num_parts = session
         .library
         .as_ref()
         .map_or(0, |library| library.parts.len());
     let total = num_parts * Start::NUM_PAPER;
     let num = table.rows.len();
-    let is_at_work = AlignState::is_table_at_work(state);
+    let is_at_work = align.is_table_at_work();
     let said = if is_at_work {
         going(num, total, table.remaining(total))
     } else {
@@ -105,7 +109,7 @@ fn progress(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
             if is_at_work {
                 if labelled(ui, Button::new("Cancel"), "Cancel Table I").clicked() {
-                    actions.push(Action::Cancel(Lane::Align));
+                    actions.push(AlignAction::Cancel);
                 }
                 return;
             }
@@ -118,7 +122,7 @@ fn progress(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>
             };
             let button = ui.add_enabled_ui(total > 0, |ui| labelled(ui, Button::new(text), label));
             if button.inner.clicked() {
-                actions.push(Action::Align(action));
+                actions.push(action);
             }
         });
     });
@@ -182,8 +186,13 @@ fn header(ui: &mut Ui, theme: &Theme) {
     }
 }
 
-fn rows(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
-    let align = &state.align;
+fn rows(
+    ui: &mut Ui,
+    align: &AlignState,
+    session: &Session,
+    theme: &Theme,
+    actions: &mut Vec<AlignAction>,
+) {
     let mut part = "";
     for (place, row) in align.table.rows.iter().enumerate() {
         if row.part != part {
@@ -202,7 +211,7 @@ fn rows(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
         }
         let size = vec2(ui.available_width(), space::TARGET);
         let (rect, response) = ui.allocate_exact_size(size, Sense::click());
-        let is_chosen = AlignState::chosen_part(state) == Some(row.part.as_str())
+        let is_chosen = align.chosen_part(session) == Some(row.part.as_str())
             && align.start == Start::Paper(row.start);
         response.widget_info(|| {
             egui::WidgetInfo::selected(egui::Role::Button, true, is_chosen, spoken(row))
@@ -213,7 +222,7 @@ fn rows(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
         paint_row(ui.painter(), rect, row, theme);
         focus_ring(ui, rect, &response, theme);
         if response.clicked() {
-            actions.push(Action::Align(AlignAction::OpenRow(place)));
+            actions.push(AlignAction::OpenRow(place));
         }
     }
 }
@@ -273,8 +282,8 @@ fn spoken(row: &TableRow) -> String {
 }
 
 /// How far the methods shown ended from the truth.
-fn true_error(ui: &mut Ui, state: &State, theme: &Theme) {
-    let Some(shown) = &state.align.shown else {
+fn true_error(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme) {
+    let Some(shown) = &align.shown else {
         return;
     };
     let is_known = shown.pair.truth.is_some();
@@ -316,7 +325,7 @@ fn true_error(ui: &mut Ui, state: &State, theme: &Theme) {
                 .map(|bounds| (bounds.turn.0, bounds.shift.0)),
         });
         let (turn, shift) = match off {
-            Ok(Some((turn, shift))) => (state.units.angle(turn), state.units.length(shift)),
+            Ok(Some((turn, shift))) => (session.units.angle(turn), session.units.length(shift)),
             Ok(None) => ("unconstrained".into(), String::new()),
             Err(_) => ("no pose".into(), String::new()),
         };
@@ -325,7 +334,7 @@ fn true_error(ui: &mut Ui, state: &State, theme: &Theme) {
     }
 }
 
-fn export(ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
+fn export(ui: &mut Ui, theme: &Theme, actions: &mut Vec<AlignAction>) {
     ui.horizontal(|ui| {
         let width = ui.available_width() - 90.0;
         let text = RichText::new("Export CSV…").font(font::body_strong());
@@ -334,7 +343,7 @@ fn export(ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
             .add(button.min_size(vec2(width, space::TARGET)))
             .clicked()
         {
-            actions.push(Action::Ask(Ask::Align(AlignAsk::TableFile)));
+            actions.push(AlignAction::Ask(AlignFile::TableFile));
         }
         let copy = Button::new("Copy").min_size(vec2(ui.available_width(), space::TARGET));
         if ui
@@ -342,7 +351,7 @@ fn export(ui: &mut Ui, theme: &Theme, actions: &mut Vec<Action>) {
             .on_hover_text("Table I as text, cells parted by tabs")
             .clicked()
         {
-            actions.push(Action::Align(AlignAction::CopyTable));
+            actions.push(AlignAction::CopyTable);
         }
     });
 }

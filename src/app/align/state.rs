@@ -3,27 +3,31 @@
 use std::{path::PathBuf, sync::Arc, time::Duration};
 
 use super::{
-    AlignAnswer, AlignRequest,
     custom::{CustomStart, Form},
     pair::{Pair, PairSource},
     playback::{Comparison, Playback},
     start::Start,
-    table::{self, TableShown},
+    table::{self, TableRow, TableShown},
+    track::MethodRun,
+    work,
 };
 use crate::{
     app::{
-        action::{Effect, notify},
-        job::{Request, Trouble},
-        lane::Lane,
+        shell::{
+            context::ShellContext,
+            file_dialog::{ALL_FILES, FileChoice, FileDialog, FileRequest, POINTS},
+            message::Message,
+            notice::Notice,
+            session::Session,
+            task::{Running, Task, TaskEvent, TaskRunner},
+        },
         source::file_name,
-        state::{Notice, State},
-        writing::WriteRequest,
     },
     geometry::written_pose::parse_pose,
 };
 
 /// What the workspace knows.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct AlignState {
     /// What is aligned to what.
     pub pairing: Pairing,
@@ -47,6 +51,38 @@ pub struct AlignState {
     pub playback: Playback,
     /// Table I as far as it is there.
     pub table: TableShown,
+    task: Task<AlignResult>,
+    /// What the task does, or did last.
+    job: AlignJob,
+    writing: Task<PathBuf>,
+    dialog: FileDialog<AlignFile>,
+}
+
+/// What the task does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum AlignJob {
+    /// It aligns a pair.
+    Pair,
+    /// It adds rows to Table I.
+    Table,
+}
+
+/// What the task hands over, part after part.
+#[derive(Clone, Debug)]
+pub enum AlignResult {
+    /// The pair is ready; the methods follow.
+    Prepared(Arc<Pair>),
+    /// A method has run.
+    Ran(Arc<MethodRun>),
+    /// A row of Table I.
+    Row {
+        /// The row.
+        row: Arc<TableRow>,
+        /// Since the first row of this run was begun.
+        elapsed: Duration,
+    },
+    /// Everything asked for was handed over.
+    Finished,
 }
 
 /// What is aligned to what.
@@ -92,10 +128,14 @@ pub enum AlignAction {
     WriteCustom(String),
     /// Begin at the custom start.
     UseCustom,
-    /// A person chose a file.
-    Chosen(AlignAsk, PathBuf),
+    /// Have a person choose a file.
+    Ask(AlignFile),
+    /// A person chose it.
+    Chosen(AlignFile, PathBuf),
     /// Align.
     Run,
+    /// Stop what is at work.
+    Cancel,
     /// Go on with Table I.
     RunTable,
     /// Work out Table I from its first row.
@@ -116,7 +156,7 @@ pub enum AlignAction {
 
 /// What a person is asked to choose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum AlignAsk {
+pub enum AlignFile {
     /// The file that is moved.
     Source,
     /// The file that stays.
@@ -125,42 +165,88 @@ pub enum AlignAsk {
     TableFile,
 }
 
+impl AlignFile {
+    fn request(self) -> FileRequest {
+        match self {
+            Self::Source | Self::Target => FileRequest {
+                title: "Open a cloud or a mesh",
+                filters: &[POINTS, ALL_FILES],
+                choice: FileChoice::File,
+            },
+            Self::TableFile => FileRequest {
+                title: "Export Table I",
+                filters: &[("Comma-separated values", &["csv"])],
+                choice: FileChoice::NewFile("table1.csv"),
+            },
+        }
+    }
+}
+
 impl AlignState {
+    /// Before anything was aligned.
+    pub fn new(runner: &TaskRunner) -> Self {
+        Self {
+            pairing: Pairing::default(),
+            part: None,
+            start: Start::default(),
+            custom: CustomStart::default(),
+            source: None,
+            target: None,
+            shown: None,
+            coming: None,
+            place: 0.0,
+            playback: Playback::default(),
+            table: TableShown::default(),
+            task: Task::new("align", runner),
+            job: AlignJob::Pair,
+            writing: Task::new("align-write", runner),
+            dialog: FileDialog::default(),
+        }
+    }
+
+    /// The run that is aligning, if any.
+    pub fn running(&self) -> Option<&Running> {
+        self.task.running()
+    }
+
+    /// True while a file is being written.
+    pub fn is_writing(&self) -> bool {
+        self.writing.running().is_some()
+    }
+
     /// True while rows are being added to Table I.
-    pub fn is_table_at_work(state: &State) -> bool {
-        let work = state.works.get(&Lane::Align);
-        work.is_some_and(|work| state.align.table.generation == Some(work.generation))
+    pub fn is_table_at_work(&self) -> bool {
+        self.running().is_some() && self.job == AlignJob::Table
     }
 
     /// True while a pair is being aligned.
-    pub fn is_pair_at_work(state: &State) -> bool {
-        state.works.contains_key(&Lane::Align) && !Self::is_table_at_work(state)
+    pub fn is_pair_at_work(&self) -> bool {
+        self.running().is_some() && self.job == AlignJob::Pair
     }
 
     /// The part that is chosen, if the library has any.
-    pub fn chosen_part(state: &State) -> Option<&str> {
-        let parts = &state.library.as_ref()?.parts;
+    pub fn chosen_part<'a>(&'a self, session: &'a Session) -> Option<&'a str> {
+        let parts = &session.library.as_ref()?.parts;
         let is_there = |name: &&str| parts.iter().any(|part| part.name.as_str() == *name);
-        let chosen = state.align.part.as_deref().filter(is_there);
+        let chosen = self.part.as_deref().filter(is_there);
         chosen.or_else(|| parts.first().map(|part| part.name.as_str()))
     }
 
     /// What Run would align, or what is missing for it, in words.
-    pub fn choice(state: &State) -> Result<PairSource, String> {
-        let align = &state.align;
+    pub fn choice(&self, session: &Session) -> Result<PairSource, String> {
         let part = || {
-            let part = Self::chosen_part(state).map(str::to_owned);
+            let part = self.chosen_part(session).map(str::to_owned);
             part.ok_or_else(|| {
                 "The library has no part: enrol one in the Enrol workspace".to_owned()
             })
         };
-        match align.pairing {
+        match self.pairing {
             Pairing::MovedCopy => Ok(PairSource::MovedCopy {
                 part: part()?,
-                start: align.start,
+                start: self.start,
             }),
             Pairing::Scene => {
-                let shown = state.shown.as_ref();
+                let shown = session.shown.as_ref();
                 let inspected = &shown
                     .ok_or("Nothing inspected yet: press Capture")?
                     .inspected;
@@ -173,127 +259,175 @@ impl AlignState {
                 })
             }
             Pairing::Files => Ok(PairSource::Files {
-                source: align
+                source: self
                     .source
                     .clone()
                     .ok_or("Choose the file that is moved: Source…")?,
-                target: align
+                target: self
                     .target
                     .clone()
                     .ok_or("Choose the file that stays: Target…")?,
             }),
         }
     }
-}
 
-/// Makes it so.
-pub fn apply(state: &mut State, action: AlignAction) -> Option<Effect> {
-    let align = &mut state.align;
-    match action {
-        AlignAction::Choose(pairing) => align.pairing = pairing,
-        AlignAction::ChoosePart(part) => align.part = Some(part),
-        AlignAction::ChooseStart(start) => align.start = start,
-        AlignAction::DrawStart => {
-            let seed = match align.start {
-                Start::Random(seed) => seed + 1,
-                Start::Paper(_) | Start::Custom(_) => 1,
-            };
-            align.start = Start::Random(seed);
-        }
-        AlignAction::ToggleCustom => {
-            align.custom.form = match align.custom.form {
-                Form::Closed => Form::Open,
-                Form::Open => Form::Closed,
+    /// Makes it so.
+    pub fn apply(&mut self, action: AlignAction, cx: &mut ShellContext<'_>) {
+        match action {
+            AlignAction::Choose(pairing) => self.pairing = pairing,
+            AlignAction::ChoosePart(part) => self.part = Some(part),
+            AlignAction::ChooseStart(start) => self.start = start,
+            AlignAction::DrawStart => {
+                let seed = match self.start {
+                    Start::Random(seed) => seed + 1,
+                    Start::Paper(_) | Start::Custom(_) => 1,
+                };
+                self.start = Start::Random(seed);
             }
-        }
-        AlignAction::WriteCustom(text) => align.custom.write(text),
-        AlignAction::UseCustom => {
-            if let Ok(given) = parse_pose(&align.custom.text) {
-                align.start = Start::Custom(given.pose);
-                align.custom.form = Form::Closed;
+            AlignAction::ToggleCustom => {
+                self.custom.form = match self.custom.form {
+                    Form::Closed => Form::Open,
+                    Form::Open => Form::Closed,
+                }
             }
-        }
-        AlignAction::Chosen(AlignAsk::Source, path) => align.source = Some(path),
-        AlignAction::Chosen(AlignAsk::Target, path) => align.target = Some(path),
-        AlignAction::Chosen(AlignAsk::TableFile, path) => {
-            let what = format!("Writing {}", file_name(&path));
-            let text = table::text(&align.table.rows, ',');
-            return Some(state.begin(what, Request::Write(WriteRequest::Text { path, text })));
-        }
-        AlignAction::Run => return run(state),
-        AlignAction::RunTable => return Some(run_table(state)),
-        AlignAction::RestartTable => {
-            align.table.rows.clear();
-            return Some(run_table(state));
-        }
-        AlignAction::OpenRow(row) => {
-            let row = Arc::clone(align.table.rows.get(row)?);
-            align.pairing = Pairing::MovedCopy;
-            align.part = Some(row.part.clone());
-            align.start = Start::Paper(row.start);
-            // Table I goes on; a second look must not end it.
-            if !AlignState::is_table_at_work(state) {
-                return run(state);
+            AlignAction::WriteCustom(text) => self.custom.write(text),
+            AlignAction::UseCustom => {
+                if let Ok(given) = parse_pose(&self.custom.text) {
+                    self.start = Start::Custom(given.pose);
+                    self.custom.form = Form::Closed;
+                }
             }
-        }
-        AlignAction::Scrub(place) => {
-            align.playback = Playback::Paused;
-            align.go_to(place);
-        }
-        AlignAction::Step(places) => {
-            align.playback = Playback::Paused;
-            align.go_to(align.place.round() + places);
-        }
-        AlignAction::TogglePlay => align.toggle_play(),
-        AlignAction::Advance(seconds) => align.advance(seconds),
-        AlignAction::CopyTable => {
-            let text = table::text(&align.table.rows, '\t');
-            notify(state, Notice::done("Copied Table I"));
-            return Some(Effect::CopyText(text));
+            AlignAction::Ask(file) => {
+                let lock = &cx.services.dialogs;
+                self.dialog.open(file, &file.request(), lock, cx.egui);
+            }
+            AlignAction::Chosen(AlignFile::Source, path) => self.source = Some(path),
+            AlignAction::Chosen(AlignFile::Target, path) => self.target = Some(path),
+            AlignAction::Chosen(AlignFile::TableFile, path) => self.write_table(path),
+            AlignAction::Run => self.run(cx),
+            AlignAction::Cancel => self.cancel(),
+            AlignAction::RunTable => self.run_table(cx),
+            AlignAction::RestartTable => {
+                self.table.rows.clear();
+                self.run_table(cx);
+            }
+            AlignAction::OpenRow(row) => self.open_row(row, cx),
+            AlignAction::Scrub(place) => {
+                self.playback = Playback::Paused;
+                self.go_to(place);
+            }
+            AlignAction::Step(places) => {
+                self.playback = Playback::Paused;
+                self.go_to(self.place.round() + places);
+            }
+            AlignAction::TogglePlay => self.toggle_play(),
+            AlignAction::Advance(seconds) => self.advance(seconds),
+            AlignAction::CopyTable => {
+                let text = table::text(&self.table.rows, '\t');
+                cx.notify(Notice::done("Copied Table I"));
+                cx.send(Message::CopyText(text));
+            }
         }
     }
-    None
-}
 
-fn run(state: &mut State) -> Option<Effect> {
-    let source = AlignState::choice(state).ok()?;
-    state.align.coming = None;
-    Some(state.begin("Aligning", Request::Align(AlignRequest::Pair(source))))
-}
+    /// Stops what is at work.
+    pub fn cancel(&mut self) {
+        self.task.cancel();
+    }
 
-fn run_table(state: &mut State) -> Effect {
-    let table = &mut state.align.table;
-    let done: Vec<_> = table
-        .rows
-        .iter()
-        .map(|row| (row.part.clone(), row.start))
-        .collect();
-    table.num_before = done.len();
-    table.elapsed = Duration::ZERO;
-    let effect = state.begin("Table I", Request::Align(AlignRequest::Table { done }));
-    state.align.table.generation = Some(state.generation);
-    effect
-}
+    fn run(&mut self, cx: &ShellContext<'_>) {
+        let Ok(source) = self.choice(cx.session) else {
+            return;
+        };
+        self.coming = None;
+        self.job = AlignJob::Pair;
+        let shelf = cx.services.shelf.clone();
+        self.task.start("Aligning", move |context| {
+            work::pair(&source, &shelf, context)
+        });
+    }
 
-/// Takes in what the thread answers.
-pub fn hear(state: &mut State, outcome: Result<AlignAnswer, Trouble>) -> Option<Effect> {
-    let align = &mut state.align;
-    match outcome {
-        Ok(AlignAnswer::Prepared(pair)) => {
-            align.coming = Some(Arc::clone(&pair));
-            for warning in &pair.warnings {
-                notify(state, warning.clone().into());
+    fn run_table(&mut self, cx: &ShellContext<'_>) {
+        let rows = self.table.rows.iter();
+        let done: Vec<_> = rows.map(|row| (row.part.clone(), row.start)).collect();
+        self.table.num_before = done.len();
+        self.table.elapsed = Duration::ZERO;
+        self.job = AlignJob::Table;
+        let shelf = cx.services.shelf.clone();
+        self.task.start("Table I", move |context| {
+            work::table(&done, &shelf, context)
+        });
+    }
+
+    /// Takes part and start of a row of Table I, and aligns them.
+    fn open_row(&mut self, row: usize, cx: &ShellContext<'_>) {
+        let Some(row) = self.table.rows.get(row).cloned() else {
+            return;
+        };
+        self.pairing = Pairing::MovedCopy;
+        self.part = Some(row.part.clone());
+        self.start = Start::Paper(row.start);
+        // Table I goes on; a second look must not end it.
+        if !self.is_table_at_work() {
+            self.run(cx);
+        }
+    }
+
+    fn write_table(&mut self, path: PathBuf) {
+        let title = format!("Writing {}", file_name(&path));
+        let text = table::text(&self.table.rows, ',');
+        self.writing
+            .start(title, move |_| Ok(work::write(path, &text)?));
+    }
+
+    /// Takes in what the tasks and the dialog report.
+    pub fn update(&mut self, cx: &mut ShellContext<'_>) {
+        while let Some(event) = self.task.poll() {
+            match event {
+                TaskEvent::Partial(result) | TaskEvent::Done(result) => self.take_in(result, cx),
+                TaskEvent::Failed(error) => {
+                    self.coming = None;
+                    cx.notify(error);
+                }
             }
         }
-        Ok(AlignAnswer::Ran(run)) => align.take_in(run),
-        Ok(AlignAnswer::Row { row, elapsed }) => {
-            align.table.rows.push(row);
-            align.table.elapsed = elapsed;
+        match self.writing.poll() {
+            Some(TaskEvent::Done(path)) => {
+                cx.notify(Notice::done(format!("Wrote {}", path.display())));
+            }
+            Some(TaskEvent::Failed(error)) => cx.notify(error),
+            Some(TaskEvent::Partial(_)) | None => {}
         }
-        Ok(AlignAnswer::Finished) => {}
-        Err(_) => align.coming = None,
+        match self.dialog.poll() {
+            Some((file, Ok(path))) => self.apply(AlignAction::Chosen(file, path), cx),
+            Some((_, Err(notice))) => cx.notify(notice),
+            None => {}
+        }
     }
-    None
+
+    fn take_in(&mut self, result: AlignResult, cx: &mut ShellContext<'_>) {
+        match result {
+            AlignResult::Prepared(pair) => {
+                for warning in &pair.warnings {
+                    cx.notify(warning.clone());
+                }
+                self.coming = Some(pair);
+            }
+            AlignResult::Ran(run) => self.add_run(run),
+            AlignResult::Row { row, elapsed } => {
+                self.table.rows.push(row);
+                self.table.elapsed = elapsed;
+            }
+            AlignResult::Finished => {}
+        }
+    }
+
+    /// Shows runs of a pair made elsewhere; what is at work is cancelled.
+    pub fn show(&mut self, pair: Arc<Pair>, runs: impl IntoIterator<Item = Arc<MethodRun>>) {
+        self.task.cancel();
+        self.coming = Some(pair);
+        runs.into_iter().for_each(|run| self.add_run(run));
+    }
 }
 
 #[cfg(test)]

@@ -6,15 +6,13 @@ use super::{
     pair::Pair,
     track::{estimated, in_the_window},
 };
-use crate::{app::job::Trouble, stages::pose::PoseMethod};
+use crate::{app::user_error::UserError, stages::pose::PoseMethod};
 
 /// Table I as far as it is there.
 #[derive(Debug, Default)]
 pub struct TableShown {
     /// The rows, part after part.
     pub rows: Vec<Arc<TableRow>>,
-    /// The work that adds rows, or added the last.
-    pub generation: Option<u64>,
     /// Rows that were there when it began.
     pub num_before: usize,
     /// How long it took for the rows that it added.
@@ -51,7 +49,7 @@ pub struct TableCell {
     /// How long the estimation took.
     pub time: Duration,
     /// Its figures, or why there are none.
-    pub figures: Result<TableFigures, Trouble>,
+    pub figures: Result<TableFigures, UserError>,
 }
 
 /// The figures of a cell.
@@ -164,7 +162,7 @@ mod tests {
     use super::*;
 
     fn cell(method: PoseMethod, e_m2: Option<f64>) -> TableCell {
-        let trouble = || Trouble {
+        let trouble = || UserError {
             what: "no pose".into(),
             advice: "none".into(),
         };

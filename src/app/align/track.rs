@@ -7,7 +7,7 @@ use std::{
 
 use super::pair::Pair;
 use crate::{
-    app::{job::Trouble, widgets::sentence},
+    app::{user_error::UserError, widgets::sentence},
     error::Advice as _,
     geometry::rigid::{self, RigidTransform},
     stages::pose::{
@@ -24,7 +24,7 @@ pub struct MethodRun {
     /// How long the estimation took.
     pub time: Duration,
     /// Its way, or why there is none.
-    pub track: Result<Track, Trouble>,
+    pub track: Result<Track, UserError>,
 }
 
 /// A method's way.
@@ -49,7 +49,7 @@ pub struct Track {
     /// How far the end is from the truth, where that is known.
     pub true_error: Option<rigid::PoseError>,
     /// Why the end should not be relied upon.
-    pub doubt: Option<Trouble>,
+    pub doubt: Option<UserError>,
 }
 
 /// Nothing that `f32` points resolve is smaller: E of 1e-16 m² is 10 nm.
@@ -178,7 +178,7 @@ fn searches(iterations: &[Iteration]) -> Vec<Range<usize>> {
 }
 
 /// The error with advice that can be followed in the window.
-pub(super) fn in_the_window(error: &PoseError) -> Trouble {
+pub(super) fn in_the_window(error: &PoseError) -> UserError {
     let advice = match error {
         PoseError::OneSidedPairs { .. } | PoseError::NoOverlap { .. } => {
             "Choose a start that is nearer, or check that both clouds show the same part in metres"
@@ -186,13 +186,13 @@ pub(super) fn in_the_window(error: &PoseError) -> Trouble {
         }
         other => other.advice(),
     };
-    Trouble {
+    UserError {
         what: sentence(&error.to_string()),
         advice,
     }
 }
 
-fn doubted(doubt: &Doubt, pair: &Pair) -> Trouble {
+fn doubted(doubt: &Doubt, pair: &Pair) -> UserError {
     let advice = match doubt {
         Doubt::Ambiguous { .. } => "Check which way round the part lies".into(),
         Doubt::Loose { .. } => {
@@ -205,7 +205,7 @@ fn doubted(doubt: &Doubt, pair: &Pair) -> Trouble {
         }
         Doubt::LittleOverlap { .. } => doubt.advice(),
     };
-    Trouble {
+    UserError {
         what: sentence(&doubt.to_string()),
         advice,
     }

@@ -13,7 +13,7 @@ use super::{
 };
 use crate::{
     app::{
-        state::{State, ThemeChoice},
+        shell::session::{Session, ThemeChoice},
         theme::{ROUNDING, Theme, font, space},
         viewport::{
             FitRequest, PointSize, Role, RoleColour, StandardView, ViewCamera, ViewColours,
@@ -82,17 +82,17 @@ impl LinkedViews {
         self.has_focus
     }
 
-    pub(super) fn ui(&mut self, ui: &mut Ui, state: &State, theme: &Theme) {
+    pub(super) fn ui(&mut self, ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme) {
         self.has_focus = false;
-        let Some(shown) = &state.align.shown else {
-            empty(ui, state, theme);
+        let Some(shown) = &align.shown else {
+            empty(ui, align, session, theme);
             return;
         };
-        if self.styled != Some(state.theme) {
+        if self.styled != Some(session.theme) {
             for view in &mut self.views {
-                view.style = style(view.method, state.theme);
+                view.style = style(view.method, session.theme);
             }
-            self.styled = Some(state.theme);
+            self.styled = Some(session.theme);
         }
         let all = ui.available_rect_before_wrap();
         ui.allocate_rect(all, egui::Sense::hover());
@@ -105,13 +105,13 @@ impl LinkedViews {
             let builder = UiBuilder::new().max_rect(cell).id_salt(place);
             ui.scope_builder(builder, |ui| {
                 ui.set_clip_rect(cell.intersect(ui.clip_rect()));
-                self.has_focus |= view.ui(ui, shown, &mut self.camera, state, theme);
+                self.has_focus |= view.ui(ui, shown, &mut self.camera, align, session, theme);
             });
             if place > 0 {
                 ui.painter().vline(left, all.y_range(), theme.edge_stroke());
             }
         }
-        if AlignState::is_pair_at_work(state) && state.align.coming.is_some() {
+        if align.is_pair_at_work() && align.coming.is_some() {
             let at = all.center_bottom() - vec2(0.0, 12.0);
             let text = "Old result: a new one is on its way";
             ui.painter().text(
@@ -165,7 +165,8 @@ impl View {
         ui: &mut Ui,
         shown: &Comparison,
         camera: &mut ViewCamera,
-        state: &State,
+        align: &AlignState,
+        session: &Session,
         theme: &Theme,
     ) -> bool {
         let run = shown.runs.iter().find(|run| run.method == self.method);
@@ -180,8 +181,8 @@ impl View {
             let title = RichText::new(series::title(self.method)).font(font::body_strong());
             ui.label(title.color(series::colour(self.method, theme)));
             match run {
-                Some(run) => heading(ui, run, state, theme),
-                None if AlignState::is_pair_at_work(state) => weak(ui, "At work…", theme),
+                Some(run) => heading(ui, run, session, theme),
+                None if align.is_pair_at_work() => weak(ui, "At work…", theme),
                 None => weak(ui, "Not run", theme),
             }
         });
@@ -199,7 +200,7 @@ impl View {
                 false
             }
             Some(Ok(track)) => {
-                let place = state.align.place.round() as usize;
+                let place = align.place.round() as usize;
                 if let Some(source) = self.scene.points.first_mut() {
                     source.world_from_set = mat4(&track.pose_at(place));
                 }
@@ -264,7 +265,7 @@ fn weak(ui: &mut Ui, text: &str, theme: &Theme) {
 }
 
 /// How a method ended, and its figures.
-fn heading(ui: &mut Ui, run: &MethodRun, state: &State, theme: &Theme) {
+fn heading(ui: &mut Ui, run: &MethodRun, session: &Session, theme: &Theme) {
     let ms = run.time.as_secs_f64() * 1000.0;
     match &run.track {
         Ok(track) => {
@@ -276,7 +277,7 @@ fn heading(ui: &mut Ui, run: &MethodRun, state: &State, theme: &Theme) {
                     .label(ending.color(theme.warning))
                     .on_hover_text(format!("{}\n{}", doubt.what, doubt.advice)),
             };
-            let rms = state.units.length(track.fit.rms_m);
+            let rms = session.units.length(track.fit.rms_m);
             let overlap = track.fit.overlap * 100.0;
             let e = scientific(track.end_e_m2());
             let figures = format!("E {e} m² · rms {rms} on {overlap:.0} % · {ms:.0} ms");
@@ -317,11 +318,11 @@ fn below(ui: &Ui, rect: Rect, track: &Track, place: usize, theme: &Theme) {
 }
 
 /// Before the first result.
-fn empty(ui: &mut Ui, state: &State, theme: &Theme) {
+fn empty(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme) {
     let rect = ui.available_rect_before_wrap();
     ui.painter().rect_filled(rect, 0.0, theme.canvas);
-    let choice = AlignState::choice(state);
-    let (what, advice) = if AlignState::is_pair_at_work(state) {
+    let choice = align.choice(session);
+    let (what, advice) = if align.is_pair_at_work() {
         ("Aligning…", String::new())
     } else {
         let advice = match choice {

@@ -1,103 +1,55 @@
-//! What the workspace's thread does: prepares a pair and runs the methods, one after the other.
+//! What the workspace's tasks do: prepare a pair, run the methods one after the other, write Table I.
 
-use std::{
-    sync::Arc,
-    time::{Duration, Instant},
-};
+use std::{path::PathBuf, sync::Arc, time::Instant};
 
 use super::{
     pair::{Pair, PairSource},
     start::Start,
+    state::AlignResult,
     table::{TableCell, TableRow},
     track::MethodRun,
 };
 use crate::{
     app::{
-        job::{Answer, Outcome, Trouble},
         shelf::Shelf,
-        worker::Desk,
+        shell::task::{TaskContext, TaskError},
+        user_error::UserError,
     },
+    files::write_atomically,
+    pipeline::Watch as _,
     stages::pose::PoseMethod,
 };
 
-/// What the workspace asks for.
-#[derive(Clone, Debug)]
-pub enum AlignRequest {
-    /// Align a pair by every method.
-    Pair(PairSource),
-    /// Work out Table I.
-    Table {
-        /// Rows that are there already: name of the part and start.
-        done: Vec<(String, usize)>,
-    },
-}
-
-/// What comes back.
-#[derive(Clone, Debug)]
-pub enum AlignAnswer {
-    /// The pair is ready; the methods follow.
-    Prepared(Arc<Pair>),
-    /// A method has run.
-    Ran(Arc<MethodRun>),
-    /// A row of Table I.
-    Row {
-        /// The row.
-        row: Arc<TableRow>,
-        /// Since the request's first row was begun.
-        elapsed: Duration,
-    },
-    /// Everything asked for was handed over.
-    Finished,
-}
-
-/// Does what is asked; `None` when cancelled.
-pub(in crate::app) fn answer(
-    request: AlignRequest,
-    shelf: &Shelf,
-    desk: &dyn Desk<Outcome>,
-) -> Option<Outcome> {
-    let answered = match request {
-        AlignRequest::Pair(source) => pair(&source, shelf, desk),
-        AlignRequest::Table { done } => table(&done, shelf, desk),
-    };
-    match answered {
-        Ok(answer) => answer.map(|answer| Ok(Answer::Align(answer))),
-        Err(trouble) => Some(Err(trouble)),
-    }
-}
-
-fn pair(
+/// Aligns a pair by every method.
+pub(super) fn pair(
     source: &PairSource,
     shelf: &Shelf,
-    desk: &dyn Desk<Outcome>,
-) -> Result<Option<AlignAnswer>, Trouble> {
+    context: &TaskContext<AlignResult>,
+) -> Result<AlignResult, TaskError> {
     let pair = Arc::new(Pair::of(source, shelf)?);
-    hand_over(desk, AlignAnswer::Prepared(Arc::clone(&pair)));
+    context.partial(AlignResult::Prepared(Arc::clone(&pair)));
     for (place, method) in PoseMethod::ALL.into_iter().enumerate() {
-        desk.progress(place, PoseMethod::ALL.len());
-        if desk.is_cancelled() {
-            return Ok(None);
-        }
-        let run = MethodRun::of(method, &pair, &|| desk.is_cancelled());
-        if desk.is_cancelled() {
-            return Ok(None);
-        }
-        hand_over(desk, AlignAnswer::Ran(Arc::new(run)));
+        context.progress(place, PoseMethod::ALL.len());
+        context.check()?;
+        let run = MethodRun::of(method, &pair, &|| context.is_cancelled());
+        context.check()?;
+        context.partial(AlignResult::Ran(Arc::new(run)));
     }
-    Ok(Some(AlignAnswer::Finished))
+    Ok(AlignResult::Finished)
 }
 
-fn table(
+/// Works out Table I but for the rows done: name of the part and start.
+pub(super) fn table(
     done: &[(String, usize)],
     shelf: &Shelf,
-    desk: &dyn Desk<Outcome>,
-) -> Result<Option<AlignAnswer>, Trouble> {
-    let shelved = shelf.get().map_err(|error| Trouble::of(&error))?;
+    context: &TaskContext<AlignResult>,
+) -> Result<AlignResult, TaskError> {
+    let shelved = shelf.get().map_err(|error| UserError::of(&error))?;
     let references = &shelved.library.references;
     let total = references.len() * Start::NUM_PAPER;
     let clock = Instant::now();
     let mut num_done = done.len();
-    desk.progress(num_done, total);
+    context.progress(num_done, total);
     for (place, reference) in references.iter().enumerate() {
         let title = shelved.shown.title(place);
         for start in 0..Start::NUM_PAPER {
@@ -108,14 +60,10 @@ fn table(
             let pair = Pair::moved_copy(reference, title, Start::Paper(start));
             let mut cells = Vec::new();
             for method in PoseMethod::ALL {
-                if desk.is_cancelled() {
-                    return Ok(None);
-                }
-                cells.push(TableCell::of(method, &pair, &|| desk.is_cancelled()));
+                context.check()?;
+                cells.push(TableCell::of(method, &pair, &|| context.is_cancelled()));
             }
-            if desk.is_cancelled() {
-                return Ok(None);
-            }
+            context.check()?;
             let row = TableRow {
                 part: reference.name.clone(),
                 title: title.to_owned(),
@@ -124,13 +72,33 @@ fn table(
             };
             num_done += 1;
             let (row, elapsed) = (Arc::new(row), clock.elapsed());
-            hand_over(desk, AlignAnswer::Row { row, elapsed });
-            desk.progress(num_done, total);
+            context.partial(AlignResult::Row { row, elapsed });
+            context.progress(num_done, total);
         }
     }
-    Ok(Some(AlignAnswer::Finished))
+    Ok(AlignResult::Finished)
 }
 
-fn hand_over(desk: &dyn Desk<Outcome>, answer: AlignAnswer) {
-    desk.partly(Ok(Answer::Align(answer)));
+/// Writes a text file, whole or not at all.
+pub(super) fn write(path: PathBuf, text: &str) -> Result<PathBuf, UserError> {
+    write_atomically(&path, |writer| writer.write_all(text.as_bytes()))
+        .map_err(|error| UserError::of(&error))?;
+    Ok(path)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_text_is_written_whole_and_a_missing_folder_is_said_in_words() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("table.csv");
+        let text = "part,e_m2\nfender,1e-7\n";
+        assert_eq!(write(path.clone(), text), Ok(path.clone()));
+        assert_eq!(std::fs::read_to_string(&path).expect("read"), text);
+        let path = folder.path().join("missing").join("table.csv");
+        let error = write(path, text).expect_err("refused");
+        assert!(!error.what.is_empty() && !error.advice.is_empty());
+    }
 }

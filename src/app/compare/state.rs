@@ -321,7 +321,7 @@ fn follow(state: &mut State) {
         let is_other = before
             .zip(now)
             .is_none_or(|(before, now)| !Arc::ptr_eq(&before, &now));
-        state.compare.followed.clone_from(&state.shown);
+        state.compare.followed.clone_from(&state.session.shown);
         if is_other {
             // What was captured or opened now is what a person wants to see.
             state.compare.front = Front::Scene;

@@ -11,8 +11,13 @@ use serde::Serialize;
 use super::{FrameTime, HeadlessWindow, Pace};
 use crate::{
     app::{
-        WindowOptions, action::Action, align::AlignAction, enrol::EnrolAction, live::LiveAction,
-        state::Workspace, viewport::ViewError,
+        WindowOptions,
+        action::Action,
+        align::{AlignAction, AlignWorkspace},
+        enrol::EnrolAction,
+        live::LiveAction,
+        state::Workspace,
+        viewport::ViewError,
     },
     bench::{process_seconds, quantile},
 };
@@ -128,19 +133,17 @@ fn live(window: &mut HeadlessWindow, num_frames: usize) -> FrameCost {
 
 /// Each as full as a person would have it: a part to enrol, a case under the glass, every method run.
 fn other_workspaces(window: &mut HeadlessWindow, num_frames: usize) -> Vec<FrameCost> {
-    let prepared = [
-        (
-            "Enrol, pointer moving",
-            Workspace::Enrol,
-            Some(Action::Enrol(EnrolAction::TakeShown)),
-        ),
-        ("Compare, pointer moving", Workspace::Compare, None),
-        (
-            "Align, pointer moving",
-            Workspace::Align,
-            Some(Action::Align(AlignAction::Run)),
-        ),
-        ("History, pointer moving", Workspace::History, None),
+    let prepared: [(&str, Workspace, fn(&mut HeadlessWindow)); 4] = [
+        ("Enrol, pointer moving", Workspace::Enrol, |window| {
+            window.act(Action::Enrol(EnrolAction::TakeShown))
+        }),
+        ("Compare, pointer moving", Workspace::Compare, |_| {}),
+        ("Align, pointer moving", Workspace::Align, |window| {
+            window.with(|align: &mut AlignWorkspace, cx| {
+                align.state_mut().apply(AlignAction::Run, cx);
+            });
+        }),
+        ("History, pointer moving", Workspace::History, |_| {}),
     ];
     let over = |i: usize| {
         let across = (i as f32 * 0.07).sin() * 0.4 + 0.5;
@@ -148,13 +151,11 @@ fn other_workspaces(window: &mut HeadlessWindow, num_frames: usize) -> Vec<Frame
         let at = Pos2::new(SIZE[0] as f32 * across, SIZE[1] as f32 * down);
         vec![Event::PointerMoved(at)]
     };
-    let measured = prepared.into_iter().map(|(what, workspace, action)| {
+    let measured = prepared.into_iter().map(|(what, workspace, prepare)| {
         window.act(Action::GoTo(workspace));
         window.settle();
-        if let Some(action) = action {
-            window.act(action);
-            window.settle();
-        }
+        prepare(window);
+        window.settle();
         frames(what, window, num_frames, Pace::Ahead, over)
     });
     measured.collect()

@@ -39,12 +39,13 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
         | Action::ForgetEmptyCell
         | Action::UseFoundLibrary
         | Action::Enrol(_)
-        | Action::Compare(_)
-        | Action::Align(_) => true,
+        | Action::Compare(_) => true,
+        Action::Press(workspace, _) => !is_operators(*workspace),
         Action::Capture
         | Action::UseCell(_)
         | Action::Open(_)
         | Action::Cancel(_)
+        | Action::CancelTask(_)
         | Action::Enlarge(_)
         | Action::Candidate(_)
         | Action::CloseTop
@@ -65,7 +66,6 @@ fn asks_for_engineer(ask: Ask) -> bool {
         Ask::Library
         | Ask::CasesFolder
         | Ask::EarlierRun
-        | Ask::Align(_)
         | Ask::Part
         | Ask::PartPath
         | Ask::Calibration

@@ -138,6 +138,17 @@ struct RunShared<T> {
     progress: Mutex<Progress>,
     /// Set by [`TaskContext::latest`], taken by [`Task::poll`].
     latest: Mutex<Option<T>>,
+    #[cfg(test)]
+    limit: Mutex<Limit<T>>,
+}
+
+/// How far a test lets a job come.
+#[cfg(test)]
+struct Limit<T> {
+    /// Parts that it may still hand over.
+    num_left: usize,
+    /// Keeps the run open after that, as if the job were still at work.
+    held: Option<SyncSender<TaskEvent<T>>>,
 }
 
 #[derive(Clone, Copy, Default)]
@@ -169,6 +180,11 @@ impl<T: Send + 'static> Task<T> {
             is_cancelled: AtomicBool::new(false),
             progress: Mutex::default(),
             latest: Mutex::new(None),
+            #[cfg(test)]
+            limit: Mutex::new(Limit {
+                num_left: usize::MAX,
+                held: None,
+            }),
         });
         let running = Running {
             title: title.into(),
@@ -235,6 +251,15 @@ impl<T: Send + 'static> Task<T> {
         let job = lock(&self.queue.waiting).take();
         job.map(|job| job()).is_some()
     }
+
+    /// Runs the waiting job until it has handed over so many parts; it then counts as still at work.
+    #[cfg(test)]
+    pub(in crate::app) fn run_waiting_until(&self, num_parts: usize) -> bool {
+        if let Some(run) = &self.run {
+            lock(&run.shared.limit).num_left = num_parts;
+        }
+        self.run_waiting()
+    }
 }
 
 impl<T> Drop for Task<T> {
@@ -269,6 +294,11 @@ impl<T> TaskContext<T> {
 
     /// Hands over a part of the result. Waits while the window has not read the parts before.
     pub fn partial(&self, part: T) {
+        #[cfg(test)]
+        {
+            let mut limit = lock(&self.shared.limit);
+            limit.num_left = limit.num_left.saturating_sub(1);
+        }
         // A cancelled run has no reader.
         let _ = self.events.send(TaskEvent::Partial(part));
         (self.wake)();
@@ -306,7 +336,20 @@ impl<T> TaskContext<T> {
             Ok(Err(TaskError::Cancelled)) => None,
             Err(panic) => Some(TaskEvent::Failed(panicked(panic.as_ref()))),
         };
-        let Self { events, wake, .. } = self;
+        let Self {
+            events,
+            wake,
+            shared,
+        } = self;
+        #[cfg(test)]
+        {
+            let mut limit = lock(&shared.limit);
+            if limit.num_left == 0 {
+                limit.held = Some(events);
+                return;
+            }
+        }
+        drop(shared);
         if let Some(event) = event {
             let _ = events.send(event);
         }
@@ -322,6 +365,10 @@ impl<T> Watch for TaskContext<T> {
     }
 
     fn is_cancelled(&self) -> bool {
+        #[cfg(test)]
+        if lock(&self.shared.limit).num_left == 0 {
+            return true;
+        }
         self.shared.is_cancelled.load(Ordering::Relaxed)
     }
 }
@@ -597,5 +644,21 @@ mod tests {
             assert_eq!(task.poll(), Some(TaskEvent::Partial(number)));
         }
         assert_eq!(task.poll(), Some(TaskEvent::Done(100)));
+    }
+
+    #[test]
+    fn a_job_stopped_by_a_test_counts_as_at_work() {
+        let mut task = Task::new("test", &TaskRunner::without_threads());
+        task.start("rows", |context| {
+            for row in 0.. {
+                context.check()?;
+                context.partial(row);
+            }
+            Ok(0)
+        });
+        assert!(task.run_waiting_until(2));
+        assert_eq!(task.poll(), Some(TaskEvent::Partial(0)));
+        assert_eq!(task.poll(), Some(TaskEvent::Partial(1)));
+        assert!(task.poll().is_none() && task.running().is_some());
     }
 }

@@ -1,97 +1,58 @@
+use std::sync::Arc;
+
 use super::*;
 use crate::{
-    app::{
-        action::{self, Action},
-        job::{Outcome, answer},
-        shelf::Shelf,
-        state::Workspace,
-        worker::{Desk, News},
-    },
+    app::{shelf::Shelf, shell::context::TestShell},
     geometry::{cloud::PointCloud, rigid::RigidTransform},
-    pipeline::{Stage, Watch},
     stages::pose::PoseMethod,
 };
-use std::cell::{Cell, RefCell};
 
-/// Keeps what is handed over; gives up after so many parts.
-struct Tray {
-    parts: RefCell<Vec<Outcome>>,
-    most: usize,
-    progress: Cell<(usize, usize)>,
+/// The workspace without a window: a job runs when the test says so.
+struct Bench {
+    align: AlignState,
+    shell: TestShell,
 }
 
-impl Tray {
-    fn of(most: usize) -> Self {
+impl Bench {
+    /// With an empty library.
+    fn new() -> Self {
         Self {
-            parts: RefCell::default(),
-            most,
-            progress: Cell::default(),
+            align: AlignState::new(&TaskRunner::without_threads()),
+            shell: TestShell::default(),
         }
     }
-}
 
-impl Watch for Tray {
-    fn begins(&self, _stage: Stage) {}
-
-    fn is_cancelled(&self) -> bool {
-        self.parts.borrow().len() >= self.most
-    }
-}
-
-impl Desk<Outcome> for Tray {
-    fn stands(&self, outcome: Outcome) {
-        self.partly(outcome);
+    /// With the shipped library.
+    fn with_library() -> Self {
+        let mut bench = Self::new();
+        let shelved = bench.shell.services.shelf.get().expect("shipped parts");
+        bench.shell.session.library = Some(Arc::clone(&shelved.shown));
+        bench
     }
 
-    fn is_followed(&self) -> bool {
-        true
+    fn act(&mut self, action: AlignAction) {
+        self.align.apply(action, &mut self.shell.context());
     }
 
-    fn progress(&self, done: usize, total: usize) {
-        self.progress.set((done, total));
+    /// Does it, and has the work done.
+    fn run(&mut self, action: AlignAction) {
+        self.run_until(action, usize::MAX);
     }
 
-    fn partly(&self, outcome: Outcome) {
-        self.parts.borrow_mut().push(outcome);
+    /// The same until so many parts were handed over.
+    fn run_until(&mut self, action: AlignAction, num_parts: usize) {
+        self.act(action);
+        assert!(self.align.task.run_waiting_until(num_parts));
+        self.align.update(&mut self.shell.context());
     }
-}
 
-/// A state that knows the shipped library.
-fn with_library(shelf: &Shelf) -> State {
-    let library = Some(Arc::clone(&shelf.get().expect("shipped parts").shown));
-    State {
-        library,
-        workspace: Workspace::Align,
-        ..State::default()
+    fn place(&self) -> usize {
+        self.align.place.round() as usize
     }
-}
 
-/// Does it, has the work done, and lets the state hear of it.
-fn run_whole(state: &mut State, shelf: &Shelf, action: AlignAction, tray: &Tray) {
-    let Some(Effect::Post {
-        generation,
-        request,
-    }) = apply(state, action)
-    else {
-        panic!("expected a request");
-    };
-    let outcome = answer(request, shelf, tray);
-    let parts = tray.parts.take().into_iter();
-    let parts = parts.map(|outcome| News::Partly {
-        generation,
-        outcome,
-    });
-    let done = outcome.map(|outcome| News::Done {
-        generation,
-        outcome,
-    });
-    for news in parts.chain(done) {
-        action::apply(state, Action::Hear(Lane::Align, news));
+    fn missing(&self) -> Option<String> {
+        self.align.choice(&self.shell.session).err()
     }
-}
-
-fn place(state: &State) -> usize {
-    state.align.place.round() as usize
 }
 
 /// E by its definition: every distance, no tree.
@@ -110,16 +71,15 @@ fn slow_e(pair: &Pair, pose: &RigidTransform) -> f64 {
 
 #[test]
 fn every_method_runs_on_the_pair_and_a_scrubbed_pose_gives_the_e_of_its_iteration() {
-    let shelf = Shelf::default();
-    let mut state = with_library(&shelf);
-    apply(&mut state, AlignAction::ChoosePart("fender".into()));
-    apply(&mut state, AlignAction::ChooseStart(Start::Paper(3)));
-    run_whole(&mut state, &shelf, AlignAction::Run, &Tray::of(usize::MAX));
-    assert!(state.works.is_empty() && state.align.coming.is_none());
-    let shown = state.align.shown.as_ref().expect("a result");
+    let mut bench = Bench::with_library();
+    bench.act(AlignAction::ChoosePart("fender".into()));
+    bench.act(AlignAction::ChooseStart(Start::Paper(3)));
+    bench.run(AlignAction::Run);
+    assert!(bench.align.running().is_none() && bench.align.coming.is_none());
+    let shown = bench.align.shown.as_ref().expect("a result");
     let methods: Vec<_> = shown.runs.iter().map(|run| run.method).collect();
     assert_eq!(methods, PoseMethod::ALL);
-    assert_eq!(place(&state), shown.last_place());
+    assert_eq!(bench.place(), shown.last_place());
     for (run, track) in shown.tracks() {
         assert_eq!(track.poses.len(), track.e_m2.len());
         // Over a part of the sample, so not exactly.
@@ -175,145 +135,131 @@ fn the_source_is_the_part_moved_by_the_start_and_the_truth_brings_it_back() {
 
 #[test]
 fn a_cancelled_table_keeps_its_rows_and_goes_on_where_it_stopped() {
-    let shelf = Shelf::default();
-    let mut state = with_library(&shelf);
-    let tray = Tray::of(2);
-    run_whole(&mut state, &shelf, AlignAction::RunTable, &tray);
-    assert!(
-        AlignState::is_table_at_work(&state),
-        "nothing said that it is done"
-    );
-    action::apply(&mut state, Action::Cancel(Lane::Align));
-    assert!(!AlignState::is_table_at_work(&state));
-    assert_eq!(state.align.table.rows.len(), 2);
-    let num_parts = state.library.as_ref().map_or(0, |l| l.parts.len());
-    assert_eq!(tray.progress.get(), (2, num_parts * Start::NUM_PAPER));
+    let mut bench = Bench::with_library();
+    bench.run_until(AlignAction::RunTable, 2);
+    assert!(bench.align.is_table_at_work());
+    let library = bench.shell.session.library.as_ref();
+    let total = library.map_or(0, |library| library.parts.len()) * Start::NUM_PAPER;
+    let running = bench.align.running().expect("at work");
+    assert_eq!(running.progress, Some((1, total)), "before the second row");
+    bench.act(AlignAction::Cancel);
+    assert!(!bench.align.is_table_at_work());
+    assert_eq!(bench.align.table.rows.len(), 2);
 
-    run_whole(&mut state, &shelf, AlignAction::RunTable, &Tray::of(1));
-    let starts: Vec<_> = state.align.table.rows.iter().map(|row| row.start).collect();
+    bench.run_until(AlignAction::RunTable, 1);
+    let starts: Vec<_> = bench.align.table.rows.iter().map(|row| row.start).collect();
     assert_eq!(starts, [0, 1, 2]);
-    let text = table::text(&state.align.table.rows, ',');
+    let text = table::text(&bench.align.table.rows, ',');
     assert_eq!(text.lines().count(), 4);
 }
 
 #[test]
 fn a_row_of_the_table_is_aligned_unless_the_table_is_at_work() {
-    let shelf = Shelf::default();
-    let mut state = with_library(&shelf);
-    run_whole(&mut state, &shelf, AlignAction::RunTable, &Tray::of(2));
-    apply(&mut state, AlignAction::Choose(Pairing::Files));
-    assert!(apply(&mut state, AlignAction::OpenRow(1)).is_none());
-    assert_eq!(state.align.start, Start::Paper(1));
-    assert_eq!(state.align.pairing, Pairing::MovedCopy);
-    action::apply(&mut state, Action::Cancel(Lane::Align));
-    assert!(matches!(
-        apply(&mut state, AlignAction::OpenRow(0)),
-        Some(Effect::Post { .. })
-    ));
-    assert!(apply(&mut state, AlignAction::OpenRow(99)).is_none());
+    let mut bench = Bench::with_library();
+    bench.run_until(AlignAction::RunTable, 2);
+    bench.act(AlignAction::Choose(Pairing::Files));
+    bench.act(AlignAction::OpenRow(1));
+    assert!(bench.align.is_table_at_work());
+    assert_eq!(bench.align.start, Start::Paper(1));
+    assert_eq!(bench.align.pairing, Pairing::MovedCopy);
+    bench.act(AlignAction::Cancel);
+    bench.act(AlignAction::OpenRow(99));
+    assert!(bench.align.running().is_none());
+    bench.act(AlignAction::OpenRow(0));
+    assert!(bench.align.is_pair_at_work());
 }
 
 #[test]
 fn what_is_missing_is_said_in_words() {
-    let mut state = State::default();
-    let missing = |state: &State| AlignState::choice(state).err();
-    assert!(missing(&state).is_some_and(|text| text.contains("no part")));
-    assert!(apply(&mut state, AlignAction::Run).is_none());
-    apply(&mut state, AlignAction::Choose(Pairing::Scene));
-    assert!(missing(&state).is_some_and(|text| text.contains("Capture")));
-    apply(&mut state, AlignAction::Choose(Pairing::Files));
-    assert!(missing(&state).is_some_and(|text| text.contains("Source…")));
-    apply(
-        &mut state,
-        AlignAction::Chosen(AlignAsk::Source, "a.ply".into()),
-    );
-    assert!(missing(&state).is_some_and(|text| text.contains("Target…")));
-    apply(
-        &mut state,
-        AlignAction::Chosen(AlignAsk::Target, "b.ply".into()),
-    );
-    assert_eq!(missing(&state), None);
+    let mut bench = Bench::new();
+    let says = |bench: &Bench, words| bench.missing().is_some_and(|text| text.contains(words));
+    assert!(says(&bench, "no part"));
+    bench.act(AlignAction::Run);
+    assert!(bench.align.running().is_none());
+    bench.act(AlignAction::Choose(Pairing::Scene));
+    assert!(says(&bench, "Capture"));
+    bench.act(AlignAction::Choose(Pairing::Files));
+    assert!(says(&bench, "Source…"));
+    bench.act(AlignAction::Chosen(AlignFile::Source, "a.ply".into()));
+    assert!(says(&bench, "Target…"));
+    bench.act(AlignAction::Chosen(AlignFile::Target, "b.ply".into()));
+    assert_eq!(bench.missing(), None);
 }
 
 #[test]
 fn a_custom_start_carries_units_and_is_refused_in_words() {
-    let mut state = State::default();
-    apply(&mut state, AlignAction::ToggleCustom);
-    apply(&mut state, AlignAction::WriteCustom("0 0 30deg".into()));
-    assert!(!state.align.custom.is_start());
-    assert!(state.align.custom.remarks[0].contains("expected six"));
-    apply(&mut state, AlignAction::UseCustom);
-    assert_eq!(state.align.start, Start::default());
-    apply(
-        &mut state,
-        AlignAction::WriteCustom("0 0 90deg 100mm 0 1200".into()),
-    );
-    assert!(state.align.custom.remarks[0].contains("1200mm"));
-    apply(&mut state, AlignAction::UseCustom);
-    let moved = state.align.start.transform() * nalgebra::Point3::origin();
+    let mut bench = Bench::new();
+    bench.act(AlignAction::ToggleCustom);
+    bench.act(AlignAction::WriteCustom("0 0 30deg".into()));
+    assert!(!bench.align.custom.is_start());
+    assert!(bench.align.custom.remarks[0].contains("expected six"));
+    bench.act(AlignAction::UseCustom);
+    assert_eq!(bench.align.start, Start::default());
+    bench.act(AlignAction::WriteCustom("0 0 90deg 100mm 0 1200".into()));
+    assert!(bench.align.custom.remarks[0].contains("1200mm"));
+    bench.act(AlignAction::UseCustom);
+    let moved = bench.align.start.transform() * nalgebra::Point3::origin();
     assert!((moved.x - 0.1).abs() < 1e-12);
-    assert_eq!(state.align.custom.form, Form::Closed);
+    assert_eq!(bench.align.custom.form, Form::Closed);
 }
 
 #[test]
 fn random_starts_are_counted_and_come_again() {
-    let mut state = State::default();
-    apply(&mut state, AlignAction::DrawStart);
-    let first = state.align.start;
+    let mut bench = Bench::new();
+    bench.act(AlignAction::DrawStart);
+    let first = bench.align.start;
     assert_eq!(first, Start::Random(1));
-    apply(&mut state, AlignAction::DrawStart);
-    assert_ne!(state.align.start.transform(), first.transform());
-    apply(&mut state, AlignAction::ChooseStart(Start::Random(1)));
-    assert_eq!(state.align.start.transform(), first.transform());
+    bench.act(AlignAction::DrawStart);
+    assert_ne!(bench.align.start.transform(), first.transform());
+    bench.act(AlignAction::ChooseStart(Start::Random(1)));
+    assert_eq!(bench.align.start.transform(), first.transform());
 }
 
 #[test]
 fn the_scrubber_stays_within_the_way_and_plays_to_its_end() {
-    let shelf = Shelf::default();
-    let mut state = with_library(&shelf);
-    run_whole(&mut state, &shelf, AlignAction::Run, &Tray::of(usize::MAX));
-    let last = state.align.last_place();
+    let mut bench = Bench::with_library();
+    bench.run(AlignAction::Run);
+    let last = bench.align.last_place();
     assert!(last > 3);
-    apply(&mut state, AlignAction::Step(1.0));
-    assert_eq!(place(&state), last);
-    apply(&mut state, AlignAction::Step(-2.0));
-    assert_eq!(place(&state), last - 2);
-    apply(&mut state, AlignAction::Scrub(-5.0));
-    assert_eq!(place(&state), 0);
-    apply(&mut state, AlignAction::Scrub(last as f32));
+    bench.act(AlignAction::Step(1.0));
+    assert_eq!(bench.place(), last);
+    bench.act(AlignAction::Step(-2.0));
+    assert_eq!(bench.place(), last - 2);
+    bench.act(AlignAction::Scrub(-5.0));
+    assert_eq!(bench.place(), 0);
+    bench.act(AlignAction::Scrub(last as f32));
     // From the end it plays from the beginning.
-    apply(&mut state, AlignAction::TogglePlay);
+    bench.act(AlignAction::TogglePlay);
     assert_eq!(
-        (place(&state), state.align.playback),
+        (bench.place(), bench.align.playback),
         (0, Playback::Playing)
     );
-    apply(&mut state, AlignAction::Advance(0.1));
-    assert!(state.align.place > 0.0 && state.align.playback == Playback::Playing);
-    apply(&mut state, AlignAction::Advance(60.0));
+    bench.act(AlignAction::Advance(0.1));
+    assert!(bench.align.place > 0.0 && bench.align.playback == Playback::Playing);
+    bench.act(AlignAction::Advance(60.0));
     assert_eq!(
-        (place(&state), state.align.playback),
+        (bench.place(), bench.align.playback),
         (last, Playback::Paused)
     );
-    apply(&mut state, AlignAction::Advance(1.0));
-    assert_eq!(place(&state), last);
+    bench.act(AlignAction::Advance(1.0));
+    assert_eq!(bench.place(), last);
 }
 
 #[test]
 fn an_old_result_stays_until_the_first_method_of_the_next_has_run() {
-    let shelf = Shelf::default();
-    let mut state = with_library(&shelf);
-    run_whole(&mut state, &shelf, AlignAction::Run, &Tray::of(usize::MAX));
-    let old = Arc::clone(&state.align.shown.as_ref().expect("a result").pair);
-    apply(&mut state, AlignAction::ChooseStart(Start::Paper(2)));
+    let mut bench = Bench::with_library();
+    bench.run(AlignAction::Run);
+    let old = Arc::clone(&bench.align.shown.as_ref().expect("a result").pair);
+    bench.act(AlignAction::ChooseStart(Start::Paper(2)));
     // The pair, and then no method.
-    run_whole(&mut state, &shelf, AlignAction::Run, &Tray::of(1));
-    assert!(AlignState::is_pair_at_work(&state) && state.align.coming.is_some());
+    bench.run_until(AlignAction::Run, 1);
+    assert!(bench.align.is_pair_at_work() && bench.align.coming.is_some());
     assert!(Arc::ptr_eq(
         &old,
-        &state.align.shown.as_ref().expect("a result").pair
+        &bench.align.shown.as_ref().expect("a result").pair
     ));
-    run_whole(&mut state, &shelf, AlignAction::Run, &Tray::of(2));
-    let shown = state.align.shown.as_ref().expect("a result");
+    bench.run_until(AlignAction::Run, 2);
+    let shown = bench.align.shown.as_ref().expect("a result");
     assert!(!Arc::ptr_eq(&old, &shown.pair) && shown.runs.len() == 1);
 }
 
@@ -324,20 +270,20 @@ fn two_files_far_from_the_origin_are_laid_over_each_other() {
     let cloud = &shelf.get().expect("shipped parts").library.references[2].cloud;
     let off = nalgebra::Vector3::new(400.0, -300.0, 0.0);
     let turned = Start::Paper(1).transform();
-    let mut state = State::default();
-    apply(&mut state, AlignAction::Choose(Pairing::Files));
+    let mut bench = Bench::new();
+    bench.act(AlignAction::Choose(Pairing::Files));
     for (name, ask, moved) in [
-        ("target.ply", AlignAsk::Target, RigidTransform::identity()),
-        ("source.ply", AlignAsk::Source, turned),
+        ("target.ply", AlignFile::Target, RigidTransform::identity()),
+        ("source.ply", AlignFile::Source, turned),
     ] {
         let path = folder.path().join(name);
         let points = cloud.points.iter().map(|p| moved * p.cast::<f64>() + off);
         let points = PointCloud::from_points(points.map(nalgebra::OPoint::cast));
         crate::files::save_cloud(&path, &points).expect("written");
-        apply(&mut state, AlignAction::Chosen(ask, path));
+        bench.act(AlignAction::Chosen(ask, path));
     }
-    run_whole(&mut state, &shelf, AlignAction::Run, &Tray::of(usize::MAX));
-    let shown = state.align.shown.as_ref().expect("a result");
+    bench.run(AlignAction::Run);
+    let shown = bench.align.shown.as_ref().expect("a result");
     assert_eq!(shown.pair.title, "source.ply onto target.ply");
     let track = |method| {
         let mut tracks = shown.tracks();
@@ -363,48 +309,44 @@ fn poor_pairs_are_refused_in_words_in_each_methods_place() {
         folder.path().join("none.xyz"),
     );
     std::fs::write(&few, "0 0 1\n0 1 1\n1 0 1\n1 1 1.2\n").expect("written");
-    let mut state = State::default();
-    apply(&mut state, AlignAction::Choose(Pairing::Files));
-    apply(
-        &mut state,
-        AlignAction::Chosen(AlignAsk::Source, few.clone()),
-    );
-    apply(&mut state, AlignAction::Chosen(AlignAsk::Target, few));
-    let shelf = Shelf::default();
-    run_whole(&mut state, &shelf, AlignAction::Run, &Tray::of(usize::MAX));
-    let shown = state.align.shown.as_ref().expect("a result");
+    let mut bench = Bench::new();
+    bench.act(AlignAction::Choose(Pairing::Files));
+    bench.act(AlignAction::Chosen(AlignFile::Source, few.clone()));
+    bench.act(AlignAction::Chosen(AlignFile::Target, few));
+    bench.run(AlignAction::Run);
+    let shown = bench.align.shown.as_ref().expect("a result");
     assert_eq!(shown.runs.len(), PoseMethod::ALL.len());
     for run in &shown.runs {
         let trouble = run.track.as_ref().expect_err("too few points");
         assert!(trouble.what.contains("4 points") && !trouble.advice.is_empty());
         assert!(!trouble.advice.contains("--"), "{}", trouble.advice);
     }
-    assert_eq!(state.align.last_place(), 0);
-    apply(&mut state, AlignAction::Chosen(AlignAsk::Target, none));
-    run_whole(&mut state, &shelf, AlignAction::Run, &Tray::of(usize::MAX));
+    assert_eq!(bench.align.last_place(), 0);
+    bench.act(AlignAction::Chosen(AlignFile::Target, none));
+    bench.run(AlignAction::Run);
     assert_eq!(
-        state.notices.len(),
+        bench.shell.notices().len(),
         1,
         "a file that is not there is a notice"
     );
-    assert!(state.align.coming.is_none() && state.works.is_empty());
+    assert!(bench.align.coming.is_none() && bench.align.running().is_none());
 }
 
 #[test]
 fn the_table_is_written_as_csv_where_a_person_says() {
-    let shelf = Shelf::default();
-    let mut state = with_library(&shelf);
-    run_whole(&mut state, &shelf, AlignAction::RunTable, &Tray::of(1));
-    let chosen = AlignAction::Chosen(AlignAsk::TableFile, "t.csv".into());
-    let Some(Effect::Post { request, .. }) = apply(&mut state, chosen) else {
-        panic!("expected a request");
-    };
-    let Request::Write(WriteRequest::Text { text, .. }) = request else {
-        panic!("expected a text");
-    };
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("t.csv");
+    let mut bench = Bench::with_library();
+    bench.run_until(AlignAction::RunTable, 1);
+    bench.act(AlignAction::Chosen(AlignFile::TableFile, path.clone()));
+    assert!(bench.align.is_writing() && bench.align.writing.run_waiting());
+    bench.align.update(&mut bench.shell.context());
+    assert_eq!(bench.shell.notices(), [format!("Wrote {}", path.display())]);
+    let text = std::fs::read_to_string(&path).expect("written");
     assert!(text.starts_with("part,start,") && text.lines().count() == 2);
-    let Some(Effect::CopyText(copied)) = apply(&mut state, AlignAction::CopyTable) else {
-        panic!("expected a text");
-    };
-    assert_eq!(copied, text.replace(',', "\t"));
+    bench.act(AlignAction::CopyTable);
+    assert!(matches!(
+        bench.shell.messages.last(),
+        Some(Message::CopyText(copied)) if *copied == text.replace(',', "\t")
+    ));
 }

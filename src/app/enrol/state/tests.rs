@@ -50,11 +50,10 @@ struct Bench {
 impl Bench {
     fn new() -> Self {
         let folder = tempfile::tempdir().expect("a folder");
+        let mut state = State::default();
+        state.workspace = Workspace::Enrol;
         Self {
-            state: State {
-                workspace: Workspace::Enrol,
-                ..State::default()
-            },
+            state,
             shelf: Shelf::new(Some(folder.path().to_owned()), Camera::default()),
             folder,
         }

@@ -1,0 +1,141 @@
+//! What the workspaces share. They read it; the shell alone changes it.
+
+use std::{path::PathBuf, sync::Arc};
+
+use crate::{
+    app::{
+        inspect::work::Inspected, shelf::LibraryShown, source::CellChoice, unit_system::UnitSystem,
+    },
+    capture::SourceSpec,
+    pipeline::Recipe,
+    robot::{Convention, RobotFrame},
+    stages::segment::EmptyCell,
+};
+
+/// What the workspaces share.
+#[derive(Debug, Default)]
+pub struct Session {
+    /// What Capture takes a scene from.
+    pub source: Source,
+    /// What the camera saw without a part, if that was taken.
+    pub empty_cell: Option<Arc<EmptyCell>>,
+    /// Scenes opened last, the newest first.
+    pub recent: Vec<PathBuf>,
+    /// The last result.
+    pub shown: Option<Shown>,
+    /// The library in use, once loaded.
+    pub library: Option<Arc<LibraryShown>>,
+    /// The library's folder that a person chose in the window.
+    pub chosen_library: Option<PathBuf>,
+    /// The parameters that scenes are inspected with.
+    pub recipe: Arc<Recipe>,
+    /// In which numbers the robot is told a pose.
+    pub convention: Convention,
+    /// Where the camera stands in the robot's base frame, if the cell is calibrated.
+    pub robot: Option<Arc<RobotFrame>>,
+    /// Units that lengths and angles are shown in.
+    pub units: UnitSystem,
+    /// Colours.
+    pub theme: ThemeChoice,
+    /// The workspace in front.
+    pub workspace: WorkspaceKind,
+}
+
+/// Where Capture takes a scene from.
+#[derive(Clone, Debug, PartialEq)]
+pub enum Source {
+    /// The simulated cell.
+    Cell(CellChoice),
+    /// A file, read again at each capture.
+    File(PathBuf),
+    /// A camera, a recording, a watched folder, or the simulated cell as somebody has set it up.
+    Camera(Box<SourceSpec>),
+}
+
+impl Default for Source {
+    fn default() -> Self {
+        Self::Cell(CellChoice::default())
+    }
+}
+
+/// A result, and the number by which what was made for it is known.
+#[derive(Clone, Debug)]
+pub struct Shown {
+    /// The generation of the request that it answers.
+    pub generation: u64,
+    /// The result.
+    pub inspected: Arc<Inspected>,
+    /// True if it was taken out of the history.
+    pub is_past: bool,
+    /// Of a frame among others: which session of following it belongs to.
+    pub session: Option<u64>,
+}
+
+/// The workspaces that the rail lists.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum WorkspaceKind {
+    /// The operator's: which part is it, and is it accepted?
+    #[default]
+    Inspect,
+    /// New parts.
+    Enrol,
+    /// The engineer's: why was this taken for that?
+    Compare,
+    /// Methods of pose estimation side by side.
+    Align,
+    /// What was inspected before.
+    History,
+}
+
+impl WorkspaceKind {
+    /// Every workspace, in the order of the rail and of the number keys.
+    pub const ALL: [Self; 5] = [
+        Self::Inspect,
+        Self::Enrol,
+        Self::Compare,
+        Self::Align,
+        Self::History,
+    ];
+
+    /// What a person calls it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Inspect => "Inspect",
+            Self::Enrol => "Enrol",
+            Self::Compare => "Compare",
+            Self::Align => "Align",
+            Self::History => "History",
+        }
+    }
+}
+
+/// Colours.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum ThemeChoice {
+    /// Light on dark.
+    #[default]
+    Dark,
+    /// Dark on light.
+    Light,
+}
+
+impl ThemeChoice {
+    /// What a person calls it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Dark => "Dark",
+            Self::Light => "Light",
+        }
+    }
+
+    /// The other one.
+    #[must_use]
+    pub fn other(self) -> Self {
+        match self {
+            Self::Dark => Self::Light,
+            Self::Light => Self::Dark,
+        }
+    }
+}

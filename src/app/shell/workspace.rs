@@ -1,0 +1,47 @@
+//! A workspace, as the shell sees it.
+
+use std::any::Any;
+
+use egui::Ui;
+
+use super::{
+    context::ShellContext, key_binding::KeyBinding, session::WorkspaceKind, task::Running,
+};
+
+/// A workspace: it owns its state and its tasks, and draws itself.
+pub trait Workspace: Any {
+    /// Its place on the rail.
+    fn kind(&self) -> WorkspaceKind;
+
+    /// Draws it, and does what a person caused.
+    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>);
+
+    /// Takes in what its tasks and dialogs report. Called in every frame, in front or not.
+    fn update(&mut self, cx: &mut ShellContext<'_>);
+
+    /// Its own keys; they come before the window's.
+    fn key_bindings(&self) -> Vec<KeyBinding> {
+        Vec::new()
+    }
+
+    /// The key at this place of [`key_bindings`](Self::key_bindings) was pressed.
+    fn press(&mut self, _place: usize, _cx: &mut ShellContext<'_>) {}
+
+    /// The run that the top bar shows, with a button to cancel it.
+    fn running(&self) -> Option<&Running> {
+        None
+    }
+
+    /// Cancels that run.
+    fn cancel(&mut self) {}
+
+    /// True while keys go to one of its 3-D views.
+    fn has_key_focus(&self) -> bool {
+        false
+    }
+
+    /// True while nothing is at work or waits to be.
+    fn is_idle(&self) -> bool {
+        self.running().is_none()
+    }
+}
