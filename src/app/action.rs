@@ -4,7 +4,6 @@ use std::{path::PathBuf, sync::Arc};
 
 use super::{
     answers,
-    compare::{self, CompareAction},
     enrol::{self, EnrolAction},
     history::{self, HistoryAction, HistoryJob},
     inspect::{self, state::InspectAction, work::InspectRequest},
@@ -79,8 +78,6 @@ pub enum Action {
     Inspect(InspectAction),
     /// Of the Enrol workspace.
     Enrol(EnrolAction),
-    /// Of the Compare workspace.
-    Compare(CompareAction),
     /// The key at this place of a workspace's own was pressed.
     Press(Workspace, usize),
     /// Cancel what a workspace is at.
@@ -114,10 +111,6 @@ pub enum Ask {
     HistoryCases,
     /// Where a picture of the 3-D view is to go.
     Picture,
-    /// A folder of kept cases.
-    CasesFolder,
-    /// What an earlier run of all cases has written.
-    EarlierRun,
     /// A scene, a whole cloud or a mesh to enrol.
     Part,
     /// A calibration of the robot's cell.
@@ -239,7 +232,6 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::Live(action) => return live::apply(state, action),
         Action::Inspect(action) => return inspect::state::apply(state, action),
         Action::Enrol(action) => return enrol::apply(state, action),
-        Action::Compare(action) => return compare::apply(state, action),
         Action::Press(workspace, place) => return Some(Effect::Press(workspace, place)),
         Action::CancelTask(workspace) => return Some(Effect::CancelTask(workspace)),
         Action::History(action) => return history::apply(state, action),
@@ -252,8 +244,6 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
 /// What follows from the file or folder that was chosen.
 fn chosen(state: &mut State, ask: Ask, path: PathBuf) -> Option<Effect> {
     match ask {
-        Ask::CasesFolder => compare::apply(state, CompareAction::Folder(path)),
-        Ask::EarlierRun => compare::apply(state, CompareAction::Earlier(path)),
         Ask::Scene | Ask::Part => {
             state.source = Source::File(path);
             Some(capture(state))

@@ -7,7 +7,7 @@ use std::{
 
 use super::{
     action::{Effect, inspect_again, notify},
-    compare, enrol,
+    enrol,
     history::{self, TakenIn},
     inspect::work::Inspected,
     job::{Answer, Outcome, Trouble},
@@ -52,7 +52,6 @@ fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> 
         Ok(Answer::Live(answer)) => return live::hear(state, Ok(answer)),
         Ok(Answer::History(looked)) => return history::take(state, *looked),
         Ok(Answer::Enrol(answer)) => return enrol::hear(state, Ok(answer)),
-        Ok(Answer::Compare(answer)) => return compare::hear(state, Ok(answer)),
         Ok(Answer::Library(library)) => {
             use_library(state, &library);
             return inspect_again(state);
@@ -64,7 +63,6 @@ fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> 
             notify(state, trouble.clone().into());
             match lane {
                 Lane::Enrol | Lane::Library => return enrol::hear(state, Err(trouble)),
-                Lane::Compare => return compare::hear(state, Err(trouble)),
                 Lane::Inspect => without_scene(state),
                 Lane::Live => return live::hear(state, Err(trouble)),
                 Lane::Write | Lane::History | Lane::Robot => {}

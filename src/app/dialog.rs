@@ -29,11 +29,6 @@ pub(super) fn request(ask: Ask) -> FileRequest {
         Ask::Recording => ("Play a recording", FileChoice::Folder),
         Ask::RecordTo => ("Folder to record the source in", FileChoice::FolderToWrite),
         Ask::WatchedFolder => ("Folder that captures are saved to", FileChoice::Folder),
-        Ask::CasesFolder => ("Folder of kept cases", FileChoice::Folder),
-        Ask::EarlierRun => (
-            "What partsight evaluate --json has written",
-            FileChoice::File,
-        ),
         Ask::Part => ("Open a scene, a cloud or a mesh to enrol", FileChoice::File),
         Ask::Calibration => ("Load the calibration of the robot's cell", FileChoice::File),
         Ask::SprayPath => (
@@ -61,7 +56,6 @@ fn filters(ask: Ask) -> &'static [(&'static str, &'static [&'static str])] {
         ],
         Ask::HistoryCsv => &[("Comma-separated values", &["csv"])],
         Ask::Picture => &[("Pictures", &["png"])],
-        Ask::EarlierRun => &[("Evaluations", &["json"])],
         Ask::Part => &[POINTS, ALL_FILES],
         Ask::Calibration => &[("Calibrations", &["toml"]), ALL_FILES],
         Ask::SprayPath => &[("Comma-separated values", &["csv"]), ("JSON", &["json"])],
@@ -72,7 +66,6 @@ fn filters(ask: Ask) -> &'static [(&'static str, &'static [&'static str])] {
         | Ask::Library
         | Ask::Recording
         | Ask::RecordTo
-        | Ask::WatchedFolder
-        | Ask::CasesFolder => &[],
+        | Ask::WatchedFolder => &[],
     }
 }

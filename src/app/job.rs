@@ -5,7 +5,6 @@ use std::{path::PathBuf, sync::Arc};
 /// The name under which most of the window knows it.
 pub use super::user_error::UserError as Trouble;
 use super::{
-    compare::{CompareAnswer, CompareRequest},
     enrol::{EnrolAnswer, EnrolRequest},
     history::{LookRequest, Looked},
     inspect::work::{InspectRequest, Inspected, inspect},
@@ -28,8 +27,6 @@ pub enum Request {
     Library(Option<PathBuf>),
     /// Something of the Enrol workspace.
     Enrol(EnrolRequest),
-    /// Something of the Compare workspace.
-    Compare(CompareRequest),
     /// Something of the robot's cell.
     Robot(RobotRequest),
     /// Write a file.
@@ -45,7 +42,6 @@ impl Request {
             Self::Inspect(_) | Self::Library(_) => Lane::Inspect,
             Self::Live(_) => Lane::Live,
             Self::Enrol(request) => request.lane(),
-            Self::Compare(_) => Lane::Compare,
             Self::Robot(_) => Lane::Robot,
             Self::Write(_) => Lane::Write,
             Self::History(_) => Lane::History,
@@ -64,8 +60,6 @@ pub enum Answer {
     Library(Arc<LibraryShown>),
     /// Something of the Enrol workspace.
     Enrol(EnrolAnswer),
-    /// Something of the Compare workspace.
-    Compare(CompareAnswer),
     /// Something of the robot's cell.
     Robot(RobotAnswer),
     /// What was written.
@@ -90,7 +84,6 @@ pub fn answer(request: Request, shelf: &Shelf, desk: &dyn Desk<Outcome>) -> Opti
             Err(error) => Err(Trouble::of(&error)),
         }),
         Request::Enrol(request) => super::enrol::answer(request, shelf, desk),
-        Request::Compare(request) => super::compare::answer(request, shelf, desk),
         Request::Write(request) => {
             Some(super::writing::answer(&request, shelf).map(Answer::Written))
         }

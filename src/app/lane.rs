@@ -9,8 +9,6 @@ pub enum Lane {
     Live,
     /// Prepares a part to be enrolled.
     Enrol,
-    /// Inspects again with other parameters, and runs kept cases.
-    Compare,
     /// Writes files that a person asked for.
     Write,
     /// Changes the library: what it began it finishes.
@@ -23,11 +21,10 @@ pub enum Lane {
 
 impl Lane {
     /// Every lane.
-    pub const ALL: [Self; 8] = [
+    pub const ALL: [Self; 7] = [
         Self::Inspect,
         Self::Live,
         Self::Enrol,
-        Self::Compare,
         Self::Write,
         Self::Library,
         Self::History,
@@ -40,7 +37,6 @@ impl Lane {
             Self::Inspect => "inspect",
             Self::Live => "live",
             Self::Enrol => "enrol",
-            Self::Compare => "compare",
             Self::Write => "write",
             Self::Library => "library",
             Self::History => "look",

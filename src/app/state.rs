@@ -11,7 +11,6 @@ pub use super::shell::{
 };
 use super::{
     action::Effect,
-    compare::CompareState,
     enrol::EnrolState,
     history::HistoryState,
     inspect::state::InspectState,
@@ -52,8 +51,6 @@ pub struct State {
     pub inspect: InspectState,
     /// Of the Enrol workspace.
     pub enrol: EnrolState,
-    /// Of the Compare workspace.
-    pub compare: CompareState,
     /// Of the History workspace.
     pub history: HistoryState,
 }
@@ -139,8 +136,7 @@ impl Workspace {
         match self {
             Self::Inspect => Some(Lane::Inspect),
             Self::Enrol => Some(Lane::Enrol),
-            Self::Compare => Some(Lane::Compare),
-            Self::Align | Self::History => None,
+            Self::Compare | Self::Align | Self::History => None,
         }
     }
 }

@@ -10,7 +10,7 @@ use super::{
     align::AlignWorkspace,
     bars::{self, Progress},
     camera::Camera,
-    compare::{self, CompareState},
+    compare::CompareWorkspace,
     dialog,
     enrol::EnrolPanel,
     headless::WorkCounts,
@@ -125,10 +125,7 @@ impl Window {
             });
         let mut window = Self {
             memory: Memory::new(settings, remembered.clone(), &runner),
-            state: State {
-                compare: CompareState::with_folder(cases),
-                ..remembered.into_state()
-            },
+            state: remembered.into_state(),
             workers,
             history_writer,
             kept,
@@ -137,7 +134,10 @@ impl Window {
                 shelf,
                 dialogs: DialogLock::default(),
             },
-            workspaces: vec![Box::new(AlignWorkspace::new(&gpu, &runner))],
+            workspaces: vec![
+                Box::new(CompareWorkspace::new(cases, &runner)),
+                Box::new(AlignWorkspace::new(&gpu, &runner)),
+            ],
             messages: Vec::new(),
             installed: None,
             gpu: gpu.clone(),
@@ -254,7 +254,13 @@ impl Window {
     fn deliver(&mut self, message: Message, ctx: &egui::Context) {
         match message {
             Message::Notify(notice) => self.act(Action::Notify(notice), ctx),
+            Message::Retract(notice) => self.state.notices.retain(|known| *known != notice),
             Message::CopyText(text) => ctx.copy_text(text),
+            Message::UseRecipe(recipe) => self.state.session.recipe = recipe,
+            Message::Inspect { title, request } => {
+                let effect = self.state.begin(title, Request::Inspect(request));
+                self.make(effect, ctx);
+            }
         }
     }
 
@@ -285,7 +291,8 @@ impl Window {
     /// True while nothing is at work.
     pub fn is_idle(&self) -> bool {
         let mut all = self.workspaces.iter();
-        self.state.works.is_empty() && all.all(|workspace| workspace.is_idle())
+        let session = &self.state.session;
+        self.state.works.is_empty() && all.all(|workspace| workspace.is_idle(session))
     }
 
     fn write_history(&self, job: HistoryJob) {
@@ -413,9 +420,8 @@ impl Window {
             .show(ui, |ui| match front {
                 WorkspaceKind::Inspect => self.inspect.ui(ui, &self.state, theme, &mut actions),
                 WorkspaceKind::Enrol => self.enrol.ui(ui, &self.state, theme, &mut actions),
-                WorkspaceKind::Compare => compare::ui(ui, &self.state, theme, &mut actions),
                 WorkspaceKind::History => self.history.ui(ui, &self.state, theme, &mut actions),
-                WorkspaceKind::Align => {
+                WorkspaceKind::Compare | WorkspaceKind::Align => {
                     self.lend(front, &ctx, |workspace, cx| workspace.ui(ui, cx));
                 }
             });

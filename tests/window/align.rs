@@ -11,7 +11,7 @@ use partsight::{
     stages::pose::PoseMethod,
 };
 
-use super::set_up::{SMALL, USUAL, WindowHarness, open_with, settle, wait_for};
+use super::set_up::{SMALL, USUAL, WindowHarness, act_in, open_with, settle, wait_for};
 
 fn open_at(size: Vec2) -> WindowHarness {
     let mut harness = open_with(size, WindowOptions::default());
@@ -145,13 +145,10 @@ fn a_cancelled_table_keeps_its_rows_and_a_row_opens() {
     );
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("table1.csv");
-    let context = harness.ctx.clone();
     let chosen = AlignAction::Chosen(AlignFile::TableFile, path.clone());
-    let window = harness.state_mut();
-    window.with(&context, |workspace: &mut AlignWorkspace, cx| {
+    act_in(&mut harness, |workspace: &mut AlignWorkspace, cx| {
         workspace.state_mut().apply(chosen, cx);
     });
-    settle(&mut harness);
     let text = std::fs::read_to_string(&path).expect("written");
     assert_eq!(text.lines().count(), 1 + num);
     harness.get_by_label(&format!("Wrote {}", path.display()));

@@ -10,8 +10,8 @@ use egui_kittest::{
 use partsight::{
     app::{
         WindowOptions,
-        action::{Action, Ask},
-        compare::{CompareAction, Front},
+        action::Action,
+        compare::{CompareAction, CompareState, CompareWorkspace, Front},
         source::CellChoice,
     },
     cases::{CaseAbout, CaseFolder, Found, Truth},
@@ -20,7 +20,7 @@ use partsight::{
     stages::scene::scene_from_frame,
 };
 
-use super::set_up::{SMALL, USUAL, WindowHarness, act, open_with, press, settle};
+use super::set_up::{SMALL, USUAL, WindowHarness, act, act_in, open_with, press, settle};
 
 fn open_at(size: Vec2, cases: &Path) -> WindowHarness {
     let options = WindowOptions {
@@ -32,6 +32,17 @@ fn open_at(size: Vec2, cases: &Path) -> WindowHarness {
 
 fn open(cases: &Path) -> WindowHarness {
     open_at(USUAL, cases)
+}
+
+fn own(harness: &WindowHarness) -> &CompareState {
+    let workspace = harness.state().workspace::<CompareWorkspace>();
+    workspace.expect("the workspace").state()
+}
+
+fn act_in_compare(harness: &mut WindowHarness, action: CompareAction) {
+    act_in(harness, |workspace: &mut CompareWorkspace, cx| {
+        workspace.state_mut().apply(action, cx);
+    });
 }
 
 /// A scene of the cell, in front of the workspace.
@@ -47,7 +58,7 @@ fn keep(harness: &mut WindowHarness, choice: CellChoice, truth: &str) {
 }
 
 fn found(harness: &WindowHarness) -> Option<String> {
-    let study = harness.state().state().compare.study.as_ref();
+    let study = own(harness).study.as_ref();
     study.expect("a study").found.part.clone()
 }
 
@@ -61,7 +72,7 @@ fn a_case_is_kept_run_and_opened_again_from_its_cell() {
     press(&mut harness, "Compare");
     harness.get_by_label_contains("Contours at the best lag");
     harness.get_by_label_contains("No kept cases in");
-    assert!(harness.state().state().compare.study.is_some());
+    assert!(own(&harness).study.is_some());
 
     // Without a truth nothing is kept.
     harness.key_press(Key::K);
@@ -105,7 +116,7 @@ fn a_case_is_kept_run_and_opened_again_from_its_cell() {
 
     harness.key_press_modifiers(Modifiers::COMMAND, Key::R);
     settle(&mut harness);
-    let run = harness.state().state().compare.run.clone().expect("run");
+    let run = own(&harness).run.clone().expect("run");
     assert!(run.ended.is_some() && run.results.len() == 3);
     harness.get_by_label("1 wrong and accepted");
     harness.get_by_label_contains("of 3 right");
@@ -122,7 +133,7 @@ fn a_case_is_kept_run_and_opened_again_from_its_cell() {
     settle(&mut harness);
     let name = list.cases[2].name.clone();
     press(&mut harness, &format!("Open {name}"));
-    let compare = &harness.state().state().compare;
+    let compare = own(&harness);
     assert!(matches!(&compare.front, Front::Kept(case) if case.name == name));
     let study = compare.study.as_ref().expect("a study");
     assert_eq!(study.found, list.cases[2].meta.about.found);
@@ -144,10 +155,7 @@ fn a_case_is_kept_run_and_opened_again_from_its_cell() {
     assert_eq!(num(), 3);
     // Capture brings the scene to the front again.
     show(&mut harness, DOOR);
-    assert!(matches!(
-        harness.state().state().compare.front,
-        Front::Scene
-    ));
+    assert!(matches!(own(&harness).front, Front::Scene));
     assert_eq!(found(&harness).as_deref(), Some("front_door"));
 }
 
@@ -197,7 +205,7 @@ fn a_changed_parameter_shows_at_once_and_can_be_used_undone_and_reset() {
     press(&mut harness, "Compare");
     harness.get_by_label("0 changed from default");
     let study = |harness: &WindowHarness| {
-        let study = harness.state().state().compare.study.clone();
+        let study = own(&harness).study.clone();
         study.expect("a study")
     };
     assert!(study(&harness).found.accepted);
@@ -251,7 +259,7 @@ fn another_part_can_be_compared_from_the_list_of_distances() {
     let mut harness = open(folder.path());
     press(&mut harness, "Compare");
     let against = |harness: &WindowHarness| {
-        let study = harness.state().state().compare.study.clone();
+        let study = own(&harness).study.clone();
         study.expect("a study").against.clone()
     };
     assert_eq!(against(&harness).as_deref(), Some("front_door"));
@@ -325,7 +333,7 @@ fn an_earlier_run_is_compared_and_what_is_worse_is_listed_first() {
     press(&mut harness, "Compare");
     harness.get_by_label("it is: Fender, left · placed anyhow");
     let compare = |harness: &mut WindowHarness| {
-        act(harness, Action::Chosen(Ask::EarlierRun, earlier.clone()));
+        act_in_compare(harness, CompareAction::Earlier(earlier.clone()));
     };
     // Before a run there is nothing to compare.
     compare(&mut harness);
@@ -338,13 +346,13 @@ fn an_earlier_run_is_compared_and_what_is_worse_is_listed_first() {
 
     // With a threshold that nothing reaches it is refused now.
     let strict = CompareAction::Set("accept.min_score", 1.0);
-    act(&mut harness, Action::Compare(strict));
+    act_in_compare(&mut harness, strict);
     press(&mut harness, "Run all cases");
     compare(&mut harness);
     harness.get_by_label("1 worse");
     harness.get_by_label_contains("worse: refused, was right · Fender, left");
     press(&mut harness, "Open monday");
-    let front = &harness.state().state().compare.front;
+    let front = &own(&harness).front;
     assert!(matches!(front, Front::Kept(case) if case.name == "monday"));
     press(&mut harness, "Back to matrix");
     harness.get_by_label("Fender, left, not accepted: 1, wrongly refused");

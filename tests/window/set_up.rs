@@ -12,7 +12,8 @@ use egui_kittest::{Harness, kittest::Queryable as _};
 use partsight::app::{
     Window, WindowOptions,
     action::Action,
-    state::{State, Workspace},
+    shell::{context::ShellContext, workspace::Workspace},
+    state::State,
 };
 
 /// A window without a screen.
@@ -40,9 +41,7 @@ pub(crate) fn open() -> WindowHarness {
 /// Draws until nothing is at work any more.
 pub(crate) fn settle(harness: &mut WindowHarness) {
     wait_for(harness, |window| {
-        let state = window.state();
-        let is_behind = state.workspace == Workspace::Compare && state.is_compare_behind();
-        window.is_idle() && !is_behind && state.history.is_settled()
+        window.is_idle() && window.state().history.is_settled()
     });
     harness.run_steps(8);
     // Wherever a test comes by: nothing to be pressed or filled in without a name.
@@ -85,6 +84,17 @@ pub(crate) fn press(harness: &mut WindowHarness, label: &str) {
 pub(crate) fn act(harness: &mut WindowHarness, action: Action) {
     let context = harness.ctx.clone();
     harness.state_mut().act(action, &context);
+    settle(harness);
+}
+
+/// Does something in the workspace of this type, and waits for what comes of it.
+pub(crate) fn act_in<W: Workspace>(
+    harness: &mut WindowHarness,
+    act: impl FnOnce(&mut W, &mut ShellContext<'_>),
+) {
+    let context = harness.ctx.clone();
+    let done = harness.state_mut().with(&context, act);
+    done.expect("the window has this workspace");
     settle(harness);
 }
 

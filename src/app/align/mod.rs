@@ -38,7 +38,7 @@ use super::{
     shell::{
         context::ShellContext,
         key_binding::{KeyBinding, Shortcut},
-        session::WorkspaceKind,
+        session::{Session, WorkspaceKind},
         task::{Running, TaskRunner},
         workspace::Workspace,
     },
@@ -173,7 +173,7 @@ impl Workspace for AlignWorkspace {
         self.views.has_focus()
     }
 
-    fn is_idle(&self) -> bool {
+    fn is_idle(&self, _session: &Session) -> bool {
         self.running().is_none() && !self.state.is_writing()
     }
 }

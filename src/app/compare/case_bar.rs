@@ -2,14 +2,13 @@
 
 use egui::{Button, RichText, ScrollArea, Sense, TextEdit, Ui, Vec2, WidgetInfo};
 
-use super::{CompareAction, Front, matrix::truth_title};
+use super::{CompareAction, CompareState, Front, matrix::truth_title};
 use crate::{
     app::{
-        bars::{labelled, shortened},
         shelf::LibraryShown,
-        state::State,
+        shell::session::Session,
         theme::{Theme, font, space},
-        widgets::{Mark, mark},
+        widgets::{Mark, labelled, mark, shortened},
     },
     cases::{Answered, Judgement, Truth},
 };
@@ -21,22 +20,28 @@ const WIDE: f32 = 800.0;
 const ASKED: &str = "what is it truly?";
 
 /// Draws the bar.
-pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<CompareAction>) {
+pub(super) fn ui(
+    ui: &mut Ui,
+    compare: &CompareState,
+    session: &Session,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+) {
     let remark = if ui.available_width() > WIDE {
         220.0
     } else {
         140.0
     };
     ui.horizontal_wrapped(|ui| {
-        case_menu(ui, state, acts);
-        verdict(ui, state, theme);
-        truth_menu(ui, state, acts);
+        case_menu(ui, compare, session, acts);
+        verdict(ui, compare, session, theme);
+        truth_menu(ui, compare, session, acts);
     });
     ui.horizontal_wrapped(|ui| {
         ui.label(RichText::new("against").color(theme.weak_text));
-        against_menu(ui, state, acts);
+        against_menu(ui, compare, session, acts);
         ui.add_space(space::MEDIUM);
-        deeds(ui, state, remark, theme, acts);
+        deeds(ui, compare, remark, theme, acts);
     });
 }
 
@@ -49,17 +54,21 @@ fn menu(ui: &mut Ui, title: &str, hover: &str, content: &mut dyn FnMut(&mut Ui))
     .on_hover_text(hover);
 }
 
-fn case_menu(ui: &mut Ui, state: &State, acts: &mut Vec<CompareAction>) {
-    let compare = &state.compare;
+fn case_menu(
+    ui: &mut Ui,
+    compare: &CompareState,
+    session: &Session,
+    acts: &mut Vec<CompareAction>,
+) {
     let is_scene = matches!(compare.front, Front::Scene);
-    let title = match (&compare.front, &state.shown) {
+    let title = match (&compare.front, &session.shown) {
         (Front::Kept(case), _) => case.name.clone(),
         (Front::Scene, Some(shown)) => shown.inspected.origin.title(),
         (Front::Scene, None) => "none".into(),
     };
     let title = format!("Case · {} ▼", shortened(&title, 24));
     menu(ui, &title, "Which scene is looked at", &mut |ui| {
-        if let Some(shown) = &state.shown {
+        if let Some(shown) = &session.shown {
             let title = format!("{} (in front)", shown.inspected.origin.title());
             if ui.selectable_label(is_scene, title).clicked() {
                 acts.push(CompareAction::FrontScene);
@@ -82,9 +91,9 @@ fn case_menu(ui: &mut Ui, state: &State, acts: &mut Vec<CompareAction>) {
 }
 
 /// "taken for Front door, left, accepted, and it is": a sentence that the menu beside it ends, or answers.
-fn verdict(ui: &mut Ui, state: &State, theme: &Theme) {
+fn verdict(ui: &mut Ui, compare: &CompareState, session: &Session, theme: &Theme) {
     let weak = |text: &str| RichText::new(text).color(theme.weak_text);
-    let Some(study) = &state.compare.study else {
+    let Some(study) = &compare.study else {
         ui.label(weak(ASKED));
         return;
     };
@@ -101,7 +110,7 @@ fn verdict(ui: &mut Ui, state: &State, theme: &Theme) {
     };
     ui.label(weak(verb));
     ui.label(strong(part));
-    let judgement = judged(state);
+    let judgement = judged(compare);
     // What was refused, rightly or not, does not look accepted.
     let sign = if found.accepted && judgement != Some(Judgement::WrongAccepted) {
         Mark::Good
@@ -121,15 +130,15 @@ fn verdict(ui: &mut Ui, state: &State, theme: &Theme) {
         Some(Judgement::WrongAccepted | Judgement::Refused) => format!("{word}, but it is"),
     };
     let word = ui.label(weak(&asked));
-    if let Some(refusal) = study.refusal(state.units) {
+    if let Some(refusal) = study.refusal(session.units) {
         word.on_hover_text(format!("{refusal}\n{}", study.advice));
     }
 }
 
 /// Whether the verdict of the case in front is right, once its truth is known.
-pub(super) fn judged(state: &State) -> Option<Judgement> {
-    let truth = state.compare.truth.as_ref()?;
-    let found = &state.compare.study.as_ref()?.found;
+pub(super) fn judged(compare: &CompareState) -> Option<Judgement> {
+    let truth = compare.truth.as_ref()?;
+    let found = &compare.study.as_ref()?.found;
     let answered: Answered = found.answered();
     Some(Judgement::of(truth, &answered))
 }
@@ -142,11 +151,16 @@ fn chosen_title(truth: &Truth, library: &LibraryShown) -> String {
     }
 }
 
-fn truth_menu(ui: &mut Ui, state: &State, acts: &mut Vec<CompareAction>) {
-    let Some(library) = &state.library else {
+fn truth_menu(
+    ui: &mut Ui,
+    compare: &CompareState,
+    session: &Session,
+    acts: &mut Vec<CompareAction>,
+) {
+    let Some(library) = &session.library else {
         return;
     };
-    let chosen = state.compare.truth.as_ref();
+    let chosen = compare.truth.as_ref();
     let title = chosen.map_or_else(
         || "Choose… ▼".to_owned(),
         |truth| format!("{} ▼", chosen_title(truth, library)),
@@ -176,15 +190,20 @@ fn truth_menu(ui: &mut Ui, state: &State, acts: &mut Vec<CompareAction>) {
     });
 }
 
-fn against_menu(ui: &mut Ui, state: &State, acts: &mut Vec<CompareAction>) {
-    let Some(library) = &state.library else {
+fn against_menu(
+    ui: &mut Ui,
+    compare: &CompareState,
+    session: &Session,
+    acts: &mut Vec<CompareAction>,
+) {
+    let Some(library) = &session.library else {
         return;
     };
-    let study = state.compare.study.as_ref();
+    let study = compare.study.as_ref();
     let shown = study.and_then(|study| study.against.as_deref());
     let now = shown.and_then(|part| library.place_of(part));
     let now = now.map_or("no part", |place| library.title(place));
-    let chosen = state.compare.against.as_deref();
+    let chosen = compare.against.as_deref();
     let hover = "The enrolled part that the case is compared with";
     menu(ui, &format!("{now} ▼"), hover, &mut |ui| {
         let follows = ui.selectable_label(chosen.is_none(), "What it is, else the best");
@@ -211,12 +230,11 @@ fn against_menu(ui: &mut Ui, state: &State, acts: &mut Vec<CompareAction>) {
 /// What can be done with the case, and with all of them.
 fn deeds(
     ui: &mut Ui,
-    state: &State,
+    compare: &CompareState,
     remark_width: f32,
     theme: &Theme,
     acts: &mut Vec<CompareAction>,
 ) {
-    let compare = &state.compare;
     let key = |text: &str| RichText::new(text).font(font::small());
     match &compare.front {
         Front::Scene => {

@@ -3,15 +3,15 @@
 use egui::{Align2, Rect, RichText, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
 
 use super::{
-    CompareAction,
+    CompareAction, CompareState,
     study::{PartDistance, Study},
 };
 use crate::{
     app::{
-        bars::focus_ring,
-        state::State,
+        shell::session::Session,
         theme::{ROUNDING, Theme, font, space},
         unit_system::UnitSystem,
+        widgets::focus_ring,
     },
     stages::rank::Matcher,
 };
@@ -24,8 +24,14 @@ const FIGURES: f32 = 16.0;
 const WIDE: f32 = 270.0;
 
 /// Draws the list.
-pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<CompareAction>) {
-    if state.is_study_old() {
+pub(super) fn ui(
+    ui: &mut Ui,
+    compare: &CompareState,
+    session: &Session,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+) {
+    if compare.is_study_old() {
         ui.multiply_opacity(0.55);
     }
     ui.spacing_mut().item_spacing.y = 2.0;
@@ -34,8 +40,7 @@ pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<Compa
             .font(font::body_strong())
             .color(theme.text),
     );
-    let Some(study) = state
-        .compare
+    let Some(study) = compare
         .study
         .as_ref()
         .filter(|study| !study.distances.is_empty())
@@ -67,7 +72,7 @@ pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<Compa
         .auto_shrink(false)
         .show(ui, |ui| {
             for distance in &study.distances {
-                if row(ui, study, distance, state.units, theme) {
+                if row(ui, study, distance, session.units, theme) {
                     acts.push(CompareAction::Against(Some(distance.part.clone())));
                 }
             }

@@ -8,16 +8,15 @@ use egui::{
 };
 
 use super::{
-    CaseRun, CompareAction, changes_list,
+    CaseRun, CompareAction, CompareFile, CompareState, changes_list,
     matrix::{Matrix, MatrixCell, part_title, truth_title},
     score_plots,
 };
 use crate::{
     app::{
-        action::{Action, Ask},
-        bars::{focus_ring, labelled, shortened},
-        state::State,
+        shell::session::Session,
         theme::{ROUNDING, Theme, font, space},
+        widgets::{focus_ring, labelled, shortened},
     },
     cases::{Answered, Judgement, KeptCase},
 };
@@ -34,16 +33,15 @@ const WIDE: f32 = 110.0;
 /// Draws what there is of them.
 pub(super) fn ui(
     ui: &mut Ui,
-    state: &State,
+    compare: &CompareState,
+    session: &Session,
     theme: &Theme,
     acts: &mut Vec<CompareAction>,
-    actions: &mut Vec<Action>,
 ) {
-    header(ui, state, theme, acts, actions);
-    let compare = &state.compare;
+    header(ui, compare, session, theme, acts);
     let cases = compare.cases.as_ref().map(|cases| &*cases.list);
     let Some(cases) = cases.filter(|cases| !cases.is_empty()) else {
-        let text = match (cases, state.compare.folder.as_deref()) {
+        let text = match (cases, compare.folder.as_deref()) {
             (None, _) => "Looking for kept cases".to_owned(),
             (Some(_), Some(folder)) => format!("No kept cases in {}", folder.display()),
             (Some(_), None) => "No kept cases yet".into(),
@@ -59,10 +57,10 @@ pub(super) fn ui(
     };
     let cell = compare.cell.as_ref();
     let Some(run) = &compare.run else {
-        list(ui, state, cases, theme, acts);
+        list(ui, compare, session, cases, theme, acts);
         return;
     };
-    if let (Some(changes), Some(shown)) = (&compare.changes, &state.library) {
+    if let (Some(changes), Some(shown)) = (&compare.changes, &session.library) {
         changes_list::ui(ui, changes, shown, theme, acts);
         return;
     }
@@ -70,7 +68,7 @@ pub(super) fn ui(
         .id_salt("cases")
         .auto_shrink(false)
         .show(ui, |ui| match cell.and_then(|cell| run.matrix.cell(cell)) {
-            Some(cell) => of_cell(ui, state, run, cell, theme, acts),
+            Some(cell) => of_cell(ui, session, run, cell, theme, acts),
             None => matrix_and_calibration(ui, run, theme, acts),
         });
 }
@@ -107,12 +105,11 @@ fn plots(ui: &mut Ui, run: &CaseRun, theme: &Theme) {
 
 fn header(
     ui: &mut Ui,
-    state: &State,
+    compare: &CompareState,
+    session: &Session,
     theme: &Theme,
     acts: &mut Vec<CompareAction>,
-    actions: &mut Vec<Action>,
 ) {
-    let compare = &state.compare;
     ui.horizontal(|ui| {
         ui.label(
             RichText::new("All kept cases")
@@ -124,7 +121,7 @@ fn header(
             let hover = folder.map_or_else(String::new, |path| path.display().to_string());
             let button = labelled(ui, Button::new("Folder…"), "Folder of cases…");
             if button.on_hover_text(hover).clicked() {
-                actions.push(Action::Ask(Ask::CasesFolder));
+                acts.push(CompareAction::Ask(CompareFile::Cases));
             }
             let is_matrix = compare.cell.is_none() && compare.changes.is_none();
             if !is_matrix && labelled(ui, Button::new("Back to matrix"), "Back to matrix").clicked()
@@ -140,7 +137,7 @@ fn header(
                 let hover =
                     "Compare with what partsight evaluate --json has written of an earlier run";
                 if button.on_hover_text(hover).clicked() {
-                    actions.push(Action::Ask(Ask::EarlierRun));
+                    acts.push(CompareAction::Ask(CompareFile::EarlierRun));
                 }
                 let at = ended.to_zoned(jiff::tz::TimeZone::system());
                 let at = format!("ran at {}", at.strftime("%H:%M"));
@@ -174,7 +171,7 @@ fn header(
         }
         let done = run.results.len() + run.troubles.len();
         if run.ended.is_none() {
-            let verb = if state.is_running_cases() {
+            let verb = if compare.is_running_cases() {
                 "running"
             } else {
                 "stopped"
@@ -182,7 +179,7 @@ fn header(
             rest.push(format!("{verb}, {done} of {} done", run.total));
         }
         ui.label(RichText::new(rest.join(" · ")).color(theme.text));
-        if *run.recipe != **state.tried_recipe() {
+        if *run.recipe != **compare.tried_recipe(session) {
             let text = "· with another recipe";
             ui.label(RichText::new(text).color(theme.warning));
         }
@@ -193,12 +190,13 @@ fn header(
 /// All cases, before any run.
 fn list(
     ui: &mut Ui,
-    state: &State,
+    compare: &CompareState,
+    session: &Session,
     cases: &[KeptCase],
     theme: &Theme,
     acts: &mut Vec<CompareAction>,
 ) {
-    let hint = if state.is_running_cases() {
+    let hint = if compare.is_running_cases() {
         "Running"
     } else {
         "Run all cases (Ctrl R) shows what each is taken for now"
@@ -211,7 +209,7 @@ fn list(
         .show_rows(ui, height, cases.len(), |ui, rows| {
             for case in cases.get(rows).unwrap_or_default() {
                 let about = &case.meta.about;
-                let truth = state.library.as_ref();
+                let truth = session.library.as_ref();
                 let truth =
                     truth.map_or_else(String::new, |shown| truth_title(&about.truth, shown));
                 let what = format!(
@@ -226,13 +224,13 @@ fn list(
 /// The cases of one cell.
 fn of_cell(
     ui: &mut Ui,
-    state: &State,
+    session: &Session,
     run: &CaseRun,
     cell: &MatrixCell,
     theme: &Theme,
     acts: &mut Vec<CompareAction>,
 ) {
-    let Some(shown) = &state.library else {
+    let Some(shown) = &session.library else {
         return;
     };
     let (truth, answer) = &cell.cell;

@@ -7,7 +7,6 @@ mod case_bar;
 mod changes_list;
 pub mod comparison;
 mod distances;
-mod errands;
 mod keeping;
 mod kept_cases;
 pub mod matrix;
@@ -16,84 +15,151 @@ pub mod parameters;
 mod pictures;
 mod recipe_panel;
 mod scaling_plot;
+mod schedule;
 mod score_plots;
 mod state;
 pub mod study;
 mod trial;
 mod work;
 
+use std::path::PathBuf;
+
 use egui::{Frame, Key, Margin, Modifiers, Panel, Rect, Ui, UiBuilder, pos2, vec2};
 
-pub(super) use self::work::answer;
 pub use self::{
-    state::{Cases, CompareAction, CompareState, Front, Undo, apply, hear},
-    work::{CaseChange, CaseDone, CaseRun, CompareAnswer, CompareRequest, RunChanges},
+    state::{Cases, CompareAction, CompareFile, CompareState, Front, Undo},
+    work::{CaseChange, CaseDone, CaseRun, CompareResult, RunChanges},
 };
 use super::{
-    action::Action,
-    keys::Shortcut,
-    state::State,
+    shell::{
+        context::ShellContext,
+        key_binding::{KeyBinding, Shortcut},
+        session::{Session, WorkspaceKind},
+        task::{Running, TaskRunner},
+        workspace::Workspace,
+    },
     theme::{Theme, space},
 };
 
 /// The shortcuts of the workspace.
-pub(in crate::app) const SHORTCUTS: [Shortcut; 3] = [
+const SHORTCUTS: [Shortcut<CompareAction>; 3] = [
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::K,
         keys: "K",
         does: "Keep the case in front",
-        action: || Action::Compare(CompareAction::Keep),
+        action: || CompareAction::Keep,
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::R,
         keys: "Ctrl R",
         does: "Run all kept cases",
-        action: || Action::Compare(CompareAction::RunAll),
+        action: || CompareAction::RunAll,
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::Z,
         keys: "Ctrl Z",
         does: "Take back the removal of a case or the use of a recipe",
-        action: || Action::Compare(CompareAction::Undo),
+        action: || CompareAction::Undo,
     },
 ];
 
 /// Width of the recipe, logical pixels, and in a narrow window.
 const RECIPE: [f32; 2] = [310.0, 284.0];
 
-/// Draws the workspace. Nothing is kept between frames: everything it shows is in the state.
-pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
-    let mut acts = Vec::new();
-    if state.is_compare_behind() {
-        acts.push(CompareAction::Follow);
+/// The workspace. Nothing is kept between frames but its state.
+pub struct CompareWorkspace {
+    state: CompareState,
+}
+
+impl CompareWorkspace {
+    /// With this folder of cases; without one the user's own.
+    pub fn new(folder: Option<PathBuf>, runner: &TaskRunner) -> Self {
+        Self {
+            state: CompareState::new(folder, runner),
+        }
     }
-    let width = ui.available_width();
-    let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
-    Panel::right("recipe")
-        .exact_size(if width > 1100.0 { RECIPE[0] } else { RECIPE[1] })
-        .resizable(false)
-        .frame(panel(Margin::ZERO))
-        .show(ui, |ui| recipe_panel::ui(ui, state, theme, &mut acts));
-    Panel::top("case")
-        .resizable(false)
-        .frame(panel(Margin::symmetric(12, 8)))
-        .show(ui, |ui| {
-            case_bar::ui(ui, state, theme, &mut acts);
-        });
-    body(ui, state, theme, &mut acts, actions);
-    actions.extend(acts.into_iter().map(Action::Compare));
+
+    /// What it knows.
+    pub fn state(&self) -> &CompareState {
+        &self.state
+    }
+
+    /// The same, to be changed without a person.
+    pub fn state_mut(&mut self) -> &mut CompareState {
+        &mut self.state
+    }
+}
+
+impl Workspace for CompareWorkspace {
+    fn kind(&self) -> WorkspaceKind {
+        WorkspaceKind::Compare
+    }
+
+    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
+        let (session, theme) = (cx.session, cx.theme);
+        let state = &self.state;
+        let mut acts = Vec::new();
+        if state.is_behind(session) {
+            acts.push(CompareAction::Follow);
+        }
+        let width = ui.available_width();
+        let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
+        Panel::right("recipe")
+            .exact_size(if width > 1100.0 { RECIPE[0] } else { RECIPE[1] })
+            .resizable(false)
+            .frame(panel(Margin::ZERO))
+            .show(ui, |ui| {
+                recipe_panel::ui(ui, state, session, theme, &mut acts);
+            });
+        Panel::top("case")
+            .resizable(false)
+            .frame(panel(Margin::symmetric(12, 8)))
+            .show(ui, |ui| {
+                case_bar::ui(ui, state, session, theme, &mut acts);
+            });
+        body(ui, state, session, theme, &mut acts);
+        for action in acts {
+            self.state.apply(action, cx);
+        }
+    }
+
+    fn update(&mut self, cx: &mut ShellContext<'_>) {
+        self.state.update(cx);
+    }
+
+    fn key_bindings(&self) -> Vec<KeyBinding> {
+        SHORTCUTS.iter().map(Shortcut::binding).collect()
+    }
+
+    fn press(&mut self, place: usize, cx: &mut ShellContext<'_>) {
+        if let Some(shortcut) = SHORTCUTS.get(place) {
+            self.state.apply((shortcut.action)(), cx);
+        }
+    }
+
+    fn running(&self) -> Option<&Running> {
+        self.state.running()
+    }
+
+    fn cancel(&mut self) {
+        self.state.cancel();
+    }
+
+    fn is_idle(&self, session: &Session) -> bool {
+        self.state.is_idle(session)
+    }
 }
 
 /// Three pictures above; the distances and the kept cases below.
 fn body(
     ui: &mut Ui,
-    state: &State,
+    state: &CompareState,
+    session: &Session,
     theme: &Theme,
     acts: &mut Vec<CompareAction>,
-    actions: &mut Vec<Action>,
 ) {
     let all = ui.available_rect_before_wrap();
     ui.painter().rect_filled(all, 0.0, theme.panel);
@@ -108,7 +174,7 @@ fn body(
         cell([left, all.top()], [third(0.66), middle]),
         cell([third(0.66), all.top()], [all.right(), middle]),
     ];
-    pictures::ui(ui, above, state, theme);
+    pictures::ui(ui, above, state, session, theme);
     let below = [
         cell([all.left(), middle], [left, all.bottom()]),
         cell([left, middle], [all.right(), all.bottom()]),
@@ -120,10 +186,10 @@ fn body(
         });
     };
     within(ui, below[0], &mut |ui| {
-        distances::ui(ui, state, theme, acts);
+        distances::ui(ui, state, session, theme, acts);
     });
     within(ui, below[1], &mut |ui| {
-        kept_cases::ui(ui, state, theme, acts, actions);
+        kept_cases::ui(ui, state, session, theme, acts);
     });
     let painter = ui.painter();
     painter.hline(all.x_range(), middle, theme.edge_stroke());

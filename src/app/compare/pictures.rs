@@ -5,10 +5,13 @@ use egui::{
     pos2, vec2,
 };
 
-use super::comparison::{Comparison, Correlation, Measure, Overlay, Trace};
+use super::{
+    CompareState,
+    comparison::{Comparison, Correlation, Measure, Overlay, Trace},
+};
 use crate::{
     app::{
-        state::State,
+        shell::session::Session,
         theme::{ROUNDING, Theme, font},
         unit_system::UnitSystem,
         widgets::{Scale, curve, fitted},
@@ -22,18 +25,24 @@ const TITLE: f32 = 19.0;
 const NARROW: f32 = 270.0;
 
 /// Draws all three, each into its rectangle.
-pub(super) fn ui(ui: &mut Ui, rects: [Rect; 3], state: &State, theme: &Theme) {
+pub(super) fn ui(
+    ui: &mut Ui,
+    rects: [Rect; 3],
+    compare: &CompareState,
+    session: &Session,
+    theme: &Theme,
+) {
     ui.scope(|ui| {
-        if state.is_study_old() {
+        if compare.is_study_old() {
             ui.multiply_opacity(0.55);
         }
-        let study = state.compare.study.as_ref();
+        let study = compare.study.as_ref();
         let comparison = study.and_then(|study| study.comparison.as_ref());
         let Some(comparison) = comparison else {
-            empty(ui, rects, state, theme);
+            empty(ui, rects, compare, theme);
             return;
         };
-        let units = state.units;
+        let units = session.units;
         let outlines = outline_captions(comparison, units);
         let picture = Picture::new(ui, rects[0], theme, "Contours at the best lag", &outlines);
         picture.overlay(comparison, theme);
@@ -81,13 +90,13 @@ fn angle(radians: f64, units: UnitSystem) -> String {
 }
 
 /// Without a comparison: what to do.
-fn empty(ui: &mut Ui, rects: [Rect; 3], state: &State, theme: &Theme) {
-    let text = match (&state.compare.study, state.work()) {
+fn empty(ui: &mut Ui, rects: [Rect; 3], compare: &CompareState, theme: &Theme) {
+    let text = match (&compare.study, compare.running()) {
         (Some(study), _) => {
             let reason = study.found.reason.as_deref().unwrap_or("no outline");
             format!("There is no outline to compare: {reason}\n{}", study.advice)
         }
-        (None, Some((_, work))) => format!("{}…", work.what),
+        (None, Some(running)) => format!("{}…", running.title),
         (None, None) => {
             "Nothing to compare yet\nCapture a scene (Space), open one, or open a kept case".into()
         }

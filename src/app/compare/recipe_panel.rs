@@ -8,24 +8,29 @@ use egui::{
 };
 
 use super::{
-    CompareAction,
+    CompareAction, CompareState,
     case_bar::judged,
     parameters::{Choice, Group, Kind, Number, PARAMETERS, Parameter, Place, num_changed},
     scaling_plot,
 };
 use crate::{
     app::{
-        bars::labelled,
-        state::State,
+        shell::session::Session,
         theme::{Theme, font, space},
-        widgets::{Mark, mark},
+        widgets::{Mark, labelled, mark},
     },
     cases::Judgement,
     pipeline::Recipe,
 };
 
 /// Draws the panel.
-pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<CompareAction>) {
+pub(super) fn ui(
+    ui: &mut Ui,
+    compare: &CompareState,
+    session: &Session,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+) {
     let frame = |top, bottom| {
         Frame::new().fill(theme.panel).inner_margin(Margin {
             left: 16,
@@ -37,8 +42,8 @@ pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<Compa
     Panel::bottom("recipe verdict")
         .resizable(false)
         .frame(frame(8, 12))
-        .show(ui, |ui| outcome(ui, state, theme, acts));
-    let (recipe, default) = (state.tried_recipe(), Recipe::default());
+        .show(ui, |ui| outcome(ui, compare, session, theme, acts));
+    let (recipe, default) = (compare.tried_recipe(session), Recipe::default());
     Panel::top("recipe head")
         .resizable(false)
         .frame(frame(8, 4))
@@ -57,7 +62,7 @@ pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<Compa
                     ui.add_space(space::SMALL);
                     CollapsingHeader::new("Scaling: one core against several")
                         .id_salt("scaling")
-                        .show(ui, |ui| scaling_plot::ui(ui, state, theme, acts));
+                        .show(ui, |ui| scaling_plot::ui(ui, compare, theme, acts));
                 });
         });
 }
@@ -299,19 +304,25 @@ fn choice_ui(
 }
 
 /// What comes of it.
-fn outcome(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<CompareAction>) {
+fn outcome(
+    ui: &mut Ui,
+    compare: &CompareState,
+    session: &Session,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+) {
     ui.scope(|ui| {
         ui.spacing_mut().interact_size.y = 0.0;
-        let head = if state.is_study_old() {
+        let head = if compare.is_study_old() {
             "With this recipe this case is…"
         } else {
             "With this recipe this case is"
         };
         ui.label(RichText::new(head).color(theme.weak_text));
-        if state.is_study_old() {
+        if compare.is_study_old() {
             ui.multiply_opacity(0.55);
         }
-        if let Some(study) = &state.compare.study {
+        if let Some(study) = &compare.study {
             let found = &study.found;
             let title = match (&found.part, found.score) {
                 (Some(_), Some(score)) if found.accepted => {
@@ -322,7 +333,7 @@ fn outcome(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<CompareActi
                 }
                 _ => "Not accepted · no part found".into(),
             };
-            let judgement = judged(state);
+            let judgement = judged(compare);
             let (sign, colour) = match (judgement, found.accepted) {
                 (Some(Judgement::WrongAccepted), _) | (_, false) => (Mark::Bad, theme.rejected),
                 (_, true) => (Mark::Good, theme.accepted),
@@ -343,14 +354,14 @@ fn outcome(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<CompareActi
             };
             let word = format!("{word} · {:.0} ms", study.time_ms);
             ui.label(RichText::new(word).color(colour));
-            if let Some(refusal) = study.refusal(state.units) {
+            if let Some(refusal) = study.refusal(session.units) {
                 let text = RichText::new(refusal).font(font::small()).color(theme.text);
                 ui.label(text).on_hover_text(&study.advice);
             }
         }
     });
     ui.add_space(space::SMALL);
-    let can_use = state.compare.tried.is_some();
+    let can_use = compare.tried.is_some();
     let text = RichText::new("Use this recipe").font(font::body_strong());
     let width = ui.available_width();
     let button = if can_use {

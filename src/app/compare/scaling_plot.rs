@@ -2,13 +2,11 @@
 
 use egui::{Align2, Button, Pos2, RichText, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
 
-use super::CompareAction;
+use super::{CompareAction, CompareState};
 use crate::{
     app::{
-        bars::labelled,
-        state::State,
         theme::{Theme, font},
-        widgets::Scale,
+        widgets::{Scale, labelled},
     },
     bench::scaling::Scaling,
 };
@@ -17,7 +15,12 @@ use crate::{
 const HEIGHT: f32 = 190.0;
 
 /// Draws the fold's inside: a button, then the plot.
-pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<CompareAction>) {
+pub(super) fn ui(
+    ui: &mut Ui,
+    compare: &CompareState,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+) {
     let weak = |text: String| {
         RichText::new(text)
             .font(font::small())
@@ -28,7 +31,7 @@ pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, acts: &mut Vec<Compa
     if labelled(ui, Button::new("Measure"), "Measure scaling").clicked() {
         acts.push(CompareAction::MeasureScaling);
     }
-    let Some(scaling) = &state.compare.scaling else {
+    let Some(scaling) = &compare.scaling else {
         return;
     };
     plot(ui, scaling, theme);

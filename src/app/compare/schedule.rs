@@ -1,21 +1,19 @@
-//! What the thread is asked for, in which order: cases are kept and removed whatever else happens, a run is given up
-//! for another recipe, and the case in front is studied as soon as it may.
+//! What the task is asked for, in which order: cases are kept and removed whatever else happens, a run is given up for
+//! another recipe, and the case in front is studied as soon as possible.
 
-use std::sync::Arc;
+use std::{path::PathBuf, sync::Arc};
 
 use super::{
-    CompareRequest,
     state::{CompareState, Front},
     study::{CameraKind, CaseScene, StudyRequest},
-    work::CaseChange,
+    work::{CaseChange, CaseRun},
 };
 use crate::{
-    app::{
-        action::Effect,
-        job::Request,
-        lane::Lane,
-        state::{Shown, State},
+    app::shell::{
+        context::ShellContext,
+        session::{Session, Shown, WorkspaceKind},
     },
+    cases::CaseFolder,
     pipeline::Recipe,
 };
 
@@ -30,132 +28,165 @@ pub(super) enum Due {
     Now,
 }
 
-/// What the thread is at.
+/// What the task is asked for.
+#[derive(Clone, Debug)]
+pub(super) enum Job {
+    /// Inspect a case with the recipe on trial and compare it.
+    Study(Box<StudyRequest>),
+    /// Change the kept cases, and list them.
+    Cases {
+        /// The folder; without one the user's own.
+        folder: Option<PathBuf>,
+        /// What to do first.
+        change: CaseChange,
+    },
+    /// Run all kept cases.
+    Run {
+        /// The folder.
+        folder: CaseFolder,
+        /// The recipe on trial.
+        recipe: Arc<Recipe>,
+    },
+    /// Measure from how many references on several workers pay.
+    Scaling,
+    /// Hold a run against an earlier one.
+    Earlier {
+        /// What that one has written.
+        path: PathBuf,
+        /// The run.
+        run: Arc<CaseRun>,
+    },
+}
+
+/// What may push a job out of the task.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Errand {
+pub(super) enum JobKind {
+    /// Whatever comes next; it has its turn again.
     Study,
+    /// Nothing: it is quick, and cases are never kept or removed by halves.
     Cases,
+    /// Another recipe.
     Run,
+    /// The same.
     Scaling,
 }
 
-impl CompareState {
-    /// What the thread is at, if anything.
-    fn errand(&self, state: &State) -> Option<Errand> {
-        let (generation, errand) = self.posted?;
-        let work = state.works.get(&Lane::Compare)?;
-        (work.generation == generation).then_some(errand)
+impl Job {
+    pub(super) fn kind(&self) -> JobKind {
+        match self {
+            Self::Study(_) => JobKind::Study,
+            Self::Cases { .. } | Self::Earlier { .. } => JobKind::Cases,
+            Self::Run { .. } => JobKind::Run,
+            Self::Scaling => JobKind::Scaling,
+        }
     }
 }
 
-impl State {
+impl CompareState {
+    /// What the task is at, if anything.
+    fn job_at_work(&self) -> Option<JobKind> {
+        self.running().and(self.job)
+    }
+
     /// The recipe on trial.
-    pub fn tried_recipe(&self) -> &Arc<Recipe> {
-        self.compare.tried.as_ref().unwrap_or(&self.recipe)
+    pub fn tried_recipe<'a>(&'a self, session: &'a Session) -> &'a Arc<Recipe> {
+        self.tried.as_ref().unwrap_or(&session.recipe)
     }
 
     /// True while all kept cases are run.
     pub fn is_running_cases(&self) -> bool {
-        self.compare.errand(self) == Some(Errand::Run)
+        self.job_at_work() == Some(JobKind::Run)
     }
 
     /// True while the study shown, if any, is not of what was asked for last; also after that was cancelled.
     pub fn is_study_old(&self) -> bool {
-        !self.compare.is_current || self.compare.due != Due::No
+        !self.is_current || self.due != Due::No
     }
 
     /// True if [`CompareAction::Follow`](super::CompareAction::Follow) would do something.
-    pub fn is_compare_behind(&self) -> bool {
-        let compare = &self.compare;
-        let has_more = !compare.errands.is_empty() || compare.due != Due::No;
-        let is_free = match compare.errand(self) {
+    pub fn is_behind(&self, session: &Session) -> bool {
+        let has_more = !self.queue.is_empty() || self.due != Due::No;
+        let is_free = match self.job_at_work() {
             None => true,
-            Some(Errand::Run | Errand::Scaling) => compare.due == Due::Now,
-            Some(Errand::Study | Errand::Cases) => false,
+            Some(JobKind::Run | JobKind::Scaling) => self.due == Due::Now,
+            Some(JobKind::Study | JobKind::Cases) => false,
         };
-        !compare.is_listed || has_more && is_free || self.has_new_scene()
+        !self.is_listed || has_more && is_free || self.has_new_scene(session)
+    }
+
+    /// True while nothing is at work or waits to be, as far as it is in front.
+    pub(super) fn is_idle(&self, session: &Session) -> bool {
+        let is_front = session.workspace == WorkspaceKind::Compare;
+        self.running().is_none() && !(is_front && self.is_behind(session))
     }
 
     /// True if another scene was inspected since.
-    pub(super) fn has_new_scene(&self) -> bool {
+    pub(super) fn has_new_scene(&self, session: &Session) -> bool {
         let number = |shown: &Option<Shown>| shown.as_ref().map(|shown| shown.generation);
-        number(&self.shown) != number(&self.compare.followed)
+        number(&session.shown) != number(&self.followed)
     }
-}
 
-pub(super) fn change_cases(state: &mut State, what: &str, change: CaseChange) {
-    let folder = state.compare.folder.clone();
-    let request = CompareRequest::Cases { folder, change };
-    state.compare.errands.push_back((what.into(), request));
-}
-
-/// Posts what is next. Cases are never kept or removed by halves: nothing pushes them out of their thread.
-pub(super) fn next(state: &mut State) -> Option<Effect> {
-    let errand = state.compare.errand(state);
-    match errand {
-        Some(Errand::Cases) => return None,
-        Some(Errand::Run | Errand::Scaling)
-            if state.compare.errands.is_empty() && state.compare.due != Due::Now =>
-        {
-            return None;
-        }
-        _ => {}
+    pub(super) fn ask(&mut self, title: &str, job: Job) {
+        self.queue.push_back((title.to_owned(), job));
     }
-    if let Some((what, request)) = state.compare.errands.pop_front() {
-        if errand == Some(Errand::Study) {
-            // It is pushed out, and has its turn again.
-            state.compare.due = state.compare.due.max(Due::WhenFree);
-        }
-        let kind = match &request {
-            CompareRequest::Run { .. } => Errand::Run,
-            CompareRequest::Scaling => Errand::Scaling,
-            // As with the cases, nothing pushes it out: it is quick.
-            CompareRequest::Cases { .. } | CompareRequest::Earlier { .. } => Errand::Cases,
-            CompareRequest::Study(_) => Errand::Study,
-        };
-        return Some(post(state, what, request, kind));
-    }
-    if state.compare.due == Due::No {
-        return None;
-    }
-    state.compare.due = Due::No;
-    let request = study_request(state)?;
-    state.compare.is_current = false;
-    let what = "Comparing".to_owned();
-    let request = CompareRequest::Study(Box::new(request));
-    Some(post(state, what, request, Errand::Study))
-}
 
-fn post(state: &mut State, what: String, request: CompareRequest, kind: Errand) -> Effect {
-    let effect = state.begin(what, Request::Compare(request));
-    state.compare.posted = Some((state.generation, kind));
-    effect
-}
+    pub(super) fn change_cases(&mut self, title: &str, change: CaseChange) {
+        let folder = self.folder.clone();
+        self.ask(title, Job::Cases { folder, change });
+    }
 
-fn study_request(state: &State) -> Option<StudyRequest> {
-    let compare = &state.compare;
-    let case = match &compare.front {
-        Front::Kept(case) => CaseScene::Kept {
-            folder: compare.cases.as_ref()?.folder.clone(),
-            case: case.clone(),
-        },
-        Front::Scene => {
-            let inspected = &state.shown.as_ref()?.inspected;
-            CaseScene::AtHand {
-                scene: Arc::clone(&inspected.scene),
-                title: inspected.origin.title(),
-                camera: if inspected.origin.is_simulated() {
-                    CameraKind::Simulated
-                } else {
-                    CameraKind::Real
-                },
+    /// Starts what is next, if it may begin.
+    pub(super) fn start_next(&mut self, cx: &ShellContext<'_>) {
+        let at_work = self.job_at_work();
+        match at_work {
+            Some(JobKind::Cases) => return,
+            Some(JobKind::Run | JobKind::Scaling)
+                if self.queue.is_empty() && self.due != Due::Now =>
+            {
+                return;
             }
+            _ => {}
         }
-    };
-    Some(StudyRequest {
-        case,
-        recipe: Arc::clone(state.tried_recipe()),
-        truth: compare.truth.clone(),
-        against: compare.against.clone(),
-    })
+        if let Some((title, job)) = self.queue.pop_front() {
+            if at_work == Some(JobKind::Study) {
+                self.due = self.due.max(Due::WhenFree);
+            }
+            return self.start(&title, job, cx);
+        }
+        if self.due == Due::No {
+            return;
+        }
+        self.due = Due::No;
+        if let Some(request) = self.study_request(cx.session) {
+            self.is_current = false;
+            self.start("Comparing", Job::Study(Box::new(request)), cx);
+        }
+    }
+
+    pub(super) fn study_request(&self, session: &Session) -> Option<StudyRequest> {
+        let case = match &self.front {
+            Front::Kept(case) => CaseScene::Kept {
+                folder: self.cases.as_ref()?.folder.clone(),
+                case: case.clone(),
+            },
+            Front::Scene => {
+                let inspected = &session.shown.as_ref()?.inspected;
+                CaseScene::AtHand {
+                    scene: Arc::clone(&inspected.scene),
+                    title: inspected.origin.title(),
+                    camera: if inspected.origin.is_simulated() {
+                        CameraKind::Simulated
+                    } else {
+                        CameraKind::Real
+                    },
+                }
+            }
+        };
+        Some(StudyRequest {
+            case,
+            recipe: Arc::clone(self.tried_recipe(session)),
+            truth: self.truth.clone(),
+            against: self.against.clone(),
+        })
+    }
 }

@@ -3,19 +3,22 @@
 use std::{collections::VecDeque, path::PathBuf, sync::Arc};
 
 use super::{
-    CompareAnswer, CompareRequest,
-    errands::{Due, Errand, change_cases, next},
-    keeping::keep,
     parameters::Parameter,
+    schedule::{Due, Job, JobKind},
     study::Study,
-    trial::{change_recipe, undo, use_recipe},
-    work::{CaseChange, CaseDone, CaseRun, RunChanges},
+    work::{self, CaseChange, CaseDone, CaseRun, CompareResult, RunChanges},
 };
 use crate::{
     app::{
-        action::{Effect, notify},
-        job::Trouble,
-        state::{Notice, NoticeKind, Shown, State},
+        shell::{
+            context::ShellContext,
+            file_dialog::{FileChoice, FileDialog, FileRequest},
+            message::Message,
+            notice::Notice,
+            session::Shown,
+            task::{Running, Task, TaskEvent, TaskRunner},
+        },
+        user_error::UserError,
     },
     bench::scaling::Scaling,
     cases::{CaseFolder, Cell, KeptCase, Truth},
@@ -23,7 +26,7 @@ use crate::{
 };
 
 /// What the workspace knows.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct CompareState {
     /// The folder of cases that was asked for; without one the user's own.
     pub folder: Option<PathBuf>,
@@ -54,8 +57,12 @@ pub struct CompareState {
     /// True while the study is of what was asked for last.
     pub(super) is_current: bool,
     pub(super) due: Due,
-    pub(super) errands: VecDeque<(String, CompareRequest)>,
-    pub(super) posted: Option<(u64, Errand)>,
+    /// What comes next, each with its title.
+    pub(super) queue: VecDeque<(String, Job)>,
+    task: Task<CompareResult>,
+    /// What the task does, or did last.
+    pub(super) job: Option<JobKind>,
+    dialog: FileDialog<CompareFile>,
     /// The inspected scene that was followed last.
     pub(super) followed: Option<Shown>,
     pub(super) is_listed: bool,
@@ -125,6 +132,8 @@ pub enum CompareAction {
     Keep,
     /// Run all kept cases with the recipe on trial.
     RunAll,
+    /// Have a person choose a file or folder.
+    Ask(CompareFile),
     /// Use this folder of cases.
     Folder(PathBuf),
     /// List the cases of this cell of the matrix, or show the matrix.
@@ -147,240 +156,322 @@ pub enum CompareAction {
     Undo,
 }
 
+/// What a person is asked to choose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CompareFile {
+    /// A folder of kept cases.
+    Cases,
+    /// What an earlier run of all cases has written.
+    EarlierRun,
+}
+
+impl CompareFile {
+    fn request(self) -> FileRequest {
+        match self {
+            Self::Cases => FileRequest {
+                title: "Folder of kept cases",
+                filters: &[],
+                choice: FileChoice::Folder,
+            },
+            Self::EarlierRun => FileRequest {
+                title: "What partsight evaluate --json has written",
+                filters: &[("Evaluations", &["json"])],
+                choice: FileChoice::File,
+            },
+        }
+    }
+}
+
 impl CompareState {
     /// With this folder of cases; without one the user's own.
-    pub fn with_folder(folder: Option<PathBuf>) -> Self {
+    pub fn new(folder: Option<PathBuf>, runner: &TaskRunner) -> Self {
         Self {
             folder,
-            ..Self::default()
+            front: Front::default(),
+            truth: None,
+            against: None,
+            remark: String::new(),
+            tried: None,
+            study: None,
+            cases: None,
+            run: None,
+            cell: None,
+            scaling: None,
+            changes: None,
+            undo: None,
+            is_current: false,
+            due: Due::No,
+            queue: VecDeque::new(),
+            task: Task::new("compare", runner),
+            job: None,
+            dialog: FileDialog::default(),
+            followed: None,
+            is_listed: false,
+            said: None,
         }
     }
-}
 
-/// Makes it so.
-pub fn apply(state: &mut State, action: CompareAction) -> Option<Effect> {
-    match action {
-        CompareAction::Follow => follow(state),
-        CompareAction::FrontScene => {
-            state.compare.front = Front::Scene;
-            forget(state);
-            state.compare.due = Due::Now;
-        }
-        CompareAction::OpenCase(name) => open_case(state, &name),
-        CompareAction::SetTruth(truth) => {
-            state.compare.truth = Some(truth);
-            state.compare.due = Due::WhenFree;
-        }
-        CompareAction::Against(part) => {
-            state.compare.against = part;
-            state.compare.due = Due::WhenFree;
-        }
-        CompareAction::Remark(remark) => state.compare.remark = remark,
-        CompareAction::Keep => keep(state),
-        CompareAction::RunAll => run_all(state),
-        CompareAction::Folder(path) => {
-            let compare = &mut state.compare;
-            compare.folder = Some(path);
-            compare.cases = None;
-            compare.run = None;
-            compare.cell = None;
-            compare.changes = None;
-            compare.undo = None;
-            if matches!(compare.front, Front::Kept(_)) {
-                compare.front = Front::Scene;
-                forget(state);
-                state.compare.due = Due::WhenFree;
-            }
-            change_cases(state, "Listing the kept cases", CaseChange::List);
-        }
-        CompareAction::ShowCell(cell) => {
-            state.compare.cell = cell;
-            state.compare.changes = None;
-        }
-        CompareAction::MeasureScaling => {
-            let errand = ("Measuring the ranking".to_owned(), CompareRequest::Scaling);
-            state.compare.errands.push_back(errand);
-        }
-        CompareAction::Earlier(path) => earlier(state, path),
-        CompareAction::Remove(name) => {
-            change_cases(state, "Removing a case", CaseChange::Remove(name));
-        }
-        CompareAction::Set(key, value) => {
-            change_recipe(state, |recipe| match Parameter::of_key(key) {
-                Some(parameter) => parameter.set(recipe, value).map_err(|e| Trouble::of(&e)),
-                None => Ok(()),
-            });
-        }
-        CompareAction::Reset(key) => change_recipe(state, |recipe| {
-            if let Some(parameter) = Parameter::of_key(key) {
-                parameter.copy(&Recipe::default(), recipe);
-            }
-            Ok(())
-        }),
-        CompareAction::ResetAll => change_recipe(state, |recipe| {
-            *recipe = Recipe::default();
-            Ok(())
-        }),
-        CompareAction::Use => return use_recipe(state),
-        CompareAction::Undo => return undo(state),
+    /// What is at work, if anything.
+    pub fn running(&self) -> Option<&Running> {
+        self.task.running()
     }
-    next(state)
-}
 
-/// Takes in what the thread answers.
-pub fn hear(state: &mut State, outcome: Result<CompareAnswer, Trouble>) -> Option<Effect> {
-    match outcome {
-        Ok(CompareAnswer::Studied(study)) => {
-            state.compare.study = Some(study);
-            state.compare.is_current = true;
+    /// Stops what is at work.
+    pub fn cancel(&mut self) {
+        self.task.cancel();
+    }
+
+    pub(super) fn start(&mut self, title: &str, job: Job, cx: &ShellContext<'_>) {
+        self.job = Some(job.kind());
+        let shelf = cx.services.shelf.clone();
+        self.task
+            .start(title, move |context| work::run(job, &shelf, context));
+    }
+
+    /// Makes it so.
+    pub fn apply(&mut self, action: CompareAction, cx: &mut ShellContext<'_>) {
+        match action {
+            CompareAction::Follow => self.follow(cx),
+            CompareAction::FrontScene => {
+                self.front_scene();
+                self.due = Due::Now;
+            }
+            CompareAction::OpenCase(name) => self.open_case(&name, cx),
+            CompareAction::SetTruth(truth) => {
+                self.truth = Some(truth);
+                self.due = Due::WhenFree;
+            }
+            CompareAction::Against(part) => {
+                self.against = part;
+                self.due = Due::WhenFree;
+            }
+            CompareAction::Remark(remark) => self.remark = remark,
+            CompareAction::Keep => self.keep(cx),
+            CompareAction::RunAll => self.run_all(cx),
+            CompareAction::Ask(file) => {
+                let lock = &cx.services.dialogs;
+                self.dialog.open(file, &file.request(), lock, cx.egui);
+            }
+            CompareAction::Folder(path) => self.use_folder(path),
+            CompareAction::ShowCell(cell) => {
+                self.cell = cell;
+                self.changes = None;
+            }
+            CompareAction::MeasureScaling => self.ask("Measuring the ranking", Job::Scaling),
+            CompareAction::Earlier(path) => self.compare_with_earlier(path, cx),
+            CompareAction::Remove(name) => {
+                self.change_cases("Removing a case", CaseChange::Remove(name));
+            }
+            CompareAction::Set(key, value) => {
+                let set = |recipe: &mut Recipe| match Parameter::of_key(key) {
+                    Some(parameter) => parameter.set(recipe, value).map_err(|e| UserError::of(&e)),
+                    None => Ok(()),
+                };
+                self.change_recipe(set, cx);
+            }
+            CompareAction::Reset(key) => {
+                let reset = |recipe: &mut Recipe| {
+                    if let Some(parameter) = Parameter::of_key(key) {
+                        parameter.copy(&Recipe::default(), recipe);
+                    }
+                    Ok(())
+                };
+                self.change_recipe(reset, cx);
+            }
+            CompareAction::ResetAll => {
+                let reset = |recipe: &mut Recipe| {
+                    *recipe = Recipe::default();
+                    Ok(())
+                };
+                self.change_recipe(reset, cx);
+            }
+            // The session does not have the recipe yet that what is next would be done with.
+            CompareAction::Use => return self.use_recipe(cx),
+            CompareAction::Undo => return self.take_back(cx),
         }
-        Ok(CompareAnswer::Ran(run)) => {
-            if run.ended.is_some() {
-                for trouble in run.troubles.clone() {
-                    notify(state, trouble.into());
+        self.start_next(cx);
+    }
+
+    /// Takes in what the task and the dialog report.
+    pub fn update(&mut self, cx: &mut ShellContext<'_>) {
+        while let Some(event) = self.task.poll() {
+            match event {
+                TaskEvent::Partial(result) | TaskEvent::Done(result) => self.take_in(result, cx),
+                TaskEvent::Failed(error) => cx.notify(error),
+            }
+            self.start_next(cx);
+        }
+        match self.dialog.poll() {
+            Some((CompareFile::Cases, Ok(path))) => self.apply(CompareAction::Folder(path), cx),
+            Some((CompareFile::EarlierRun, Ok(path))) => {
+                self.apply(CompareAction::Earlier(path), cx);
+            }
+            Some((_, Err(notice))) => cx.notify(notice),
+            None => {}
+        }
+    }
+
+    fn take_in(&mut self, result: CompareResult, cx: &mut ShellContext<'_>) {
+        match result {
+            CompareResult::Studied(study) => {
+                self.study = Some(study);
+                self.is_current = true;
+            }
+            CompareResult::Ran(run) => {
+                if run.ended.is_some() {
+                    for trouble in run.troubles.clone() {
+                        cx.notify(trouble);
+                    }
                 }
+                self.run = Some(run);
             }
-            state.compare.run = Some(run);
-        }
-        Ok(CompareAnswer::Scaled(scaling)) => state.compare.scaling = Some(scaling),
-        Ok(CompareAnswer::Changed(changes)) => {
-            state.compare.cell = None;
-            state.compare.changes = Some(changes);
-        }
-        Ok(CompareAnswer::Cases {
-            folder,
-            cases,
-            troubles,
-            done,
-        }) => {
-            for trouble in troubles {
-                notify(state, trouble.into());
+            CompareResult::Scaled(scaling) => self.scaling = Some(scaling),
+            CompareResult::Changed(changes) => {
+                self.cell = None;
+                self.changes = Some(changes);
             }
-            hear_done(state, done);
-            state.compare.cases = Some(Cases {
+            CompareResult::Cases {
                 folder,
-                list: cases,
-            });
-        }
-        // It was shown.
-        Err(_) => {}
-    }
-    next(state)
-}
-
-fn hear_done(state: &mut State, done: CaseDone) {
-    match done {
-        CaseDone::Listed => {}
-        CaseDone::Kept(case) => {
-            say(state, format!("Kept as {}", case.name));
-            state.compare.remark.clear();
-        }
-        CaseDone::Removed { name, trash } => {
-            say(state, format!("Removed {name}"));
-            let is_front = matches!(&state.compare.front, Front::Kept(case) if case.name == name);
-            if is_front {
-                state.compare.front = Front::Scene;
-                forget(state);
-                state.compare.due = Due::WhenFree;
+                cases,
+                troubles,
+                done,
+            } => {
+                for trouble in troubles {
+                    cx.notify(trouble);
+                }
+                self.take_done(done, cx);
+                self.cases = Some(Cases {
+                    folder,
+                    list: cases,
+                });
             }
-            state.compare.undo = Some(Undo::Removal { name, trash });
-        }
-        CaseDone::Restored(name) => {
-            say(state, format!("{name} is back"));
-            state.compare.undo = None;
         }
     }
-}
 
-/// Says that something was done, in the place of what was said before.
-pub(super) fn say(state: &mut State, what: String) {
-    let notice = Notice::done(what);
-    let before = state.compare.said.replace(notice.clone());
-    state.notices.retain(|known| Some(known) != before.as_ref());
-    notify(state, notice);
-}
-
-/// Another case has another truth.
-fn forget(state: &mut State) {
-    state.compare.truth = None;
-    state.compare.against = None;
-    state.compare.remark.clear();
-}
-
-fn follow(state: &mut State) {
-    if !state.compare.is_listed {
-        state.compare.is_listed = true;
-        change_cases(state, "Listing the kept cases", CaseChange::List);
-    }
-    if state.has_new_scene() {
-        let scene_of = |shown: &Option<Shown>| {
-            let shown = shown.as_ref();
-            shown.map(|shown| Arc::clone(&shown.inspected.scene))
-        };
-        let (before, now) = (scene_of(&state.compare.followed), scene_of(&state.shown));
-        let is_other = before
-            .zip(now)
-            .is_none_or(|(before, now)| !Arc::ptr_eq(&before, &now));
-        state.compare.followed.clone_from(&state.session.shown);
-        if is_other {
-            // What was captured or opened now is what a person wants to see.
-            state.compare.front = Front::Scene;
-            forget(state);
+    fn take_done(&mut self, done: CaseDone, cx: &mut ShellContext<'_>) {
+        match done {
+            CaseDone::Listed => {}
+            CaseDone::Kept(case) => {
+                self.say(format!("Kept as {}", case.name), cx);
+                self.remark.clear();
+            }
+            CaseDone::Removed { name, trash } => {
+                self.say(format!("Removed {name}"), cx);
+                if matches!(&self.front, Front::Kept(case) if case.name == name) {
+                    self.front_scene();
+                    self.due = Due::WhenFree;
+                }
+                self.undo = Some(Undo::Removal { name, trash });
+            }
+            CaseDone::Restored(name) => {
+                self.say(format!("{name} is back"), cx);
+                self.undo = None;
+            }
         }
-        state.compare.due = state.compare.due.max(Due::WhenFree);
     }
-}
 
-fn open_case(state: &mut State, name: &str) {
-    let cases = state.compare.cases.as_ref();
-    let case = cases.and_then(|cases| cases.list.iter().find(|case| case.name == name));
-    let Some(case) = case.cloned() else {
-        let gone = Notice {
-            kind: NoticeKind::Look,
-            what: format!("There is no kept case named {name} any more"),
-            advice: "Run all cases again".into(),
-        };
-        return notify(state, gone);
-    };
-    forget(state);
-    state.compare.truth = Some(case.meta.about.truth.clone());
-    state.compare.front = Front::Kept(Box::new(case));
-    state.compare.due = Due::Now;
-}
+    /// Says that something was done, in place of what was said before.
+    pub(super) fn say(&mut self, what: String, cx: &mut ShellContext<'_>) {
+        let notice = Notice::done(what);
+        if let Some(before) = self.said.replace(notice.clone()) {
+            cx.send(Message::Retract(before));
+        }
+        cx.notify(notice);
+    }
 
-fn run_all(state: &mut State) {
-    let Some(cases) = state.compare.cases.clone().filter(|c| !c.list.is_empty()) else {
-        let none = Notice {
-            kind: NoticeKind::Look,
-            what: "There are no kept cases to run".into(),
-            advice: "Keep a case first, or choose a folder of cases".into(),
-        };
-        return notify(state, none);
-    };
-    let request = CompareRequest::Run {
-        folder: cases.folder,
-        recipe: Arc::clone(state.tried_recipe()),
-    };
-    state.compare.cell = None;
-    state.compare.changes = None;
-    state.compare.run = None;
-    let errand = ("Running the kept cases".to_owned(), request);
-    state.compare.errands.push_back(errand);
-}
+    /// The scene inspected last comes to the front.
+    fn front_scene(&mut self) {
+        self.front = Front::Scene;
+        self.forget();
+    }
 
-fn earlier(state: &mut State, path: PathBuf) {
-    let run = state.compare.run.clone();
-    let Some(run) = run.filter(|run| run.ended.is_some()) else {
-        let none = Notice {
-            kind: NoticeKind::Look,
-            what: "There is no run to compare with an earlier one".into(),
-            advice: "Run all cases first".into(),
+    /// Another case has another truth.
+    fn forget(&mut self) {
+        self.truth = None;
+        self.against = None;
+        self.remark.clear();
+    }
+
+    fn follow(&mut self, cx: &ShellContext<'_>) {
+        if !self.is_listed {
+            self.is_listed = true;
+            self.change_cases("Listing the kept cases", CaseChange::List);
+        }
+        if self.has_new_scene(cx.session) {
+            let scene_of = |shown: &Option<Shown>| {
+                let shown = shown.as_ref();
+                shown.map(|shown| Arc::clone(&shown.inspected.scene))
+            };
+            let (before, now) = (scene_of(&self.followed), scene_of(&cx.session.shown));
+            let is_other = before
+                .zip(now)
+                .is_none_or(|(before, now)| !Arc::ptr_eq(&before, &now));
+            self.followed.clone_from(&cx.session.shown);
+            if is_other {
+                // What was captured or opened now is what a person wants to see.
+                self.front_scene();
+            }
+            self.due = self.due.max(Due::WhenFree);
+        }
+    }
+
+    fn use_folder(&mut self, path: PathBuf) {
+        self.folder = Some(path);
+        self.cases = None;
+        self.run = None;
+        self.cell = None;
+        self.changes = None;
+        self.undo = None;
+        if matches!(self.front, Front::Kept(_)) {
+            self.front_scene();
+            self.due = Due::WhenFree;
+        }
+        self.change_cases("Listing the kept cases", CaseChange::List);
+    }
+
+    fn open_case(&mut self, name: &str, cx: &mut ShellContext<'_>) {
+        let cases = self.cases.as_ref();
+        let case = cases.and_then(|cases| cases.list.iter().find(|case| case.name == name));
+        let Some(case) = case.cloned() else {
+            return cx.notify(Notice::look(
+                format!("There is no kept case named {name} any more"),
+                "Run all cases again",
+            ));
         };
-        return notify(state, none);
-    };
-    let request = CompareRequest::Earlier { path, run };
-    let errand = ("Comparing with an earlier run".to_owned(), request);
-    state.compare.errands.push_back(errand);
+        self.forget();
+        self.truth = Some(case.meta.about.truth.clone());
+        self.front = Front::Kept(Box::new(case));
+        self.due = Due::Now;
+    }
+
+    fn run_all(&mut self, cx: &mut ShellContext<'_>) {
+        let cases = self.cases.as_ref().filter(|cases| !cases.list.is_empty());
+        let Some(cases) = cases else {
+            return cx.notify(Notice::look(
+                "There are no kept cases to run",
+                "Keep a case first, or choose a folder of cases",
+            ));
+        };
+        let job = Job::Run {
+            folder: cases.folder.clone(),
+            recipe: Arc::clone(self.tried_recipe(cx.session)),
+        };
+        self.cell = None;
+        self.changes = None;
+        self.run = None;
+        self.ask("Running the kept cases", job);
+    }
+
+    fn compare_with_earlier(&mut self, path: PathBuf, cx: &mut ShellContext<'_>) {
+        let run = self.run.clone().filter(|run| run.ended.is_some());
+        let Some(run) = run else {
+            return cx.notify(Notice::look(
+                "There is no run to compare with an earlier one",
+                "Run all cases first",
+            ));
+        };
+        self.ask("Comparing with an earlier run", Job::Earlier { path, run });
+    }
 }
 
 #[cfg(test)]

@@ -5,9 +5,10 @@ use std::sync::Arc;
 use super::comparison::Comparison;
 use crate::{
     app::{
-        job::Trouble,
         shelf::{LibraryShown, Shelf},
+        shell::task::TaskError,
         unit_system::UnitSystem,
+        user_error::UserError,
     },
     cases::{CaseFolder, Found, KeptCase, Truth},
     error::Advice,
@@ -128,26 +129,17 @@ impl Study {
     }
 }
 
-/// Inspects and compares; `None` when cancelled.
-pub fn study(
-    request: &StudyRequest,
-    shelf: &Shelf,
-    watch: &dyn Watch,
-) -> Option<Result<Study, Trouble>> {
-    let shelved = match shelf.get() {
-        Ok(shelved) => shelved,
-        Err(error) => return Some(Err(Trouble::of(&error))),
-    };
-    let (scene, title, camera) = match opened(&request.case) {
-        Ok(opened) => opened,
-        Err(trouble) => return Some(Err(trouble)),
-    };
+/// Inspects and compares.
+pub fn study(request: &StudyRequest, shelf: &Shelf, watch: &dyn Watch) -> Result<Study, TaskError> {
+    let shelved = shelf.get().map_err(|error| UserError::of(&error))?;
+    let (scene, title, camera) = opened(&request.case)?;
     if watch.is_cancelled() {
-        return None;
+        return Err(TaskError::Cancelled);
     }
-    let fitted = shelved.fitting(&request.recipe, watch)?;
+    let fitted = shelved.fitting(&request.recipe, watch);
+    let fitted = fitted.ok_or(TaskError::Cancelled)?;
     let library: &Library = &fitted;
-    let inspection = pipeline::run(&scene, library, &request.recipe, watch).ok()?;
+    let inspection = pipeline::run(&scene, library, &request.recipe, watch)?;
     let found = Found::from(&inspection.verdict);
     let shown = &shelved.shown;
     let title_of = |name: &str| {
@@ -171,7 +163,7 @@ pub fn study(
         library: Arc::clone(shown),
     };
     let Some(query) = query_of(&inspection) else {
-        return Some(Ok(study));
+        return Ok(study);
     };
     let by_outline = RankParams {
         matcher: Matcher::Default,
@@ -191,10 +183,10 @@ pub fn study(
         let title = title_of(part);
         study.comparison = Some(Comparison::of(&title, &query, reference, placement, chosen));
     }
-    Some(Ok(study))
+    Ok(study)
 }
 
-fn opened(case: &CaseScene) -> Result<(Arc<SceneCloud>, String, CameraKind), Trouble> {
+fn opened(case: &CaseScene) -> Result<(Arc<SceneCloud>, String, CameraKind), UserError> {
     match case {
         CaseScene::AtHand {
             scene,
@@ -202,7 +194,7 @@ fn opened(case: &CaseScene) -> Result<(Arc<SceneCloud>, String, CameraKind), Tro
             camera,
         } => Ok((Arc::clone(scene), title.clone(), *camera)),
         CaseScene::Kept { folder, case } => {
-            let scene = folder.read_scene(case).map_err(|e| Trouble::of(&e))?;
+            let scene = folder.read_scene(case).map_err(|e| UserError::of(&e))?;
             let about = &case.meta.about;
             let camera = if about.simulated {
                 CameraKind::Simulated
@@ -375,7 +367,7 @@ mod tests {
 
     fn studied(request: &StudyRequest) -> Study {
         let study = study(request, &Shelf::default(), &Unwatched);
-        study.expect("not cancelled").expect("studied")
+        study.expect("studied")
     }
 
     #[test]

@@ -9,13 +9,14 @@ use jiff::Timestamp;
 
 use super::{
     matrix::Matrix,
-    study::{Study, StudyRequest, study},
+    schedule::Job,
+    study::{Study, study},
 };
 use crate::{
     app::{
-        job::{Answer, Outcome, Trouble},
         shelf::Shelf,
-        worker::Desk,
+        shell::task::{TaskContext, TaskError},
+        user_error::UserError,
     },
     bench::scaling::{Scaling, ScalingError, ScalingRow, scaling, sizes},
     cases::{
@@ -25,36 +26,6 @@ use crate::{
     pipeline::Recipe,
     stages::{rank::Matcher, scene::SceneCloud},
 };
-
-/// What the workspace asks for.
-#[derive(Clone, Debug)]
-pub enum CompareRequest {
-    /// Inspect a case with the recipe on trial and compare it.
-    Study(Box<StudyRequest>),
-    /// Change the kept cases, and list them.
-    Cases {
-        /// The folder; without one the user's own.
-        folder: Option<PathBuf>,
-        /// What to do first.
-        change: CaseChange,
-    },
-    /// Run all kept cases.
-    Run {
-        /// The folder.
-        folder: CaseFolder,
-        /// The recipe on trial.
-        recipe: Arc<Recipe>,
-    },
-    /// Measure from how many references on several workers pay.
-    Scaling,
-    /// Hold a run against an earlier one.
-    Earlier {
-        /// What that one has written.
-        path: PathBuf,
-        /// The run.
-        run: Arc<CaseRun>,
-    },
-}
 
 /// What is done with the kept cases.
 #[derive(Clone, Debug)]
@@ -97,9 +68,9 @@ pub enum CaseDone {
     Restored(String),
 }
 
-/// What comes back.
+/// What the task hands over.
 #[derive(Clone, Debug)]
-pub enum CompareAnswer {
+pub enum CompareResult {
     /// A case under the glass.
     Studied(Arc<Study>),
     /// The kept cases.
@@ -109,7 +80,7 @@ pub enum CompareAnswer {
         /// The cases.
         cases: Arc<[KeptCase]>,
         /// What had to be set aside.
-        troubles: Vec<Trouble>,
+        troubles: Vec<UserError>,
         /// What was done before.
         done: CaseDone,
     },
@@ -140,7 +111,7 @@ pub struct CaseRun {
     /// One result per case that could be read.
     pub results: Vec<CaseResult>,
     /// Those that could not.
-    pub troubles: Vec<Trouble>,
+    pub troubles: Vec<UserError>,
     /// Cases there are.
     pub total: usize,
     /// The matrix.
@@ -154,48 +125,40 @@ pub struct CaseRun {
 }
 
 /// Does what is asked.
-pub(in crate::app) fn answer(
-    request: CompareRequest,
+pub(super) fn run(
+    job: Job,
     shelf: &Shelf,
-    desk: &dyn Desk<Outcome>,
-) -> Option<Outcome> {
-    match request {
-        CompareRequest::Study(request) => {
-            let studied = study(&request, shelf, desk)?;
-            Some(studied.map(|study| Answer::Compare(CompareAnswer::Studied(Arc::new(study)))))
+    context: &TaskContext<CompareResult>,
+) -> Result<CompareResult, TaskError> {
+    Ok(match job {
+        Job::Study(request) => CompareResult::Studied(Arc::new(study(&request, shelf, context)?)),
+        Job::Cases { folder, change } => {
+            cases(folder.as_deref(), change).map_err(|error| UserError::of(&error))?
         }
-        CompareRequest::Cases { folder, change } => {
-            let changed = cases(folder.as_deref(), change);
-            Some(changed.map(Answer::Compare).map_err(|e| Trouble::of(&e)))
+        Job::Run { folder, recipe } => run_cases(&folder, &recipe, shelf, context)?,
+        Job::Scaling => measure_scaling(context)?,
+        Job::Earlier { path, run } => {
+            let changes = changes(&path, &run).map_err(|error| UserError::of(&error))?;
+            CompareResult::Changed(Arc::new(changes))
         }
-        CompareRequest::Run { folder, recipe } => run(&folder, &recipe, shelf, desk),
-        CompareRequest::Scaling => measure_scaling(desk),
-        CompareRequest::Earlier { path, run } => {
-            let changed =
-                changes(&path, &run).map(|changes| CompareAnswer::Changed(Arc::new(changes)));
-            Some(changed.map(Answer::Compare).map_err(|e| Trouble::of(&e)))
-        }
-    }
+    })
 }
 
 /// References at most: with their images below half a gigabyte.
 const MOST_REFERENCES: usize = 2048;
 
-fn measure_scaling(desk: &dyn Desk<Outcome>) -> Option<Outcome> {
+fn measure_scaling(context: &TaskContext<CompareResult>) -> Result<CompareResult, TaskError> {
     let total = sizes(MOST_REFERENCES).len();
     let mut done = 0;
-    desk.progress(done, total);
+    context.progress(done, total);
     let mut after_row = |_: &ScalingRow| {
         done += 1;
-        desk.progress(done, total);
+        context.progress(done, total);
     };
-    match scaling(Matcher::Default, MOST_REFERENCES, desk, &mut after_row) {
-        Ok(scaling) => {
-            let answer = CompareAnswer::Scaled(Arc::new(scaling));
-            Some(Ok(Answer::Compare(answer)))
-        }
-        Err(ScalingError::Cancelled(_)) => None,
-        Err(error) => Some(Err(Trouble::of(&error))),
+    match scaling(Matcher::Default, MOST_REFERENCES, context, &mut after_row) {
+        Ok(scaling) => Ok(CompareResult::Scaled(Arc::new(scaling))),
+        Err(ScalingError::Cancelled(_)) => Err(TaskError::Cancelled),
+        Err(error) => Err(UserError::of(&error).into()),
     }
 }
 
@@ -208,7 +171,7 @@ fn changes(path: &Path, run: &CaseRun) -> Result<RunChanges, RecordError> {
     })
 }
 
-fn cases(folder: Option<&Path>, change: CaseChange) -> Result<CompareAnswer, CaseError> {
+fn cases(folder: Option<&Path>, change: CaseChange) -> Result<CompareResult, CaseError> {
     let folder = folder.map_or_else(CaseFolder::of_user, |path| Ok(CaseFolder::at(path)))?;
     let done = match change {
         CaseChange::List => CaseDone::Listed,
@@ -223,35 +186,30 @@ fn cases(folder: Option<&Path>, change: CaseChange) -> Result<CompareAnswer, Cas
         }
     };
     let list = folder.list()?;
-    Ok(CompareAnswer::Cases {
+    Ok(CompareResult::Cases {
         folder,
         cases: list.cases.into(),
-        troubles: list.problems.iter().map(Trouble::of).collect(),
+        troubles: list.problems.iter().map(UserError::of).collect(),
         done,
     })
 }
 
-fn run(
+fn run_cases(
     folder: &CaseFolder,
     recipe: &Arc<Recipe>,
     shelf: &Shelf,
-    desk: &dyn Desk<Outcome>,
-) -> Option<Outcome> {
-    let shelved = match shelf.get() {
-        Ok(shelved) => shelved,
-        Err(error) => return Some(Err(Trouble::of(&error))),
-    };
-    let list = match folder.list() {
-        Ok(list) => list,
-        Err(error) => return Some(Err(Trouble::of(&error))),
-    };
-    let library = shelved.fitting(recipe, desk)?;
+    context: &TaskContext<CompareResult>,
+) -> Result<CompareResult, TaskError> {
+    let shelved = shelf.get().map_err(|error| UserError::of(&error))?;
+    let list = folder.list().map_err(|error| UserError::of(&error))?;
+    let library = shelved.fitting(recipe, context);
+    let library = library.ok_or(TaskError::Cancelled)?;
     let order = library.references.iter().map(|r| r.name.clone());
     let order: Vec<String> = order.collect();
     let total = list.cases.len();
     let judge = CaseJudge::new(&library, recipe);
     let (mut results, mut troubles) = (Vec::new(), Vec::new());
-    let so_far = |results: &[CaseResult], troubles: &[Trouble], ended| {
+    let so_far = |results: &[CaseResult], troubles: &[UserError], ended| {
         let confusion = Confusion::of(results, &order);
         Arc::new(CaseRun {
             folder: folder.clone(),
@@ -266,17 +224,15 @@ fn run(
         })
     };
     for (done, case) in list.cases.iter().enumerate() {
-        if desk.is_cancelled() {
-            return None;
-        }
-        desk.progress(done, total);
+        context.check()?;
+        context.progress(done, total);
         match folder.read_scene(case) {
-            Ok(scene) => results.push(judge.judge(case, &scene, desk).ok()?),
-            Err(error) => troubles.push(Trouble::of(&error)),
+            Ok(scene) => results.push(judge.judge(case, &scene, context)?),
+            Err(error) => troubles.push(UserError::of(&error)),
         }
         let run = so_far(&results, &troubles, None);
-        desk.partly(Ok(Answer::Compare(CompareAnswer::Ran(run))));
+        context.partial(CompareResult::Ran(run));
     }
     let run = so_far(&results, &troubles, Some(Timestamp::now()));
-    Some(Ok(Answer::Compare(CompareAnswer::Ran(run))))
+    Ok(CompareResult::Ran(run))
 }

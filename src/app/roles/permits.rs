@@ -38,8 +38,7 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
         | Action::TakeEmptyCell
         | Action::ForgetEmptyCell
         | Action::UseFoundLibrary
-        | Action::Enrol(_)
-        | Action::Compare(_) => true,
+        | Action::Enrol(_) => true,
         Action::Press(workspace, _) => !is_operators(*workspace),
         Action::Capture
         | Action::UseCell(_)
@@ -63,13 +62,7 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
 
 fn asks_for_engineer(ask: Ask) -> bool {
     match ask {
-        Ask::Library
-        | Ask::CasesFolder
-        | Ask::EarlierRun
-        | Ask::Part
-        | Ask::PartPath
-        | Ask::Calibration
-        | Ask::Pairs => true,
+        Ask::Library | Ask::Part | Ask::PartPath | Ask::Calibration | Ask::Pairs => true,
         Ask::Scene
         | Ask::Recording
         | Ask::WatchedFolder

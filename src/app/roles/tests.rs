@@ -1,7 +1,7 @@
 use super::*;
 use crate::app::{
     action::{Ask, apply as apply_any},
-    compare::CompareAction,
+    robot::RobotAction,
 };
 
 fn write(state: &mut State, digits: &str) {
@@ -25,7 +25,8 @@ fn the_operators_view_changes_nothing_that_a_verdict_rests_on() {
     let mut state = State::default();
     apply(&mut state, RoleAction::Switch);
     let held_back = [
-        Action::Compare(CompareAction::Use),
+        Action::Robot(RobotAction::Forget),
+        Action::Press(Workspace::Compare, 0),
         Action::Ask(Ask::Library),
         Action::Chosen(Ask::Library, "other".into()),
         Action::TakeEmptyCell,

@@ -79,7 +79,7 @@ impl TestShell {
     pub(in crate::app) fn notices(&self) -> Vec<&str> {
         let notices = self.messages.iter().filter_map(|message| match message {
             Message::Notify(notice) => Some(notice.what.as_str()),
-            Message::CopyText(_) => None,
+            _ => None,
         });
         notices.collect()
     }

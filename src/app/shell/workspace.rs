@@ -5,7 +5,10 @@ use std::any::Any;
 use egui::Ui;
 
 use super::{
-    context::ShellContext, key_binding::KeyBinding, session::WorkspaceKind, task::Running,
+    context::ShellContext,
+    key_binding::KeyBinding,
+    session::{Session, WorkspaceKind},
+    task::Running,
 };
 
 /// A workspace: it owns its state and its tasks, and draws itself.
@@ -41,7 +44,7 @@ pub trait Workspace: Any {
     }
 
     /// True while nothing is at work or waits to be.
-    fn is_idle(&self) -> bool {
+    fn is_idle(&self, _session: &Session) -> bool {
         self.running().is_none()
     }
 }

@@ -2,12 +2,7 @@ use jiff::Timestamp;
 
 use super::*;
 use crate::{
-    app::{
-        action,
-        job::{Answer, Request},
-        lane::Lane,
-        worker::News,
-    },
+    app::shell::context::TestShell,
     cases::{CaseAbout, CaseMeta, Edge, Found, SCHEMA_VERSION, SceneRecord},
 };
 
@@ -39,8 +34,8 @@ fn kept(name: &str) -> KeptCase {
     }
 }
 
-fn listed(done: CaseDone) -> CompareAnswer {
-    CompareAnswer::Cases {
+fn listed(done: CaseDone) -> CompareResult {
+    CompareResult::Cases {
         folder: CaseFolder::at("cases"),
         cases: [kept("a"), kept("b")].into(),
         troubles: Vec::new(),
@@ -48,127 +43,154 @@ fn listed(done: CaseDone) -> CompareAnswer {
     }
 }
 
-fn posted(effect: Option<Effect>) -> Option<(u64, CompareRequest)> {
-    match effect? {
-        Effect::Post {
-            generation,
-            request: Request::Compare(request),
-        } => Some((generation, request)),
-        other => panic!("expected a request of the workspace, found {other:?}"),
-    }
+/// The workspace without a window: no job runs, the test says what came out.
+struct Bench {
+    compare: CompareState,
+    shell: TestShell,
 }
 
-fn act(state: &mut State, action: CompareAction) -> Option<(u64, CompareRequest)> {
-    posted(apply(state, action))
-}
-
-fn done(
-    state: &mut State,
-    generation: u64,
-    answer: CompareAnswer,
-) -> Option<(u64, CompareRequest)> {
-    let news = News::Done {
-        generation,
-        outcome: Ok(Answer::Compare(answer)),
-    };
-    posted(action::apply(
-        state,
-        action::Action::Hear(Lane::Compare, news),
-    ))
-}
-
-/// Two kept cases, the first in front and under study.
-fn with_a_case() -> (State, u64) {
-    let mut state = State::default();
-    let (generation, request) = act(&mut state, CompareAction::Follow).expect("posted");
-    assert!(matches!(
-        request,
-        CompareRequest::Cases {
-            change: CaseChange::List,
-            ..
+impl Bench {
+    fn new() -> Self {
+        Self {
+            compare: CompareState::new(None, &TaskRunner::without_threads()),
+            shell: TestShell::default(),
         }
-    ));
-    assert!(done(&mut state, generation, listed(CaseDone::Listed)).is_none());
-    let opened = act(&mut state, CompareAction::OpenCase("a".into()));
-    let (generation, request) = opened.expect("posted");
-    let CompareRequest::Study(request) = request else {
-        panic!("studied");
-    };
-    assert_eq!(request.truth, Some(Truth::Part("fender".into())));
-    (state, generation)
+    }
+
+    /// Two kept cases, the first in front and under study.
+    fn with_a_case() -> Self {
+        let mut bench = Self::new();
+        bench.act(CompareAction::Follow);
+        assert_eq!(bench.at_work(), Some(JobKind::Cases));
+        bench.done(listed(CaseDone::Listed));
+        assert_eq!(bench.at_work(), None);
+        bench.act(CompareAction::OpenCase("a".into()));
+        assert_eq!(bench.at_work(), Some(JobKind::Study));
+        let request = bench.compare.study_request(&bench.shell.session);
+        let truth = request.expect("a case in front").truth;
+        assert_eq!(truth, Some(Truth::Part("fender".into())));
+        bench
+    }
+
+    fn act(&mut self, action: CompareAction) {
+        self.compare.apply(action, &mut self.shell.context());
+    }
+
+    /// The job at work comes out so.
+    fn done(&mut self, result: CompareResult) {
+        self.compare.task.start("made up", move |_| Ok(result));
+        assert!(self.compare.task.run_waiting());
+        self.compare.update(&mut self.shell.context());
+    }
+
+    fn at_work(&self) -> Option<JobKind> {
+        self.compare.running().and(self.compare.job)
+    }
+
+    fn is_behind(&self) -> bool {
+        self.compare.is_behind(&self.shell.session)
+    }
 }
 
 #[test]
 fn a_change_of_the_kept_cases_is_never_pushed_out() {
-    let (mut state, _) = with_a_case();
-    let (removing, _) = act(&mut state, CompareAction::Remove("b".into())).expect("posted");
+    let mut bench = Bench::with_a_case();
+    bench.act(CompareAction::Remove("b".into()));
+    assert_eq!(bench.at_work(), Some(JobKind::Cases));
     // The study that it pushed out, and whatever comes meanwhile, waits.
-    let set = CompareAction::Set("accept.min_score", 0.5);
-    assert!(act(&mut state, set).is_none());
-    assert!(act(&mut state, CompareAction::RunAll).is_none());
-    assert!(!state.is_compare_behind());
+    bench.act(CompareAction::Set("accept.min_score", 0.5));
+    bench.act(CompareAction::RunAll);
+    assert_eq!(bench.at_work(), Some(JobKind::Cases));
+    assert!(!bench.is_behind());
     let removed = CaseDone::Removed {
         name: "b".into(),
         trash: "trash/b".into(),
     };
-    let (running, request) = done(&mut state, removing, listed(removed)).expect("posted");
-    assert!(matches!(request, CompareRequest::Run { .. }));
-    assert!(state.is_running_cases());
-    assert!(matches!(state.compare.undo, Some(Undo::Removal { .. })));
+    bench.done(listed(removed));
+    assert!(bench.compare.is_running_cases());
+    assert!(matches!(bench.compare.undo, Some(Undo::Removal { .. })));
     // The recipe was changed before the run began: the case in front still comes, as soon as it may.
-    assert!(state.is_compare_behind());
-    let (studying, request) = act(&mut state, CompareAction::Follow).expect("posted");
-    assert!(matches!(request, CompareRequest::Study(_)) && studying > running);
+    assert!(bench.is_behind());
+    bench.act(CompareAction::Follow);
+    assert_eq!(bench.at_work(), Some(JobKind::Study));
 }
 
 #[test]
 fn another_recipe_gives_a_run_up_and_another_part_waits_for_its_end() {
-    let (mut state, _) = with_a_case();
-    let (_, request) = act(&mut state, CompareAction::RunAll).expect("posted");
-    assert!(matches!(request, CompareRequest::Run { .. }));
-    let against = CompareAction::Against(Some("grille".into()));
-    assert!(act(&mut state, against).is_none());
-    assert!(state.is_running_cases() && state.is_study_old());
-    let set = CompareAction::Set("project.pixel", 4.0);
-    let (_, request) = act(&mut state, set).expect("posted");
-    let CompareRequest::Study(request) = request else {
-        panic!("studied");
-    };
+    let mut bench = Bench::with_a_case();
+    bench.act(CompareAction::RunAll);
+    assert!(bench.compare.is_running_cases());
+    bench.act(CompareAction::Against(Some("grille".into())));
+    assert!(bench.compare.is_running_cases() && bench.compare.is_study_old());
+    bench.act(CompareAction::Set("project.pixel", 4.0));
+    assert_eq!(bench.at_work(), Some(JobKind::Study));
+    let request = bench.compare.study_request(&bench.shell.session);
+    let request = request.expect("a case in front");
     assert_eq!(request.recipe.project.pixel, crate::units::Metres(0.004));
     assert_eq!(request.against.as_deref(), Some("grille"));
-    assert!(!state.is_running_cases());
+    assert!(!bench.compare.is_running_cases());
 }
 
 #[test]
 fn a_study_that_was_cancelled_stays_marked_old_and_is_not_kept() {
-    let (mut state, _) = with_a_case();
-    assert!(state.is_study_old());
-    action::apply(&mut state, action::Action::Cancel(Lane::Compare));
-    assert!(state.is_study_old() && !state.is_compare_behind());
-    assert!(act(&mut state, CompareAction::Keep).is_none());
-    assert!(state.notices[0].what.contains("no case to keep"));
+    let mut bench = Bench::with_a_case();
+    assert!(bench.compare.is_study_old());
+    bench.compare.cancel();
+    assert!(bench.compare.is_study_old() && !bench.is_behind());
+    bench.act(CompareAction::Keep);
+    assert_eq!(bench.at_work(), None);
+    assert!(bench.shell.notices()[0].contains("no case to keep"));
 }
 
 #[test]
 fn a_recipe_that_is_the_one_in_use_again_is_no_longer_on_trial() {
-    let (mut state, _) = with_a_case();
-    act(&mut state, CompareAction::Set("project.pixel", 4.0)).expect("posted");
-    assert!(state.compare.tried.is_some());
-    act(&mut state, CompareAction::Reset("project.pixel")).expect("posted");
-    assert!(state.compare.tried.is_none());
+    let mut bench = Bench::with_a_case();
+    bench.act(CompareAction::Set("project.pixel", 4.0));
+    assert!(bench.compare.tried.is_some());
+    bench.act(CompareAction::Reset("project.pixel"));
+    assert!(bench.compare.tried.is_none());
+    bench.compare.cancel();
     // Nothing is inspected anew for what changes nothing or cannot be.
-    assert!(act(&mut state, CompareAction::ResetAll).is_none());
-    assert!(act(&mut state, CompareAction::Set("project.pixel", 400.0)).is_none());
-    assert!(state.notices[0].what.contains("Pixel cannot be 400 mm"));
-    assert!(state.compare.tried.is_none());
+    bench.act(CompareAction::ResetAll);
+    bench.act(CompareAction::Set("project.pixel", 400.0));
+    assert_eq!(bench.at_work(), None);
+    assert!(bench.shell.notices()[0].contains("Pixel cannot be 400 mm"));
+    assert!(bench.compare.tried.is_none());
+}
+
+#[test]
+fn a_recipe_is_used_and_the_one_before_comes_back() {
+    let mut bench = Bench::with_a_case();
+    let before = Arc::clone(&bench.shell.session.recipe);
+    bench.act(CompareAction::Set("project.pixel", 4.0));
+    bench.act(CompareAction::Use);
+    let used = |bench: &Bench| {
+        let mut messages = bench.shell.messages.iter().rev();
+        messages.find_map(|message| match message {
+            Message::UseRecipe(recipe) => Some(Arc::clone(recipe)),
+            _ => None,
+        })
+    };
+    let tried = used(&bench).expect("sent");
+    assert_eq!(tried.project.pixel, crate::units::Metres(0.004));
+    bench.shell.session.recipe = Arc::clone(&tried);
+    bench.act(CompareAction::Undo);
+    assert!(used(&bench).is_some_and(|recipe| Arc::ptr_eq(&recipe, &before)));
+    // What was in use stays on trial.
+    let on_trial = bench.compare.tried.as_ref();
+    assert!(on_trial.is_some_and(|recipe| Arc::ptr_eq(recipe, &tried)));
 }
 
 #[test]
 fn what_is_said_of_something_done_takes_the_place_of_what_was_said_before() {
-    let mut state = State::default();
+    let mut bench = Bench::new();
     for name in ["a", "b"] {
-        hear_done(&mut state, CaseDone::Kept(Box::new(kept(name))));
+        let done = CaseDone::Kept(Box::new(kept(name)));
+        bench.compare.take_done(done, &mut bench.shell.context());
     }
-    let said: Vec<_> = state.notices.iter().map(|n| n.what.as_str()).collect();
-    assert_eq!(said, ["Kept as b"]);
+    assert!(matches!(
+        &bench.shell.messages[..],
+        [Message::Notify(first), Message::Retract(gone), Message::Notify(second)]
+            if first == gone && second.what == "Kept as b"
+    ));
 }
