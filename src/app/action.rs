@@ -5,17 +5,21 @@ use std::{path::PathBuf, sync::Arc};
 use super::{
     answers,
     enrol::{self, EnrolAction},
-    history::{self, HistoryAction, HistoryJob},
-    inspect::{self, state::InspectAction, work::InspectRequest},
+    inspect::{
+        self,
+        state::InspectAction,
+        work::{InspectRequest, Inspected},
+    },
     job::{Outcome, Request, Trouble},
     lane::Lane,
     live::{self, LiveAction},
     robot::{self, RobotAction},
     roles::{self, RoleAction},
     source::{CellChoice, SceneSource, file_name},
-    state::{HelpPage, Notice, NoticeKind, Source, StagePanel, State, Workspace},
+    state::{
+        Event, HelpPage, Notice, NoticeKind, Purpose, Shown, Source, StagePanel, State, Workspace,
+    },
     worker::News,
-    writing::PastExport,
 };
 use crate::{
     capture::{Pace, RecordingSpec, SourceSpec, WatchedFrom, WatchedSpec},
@@ -82,8 +86,10 @@ pub enum Action {
     Press(Workspace, usize),
     /// Cancel what a workspace is at.
     CancelTask(Workspace),
-    /// Of the History workspace.
-    History(HistoryAction),
+    /// The engineer's view, which a workspace asked for, is there.
+    EngineerIn(Workspace),
+    /// Show a past inspection that is still in memory.
+    ShowPast(Arc<Inspected>),
     /// Of the robot's cell.
     Robot(RobotAction),
     /// A thread has news.
@@ -105,10 +111,6 @@ pub enum Ask {
     Library,
     /// The folder that the report of the inspection in front goes to.
     ReportFolder,
-    /// The file that the listed history goes to.
-    HistoryCsv,
-    /// The folder that cases of the listed history go to.
-    HistoryCases,
     /// Where a picture of the 3-D view is to go.
     Picture,
     /// A scene, a whole cloud or a mesh to enrol.
@@ -143,8 +145,10 @@ pub enum Effect {
     CancelTask(Workspace),
     /// Put this on the clipboard.
     CopyText(String),
-    /// Have this written into the history.
-    History(HistoryJob),
+    /// Tell every workspace.
+    Tell(Event),
+    /// Tell this workspace that the engineer's view is there.
+    EngineerIn(Workspace),
     /// Close the window.
     Close,
     /// All of this.
@@ -234,7 +238,8 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::Enrol(action) => return enrol::apply(state, action),
         Action::Press(workspace, place) => return Some(Effect::Press(workspace, place)),
         Action::CancelTask(workspace) => return Some(Effect::CancelTask(workspace)),
-        Action::History(action) => return history::apply(state, action),
+        Action::EngineerIn(workspace) => return Some(Effect::EngineerIn(workspace)),
+        Action::ShowPast(inspected) => return show_past(state, inspected),
         Action::Robot(action) => return robot::apply(state, action),
         Action::Hear(lane, news) => return answers::hear(state, lane, news),
     }
@@ -269,8 +274,6 @@ fn chosen(state: &mut State, ask: Ask, path: PathBuf) -> Option<Effect> {
             Some(open_library(state))
         }
         Ask::ReportFolder => export(state, path),
-        Ask::HistoryCsv => Some(history::export(state, PastExport::Csv(path))),
-        Ask::HistoryCases => Some(history::export(state, PastExport::Cases(path))),
         Ask::Picture => {
             state.inspect.picture_to = Some(path);
             None
@@ -389,9 +392,21 @@ pub(super) fn inspect_again(state: &mut State) -> Option<Effect> {
         source: SceneSource::AtHand(Arc::clone(&shown.scene), shown.origin.clone()),
         recipe: Arc::clone(&state.recipe),
     };
-    let effect = state.begin("Inspecting again", Request::Inspect(request));
-    state.history.repeated = Some(state.generation);
-    Some(effect)
+    Some(state.inspect("Inspecting again", request, Purpose::Repeated))
+}
+
+/// Shows a past inspection that is still in memory.
+fn show_past(state: &mut State, inspected: Arc<Inspected>) -> Option<Effect> {
+    state.generation += 1;
+    state.candidate = 0;
+    state.shown = Some(Shown {
+        generation: state.generation,
+        inspected,
+        is_past: true,
+        session: None,
+    });
+    state.workspace = Workspace::Inspect;
+    live::give_way(state)
 }
 
 /// Shows a notice.

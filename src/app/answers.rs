@@ -8,14 +8,13 @@ use std::{
 use super::{
     action::{Effect, inspect_again, notify},
     enrol,
-    history::{self, TakenIn},
     inspect::work::Inspected,
     job::{Answer, Outcome, Trouble},
     lane::Lane,
     live, robot,
     shelf::LibraryShown,
     source::Origin,
-    state::{Notice, NoticeKind, Shown, Source, State},
+    state::{Event, Notice, NoticeKind, Purpose, Shown, Source, State},
     worker::News,
 };
 
@@ -50,7 +49,6 @@ fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> 
     match outcome {
         Ok(Answer::Inspected(inspected)) => return show(state, generation, inspected),
         Ok(Answer::Live(answer)) => return live::hear(state, Ok(answer)),
-        Ok(Answer::History(looked)) => return history::take(state, *looked),
         Ok(Answer::Enrol(answer)) => return enrol::hear(state, Ok(answer)),
         Ok(Answer::Library(library)) => {
             use_library(state, &library);
@@ -65,7 +63,7 @@ fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> 
                 Lane::Enrol | Lane::Library => return enrol::hear(state, Err(trouble)),
                 Lane::Inspect => without_scene(state),
                 Lane::Live => return live::hear(state, Err(trouble)),
-                Lane::Write | Lane::History | Lane::Robot => {}
+                Lane::Write | Lane::Robot => {}
             }
         }
     }
@@ -88,15 +86,20 @@ fn show(state: &mut State, generation: u64, inspected: Arc<Inspected>) -> Option
     if let Origin::File { path, .. } = &inspected.origin {
         remember(&mut state.recent, path);
     }
-    let (taken, effect) = history::take_in(state, generation, &inspected);
+    let (of, purpose) = state.purpose;
+    let purpose = if of == generation {
+        purpose
+    } else {
+        Purpose::New
+    };
     state.candidate = 0;
     state.shown = Some(Shown {
         generation,
-        inspected,
-        is_past: taken == TakenIn::Past,
+        inspected: Arc::clone(&inspected),
+        is_past: purpose == Purpose::Past,
         session: None,
     });
-    effect
+    Some(Effect::Tell(Event::Inspected { inspected, purpose }))
 }
 
 /// From now on this library is shown; what had to be set aside in it is said once.

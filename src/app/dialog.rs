@@ -13,14 +13,6 @@ pub(super) fn request(ask: Ask) -> FileRequest {
             "Folder for the report of this inspection",
             FileChoice::FolderToWrite,
         ),
-        Ask::HistoryCsv => (
-            "Export the listed inspections",
-            FileChoice::NewFile("inspections.csv"),
-        ),
-        Ask::HistoryCases => (
-            "Folder for the cases of the listed inspections",
-            FileChoice::FolderToWrite,
-        ),
         Ask::Library => ("Use another library", FileChoice::Folder),
         Ask::Picture => (
             "Save a picture of the view",
@@ -54,18 +46,14 @@ fn filters(ask: Ask) -> &'static [(&'static str, &'static [&'static str])] {
             ),
             ALL_FILES,
         ],
-        Ask::HistoryCsv => &[("Comma-separated values", &["csv"])],
         Ask::Picture => &[("Pictures", &["png"])],
         Ask::Part => &[POINTS, ALL_FILES],
         Ask::Calibration => &[("Calibrations", &["toml"]), ALL_FILES],
         Ask::SprayPath => &[("Comma-separated values", &["csv"]), ("JSON", &["json"])],
         Ask::PartPath => &[("Tables", &["csv", "txt"]), ALL_FILES],
         Ask::Pairs => &[("Tables and JSON", &["csv", "txt", "json"]), ALL_FILES],
-        Ask::ReportFolder
-        | Ask::HistoryCases
-        | Ask::Library
-        | Ask::Recording
-        | Ask::RecordTo
-        | Ask::WatchedFolder => &[],
+        Ask::ReportFolder | Ask::Library | Ask::Recording | Ask::RecordTo | Ask::WatchedFolder => {
+            &[]
+        }
     }
 }

@@ -6,7 +6,6 @@ use std::{path::PathBuf, sync::Arc};
 pub use super::user_error::UserError as Trouble;
 use super::{
     enrol::{EnrolAnswer, EnrolRequest},
-    history::{LookRequest, Looked},
     inspect::work::{InspectRequest, Inspected, inspect},
     lane::Lane,
     live::{LiveAnswer, LiveRequest},
@@ -31,8 +30,6 @@ pub enum Request {
     Robot(RobotRequest),
     /// Write a file.
     Write(WriteRequest),
-    /// Look into the history.
-    History(LookRequest),
 }
 
 impl Request {
@@ -44,7 +41,6 @@ impl Request {
             Self::Enrol(request) => request.lane(),
             Self::Robot(_) => Lane::Robot,
             Self::Write(_) => Lane::Write,
-            Self::History(_) => Lane::History,
         }
     }
 }
@@ -64,8 +60,6 @@ pub enum Answer {
     Robot(RobotAnswer),
     /// What was written.
     Written(Written),
-    /// What is in the history.
-    History(Box<Looked>),
 }
 
 /// An answer, or what went wrong.
@@ -84,10 +78,7 @@ pub fn answer(request: Request, shelf: &Shelf, desk: &dyn Desk<Outcome>) -> Opti
             Err(error) => Err(Trouble::of(&error)),
         }),
         Request::Enrol(request) => super::enrol::answer(request, shelf, desk),
-        Request::Write(request) => {
-            Some(super::writing::answer(&request, shelf).map(Answer::Written))
-        }
-        Request::History(request) => Some(super::history::answer(&request, shelf)),
+        Request::Write(request) => Some(super::writing::answer(&request).map(Answer::Written)),
         Request::Robot(request) => Some(super::robot::work::answer(request)),
     }
 }

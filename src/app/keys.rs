@@ -7,7 +7,7 @@ use egui::{
 use super::{
     action::{Action, Ask},
     bars::labelled,
-    enrol, history, inspect,
+    enrol, inspect,
     live::LiveAction,
     robot::RobotAction,
     roles::RoleAction,
@@ -141,8 +141,7 @@ fn of_workspace(workspace: Workspace) -> &'static [Shortcut] {
     match workspace {
         Workspace::Inspect => &inspect::SHORTCUTS,
         Workspace::Enrol => &enrol::SHORTCUTS,
-        Workspace::Compare | Workspace::Align => &[],
-        Workspace::History => &history::SHORTCUTS,
+        Workspace::Compare | Workspace::Align | Workspace::History => &[],
     }
 }
 

@@ -13,21 +13,18 @@ pub enum Lane {
     Write,
     /// Changes the library: what it began it finishes.
     Library,
-    /// Looks into the history; what is written there has a thread of its own.
-    History,
     /// Reads, writes and calculates calibrations of the robot's cell.
     Robot,
 }
 
 impl Lane {
     /// Every lane.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 6] = [
         Self::Inspect,
         Self::Live,
         Self::Enrol,
         Self::Write,
         Self::Library,
-        Self::History,
         Self::Robot,
     ];
 
@@ -39,7 +36,6 @@ impl Lane {
             Self::Enrol => "enrol",
             Self::Write => "write",
             Self::Library => "library",
-            Self::History => "look",
             Self::Robot => "robot",
         }
     }

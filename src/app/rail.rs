@@ -50,7 +50,7 @@ pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Ac
                 if response.clicked() {
                     actions.push(Action::GoTo(workspace));
                 }
-                if state.roles.role == UserRole::Operator && !is_operators(workspace) {
+                if state.role == UserRole::Operator && !is_operators(workspace) {
                     let corner = icon + vec2(20.0, -10.0);
                     let stroke = Stroke::new(1.2, theme.weak_text);
                     lock(ui.painter(), corner, UserRole::Operator, stroke);

@@ -154,6 +154,7 @@ impl Settings {
 
     /// The state to start in.
     pub fn into_state(self) -> State {
+        let roles = RoleState::starting(self.pin.clone(), self.lock_after);
         let session = Session {
             theme: self.theme,
             units: self.units,
@@ -170,12 +171,13 @@ impl Settings {
                 RememberedSource::Camera(spec) => Source::Camera(Box::new(spec)),
             },
             recipe: Arc::new(self.recipe.unwrap_or_default()),
+            role: roles.first_role(),
             ..Session::default()
         };
         State {
             session,
             live: LiveState::averaging(self.average),
-            roles: RoleState::starting(self.pin, self.lock_after),
+            roles,
             cell: RobotState {
                 remembered: self.cell,
                 ..RobotState::default()

@@ -6,14 +6,14 @@ use std::{
 };
 
 pub use super::shell::{
+    message::{Event, Purpose},
     notice::{Notice, NoticeKind},
     session::{Session, Shown, Source, ThemeChoice, WorkspaceKind as Workspace},
 };
 use super::{
     action::Effect,
     enrol::EnrolState,
-    history::HistoryState,
-    inspect::state::InspectState,
+    inspect::{state::InspectState, work::InspectRequest},
     job::Request,
     lane::Lane,
     live::{self, LiveState},
@@ -51,8 +51,8 @@ pub struct State {
     pub inspect: InspectState,
     /// Of the Enrol workspace.
     pub enrol: EnrolState,
-    /// Of the History workspace.
-    pub history: HistoryState,
+    /// What the newest inspection that was asked for is for: its generation, and the purpose.
+    pub purpose: (u64, Purpose),
 }
 
 impl Deref for State {
@@ -81,13 +81,7 @@ impl State {
         let all = self.works.iter().map(|(lane, work)| (*lane, work));
         // Quickly done, and not to be given up half-way.
         // A source is followed until it is no longer wanted, which has a button of its own.
-        let quick = [
-            Lane::Write,
-            Lane::Library,
-            Lane::Live,
-            Lane::History,
-            Lane::Robot,
-        ];
+        let quick = [Lane::Write, Lane::Library, Lane::Live, Lane::Robot];
         let mut all = all.filter(|(lane, _)| !quick.contains(lane));
         let own = own.and_then(|own| self.works.get_key_value(&own).map(|(l, w)| (*l, w)));
         own.or_else(|| all.next())
@@ -114,6 +108,20 @@ impl State {
             Some(stop) => Effect::Several(vec![stop, post]),
             None => post,
         }
+    }
+}
+
+impl State {
+    /// Has a scene inspected for this.
+    pub(super) fn inspect(
+        &mut self,
+        what: impl Into<String>,
+        request: InspectRequest,
+        purpose: Purpose,
+    ) -> Effect {
+        let effect = self.begin(what, Request::Inspect(request));
+        self.purpose = (self.generation, purpose);
+        effect
     }
 }
 

@@ -14,7 +14,7 @@ use super::{
     dialog,
     enrol::EnrolPanel,
     headless::WorkCounts,
-    history::{self, HistoryAction, HistoryJob, HistoryPanel},
+    history::HistoryWorkspace,
     inspect::InspectPanel,
     job::{Outcome, Request, Trouble, answer},
     keys,
@@ -28,7 +28,7 @@ use super::{
     shell::{
         context::{Services, ShellContext},
         file_dialog::{DialogLock, FileDialog},
-        message::Message,
+        message::{Event, Message},
         task::{Running, TaskRunner},
         workspace::Workspace,
     },
@@ -62,9 +62,6 @@ pub struct WindowOptions {
 pub struct Window {
     state: State,
     workers: BTreeMap<Lane, Worker<Request, Outcome>>,
-    /// Written behind the threads that inspect; both ends of it.
-    history_writer: Writer,
-    kept: Arc<Keeper>,
     memory: Memory,
     dialog: FileDialog<Ask>,
     services: Services,
@@ -75,7 +72,6 @@ pub struct Window {
     gpu: Result<ViewportGpu, ViewError>,
     inspect: InspectPanel,
     enrol: EnrolPanel,
-    history: HistoryPanel,
     /// When a hand was last on the window, seconds on egui's clock.
     touched: f64,
 }
@@ -127,8 +123,6 @@ impl Window {
             memory: Memory::new(settings, remembered.clone(), &runner),
             state: remembered.into_state(),
             workers,
-            history_writer,
-            kept,
             dialog: FileDialog::default(),
             services: Services {
                 shelf,
@@ -137,13 +131,13 @@ impl Window {
             workspaces: vec![
                 Box::new(CompareWorkspace::new(cases, &runner)),
                 Box::new(AlignWorkspace::new(&gpu, &runner)),
+                Box::new(HistoryWorkspace::new(history_writer, kept, &runner)),
             ],
             messages: Vec::new(),
             installed: None,
             gpu: gpu.clone(),
             inspect: InspectPanel::new(gpu.clone()),
             enrol: EnrolPanel::new(gpu.clone()),
-            history: HistoryPanel::new(),
             touched: ctx.input(|input| input.time),
         };
         window.state.notices.extend(trouble.map(Notice::from));
@@ -199,7 +193,16 @@ impl Window {
                 self.lend(kind, ctx, |workspace, _| workspace.cancel());
             }
             Effect::CopyText(text) => ctx.copy_text(text),
-            Effect::History(job) => self.write_history(job),
+            Effect::Tell(event) => {
+                for kind in WorkspaceKind::ALL {
+                    self.lend(kind, ctx, |workspace, cx| workspace.on_event(&event, cx));
+                }
+            }
+            Effect::EngineerIn(kind) => {
+                self.lend(kind, ctx, |workspace, cx| {
+                    workspace.on_event(&Event::EngineerIn, cx);
+                });
+            }
             Effect::Close => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
             Effect::Several(effects) => {
                 for effect in effects {
@@ -246,19 +249,29 @@ impl Window {
         let mut cx = ShellContext::new(ctx, session, services, &mut self.messages);
         let done = act(workspace.as_mut(), &mut cx);
         for message in std::mem::take(&mut self.messages) {
-            self.deliver(message, ctx);
+            self.deliver(message, kind, ctx);
         }
         Some(done)
     }
 
-    fn deliver(&mut self, message: Message, ctx: &egui::Context) {
+    /// Does what a workspace asked for.
+    fn deliver(&mut self, message: Message, from: WorkspaceKind, ctx: &egui::Context) {
         match message {
             Message::Notify(notice) => self.act(Action::Notify(notice), ctx),
             Message::Retract(notice) => self.state.notices.retain(|known| *known != notice),
             Message::CopyText(text) => ctx.copy_text(text),
             Message::UseRecipe(recipe) => self.state.session.recipe = recipe,
-            Message::Inspect { title, request } => {
-                let effect = self.state.begin(title, Request::Inspect(request));
+            Message::GoTo(kind) => self.act(Action::GoTo(kind), ctx),
+            Message::ShowPast(inspected) => self.act(Action::ShowPast(inspected), ctx),
+            Message::AskEngineer => {
+                roles::ask_engineer(&mut self.state, Action::EngineerIn(from));
+            }
+            Message::Inspect {
+                title,
+                request,
+                purpose,
+            } => {
+                let effect = self.state.inspect(title, request, purpose);
                 self.make(effect, ctx);
             }
         }
@@ -293,16 +306,6 @@ impl Window {
         let mut all = self.workspaces.iter();
         let session = &self.state.session;
         self.state.works.is_empty() && all.all(|workspace| workspace.is_idle(session))
-    }
-
-    fn write_history(&self, job: HistoryJob) {
-        let writer = &self.history_writer;
-        match job {
-            HistoryJob::Add(ticket, entry) => writer.add(ticket, *entry),
-            HistoryJob::Remark(number, remark) => writer.remark(number, remark),
-            HistoryJob::Label(number, label) => writer.label(number, label),
-            HistoryJob::Keep(rule) => writer.retention(rule),
-        }
     }
 
     /// What the views draw with; the window itself draws with the same device.
@@ -376,13 +379,6 @@ impl Window {
                 self.act(Action::Hear(lane, news), ctx);
             }
         }
-        let crowded = self.history_writer.take_crowded();
-        if crowded != [0; 2] {
-            self.act(Action::History(HistoryAction::Crowded(crowded)), ctx);
-        }
-        for news in self.kept.take_news() {
-            self.act(Action::History(HistoryAction::Hear(news)), ctx);
-        }
         for kind in WorkspaceKind::ALL {
             self.lend(kind, ctx, |workspace, cx| workspace.update(cx));
         }
@@ -420,8 +416,7 @@ impl Window {
             .show(ui, |ui| match front {
                 WorkspaceKind::Inspect => self.inspect.ui(ui, &self.state, theme, &mut actions),
                 WorkspaceKind::Enrol => self.enrol.ui(ui, &self.state, theme, &mut actions),
-                WorkspaceKind::History => self.history.ui(ui, &self.state, theme, &mut actions),
-                WorkspaceKind::Compare | WorkspaceKind::Align => {
+                WorkspaceKind::Compare | WorkspaceKind::Align | WorkspaceKind::History => {
                     self.lend(front, &ctx, |workspace, cx| workspace.ui(ui, cx));
                 }
             });
@@ -434,7 +429,6 @@ impl Window {
         let keys = hosted.map_or_else(Vec::new, Workspace::key_bindings);
         notices::ui(&ctx, &self.state, theme, &mut actions);
         live::set_up(&ctx, &self.state, theme, &mut actions);
-        history::keeping_ui(&ctx, &self.state, theme, &mut actions);
         roles::dialog(&ctx, &self.state, theme, &mut actions);
         robot::ui(&ctx, &self.state, theme, &mut actions);
         keys::help(&ctx, &self.state, &keys, theme, &mut actions);
@@ -451,7 +445,7 @@ impl Window {
         if is_touched {
             self.touched = now;
         }
-        let Some(after) = self.state.roles.locks_after() else {
+        let Some(after) = self.state.roles.locks_after(self.state.role) else {
             return;
         };
         let left = self.touched + after - now;
@@ -473,10 +467,8 @@ impl eframe::App for Window {
     }
 
     fn on_exit(&mut self) {
-        for action in self.history.finish() {
-            if let Some(Effect::History(job)) = apply(&mut self.state, action) {
-                self.write_history(job);
-            }
+        for workspace in &mut self.workspaces {
+            workspace.close();
         }
         self.memory.finish();
     }

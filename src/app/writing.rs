@@ -11,13 +11,11 @@ use image::{DynamicImage, ImageFormat};
 use super::{
     inspect::work::Inspected,
     job::Trouble,
-    shelf::Shelf,
     source::{Origin, file_name},
     viewport::{ViewColours, ViewShot},
 };
 use crate::{
     files::write_atomically,
-    history::Filter,
     report::{
         InspectionLine, ReportError, ReportFolder,
         pose_report::{
@@ -44,13 +42,6 @@ pub enum WriteRequest {
         /// The 3-D view, if it was in sight.
         shot: Option<Box<ViewShot>>,
     },
-    /// Inspections of the history.
-    Past {
-        /// Which.
-        filter: Filter,
-        /// Where to.
-        to: PastExport,
-    },
     /// A spray path for the robot, as CSV or JSON.
     SprayPath {
         /// Where to.
@@ -71,15 +62,6 @@ pub enum WriteRequest {
     },
 }
 
-/// Where inspections of the history are written to.
-#[derive(Clone, Debug)]
-pub enum PastExport {
-    /// A table.
-    Csv(PathBuf),
-    /// A folder of cases: those with a kept frame and a true label.
-    Cases(PathBuf),
-}
-
 /// What was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Written {
@@ -90,11 +72,8 @@ pub struct Written {
 }
 
 /// Writes it: whole, or not at all.
-pub(super) fn answer(request: &WriteRequest, shelf: &Shelf) -> Result<Written, Trouble> {
+pub(super) fn answer(request: &WriteRequest) -> Result<Written, Trouble> {
     match request {
-        WriteRequest::Past { filter, to } => {
-            super::history::write_past(filter, to, shelf.history())
-        }
         WriteRequest::Report {
             folder,
             inspected,

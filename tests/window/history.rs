@@ -13,7 +13,7 @@ use partsight::{
     app::{
         WindowOptions,
         action::{Action, Ask},
-        history::{HistoryAction, ListFilter},
+        history::{HistoryAction, HistoryFile, HistoryWorkspace, ListFilter},
         source::CellChoice,
         state::{ThemeChoice, Workspace},
         unit_system::UnitSystem,
@@ -23,7 +23,9 @@ use partsight::{
     simulate::ObjectKind,
 };
 
-use super::set_up::{SMALL, USUAL, WindowHarness, act, open, open_with, press, settle};
+use super::set_up::{
+    SMALL, USUAL, WindowHarness, act, act_in, history_of, open, open_with, press, settle,
+};
 
 fn remembering(path: &Path) -> WindowOptions {
     WindowOptions {
@@ -44,6 +46,12 @@ fn go_to_history(harness: &mut WindowHarness) {
     act(harness, Action::GoTo(Workspace::History));
 }
 
+fn act_in_history(harness: &mut WindowHarness, action: HistoryAction) {
+    act_in(harness, |workspace: &mut HistoryWorkspace, cx| {
+        workspace.apply(action, cx);
+    });
+}
+
 #[test]
 fn an_earlier_inspection_is_found_and_opened_again_with_its_stages() {
     let mut harness = open();
@@ -61,7 +69,7 @@ fn an_earlier_inspection_is_found_and_opened_again_with_its_stages() {
     harness.get_by_label_contains("From the history");
     harness.get_by_label("Enlarge contour");
     // Looking again is no inspection.
-    assert_eq!(harness.state().state().history.num_rows(), 2);
+    assert_eq!(history_of(&harness).num_rows(), 2);
 }
 
 #[test]
@@ -134,23 +142,22 @@ fn the_history_outlives_the_window_and_what_a_person_said_of_it() {
     harness.get_by_label("Find").type_text("WHEEL");
     settle(&mut harness);
     harness.get_by_label("1 of 3");
-    let state = harness.state().state();
-    let row = state.history.row(0).expect("listed");
+    let row = history_of(&harness).row(0).expect("listed");
     assert_eq!((row.number, row.remark.as_str()), (2, "a wheel"));
     assert_eq!(row.label, Some(Truth::NotEnrolled));
     // Its frame is kept, since it was not accepted: with its own recipe the very same is found in it.
     assert!(row.frame_bytes.is_some());
-    act(&mut harness, Action::History(HistoryAction::Open(2)));
+    act_in_history(&mut harness, HistoryAction::Open(2));
     let state = harness.state().state();
     assert_eq!(state.workspace, Workspace::Inspect);
     assert!(state.shown.as_ref().is_some_and(|shown| shown.is_past));
     assert!(state.notices.is_empty(), "{:?}", state.notices);
     // The first one's was not; but the simulated cell can show it again.
-    act(&mut harness, Action::History(HistoryAction::Open(1)));
+    act_in_history(&mut harness, HistoryAction::Open(1));
     harness.get_by_label("Front door, left");
     let state = harness.state().state();
     assert!(state.notices.is_empty(), "{:?}", state.notices);
-    assert_eq!(state.history.num_rows(), 3);
+    assert_eq!(history_of(&harness).num_rows(), 3);
 }
 
 #[test]
@@ -168,8 +175,8 @@ fn a_remark_that_is_being_typed_when_the_window_closes_is_kept() {
 
     let mut harness = open_with(USUAL, keeping(folder.path()));
     go_to_history(&mut harness);
-    let state = harness.state().state();
-    let rows = (0..state.history.num_rows()).filter_map(|place| state.history.row(place));
+    let state = history_of(&harness);
+    let rows = (0..state.num_rows()).filter_map(|place| state.row(place));
     let remarks: Vec<_> = rows.map(|row| (row.number, row.remark.as_str())).collect();
     assert!(remarks.contains(&(1, "dented")), "{remarks:?}");
 }
@@ -182,7 +189,7 @@ fn inspected_again_it_says_what_changed() {
     press(&mut harness, "Inspect again");
     harness.get_by_label("The same is found today");
     assert_eq!(harness.state().state().workspace, Workspace::History);
-    assert_eq!(harness.state().state().history.num_rows(), 1);
+    assert_eq!(history_of(&harness).num_rows(), 1);
 }
 
 #[test]
@@ -195,10 +202,10 @@ fn frames_are_kept_by_the_rule_that_a_person_sets() {
     press(&mut harness, "All");
     press(&mut harness, "Keep so");
     assert!(harness.query_by_label("Keep so").is_none());
-    let rule = |harness: &WindowHarness| harness.state().state().history.kept.0.keep;
+    let rule = |harness: &WindowHarness| history_of(harness).kept.0.keep;
     assert_eq!(rule(&harness), KeepFrames::All);
     act(&mut harness, Action::Capture);
-    let kept = harness.state().state().history.kept.1;
+    let kept = history_of(&harness).kept.1;
     assert_eq!(kept.num_frames, 1);
     press(&mut harness, "Frames…");
     harness.get_by_label_contains("Now: 1 frame, ");
@@ -252,19 +259,19 @@ fn of_a_hundred_thousand_inspections_only_those_in_sight_are_fetched() {
     let mut harness = open_with(USUAL, keeping(&path));
     go_to_history(&mut harness);
     harness.get_by_label("100002 of 100002");
-    let history = &harness.state().state().history;
-    assert!(history.page.rows.len() < 400, "{}", history.page.rows.len());
-    assert_eq!(history.row(0).map(|row| row.number), Some(100_002));
-    act(
-        &mut harness,
-        Action::History(HistoryAction::Visible(100_000..100_002)),
+    let num_fetched = history_of(&harness).page.rows.len();
+    assert!(num_fetched < 400, "{num_fetched}");
+    assert_eq!(
+        history_of(&harness).row(0).map(|row| row.number),
+        Some(100_002)
     );
+    act_in_history(&mut harness, HistoryAction::Visible(100_000..100_002));
     // The window sees its own rows again in its next frame; both were fetched one after the other.
     let filter = ListFilter {
         text: "frame 54321".into(),
         ..ListFilter::default()
     };
-    act(&mut harness, Action::History(HistoryAction::Filter(filter)));
+    act_in_history(&mut harness, HistoryAction::Filter(filter));
     harness.get_by_label("1 of 100002");
     let rows = harness.get_all_by_label_contains("Inspection 54323");
     assert_eq!(rows.count(), 1);
@@ -308,7 +315,8 @@ fn the_listed_history_is_written_as_a_table() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("inspections.csv");
     let mut harness = open();
-    act(&mut harness, Action::Chosen(Ask::HistoryCsv, path.clone()));
+    let export = HistoryAction::Export(HistoryFile::Csv, path.clone());
+    act_in_history(&mut harness, export);
     let text = fs::read_to_string(&path).expect("written");
     assert_eq!(text.lines().count(), 2);
     assert!(text.contains(",accepted,front_door,"));

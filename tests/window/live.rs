@@ -28,7 +28,9 @@ use partsight::{
     },
 };
 
-use super::set_up::{SMALL, USUAL, WindowHarness, act, open, open_with, settle, wait_until};
+use super::set_up::{
+    SMALL, USUAL, WindowHarness, act, history_of, open, open_with, settle, wait_until,
+};
 
 /// Between two frames, by the camera's clock: as a slow one.
 const APART: i64 = 150;
@@ -174,7 +176,7 @@ fn a_part_counts_once_it_hangs_still_and_no_longer_when_it_moves() {
     harness.get_by_label("Accepted");
     harness.get_by_label("Fender, left");
     // One verdict that counts is one inspection to look up, however many frames it rests on.
-    let history = &harness.state().state().history;
+    let history = history_of(&harness);
     assert_eq!(
         history.num_rows(),
         2,
@@ -194,7 +196,7 @@ fn a_part_counts_once_it_hangs_still_and_no_longer_when_it_moves() {
     // It hangs still again, elsewhere: another verdict.
     sees(&mut harness, &wire, [0.06; 22]);
     harness.get_by_label("Accepted");
-    assert_eq!(harness.state().state().history.num_rows(), 3);
+    assert_eq!(history_of(&harness).num_rows(), 3);
     toggle(&mut harness);
     settle(&mut harness);
     assert!(!harness.state().state().is_live());
@@ -348,7 +350,7 @@ fn a_recording_is_made_and_plays_as_what_it_was() {
     wait_until(&mut harness, |state| !state.is_live());
     settle(&mut harness);
     assert!(says(&harness, "has no more frames"));
-    let history = &harness.state().state().history;
+    let history = history_of(&harness);
     assert_eq!(
         history.num_rows(),
         4,

@@ -13,7 +13,7 @@ use partsight::app::{
 use super::set_up::{SMALL, USUAL, WindowHarness, act, open, open_with, press};
 
 fn role(harness: &WindowHarness) -> UserRole {
-    harness.state().state().roles.role
+    harness.state().state().role
 }
 
 /// Presses the buttons of these digits, then the one that goes on.

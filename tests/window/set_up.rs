@@ -12,6 +12,7 @@ use egui_kittest::{Harness, kittest::Queryable as _};
 use partsight::app::{
     Window, WindowOptions,
     action::Action,
+    history::{HistoryState, HistoryWorkspace},
     shell::{context::ShellContext, workspace::Workspace},
     state::State,
 };
@@ -40,9 +41,7 @@ pub(crate) fn open() -> WindowHarness {
 
 /// Draws until nothing is at work any more.
 pub(crate) fn settle(harness: &mut WindowHarness) {
-    wait_for(harness, |window| {
-        window.is_idle() && window.state().history.is_settled()
-    });
+    wait_for(harness, Window::is_idle);
     harness.run_steps(8);
     // Wherever a test comes by: nothing to be pressed or filled in without a name.
     harness.check_accessibility();
@@ -96,6 +95,12 @@ pub(crate) fn act_in<W: Workspace>(
     let done = harness.state_mut().with(&context, act);
     done.expect("the window has this workspace");
     settle(harness);
+}
+
+/// What the History workspace knows.
+pub(crate) fn history_of(harness: &WindowHarness) -> &HistoryState {
+    let workspace = harness.state().workspace::<HistoryWorkspace>();
+    workspace.expect("the workspace").state()
 }
 
 #[derive(Debug)]

@@ -11,7 +11,10 @@ use super::{
 use crate::{
     app::{
         inspect::work::InspectRequest,
-        shell::{context::ShellContext, message::Message},
+        shell::{
+            context::ShellContext,
+            message::{Message, Purpose},
+        },
         source::SceneSource,
         user_error::UserError,
     },
@@ -81,8 +84,9 @@ fn inspect_with(recipe: Arc<Recipe>, cx: &mut ShellContext<'_>) {
         let (scene, origin) = (Arc::clone(&shown.inspected.scene), &shown.inspected.origin);
         let source = SceneSource::AtHand(scene, origin.clone());
         cx.send(Message::Inspect {
-            title: "Inspecting with another recipe",
+            title: "Inspecting with another recipe".into(),
             request: InspectRequest { source, recipe },
+            purpose: Purpose::New,
         });
     }
 }

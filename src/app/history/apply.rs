@@ -5,19 +5,24 @@ use std::{ops::Range, path::PathBuf, sync::Arc};
 use jiff::Zoned;
 
 use super::{
+    export::{self, PastExport},
     filter::ListFilter,
-    reopen::{go_on, inspect_again, open},
-    state::{look, look_if_stale},
+    state::HistoryState,
     work::Looked,
 };
 use crate::{
     app::{
-        action::{Effect, notify},
         inspect::work::Inspected,
-        job::{Request, Trouble},
+        shell::{
+            context::ShellContext,
+            file_dialog::{FileChoice, FileRequest},
+            message::{Event, Message, Purpose},
+            notice::Notice,
+            session::UserRole,
+            task::TaskEvent,
+        },
         source::file_name,
-        state::{Notice, NoticeKind, State},
-        writing::{PastExport, WriteRequest},
+        user_error::UserError,
     },
     history::{HistoryNews, NewEntry, Retention, SetAside, Swept},
     library::Truth,
@@ -50,10 +55,43 @@ pub enum HistoryAction {
     Rule(Option<Retention>),
     /// Keep frames by this rule.
     Keep(Retention),
-    /// The thread that writes has news.
-    Hear(HistoryNews),
-    /// The disk is too slow: of so many inspections the frame was not kept, and so many are lost.
-    Crowded([usize; 2]),
+    /// Have a person choose where the listed inspections go.
+    Ask(HistoryFile),
+    /// Write the listed inspections there.
+    Export(HistoryFile, PathBuf),
+}
+
+/// What a person is asked to choose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HistoryFile {
+    /// The table that the listed history goes to.
+    Csv,
+    /// The folder that cases of the listed history go to.
+    Cases,
+}
+
+impl HistoryFile {
+    fn request(self) -> FileRequest {
+        match self {
+            Self::Csv => FileRequest {
+                title: "Export the listed inspections",
+                filters: &[("Comma-separated values", &["csv"])],
+                choice: FileChoice::NewFile("inspections.csv"),
+            },
+            Self::Cases => FileRequest {
+                title: "Folder for the cases of the listed inspections",
+                filters: &[],
+                choice: FileChoice::FolderToWrite,
+            },
+        }
+    }
+}
+
+impl HistoryAction {
+    /// True where frames may be lost by it: those that another rule does not keep are gone.
+    fn needs_engineer(&self) -> bool {
+        matches!(self, Self::Rule(Some(_)) | Self::Keep(_))
+    }
 }
 
 /// Which way to go in the list.
@@ -78,142 +116,215 @@ pub enum HistoryJob {
     Keep(Retention),
 }
 
-/// Makes it so.
-pub fn apply(state: &mut State, action: HistoryAction) -> Option<Effect> {
-    let history = &mut state.history;
-    match action {
-        HistoryAction::Filter(filter) => {
-            history.filter = filter;
-            Some(look(state))
+impl HistoryState {
+    /// Makes it so, once the engineer is in where that is needed.
+    pub fn apply(&mut self, action: HistoryAction, cx: &mut ShellContext<'_>) {
+        if action.needs_engineer() && cx.session.role == UserRole::Operator {
+            self.held = Some(action);
+            cx.send(Message::AskEngineer);
+            return;
         }
-        HistoryAction::Visible(rows) => history.sees(rows).then(|| look(state)),
-        HistoryAction::Select(number) => select(state, number),
-        HistoryAction::Step(direction) => {
-            let at = history.selected.and_then(|number| history.place_of(number));
-            let to = match (at, direction) {
-                (None, _) => 0,
-                (Some(at), Direction::Up) => at.saturating_sub(1),
-                (Some(at), Direction::Down) => at + 1,
-            };
-            let number = history.row(to)?.number;
-            select(state, number)
-        }
-        HistoryAction::OpenSelected => {
-            let number = history.selected?;
-            open(state, number)
-        }
-        HistoryAction::Open(number) => open(state, number),
-        HistoryAction::InspectAgain(number) => inspect_again(state, number),
-        HistoryAction::AgainSelected => {
-            let number = history.selected?;
-            inspect_again(state, number)
-        }
-        HistoryAction::Remark(number, remark) => {
-            history.asked();
-            Some(Effect::History(HistoryJob::Remark(number, remark)))
-        }
-        HistoryAction::Label(number, label) => {
-            history.asked();
-            Some(Effect::History(HistoryJob::Label(number, label)))
-        }
-        HistoryAction::Rule(rule) => {
-            history.rule = rule;
-            None
-        }
-        HistoryAction::Keep(rule) => {
-            history.rule = None;
-            history.asked();
-            Some(Effect::History(HistoryJob::Keep(rule.sensible())))
-        }
-        HistoryAction::Hear(news) => hear(state, news),
-        HistoryAction::Crowded([_, num_lost]) => {
-            history.lost(num_lost);
-            // Once is enough: it will not become quicker by being said again.
-            if !std::mem::replace(&mut history.is_crowded, true) {
-                let notice = Notice {
-                    kind: NoticeKind::Look,
-                    what: "The history cannot keep up: the frames of some inspections are not kept"
-                        .into(),
-                    advice: "Keep fewer frames (Frames… in History), or use a quicker disk".into(),
+        match action {
+            HistoryAction::Filter(filter) => {
+                self.filter = filter;
+                self.look(cx);
+            }
+            HistoryAction::Visible(rows) => {
+                if self.sees(rows) {
+                    self.look(cx);
+                }
+            }
+            HistoryAction::Select(number) => self.select(number, cx),
+            HistoryAction::Step(direction) => {
+                let at = self.selected.and_then(|number| self.place_of(number));
+                let to = match (at, direction) {
+                    (None, _) => 0,
+                    (Some(at), Direction::Up) => at.saturating_sub(1),
+                    (Some(at), Direction::Down) => at + 1,
                 };
-                notify(state, notice);
+                if let Some(number) = self.row(to).map(|row| row.number) {
+                    self.select(number, cx);
+                }
             }
-            look_if_stale(state)
-        }
-    }
-}
-
-fn select(state: &mut State, number: i64) -> Option<Effect> {
-    if state.history.selected == Some(number) {
-        return None;
-    }
-    state.history.selected = Some(number);
-    Some(look(state))
-}
-
-/// Hands an inspection over to be written.
-pub fn keep(state: &mut State, inspected: &Arc<Inspected>) -> Effect {
-    let ticket = state.history.ticket(inspected);
-    let entry = Box::new(inspected.entry.clone());
-    Effect::History(HistoryJob::Add(ticket, entry))
-}
-
-/// Takes in what the thread that writes has to tell.
-fn hear(state: &mut State, news: HistoryNews) -> Option<Effect> {
-    let history = &mut state.history;
-    match news {
-        HistoryNews::Added { ticket, number } => history.added(ticket, number),
-        HistoryNews::SetAside(SetAside { what, aside }) => {
-            let notice = Notice {
-                kind: NoticeKind::Look,
-                what: format!("The history: {what}"),
-                advice: format!(
-                    "It was set aside as {}; a new one is begun",
-                    aside.display()
-                ),
-            };
-            notify(state, notice);
-        }
-        HistoryNews::Failed { what, advice } => {
-            let trouble = Trouble { what, advice };
-            history.trouble = Some(trouble.clone());
-            let mut notice = Notice::from(trouble);
-            notice
-                .advice
-                .push_str("; inspections go on, and are kept in memory until then");
-            notify(state, notice);
-        }
-        HistoryNews::Works { numbers, num_lost } => {
-            history.trouble = None;
-            history.renumber(&numbers);
-            let mut what = format!(
-                "The history is written again: {} that waited",
-                inspections(numbers.len())
-            );
-            if num_lost > 0 {
-                what = format!("{what}, {} were too many", inspections(num_lost));
+            HistoryAction::OpenSelected => {
+                if let Some(number) = self.selected {
+                    self.open(number, cx);
+                }
             }
-            notify(state, Notice::done(what));
+            HistoryAction::Open(number) => self.open(number, cx),
+            HistoryAction::InspectAgain(number) => self.inspect_again(number, cx),
+            HistoryAction::AgainSelected => {
+                if let Some(number) = self.selected {
+                    self.inspect_again(number, cx);
+                }
+            }
+            HistoryAction::Remark(number, remark) => self.remark(number, remark),
+            HistoryAction::Label(number, label) => {
+                self.asked();
+                self.jobs.push(HistoryJob::Label(number, label));
+            }
+            HistoryAction::Rule(rule) => self.rule = rule,
+            HistoryAction::Keep(rule) => {
+                self.rule = None;
+                self.asked();
+                self.jobs.push(HistoryJob::Keep(rule.sensible()));
+            }
+            HistoryAction::Ask(file) => {
+                let lock = &cx.services.dialogs;
+                self.dialog.open(file, &file.request(), lock, cx.egui);
+            }
+            HistoryAction::Export(file, path) => self.export(file, path, cx),
         }
-        HistoryNews::NotChanged { what, advice } => {
-            history.answered();
-            notify(state, Trouble { what, advice }.into());
-        }
-        HistoryNews::Swept(Swept {
-            num_frames,
-            num_bytes,
-        }) => {
-            let megabytes = num_bytes as f64 / 1e6;
-            let what = format!(
-                "The history let go of {}, {megabytes:.1} MB, by the rule for frames",
-                frames(num_frames)
-            );
-            notify(state, Notice::done(what));
-            state.history.stale();
-        }
-        HistoryNews::Changed { .. } | HistoryNews::RuleChanged => history.answered(),
     }
-    look_if_stale(state)
+
+    /// A person remarks this.
+    pub(super) fn remark(&mut self, number: i64, remark: String) {
+        self.asked();
+        self.jobs.push(HistoryJob::Remark(number, remark));
+    }
+
+    fn select(&mut self, number: i64, cx: &ShellContext<'_>) {
+        if self.selected != Some(number) {
+            self.selected = Some(number);
+            self.look(cx);
+        }
+    }
+
+    /// Takes in what the shell tells.
+    pub fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
+        match event {
+            Event::Inspected { inspected, purpose } => match purpose {
+                Purpose::New => self.keep(inspected),
+                Purpose::Repeated => {}
+                Purpose::Past => self.remade(inspected, cx),
+            },
+            Event::EngineerIn => {
+                if let Some(action) = self.held.take() {
+                    self.apply(action, cx);
+                }
+            }
+        }
+    }
+
+    /// Hands an inspection over to be written.
+    pub(super) fn keep(&mut self, inspected: &Arc<Inspected>) {
+        let ticket = self.ticket(inspected);
+        let entry = Box::new(inspected.entry.clone());
+        self.jobs.push(HistoryJob::Add(ticket, entry));
+    }
+
+    /// Takes in what the tasks and the dialog report.
+    pub fn update(&mut self, cx: &mut ShellContext<'_>) {
+        while let Some(event) = self.looking.poll() {
+            match event {
+                TaskEvent::Partial(looked) | TaskEvent::Done(looked) => self.take_in(*looked, cx),
+                TaskEvent::Failed(error) => cx.notify(error),
+            }
+        }
+        match self.exporting.poll() {
+            Some(TaskEvent::Done(what) | TaskEvent::Partial(what)) => {
+                cx.notify(Notice::done(what));
+            }
+            Some(TaskEvent::Failed(error)) => cx.notify(error),
+            None => {}
+        }
+        match self.dialog.poll() {
+            Some((file, Ok(path))) => self.apply(HistoryAction::Export(file, path), cx),
+            Some((_, Err(notice))) => cx.notify(notice),
+            None => {}
+        }
+    }
+
+    /// The disk is too slow: the oldest of those handed over were too many, and are lost.
+    pub(super) fn crowded(&mut self, num_lost: usize, cx: &mut ShellContext<'_>) {
+        self.lost(num_lost);
+        // Once is enough: it will not become quicker by being said again.
+        if !std::mem::replace(&mut self.is_crowded, true) {
+            cx.notify(Notice::look(
+                "The history cannot keep up: the frames of some inspections are not kept",
+                "Keep fewer frames (Frames… in History), or use a quicker disk",
+            ));
+        }
+        self.look_if_stale(cx);
+    }
+
+    /// Takes in what the thread that writes has to tell.
+    pub fn hear(&mut self, news: HistoryNews, cx: &mut ShellContext<'_>) {
+        match news {
+            HistoryNews::Added { ticket, number } => self.added(ticket, number),
+            HistoryNews::SetAside(SetAside { what, aside }) => {
+                let aside = aside.display();
+                cx.notify(Notice::look(
+                    format!("The history: {what}"),
+                    format!("It was set aside as {aside}; a new one is begun"),
+                ));
+            }
+            HistoryNews::Failed { what, advice } => {
+                let error = UserError { what, advice };
+                self.trouble = Some(error.clone());
+                let mut notice = Notice::from(error);
+                notice
+                    .advice
+                    .push_str("; inspections go on, and are kept in memory until then");
+                cx.notify(notice);
+            }
+            HistoryNews::Works { numbers, num_lost } => {
+                self.trouble = None;
+                self.renumber(&numbers);
+                let mut what = format!(
+                    "The history is written again: {} that waited",
+                    inspections(numbers.len())
+                );
+                if num_lost > 0 {
+                    what = format!("{what}, {} were too many", inspections(num_lost));
+                }
+                cx.notify(Notice::done(what));
+            }
+            HistoryNews::NotChanged { what, advice } => {
+                self.answered();
+                cx.notify(UserError { what, advice });
+            }
+            HistoryNews::Swept(Swept {
+                num_frames,
+                num_bytes,
+            }) => {
+                let megabytes = num_bytes as f64 / 1e6;
+                let what = format!(
+                    "The history let go of {}, {megabytes:.1} MB, by the rule for frames",
+                    frames(num_frames)
+                );
+                cx.notify(Notice::done(what));
+                self.stale();
+            }
+            HistoryNews::Changed { .. } | HistoryNews::RuleChanged => self.answered(),
+        }
+        self.look_if_stale(cx);
+    }
+
+    /// Takes in what was looked up.
+    pub fn take_in(&mut self, looked: Looked, cx: &mut ShellContext<'_>) {
+        let before = self.selected;
+        self.take(looked);
+        if before == self.selected {
+            self.go_on(cx);
+        } else {
+            // The first look finds what there is to be looked at.
+            self.look(cx);
+        }
+    }
+
+    /// Writes what is listed to where a person chose.
+    fn export(&mut self, file: HistoryFile, path: PathBuf, cx: &ShellContext<'_>) {
+        let title = format!("Writing {}", file_name(&path));
+        let filter = self.filter.at(&Zoned::now());
+        let to = match file {
+            HistoryFile::Csv => PastExport::Csv(path),
+            HistoryFile::Cases => PastExport::Cases(path),
+        };
+        let keeper = Arc::clone(cx.services.shelf.history());
+        self.exporting
+            .start(title, move |_| Ok(export::write(&filter, &to, &keeper)?));
+    }
 }
 
 /// So many inspections, in words.
@@ -230,25 +341,4 @@ pub(super) fn frames(num: usize) -> String {
         1 => "1 frame".into(),
         num => format!("{num} frames"),
     }
-}
-
-/// Takes in what was looked up.
-pub fn take(state: &mut State, looked: Looked) -> Option<Effect> {
-    let before = state.history.selected;
-    state.history.take(looked);
-    // The first look finds what there is to be looked at.
-    if before != state.history.selected {
-        return Some(look(state));
-    }
-    go_on(state)
-}
-
-/// Writes what is listed to where a person chose.
-pub fn export(state: &mut State, to: PastExport) -> Effect {
-    let path: &PathBuf = match &to {
-        PastExport::Csv(path) | PastExport::Cases(path) => path,
-    };
-    let what = format!("Writing {}", file_name(path));
-    let filter = state.history.filter.at(&Zoned::now());
-    state.begin(what, Request::Write(WriteRequest::Past { filter, to }))
 }

@@ -3,28 +3,33 @@
 use egui::{Align, Button, Layout, RichText, ScrollArea, TextEdit, Ui, WidgetInfo, vec2};
 
 use super::{
-    HistoryAction,
+    HistoryAction, HistoryFile, HistoryState,
     filter::{Days, ListFilter, day_of},
 };
 use crate::{
     app::{
-        action::{Action, Ask},
-        bars::{labelled, shortened},
-        state::State,
+        shell::session::Session,
         theme::{Theme, space},
+        widgets::{labelled, shortened},
     },
     history::PastVerdict,
 };
 
 /// Draws the bar.
-pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
-    let known = &state.history.filter;
+pub(super) fn ui(
+    ui: &mut Ui,
+    history: &HistoryState,
+    session: &Session,
+    theme: &Theme,
+    actions: &mut Vec<HistoryAction>,
+) {
+    let known = &history.filter;
     let mut filter = known.clone();
     ui.horizontal_wrapped(|ui| {
         find(ui, &mut filter);
         days(ui, &mut filter);
         verdicts(ui, &mut filter);
-        parts(ui, state, &mut filter);
+        parts(ui, session, &mut filter);
         if *known != ListFilter::default()
             && labelled(ui, Button::new("Show all"), "Show all").clicked()
         {
@@ -35,41 +40,37 @@ pub(super) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Ac
         ui.horizontal(|ui| typed(ui, &mut filter, theme));
     }
     ui.horizontal(|ui| {
-        let counted = format!(
-            "{} of {}",
-            state.history.num_matching(),
-            state.history.num_rows()
-        );
+        let counted = format!("{} of {}", history.num_matching(), history.num_rows());
         ui.label(RichText::new(&counted).color(theme.weak_text))
             .widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, &counted));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            ways_on(ui, state, actions);
+            ways_on(ui, history, actions);
         });
     });
     if filter != *known {
-        actions.push(Action::History(HistoryAction::Filter(filter)));
+        actions.push(HistoryAction::Filter(filter));
     }
 }
 
-fn ways_on(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+fn ways_on(ui: &mut Ui, history: &HistoryState, actions: &mut Vec<HistoryAction>) {
     let ways = [
         (
             "Export CSV…",
             "Write the listed inspections to a table",
-            Ask::HistoryCsv,
+            HistoryFile::Csv,
         ),
         (
             "Export cases…",
             "Keep the listed inspections that have a frame and a true label as cases, for Compare and partsight evaluate",
-            Ask::HistoryCases,
+            HistoryFile::Cases,
         ),
     ];
-    for (label, says, ask) in ways {
+    for (label, says, file) in ways {
         if labelled(ui, Button::new(label), label)
             .on_hover_text(says)
             .clicked()
         {
-            actions.push(Action::Ask(ask));
+            actions.push(HistoryAction::Ask(file));
         }
     }
     let frames = labelled(ui, Button::new("Frames…"), "Frames…");
@@ -77,8 +78,8 @@ fn ways_on(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
         .on_hover_text("Which frames are kept, and how long")
         .clicked()
     {
-        let rule = state.history.kept.0;
-        actions.push(Action::History(HistoryAction::Rule(Some(rule))));
+        let rule = history.kept.0;
+        actions.push(HistoryAction::Rule(Some(rule)));
     }
 }
 
@@ -132,8 +133,8 @@ fn verdicts(ui: &mut Ui, filter: &mut ListFilter) {
     menu(ui, "Verdict", &mut filter.verdict, all.chain(each));
 }
 
-fn parts(ui: &mut Ui, state: &State, filter: &mut ListFilter) {
-    let enrolled = state.library.iter().flat_map(|library| &library.parts);
+fn parts(ui: &mut Ui, session: &Session, filter: &mut ListFilter) {
+    let enrolled = session.library.iter().flat_map(|library| &library.parts);
     let enrolled = enrolled.map(|part| {
         let name = part.name.as_str().to_owned();
         (Some(name), part.shown_title().to_owned())

@@ -4,16 +4,14 @@ use std::sync::Arc;
 
 use egui::{Button, RichText, ScrollArea, Sense, TextureHandle, Ui, Vec2, vec2};
 
-use super::{HistoryAction, LookedAt, differences, label, list::when};
+use super::{HistoryAction, HistoryState, LookedAt, differences, label, list::when};
 use crate::{
     app::{
-        action::Action,
-        bars::{labelled, shortened},
         inspect::texture,
-        state::State,
+        shell::session::Session,
         theme::{Theme, font, space},
         unit_system::UnitSystem,
-        widgets::{Mark, fitted, heading, mark, row},
+        widgets::{Mark, fitted, heading, labelled, mark, row, shortened},
     },
     history::{Detail, PastVerdict, Record, Summary},
     pipeline::Recipe,
@@ -37,43 +35,44 @@ impl Details {
     pub(super) fn ui(
         &mut self,
         ui: &mut Ui,
-        state: &State,
+        history: &HistoryState,
+        session: &Session,
         theme: &Theme,
-        actions: &mut Vec<Action>,
+        actions: &mut Vec<HistoryAction>,
     ) {
-        let Some(past) = &state.history.record else {
+        let Some(past) = &history.record else {
             let text = "Choose an inspection to see more of it";
             ui.label(RichText::new(text).color(theme.weak_text));
             return;
         };
-        self.make(ui, state, past);
+        self.make(ui, history, past);
         let record = &past.record;
         ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
             verdict(ui, record, theme);
             self.picture(ui, record, theme);
             ui.add_space(space::MEDIUM);
             buttons(ui, record, theme, actions);
-            let differences = state.history.differences.as_ref();
+            let differences = history.differences.as_ref();
             let number = record.summary.number;
             if let Some((_, found)) = differences.filter(|(of, _)| *of == number) {
-                differences::ui(ui, found, state.units, theme);
+                differences::ui(ui, found, session.units, theme);
             }
-            self.remark.ui(ui, &record.summary, state, theme, actions);
+            self.remark.ui(ui, &record.summary, session, theme, actions);
             heading(ui, theme, &format!("Inspection {}", number.abs()));
             ui.scope(|ui| {
                 // Text lies closer than controls do.
                 ui.spacing_mut().interact_size.y = 22.0;
                 figures(ui, record, theme);
-                pose(ui, record, state.units, theme);
+                pose(ui, record, session.units, theme);
                 times(ui, record, theme);
             });
         });
     }
 
     /// Uploads the picture, once.
-    fn make(&mut self, ui: &Ui, state: &State, past: &Arc<LookedAt>) {
+    fn make(&mut self, ui: &Ui, history: &HistoryState, past: &Arc<LookedAt>) {
         let number = past.record.summary.number;
-        let whole = state.history.whole(number);
+        let whole = history.whole(number);
         let large = whole.and_then(|whole| whole.figures.segmentation.as_ref());
         let source = large.map_or(Source::Thumbnail, |_| Source::Whole);
         let made = self.picture.as_ref();
@@ -210,7 +209,7 @@ fn times(ui: &mut Ui, record: &Record, theme: &Theme) {
     }
 }
 
-fn buttons(ui: &mut Ui, record: &Record, theme: &Theme, actions: &mut Vec<Action>) {
+fn buttons(ui: &mut Ui, record: &Record, theme: &Theme, actions: &mut Vec<HistoryAction>) {
     let number = record.summary.number;
     ui.horizontal(|ui| {
         let open = RichText::new("Open").font(font::body_strong());
@@ -222,7 +221,7 @@ fn buttons(ui: &mut Ui, record: &Record, theme: &Theme, actions: &mut Vec<Action
             .on_hover_text("With every stage, by its own recipe")
             .clicked()
         {
-            actions.push(Action::History(HistoryAction::Open(number)));
+            actions.push(HistoryAction::Open(number));
         }
         let key = RichText::new("A").font(font::small());
         let again = Button::new("Inspect again").shortcut_text(key.color(theme.weak_text));
@@ -230,7 +229,7 @@ fn buttons(ui: &mut Ui, record: &Record, theme: &Theme, actions: &mut Vec<Action
             .on_hover_text("With the recipe and the library now in use: what changed is shown here")
             .clicked()
         {
-            actions.push(Action::History(HistoryAction::InspectAgain(number)));
+            actions.push(HistoryAction::InspectAgain(number));
         }
     });
 }

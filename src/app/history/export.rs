@@ -1,24 +1,30 @@
 //! Inspections of the history written to where a person chose.
 
-use std::path::Path;
+use std::path::{Path, PathBuf};
 
 use super::apply::inspections;
 use crate::{
-    app::{
-        job::Trouble,
-        writing::{PastExport, Written},
-    },
+    app::user_error::UserError,
     cases::{CaseFolder, PastCases, TruthFrom},
     files::write_atomically,
     history::{Filter, HistoryError, Keeper, write_head, write_row},
 };
 
-/// Writes what the filter lets through.
-pub(in crate::app) fn write(
+/// Where inspections of the history are written to.
+#[derive(Clone, Debug)]
+pub(super) enum PastExport {
+    /// A table.
+    Csv(PathBuf),
+    /// A folder of cases: those with a kept frame and a true label.
+    Cases(PathBuf),
+}
+
+/// Writes what the filter lets through; answers what was written, in words.
+pub(super) fn write(
     filter: &Filter,
     to: &PastExport,
     history: &Keeper,
-) -> Result<Written, Trouble> {
+) -> Result<String, UserError> {
     match to {
         PastExport::Csv(path) => write_table(filter, path, history),
         PastExport::Cases(folder) => write_cases(filter, folder, history),
@@ -26,7 +32,7 @@ pub(in crate::app) fn write(
 }
 
 /// As `partsight history export --csv` does.
-fn write_table(filter: &Filter, path: &Path, history: &Keeper) -> Result<Written, Trouble> {
+fn write_table(filter: &Filter, path: &Path, history: &Keeper) -> Result<String, UserError> {
     let mut table = Vec::new();
     let mut num = 0;
     let in_memory = |error| HistoryError::Unwritable {
@@ -39,17 +45,14 @@ fn write_table(filter: &Filter, path: &Path, history: &Keeper) -> Result<Written
             write_row(&mut table, &record).map_err(in_memory)
         })
     });
-    listed.map_err(|error| Trouble::of(&error))?;
+    listed.map_err(|error| UserError::of(&error))?;
     write_atomically(path, |writer| writer.write_all(&table))
-        .map_err(|error| Trouble::of(&error))?;
-    Ok(Written {
-        what: format!("Wrote {} to {}", inspections(num), path.display()),
-        path: path.to_owned(),
-    })
+        .map_err(|error| UserError::of(&error))?;
+    Ok(format!("Wrote {} to {}", inspections(num), path.display()))
 }
 
 /// As `partsight history export --cases` does.
-fn write_cases(filter: &Filter, folder: &Path, history: &Keeper) -> Result<Written, Trouble> {
+fn write_cases(filter: &Filter, folder: &Path, history: &Keeper) -> Result<String, UserError> {
     let cases = CaseFolder::at(folder);
     let frames = history.frames_folder().unwrap_or_default();
     let mut kept = PastCases::new(&cases, &frames, TruthFrom::Label);
@@ -60,18 +63,15 @@ fn write_cases(filter: &Filter, folder: &Path, history: &Keeper) -> Result<Writt
         }
         Ok(())
     });
-    listed.map_err(|error| Trouble::of(&error))?;
+    listed.map_err(|error| UserError::of(&error))?;
     if let Some(error) = failed {
-        return Err(Trouble::of(&error));
+        return Err(UserError::of(&error));
     }
     if kept.num_kept == 0 {
-        return Err(Trouble {
+        return Err(UserError {
             what: format!("No inspection became a case: {}", kept.in_words()),
             advice: "Say of some what they truly are, and keep their frames".into(),
         });
     }
-    Ok(Written {
-        what: format!("{} in {}", kept.in_words(), folder.display()),
-        path: folder.to_owned(),
-    })
+    Ok(format!("{} in {}", kept.in_words(), folder.display()))
 }

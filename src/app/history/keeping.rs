@@ -4,20 +4,23 @@ use egui::{
     Button, Context, DragValue, Frame, Grid, Id, Margin, Modal, RichText, Ui, WidgetInfo, vec2,
 };
 
-use super::{HistoryAction, apply::frames};
+use super::{HistoryAction, HistoryState, apply::frames};
 use crate::{
     app::{
-        action::Action,
-        bars::labelled,
-        state::State,
         theme::{Theme, font, space},
+        widgets::labelled,
     },
     history::{KeepFrames, Retention, Usage},
 };
 
 /// Draws it while it is open.
-pub(in crate::app) fn ui(ctx: &Context, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
-    let Some(known) = state.history.rule else {
+pub(super) fn ui(
+    ctx: &Context,
+    history: &HistoryState,
+    theme: &Theme,
+    actions: &mut Vec<HistoryAction>,
+) {
+    let Some(known) = history.rule else {
         return;
     };
     let mut rule = known;
@@ -36,7 +39,7 @@ pub(in crate::app) fn ui(ctx: &Context, state: &State, theme: &Theme, actions: &
                 .spacing(vec2(20.0, 8.0))
                 .show(ui, |ui| rows(ui, &mut rule));
             ui.add_space(space::SMALL);
-            used(ui, state.history.kept.1, theme);
+            used(ui, history.kept.1, theme);
             ui.add_space(space::MEDIUM);
             let mut closing = None;
             ui.horizontal(|ui| {
@@ -58,7 +61,7 @@ pub(in crate::app) fn ui(ctx: &Context, state: &State, theme: &Theme, actions: &
         None if rule != known => HistoryAction::Rule(Some(rule)),
         None => return,
     };
-    actions.push(Action::History(action));
+    actions.push(action);
 }
 
 fn rows(ui: &mut Ui, rule: &mut Retention) {

@@ -5,12 +5,10 @@ use egui::{ScrollArea, TextEdit, Ui, WidgetInfo, vec2};
 use super::HistoryAction;
 use crate::{
     app::{
-        action::Action,
-        bars::shortened,
         shelf::LibraryShown,
-        state::State,
+        shell::session::Session,
         theme::{Theme, space},
-        widgets::heading,
+        widgets::{heading, shortened},
     },
     history::Summary,
     library::Truth,
@@ -28,12 +26,12 @@ impl Remark {
         &mut self,
         ui: &mut Ui,
         row: &Summary,
-        state: &State,
+        session: &Session,
         theme: &Theme,
-        actions: &mut Vec<Action>,
+        actions: &mut Vec<HistoryAction>,
     ) {
         heading(ui, theme, "Truly");
-        truth_menu(ui, row, state, actions);
+        truth_menu(ui, row, session, actions);
         heading(ui, theme, "Remark");
         // Another inspection, or somebody else has written another remark.
         let is_of_it = self
@@ -58,18 +56,18 @@ impl Remark {
             // Until it is written and comes back.
             known.clone_from(text);
             let remark = text.trim().to_owned();
-            actions.push(Action::History(HistoryAction::Remark(row.number, remark)));
+            actions.push(HistoryAction::Remark(row.number, remark));
         }
     }
 
     /// What was written of an inspection before another came to the front, or the window closes, is not lost.
-    pub(super) fn keep(&mut self, actions: &mut Vec<Action>, front: Option<i64>) {
+    pub(super) fn keep(&mut self, actions: &mut Vec<HistoryAction>, front: Option<i64>) {
         if let Some((number, known, text)) = self.draft.take()
             && Some(number) != front
             && text.trim() != known.trim()
         {
             let remark = text.trim().to_owned();
-            actions.push(Action::History(HistoryAction::Remark(number, remark)));
+            actions.push(HistoryAction::Remark(number, remark));
         }
     }
 }
@@ -90,8 +88,8 @@ fn title_of(truth: Option<&Truth>, library: Option<&LibraryShown>) -> String {
     }
 }
 
-fn truth_menu(ui: &mut Ui, row: &Summary, state: &State, actions: &mut Vec<Action>) {
-    let library = state.library.as_deref();
+fn truth_menu(ui: &mut Ui, row: &Summary, session: &Session, actions: &mut Vec<HistoryAction>) {
+    let library = session.library.as_deref();
     let chosen = row.label.as_ref();
     let title = format!("It is · {} ▼", shortened(&title_of(chosen, library), 24));
     ui.menu_button(&title, |ui| {
@@ -108,7 +106,7 @@ fn truth_menu(ui: &mut Ui, row: &Summary, state: &State, actions: &mut Vec<Actio
                     WidgetInfo::labeled(egui::Role::Button, true, label)
                 });
                 if response.clicked() {
-                    actions.push(Action::History(HistoryAction::Label(row.number, truth)));
+                    actions.push(HistoryAction::Label(row.number, truth));
                     ui.close();
                 }
             }

@@ -6,11 +6,9 @@ use jiff::{Timestamp, tz::TimeZone};
 use super::{HistoryAction, HistoryState, bar};
 use crate::{
     app::{
-        action::Action,
-        bars::focus_ring,
-        state::State,
+        shell::session::Session,
         theme::{ROUNDING, Theme, font, space},
-        widgets::{Mark, mark},
+        widgets::{Mark, focus_ring, mark},
     },
     history::{PastVerdict, Summary},
 };
@@ -35,12 +33,12 @@ impl List {
     pub(super) fn ui(
         &mut self,
         ui: &mut Ui,
-        state: &State,
+        history: &HistoryState,
+        session: &Session,
         theme: &Theme,
-        actions: &mut Vec<Action>,
+        actions: &mut Vec<HistoryAction>,
     ) {
-        let history = &state.history;
-        bar::ui(ui, state, theme, actions);
+        bar::ui(ui, history, session, theme, actions);
         if let Some(trouble) = &history.trouble {
             let text = format!("Kept in memory only: {}", trouble.what);
             ui.label(RichText::new(text).color(theme.warning));
@@ -105,9 +103,9 @@ impl List {
 }
 
 /// Says which rows are in sight where that is not known.
-fn see(history: &HistoryState, rows: std::ops::Range<usize>, actions: &mut Vec<Action>) {
+fn see(history: &HistoryState, rows: std::ops::Range<usize>, actions: &mut Vec<HistoryAction>) {
     if history.is_news(&rows) {
-        actions.push(Action::History(HistoryAction::Visible(rows)));
+        actions.push(HistoryAction::Visible(rows));
     }
 }
 
@@ -162,7 +160,7 @@ fn row(
     selected: Option<i64>,
     columns: &Columns,
     theme: &Theme,
-    actions: &mut Vec<Action>,
+    actions: &mut Vec<HistoryAction>,
 ) {
     let (rect, response) = ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::click());
     let is_selected = selected == Some(past.number);
@@ -184,10 +182,10 @@ fn row(
         focus_ring(ui, rect, &response, theme);
     }
     if response.clicked() {
-        actions.push(Action::History(HistoryAction::Select(past.number)));
+        actions.push(HistoryAction::Select(past.number));
     }
     if response.double_clicked() {
-        actions.push(Action::History(HistoryAction::Open(past.number)));
+        actions.push(HistoryAction::Open(past.number));
     }
 }
 

@@ -13,93 +13,128 @@ mod reopen;
 mod state;
 mod work;
 
+use std::sync::Arc;
+
 use egui::{CentralPanel, Frame, Key, Margin, Modifiers, Panel, RichText, Ui};
 
 pub use self::{
-    apply::{Direction, HistoryAction, HistoryJob, apply, export, keep, take},
+    apply::{Direction, HistoryAction, HistoryFile, HistoryJob},
     filter::{Days, ListFilter},
-    reopen::{TakenIn, take_in},
     state::HistoryState,
     work::{LookRequest, Looked, LookedAt},
 };
 use self::{details::Details, list::List};
-pub(in crate::app) use self::{
-    export::write as write_past, keeping::ui as keeping_ui, work::answer,
-};
 use super::{
-    action::Action,
-    keys::Shortcut,
-    state::State,
+    shell::{
+        context::ShellContext,
+        key_binding::{KeyBinding, Shortcut},
+        message::Event,
+        session::{Session, WorkspaceKind},
+        task::TaskRunner,
+        workspace::Workspace,
+    },
     theme::{Theme, font, space},
 };
+use crate::history::{Keeper, Writer};
 
 /// Width of the details, logical pixels, and in a narrow window.
 const DETAILS: [f32; 2] = [340.0, 300.0];
 
 /// Keys of this workspace.
-pub(super) const SHORTCUTS: [Shortcut; 4] = [
+const SHORTCUTS: [Shortcut<HistoryAction>; 4] = [
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::ArrowUp,
         keys: "Up",
         does: "The newer inspection",
-        action: || Action::History(HistoryAction::Step(Direction::Up)),
+        action: || HistoryAction::Step(Direction::Up),
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::ArrowDown,
         keys: "Down",
         does: "The older inspection",
-        action: || Action::History(HistoryAction::Step(Direction::Down)),
+        action: || HistoryAction::Step(Direction::Down),
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::Enter,
         keys: "Enter",
         does: "Open it with all its stages",
-        action: || Action::History(HistoryAction::OpenSelected),
+        action: || HistoryAction::OpenSelected,
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::A,
         keys: "A",
         does: "Inspect it again, with today's recipe and library",
-        action: || Action::History(HistoryAction::AgainSelected),
+        action: || HistoryAction::AgainSelected,
     },
 ];
 
-/// What the workspace keeps between frames.
-pub(super) struct HistoryPanel {
+/// The workspace.
+pub struct HistoryWorkspace {
+    state: HistoryState,
     details: Details,
     list: List,
+    writer: Writer,
+    keeper: Arc<Keeper>,
 }
 
-impl HistoryPanel {
-    pub(super) fn new() -> Self {
+impl HistoryWorkspace {
+    /// `writer` writes what `keeper` keeps.
+    pub fn new(writer: Writer, keeper: Arc<Keeper>, runner: &TaskRunner) -> Self {
         Self {
+            state: HistoryState::new(runner),
             details: Details::default(),
             list: List::default(),
+            writer,
+            keeper,
         }
     }
 
-    /// What is left to do when the window closes: a remark may still be in its field.
-    pub(super) fn finish(&mut self) -> Vec<Action> {
-        let mut actions = Vec::new();
-        self.details.remark.keep(&mut actions, None);
-        actions
+    /// What it knows.
+    pub fn state(&self) -> &HistoryState {
+        &self.state
     }
 
-    pub(super) fn ui(
-        &mut self,
-        ui: &mut Ui,
-        state: &State,
-        theme: &Theme,
-        actions: &mut Vec<Action>,
-    ) {
-        if state.history.is_empty() && state.history.trouble.is_none() {
+    /// Does it.
+    pub fn apply(&mut self, action: HistoryAction, cx: &mut ShellContext<'_>) {
+        self.state.apply(action, cx);
+        self.write();
+    }
+
+    /// Hands over what is to be written.
+    fn write(&mut self) {
+        for job in self.state.jobs.drain(..) {
+            match job {
+                HistoryJob::Add(ticket, entry) => self.writer.add(ticket, *entry),
+                HistoryJob::Remark(number, remark) => self.writer.remark(number, remark),
+                HistoryJob::Label(number, label) => self.writer.label(number, label),
+                HistoryJob::Keep(rule) => self.writer.retention(rule),
+            }
+        }
+    }
+}
+
+impl Workspace for HistoryWorkspace {
+    fn kind(&self) -> WorkspaceKind {
+        WorkspaceKind::History
+    }
+
+    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
+        let Self {
+            state,
+            details,
+            list,
+            ..
+        } = self;
+        let (session, theme) = (cx.session, cx.theme);
+        if state.is_empty() && state.trouble.is_none() {
             empty(ui, theme);
             return;
         }
+        let mut actions = Vec::new();
         let width = ui.available_width();
         Panel::right("details")
             .exact_size(if width > 1100.0 {
@@ -113,10 +148,56 @@ impl HistoryPanel {
                     .fill(theme.panel)
                     .inner_margin(Margin::same(16)),
             )
-            .show(ui, |ui| self.details.ui(ui, state, theme, actions));
+            .show(ui, |ui| details.ui(ui, state, session, theme, &mut actions));
         CentralPanel::default()
             .frame(Frame::new().inner_margin(Margin::same(16)))
-            .show(ui, |ui| self.list.ui(ui, state, theme, actions));
+            .show(ui, |ui| list.ui(ui, state, session, theme, &mut actions));
+        keeping::ui(ui.ctx(), state, theme, &mut actions);
+        for action in actions {
+            self.apply(action, cx);
+        }
+    }
+
+    fn update(&mut self, cx: &mut ShellContext<'_>) {
+        let crowded = self.writer.take_crowded();
+        if crowded != [0; 2] {
+            self.state.crowded(crowded[1], cx);
+        }
+        for news in self.keeper.take_news() {
+            self.state.hear(news, cx);
+        }
+        self.state.update(cx);
+        self.write();
+    }
+
+    fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
+        self.state.on_event(event, cx);
+        self.write();
+    }
+
+    fn close(&mut self) {
+        let mut actions = Vec::new();
+        self.details.remark.keep(&mut actions, None);
+        for action in actions {
+            if let HistoryAction::Remark(number, remark) = action {
+                self.state.remark(number, remark);
+            }
+        }
+        self.write();
+    }
+
+    fn key_bindings(&self) -> Vec<KeyBinding> {
+        SHORTCUTS.iter().map(Shortcut::binding).collect()
+    }
+
+    fn press(&mut self, place: usize, cx: &mut ShellContext<'_>) {
+        if let Some(shortcut) = SHORTCUTS.get(place) {
+            self.apply((shortcut.action)(), cx);
+        }
+    }
+
+    fn is_idle(&self, _session: &Session) -> bool {
+        self.state.is_settled()
     }
 }
 

@@ -8,15 +8,19 @@ use std::{
 };
 
 use super::{
+    apply::{HistoryAction, HistoryFile, HistoryJob},
     filter::ListFilter,
-    work::{LookRequest, Looked, LookedAt},
+    work::{self, LookRequest, Looked, LookedAt},
 };
 use crate::{
     app::{
-        action::Effect,
         inspect::work::Inspected,
-        job::{Request, Trouble},
-        state::State,
+        shell::{
+            context::ShellContext,
+            file_dialog::FileDialog,
+            task::{Task, TaskRunner},
+        },
+        user_error::UserError,
     },
     history::{Differences, Page, Retention, Summary, Usage},
 };
@@ -27,7 +31,7 @@ const MAX_WHOLE: usize = 4;
 const MARGIN: usize = 100;
 
 /// What the workspace knows.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct HistoryState {
     /// What is listed.
     pub filter: ListFilter,
@@ -46,7 +50,7 @@ pub struct HistoryState {
     /// The folder of the kept frames.
     pub(super) frames: Option<PathBuf>,
     /// Why it is not written, as long as it is not.
-    pub trouble: Option<Trouble>,
+    pub trouble: Option<UserError>,
     /// It was said that the disk is too slow.
     pub(super) is_crowded: bool,
     /// The rule as it is being changed, while its window is open.
@@ -62,28 +66,31 @@ pub struct HistoryState {
     whole: VecDeque<(i64, Arc<Inspected>)>,
     /// Fetched rows may not be those that are there now.
     is_stale: bool,
-    /// The request whose result is no inspection of its own: the scene in front with something else changed.
-    pub(in crate::app) repeated: Option<u64>,
     /// What is to be made again as soon as it was fetched.
-    pub(super) then: Option<(i64, Purpose)>,
+    pub(super) then: Option<(i64, RemakeFor)>,
     /// An inspection that is being made again.
     pub(super) remaking: Option<Remaking>,
+    /// What the thread that writes is asked for next.
+    pub(super) jobs: Vec<HistoryJob>,
+    /// What is done once the engineer is in.
+    pub(super) held: Option<HistoryAction>,
+    pub(super) looking: Task<Box<Looked>>,
+    pub(super) exporting: Task<String>,
+    pub(super) dialog: FileDialog<HistoryFile>,
 }
 
 /// A past inspection that is being made again.
 #[derive(Clone, Debug)]
 pub(super) struct Remaking {
-    /// The generation of the request.
-    pub(super) generation: u64,
     /// As it was.
     pub(super) past: Arc<LookedAt>,
     /// What for.
-    pub(super) purpose: Purpose,
+    pub(super) purpose: RemakeFor,
 }
 
 /// What a past inspection is made again for.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Purpose {
+pub(super) enum RemakeFor {
     /// To be opened, with its own recipe.
     Open,
     /// To see what changed, with today's recipe.
@@ -91,6 +98,36 @@ pub(super) enum Purpose {
 }
 
 impl HistoryState {
+    /// Before the first look.
+    pub fn new(runner: &TaskRunner) -> Self {
+        Self {
+            filter: ListFilter::default(),
+            page: Page::default(),
+            first: 0,
+            visible: 0..0,
+            selected: None,
+            record: None,
+            kept: Default::default(),
+            frames: None,
+            trouble: None,
+            is_crowded: false,
+            rule: None,
+            differences: None,
+            unwritten: BTreeMap::new(),
+            num_tickets: 0,
+            num_asked: 0,
+            whole: VecDeque::new(),
+            is_stale: false,
+            then: None,
+            remaking: None,
+            jobs: Vec::new(),
+            held: None,
+            looking: Task::new("look", runner),
+            exporting: Task::new("history-write", runner),
+            dialog: FileDialog::default(),
+        }
+    }
+
     /// True before the first inspection.
     pub fn is_empty(&self) -> bool {
         self.num_rows() == 0
@@ -129,9 +166,11 @@ impl HistoryState {
         whole.find(|(of, _)| *of == number).map(|(_, whole)| whole)
     }
 
-    /// True once everything is written that was handed over.
+    /// True once everything is written that was handed over, and the list shows it.
     pub fn is_settled(&self) -> bool {
-        self.unwritten.is_empty() && self.num_asked == 0 && !self.is_stale
+        let is_written = self.unwritten.is_empty() && self.num_asked == 0;
+        let is_at_work = self.looking.running().is_some() || self.exporting.running().is_some();
+        is_written && !self.is_stale && !is_at_work
     }
 
     /// Takes a ticket for an inspection that is handed over to be written.
@@ -243,18 +282,23 @@ impl HistoryState {
             self.selected = self.page.rows.first().map(|row| row.number);
         }
     }
-}
 
-/// Has everything fetched that is shown.
-pub(super) fn look(state: &mut State) -> Effect {
-    state.history.is_stale = false;
-    let request = Request::History(state.history.wanted());
-    state.begin("Looking into the history", request)
-}
+    /// Has everything fetched that is shown.
+    pub(super) fn look(&mut self, cx: &ShellContext<'_>) {
+        self.is_stale = false;
+        let request = self.wanted();
+        let keeper = Arc::clone(cx.services.shelf.history());
+        self.looking.start("Looking into the history", move |_| {
+            Ok(Box::new(work::look(&request, &keeper)?))
+        });
+    }
 
-/// The same, if it is not up to date.
-pub(super) fn look_if_stale(state: &mut State) -> Option<Effect> {
-    state.history.is_stale.then(|| look(state))
+    /// The same, if it is not up to date.
+    pub(super) fn look_if_stale(&mut self, cx: &ShellContext<'_>) {
+        if self.is_stale {
+            self.look(cx);
+        }
+    }
 }
 
 #[cfg(test)]

@@ -1,4 +1,4 @@
-//! What the lane's thread does: looks into the history for what the window shows.
+//! Looks into the history for what the window shows.
 
 use std::{ops::Range, path::PathBuf, sync::Arc};
 
@@ -7,10 +7,7 @@ use jiff::Zoned;
 
 use super::filter::ListFilter;
 use crate::{
-    app::{
-        job::{Answer, Outcome, Trouble},
-        shelf::Shelf,
-    },
+    app::user_error::UserError,
     history::{HistoryError, Keeper, Page, Record, Retention, Usage},
 };
 
@@ -50,14 +47,11 @@ pub struct LookedAt {
 }
 
 /// Looks.
-pub(in crate::app) fn answer(request: &LookRequest, shelf: &Shelf) -> Outcome {
-    let looked = look(request, shelf.history());
-    looked
-        .map(|looked| Answer::History(Box::new(looked)))
-        .map_err(|error| Trouble::of(&error))
+pub(super) fn look(request: &LookRequest, history: &Keeper) -> Result<Looked, UserError> {
+    looked(request, history).map_err(|error| UserError::of(&error))
 }
 
-fn look(request: &LookRequest, history: &Keeper) -> Result<Looked, HistoryError> {
+fn looked(request: &LookRequest, history: &Keeper) -> Result<Looked, HistoryError> {
     let filter = request.filter.at(&Zoned::now());
     let rows = &request.rows;
     let page = history.page(&filter, rows.start, rows.len())?;

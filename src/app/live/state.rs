@@ -9,10 +9,10 @@ use super::{
 use crate::{
     app::{
         action::{self, Ask, Effect, notify},
-        answers, history,
+        answers,
         job::{Request, Trouble},
         lane::Lane,
-        state::{Notice, NoticeKind, Shown, Source, State, Workspace},
+        state::{Event, Notice, NoticeKind, Purpose, Shown, Source, State, Workspace},
     },
     capture::{SourceSpec, WatchedSpec},
     pipeline::live::{LiveParams, MAX_AVERAGED},
@@ -235,9 +235,9 @@ pub(in crate::app) fn hear(
             for warning in &inspected.warnings {
                 notify(state, Trouble::of(warning).into());
             }
-            let effect = history::keep(state, &inspected);
-            show(state, inspected);
-            return Some(effect);
+            show(state, Arc::clone(&inspected));
+            let purpose = Purpose::New;
+            return Some(Effect::Tell(Event::Inspected { inspected, purpose }));
         }
         Ok(LiveAnswer::NotRecorded(trouble)) => {
             state.live.recording = None;

@@ -17,30 +17,11 @@ pub(super) use self::{
     dialog::dialog,
     permits::is_operators,
 };
+pub use super::shell::session::UserRole;
 use super::{
     action::{Action, Effect, apply as apply_any, notify},
     state::{Notice, State, Workspace},
 };
-
-/// Who stands before the window.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum UserRole {
-    /// Watches verdicts, captures, exports.
-    Operator,
-    /// May change everything.
-    #[default]
-    Engineer,
-}
-
-impl UserRole {
-    /// What a person calls it.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::Operator => "Operator",
-            Self::Engineer => "Engineer",
-        }
-    }
-}
 
 /// Minutes without a hand on the window until it is the operator's again, that can be chosen.
 pub const LOCK_AFTER: [u32; 4] = [1, 5, 15, 60];
@@ -48,8 +29,6 @@ pub const LOCK_AFTER: [u32; 4] = [1, 5, 15, 60];
 /// Whose window it is, and what stands between the two.
 #[derive(Debug)]
 pub struct RoleState {
-    /// Whose it is now.
-    pub role: UserRole,
     /// What the engineer's view asks for, if anything.
     pub pin: Option<Pin>,
     /// Minutes without a hand on the window until it is the operator's again; only with a PIN.
@@ -65,22 +44,26 @@ impl Default for RoleState {
 }
 
 impl RoleState {
-    /// As the window starts: with a PIN it is the operator's.
+    /// As the window starts.
     pub fn starting(pin: Option<Pin>, lock_after: u32) -> Self {
         Self {
-            role: match pin {
-                Some(_) => UserRole::Operator,
-                None => UserRole::Engineer,
-            },
             pin,
             lock_after: lock_after.clamp(LOCK_AFTER[0], LOCK_AFTER[3]),
             asked: None,
         }
     }
 
-    /// Seconds without a hand on the window until it locks; `None` if it does not.
-    pub fn locks_after(&self) -> Option<f64> {
-        let locks = self.role == UserRole::Engineer && self.pin.is_some();
+    /// Whose the window is when it starts.
+    pub fn first_role(&self) -> UserRole {
+        match self.pin {
+            Some(_) => UserRole::Operator,
+            None => UserRole::Engineer,
+        }
+    }
+
+    /// Seconds without a hand on this person's window until it locks; `None` if it does not.
+    pub fn locks_after(&self, role: UserRole) -> Option<f64> {
+        let locks = role == UserRole::Engineer && self.pin.is_some();
         locks.then_some(f64::from(self.lock_after) * 60.0)
     }
 }
@@ -142,18 +125,24 @@ pub enum RoleAction {
 
 /// The action, unless it needs the engineer's view: that is asked for first.
 pub(super) fn permitted(state: &mut State, action: Action) -> Option<Action> {
-    if state.roles.role == UserRole::Engineer || !needs_engineer(&action) {
+    if state.role == UserRole::Engineer || !needs_engineer(&action) {
         return Some(action);
     }
-    state.roles.asked = Some(Asked::about(Question::MayI(Some(Box::new(action)))));
+    ask_engineer(state, action);
     None
+}
+
+/// Asks for the engineer's view, and does this once it is there.
+pub(super) fn ask_engineer(state: &mut State, then: Action) {
+    state.roles.asked = Some(Asked::about(Question::MayI(Some(Box::new(then)))));
 }
 
 /// Makes it so.
 pub(super) fn apply(state: &mut State, action: RoleAction) -> Option<Effect> {
+    let role = state.role;
     let own = &mut state.roles;
     match action {
-        RoleAction::Switch => match own.role {
+        RoleAction::Switch => match role {
             UserRole::Engineer => become_operators(state),
             UserRole::Operator => own.asked = Some(Asked::about(Question::MayI(None))),
         },
@@ -189,7 +178,7 @@ pub(super) fn apply(state: &mut State, action: RoleAction) -> Option<Effect> {
 }
 
 fn become_operators(state: &mut State) {
-    state.roles.role = UserRole::Operator;
+    state.role = UserRole::Operator;
     state.roles.asked = None;
     if !is_operators(state.workspace) {
         state.workspace = Workspace::Inspect;
@@ -214,7 +203,7 @@ fn enter(state: &mut State) -> Option<Effect> {
                 own.asked = again(Question::MayI(then), "That is not the PIN");
                 return None;
             }
-            own.role = UserRole::Engineer;
+            state.role = UserRole::Engineer;
             return apply_any(state, *then?);
         }
         Question::NewPin if digits.len() < pin::LEAST_DIGITS => {

@@ -1,7 +1,7 @@
 //! What the operator's view lets through.
 
 use super::{Action, RoleAction, Workspace};
-use crate::app::{action::Ask, history::HistoryAction, live::LiveAction, robot::RobotAction};
+use crate::app::{action::Ask, live::LiveAction, robot::RobotAction};
 
 /// True for the workspaces in which nothing can be changed that verdicts rest on.
 pub(in crate::app) fn is_operators(workspace: Workspace) -> bool {
@@ -24,13 +24,6 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
         ),
         // Averaged depth is part of what a verdict rests on.
         Action::Live(action) => matches!(action, LiveAction::Average(_)),
-        // Frames that another rule does not keep are gone.
-        Action::History(action) => {
-            matches!(
-                action,
-                HistoryAction::Rule(Some(_)) | HistoryAction::Keep(_)
-            )
-        }
         Action::Robot(action) => !matches!(action, RobotAction::Close),
         // The robot's controller expects one of them.
         Action::UseConvention(_)
@@ -45,6 +38,8 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
         | Action::Open(_)
         | Action::Cancel(_)
         | Action::CancelTask(_)
+        | Action::EngineerIn(_)
+        | Action::ShowPast(_)
         | Action::Enlarge(_)
         | Action::Candidate(_)
         | Action::CloseTop
@@ -69,8 +64,6 @@ fn asks_for_engineer(ask: Ask) -> bool {
         | Ask::RecordTo
         | Ask::ReportFolder
         | Ask::SprayPath
-        | Ask::HistoryCsv
-        | Ask::HistoryCases
         | Ask::Picture => false,
     }
 }

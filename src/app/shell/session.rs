@@ -37,6 +37,8 @@ pub struct Session {
     pub units: UnitSystem,
     /// Colours.
     pub theme: ThemeChoice,
+    /// Whose window it is.
+    pub role: UserRole,
     /// The workspace in front.
     pub workspace: WorkspaceKind,
 }
@@ -136,6 +138,26 @@ impl ThemeChoice {
         match self {
             Self::Dark => Self::Light,
             Self::Light => Self::Dark,
+        }
+    }
+}
+
+/// Who stands before the window.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum UserRole {
+    /// Watches verdicts, captures, exports.
+    Operator,
+    /// May change everything.
+    #[default]
+    Engineer,
+}
+
+impl UserRole {
+    /// What a person calls it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Operator => "Operator",
+            Self::Engineer => "Engineer",
         }
     }
 }

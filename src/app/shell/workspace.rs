@@ -7,6 +7,7 @@ use egui::Ui;
 use super::{
     context::ShellContext,
     key_binding::KeyBinding,
+    message::Event,
     session::{Session, WorkspaceKind},
     task::Running,
 };
@@ -21,6 +22,12 @@ pub trait Workspace: Any {
 
     /// Takes in what its tasks and dialogs report. Called in every frame, in front or not.
     fn update(&mut self, cx: &mut ShellContext<'_>);
+
+    /// Takes in what the shell tells.
+    fn on_event(&mut self, _event: &Event, _cx: &mut ShellContext<'_>) {}
+
+    /// The window closes: hands over what is still being written.
+    fn close(&mut self) {}
 
     /// Its own keys; they come before the window's.
     fn key_bindings(&self) -> Vec<KeyBinding> {

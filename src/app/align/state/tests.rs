@@ -141,7 +141,7 @@ fn a_cancelled_table_keeps_its_rows_and_goes_on_where_it_stopped() {
     let library = bench.shell.session.library.as_ref();
     let total = library.map_or(0, |library| library.parts.len()) * Start::NUM_PAPER;
     let running = bench.align.running().expect("at work");
-    assert_eq!(running.progress, Some((1, total)), "before the second row");
+    assert_eq!(running.progress, Some((2, total)));
     bench.act(AlignAction::Cancel);
     assert!(!bench.align.is_table_at_work());
     assert_eq!(bench.align.table.rows.len(), 2);

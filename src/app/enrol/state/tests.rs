@@ -67,7 +67,7 @@ impl Bench {
     fn make(&mut self, effect: Option<Effect>) {
         match effect {
             // Nobody writes a history here.
-            None | Some(Effect::History(_)) => {}
+            None | Some(Effect::Tell(_)) => {}
             Some(Effect::Several(effects)) => {
                 for effect in effects {
                     self.make(Some(effect));

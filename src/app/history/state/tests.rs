@@ -3,10 +3,14 @@
 use super::*;
 use crate::{
     app::{
-        action::{Action, apply},
-        history::{Direction, HistoryAction, HistoryJob, TakenIn, take, take_in},
+        history::Direction,
         inspect::work::{InspectRequest, inspect},
         shelf::Shelf,
+        shell::{
+            context::TestShell,
+            message::{Event, Message, Purpose},
+            session::UserRole,
+        },
         source::{CellChoice, SceneSource},
     },
     history::{HistoryNews, PastVerdict},
@@ -37,74 +41,99 @@ fn row(inspected: &Inspected, number: i64) -> Summary {
     }
 }
 
-/// The state with these rows listed, the newest first.
-fn listing(inspected: &Inspected, numbers: &[i64]) -> State {
-    let mut state = State::default();
-    let rows: Vec<Summary> = numbers.iter().map(|n| row(inspected, *n)).collect();
-    let looked = Looked {
-        asked: state.history.wanted(),
-        page: Page {
-            num_matching: rows.len(),
-            num_all: rows.len(),
-            rows,
-        },
-        record: None,
-        kept: Default::default(),
-        frames: None,
-    };
-    assert!(
-        take(&mut state, looked).is_some(),
-        "the newest is looked up"
-    );
-    state
+/// The workspace without a window; nothing is fetched or written.
+struct Bench {
+    history: HistoryState,
+    shell: TestShell,
 }
 
-fn hear(state: &mut State, news: HistoryNews) {
-    apply(state, Action::History(HistoryAction::Hear(news)));
+impl Bench {
+    fn new() -> Self {
+        Self {
+            history: HistoryState::new(&TaskRunner::without_threads()),
+            shell: TestShell::default(),
+        }
+    }
+
+    /// With these rows listed, the newest first.
+    fn listing(inspected: &Inspected, numbers: &[i64]) -> Self {
+        let mut bench = Self::new();
+        let rows: Vec<Summary> = numbers.iter().map(|n| row(inspected, *n)).collect();
+        let looked = Looked {
+            asked: bench.history.wanted(),
+            page: Page {
+                num_matching: rows.len(),
+                num_all: rows.len(),
+                rows,
+            },
+            record: None,
+            kept: Default::default(),
+            frames: None,
+        };
+        bench.history.take_in(looked, &mut bench.shell.context());
+        let looking = bench.history.looking.running();
+        assert!(looking.is_some(), "the newest is looked up");
+        bench.history.looking.cancel();
+        bench
+    }
+
+    fn act(&mut self, action: HistoryAction) {
+        self.history.apply(action, &mut self.shell.context());
+    }
+
+    fn hear(&mut self, news: HistoryNews) {
+        self.history.hear(news, &mut self.shell.context());
+    }
+
+    fn inspected(&mut self, inspected: &Arc<Inspected>, purpose: Purpose) {
+        let inspected = Arc::clone(inspected);
+        let event = Event::Inspected { inspected, purpose };
+        self.history.on_event(&event, &mut self.shell.context());
+    }
 }
 
 #[test]
 fn a_new_result_is_handed_over_and_the_newest_few_stay_whole() {
     let found = inspected(1);
-    let mut state = State::default();
+    let mut bench = Bench::new();
     for number in 1..=7_i64 {
-        let (taken, effect) = take_in(&mut state, 1, &found);
-        assert_eq!(taken, TakenIn::New);
-        let Some(Effect::History(HistoryJob::Add(ticket, entry))) = effect else {
-            panic!("not handed over: {effect:?}");
+        bench.inspected(&found, Purpose::New);
+        let job = bench.history.jobs.pop();
+        let Some(HistoryJob::Add(ticket, entry)) = job else {
+            panic!("not handed over: {job:?}");
         };
         assert_eq!(entry.record.summary.verdict, PastVerdict::NoPart);
-        assert!(!state.history.is_settled());
-        assert_eq!(state.history.num_rows(), number as usize);
-        hear(&mut state, HistoryNews::Added { ticket, number });
+        assert!(!bench.history.is_settled());
+        assert_eq!(bench.history.num_rows(), number as usize);
+        bench.hear(HistoryNews::Added { ticket, number });
     }
-    let whole = |number| state.history.whole(number).is_some();
+    let whole = |number| bench.history.whole(number).is_some();
     assert!(whole(7) && whole(4) && !whole(3) && !whole(1));
-    // It was not asked for again: a scene in front with something else changed is no inspection of its own.
-    state.history.repeated = Some(9);
-    assert!(take_in(&mut state, 9, &found).1.is_none());
+    // A scene in front with something else changed is no inspection of its own.
+    bench.inspected(&found, Purpose::Repeated);
+    assert!(bench.history.jobs.is_empty());
 }
 
 #[test]
 fn who_looks_at_the_newest_goes_on_looking_at_the_newest() {
     let found = inspected(1);
-    let mut state = listing(&found, &[3, 2, 1]);
-    assert_eq!(state.history.selected, Some(3));
-    let add = |state: &mut State, number| {
-        let ticket = state.history.ticket(&found);
-        hear(state, HistoryNews::Added { ticket, number });
+    let mut bench = Bench::listing(&found, &[3, 2, 1]);
+    assert_eq!(bench.history.selected, Some(3));
+    let add = |bench: &mut Bench, number| {
+        let ticket = bench.history.ticket(&found);
+        bench.hear(HistoryNews::Added { ticket, number });
     };
-    add(&mut state, 4);
-    assert_eq!(state.history.selected, Some(4));
-    let mut state = listing(&found, &[3, 2, 1]);
-    apply(&mut state, Action::History(HistoryAction::Select(1)));
-    add(&mut state, 4);
-    assert_eq!(state.history.selected, Some(1));
+    add(&mut bench, 4);
+    assert_eq!(bench.history.selected, Some(4));
+    let mut bench = Bench::listing(&found, &[3, 2, 1]);
+    bench.act(HistoryAction::Select(1));
+    add(&mut bench, 4);
+    assert_eq!(bench.history.selected, Some(1));
 }
 
 #[test]
 fn the_arrows_stop_at_the_ends() {
-    let mut state = listing(&inspected(1), &[3, 2, 1]);
+    let mut bench = Bench::listing(&inspected(1), &[3, 2, 1]);
     for (direction, expected) in [
         (Direction::Up, 3),
         (Direction::Down, 2),
@@ -112,43 +141,57 @@ fn the_arrows_stop_at_the_ends() {
         (Direction::Down, 1),
         (Direction::Up, 2),
     ] {
-        apply(&mut state, Action::History(HistoryAction::Step(direction)));
-        assert_eq!(state.history.selected, Some(expected));
+        bench.act(HistoryAction::Step(direction));
+        assert_eq!(bench.history.selected, Some(expected));
     }
 }
 
 #[test]
 fn what_waited_keeps_its_place_under_its_new_number() {
     let found = inspected(1);
-    let mut state = State::default();
-    let ticket = state.history.ticket(&found);
+    let mut bench = Bench::new();
+    let ticket = bench.history.ticket(&found);
     let trouble = HistoryNews::Failed {
         what: "the disk is full".into(),
         advice: "Make room".into(),
     };
-    hear(&mut state, trouble);
-    hear(&mut state, HistoryNews::Added { ticket, number: -1 });
-    assert_eq!(state.history.selected, Some(-1));
-    assert_eq!(state.notices.len(), 1);
+    bench.hear(trouble);
+    bench.hear(HistoryNews::Added { ticket, number: -1 });
+    assert_eq!(bench.history.selected, Some(-1));
+    assert_eq!(bench.shell.notices().len(), 1);
     let works = HistoryNews::Works {
         numbers: vec![(-1, 58)],
         num_lost: 0,
     };
-    hear(&mut state, works);
-    assert_eq!(state.history.selected, Some(58));
-    assert!(state.history.whole(58).is_some() && state.history.trouble.is_none());
-    assert!(state.notices[1].what.contains("one inspection that waited"));
+    bench.hear(works);
+    assert_eq!(bench.history.selected, Some(58));
+    assert!(bench.history.whole(58).is_some() && bench.history.trouble.is_none());
+    assert!(bench.shell.notices()[1].contains("one inspection that waited"));
 }
 
 #[test]
 fn rows_out_of_sight_are_asked_for_once() {
-    let mut state = listing(&inspected(1), &[3, 2, 1]);
-    state.history.page.num_matching = 5000;
-    let see = |state: &mut State, rows| {
-        let effect = apply(state, Action::History(HistoryAction::Visible(rows)));
-        effect.is_some()
+    let mut bench = Bench::listing(&inspected(1), &[3, 2, 1]);
+    bench.history.page.num_matching = 5000;
+    let see = |bench: &mut Bench, rows| {
+        bench.act(HistoryAction::Visible(rows));
+        bench.history.looking.running().is_some()
     };
-    assert!(!see(&mut state, 0..3));
-    assert!(see(&mut state, 2000..2020));
-    assert_eq!(state.history.wanted().rows, 1900..2120);
+    assert!(!see(&mut bench, 0..3));
+    assert!(see(&mut bench, 2000..2020));
+    assert_eq!(bench.history.wanted().rows, 1900..2120);
+}
+
+#[test]
+fn another_rule_for_frames_waits_for_the_engineer() {
+    let mut bench = Bench::new();
+    bench.shell.session.role = UserRole::Operator;
+    bench.act(HistoryAction::Rule(Some(Retention::default())));
+    assert!(bench.history.rule.is_none());
+    assert!(matches!(bench.shell.messages[..], [Message::AskEngineer]));
+    bench.shell.session.role = UserRole::Engineer;
+    bench
+        .history
+        .on_event(&Event::EngineerIn, &mut bench.shell.context());
+    assert_eq!(bench.history.rule, Some(Retention::default()));
 }
