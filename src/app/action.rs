@@ -387,12 +387,17 @@ pub(super) fn inspect_again(state: &mut State) -> Option<Effect> {
     if state.is_live() {
         return live::start_anew(state);
     }
+    let request = inspection_of_shown(state)?;
+    Some(state.inspect("Inspecting again", request, Purpose::Repeated))
+}
+
+/// The scene in front, to be inspected with what holds now.
+pub(super) fn inspection_of_shown(state: &State) -> Option<InspectRequest> {
     let shown = &state.shown.as_ref()?.inspected;
-    let request = InspectRequest {
+    Some(InspectRequest {
         source: SceneSource::AtHand(Arc::clone(&shown.scene), shown.origin.clone()),
         recipe: Arc::clone(&state.recipe),
-    };
-    Some(state.inspect("Inspecting again", request, Purpose::Repeated))
+    })
 }
 
 /// Shows a past inspection that is still in memory.

@@ -29,6 +29,7 @@ pub mod live;
 mod memory;
 mod notices;
 mod rail;
+pub mod recording;
 pub mod robot;
 pub mod roles;
 pub mod settings;

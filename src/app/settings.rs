@@ -10,13 +10,13 @@ use std::{
 use serde::{Deserialize, Serialize};
 
 use super::{
-    job::Trouble,
     live::LiveState,
     robot::{RememberedCell, RobotState},
     roles::{LOCK_AFTER, Pin, RoleState, is_operators},
     source::CellChoice,
     state::{Session, Source, State, ThemeChoice, Workspace},
     unit_system::UnitSystem,
+    user_error::UserError,
 };
 use crate::{capture::SourceSpec, files::write_atomically, pipeline::Recipe, robot::Convention};
 
@@ -214,7 +214,7 @@ struct Versioned {
 }
 
 /// Reads the file. One that is not there is no trouble; a bad one is set aside, its place is free for the next.
-pub fn load(path: &Path) -> (Settings, Option<Trouble>) {
+pub fn load(path: &Path) -> (Settings, Option<UserError>) {
     match read(path) {
         Ok(settings) => (settings, None),
         Err(BadSettings::Unreadable(error)) if error.kind() == io::ErrorKind::NotFound => {
@@ -232,7 +232,7 @@ pub fn load(path: &Path) -> (Settings, Option<Trouble>) {
                     crate::files::words_of(&error)
                 ),
             };
-            (Settings::default(), Some(Trouble { what, advice }))
+            (Settings::default(), Some(UserError { what, advice }))
         }
     }
 }
@@ -276,8 +276,8 @@ fn set_aside(path: &Path) -> io::Result<PathBuf> {
 }
 
 /// Writes the file, whole or not at all.
-pub fn save(path: &Path, settings: &Settings) -> Result<(), Trouble> {
-    let not_kept = |why: String| Trouble {
+pub fn save(path: &Path, settings: &Settings) -> Result<(), UserError> {
+    let not_kept = |why: String| UserError {
         what: format!("The settings are not remembered: {why}"),
         advice: "Make its folder writable; the program goes on without".into(),
     };

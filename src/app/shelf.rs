@@ -8,7 +8,9 @@ use std::{
 
 use image::RgbaImage;
 
-use super::{camera::Camera, fitted::FittedCache, job::Trouble, live::Tape};
+use super::{
+    camera::Camera, fitted::FittedCache, recording::SharedRecording, user_error::UserError,
+};
 use crate::{
     error::Advice as _,
     history::Keeper,
@@ -23,7 +25,7 @@ use crate::{
 pub struct Shelf {
     choice: Arc<Mutex<Choice>>,
     camera: Camera,
-    tape: Tape,
+    recording: SharedRecording,
     history: Arc<Keeper>,
 }
 
@@ -63,9 +65,9 @@ pub struct LibraryShown {
     /// The parts that could not be loaded.
     pub damaged: Vec<Damaged>,
     /// Why it cannot be changed at all, if so.
-    pub is_fixed: Option<Trouble>,
+    pub is_fixed: Option<UserError>,
     /// What had to be set aside, and what is odd.
-    pub troubles: Vec<Trouble>,
+    pub troubles: Vec<UserError>,
 }
 
 /// A part that could not be loaded.
@@ -74,7 +76,7 @@ pub struct Damaged {
     /// The name of its folder.
     pub entry: String,
     /// Why, and what to do.
-    pub trouble: Trouble,
+    pub trouble: UserError,
 }
 
 impl LibraryShown {
@@ -98,7 +100,7 @@ impl Shelf {
         Self {
             choice: Arc::new(Mutex::new(Choice { given, loaded })),
             camera,
-            tape: Tape::default(),
+            recording: SharedRecording::default(),
             history: Arc::default(),
         }
     }
@@ -114,9 +116,9 @@ impl Shelf {
         &self.history
     }
 
-    /// The recording that is being made.
-    pub fn tape(&self) -> &Tape {
-        &self.tape
+    /// The recording in progress.
+    pub fn recording(&self) -> &SharedRecording {
+        &self.recording
     }
 
     /// The camera in use.
@@ -174,8 +176,8 @@ fn load(given: Option<&Path>) -> Result<Shelved, LibraryError> {
         problems,
         warnings,
     } = load;
-    let troubles = problems.iter().map(Trouble::of);
-    let mut troubles: Vec<Trouble> = troubles.chain(warnings.iter().map(Trouble::of)).collect();
+    let troubles = problems.iter().map(UserError::of);
+    let mut troubles: Vec<UserError> = troubles.chain(warnings.iter().map(UserError::of)).collect();
     let mut spray_paths = Vec::with_capacity(parts.len());
     for part in &parts {
         let stored = part
@@ -185,7 +187,7 @@ fn load(given: Option<&Path>) -> Result<Shelved, LibraryError> {
         spray_paths.push(match stored.transpose() {
             Ok(path) => path.flatten(),
             Err(error) => {
-                troubles.push(Trouble::of(&error));
+                troubles.push(UserError::of(&error));
                 None
             }
         });
@@ -193,10 +195,10 @@ fn load(given: Option<&Path>) -> Result<Shelved, LibraryError> {
     let thumbnails = parts.iter().map(|part| place.thumbnail(part.name.as_str()));
     let damaged = problems.iter().map(|problem| Damaged {
         entry: problem.entry.clone(),
-        trouble: Trouble::of(problem),
+        trouble: UserError::of(problem),
     });
     let is_fixed = match &place {
-        LibraryPlace::Program(reason) => Some(Trouble {
+        LibraryPlace::Program(reason) => Some(UserError {
             what: format!("The library lies inside the program and cannot be changed ({reason})"),
             advice: reason.advice(),
         }),

@@ -1,9 +1,10 @@
 //! Small things that several panels draw.
 
 use egui::{
-    Align, Align2, Button, Color32, Layout, Painter, Pos2, Rect, RichText, Stroke, StrokeKind, Ui,
-    Vec2, pos2, vec2,
+    Align, Align2, Button, Color32, ColorImage, Layout, Painter, Pos2, Rect, RichText, Stroke,
+    StrokeKind, TextureHandle, TextureOptions, Ui, Vec2, pos2, vec2,
 };
+use image::RgbImage;
 
 use super::theme::{ROUNDING, Theme, font, space};
 
@@ -145,4 +146,19 @@ pub(super) fn shortened(text: &str, most: usize) -> String {
         head.iter().collect::<String>(),
         tail.iter().collect::<String>()
     )
+}
+
+/// Uploads a picture.
+pub(in crate::app) fn texture(
+    ctx: &egui::Context,
+    name: &str,
+    image: Option<&RgbImage>,
+) -> Option<TextureHandle> {
+    let image = image?;
+    let size = [image.width() as usize, image.height() as usize];
+    let options = TextureOptions {
+        mipmap_mode: Some(egui::TextureFilter::Linear),
+        ..TextureOptions::LINEAR
+    };
+    Some(ctx.load_texture(name, ColorImage::from_rgb(size, image.as_raw()), options))
 }

@@ -6,7 +6,7 @@ use eframe::egui_wgpu::RenderState;
 use egui::{CentralPanel, Frame, Ui};
 
 use super::{
-    action::{Action, Ask, Effect, apply},
+    action::{Action, Ask, Effect, apply, inspection_of_shown},
     align::AlignWorkspace,
     bars::{self, Progress},
     camera::Camera,
@@ -28,7 +28,7 @@ use super::{
     shell::{
         context::{Services, ShellContext},
         file_dialog::{DialogLock, FileDialog},
-        message::{Event, Message},
+        message::{Event, Message, Purpose},
         task::{Running, TaskRunner},
         workspace::Workspace,
     },
@@ -265,6 +265,12 @@ impl Window {
             Message::ShowPast(inspected) => self.act(Action::ShowPast(inspected), ctx),
             Message::AskEngineer => {
                 roles::ask_engineer(&mut self.state, Action::EngineerIn(from));
+            }
+            Message::InspectShown { title } => {
+                if let Some(request) = inspection_of_shown(&self.state) {
+                    let effect = self.state.inspect(title, request, Purpose::New);
+                    self.make(effect, ctx);
+                }
             }
             Message::Inspect {
                 title,

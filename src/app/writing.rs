@@ -10,8 +10,8 @@ use image::{DynamicImage, ImageFormat};
 
 use super::{
     inspect::work::Inspected,
-    job::Trouble,
     source::{Origin, file_name},
+    user_error::UserError,
     viewport::{ViewColours, ViewShot},
 };
 use crate::{
@@ -72,7 +72,7 @@ pub struct Written {
 }
 
 /// Writes it: whole, or not at all.
-pub(super) fn answer(request: &WriteRequest) -> Result<Written, Trouble> {
+pub(super) fn answer(request: &WriteRequest) -> Result<Written, UserError> {
     match request {
         WriteRequest::Report {
             folder,
@@ -91,14 +91,14 @@ pub(super) fn answer(request: &WriteRequest) -> Result<Written, Trouble> {
             convention,
         } => write_spray_path(path, inspected, robot, *convention),
         WriteRequest::Picture { path, shot } => {
-            let picture = shot.take().map_err(|error| Trouble::of(&error))?;
+            let picture = shot.take().map_err(|error| UserError::of(&error))?;
             let mut png = Cursor::new(Vec::new());
             let encoded = picture.write_to(&mut png, ImageFormat::Png);
             write_atomically(path, |writer| {
                 encoded.map_err(io::Error::other)?;
                 writer.write_all(png.get_ref())
             })
-            .map_err(|error| Trouble::of(&error))?;
+            .map_err(|error| UserError::of(&error))?;
             Ok(Written {
                 what: format!("Saved the picture {}", path.display()),
                 path: path.clone(),
@@ -113,11 +113,11 @@ fn write_spray_path(
     inspected: &Inspected,
     robot: &RobotFrame,
     convention: Convention,
-) -> Result<Written, Trouble> {
+) -> Result<Written, UserError> {
     let first = inspected.inspection.ranking.entries.first();
     let part = first.and_then(|first| inspected.library.parts.get(first.reference));
     let (Some(carried), Some(part)) = (&inspected.spray, part) else {
-        return Err(Trouble {
+        return Err(UserError {
             what: "There is no spray path over what is in front".into(),
             advice: "Store one with the part, and capture a part that is accepted".into(),
         });
@@ -133,7 +133,7 @@ fn write_spray_path(
         is_simulated: inspected.origin.is_simulated() || part.simulated,
         at: inspected.at,
     };
-    export.save(path).map_err(|error| Trouble::of(&error))?;
+    export.save(path).map_err(|error| UserError::of(&error))?;
     Ok(Written {
         what: format!(
             "Wrote {}: {} of {} points within the band, as {}",
@@ -191,8 +191,8 @@ fn write_report(
     inspected: &Inspected,
     report: &PoseReport,
     shot: Option<&ViewShot>,
-) -> Result<Written, Trouble> {
-    let trouble = |error: ReportError| Trouble::of(&error);
+) -> Result<Written, UserError> {
+    let trouble = |error: ReportError| UserError::of(&error);
     let name = scene_name(&inspected.origin);
     let scene = name.display().to_string();
     let line = InspectionLine::of(&scene, &inspected.inspection).to_json();
@@ -207,11 +207,11 @@ fn write_report(
         stages: &stages,
         title: title.map(|best| best.title.as_str()),
     };
-    let pdf = pose_pdf(report, &pictures).map_err(|error| Trouble::of(&error))?;
+    let pdf = pose_pdf(report, &pictures).map_err(|error| UserError::of(&error))?;
     let files = [("json", report.to_json().into_bytes()), ("pdf", pdf)];
     let written = out.write_pose(&name, &files).map_err(trouble)?;
     let table = out.csv(report.robot.convention);
-    let appended = append_csv(&table, report).map_err(|error| Trouble::of(&error))?;
+    let appended = append_csv(&table, report).map_err(|error| UserError::of(&error))?;
     let names: Vec<String> = [&path]
         .into_iter()
         .chain(&written)

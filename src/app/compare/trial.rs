@@ -10,12 +10,7 @@ use super::{
 };
 use crate::{
     app::{
-        inspect::work::InspectRequest,
-        shell::{
-            context::ShellContext,
-            message::{Message, Purpose},
-        },
-        source::SceneSource,
+        shell::{context::ShellContext, message::Message},
         user_error::UserError,
     },
     pipeline::Recipe,
@@ -79,14 +74,8 @@ impl CompareState {
 
 /// Has scenes inspected with this recipe, the one in front of the Inspect workspace first.
 fn inspect_with(recipe: Arc<Recipe>, cx: &mut ShellContext<'_>) {
-    cx.send(Message::UseRecipe(Arc::clone(&recipe)));
-    if let Some(shown) = &cx.session.shown {
-        let (scene, origin) = (Arc::clone(&shown.inspected.scene), &shown.inspected.origin);
-        let source = SceneSource::AtHand(scene, origin.clone());
-        cx.send(Message::Inspect {
-            title: "Inspecting with another recipe".into(),
-            request: InspectRequest { source, recipe },
-            purpose: Purpose::New,
-        });
-    }
+    cx.send(Message::UseRecipe(recipe));
+    cx.send(Message::InspectShown {
+        title: "Inspecting with another recipe",
+    });
 }

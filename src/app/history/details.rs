@@ -7,11 +7,10 @@ use egui::{Button, RichText, ScrollArea, Sense, TextureHandle, Ui, Vec2, vec2};
 use super::{HistoryAction, HistoryState, LookedAt, differences, label, list::when};
 use crate::{
     app::{
-        inspect::texture,
         shell::session::Session,
         theme::{Theme, font, space},
         unit_system::UnitSystem,
-        widgets::{Mark, fitted, heading, labelled, mark, row, shortened},
+        widgets::{Mark, fitted, heading, labelled, mark, row, shortened, texture},
     },
     history::{Detail, PastVerdict, Record, Summary},
     pipeline::Recipe,

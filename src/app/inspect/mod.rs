@@ -12,10 +12,7 @@ mod strip;
 mod view;
 pub mod work;
 
-use egui::{
-    Align2, ColorImage, Frame, Key, Margin, Modifiers, Panel, TextureHandle, TextureOptions, Ui,
-};
-use image::RgbImage;
+use egui::{Align2, Frame, Key, Margin, Modifiers, Panel, TextureHandle, Ui};
 
 pub(super) use self::{
     robot_numbers::{clipboard_text, numbered},
@@ -26,6 +23,7 @@ use self::{
     view::SceneView,
     work::Inspected,
 };
+pub(super) use super::widgets::texture;
 use super::{
     action::{Action, Ask},
     headless::WorkCounts,
@@ -194,21 +192,6 @@ impl InspectPanel {
         });
         self.view.show(shown);
     }
-}
-
-/// Uploads a picture.
-pub(in crate::app) fn texture(
-    ctx: &egui::Context,
-    name: &str,
-    image: Option<&RgbImage>,
-) -> Option<TextureHandle> {
-    let image = image?;
-    let size = [image.width() as usize, image.height() as usize];
-    let options = TextureOptions {
-        mipmap_mode: Some(egui::TextureFilter::Linear),
-        ..TextureOptions::LINEAR
-    };
-    Some(ctx.load_texture(name, ColorImage::from_rgb(size, image.as_raw()), options))
 }
 
 /// Before the first result.

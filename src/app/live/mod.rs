@@ -6,7 +6,6 @@
 mod set_up;
 pub mod state;
 mod status;
-mod tape;
 mod work;
 
 pub(super) use self::{
@@ -17,6 +16,5 @@ pub(super) use self::{
 };
 pub use self::{
     state::{LiveAction, LiveState},
-    tape::{Recorded, Tape},
     work::{FollowRequest, LiveAnswer, LiveRequest, LiveStatus, LiveTold, SourceState},
 };

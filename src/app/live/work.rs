@@ -7,11 +7,11 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::tape::Recorded;
 use crate::{
     app::{
         inspect::work::{Followed, Found, Inspected},
         job::{Answer, Outcome, Trouble},
+        recording::Recorded,
         shelf::Shelf,
         source::Captured as Taken,
         worker::Desk,
@@ -120,7 +120,7 @@ pub(in crate::app) fn answer(
     desk: &dyn Desk<Outcome>,
 ) -> Option<Outcome> {
     let LiveRequest::Follow(request) = request else {
-        shelf.tape().end();
+        shelf.recording().end();
         shelf.camera().rest();
         return Some(Ok(Answer::Live(LiveAnswer::Rests)));
     };
@@ -220,8 +220,8 @@ impl<'a> Follower<'a> {
 
     /// Records the frame before anything else is done with it, if it is to be.
     fn write(&mut self, captured: &Captured, feed: &Feed) {
-        let tape = self.shelf.tape();
-        match tape.write(self.record, captured, self.spec, &feed.status()) {
+        let recording = self.shelf.recording();
+        match recording.write(self.record, captured, self.spec, &feed.status()) {
             Ok(recorded) => self.recorded = recorded,
             Err(error) => {
                 self.record = None;

@@ -30,6 +30,11 @@ pub enum Message {
         /// What for.
         purpose: Purpose,
     },
+    /// Inspect the scene in front once more, as an inspection of its own.
+    InspectShown {
+        /// What is being done, for a person.
+        title: &'static str,
+    },
     /// Show a past inspection in the Inspect workspace.
     ShowPast(Arc<Inspected>),
     /// Ask for the engineer's view; once it is there, [`Event::EngineerIn`] answers.

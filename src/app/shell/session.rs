@@ -2,6 +2,7 @@
 
 use std::{path::PathBuf, sync::Arc};
 
+pub use crate::app::theme::ThemeChoice;
 use crate::{
     app::{
         inspect::work::Inspected, shelf::LibraryShown, source::CellChoice, unit_system::UnitSystem,
@@ -108,36 +109,6 @@ impl WorkspaceKind {
             Self::Compare => "Compare",
             Self::Align => "Align",
             Self::History => "History",
-        }
-    }
-}
-
-/// Colours.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum ThemeChoice {
-    /// Light on dark.
-    #[default]
-    Dark,
-    /// Dark on light.
-    Light,
-}
-
-impl ThemeChoice {
-    /// What a person calls it.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::Dark => "Dark",
-            Self::Light => "Light",
-        }
-    }
-
-    /// The other one.
-    #[must_use]
-    pub fn other(self) -> Self {
-        match self {
-            Self::Dark => Self::Light,
-            Self::Light => Self::Dark,
         }
     }
 }

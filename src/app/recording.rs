@@ -1,4 +1,4 @@
-//! The recording that is being made, shared by the requests that follow one source after another.
+//! The recording in progress: it goes on while one source is followed after another.
 
 use std::{
     path::{Path, PathBuf},
@@ -9,12 +9,12 @@ use jiff::{Timestamp, tz::TimeZone};
 
 use crate::capture::{CaptureError, Captured, FeedStatus, Recorder, SourceSpec};
 
-/// A handle to it; clones share it.
+/// The recording in progress, if any; clones share it.
 #[derive(Clone, Debug, Default)]
-pub struct Tape(Arc<Mutex<Option<Recording>>>);
+pub struct SharedRecording(Arc<Mutex<Option<Open>>>);
 
 #[derive(Debug)]
-struct Recording {
+struct Open {
     /// The folder that a person chose; the recording is one in it.
     parent: PathBuf,
     recorder: Recorder,
@@ -31,7 +31,7 @@ pub struct Recorded {
     pub num_bytes: u64,
 }
 
-impl Tape {
+impl SharedRecording {
     /// Writes the frame into a recording in `parent`, which begins with it unless it is there; ends it without.
     pub(super) fn write(
         &self,
@@ -53,12 +53,12 @@ impl Tape {
             let folder = parent.join(name());
             let recorder =
                 Recorder::create(&folder, &title, &spec.to_string(), captured.is_simulated)?;
-            *recording = Some(Recording {
+            *recording = Some(Open {
                 parent: parent.to_owned(),
                 recorder,
             });
         }
-        let Some(Recording { recorder, .. }) = &mut *recording else {
+        let Some(Open { recorder, .. }) = &mut *recording else {
             return Ok(None);
         };
         let written = recorder.write(captured);
@@ -79,7 +79,7 @@ impl Tape {
         *self.lock() = None;
     }
 
-    fn lock(&self) -> MutexGuard<'_, Option<Recording>> {
+    fn lock(&self) -> MutexGuard<'_, Option<Open>> {
         // What it holds is only ever replaced whole.
         self.0.lock().unwrap_or_else(PoisonError::into_inner)
     }
