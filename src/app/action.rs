@@ -15,6 +15,7 @@ use super::{
     live::{self, LiveAction},
     robot::{self, RobotAction},
     roles::{self, RoleAction},
+    shots::{self, ScanFiles, ShotsAction},
     source::{CellChoice, SceneSource, file_name},
     state::{
         Event, HelpPage, Notice, NoticeKind, Purpose, Shown, Source, StagePanel, State, Workspace,
@@ -42,7 +43,7 @@ pub enum Action {
     Ask(Ask),
     /// A person chose it.
     Chosen(Ask, PathBuf),
-    /// Open this file and inspect it.
+    /// Open this file, or the scan in this folder, and inspect or enrol it.
     Open(PathBuf),
     /// Use the library that is found without choosing one.
     UseFoundLibrary,
@@ -78,6 +79,8 @@ pub enum Action {
     Live(LiveAction),
     /// Of whose window it is.
     Role(RoleAction),
+    /// Of the shots of a scan.
+    Shots(ShotsAction),
     /// Of the Inspect workspace.
     Inspect(InspectAction),
     /// Of the Enrol workspace.
@@ -101,6 +104,12 @@ pub enum Action {
 pub enum Ask {
     /// A captured scene to open.
     Scene,
+    /// The folder of a scan to open.
+    Scan,
+    /// The file of the poses of a scan.
+    ScanPoses,
+    /// A frame to add to the scan in front.
+    Shot,
     /// The folder of a recording to play.
     Recording,
     /// A folder to watch for captures.
@@ -178,6 +187,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         }
         Action::Ask(ask) => return Some(Effect::ShowDialog(ask)),
         Action::Chosen(ask, path) => return chosen(state, ask, path),
+        Action::Open(path) if path.is_dir() => return chosen(state, Ask::Scan, path),
         Action::Open(path) => return chosen(state, Ask::Scene, path),
         Action::UseFoundLibrary => {
             state.chosen_library = None;
@@ -234,6 +244,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         }
         Action::Role(action) => return roles::apply(state, action),
         Action::Live(action) => return live::apply(state, action),
+        Action::Shots(action) => return shots::apply(state, action),
         Action::Inspect(action) => return inspect::state::apply(state, action),
         Action::Enrol(action) => return enrol::apply(state, action),
         Action::Press(workspace, place) => return Some(Effect::Press(workspace, place)),
@@ -253,6 +264,12 @@ fn chosen(state: &mut State, ask: Ask, path: PathBuf) -> Option<Effect> {
             state.source = Source::File(path);
             Some(capture(state))
         }
+        Ask::Scan => {
+            let files = ScanFiles::of_folder(path);
+            shots::apply(state, ShotsAction::Open(files))
+        }
+        Ask::ScanPoses => shots::apply(state, ShotsAction::Poses(path)),
+        Ask::Shot => shots::apply(state, ShotsAction::Add(path)),
         Ask::Recording => {
             let spec = SourceSpec::Recording(RecordingSpec {
                 folder: path,
@@ -301,6 +318,10 @@ pub(super) fn capture(state: &mut State) -> Effect {
             SceneSource::File(path.clone()),
             format!("Opening {}", file_name(path)),
         ),
+        Source::Scan(files) => {
+            let files = files.clone();
+            return shots::open(state, files);
+        }
         Source::Camera(spec) => {
             let what = match **spec {
                 SourceSpec::Watched(_) => "Waiting for a new file".to_owned(),
@@ -392,12 +413,9 @@ pub(super) fn inspect_again(state: &mut State) -> Option<Effect> {
 }
 
 /// The scene in front, to be inspected with what holds now.
-pub(super) fn inspection_of_shown(state: &State) -> Option<InspectRequest> {
-    let shown = &state.shown.as_ref()?.inspected;
-    Some(InspectRequest {
-        source: SceneSource::AtHand(Arc::clone(&shown.scene), shown.origin.clone()),
-        recipe: Arc::clone(&state.recipe),
-    })
+pub(super) fn inspection_of_shown(state: &State) -> Option<Request> {
+    let shown = state.shown.as_ref()?;
+    Some(shots::inspection_again(state, &shown.inspected))
 }
 
 /// Shows a past inspection that is still in memory.

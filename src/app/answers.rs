@@ -13,6 +13,7 @@ use super::{
     lane::Lane,
     live, robot,
     shelf::LibraryShown,
+    shots,
     source::Origin,
     state::{Event, Notice, NoticeKind, Purpose, Shown, Source, State},
     worker::News,
@@ -48,8 +49,11 @@ pub(super) fn hear(state: &mut State, lane: Lane, news: News<Outcome>) -> Option
 fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> Option<Effect> {
     match outcome {
         Ok(Answer::Inspected(inspected)) => return show(state, generation, inspected),
+        Ok(Answer::PosesWanted(order, trouble)) => {
+            return Some(shots::ask_for_poses(state, lane, *order, trouble));
+        }
         Ok(Answer::Live(answer)) => return live::hear(state, Ok(answer)),
-        Ok(Answer::Enrol(answer)) => return enrol::hear(state, Ok(answer)),
+        Ok(Answer::Enrol(answer)) => return enrol::hear(state, generation, Ok(answer)),
         Ok(Answer::Library(library)) => {
             use_library(state, &library);
             return inspect_again(state);
@@ -60,7 +64,7 @@ fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> 
         Err(trouble) => {
             notify(state, trouble.clone().into());
             match lane {
-                Lane::Enrol | Lane::Library => return enrol::hear(state, Err(trouble)),
+                Lane::Enrol | Lane::Library => return enrol::hear(state, generation, Err(trouble)),
                 Lane::Inspect => without_scene(state),
                 Lane::Live => return live::hear(state, Err(trouble)),
                 Lane::Write | Lane::Robot => {}
@@ -83,9 +87,17 @@ fn show(state: &mut State, generation: u64, inspected: Arc<Inspected>) -> Option
         notify(state, Trouble::of(warning).into());
     }
     use_library(state, &inspected.library);
+    let scan = inspected.scan.as_ref();
     if let Origin::File { path, .. } = &inspected.origin {
         remember(&mut state.recent, path);
+    } else if let Some(folder) = scan.and_then(|scan| scan.fused.choice.set.files.folder()) {
+        remember(&mut state.recent, folder);
     }
+    for warning in scan.map_or(&[][..], |scan| &scan.fused.warnings) {
+        notify(state, warning.clone().into());
+    }
+    let former = state.shown.as_ref();
+    let former = former.and_then(|shown| Some(shown.inspected.scan.as_ref()?.fused.choice.clone()));
     let (of, purpose) = state.purpose;
     let purpose = if of == generation {
         purpose
@@ -99,6 +111,7 @@ fn show(state: &mut State, generation: u64, inspected: Arc<Inspected>) -> Option
         is_past: purpose == Purpose::Past,
         session: None,
     });
+    shots::settle(state, Lane::Inspect, generation, former);
     Some(Effect::Tell(Event::Inspected { inspected, purpose }))
 }
 

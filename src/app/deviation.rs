@@ -14,7 +14,23 @@ pub(super) fn deviations(
     inspection: &Inspection,
     reference: &Reference,
 ) -> Vec<f32> {
-    let (Some(Ok(pose)), Ok(part)) = (&inspection.pose, &inspection.segmentation.part) else {
+    let Ok(part) = &inspection.segmentation.part else {
+        return Vec::new();
+    };
+    let points = &scene.cloud.points;
+    let part = part.indices.iter().map(|index| *index as usize);
+    let of_part = part.map(|index| (index, points[index]));
+    deviations_at(points.len(), of_part, inspection, reference)
+}
+
+/// The same of any points in camera space: one deviation for each of so many, NaN for those that are not of the part.
+pub(super) fn deviations_at(
+    num_points: usize,
+    part: impl Iterator<Item = (usize, Point3<f32>)>,
+    inspection: &Inspection,
+    reference: &Reference,
+) -> Vec<f32> {
+    let Some(Ok(pose)) = &inspection.pose else {
         return Vec::new();
     };
     let Some(normals) = &reference.cloud.normals else {
@@ -28,10 +44,9 @@ pub(super) fn deviations(
         let surface = reference.cloud.points.get(nearest.index)?;
         Some((point - surface).dot(normals.get(nearest.index)?))
     };
-    let mut all = vec![f32::NAN; scene.cloud.points.len()];
-    for index in &part.indices {
-        let index = *index as usize;
-        all[index] = deviation(&scene.cloud.points[index]).unwrap_or(f32::NAN);
+    let mut all = vec![f32::NAN; num_points];
+    for (index, point) in part {
+        all[index] = deviation(&point).unwrap_or(f32::NAN);
     }
     all
 }

@@ -9,6 +9,12 @@ use super::{
 pub(super) fn request(ask: Ask) -> FileRequest {
     let (title, choice): (_, FileChoice) = match ask {
         Ask::Scene => ("Open a captured scene", FileChoice::File),
+        Ask::Scan => (
+            "Folder of a scan: its frames and their poses",
+            FileChoice::Folder,
+        ),
+        Ask::ScanPoses => ("File of the poses of the shots", FileChoice::File),
+        Ask::Shot => ("Add a frame to the scan", FileChoice::File),
         Ask::ReportFolder => (
             "Folder for the report of this inspection",
             FileChoice::FolderToWrite,
@@ -46,14 +52,19 @@ fn filters(ask: Ask) -> &'static [(&'static str, &'static [&'static str])] {
             ),
             ALL_FILES,
         ],
+        Ask::ScanPoses => &[("Poses", &["json"]), ALL_FILES],
+        Ask::Shot => &[("Captured scenes", &["png", "pcd", "ply"]), ALL_FILES],
         Ask::Picture => &[("Pictures", &["png"])],
         Ask::Part => &[POINTS, ALL_FILES],
         Ask::Calibration => &[("Calibrations", &["toml"]), ALL_FILES],
         Ask::SprayPath => &[("Comma-separated values", &["csv"]), ("JSON", &["json"])],
         Ask::PartPath => &[("Tables", &["csv", "txt"]), ALL_FILES],
         Ask::Pairs => &[("Tables and JSON", &["csv", "txt", "json"]), ALL_FILES],
-        Ask::ReportFolder | Ask::Library | Ask::Recording | Ask::RecordTo | Ask::WatchedFolder => {
-            &[]
-        }
+        Ask::Scan
+        | Ask::ReportFolder
+        | Ask::Library
+        | Ask::Recording
+        | Ask::RecordTo
+        | Ask::WatchedFolder => &[],
     }
 }

@@ -6,11 +6,12 @@ use std::{path::PathBuf, sync::Arc};
 pub use super::user_error::UserError as Trouble;
 use super::{
     enrol::{EnrolAnswer, EnrolRequest},
-    inspect::work::{InspectRequest, Inspected, inspect},
+    inspect::work::{InspectRequest, Inspected, inspect, inspect_scan},
     lane::Lane,
     live::{LiveAnswer, LiveRequest},
     robot::{RobotAnswer, RobotRequest},
     shelf::{LibraryShown, Shelf},
+    shots::{ScanOrder, ScanRequest},
     worker::Desk,
     writing::{WriteRequest, Written},
 };
@@ -20,6 +21,8 @@ use super::{
 pub enum Request {
     /// Get a scene and inspect it.
     Inspect(InspectRequest),
+    /// Put the shots of a scan together and inspect them.
+    InspectScan(ScanRequest),
     /// Follow a camera, or let it rest.
     Live(LiveRequest),
     /// Use another library: the one of this folder, else the one that is found without.
@@ -36,7 +39,7 @@ impl Request {
     /// Whose work it is.
     pub fn lane(&self) -> Lane {
         match self {
-            Self::Inspect(_) | Self::Library(_) => Lane::Inspect,
+            Self::Inspect(_) | Self::InspectScan(_) | Self::Library(_) => Lane::Inspect,
             Self::Live(_) => Lane::Live,
             Self::Enrol(request) => request.lane(),
             Self::Robot(_) => Lane::Robot,
@@ -50,6 +53,8 @@ impl Request {
 pub enum Answer {
     /// A scene with everything that was found in it.
     Inspected(Arc<Inspected>),
+    /// The poses of these shots were not found: a person has to name their file.
+    PosesWanted(Box<ScanOrder>, Trouble),
     /// How following a camera stands.
     Live(LiveAnswer),
     /// The library that is in use now.
@@ -72,6 +77,7 @@ pub fn answer(request: Request, shelf: &Shelf, desk: &dyn Desk<Outcome>) -> Opti
             Ok(inspected) => inspected.map(|found| Ok(Answer::Inspected(Arc::new(found)))),
             Err(error) => Some(Err(Trouble::of(&error))),
         },
+        Request::InspectScan(request) => inspect_scan(&request, shelf, desk),
         Request::Live(request) => super::live::answer(&request, shelf, desk),
         Request::Library(given) => Some(match shelf.choose(given) {
             Ok(shelved) => Ok(Answer::Library(Arc::clone(&shelved.shown))),

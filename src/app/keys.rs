@@ -20,7 +20,7 @@ use super::{
 pub(in crate::app) type Shortcut = key_binding::Shortcut<Action>;
 
 /// The shortcuts of the whole window.
-const SHORTCUTS: [Shortcut; 12] = [
+const SHORTCUTS: [Shortcut; 13] = [
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::Space,
@@ -41,6 +41,14 @@ const SHORTCUTS: [Shortcut; 12] = [
         keys: "Ctrl L",
         does: "Record the source, or stop",
         action: || Action::Live(LiveAction::ToggleRecording),
+    },
+    // Before Ctrl O, which would take it too.
+    Shortcut {
+        modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
+        key: Key::O,
+        keys: "Ctrl Shift O",
+        does: "Open a scan: several shots with their poses",
+        action: || Action::Ask(Ask::Scan),
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,

@@ -35,6 +35,7 @@ pub mod roles;
 pub mod settings;
 pub mod shelf;
 pub mod shell;
+pub mod shots;
 pub mod source;
 mod source_menu;
 mod start;

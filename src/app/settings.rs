@@ -13,6 +13,7 @@ use super::{
     live::LiveState,
     robot::{RememberedCell, RobotState},
     roles::{LOCK_AFTER, Pin, RoleState, is_operators},
+    shots::ScanFiles,
     source::CellChoice,
     state::{Session, Source, State, ThemeChoice, Workspace},
     unit_system::UnitSystem,
@@ -69,6 +70,8 @@ pub enum RememberedSource {
     Cell(CellChoice),
     /// A file.
     File(PathBuf),
+    /// The shots of a scan.
+    Scan(ScanFiles),
     /// A camera, a recording, a watched folder, or the simulated cell as somebody has set it up.
     Camera(SourceSpec),
 }
@@ -115,6 +118,7 @@ impl Settings {
             source: match &state.source {
                 Source::Cell(choice) => RememberedSource::Cell(*choice),
                 Source::File(path) => RememberedSource::File(path.clone()),
+                Source::Scan(files) => RememberedSource::Scan(files.clone()),
                 Source::Camera(spec) => RememberedSource::Camera((**spec).clone()),
             },
             recipe: (*state.recipe != Recipe::default()).then(|| (*state.recipe).clone()),
@@ -130,6 +134,7 @@ impl Settings {
         let has_source = match (&self.source, &state.source) {
             (RememberedSource::Cell(a), Source::Cell(b)) => a == b,
             (RememberedSource::File(a), Source::File(b)) => a == b,
+            (RememberedSource::Scan(a), Source::Scan(b)) => a == b,
             (RememberedSource::Camera(a), Source::Camera(b)) => *a == **b,
             _ => false,
         };
@@ -168,6 +173,7 @@ impl Settings {
             source: match self.source {
                 RememberedSource::Cell(choice) => Source::Cell(choice),
                 RememberedSource::File(path) => Source::File(path),
+                RememberedSource::Scan(files) => Source::Scan(files),
                 RememberedSource::Camera(spec) => Source::Camera(Box::new(spec)),
             },
             recipe: Arc::new(self.recipe.unwrap_or_default()),
@@ -319,7 +325,16 @@ mod tests {
     fn what_is_saved_comes_back() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("new").join("settings.toml");
-        for settings in [Settings::default(), unusual()] {
+        let scan = Settings {
+            source: RememberedSource::Scan(ScanFiles {
+                frames: vec!["a b".into()],
+                poses: Some("truth.json".into()),
+                added: vec![("c.png".into(), "c.json".into())],
+                dropped: ["d.png".into()].into(),
+            }),
+            ..Settings::default()
+        };
+        for settings in [Settings::default(), unusual(), scan] {
             save(&path, &settings).expect("saved");
             assert_eq!(load(&path), (settings.clone(), None));
             let state = settings.clone().into_state();

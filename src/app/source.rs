@@ -126,6 +126,13 @@ pub enum Origin {
         /// True if the file says that no camera was read.
         is_simulated: bool,
     },
+    /// The shots of a scan together.
+    Scan {
+        /// What a person calls it.
+        name: String,
+        /// True if no camera was read.
+        is_simulated: bool,
+    },
     /// A frame of a camera, a recording or a watched folder.
     Frame {
         /// What a person calls it.
@@ -149,6 +156,11 @@ impl Origin {
                 name,
                 is_simulated: true,
             } if !name.contains("simulated") => format!("{}, simulated", sentence(name)),
+            Self::Scan {
+                name,
+                is_simulated: true,
+            } => format!("{name}, simulated"),
+            Self::Scan { name, .. } => name.clone(),
             Self::Frame { name, .. } => sentence(name),
         }
     }
@@ -157,7 +169,9 @@ impl Origin {
     pub fn is_simulated(&self) -> bool {
         match self {
             Self::Simulated { .. } => true,
-            Self::File { is_simulated, .. } | Self::Frame { is_simulated, .. } => *is_simulated,
+            Self::File { is_simulated, .. }
+            | Self::Scan { is_simulated, .. }
+            | Self::Frame { is_simulated, .. } => *is_simulated,
         }
     }
 }
@@ -172,7 +186,7 @@ impl Origin {
                 number: *number,
             },
             Self::File { path, .. } => SceneSource::File(path.clone()),
-            Self::Frame { .. } => return None,
+            Self::Scan { .. } | Self::Frame { .. } => return None,
         })
     }
 }

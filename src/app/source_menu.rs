@@ -59,6 +59,7 @@ fn now(source: &Source) -> String {
         Source::Cell(CellChoice::InTurn) => "Simulated cell".to_owned(),
         Source::Cell(choice) => format!("Simulated · {}", choice.title()),
         Source::File(path) => shortened(&file_name(path), 24),
+        Source::Scan(files) => format!("Scan {}", shortened(&files.title(), 22)),
         Source::Camera(spec) => match &**spec {
             SourceSpec::Simulated(_) => "Simulated cell, set up".to_owned(),
             SourceSpec::Recording(spec) => {
@@ -84,7 +85,7 @@ fn simulated(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
             _ => (false, SimulatedSpec::default()),
         },
         Source::Cell(choice) => (false, choice.followed()),
-        Source::File(_) => (false, SimulatedSpec::default()),
+        Source::File(_) | Source::Scan(_) => (false, SimulatedSpec::default()),
     };
     if ui.selectable_label(is_set_up, "Set up the cell…").clicked() {
         actions.push(Action::Live(LiveAction::SetUp(Some(spec))));
@@ -102,7 +103,7 @@ fn simulated(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
 fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     let camera = match &state.source {
         Source::Camera(spec) => Some(&**spec),
-        Source::Cell(_) | Source::File(_) => None,
+        Source::Cell(_) | Source::File(_) | Source::Scan(_) => None,
     };
     heading(ui, "Cameras and folders");
     let is_kinect = matches!(camera, Some(SourceSpec::Kinect(_)));
@@ -127,6 +128,12 @@ fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
             Ask::WatchedFolder,
         ),
         (false, "Open a file…", "A single capture", Ask::Scene),
+        (
+            matches!(state.source, Source::Scan(_)),
+            "Open a scan…",
+            "A folder with several shots of one part, each with the pose of its camera (Ctrl Shift O)",
+            Ask::Scan,
+        ),
     ] {
         if ui
             .selectable_label(is_chosen, text)
@@ -159,7 +166,11 @@ fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
         heading(ui, "Recent files");
     }
     for path in &state.recent {
-        let is_chosen = matches!(&state.source, Source::File(file) if file == path);
+        let is_chosen = match &state.source {
+            Source::File(file) => file == path,
+            Source::Scan(files) => files.folder() == Some(path),
+            Source::Cell(_) | Source::Camera(_) => false,
+        };
         let name = shortened(&file_name(path), 28);
         let entry = ui.selectable_label(is_chosen, name);
         if entry.on_hover_text(path.display().to_string()).clicked() {

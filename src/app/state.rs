@@ -13,7 +13,7 @@ pub use super::shell::{
 use super::{
     action::Effect,
     enrol::EnrolState,
-    inspect::{state::InspectState, work::InspectRequest},
+    inspect::state::InspectState,
     job::Request,
     lane::Lane,
     live::{self, LiveState},
@@ -91,7 +91,8 @@ impl State {
     pub(super) fn begin(&mut self, what: impl Into<String>, request: Request) -> Effect {
         let lane = request.lane();
         // First: this request's generation is the newest behind this.
-        let stop = matches!(request, Request::Inspect(_)).then(|| live::give_way(self));
+        let stop = matches!(request, Request::Inspect(_) | Request::InspectScan(_))
+            .then(|| live::give_way(self));
         self.generation += 1;
         let work = Work {
             generation: self.generation,
@@ -112,14 +113,14 @@ impl State {
 }
 
 impl State {
-    /// Has a scene inspected for this.
+    /// Has a scene or a scan inspected for this.
     pub(super) fn inspect(
         &mut self,
         what: impl Into<String>,
-        request: InspectRequest,
+        request: Request,
         purpose: Purpose,
     ) -> Effect {
-        let effect = self.begin(what, Request::Inspect(request));
+        let effect = self.begin(what, request);
         self.purpose = (self.generation, purpose);
         effect
     }

@@ -37,14 +37,17 @@ use super::{
     viewport::{ViewError, ViewportGpu},
     worker::Worker,
 };
-use crate::history::{Keeper, Writer};
+use crate::{
+    history::{Keeper, Writer},
+    robot::frame_poses::FRAME_POSES,
+};
 
 /// What the window is opened with.
 #[derive(Clone, Debug, Default)]
 pub struct WindowOptions {
     /// The library's folder; without it the one chosen last, else the one found as on the command line.
     pub library: Option<PathBuf>,
-    /// The captured scene that is opened first; without it Capture takes one from the source.
+    /// The captured scene, or the folder of a scan, that is opened first; without it Capture takes one from the source.
     pub scene: Option<PathBuf>,
     /// Where the settings are kept; without it nothing is remembered.
     pub settings: Option<PathBuf>,
@@ -277,6 +280,7 @@ impl Window {
                 request,
                 purpose,
             } => {
+                let request = Request::Inspect(request);
                 let effect = self.state.inspect(title, request, purpose);
                 self.make(effect, ctx);
             }
@@ -338,7 +342,12 @@ impl Window {
     /// A source that is not there any more gives way to the simulated cell.
     fn forget_a_vanished_file(&mut self) {
         let session = &mut self.state.session;
-        if let Source::File(path) = &session.source
+        let path = match &session.source {
+            Source::File(path) => Some(path),
+            Source::Scan(files) => files.frames.first(),
+            Source::Cell(_) | Source::Camera(_) => None,
+        };
+        if let Some(path) = path
             && !path.exists()
         {
             let gone = Trouble {
@@ -358,15 +367,22 @@ impl Window {
         }
     }
 
-    /// Files dropped onto the window: the first is opened; a folder is played as a recording.
+    /// Files dropped onto the window: the first is opened; a folder is a scan if poses lie in it, else it is played as a
+    /// recording.
     fn take_drops(&mut self, ctx: &egui::Context) {
         let dropped = ctx.input(|input| {
             let first = input.raw.dropped_files.first();
             first.map(|file| file.path().to_owned())
         });
         if let Some(path) = dropped {
-            let opened = if path.is_dir() {
+            let is_scan = path.join(FRAME_POSES).is_file();
+            let is_json = path
+                .extension()
+                .is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
+            let opened = if path.is_dir() && !is_scan {
                 Action::Chosen(Ask::Recording, path)
+            } else if is_json && self.state.wants_poses() {
+                Action::Chosen(Ask::ScanPoses, path)
             } else {
                 Action::Open(path)
             };

@@ -155,14 +155,14 @@ fn report_of(
     let seen_by = match &inspected.origin {
         origin if origin.is_simulated() => SeenBy::Simulation,
         Origin::File { .. } => SeenBy::NotKnown,
-        Origin::Simulated { .. } | Origin::Frame { .. } => SeenBy::Camera,
+        Origin::Simulated { .. } | Origin::Scan { .. } | Origin::Frame { .. } => SeenBy::Camera,
     };
     PoseReport::of(&ReportSubject {
         inspected_at: inspected.at,
         scene: &scene_name(&inspected.origin).display().to_string(),
         source: match inspected.origin {
             Origin::Simulated { .. } => Some("the window's simulated cell"),
-            Origin::File { .. } | Origin::Frame { .. } => None,
+            Origin::File { .. } | Origin::Scan { .. } | Origin::Frame { .. } => None,
         },
         seen_by,
         inspection: &inspected.inspection,
@@ -181,7 +181,7 @@ fn scene_name(origin: &Origin) -> PathBuf {
     match origin {
         Origin::File { path, .. } => path.clone(),
         Origin::Simulated { number, .. } => format!("simulated_{number}").into(),
-        Origin::Frame { name, .. } => name.replace(' ', "_").into(),
+        Origin::Scan { name, .. } | Origin::Frame { name, .. } => name.replace(' ', "_").into(),
     }
 }
 

@@ -25,6 +25,7 @@ pub use self::feed::{Delivery, Feed, FeedItem, FeedState, FeedStatus};
 pub use self::kinect::{KinectError, KinectWarning};
 pub use self::open::{Listed, list, open};
 pub use self::rate::FrameRate;
+pub(crate) use self::read::read_image;
 pub use self::recording::{Recorder, Replay};
 pub use self::simulated::SimulatedCell;
 pub use self::source::{Captured, DepthSource, Image, Next, Skipped};

@@ -34,7 +34,7 @@ pub(super) fn file_name(path: &Path) -> String {
 }
 
 /// Reads what a camera saw. A file without a single reading is an image without points: the camera was covered.
-pub(super) fn read_image(path: &Path) -> Result<(Image, Vec<CaptureWarning>), CaptureError> {
+pub(crate) fn read_image(path: &Path) -> Result<(Image, Vec<CaptureWarning>), CaptureError> {
     image_of(files::open(path), path)
 }
 

@@ -64,7 +64,7 @@ pub struct Cli {
     // Named apart from the commands' own: that one is global to them, and would come up here.
     #[arg(id = "bare_library", long = "library", value_name = "DIR")]
     library: Option<PathBuf>,
-    /// Without a command: open this captured scene in the window
+    /// Without a command: open this captured scene, or the scan in this folder, in the window
     #[arg(long, value_name = "FILE")]
     open: Option<PathBuf>,
 }
@@ -148,6 +148,15 @@ pub fn run(cli: Cli) -> Outcome {
     }
 }
 
+/// What to do with a scene, or with the folder of a scan, where there is no window.
+fn in_the_terminal(path: &Path) -> String {
+    let option = if path.is_dir() { "--scan " } else { "" };
+    format!(
+        "Inspect it in the terminal: partsight inspect {option}{}",
+        path.display()
+    )
+}
+
 /// This build has no window: takes the first look in the terminal instead.
 #[cfg(not(feature = "window"))]
 fn window(
@@ -158,10 +167,7 @@ fn window(
     match scene {
         Some(file) => Err(advised_error(
             "this build has no window",
-            format!(
-                "Inspect the file in the terminal: partsight inspect {}",
-                file.display()
-            ),
+            in_the_terminal(&file),
         )),
         None => first_look::run(library, console),
     }
@@ -186,13 +192,10 @@ fn window(
     };
     match (app::run(options), opened) {
         (Ok(()), _) => Ok(Outcome::Accepted),
-        (Err(error), Some(file)) => {
-            let file = file.display();
-            Err(advised_error(
-                format!("no window to open {file} in: {error}"),
-                format!("Inspect it in the terminal: partsight inspect {file}"),
-            ))
-        }
+        (Err(error), Some(file)) => Err(advised_error(
+            format!("no window to open {} in: {error}", file.display()),
+            in_the_terminal(&file),
+        )),
         (Err(error), None) => {
             console.warn(&format_args!("no window: {error}"), &error);
             first_look::run(library, console)

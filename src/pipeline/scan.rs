@@ -5,7 +5,7 @@
 //! missing if a frame looks through it and none sees it, hidden or outside only if it is so for all. The score and the
 //! verdict follow from this evidence as those of a single frame.
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
@@ -102,9 +102,15 @@ pub fn run_scan(
             }
         }
     }
-    let pose = entries.first().map(|best| {
-        let pose = best.pose.clone();
-        pose.ok_or(PoseError::NoReferenceCloud)
+    let pose = entries.first().and_then(|best| {
+        let reference = library.references.get(best.reference);
+        let is_flat = reference.is_none_or(|reference| reference.cloud.points.is_empty());
+        match &best.pose {
+            Some(pose) => Some(Ok(pose.clone())),
+            None if is_flat => Some(Err(PoseError::NoReferenceCloud)),
+            // Its score was too low for a pose to be looked for, or no frame found one.
+            None => None,
+        }
     });
     inspection.ranking = ConfirmedRanking { entries };
     inspection.verdict = verdict(&inspection.ranking, pose.as_ref(), recipe);
@@ -257,6 +263,64 @@ struct Sights {
     outside: f64,
 }
 
+/// The shots that were used, each with the pose of the part before its camera.
+fn shots_of<'a>(
+    scan: &'a Scan,
+    base_from_part: &RigidTransform,
+) -> Vec<(&'a ScannedShot, RigidTransform)> {
+    let used = scan.used();
+    used.map(|(_, shot)| (shot, shot.base_from_camera.inverse() * base_from_part))
+        .collect()
+}
+
+/// What all shots together see where a point of a reference should be; `None` where it faces away from all cameras.
+fn seen_together(
+    shots: &[(&ScannedShot, RigidTransform)],
+    point: &Point3<f32>,
+    normal: &Vector3<f32>,
+    tolerance: Metres,
+) -> Option<Look> {
+    // What says more about the point comes first.
+    let rank = |look: &Look| match look {
+        Look::Here(_) => 0,
+        Look::Through => 1,
+        Look::NoReading => 2,
+        Look::Hidden => 3,
+        Look::Outside => 4,
+    };
+    let looks = shots.iter().filter_map(|(shot, camera_from_part)| {
+        let at = camera_from_part * point.cast::<f64>();
+        let normal = camera_from_part.rotation * normal.cast::<f64>();
+        if -normal.dot(&at.coords) < LEAST_FACING * at.coords.norm() {
+            return None;
+        }
+        let noise = 3.0 * shot.surface.noise_at_1m.0 * at.z * at.z;
+        Some(look(&shot.surface, &at, &normal, tolerance.0 + noise))
+    });
+    looks.min_by_key(rank)
+}
+
+/// The places of the points of a reference at its pose that no shot shows: hidden, outside every picture, without a
+/// reading, or facing away from all cameras.
+pub fn unseen_points(
+    scan: &Scan,
+    reference: &Reference,
+    base_from_part: &RigidTransform,
+    tolerance: Metres,
+) -> Vec<usize> {
+    let shots = shots_of(scan, base_from_part);
+    let cloud = &reference.cloud;
+    let normals = cloud.normals.as_deref().unwrap_or_default();
+    let is_unseen = |(point, normal): (&Point3<f32>, &Vector3<f32>)| {
+        let seen = seen_together(&shots, point, normal, tolerance);
+        !matches!(seen, Some(Look::Here(_) | Look::Through))
+    };
+    let all = cloud.points.iter().zip(normals).enumerate();
+    all.filter(|(_, both)| is_unseen(*both))
+        .map(|(place, _)| place)
+        .collect()
+}
+
 /// The evidence of all frames for a reference at its pose; what only a single frame can tell is that of the frame that it
 /// fits best.
 fn evidence(
@@ -266,46 +330,20 @@ fn evidence(
     (of_frame, tolerance): (&Evidence, Metres),
 ) -> (Evidence, Option<Sight>) {
     let base_from_part = fit.estimate.camera_from_part();
-    let shots: Vec<(&ScannedShot, RigidTransform)> = scan
-        .used()
-        .map(|(_, shot)| (shot, shot.base_from_camera.inverse() * base_from_part))
-        .collect();
+    let shots = shots_of(scan, &base_from_part);
     let cloud = &reference.cloud;
     let normals = cloud.normals.as_deref().unwrap_or_default();
     let step = (cloud.points.len() / NUM_LOOKED_FOR).max(1);
     let mut sights = Sights::default();
     for (point, normal) in cloud.points.iter().zip(normals).step_by(step) {
-        let (mut is_through, mut is_hidden, mut is_unknown, mut is_outside) =
-            (false, false, false, false);
-        let mut is_here = false;
-        for (shot, camera_from_part) in &shots {
-            let at = camera_from_part * point.cast::<f64>();
-            let normal = camera_from_part.rotation * normal.cast::<f64>();
-            if -normal.dot(&at.coords) < LEAST_FACING * at.coords.norm() {
-                continue;
-            }
-            let noise = 3.0 * shot.surface.noise_at_1m.0 * at.z * at.z;
-            match look(&shot.surface, &at, &normal, tolerance.0 + noise) {
-                Look::Here(_) => is_here = true,
-                Look::Through => is_through = true,
-                Look::Hidden => is_hidden = true,
-                Look::NoReading => is_unknown = true,
-                Look::Outside => is_outside = true,
-            }
-        }
-        let count = if is_here {
-            &mut sights.confirmed
-        } else if is_through {
-            &mut sights.missing
-        } else if is_unknown {
-            &mut sights.unknown
-        } else if is_hidden {
-            &mut sights.hidden
-        } else if is_outside {
-            &mut sights.outside
-        } else {
+        let count = match seen_together(&shots, point, normal, tolerance) {
+            Some(Look::Here(_)) => &mut sights.confirmed,
+            Some(Look::Through) => &mut sights.missing,
+            Some(Look::NoReading) => &mut sights.unknown,
+            Some(Look::Hidden) => &mut sights.hidden,
+            Some(Look::Outside) => &mut sights.outside,
             // It faces away from all cameras.
-            continue;
+            None => continue,
         };
         *count += 1.0;
     }

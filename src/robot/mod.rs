@@ -25,6 +25,7 @@ pub mod hand_eye;
 pub mod pairs;
 pub mod part_target;
 mod robot_pose;
+pub mod scan_frames;
 pub mod spray;
 mod written;
 

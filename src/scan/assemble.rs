@@ -131,6 +131,7 @@ impl ScannedShot {
             },
             before: None,
             after: None,
+            after_on_part: None,
             num_new: 0,
             excluded: None,
         }
@@ -197,10 +198,10 @@ fn agreement(
     let is_part = |point: &Point3<f64>| part.holds(point);
     let before = overlap(&surfaces, &given, is_part, num_workers);
     let after = overlap(&surfaces, &refined, is_part, num_workers);
-    let each = before.shots.iter().zip(&after.shots);
-    for (shot, (before, after)) in used.iter_mut().zip(each) {
-        shot.before = *before;
-        shot.after = *after;
+    for (i, shot) in used.iter_mut().enumerate() {
+        shot.before = before.shots[i];
+        shot.after = after.shots[i];
+        shot.after_on_part = after.shots_on_part[i];
     }
     (before, after)
 }

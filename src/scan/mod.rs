@@ -144,6 +144,8 @@ pub struct ScannedShot {
     pub before: Option<Overlap>,
     /// The same at the refined poses.
     pub after: Option<Overlap>,
+    /// The same on the part alone.
+    pub after_on_part: Option<Overlap>,
     /// Fused points that it is the first to see.
     pub num_new: usize,
     /// Why it was left out; `None` if it was used.

@@ -60,6 +60,8 @@ pub struct Agreement {
     pub part: Option<Overlap>,
     /// Of each shot with all others, in order.
     pub shots: Vec<Option<Overlap>>,
+    /// The same on the part alone.
+    pub shots_on_part: Vec<Option<Overlap>>,
 }
 
 /// How shots agree at these poses; `is_part` says of a point of the base frame whether it is the part.
@@ -86,16 +88,18 @@ pub fn overlap(
             others.collect::<Vec<Vec<(f32, bool)>>>()
         },
     );
-    let of_shot = |i: usize| {
+    let of_shot = |i: usize, is_counted: fn(&(f32, bool)) -> bool| {
         let own = distances[i].iter().flatten();
         let others = distances.iter().flat_map(|others| &others[i]);
-        Overlap::of(own.chain(others).map(|d| d.0).collect())
+        let counted = own.chain(others).filter(|d| is_counted(d));
+        Overlap::of(counted.map(|d| d.0).collect())
     };
     let all = || distances.iter().flatten().flatten();
     Agreement {
         all: Overlap::of(all().map(|d| d.0).collect()),
         part: Overlap::of(all().filter(|d| d.1).map(|d| d.0).collect()),
-        shots: (0..n).map(of_shot).collect(),
+        shots: (0..n).map(|i| of_shot(i, |_| true)).collect(),
+        shots_on_part: (0..n).map(|i| of_shot(i, |d| d.1)).collect(),
     }
 }
 

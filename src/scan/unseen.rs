@@ -23,21 +23,44 @@ const TOLERANCE: f64 = 0.012;
 /// Points that are looked at.
 const NUM_POINTS: usize = 8000;
 
+/// A point of a scanned part's outline, base frame.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub struct OutlinePoint {
+    /// Where it is, metres.
+    pub point: Point3<f32>,
+    /// Out of the surface, along it; a unit vector.
+    pub outwards: Vector3<f32>,
+    /// Along the outline; a unit vector.
+    pub along: Vector3<f32>,
+    /// True where no frame sees that the part ends.
+    pub is_open: bool,
+}
+
 /// Share of the part's outline where no frame sees that the part ends, 0..1.
 pub fn unseen_share(scan: &Scan) -> f64 {
+    open_share(&outline(scan))
+}
+
+/// Share of these points where the outline is open, 0..1.
+pub fn open_share(outline: &[OutlinePoint]) -> f64 {
+    let num_open = outline.iter().filter(|point| point.is_open).count();
+    num_open as f64 / outline.len().max(1) as f64
+}
+
+/// The part's outline, thinned to what some thousand of the part's points show of it.
+pub fn outline(scan: &Scan) -> Vec<OutlinePoint> {
     let part = scan.cloud.part();
     let points = &part.cloud.points;
     let Some(normals) = &part.cloud.normals else {
-        return 0.0;
+        return Vec::new();
     };
     let tree = KdTree::new(points);
     let step = (points.len() / NUM_POINTS).max(1);
-    let (mut num, mut num_unseen) = (0.0_f64, 0.0);
+    let mut outline = Vec::new();
     for (point, normal) in points.iter().zip(normals).step_by(step) {
         let Some(outwards) = outwards(point, normal, points, &tree) else {
             continue;
         };
-        num += 1.0;
         let ends = PROBES.iter().any(|far| {
             let probe = point.cast::<f64>() + outwards * *far;
             scan.used().any(|(_, shot)| {
@@ -47,9 +70,14 @@ pub fn unseen_share(scan: &Scan) -> f64 {
                 matches!(seen, Look::Through | Look::Here(_) | Look::NoReading)
             })
         });
-        num_unseen += f64::from(!ends);
+        outline.push(OutlinePoint {
+            point: *point,
+            outwards: outwards.cast(),
+            along: normal.cross(&outwards.cast()),
+            is_open: !ends,
+        });
     }
-    num_unseen / num.max(1.0)
+    outline
 }
 
 /// The direction out of the surface at a point of its outline; `None` inside.

@@ -11,4 +11,5 @@ mod pictures;
 pub(crate) mod robot;
 mod roles;
 mod set_up;
+mod shots;
 mod view;

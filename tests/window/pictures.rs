@@ -34,6 +34,7 @@ use partsight::{
 use super::{
     live, robot,
     set_up::{SMALL, USUAL, WindowHarness, act, press, settle},
+    shots::ScanFolder,
 };
 
 /// Pixels that may differ: processors round a point's edge differently, nobody sees it.
@@ -198,6 +199,18 @@ fn inspect_looks_as_it_did() {
     let mut harness = open_drawn(SMALL);
     act(&mut harness, Action::SwitchTheme);
     compare(&mut harness, "inspect_small_light");
+}
+
+#[test]
+fn a_scan_looks_as_it_did() {
+    if !draws_in_software() {
+        return;
+    }
+    let scan = ScanFolder::new(3);
+    let mut harness = open_drawn(SMALL);
+    act(&mut harness, Action::GoTo(Workspace::Enrol));
+    act(&mut harness, Action::Open(scan.scan()));
+    compare(&mut harness, "scan");
 }
 
 #[test]

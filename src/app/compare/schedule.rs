@@ -5,8 +5,8 @@ use std::{path::PathBuf, sync::Arc};
 
 use super::{
     state::{CompareState, Front},
-    study::{CameraKind, CaseScene, StudyRequest},
-    work::{CaseChange, CaseRun},
+    study::{CameraKind, CaseScene, StudyRequest, study},
+    work::{self, CaseChange, CaseRun, CompareResult},
 };
 use crate::{
     app::shell::{
@@ -28,11 +28,9 @@ pub(super) enum Due {
     Now,
 }
 
-/// What the task is asked for.
+/// What the task is asked for, besides studying the case in front.
 #[derive(Clone, Debug)]
 pub(super) enum Job {
-    /// Inspect a case with the recipe on trial and compare it.
-    Study(Box<StudyRequest>),
     /// Change the kept cases, and list them.
     Cases {
         /// The folder; without one the user's own.
@@ -74,7 +72,6 @@ pub(super) enum JobKind {
 impl Job {
     pub(super) fn kind(&self) -> JobKind {
         match self {
-            Self::Study(_) => JobKind::Study,
             Self::Cases { .. } | Self::Earlier { .. } => JobKind::Cases,
             Self::Run { .. } => JobKind::Run,
             Self::Scaling => JobKind::Scaling,
@@ -147,11 +144,15 @@ impl CompareState {
             }
             _ => {}
         }
+        let shelf = cx.services.shelf.clone();
         if let Some((title, job)) = self.queue.pop_front() {
             if at_work == Some(JobKind::Study) {
                 self.due = self.due.max(Due::WhenFree);
             }
-            return self.start(&title, job, cx);
+            self.job = Some(job.kind());
+            self.task
+                .start(title, move |context| work::run(job, &shelf, context));
+            return;
         }
         if self.due == Due::No {
             return;
@@ -159,7 +160,11 @@ impl CompareState {
         self.due = Due::No;
         if let Some(request) = self.study_request(cx.session) {
             self.is_current = false;
-            self.start("Comparing", Job::Study(Box::new(request)), cx);
+            self.job = Some(JobKind::Study);
+            self.task.start("Comparing", move |context| {
+                let study = study(&request, &shelf, context)?;
+                Ok(CompareResult::Studied(Arc::new(study)))
+            });
         }
     }
 

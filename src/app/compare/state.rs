@@ -6,7 +6,7 @@ use super::{
     parameters::Parameter,
     schedule::{Due, Job, JobKind},
     study::Study,
-    work::{self, CaseChange, CaseDone, CaseRun, CompareResult, RunChanges},
+    work::{CaseChange, CaseDone, CaseRun, CompareResult, RunChanges},
 };
 use crate::{
     app::{
@@ -59,7 +59,7 @@ pub struct CompareState {
     pub(super) due: Due,
     /// What comes next, each with its title.
     pub(super) queue: VecDeque<(String, Job)>,
-    task: Task<CompareResult>,
+    pub(super) task: Task<CompareResult>,
     /// What the task does, or did last.
     pub(super) job: Option<JobKind>,
     dialog: FileDialog<CompareFile>,
@@ -219,13 +219,6 @@ impl CompareState {
     /// Stops what is at work.
     pub fn cancel(&mut self) {
         self.task.cancel();
-    }
-
-    pub(super) fn start(&mut self, title: &str, job: Job, cx: &ShellContext<'_>) {
-        self.job = Some(job.kind());
-        let shelf = cx.services.shelf.clone();
-        self.task
-            .start(title, move |context| work::run(job, &shelf, context));
     }
 
     /// Makes it so.

@@ -7,11 +7,7 @@ use std::{
 
 use jiff::Timestamp;
 
-use super::{
-    matrix::Matrix,
-    schedule::Job,
-    study::{Study, study},
-};
+use super::{matrix::Matrix, schedule::Job, study::Study};
 use crate::{
     app::{
         shelf::Shelf,
@@ -131,7 +127,6 @@ pub(super) fn run(
     context: &TaskContext<CompareResult>,
 ) -> Result<CompareResult, TaskError> {
     Ok(match job {
-        Job::Study(request) => CompareResult::Studied(Arc::new(study(&request, shelf, context)?)),
         Job::Cases { folder, change } => {
             cases(folder.as_deref(), change).map_err(|error| UserError::of(&error))?
         }

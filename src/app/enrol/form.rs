@@ -17,6 +17,7 @@ use crate::{
         bars::{labelled, shortened},
         inspect::grouped,
         lane::Lane,
+        shots::summary,
         state::State,
         theme::{ROUNDING, Theme, font, space},
         widgets::{Mark, fitted},
@@ -69,6 +70,9 @@ pub(super) fn ui(
             actions.push(Action::Enrol(EnrolAction::Write(field)));
         }
         namesake(ui, draft, state, theme);
+        if let Some(fused) = draft.subject.scan() {
+            summary(ui, fused, state.units, theme);
+        }
         likeness(ui, draft, state, theme, actions);
         for warning in draft.ready().map_or(&[][..], |checked| &checked.warnings) {
             complaint(ui, &warning.what, &warning.advice, theme);

@@ -7,6 +7,7 @@ pub mod draft;
 mod fields;
 mod form;
 mod picture;
+pub mod scanned;
 pub mod selection;
 pub mod state;
 pub mod subject;
@@ -25,15 +26,20 @@ use self::{
     catalogue::Catalogue, draft::Draft, picture::PicturePane, state::Panes, thumbnails::Thumbnails,
     view::DraftView,
 };
-pub(super) use self::{state::take, work::answer};
 pub use self::{
     state::{EnrolAction, EnrolState, apply, hear},
     work::{EnrolAnswer, EnrolRequest},
 };
+pub(super) use self::{
+    state::{take, take_scan},
+    work::answer,
+};
 use super::{
-    action::Action,
+    action::{Action, Ask},
+    bars::labelled,
     keys::Shortcut,
     lane::Lane,
+    shots::{ShotList, StripTab},
     state::State,
     theme::{Theme, font, space},
     viewport::{ViewError, ViewportGpu},
@@ -75,6 +81,7 @@ pub(super) struct EnrolPanel {
     picture: PicturePane,
     thumbnails: Thumbnails,
     catalogue: Catalogue,
+    shots: ShotList,
 }
 
 impl EnrolPanel {
@@ -84,6 +91,7 @@ impl EnrolPanel {
             picture: PicturePane::default(),
             thumbnails: Thumbnails::default(),
             catalogue: Catalogue::default(),
+            shots: ShotList::default(),
         }
     }
 
@@ -111,10 +119,16 @@ impl EnrolPanel {
                 None => form::ui(ui, state, &self.thumbnails, theme, actions),
             });
         Panel::bottom("enrolled parts")
-            .exact_size(STRIP)
+            .exact_size(strip_height(state))
             .resizable(false)
-            .frame(panel(Margin::symmetric(14, 8)))
+            .frame(panel(Margin::symmetric(14, 6)))
             .show(ui, |ui| {
+                if state.fused().is_some()
+                    && ShotList::tabs(ui, state, "Enrolled parts", theme, actions)
+                {
+                    self.shots.ui(ui, state, theme, actions);
+                    return;
+                }
                 self.catalogue
                     .ui(ui, state, &self.thumbnails, theme, actions);
             });
@@ -152,7 +166,7 @@ impl EnrolPanel {
         let wanted = all.height() * width as f32 / height.max(1) as f32;
         let share = (wanted / all.width().max(1.0)).clamp(0.5, 0.58);
         let (left, right) = all.split_left_right_at_fraction(share);
-        let (picture, view) = match state.enrol.panes {
+        let (picture, view) = match state.enrol.panes() {
             Panes::Both => (Some(left), Some(right)),
             Panes::Picture => (Some(all), None),
             Panes::View => (None, Some(all)),
@@ -170,6 +184,14 @@ impl EnrolPanel {
         } else {
             self.view.rest();
         }
+    }
+}
+
+fn strip_height(state: &State) -> f32 {
+    match state.enrol.shots.strip {
+        _ if state.fused().is_none() => STRIP,
+        StripTab::Shots => ShotList::HEIGHT,
+        StripTab::Usual => STRIP + space::TARGET + space::SMALL,
     }
 }
 
@@ -208,6 +230,13 @@ fn empty(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
             if button.clicked() {
                 actions.push(Action::Enrol(EnrolAction::TakeShown));
             }
+        }
+        let open = "Open a scan…";
+        if labelled(ui, Button::new(open), open)
+            .on_hover_text("Several shots from several sides, each with the pose of its camera (Ctrl Shift O)")
+            .clicked()
+        {
+            actions.push(Action::Ask(Ask::Scan));
         }
         if replaced.is_some() {
             form::as_new(ui, actions);

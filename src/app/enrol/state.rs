@@ -15,6 +15,7 @@ use crate::{
         action::{Effect, notify},
         job::{Request, Trouble},
         lane::Lane,
+        shots::{self, ScanRequest, ShotsState},
         source::SceneSource,
         state::{Notice, NoticeKind, State},
     },
@@ -39,7 +40,11 @@ pub struct EnrolState {
     /// What a box in the picture does.
     pub box_mode: BoxMode,
     /// What is shown of the draft.
-    pub panes: Panes,
+    panes: Panes,
+    /// What is shown of a draft that is a scan, which has no picture of its own.
+    scan_panes: ScanPanes,
+    /// Of the scan that the draft is, if it is one.
+    pub shots: ShotsState,
     /// What can be taken back and done again.
     pub steps: Steps,
     /// The generation of the request for another draft, until that is there.
@@ -89,6 +94,32 @@ impl Panes {
             Self::Picture => "Picture",
             Self::View => "3-D",
         }
+    }
+}
+
+/// The panes of a scan: at first the 3-D view alone.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+struct ScanPanes(Panes);
+
+impl Default for ScanPanes {
+    fn default() -> Self {
+        Self(Panes::View)
+    }
+}
+
+impl EnrolState {
+    /// What is shown of the draft.
+    pub fn panes(&self) -> Panes {
+        if self.has_scan() {
+            self.scan_panes.0
+        } else {
+            self.panes
+        }
+    }
+
+    fn has_scan(&self) -> bool {
+        let draft = self.draft.as_ref();
+        draft.is_some_and(|draft| draft.subject.scan().is_some())
     }
 }
 
@@ -179,7 +210,14 @@ pub fn apply(state: &mut State, action: EnrolAction) -> Option<Effect> {
         }
         EnrolAction::Reset => return correct(state, |corrections| corrections.edits.clear()),
         EnrolAction::BoxMode(mode) => state.enrol.box_mode = mode,
-        EnrolAction::Panes(panes) => state.enrol.panes = panes,
+        EnrolAction::Panes(panes) => {
+            let own = &mut state.enrol;
+            if own.has_scan() {
+                own.scan_panes = ScanPanes(panes);
+            } else {
+                own.panes = panes;
+            }
+        }
         EnrolAction::Write(field) => {
             let form = &mut state.enrol.draft.as_mut()?.form;
             form.write(field);
@@ -230,9 +268,16 @@ pub fn apply(state: &mut State, action: EnrolAction) -> Option<Effect> {
 }
 
 /// Takes in what the threads answer.
-pub fn hear(state: &mut State, outcome: Result<EnrolAnswer, Trouble>) -> Option<Effect> {
+pub fn hear(
+    state: &mut State,
+    generation: u64,
+    outcome: Result<EnrolAnswer, Trouble>,
+) -> Option<Effect> {
     match outcome {
-        Ok(EnrolAnswer::Taken(subject, selection)) => taken(state, subject, selection),
+        Ok(EnrolAnswer::Taken(subject, selection)) => {
+            taken(state, subject, selection);
+            shots::settle(state, Lane::Enrol, generation, None);
+        }
         Ok(EnrolAnswer::Selected(selection)) => {
             state.enrol.draft.as_mut()?.selection = selection;
         }
@@ -262,7 +307,18 @@ pub(in crate::app) fn take(state: &mut State, source: SceneSource, what: String)
     effect
 }
 
+/// Puts the shots of a scan together to enrol what they show.
+pub(in crate::app) fn take_scan(state: &mut State, request: ScanRequest, what: String) -> Effect {
+    state.enrol.open = None;
+    let effect = state.begin(what, Request::Enrol(EnrolRequest::TakeScan(request)));
+    state.enrol.taking = Some(state.generation);
+    effect
+}
+
 fn take_shown(state: &mut State) -> Option<Effect> {
+    if let Some(effect) = shots::enrol_shown(state) {
+        return Some(effect);
+    }
     let inspected = &state.shown.as_ref()?.inspected;
     let source = SceneSource::AtHand(Arc::clone(&inspected.scene), inspected.origin.clone());
     Some(take(state, source, "Taking the scene in front".into()))
@@ -272,6 +328,9 @@ fn take_shown(state: &mut State) -> Option<Effect> {
 fn taken(state: &mut State, subject: Arc<Subject>, selection: Arc<Selection>) {
     for warning in &subject.warnings {
         notify(state, Trouble::of(warning).into());
+    }
+    for warning in subject.scan().map_or(&[][..], |fused| &fused.warnings) {
+        notify(state, warning.clone().into());
     }
     let former = state.enrol.draft.take();
     let replaced = state.enrol.replacing.clone();

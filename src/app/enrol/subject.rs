@@ -5,9 +5,12 @@ use std::sync::Arc;
 
 use nalgebra::Point3;
 
+use super::scanned::ScannedMatter;
+
 use crate::{
     app::{
         camera::Camera,
+        shots::FusedShots,
         source::{Origin, SceneError, SceneSource},
     },
     files::{self, FileWarning, Opened},
@@ -66,12 +69,14 @@ pub struct Subject {
 }
 
 /// What a subject is.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub enum Matter {
     /// Points.
     Scene(Arc<SceneCloud>),
     /// A surface, with points sampled on it to be looked at.
     Mesh(Arc<TriangleMesh>, Arc<PointCloud>),
+    /// Several shots, put together.
+    Scan(Box<ScannedMatter>),
 }
 
 /// How the points are cut into segments.
@@ -359,9 +364,38 @@ impl Subject {
         })
     }
 
+    /// Of shots that were put together.
+    pub(super) fn of_scan(fused: Arc<FusedShots>) -> Self {
+        let matter = ScannedMatter::of(fused);
+        let num_points = matter.cloud.points.len();
+        let mut segments = Segments::of_num(num_points);
+        let (part, rest) = (matter.voted(true), matter.voted(false));
+        segments.add(SegmentKind::Surface, "Part", Fate::Kept, &part);
+        segments.add(
+            SegmentKind::Plane(0),
+            "Cell around it",
+            Fate::Dropped,
+            &rest,
+        );
+        let positions = matter.cloud.points.iter().map(|p| [p.x, p.y, p.z]);
+        Self {
+            origin: matter.fused.origin(),
+            warnings: Vec::new(),
+            usual: Taking::Segmented,
+            segmented: Some(segments),
+            whole: Segments::of_num(num_points),
+            picture: PicturePlane::of(&matter.cloud),
+            positions: positions.collect(),
+            matter: Matter::Scan(Box::new(matter)),
+        }
+    }
+
     /// True if it can be taken so.
     pub fn allows(&self, taking: Taking) -> bool {
-        taking == Taking::Whole || self.segmented.is_some()
+        match taking {
+            Taking::Whole => self.scan().is_none(),
+            Taking::Segmented => self.segmented.is_some(),
+        }
     }
 
     /// Its segments when it is taken so.
@@ -377,6 +411,7 @@ impl Subject {
         match &self.matter {
             Matter::Scene(scene) => &scene.cloud,
             Matter::Mesh(_, cloud) => cloud,
+            Matter::Scan(scan) => &scan.cloud,
         }
     }
 
@@ -384,13 +419,21 @@ impl Subject {
     pub fn scene(&self) -> Option<&Arc<SceneCloud>> {
         match &self.matter {
             Matter::Scene(scene) => Some(scene),
-            Matter::Mesh(..) => None,
+            Matter::Mesh(..) | Matter::Scan(_) => None,
+        }
+    }
+
+    /// The shots, if it is a scan.
+    pub fn scan(&self) -> Option<&Arc<FusedShots>> {
+        match &self.matter {
+            Matter::Scan(scan) => Some(&scan.fused),
+            Matter::Scene(_) | Matter::Mesh(..) => None,
         }
     }
 
     /// True if parts of it can be dropped: a mesh is enrolled by its surface, whole.
     pub fn can_be_corrected(&self) -> bool {
-        self.scene().is_some()
+        !matches!(self.matter, Matter::Mesh(..))
     }
 }
 

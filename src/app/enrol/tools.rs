@@ -70,7 +70,9 @@ pub(super) fn ui(
 /// How it is taken, and what a box does.
 fn boxes(ui: &mut Ui, draft: &Draft, state: &State, actions: &mut Vec<Action>) {
     let can_correct = draft.subject.can_be_corrected();
-    for taking in Taking::ALL {
+    // The shots have voted what of a scan is the part.
+    let is_scan = draft.subject.scan().is_some();
+    for taking in Taking::ALL.into_iter().filter(|_| !is_scan) {
         let is_chosen = draft.corrections.taking == taking;
         let is_allowed = draft.subject.allows(taking);
         let title = taking.title();
@@ -78,7 +80,9 @@ fn boxes(ui: &mut Ui, draft: &Draft, state: &State, actions: &mut Vec<Action>) {
             actions.push(Action::Enrol(EnrolAction::TakeAs(taking)));
         }
     }
-    ui.add_space(space::MEDIUM);
+    if !is_scan {
+        ui.add_space(space::MEDIUM);
+    }
     for mode in BoxMode::ALL {
         let is_chosen = state.enrol.box_mode == mode && can_correct;
         let response = choice(ui, mode.title(), mode.title(), is_chosen, can_correct);
@@ -118,7 +122,7 @@ fn steps(ui: &mut Ui, draft: &Draft, state: &State, actions: &mut Vec<Action>) {
     }
     ui.add_space(space::MEDIUM);
     for panes in Panes::ALL {
-        let is_chosen = state.enrol.panes == panes;
+        let is_chosen = state.enrol.panes() == panes;
         let label = format!("Show {}", panes.title().to_lowercase());
         if choice(ui, panes.title(), &label, is_chosen, true).clicked() {
             actions.push(Action::Enrol(EnrolAction::Panes(panes)));

@@ -15,6 +15,7 @@ use crate::app::{
     inspect::work::InspectRequest,
     job::Request,
     lane::Lane,
+    shots::{inspection_again, inspection_of},
     source::SceneSource,
     state::{Notice, NoticeKind, State},
 };
@@ -37,6 +38,15 @@ pub enum Step {
     Draft(Option<Box<Draft>>),
     /// A change of the library.
     Library(LibraryStep),
+}
+
+impl Step {
+    fn is_scan(&self) -> bool {
+        match self {
+            Self::Draft(Some(draft)) => draft.subject.scan().is_some(),
+            Self::Draft(None) | Self::Corrections(..) | Self::Library(_) => false,
+        }
+    }
 }
 
 /// A change of the library.
@@ -72,6 +82,8 @@ pub enum Way {
 
 /// More steps than this are forgotten, the oldest first.
 const MAX_STEPS: usize = 100;
+/// The same of drafts that are scans: each holds about a hundred megabytes.
+const MAX_SCANS: usize = 4;
 
 impl Steps {
     /// Something was done for the first time: what was taken back before can no longer be done again.
@@ -80,6 +92,11 @@ impl Steps {
         self.done.push(back);
         if self.done.len() > MAX_STEPS {
             self.done.remove(0);
+        }
+        let scans = self.done.iter().enumerate().rev();
+        let mut scans = scans.filter(|(_, step)| step.is_scan());
+        if let Some((oldest, _)) = scans.nth(MAX_SCANS) {
+            self.done.drain(..=oldest);
         }
     }
 
@@ -195,17 +212,18 @@ fn follow_replaced(state: &mut State, made: &LibraryChange) {
 /// Inspects what was saved, else the scene in front, by the library as it is now.
 fn inspect_again(state: &mut State, saved: Option<&Draft>) -> Option<Effect> {
     let of_saved = saved.and_then(|draft| {
+        if let Some(fused) = draft.subject.scan() {
+            return Some(inspection_of(state, fused));
+        }
         let scene = Arc::clone(draft.subject.scene()?);
-        Some(SceneSource::AtHand(scene, draft.subject.origin.clone()))
+        let source = SceneSource::AtHand(scene, draft.subject.origin.clone());
+        let recipe = Arc::clone(&state.recipe);
+        Some(Request::Inspect(InspectRequest { source, recipe }))
     });
     let is_busy = state.works.contains_key(&Lane::Inspect);
-    let of_shown = state.shown.as_ref().filter(|_| !is_busy).map(|shown| {
-        let inspected = &shown.inspected;
-        SceneSource::AtHand(Arc::clone(&inspected.scene), inspected.origin.clone())
-    });
-    let source = of_saved.or(of_shown)?;
-    let recipe = Arc::clone(&state.recipe);
-    let request = Request::Inspect(InspectRequest { source, recipe });
+    let shown = state.shown.as_ref().filter(|_| !is_busy);
+    let of_shown = shown.map(|shown| inspection_again(state, &shown.inspected));
+    let request = of_saved.or(of_shown)?;
     Some(state.begin("Inspecting again", request))
 }
 

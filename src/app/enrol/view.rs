@@ -7,13 +7,25 @@ use egui::{Button, Rect, RichText, Ui, UiBuilder, Vec2, vec2};
 use super::{EnrolAction, draft::Draft, picture::toggled, selection::Selection};
 use crate::app::{
     action::Action,
+    shots::{Overlay, POINT_SIZE},
     state::{State, ThemeChoice},
-    theme::{font, space},
+    theme::{Theme, font, space},
     viewport::{
-        FitRequest, StandardView, ViewCamera, ViewColours, ViewError, ViewScene, ViewStyle,
-        Viewport, ViewportGpu,
+        FitRequest, PointSize, StandardView, ViewCamera, ViewColours, ViewError, ViewScene,
+        ViewStyle, Viewport, ViewportGpu,
     },
 };
+use crate::geometry::rigid::RigidTransform;
+
+/// What the view was made of.
+struct Shown {
+    number: u64,
+    selection: Arc<Selection>,
+    /// Of a scan: the shot whose own surface is marked.
+    looked_at: Option<usize>,
+    /// Of a scan: the camera's pose in whose space it is shown.
+    space: Option<RigidTransform>,
+}
 
 /// The view of the draft.
 pub(super) struct DraftView {
@@ -22,7 +34,9 @@ pub(super) struct DraftView {
     scene: ViewScene,
     style: ViewStyle,
     styled: ThemeChoice,
-    shown: Option<(u64, Arc<Selection>)>,
+    /// The size of points but for those of a scan.
+    usual_size: PointSize,
+    shown: Option<Shown>,
     has_focus: bool,
 }
 
@@ -34,6 +48,7 @@ impl DraftView {
             scene: ViewScene::default(),
             style: ViewStyle::new(ViewColours::dark()),
             styled: ThemeChoice::Dark,
+            usual_size: ViewStyle::new(ViewColours::dark()).point_size,
             shown: None,
             has_focus: false,
         }
@@ -56,7 +71,7 @@ impl DraftView {
         state: &State,
         actions: &mut Vec<Action>,
     ) {
-        self.show(draft);
+        self.show(draft, state.enrol.shots.looked_at);
         if self.styled != state.theme {
             self.style = ViewStyle::new(match state.theme {
                 ThemeChoice::Dark => ViewColours::dark(),
@@ -64,6 +79,10 @@ impl DraftView {
             });
             self.styled = state.theme;
         }
+        self.style.point_size = match draft.subject.scan() {
+            Some(_) => POINT_SIZE,
+            None => self.usual_size,
+        };
         let rect = ui.available_rect_before_wrap();
         let label = "3-D view of the draft";
         let seen = self
@@ -78,6 +97,12 @@ impl DraftView {
             let edit = segment.and_then(|segment| toggled(draft, segment));
             actions.extend(edit.map(|edit| Action::Enrol(EnrolAction::Correct(edit))));
         }
+        if let Some(overlay) = overlay(draft, state.enrol.shots.looked_at) {
+            let painter = ui.painter_at(rect);
+            let corner = rect.left_bottom() + vec2(space::MEDIUM, -space::MEDIUM);
+            let theme = Theme::of(state.theme);
+            overlay.legend(&painter, corner, &self.style.colours, theme);
+        }
         let bar = vec2(rect.width() - 2.0 * space::SMALL, space::TARGET);
         let bar = Rect::from_min_size(rect.min + Vec2::splat(space::SMALL), bar);
         ui.scope_builder(UiBuilder::new().max_rect(bar), |ui| {
@@ -86,16 +111,34 @@ impl DraftView {
     }
 
     /// Takes in another selection; its points were prepared by the worker. Only another draft moves the camera.
-    fn show(&mut self, draft: &Draft) {
+    fn show(&mut self, draft: &Draft, looked_at: Option<usize>) {
         let shown = self.shown.as_ref();
-        if shown.is_some_and(|(_, selection)| Arc::ptr_eq(selection, &draft.selection)) {
+        let is_same = |shown: &Shown| {
+            Arc::ptr_eq(&shown.selection, &draft.selection) && shown.looked_at == looked_at
+        };
+        if shown.is_some_and(is_same) {
             return;
         }
-        if shown.is_none_or(|(number, _)| *number != draft.number) {
+        let fused = draft.subject.scan();
+        let space = fused.and_then(|fused| fused.space());
+        let stays =
+            |shown: &Shown| shown.number == draft.number || space.is_some() && shown.space == space;
+        if !shown.is_some_and(stays) {
             self.camera.request_fit(FitRequest::Focus);
         }
-        self.scene.points = vec![draft.selection.points.clone()];
-        self.shown = Some((draft.number, Arc::clone(&draft.selection)));
+        self.scene = ViewScene {
+            points: vec![draft.selection.points.clone()],
+            ..ViewScene::default()
+        };
+        if let Some(overlay) = overlay(draft, looked_at) {
+            overlay.add_to(&mut self.scene);
+        }
+        self.shown = Some(Shown {
+            number: draft.number,
+            selection: Arc::clone(&draft.selection),
+            looked_at,
+            space,
+        });
     }
 
     fn controls(&mut self, ui: &mut Ui) {
@@ -117,4 +160,15 @@ impl DraftView {
             }
         }
     }
+}
+
+/// What the view shows of a scan over its points.
+fn overlay(draft: &Draft, looked_at: Option<usize>) -> Option<Overlay<'_>> {
+    Some(Overlay {
+        fused: draft.subject.scan()?,
+        unseen: None,
+        looked_at,
+        has_cameras: true,
+        has_unseen: true,
+    })
 }

@@ -15,12 +15,13 @@ use crate::{
         job::{Answer, Outcome, Trouble},
         lane::Lane,
         shelf::Shelf,
+        shots::{ScanRequest, Steps, Then, fuse},
         source::{SceneError, SceneSource},
         worker::Desk,
     },
     library::{
-        About, EnrolError, EnrolParams, Enrolled, Likeness, PartName, enrol_mesh, enrol_selected,
-        enrol_whole, likenesses,
+        About, EnrolError, EnrolParams, Enrolled, Likeness, PartName, enrol_mesh, enrol_scan,
+        enrol_selected, enrol_whole, likenesses,
     },
     pipeline::Recipe,
     stages::segment::SegmentedPart,
@@ -36,6 +37,8 @@ pub enum EnrolRequest {
         /// All parameters.
         recipe: Arc<Recipe>,
     },
+    /// Put the shots of a scan together, and see what of it is the part.
+    TakeScan(ScanRequest),
     /// Go through the corrections, and see what would be stored.
     Select {
         /// Of what.
@@ -53,7 +56,7 @@ impl EnrolRequest {
     /// Whose work it is: a change of the library is never given up for a newer correction.
     pub fn lane(&self) -> Lane {
         match self {
-            Self::Take { .. } | Self::Select { .. } => Lane::Enrol,
+            Self::Take { .. } | Self::TakeScan(_) | Self::Select { .. } => Lane::Enrol,
             Self::Change(_) => Lane::Library,
         }
     }
@@ -95,26 +98,20 @@ pub(in crate::app) fn answer(
             let params = params_of(&recipe);
             let subject =
                 match Subject::read(&source, &params, shelf.camera(), &|| desk.is_cancelled()) {
-                    Ok(Ok(subject)) => Arc::new(subject),
+                    Ok(Ok(subject)) => subject,
                     Ok(Err(error)) => return Some(Err(Trouble::of(&error))),
                     Err(SceneError::Camera(CameraError::Cancelled)) => return None,
                     Err(error) => return Some(Err(Trouble::of(&error))),
                 };
-            let corrections = Corrections::none(subject.usual);
-            let selection = Arc::new(Selection::of(&subject, &corrections));
-            if desk.is_cancelled() {
-                return None;
-            }
-            let taken = EnrolAnswer::Taken(Arc::clone(&subject), Arc::clone(&selection));
-            desk.partly(Ok(Answer::Enrol(taken)));
-            said(check(
-                &subject,
-                &corrections,
-                &selection,
-                &params,
-                shelf,
-                desk,
-            )?)
+            said(take(subject, &params, shelf, desk)?)
+        }
+        EnrolRequest::TakeScan(request) => {
+            let fused = match fuse(&request, Then::Enrol, &Steps::new(desk)) {
+                Ok(fused) => Arc::new(fused?),
+                Err(error) => return Some(error.outcome(&request)),
+            };
+            let params = params_of(&request.recipe);
+            said(take(Subject::of_scan(fused), &params, shelf, desk)?)
         }
         EnrolRequest::Select {
             subject,
@@ -141,6 +138,24 @@ pub(in crate::app) fn answer(
             change(&asked, shelf).map(|done| Answer::Enrol(EnrolAnswer::Changed(Box::new(done)))),
         ),
     }
+}
+
+/// Hands over what there is to enrol, then looks at what would be stored; `None` when cancelled.
+fn take(
+    subject: Subject,
+    params: &EnrolParams,
+    shelf: &Shelf,
+    desk: &dyn Desk<Outcome>,
+) -> Option<EnrolAnswer> {
+    let subject = Arc::new(subject);
+    let corrections = Corrections::none(subject.usual);
+    let selection = Arc::new(Selection::of(&subject, &corrections));
+    if desk.is_cancelled() {
+        return None;
+    }
+    let taken = EnrolAnswer::Taken(Arc::clone(&subject), Arc::clone(&selection));
+    desk.partly(Ok(Answer::Enrol(taken)));
+    check(&subject, &corrections, &selection, params, shelf, desk)
 }
 
 /// Segments as scenes are inspected; all else as usual.
@@ -193,13 +208,17 @@ fn enrol(
         name: PartName::new("part").expect("a name"),
         title: String::new(),
         notes: String::new(),
-        from: subject.origin.title(),
+        from: match subject.scan() {
+            Some(fused) => fused.choice.set.files.title(),
+            None => subject.origin.title(),
+        },
         // Whole seconds are enough for people.
         at: Timestamp::from_second(now.as_second()).unwrap_or(now),
         simulated: subject.origin.is_simulated(),
     };
     match (&subject.matter, taking) {
         (Matter::Mesh(mesh, _), _) => enrol_mesh(mesh, &about, params),
+        (Matter::Scan(scan), _) => enrol_scan(&scan.with_part(&selection.indices), &about, params),
         (Matter::Scene(scene), Taking::Segmented) => {
             enrol_selected(scene, &selection.indices, &about, params)
         }

@@ -194,6 +194,8 @@ impl HistoryState {
     pub fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
         match event {
             Event::Inspected { inspected, purpose } => match purpose {
+                // One frame, which is all that the history keeps, would not give the result of a scan again.
+                Purpose::New if inspected.scan.is_some() => {}
                 Purpose::New => self.keep(inspected),
                 Purpose::Repeated => {}
                 Purpose::Past => self.remade(inspected, cx),

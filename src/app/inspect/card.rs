@@ -12,6 +12,7 @@ use crate::{
         bars::focus_ring,
         inspect::work::{Followed, Inspected},
         live,
+        shots::summary,
         state::{State, Workspace},
         theme::{ROUNDING, Theme, font, space},
         unit_system::UnitSystem,
@@ -157,7 +158,7 @@ pub(super) fn ui(
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let headline = Headline::of(inspected);
         verdict(ui, &headline, theme);
-        if inspection.touches_edge() {
+        if inspection.touches_edge() && inspected.scan.is_none() {
             let text = "It reaches the picture's edge: some of it may be missing";
             ui.label(RichText::new(text).color(theme.warning));
         }
@@ -171,6 +172,9 @@ pub(super) fn ui(
             }
             stand_off::ui(ui, inspected, state.units, theme);
             robot_numbers::ui(ui, inspected, state, theme, actions);
+        }
+        if let Some(scan) = &inspected.scan {
+            summary(ui, &scan.fused, state.units, theme);
         }
         footer(ui, inspected, theme);
     });

@@ -3,9 +3,9 @@
 use egui::{Button, Response, RichText, Ui, Vec2};
 
 use super::{
-    scene::SceneFigure,
     state::{InspectAction, ViewPart},
     view::SceneView,
+    work::Inspected,
 };
 use crate::app::{
     action::{Action, Ask},
@@ -22,9 +22,10 @@ pub(super) fn ui(
     ui: &mut Ui,
     view: &mut SceneView,
     state: &State,
-    figure: &SceneFigure,
+    inspected: &Inspected,
     actions: &mut Vec<Action>,
 ) {
+    let figure = &inspected.view;
     if ui.available_width() < NARROW {
         ui.menu_button(small("View ▼"), |ui| sides(ui, view));
     } else {
@@ -47,7 +48,7 @@ pub(super) fn ui(
             let mut is_shown = state.inspect.parts.contains(&part);
             let choice = egui::Checkbox::new(&mut is_shown, part.title());
             if ui
-                .add_enabled(is_there(state, figure, part), choice)
+                .add_enabled(is_there(state, inspected, part), choice)
                 .clicked()
             {
                 actions.push(Action::Inspect(InspectAction::Toggle(part)));
@@ -55,7 +56,7 @@ pub(super) fn ui(
         }
         ui.separator();
         let export = Button::new("Export spray path…");
-        let can_export = figure.spray.is_some() && state.robot.is_some();
+        let can_export = figure.spray.is_some() && inspected.robot(state).is_some();
         let export = ui.add_enabled(can_export, export);
         let export = export.on_disabled_hover_text(
             "Needs an accepted part with a stored spray path, and a calibrated cell",
@@ -105,14 +106,16 @@ fn sides(ui: &mut Ui, view: &mut SceneView) {
 }
 
 /// True where the result, or the cell, has this to show.
-fn is_there(state: &State, figure: &SceneFigure, part: ViewPart) -> bool {
+fn is_there(state: &State, inspected: &Inspected, part: ViewPart) -> bool {
+    let figure = &inspected.view;
     match part {
         ViewPart::Axes => figure.axes.is_some(),
         ViewPart::Camera => figure.camera.is_some(),
         ViewPart::Outline => figure.outline.is_some(),
         ViewPart::NozzleMiddle | ViewPart::NozzleWorst => figure.nozzles.is_some(),
         ViewPart::SprayPath => figure.spray.is_some(),
-        ViewPart::RobotBase => state.robot.is_some(),
+        ViewPart::RobotBase => inspected.robot(state).is_some(),
+        ViewPart::ShotCameras | ViewPart::Unseen => inspected.scan.is_some(),
     }
 }
 

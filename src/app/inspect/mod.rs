@@ -28,8 +28,9 @@ use super::{
     action::{Action, Ask},
     headless::WorkCounts,
     keys::Shortcut,
+    shots::{ShotList, ShotsAction, StripTab},
     state::{Shown, State},
-    theme::{Theme, font},
+    theme::{Theme, font, space},
     viewport::{ViewError, ViewportGpu},
 };
 
@@ -39,7 +40,21 @@ const CARD: [f32; 2] = [340.0, 300.0];
 const STRIP: [f32; 2] = [196.0, 164.0];
 
 /// The workspace's own shortcuts.
-pub(in crate::app) const SHORTCUTS: [Shortcut; 5] = [
+pub(in crate::app) const SHORTCUTS: [Shortcut; 7] = [
+    Shortcut {
+        modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
+        key: Key::Z,
+        keys: "Ctrl Shift Z",
+        does: "Do again what was undone last with the shots",
+        action: || Action::Shots(ShotsAction::Redo),
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::Z,
+        keys: "Ctrl Z",
+        does: "Undo the last change of the shots of a scan",
+        action: || Action::Shots(ShotsAction::Undo),
+    },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::P,
@@ -80,6 +95,7 @@ pub(in crate::app) const SHORTCUTS: [Shortcut; 5] = [
 /// What the workspace keeps between frames: nothing but what was made of the last result.
 pub(super) struct InspectPanel {
     view: SceneView,
+    shots: ShotList,
     made: Option<Made>,
     num_made: u64,
 }
@@ -95,6 +111,7 @@ impl InspectPanel {
     pub(super) fn new(gpu: Result<ViewportGpu, ViewError>) -> Self {
         Self {
             view: SceneView::new(gpu),
+            shots: ShotList::default(),
             made: None,
             num_made: 0,
         }
@@ -140,10 +157,13 @@ impl InspectPanel {
             .frame(panel(Margin::symmetric(18, 14)))
             .show(ui, |ui| card::ui(ui, inspected, state, theme, actions));
         Panel::bottom("stages")
-            .exact_size(if size.y > 760.0 { STRIP[0] } else { STRIP[1] })
+            .exact_size(strip_height(state, size.y))
             .resizable(false)
             .frame(panel(Margin::ZERO))
             .show(ui, |ui| {
+                if inspected.scan.is_some() && self.shots_ui(ui, state, theme, actions) {
+                    return;
+                }
                 let pictures = self.pictures(inspected, state, theme);
                 strip::ui(ui, &pictures, actions);
             });
@@ -156,6 +176,28 @@ impl InspectPanel {
             self.view.ui(ui, state, inspected, actions);
         }
         self.view.picture(ui, state, actions);
+    }
+
+    /// The strip of a scan: the row above it, and the list unless the stages are to be shown.
+    fn shots_ui(
+        &mut self,
+        ui: &mut Ui,
+        state: &State,
+        theme: &Theme,
+        actions: &mut Vec<Action>,
+    ) -> bool {
+        let margin = Frame::new().inner_margin(Margin::symmetric(12, 6));
+        let shown = margin.show(ui, |ui| {
+            let is_list = ShotList::tabs(ui, state, "Stages", theme, actions);
+            if is_list {
+                if state.is_old() {
+                    ui.multiply_opacity(0.75);
+                }
+                self.shots.ui(ui, state, theme, actions);
+            }
+            is_list
+        });
+        shown.inner
     }
 
     fn pictures<'a>(
@@ -191,6 +233,19 @@ impl InspectPanel {
             binary: texture(ctx, "binary image", figures.binary.as_ref()),
         });
         self.view.show(shown);
+    }
+}
+
+fn strip_height(state: &State, height: f32) -> f32 {
+    let usual = if height > 760.0 { STRIP[0] } else { STRIP[1] };
+    let is_scan = state
+        .shown
+        .as_ref()
+        .is_some_and(|shown| shown.inspected.scan.is_some());
+    match state.inspect.shots.strip {
+        StripTab::Shots if is_scan => ShotList::HEIGHT,
+        StripTab::Usual if is_scan => usual + space::TARGET + 12.0,
+        _ => usual,
     }
 }
 

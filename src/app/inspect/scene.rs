@@ -1,10 +1,15 @@
 //! What the 3-D view shows of a result, made once on the worker: points, and the lines that stand for things.
 
+use std::sync::Arc;
+
 use glam::Vec3;
 use nalgebra::{Isometry3, Point3};
 
 use crate::{
-    app::viewport::{Line, LineSet, PointSet, Role, furniture},
+    app::{
+        shots::figure::ScanFigure,
+        viewport::{Line, LineSet, PointSet, Role, furniture},
+    },
     geometry::rigid::RigidTransform,
     pipeline::Inspection,
     robot::spray::{Band, CarriedPath},
@@ -64,6 +69,8 @@ pub struct NozzleFigure {
 /// What a [`SceneFigure`] is made of.
 pub(super) struct Ingredients<'a> {
     pub(super) scene: &'a SceneCloud,
+    /// Of a scan, whose points take the place of the scene's.
+    pub(super) scan: Option<&'a ScanFigure>,
     pub(super) inspection: &'a Inspection,
     /// The best reference.
     pub(super) reference: Option<&'a Reference>,
@@ -79,6 +86,7 @@ impl SceneFigure {
     pub(super) fn of(given: &Ingredients<'_>) -> Self {
         let Ingredients {
             scene,
+            scan,
             inspection,
             reference,
             middle,
@@ -86,8 +94,13 @@ impl SceneFigure {
             stand_off,
             spray,
         } = given;
-        let positions: Vec<[f32; 3]> = scene.cloud.points.iter().map(|p| [p.x, p.y, p.z]).collect();
-        let mut points = PointSet::segmented(positions, &inspection.segmentation.labels);
+        let mut points = if let Some(scan) = scan {
+            PointSet::segmented(Arc::clone(&scan.positions), &scan.labels)
+        } else {
+            let points = scene.cloud.points.iter();
+            let positions: Vec<[f32; 3]> = points.map(|p| [p.x, p.y, p.z]).collect();
+            PointSet::segmented(positions, &inspection.segmentation.labels)
+        };
         let has_deviations = !deviations.is_empty();
         if has_deviations {
             points = points.with_deviations(*deviations);
@@ -99,7 +112,8 @@ impl SceneFigure {
             let shift = nalgebra::Translation3::from(middle.coords);
             furniture::axes(Metres(0.15)).at(&(pose * shift))
         });
-        let camera = scene.intrinsics.as_ref();
+        // A scan shows the cameras of all its shots.
+        let camera = scene.intrinsics.as_ref().filter(|_| scan.is_none());
         let placed = inspection.ranking.entries.first();
         let view = placed.and_then(|entry| entry.placements.first());
         let view = reference.and_then(|reference| reference.views.get(view?.view));

@@ -5,6 +5,7 @@ use std::{collections::BTreeSet, path::PathBuf, sync::Arc};
 use crate::app::{
     action::{Effect, notify},
     job::{Request, Trouble},
+    shots::ShotsState,
     state::State,
     viewport::{Colouring, ViewShot},
     writing::WriteRequest,
@@ -27,11 +28,15 @@ pub enum ViewPart {
     SprayPath,
     /// The axes of the robot's base.
     RobotBase,
+    /// The cameras of a scan's shots.
+    ShotCameras,
+    /// What no shot of a scan shows.
+    Unseen,
 }
 
 impl ViewPart {
     /// All of them, in the order of the menu.
-    pub const ALL: [Self; 7] = [
+    pub const ALL: [Self; 9] = [
         Self::Outline,
         Self::NozzleMiddle,
         Self::NozzleWorst,
@@ -39,6 +44,8 @@ impl ViewPart {
         Self::Axes,
         Self::Camera,
         Self::RobotBase,
+        Self::ShotCameras,
+        Self::Unseen,
     ];
 
     /// What a person calls it.
@@ -51,12 +58,14 @@ impl ViewPart {
             Self::NozzleWorst => "Nozzle at the worst spot",
             Self::SprayPath => "Spray path",
             Self::RobotBase => "Robot base",
+            Self::ShotCameras => "Cameras of the shots",
+            Self::Unseen => "Not seen by any shot",
         }
     }
 }
 
 /// The workspace's own part of the state.
-#[derive(Clone, Debug)]
+#[derive(Debug)]
 pub struct InspectState {
     /// What the view shows besides the points.
     pub parts: BTreeSet<ViewPart>,
@@ -66,6 +75,8 @@ pub struct InspectState {
     pub picture_to: Option<PathBuf>,
     /// The folder that a report is to go to, until a picture of the view is taken for it.
     pub report_to: Option<PathBuf>,
+    /// Of the scan that is shown, if it is one.
+    pub shots: ShotsState,
 }
 
 impl Default for InspectState {
@@ -77,11 +88,14 @@ impl Default for InspectState {
                 ViewPart::NozzleMiddle,
                 ViewPart::SprayPath,
                 ViewPart::RobotBase,
+                ViewPart::ShotCameras,
+                ViewPart::Unseen,
             ]
             .into(),
             colouring: None,
             picture_to: None,
             report_to: None,
+            shots: ShotsState::default(),
         }
     }
 }
@@ -134,10 +148,11 @@ pub(in crate::app) fn write_report(
     folder: PathBuf,
     shot: Option<Box<ViewShot>>,
 ) -> Option<Effect> {
+    let inspected = Arc::clone(&state.shown.as_ref()?.inspected);
     let request = WriteRequest::Report {
         folder,
-        inspected: Arc::clone(&state.shown.as_ref()?.inspected),
-        robot: state.robot.clone(),
+        robot: inspected.robot(state).cloned(),
+        inspected,
         convention: state.convention,
         shot,
     };
@@ -151,7 +166,7 @@ pub(in crate::app) fn write_spray_path(state: &mut State, path: PathBuf) -> Opti
     let request = WriteRequest::SprayPath {
         path,
         inspected: Arc::clone(inspected),
-        robot: state.robot.clone()?,
+        robot: inspected.robot(state)?.clone(),
         convention: state.convention,
     };
     Some(state.begin("Writing the spray path", Request::Write(request)))

@@ -6,7 +6,6 @@ use egui::{Painter, Rect, Ui, UiBuilder, Vec2, pos2, vec2};
 
 use super::{
     controls,
-    scene::SceneFigure,
     state::{InspectAction, ViewPart},
 };
 use crate::{
@@ -15,12 +14,13 @@ use crate::{
         headless::WorkCounts,
         inspect::work::Inspected,
         job::Trouble,
+        shots::{Overlay, POINT_SIZE},
         state::{Shown, State, ThemeChoice},
         theme::{ROUNDING, Theme, font, space},
         unit_system::UnitSystem,
         viewport::{
-            Colouring, FitRequest, Legend, TextLabel, ViewCamera, ViewColours, ViewError,
-            ViewScene, ViewShot, ViewStyle, Viewport, ViewportGpu, furniture,
+            Colouring, FitRequest, Legend, PointSize, TextLabel, ViewCamera, ViewColours,
+            ViewError, ViewScene, ViewShot, ViewStyle, Viewport, ViewportGpu, furniture,
         },
     },
     geometry::rigid::RigidTransform,
@@ -40,6 +40,7 @@ struct Placed {
     parts: BTreeSet<ViewPart>,
     units: UnitSystem,
     camera_from_robot: Option<RigidTransform>,
+    looked_at: Option<usize>,
 }
 
 /// The view of the last result.
@@ -49,6 +50,8 @@ pub(super) struct SceneView {
     scene: ViewScene,
     pub(super) style: ViewStyle,
     styled: ThemeChoice,
+    /// The size of points but for those of a scan.
+    usual_size: PointSize,
     /// What the lines and words of the scene were chosen by.
     placed: Option<Placed>,
     num_placed: u64,
@@ -58,6 +61,8 @@ pub(super) struct SceneView {
     origin: Option<String>,
     /// Of the source followed, whose frame it shows.
     session: Option<u64>,
+    /// Of a scan: the camera's pose in whose space it is shown.
+    space: Option<RigidTransform>,
     /// Of the view in the last frame, logical pixels.
     size: Vec2,
 }
@@ -72,6 +77,7 @@ impl SceneView {
             scene: ViewScene::default(),
             style: style(ThemeChoice::Dark),
             styled: ThemeChoice::Dark,
+            usual_size: style(ThemeChoice::Dark).point_size,
             placed: None,
             num_placed: 0,
             has_deviations: false,
@@ -79,6 +85,7 @@ impl SceneView {
             caption: String::new(),
             origin: None,
             session: None,
+            space: None,
             size: Vec2::splat(1.0),
         }
     }
@@ -91,16 +98,24 @@ impl SceneView {
         self.scene.points = vec![inspected.view.points.clone()];
         self.placed = None;
         // While a source is followed, a person looks from where they please.
-        if shown.session.is_none() || self.session != shown.session {
+        let is_followed = shown.session.is_some() && self.session == shown.session;
+        // The same scan with other shots dropped lies where it did.
+        let space = inspected.scan.as_ref().and_then(|scan| scan.fused.space());
+        if !(is_followed || space.is_some() && space == self.space) {
             self.camera.request_fit(FitRequest::Focus);
         }
+        self.space = space;
         self.session = shown.session;
         let num_planes = inspected.inspection.segmentation.planes.len();
+        let removed = match &inspected.scan {
+            Some(scan) => format!("{} shots together", scan.fused.num_used()),
+            None if num_planes == 1 => "1 background plane removed".into(),
+            None => format!("{num_planes} background planes removed"),
+        };
         self.caption = format!(
-            "{} points · part {} · {num_planes} background {} removed",
+            "{} points · part {} · {removed}",
             grouped(figures.num_points),
             grouped(figures.num_part),
-            if num_planes == 1 { "plane" } else { "planes" },
         );
         let is_simulated = inspected.origin.is_simulated();
         let title = inspected.origin.title();
@@ -118,8 +133,12 @@ impl SceneView {
             self.style = style(state.theme);
             self.styled = state.theme;
         }
-        self.place(state, &inspected.view);
+        self.place(state, inspected);
         self.style.colouring = self.colouring(state);
+        self.style.point_size = match &inspected.scan {
+            Some(_) => POINT_SIZE,
+            None => self.usual_size,
+        };
         let theme = Theme::of(state.theme);
         let rect = ui.available_rect_before_wrap();
         self.size = rect.size();
@@ -139,9 +158,14 @@ impl SceneView {
             vec2(rect.width() - 2.0 * space::MEDIUM, space::TARGET),
         );
         ui.scope_builder(UiBuilder::new().max_rect(bar), |ui| {
-            ui.horizontal(|ui| controls::ui(ui, self, state, &inspected.view, actions));
+            ui.horizontal(|ui| controls::ui(ui, self, state, inspected, actions));
         });
-        self.captions(&ui.painter_at(rect), rect, theme);
+        let painter = ui.painter_at(rect);
+        let top = self.captions(&painter, rect, theme);
+        if let Some(overlay) = overlay(state, inspected) {
+            let corner = pos2(rect.left() + space::MEDIUM, top - 4.0);
+            overlay.legend(&painter, corner, &self.style.colours, theme);
+        }
     }
 
     /// True while keys go to the view; the space bar then still captures.
@@ -180,12 +204,14 @@ impl SceneView {
     }
 
     /// Chooses the lines and words, if what they are chosen by is not what it was.
-    fn place(&mut self, state: &State, figure: &SceneFigure) {
-        let robot = state.robot.as_ref();
+    fn place(&mut self, state: &State, inspected: &Inspected) {
+        let figure = &inspected.view;
+        let robot = inspected.robot(state);
         let by = Placed {
             parts: state.inspect.parts.clone(),
             units: state.units,
             camera_from_robot: robot.map(|robot| robot.robot_from_camera.inverse()),
+            looked_at: state.inspect.shots.looked_at,
         };
         if self.placed.as_ref() == Some(&by) {
             return;
@@ -212,6 +238,8 @@ impl SceneView {
                         });
                     }
                 }
+                // The overlay of the scan has them.
+                ViewPart::ShotCameras | ViewPart::Unseen => {}
                 ViewPart::SprayPath => {
                     if let Some(spray) = &figure.spray {
                         lines.push(spray.lines.clone());
@@ -238,6 +266,10 @@ impl SceneView {
         }
         self.scene.lines = lines;
         self.scene.labels = labels;
+        self.scene.points.truncate(1);
+        if let Some(overlay) = overlay(state, inspected) {
+            overlay.add_to(&mut self.scene);
+        }
         self.placed = Some(by);
         self.num_placed += 1;
     }
@@ -250,8 +282,9 @@ impl SceneView {
         }
     }
 
-    /// What is shown, and that no camera was read, at the bottom; one above the other where both do not fit.
-    fn captions(&self, painter: &Painter, rect: Rect, theme: &Theme) {
+    /// What is shown, and that no camera was read, at the bottom; one above the other where both do not fit. Says where
+    /// they end at the top.
+    fn captions(&self, painter: &Painter, rect: Rect, theme: &Theme) -> f32 {
         let mut corner = pos2(rect.left() + space::MEDIUM, rect.bottom() - space::MEDIUM);
         let first = plate(
             painter,
@@ -261,7 +294,7 @@ impl SceneView {
             theme,
         );
         let Some(origin) = &self.origin else {
-            return;
+            return first.top();
         };
         let width = painter
             .layout_no_wrap(origin.clone(), font::small(), theme.text)
@@ -270,11 +303,25 @@ impl SceneView {
         if first.right() + width + 4.0 * space::MEDIUM < rect.right() {
             corner.x = rect.right() - space::MEDIUM;
             plate(painter, corner, egui::Align2::RIGHT_BOTTOM, origin, theme);
+            first.top()
         } else {
             corner.y = first.top() - 4.0;
-            plate(painter, corner, egui::Align2::LEFT_BOTTOM, origin, theme);
+            plate(painter, corner, egui::Align2::LEFT_BOTTOM, origin, theme).top()
         }
     }
+}
+
+/// What the view shows of a scan over its points.
+fn overlay<'a>(state: &'a State, inspected: &'a Inspected) -> Option<Overlay<'a>> {
+    let scan = inspected.scan.as_ref()?;
+    let unseen = scan.unseen.as_ref();
+    Some(Overlay {
+        fused: &scan.fused,
+        unseen: unseen.map(|(points, share)| (points, *share)),
+        looked_at: state.inspect.shots.looked_at,
+        has_cameras: state.inspect.parts.contains(&ViewPart::ShotCameras),
+        has_unseen: state.inspect.parts.contains(&ViewPart::Unseen),
+    })
 }
 
 fn style(theme: ThemeChoice) -> ViewStyle {

@@ -1,6 +1,6 @@
 //! What the workspace's thread does: gets a scene, inspects it and prepares what the panels draw.
 
-use std::sync::Arc;
+use std::{sync::Arc, time::Instant};
 
 use jiff::Timestamp;
 use nalgebra::Point3;
@@ -9,22 +9,33 @@ use super::scene::{Ingredients, SceneFigure};
 use crate::{
     app::{
         camera::CameraError,
-        deviation::deviations,
+        deviation::{deviations, deviations_at},
         figures::Figures,
+        job::{Answer, Outcome, Trouble},
         shelf::{LibraryShown, Shelf},
+        shots::{FusedShots, ScanRequest, Steps, Then, fuse, marked},
         source::{Captured, Origin, SceneError, SceneSource},
+        state::State,
+        viewport::{PointSet, Role},
+        worker::Desk,
     },
     capture::CaptureWarning,
     error::Advice,
+    geometry::{cloud::PointCloud, rigid::RigidTransform},
     history::{About, NewEntry},
     library::{Library, LibraryError},
     pipeline::{
         self, Inspection, Recipe, Watch,
         live::{Standing, Stillness},
+        scan::{ScanInspection, run_scan, unseen_points},
     },
     report::InspectionLine,
-    robot::spray::{CarriedPath, carry},
+    robot::{
+        RobotFrame,
+        spray::{CarriedPath, carry},
+    },
     stages::{
+        reference::Reference,
         scene::SceneCloud,
         stand_off::{StandOff, StandOffError, stand_off},
     },
@@ -71,8 +82,31 @@ pub struct Inspected {
     pub view: SceneFigure,
     /// Of a frame among others: what they say together.
     pub followed: Option<Followed>,
+    /// The scan that it rests on, if it is one; the scene is then its first shot.
+    pub scan: Option<InspectedScan>,
     /// The same for the history.
     pub entry: NewEntry,
+}
+
+/// The scan that an inspection rests on.
+#[derive(Debug)]
+pub struct InspectedScan {
+    /// Its shots, put together.
+    pub fused: Arc<FusedShots>,
+    /// Where the camera of the first shot stood, by the poses of the scan.
+    pub robot: Arc<RobotFrame>,
+    /// Surface of the recognised part that no shot shows, camera space, and its share, 0..1.
+    pub unseen: Option<(PointSet, f64)>,
+}
+
+impl Inspected {
+    /// Where the camera stood in the robot's base frame: a scan says so itself, else the cell's calibration does.
+    pub fn robot<'a>(&'a self, state: &'a State) -> Option<&'a Arc<RobotFrame>> {
+        match &self.scan {
+            Some(scan) => Some(&scan.robot),
+            None => state.robot.as_ref(),
+        }
+    }
 }
 
 /// What a frame stands for that is one of many.
@@ -140,9 +174,56 @@ pub fn inspect(
         recipe: Arc::clone(&request.recipe),
         inspection,
         followed: None,
+        scan: None,
         source: request.source.in_words(),
     };
     Ok(Some(found.prepared(&fitted, &shelved.shown)))
+}
+
+/// Puts the shots of a scan together and inspects them; `None` when cancelled.
+pub(in crate::app) fn inspect_scan(
+    request: &ScanRequest,
+    shelf: &Shelf,
+    desk: &dyn Desk<Outcome>,
+) -> Option<Outcome> {
+    let begun = Instant::now();
+    let shelved = match shelf.get() {
+        Ok(shelved) => shelved,
+        Err(error) => return Some(Err(Trouble::of(&error))),
+    };
+    let steps = Steps::new(desk);
+    let fused = match fuse(request, Then::Inspect, &steps) {
+        Ok(fused) => Arc::new(fused?),
+        Err(error) => return Some(error.outcome(request)),
+    };
+    let fitted = shelved.fitting(&request.recipe, desk)?;
+    let ScanInspection {
+        mut inspection,
+        first,
+        base_from_part,
+        ..
+    } = run_scan(&fused.scan, &fitted, &request.recipe, &steps).ok()?;
+    inspection.timings.total = begun.elapsed();
+    let shot = fused.scan.shots.get(first)?;
+    let found = Found {
+        scene: Arc::clone(&shot.scene),
+        origin: fused.origin(),
+        warnings: Vec::new(),
+        recipe: Arc::clone(&request.recipe),
+        inspection,
+        followed: None,
+        source: fused.title(),
+        scan: Some(FoundScan {
+            robot: Arc::new(RobotFrame {
+                robot_from_camera: shot.base_from_camera,
+                name: "the poses of the scan".into(),
+            }),
+            base_from_part,
+            fused,
+        }),
+    };
+    let inspected = found.prepared(&fitted, &shelved.shown);
+    Some(Ok(Answer::Inspected(Arc::new(inspected))))
 }
 
 /// An inspection, before what the panels draw of it is made.
@@ -155,6 +236,47 @@ pub(in crate::app) struct Found {
     pub(in crate::app) followed: Option<Followed>,
     /// Where the scene came from, as the history has it.
     pub(in crate::app) source: String,
+    /// The scan that the inspection rests on.
+    pub(in crate::app) scan: Option<FoundScan>,
+}
+
+/// The scan of an inspection, before what the panels draw of it is made.
+pub(in crate::app) struct FoundScan {
+    fused: Arc<FusedShots>,
+    robot: Arc<RobotFrame>,
+    base_from_part: Option<RigidTransform>,
+}
+
+impl FoundScan {
+    /// The part's points in camera space, each with its place among all.
+    fn part(&self) -> impl Iterator<Item = (usize, Point3<f32>)> {
+        let figure = &self.fused.figure;
+        let points = figure.positions.iter().zip(&self.fused.scan.cloud.is_part);
+        let of_part = points.enumerate().filter(|(_, (_, is_part))| **is_part);
+        of_part.map(|(place, (at, _))| (place, Point3::from(*at)))
+    }
+
+    /// Surface of the recognised part that no shot shows, and its share.
+    fn unseen(
+        &self,
+        inspection: &Inspection,
+        reference: &Reference,
+        recipe: &Recipe,
+    ) -> Option<(PointSet, f64)> {
+        let base_from_part = self.base_from_part?;
+        if !inspection.verdict.is_accepted() {
+            return None;
+        }
+        let scan = &self.fused.scan;
+        let places = unseen_points(scan, reference, &base_from_part, recipe.confirm.tolerance);
+        let share = places.len() as f64 / reference.cloud.points.len().max(1) as f64;
+        let view_from_part = (self.fused.figure.camera_from_base * base_from_part).cast::<f32>();
+        let points = places.iter().map(|place| {
+            let at = view_from_part * reference.cloud.points[*place];
+            [at.x, at.y, at.z]
+        });
+        Some((marked(points.collect(), Role::Unseen)?, share))
+    }
 }
 
 impl Found {
@@ -180,10 +302,19 @@ impl Found {
             inspection,
             followed,
             source,
+            scan,
         } = self;
         let best = inspection.best_reference(library);
-        let deviations = best.map_or_else(Vec::new, |reference| {
-            deviations(&scene, &inspection, reference)
+        let deviations = best.map_or_else(Vec::new, |reference| match &scan {
+            Some(found) => {
+                let num = found.fused.figure.positions.len();
+                deviations_at(num, found.part(), &inspection, reference)
+            }
+            None => deviations(&scene, &inspection, reference),
+        });
+        let seen_by_all = scan.as_ref().map(|found| {
+            let points = found.part().map(|(_, point)| point);
+            PointCloud::from_points(points)
         });
         let middle = Self::middle(&inspection, library);
         let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
@@ -195,7 +326,10 @@ impl Found {
         let spray = sprayed.and_then(|(_, pose)| {
             let first = inspection.ranking.entries.first()?;
             let path = shown.spray_paths.get(first.reference)?.as_ref()?;
-            let seen = &inspection.segmentation.part.as_ref().ok()?.cloud;
+            let seen = match &seen_by_all {
+                Some(cloud) => cloud,
+                None => &inspection.segmentation.part.as_ref().ok()?.cloud,
+            };
             Some(carry(
                 path,
                 &pose.camera_from_part(),
@@ -205,6 +339,7 @@ impl Found {
         });
         let view = SceneFigure::of(&Ingredients {
             scene: &scene,
+            scan: scan.as_ref().map(|found| &found.fused.figure),
             inspection: &inspection,
             reference: best,
             middle,
@@ -212,7 +347,16 @@ impl Found {
             stand_off: stand_off.as_ref().and_then(|found| found.as_ref().ok()),
             spray: spray.as_ref(),
         });
-        let figures = Figures::of(&scene, &inspection, library, shown);
+        let mut figures = Figures::of(&scene, &inspection, library, shown);
+        if let (Some(found), Some(part)) = (&scan, &seen_by_all) {
+            figures.num_points = found.fused.figure.positions.len();
+            figures.num_part = part.points.len();
+        }
+        let scan = scan.map(|found| InspectedScan {
+            unseen: best.and_then(|best| found.unseen(&inspection, best, &recipe)),
+            fused: found.fused,
+            robot: found.robot,
+        });
         let at = Timestamp::now();
         let title = origin.title();
         let about = About {
@@ -243,6 +387,7 @@ impl Found {
             spray,
             view,
             followed,
+            scan,
             entry,
         }
     }

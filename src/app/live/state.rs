@@ -83,11 +83,11 @@ impl State {
 }
 
 impl Source {
-    /// What can be followed of it; nothing of a single file.
+    /// What can be followed of it; nothing of a single file or a scan.
     pub fn followed(&self) -> Option<SourceSpec> {
         match self {
             Self::Cell(choice) => Some(SourceSpec::Simulated(choice.followed())),
-            Self::File(_) => None,
+            Self::File(_) | Self::Scan(_) => None,
             Self::Camera(spec) => Some((**spec).clone()),
         }
     }
@@ -141,9 +141,13 @@ pub(in crate::app) fn source_changed(state: &mut State) -> Option<Effect> {
 /// Follows the source; whatever was being inspected is given up.
 fn start(state: &mut State) -> Option<Effect> {
     if state.source.followed().is_none() {
+        let what = match state.source {
+            Source::Scan(_) => "A scan cannot be followed: nothing in it changes",
+            _ => "A single file cannot be followed: nothing in it changes",
+        };
         let notice = Notice {
             kind: NoticeKind::Look,
-            what: "A single file cannot be followed: nothing in it changes".into(),
+            what: what.into(),
             advice: "Choose a camera, a recording or a folder in the source menu".into(),
         };
         notify(state, notice);

@@ -99,7 +99,7 @@ fn words(state: &State) -> (Mark, String) {
     let name = match &state.source {
         Source::Camera(spec) if matches!(**spec, SourceSpec::Recording(_)) => "Playing",
         Source::Camera(spec) if matches!(**spec, SourceSpec::Watched(_)) => "Watching the folder",
-        Source::Camera(_) | Source::Cell(_) | Source::File(_) => "Live",
+        Source::Camera(_) | Source::Cell(_) | Source::File(_) | Source::Scan(_) => "Live",
     };
     let Some(status) = &state.live.status else {
         return (Mark::Look, format!("{name} · opening"));

@@ -274,6 +274,7 @@ impl<'a> Follower<'a> {
             return Some(Ok(()));
         }
         let found = Found {
+            scan: None,
             scene,
             origin,
             warnings,

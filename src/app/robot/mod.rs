@@ -9,7 +9,7 @@ pub mod work;
 
 pub(super) use self::{
     dialog::ui,
-    state::{apply, hear, start},
+    state::{apply, calibration_path, hear, start},
 };
 pub use self::{
     state::{RememberedCell, RobotAction, RobotDialog, RobotPage, RobotState},

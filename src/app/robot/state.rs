@@ -234,16 +234,21 @@ pub(in crate::app) fn apply(state: &mut State, action: RobotAction) -> Option<Ef
 
 /// What a window asks for that has just been opened.
 pub(in crate::app) fn start(state: &mut State) -> Option<Effect> {
-    let path = match &state.cell.remembered {
-        RememberedCell::Usual => state.cell.usual.clone().filter(|path| path.exists())?,
-        RememberedCell::Forgotten => return None,
-        RememberedCell::File(path) => path.clone(),
-    };
+    let path = calibration_path(state)?;
     Some(ask(
         state,
         "Opening the calibration",
         RobotRequest::Load(path),
     ))
+}
+
+/// The file of the calibration in use, also while it is being loaded.
+pub(in crate::app) fn calibration_path(state: &State) -> Option<PathBuf> {
+    match &state.cell.remembered {
+        RememberedCell::Usual => state.cell.usual.clone().filter(|path| path.exists()),
+        RememberedCell::Forgotten => None,
+        RememberedCell::File(path) => Some(path.clone()),
+    }
 }
 
 fn ask(state: &mut State, what: &str, request: RobotRequest) -> Effect {

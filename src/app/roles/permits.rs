@@ -50,6 +50,7 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
         | Action::Notify(_)
         | Action::Quit
         | Action::CopyPose
+        | Action::Shots(_)
         | Action::Inspect(_)
         | Action::Hear(..) => false,
     }
@@ -59,6 +60,9 @@ fn asks_for_engineer(ask: Ask) -> bool {
     match ask {
         Ask::Library | Ask::Part | Ask::PartPath | Ask::Calibration | Ask::Pairs => true,
         Ask::Scene
+        | Ask::Scan
+        | Ask::ScanPoses
+        | Ask::Shot
         | Ask::Recording
         | Ask::WatchedFolder
         | Ask::RecordTo

@@ -5,7 +5,8 @@ use std::{path::PathBuf, sync::Arc};
 pub use crate::app::theme::ThemeChoice;
 use crate::{
     app::{
-        inspect::work::Inspected, shelf::LibraryShown, source::CellChoice, unit_system::UnitSystem,
+        inspect::work::Inspected, shelf::LibraryShown, shots::ScanFiles, source::CellChoice,
+        unit_system::UnitSystem,
     },
     capture::SourceSpec,
     pipeline::Recipe,
@@ -51,6 +52,8 @@ pub enum Source {
     Cell(CellChoice),
     /// A file, read again at each capture.
     File(PathBuf),
+    /// The shots of a scan, read again at each capture.
+    Scan(ScanFiles),
     /// A camera, a recording, a watched folder, or the simulated cell as somebody has set it up.
     Camera(Box<SourceSpec>),
 }

@@ -41,11 +41,15 @@ pub enum Role {
     Nozzle,
     /// A measured distance.
     Measure,
+    /// Surface that no shot of a scan shows.
+    Unseen,
+    /// Surface that one shot of a scan alone shows.
+    SeenOnce,
 }
 
 impl Role {
     /// Every role, in the order of their numbers.
-    pub const ALL: [Self; 15] = [
+    pub const ALL: [Self; 17] = [
         Self::Rest,
         Self::Part,
         Self::Plane0,
@@ -61,6 +65,8 @@ impl Role {
         Self::Contour,
         Self::Nozzle,
         Self::Measure,
+        Self::Unseen,
+        Self::SeenOnce,
     ];
 
     /// The role of a point that segmentation labelled.
@@ -93,6 +99,8 @@ impl Role {
             Self::Contour => "Contour",
             Self::Nozzle => "Nozzle",
             Self::Measure => "Distance",
+            Self::Unseen => "Not seen",
+            Self::SeenOnce => "Seen by one shot alone",
         }
     }
 }
@@ -233,6 +241,8 @@ impl ViewColours {
                 role(0xe8_eaed, 0.9),
                 role(0xf0_f2f5, 1.0),
                 role(0xff_d866, 1.0),
+                role(0xff_9d3c, 1.3),
+                role(0xb7_a6f2, 1.1),
             ],
             height_scale: [
                 0x3b_3f8c, 0x3b_6fb0, 0x3a_9db0, 0x4f_c4a0, 0x93_d67c, 0xd9_e06a, 0xfb_f3a0,
@@ -271,6 +281,8 @@ impl ViewColours {
                 role(0x1b_1e23, 0.9),
                 role(0x1b_1e23, 1.0),
                 role(0xb3_0f6a, 1.0),
+                role(0xd0_5a00, 1.3),
+                role(0x6b_4fd0, 1.1),
             ],
             height_scale: [
                 0x31_357d, 0x2f_62a6, 0x2a_8ca6, 0x35_ad86, 0x74_bb57, 0xb9_b93a, 0xdc_a92a,

@@ -1,7 +1,7 @@
 // What all shaders of one view share. The Rust side is `ViewUniform` in uniform.rs.
 
 const SCALE_STOPS: i32 = 7;
-const NUM_ROLES: u32 = 15u;
+const NUM_ROLES: u32 = 17u;
 
 struct View {
     // Of the target, physical pixels.

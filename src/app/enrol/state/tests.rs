@@ -350,6 +350,6 @@ fn an_answer_that_comes_when_nothing_is_there_any_more_changes_nothing() {
         what: "late".into(),
         advice: String::new(),
     }));
-    assert!(hear(&mut bench.state, Ok(answer)).is_none());
+    assert!(hear(&mut bench.state, 1, Ok(answer)).is_none());
     assert!(bench.state.enrol.draft.is_none());
 }

@@ -1,0 +1,298 @@
+//! The list of the shots: what each contributes, how far its pose was refined, whether it is used and why not.
+
+use std::sync::Arc;
+
+use egui::{
+    Align, Button, Checkbox, Color32, ColorImage, Frame, Label, Layout, Margin, Rect, RichText,
+    ScrollArea, Sense, Stroke, StrokeKind, TextureHandle, TextureOptions, Ui, Vec2, WidgetInfo,
+    pos2, vec2,
+};
+
+use super::{
+    figure::{ShotFate, ShotRow},
+    state::{ShotsAction, StripTab},
+    work::FusedShots,
+};
+use crate::app::{
+    action::{Action, Ask},
+    bars::{focus_ring, labelled, shortened},
+    inspect::grouped,
+    state::{State, Workspace},
+    theme::{ROUNDING, Theme, font, space},
+    unit_system::UnitSystem,
+    widgets::{Mark, mark, sentence},
+};
+use crate::error::Advice as _;
+
+/// Width of a shot in the list, logical pixels.
+const CARD: f32 = 240.0;
+/// Its picture.
+const PICTURE: Vec2 = Vec2::new(80.0, 60.0);
+/// Letters of its name.
+const LETTERS: usize = 22;
+
+/// The list, and the textures of its pictures.
+#[derive(Default)]
+pub(in crate::app) struct ShotList {
+    made: Option<(Arc<FusedShots>, Vec<TextureHandle>)>,
+}
+
+impl ShotList {
+    /// Height of the list with its row of tabs, logical pixels.
+    pub(in crate::app) const HEIGHT: f32 = 162.0;
+
+    /// Draws the row above the strip: what the strip shows, and what changes the shots. True if it shows the list.
+    pub(in crate::app) fn tabs(
+        ui: &mut Ui,
+        state: &State,
+        usual: &str,
+        theme: &Theme,
+        actions: &mut Vec<Action>,
+    ) -> bool {
+        let shown = state.shots().strip;
+        ui.horizontal(|ui| {
+            ui.spacing_mut().button_padding.x = 9.0;
+            for (tab, text) in [(StripTab::Shots, "Shots"), (StripTab::Usual, usual)] {
+                let is_shown = shown == tab;
+                let button = Button::selectable(is_shown, text).min_size(Vec2::splat(space::TARGET));
+                if ui.add(button).clicked() {
+                    actions.push(Action::Shots(ShotsAction::Strip(tab)));
+                }
+            }
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                let key = |text: &str| RichText::new(text).font(font::small());
+                if labelled(ui, Button::new(key("Add a shot…")), "Add a shot…")
+                    .on_hover_text("A frame of the same part; its pose must be in the file of the poses or in poses.json beside it")
+                    .clicked()
+                {
+                    actions.push(Action::Ask(Ask::Shot));
+                }
+                // Enrol has its own, for corrections and shots alike.
+                if state.workspace != Workspace::Enrol {
+                    let shots = state.shots();
+                    for (text, label, can, action) in [
+                        ("Redo", "Redo the change of the shots", shots.can_redo(), ShotsAction::Redo),
+                        ("Undo", "Undo the change of the shots", shots.can_undo(), ShotsAction::Undo),
+                    ] {
+                        let button = Button::new(key(text)).min_size(Vec2::splat(space::TARGET));
+                        let response = ui.add_enabled(can, button);
+                        response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, can, label));
+                        if response.clicked() {
+                            actions.push(Action::Shots(action));
+                        }
+                    }
+                }
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                    if let Some(fused) = state.fused() {
+                        let text = RichText::new(caption(fused, state.units)).font(font::small());
+                        ui.add(Label::new(text.color(theme.weak_text)).truncate());
+                    }
+                });
+            });
+        });
+        shown == StripTab::Shots
+    }
+
+    /// Draws the list.
+    pub(in crate::app) fn ui(
+        &mut self,
+        ui: &mut Ui,
+        state: &State,
+        theme: &Theme,
+        actions: &mut Vec<Action>,
+    ) {
+        let Some(fused) = state.fused() else {
+            return;
+        };
+        self.make(ui.ctx(), fused);
+        let textures = self.made.as_ref().map_or(&[][..], |(_, textures)| textures);
+        // A wheel turns it as well.
+        ui.style_mut().always_scroll_the_only_direction = true;
+        ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
+            ui.horizontal_top(|ui| {
+                let rows = fused.rows.iter().zip(textures).enumerate();
+                for (place, (row, texture)) in rows {
+                    card(ui, place, row, texture, state, theme, actions);
+                }
+            });
+        });
+    }
+
+    /// Uploads the pictures of another scan, once.
+    fn make(&mut self, ctx: &egui::Context, fused: &Arc<FusedShots>) {
+        let made = self.made.as_ref();
+        if made.is_some_and(|(of, _)| Arc::ptr_eq(of, fused)) {
+            return;
+        }
+        let texture = |row: &ShotRow| {
+            let size = [row.picture.width() as usize, row.picture.height() as usize];
+            let image = ColorImage::from_rgb(size, row.picture.as_raw());
+            ctx.load_texture("shot", image, TextureOptions::LINEAR)
+        };
+        let textures = fused.rows.iter().map(texture).collect();
+        self.made = Some((Arc::clone(fused), textures));
+    }
+}
+
+/// How many shots there are, and how well they agree.
+fn caption(fused: &FusedShots, units: UnitSystem) -> String {
+    let num = fused.rows.len();
+    let used = match fused.num_used() {
+        used if used == num => format!("{num} shots"),
+        used => format!("{used} of {num} shots used"),
+    };
+    match fused.scan.after.part.or(fused.scan.after.all) {
+        Some(overlap) => format!("{used} · they agree to {} rms", units.length(overlap.rms.0)),
+        None => used,
+    }
+}
+
+fn card(
+    ui: &mut Ui,
+    place: usize,
+    row: &ShotRow,
+    texture: &TextureHandle,
+    state: &State,
+    theme: &Theme,
+    actions: &mut Vec<Action>,
+) {
+    let choice = state.shot_choice();
+    let is_taken = choice.is_none_or(|choice| !choice.dropped.contains(&place));
+    Frame::new()
+        .fill(theme.control)
+        .corner_radius(ROUNDING)
+        .inner_margin(Margin {
+            left: 8,
+            right: 8,
+            top: 0,
+            bottom: 6,
+        })
+        .show(ui, |ui| {
+            ui.spacing_mut().item_spacing = vec2(8.0, 0.0);
+            ui.vertical(|ui| {
+                ui.set_width(CARD - 16.0);
+                let mut is_checked = is_taken;
+                let text = format!("{} · {}", place + 1, shortened(&row.name, LETTERS));
+                let text = RichText::new(text).font(font::body_strong());
+                let response = ui.add(Checkbox::new(&mut is_checked, text));
+                let label = format!("Use {}", row.name);
+                response.widget_info(|| {
+                    WidgetInfo::selected(egui::Role::CheckBox, true, is_taken, label.clone())
+                });
+                if response.gained_focus() {
+                    response.scroll_to_me(None);
+                }
+                let says = if is_taken {
+                    "Drop this shot: the others are put together without it"
+                } else {
+                    "Take this shot back"
+                };
+                if response.on_hover_text(says).clicked() {
+                    actions.push(Action::Shots(ShotsAction::Toggle(place)));
+                }
+                ui.horizontal_top(|ui| {
+                    picture(ui, place, is_taken, texture, state, theme, actions);
+                    ui.vertical(|ui| words(ui, row, is_taken, state.units, theme));
+                });
+            });
+        });
+}
+
+/// The picture; a press marks in the view what this shot alone sees.
+fn picture(
+    ui: &mut Ui,
+    place: usize,
+    is_taken: bool,
+    texture: &TextureHandle,
+    state: &State,
+    theme: &Theme,
+    actions: &mut Vec<Action>,
+) {
+    let (rect, response) = ui.allocate_exact_size(PICTURE, Sense::click());
+    let is_marked = state.shots().looked_at == Some(place);
+    let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+    let shade = if is_taken { 1.0 } else { 0.45 };
+    let tint = Color32::WHITE.gamma_multiply(shade);
+    ui.painter().rect_filled(rect, 0.0, theme.canvas);
+    ui.painter().image(texture.id(), rect, whole, tint);
+    if is_marked {
+        let stroke = Stroke::new(2.0, theme.reference_series);
+        ui.painter()
+            .rect_stroke(rect, 0.0, stroke, StrokeKind::Inside);
+    }
+    focus_ring(ui, rect, &response, theme);
+    let label = format!("Mark what shot {} alone sees", place + 1);
+    response
+        .widget_info(|| WidgetInfo::selected(egui::Role::Button, true, is_marked, label.clone()));
+    if response.on_hover_text(&label).clicked() {
+        actions.push(Action::Shots(ShotsAction::LookAt(place)));
+    }
+}
+
+/// What the shot contributes, or why it does not.
+fn words(ui: &mut Ui, row: &ShotRow, is_taken: bool, units: UnitSystem, theme: &Theme) {
+    ui.spacing_mut().interact_size.y = 0.0;
+    ui.spacing_mut().item_spacing.y = 1.0;
+    let small = |ui: &mut Ui, text: String, colour: Color32| {
+        let text = RichText::new(text).font(font::small()).color(colour);
+        ui.add(Label::new(text).truncate())
+    };
+    let said = |ui: &mut Ui, text: String, hint: &str| {
+        ui.horizontal_top(|ui| {
+            let (rect, _) = ui.allocate_exact_size(Vec2::splat(14.0), Sense::hover());
+            mark(ui.painter(), rect.center(), 6.5, Mark::Look, theme);
+            let text = RichText::new(text).font(font::small()).color(theme.warning);
+            ui.add(Label::new(text).wrap()).on_hover_text(hint);
+        });
+    };
+    match row.fate {
+        ShotFate::Dropped => {
+            small(ui, "Dropped".into(), theme.weak_text);
+        }
+        ShotFate::Excluded(why) => {
+            let advice = why.advice();
+            let why = why.to_string();
+            // The card of the workspace has the rest.
+            let short = why.split(':').next().unwrap_or(&why);
+            said(
+                ui,
+                format!("Left out: {short}"),
+                &format!("{}. {}", sentence(&why), advice),
+            );
+        }
+        ShotFate::Used {
+            moved,
+            rms,
+            has_part,
+        } => {
+            let seen = format!("{:.0} % of the part", row.seen * 100.0);
+            let all = format!("It sees {} points of the part", grouped(row.num_points));
+            small(ui, seen, theme.text).on_hover_text(all);
+            if has_part {
+                let only = match row.only * 100.0 {
+                    only if only > 0.0 && only < 1.0 => "alone sees < 1 %".to_owned(),
+                    only => format!("alone sees {only:.0} %"),
+                };
+                small(ui, only, theme.weak_text);
+            } else {
+                let says = "The other shots say what of it is the part";
+                small(ui, "no part found in it".into(), theme.warning).on_hover_text(says);
+            }
+            let moved = format!(
+                "moved {} · {}",
+                units.length(moved.shift.0),
+                units.angle(moved.rotation.0)
+            );
+            small(ui, moved, theme.weak_text);
+            if let Some(rms) = rms {
+                small(ui, format!("rms {}", units.length(rms.0)), theme.weak_text);
+            } else {
+                let says = "It keeps the pose that the robot gave";
+                small(ui, "overlaps no other".into(), theme.warning).on_hover_text(says);
+            }
+        }
+    }
+    if !is_taken && row.fate != ShotFate::Dropped {
+        small(ui, "To be dropped…".into(), theme.weak_text);
+    }
+}

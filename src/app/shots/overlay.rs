@@ -1,0 +1,128 @@
+//! What a 3-D view shows of a scan beside its points: cameras, what one shot alone sees, what none does, and the legend.
+
+use egui::{Align2, Color32, Painter, Pos2, Rect, vec2};
+
+use super::{figure::ScanFigure, work::FusedShots};
+use crate::app::{
+    theme::{ROUNDING, Theme, font},
+    viewport::{PointSet, PointSize, Role, TextLabel, ViewColours, ViewScene},
+};
+use crate::units::Metres;
+
+/// Diameter of the points of a scan: they are the means of voxels of 4 mm, whose diagonal is longer.
+pub(in crate::app) const POINT_SIZE: PointSize = PointSize::Metres(Metres(0.006));
+
+/// What is shown over the points of a scan.
+pub(in crate::app) struct Overlay<'a> {
+    pub(in crate::app) fused: &'a FusedShots,
+    /// Surface of the recognised part that no shot shows, and its share; without a recognised part the open outline.
+    pub(in crate::app) unseen: Option<(&'a PointSet, f64)>,
+    /// The shot whose own surface is marked.
+    pub(in crate::app) looked_at: Option<usize>,
+    /// Whether the cameras are drawn.
+    pub(in crate::app) has_cameras: bool,
+    /// Whether what was not seen is drawn.
+    pub(in crate::app) has_unseen: bool,
+}
+
+impl Overlay<'_> {
+    fn figure(&self) -> &ScanFigure {
+        &self.fused.figure
+    }
+
+    fn unseen_points(&self) -> Option<&PointSet> {
+        let points = match self.unseen {
+            Some((points, _)) => Some(points),
+            None => self.figure().open_band.as_ref(),
+        };
+        points.filter(|_| self.has_unseen)
+    }
+
+    fn own_points(&self) -> Option<&PointSet> {
+        self.figure().only.get(self.looked_at?)?.as_ref()
+    }
+
+    /// Adds it to a view that shows the points of the scan and nothing else of it.
+    pub(in crate::app) fn add_to(&self, scene: &mut ViewScene) {
+        scene.points.extend(self.unseen_points().cloned());
+        scene.points.extend(self.own_points().cloned());
+        if !self.has_cameras {
+            return;
+        }
+        for camera in &self.figure().cameras {
+            scene.lines.push(camera.lines.clone());
+            scene.labels.push(TextLabel {
+                at: camera.at,
+                text: format!("{}", camera.place + 1),
+            });
+        }
+    }
+
+    /// What the colours stand for, each with its share.
+    fn entries(&self, colours: &ViewColours) -> Vec<(Color32, String)> {
+        let percent = |share: f64| match share * 100.0 {
+            percent if percent > 0.0 && percent < 1.0 => "< 1 %".to_owned(),
+            percent => format!("{percent:.0} %"),
+        };
+        let mut entries = Vec::new();
+        if self.unseen_points().is_some() {
+            let text = match self.unseen {
+                Some((_, share)) => format!(
+                    "Not seen by any shot · {} of the enrolled surface",
+                    percent(share)
+                ),
+                None => format!(
+                    "Unseen: the part may go on here · {} of the outline",
+                    percent(self.figure().open_share)
+                ),
+            };
+            entries.push((colours.role(Role::Unseen).colour, text));
+        }
+        if let Some(place) = self.looked_at
+            && let Some(row) = self.fused.rows.get(place)
+        {
+            let text = format!(
+                "Seen by shot {} alone · {} of the part",
+                place + 1,
+                percent(row.only)
+            );
+            entries.push((colours.role(Role::SeenOnce).colour, text));
+        }
+        entries
+    }
+
+    /// Draws the legend with its lower left corner here.
+    pub(in crate::app) fn legend(
+        &self,
+        painter: &Painter,
+        corner: Pos2,
+        colours: &ViewColours,
+        theme: &Theme,
+    ) {
+        const LINE: f32 = 20.0;
+        const SQUARE: f32 = 11.0;
+        let entries = self.entries(colours);
+        let lines = entries.into_iter().map(|(colour, text)| {
+            let galley = painter.layout_no_wrap(text, font::small(), theme.text);
+            (colour, galley)
+        });
+        let lines: Vec<_> = lines.collect();
+        if lines.is_empty() {
+            return;
+        }
+        let width = lines.iter().map(|(_, text)| text.size().x);
+        let width = width.fold(0.0, f32::max) + SQUARE + 24.0;
+        let size = vec2(width, LINE * lines.len() as f32 + 6.0);
+        let plate = Align2::LEFT_BOTTOM.anchor_size(corner, size);
+        painter.rect_filled(plate, ROUNDING, theme.canvas.gamma_multiply(0.82));
+        for (place, (colour, text)) in lines.into_iter().enumerate() {
+            let middle = plate.top() + 3.0 + LINE * (place as f32 + 0.5);
+            let at = Pos2::new(plate.left() + 8.0, middle);
+            let square = Align2::LEFT_CENTER.anchor_size(at, vec2(SQUARE, SQUARE));
+            painter.rect_filled(square, 2.0, colour);
+            let left = Pos2::new(square.right() + 8.0, middle - text.size().y / 2.0);
+            let place = Rect::from_min_size(left, text.size());
+            painter.galley(place.min, text, theme.text);
+        }
+    }
+}

@@ -1,0 +1,68 @@
+//! What the card of a workspace says about the scan in front.
+
+use egui::{RichText, Ui};
+
+use super::{figure::ShotFate, work::FusedShots};
+use crate::{
+    app::{
+        inspect::grouped,
+        theme::{Theme, font, space},
+        unit_system::UnitSystem,
+        widgets::{heading, row, sentence},
+    },
+    error::Advice as _,
+};
+
+/// Draws the section.
+pub(in crate::app) fn summary(ui: &mut Ui, fused: &FusedShots, units: UnitSystem, theme: &Theme) {
+    heading(ui, theme, "Scan");
+    // Text lies closer than controls do.
+    ui.scope(|ui| {
+        ui.spacing_mut().interact_size.y = 20.0;
+        ui.spacing_mut().item_spacing.y = 3.0;
+        figures(ui, fused, units, theme);
+    });
+}
+
+fn figures(ui: &mut Ui, fused: &FusedShots, units: UnitSystem, theme: &Theme) {
+    let num_all = fused.rows.len();
+    row(
+        ui,
+        theme,
+        "shots used",
+        &format!("{} of {num_all}", fused.num_used()),
+    );
+    let moved = fused.rows.iter().filter_map(|row| match row.fate {
+        ShotFate::Used { moved, .. } => Some([moved.shift.0, moved.rotation.0]),
+        _ => None,
+    });
+    let [shift, turn] = moved.fold([0.0_f64; 2], |most, one| {
+        [most[0].max(one[0]), most[1].max(one[1])]
+    });
+    let moved = format!("{} · {}", units.length(shift), units.angle(turn));
+    row(ui, theme, "poses refined by up to", &moved);
+    if let Some(overlap) = fused.scan.after.part.or(fused.scan.after.all) {
+        row(
+            ui,
+            theme,
+            "shots agree to, rms",
+            &units.length(overlap.rms.0),
+        );
+    }
+    let num_part = fused.scan.cloud.is_part.iter().filter(|is| **is).count();
+    row(ui, theme, "points of the part", &grouped(num_part));
+    let open = format!("{:.0} %", fused.figure.open_share * 100.0);
+    row(ui, theme, "outline open", &open);
+    for (place, shot) in fused.rows.iter().enumerate() {
+        if let ShotFate::Excluded(why) = shot.fate {
+            ui.add_space(space::SMALL);
+            let text = format!("Shot {} is left out: {why}", place + 1);
+            ui.label(RichText::new(sentence(&text)).color(theme.text));
+            ui.label(
+                RichText::new(why.advice())
+                    .font(font::body_strong())
+                    .color(theme.warning),
+            );
+        }
+    }
+}

@@ -1,0 +1,482 @@
+//! What the threads do: read shots with their poses and put them together.
+
+use std::{
+    cell::Cell,
+    collections::BTreeSet,
+    ops::ControlFlow,
+    panic::resume_unwind,
+    path::{Path, PathBuf},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, AtomicUsize, Ordering},
+    },
+    thread,
+    time::Duration,
+};
+
+use serde::{Deserialize, Serialize};
+
+use super::figure::{ScanFigure, ShotRow, rows};
+use crate::{
+    app::{
+        job::{Answer, Outcome, Trouble},
+        source::{Origin, file_name},
+        worker::Desk,
+    },
+    error::Advice,
+    geometry::rigid::RigidTransform,
+    pipeline::{Recipe, Stage, Watch},
+    robot::{
+        calibration::CellCalibration,
+        frame_poses::FramePosesError,
+        scan_frames::{FrameNews, ScanFramesError, poses_beside, read_frames, with_poses},
+    },
+    scan::{Scan, ScanError, ScanParams, ScanStep, ScanWatch, Shot, assemble},
+};
+
+/// The files of a scan, and which of its shots are left out.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct ScanFiles {
+    /// A folder, a recording, or the frames themselves.
+    pub frames: Vec<PathBuf>,
+    /// The file of the poses; without it they are in the recording or lie beside the frames.
+    pub poses: Option<PathBuf>,
+    /// Frames that were added, each with the file of its pose.
+    pub added: Vec<(PathBuf, PathBuf)>,
+    /// Names of the shots that a person dropped.
+    pub dropped: BTreeSet<String>,
+}
+
+impl ScanFiles {
+    /// Those of a folder.
+    pub fn of_folder(folder: PathBuf) -> Self {
+        Self {
+            frames: vec![folder],
+            ..Self::default()
+        }
+    }
+
+    /// What a person calls it, and what an enrolled part is said to come from.
+    pub fn title(&self) -> String {
+        self.frames
+            .first()
+            .map_or_else(String::new, |first| file_name(first))
+    }
+
+    /// The folder, if it is one that needs no other file to be opened again.
+    pub fn folder(&self) -> Option<&Path> {
+        match self.frames.as_slice() {
+            [folder] if self.poses.is_none() && self.added.is_empty() => Some(folder),
+            _ => None,
+        }
+    }
+}
+
+/// Shots that were read, with the files that they came from.
+#[derive(Debug)]
+pub struct ShotSet {
+    /// The files; who dropped what is in [`ShotChoice`].
+    pub files: ScanFiles,
+    /// In the order of the files, those added last.
+    pub shots: Vec<Shot>,
+}
+
+/// Shots, and which of them are left out.
+#[derive(Clone, Debug)]
+pub struct ShotChoice {
+    /// All shots.
+    pub set: Arc<ShotSet>,
+    /// Places of those that a person dropped.
+    pub dropped: BTreeSet<usize>,
+}
+
+impl ShotChoice {
+    /// The files, to be opened again with the same shots dropped.
+    pub fn files(&self) -> ScanFiles {
+        let shots = self.set.shots.iter().enumerate();
+        let dropped = shots.filter(|(place, _)| self.dropped.contains(place));
+        ScanFiles {
+            dropped: dropped.map(|(_, shot)| shot.name.clone()).collect(),
+            ..self.set.files.clone()
+        }
+    }
+
+    /// How many shots are not dropped.
+    pub fn num_taken(&self) -> usize {
+        self.set.shots.len() - self.dropped.len()
+    }
+}
+
+/// Which shots to put together.
+#[derive(Clone, Debug)]
+pub enum ScanOrder {
+    /// Read these.
+    Open(ScanFiles),
+    /// These are at hand.
+    Known(ShotChoice),
+    /// One more, with the file of its pose if a person named one.
+    Add(ShotChoice, PathBuf, Option<PathBuf>),
+}
+
+impl ScanOrder {
+    /// The same with the poses of this file.
+    #[must_use]
+    pub fn with_poses(self, file: PathBuf) -> Self {
+        match self {
+            Self::Open(files) => Self::Open(ScanFiles {
+                poses: Some(file),
+                ..files
+            }),
+            Self::Known(choice) => Self::Known(choice),
+            Self::Add(choice, frame, _) => Self::Add(choice, frame, Some(file)),
+        }
+    }
+}
+
+/// Put shots together.
+#[derive(Clone, Debug)]
+pub struct ScanRequest {
+    /// Which.
+    pub order: ScanOrder,
+    /// The file of the hand-eye calibration: poses of the flange need it.
+    pub calibration: Option<PathBuf>,
+    /// All parameters.
+    pub recipe: Arc<Recipe>,
+}
+
+/// Shots put together.
+#[derive(Debug)]
+pub struct FusedShots {
+    /// The shots, and which of them were dropped.
+    pub choice: ShotChoice,
+    /// What came of those that were not dropped.
+    pub scan: Scan,
+    /// One per shot of the choice, in its order.
+    pub rows: Vec<ShotRow>,
+    /// What the 3-D view shows.
+    pub figure: ScanFigure,
+    /// What was odd about the files.
+    pub warnings: Vec<Trouble>,
+}
+
+impl FusedShots {
+    /// How many shots the result rests on.
+    pub fn num_used(&self) -> usize {
+        self.scan.used().count()
+    }
+
+    /// The pose, by the robot, of the camera in whose space the figure is.
+    pub fn space(&self) -> Option<RigidTransform> {
+        self.scan.used().next().map(|(_, shot)| shot.given)
+    }
+
+    /// Where it came from.
+    pub fn origin(&self) -> Origin {
+        Origin::Scan {
+            name: self.title(),
+            is_simulated: self.scan.cloud.cloud.is_simulated,
+        }
+    }
+
+    /// What a person calls it.
+    pub fn title(&self) -> String {
+        let title = self.choice.set.files.title();
+        format!("{title} · {} shots", self.num_used())
+    }
+}
+
+/// Why shots cannot be put together.
+#[derive(Debug, thiserror::Error)]
+pub enum FuseError {
+    /// The frames or their poses cannot be read.
+    #[error(transparent)]
+    Frames(#[from] ScanFramesError),
+    /// They do not fit together.
+    #[error(transparent)]
+    Scan(#[from] ScanError),
+    /// Two shots of one name cannot be told apart.
+    #[error("{name} is among the shots already")]
+    NameTaken {
+        /// The name.
+        name: String,
+    },
+}
+
+impl FuseError {
+    /// True if a file of poses, named by a person, would help.
+    pub fn wants_poses(&self) -> bool {
+        matches!(
+            self,
+            Self::Frames(
+                ScanFramesError::NoPoses | ScanFramesError::Poses(FramePosesError::Missing { .. })
+            )
+        )
+    }
+
+    /// As it comes back from the thread.
+    pub(in crate::app) fn outcome(&self, request: &ScanRequest) -> Outcome {
+        let trouble = Trouble::of(self);
+        if self.wants_poses() {
+            let order = Box::new(request.order.clone());
+            Ok(Answer::PosesWanted(order, trouble))
+        } else {
+            Err(trouble)
+        }
+    }
+
+    fn is_cancelled(&self) -> bool {
+        matches!(
+            self,
+            Self::Frames(ScanFramesError::Cancelled) | Self::Scan(ScanError::Cancelled)
+        )
+    }
+}
+
+impl Advice for FuseError {
+    fn advice(&self) -> String {
+        match self {
+            Self::Frames(ScanFramesError::NoPoses) => {
+                "Choose the file of the poses; its form is described by partsight help scan".into()
+            }
+            Self::Frames(ScanFramesError::Poses(FramePosesError::Missing { .. })) => {
+                "Choose a file that has them, or add them to this one and open the scan again".into()
+            }
+            Self::Frames(ScanFramesError::Poses(
+                FramePosesError::NoCalibration { .. } | FramePosesError::CameraIsFixed { .. },
+            )) => "Load the calibration of the camera on the flange (Robot…, B), then open the scan again".into(),
+            Self::Scan(ScanError::TooFewShots { found: 1 }) => {
+                "Open a folder with frames from other sides too, or open this frame by itself (Ctrl O)".into()
+            }
+            Self::Scan(ScanError::TooFewShots { .. }) => "Open the folder that holds the frames".into(),
+            Self::Frames(error) => error.advice(),
+            Self::Scan(error) => error.advice(),
+            Self::NameTaken { .. } => "Rename the file and its entry among the poses".into(),
+        }
+    }
+}
+
+/// Counts what is done of all that a request has to do.
+pub(in crate::app) struct Steps<'a> {
+    desk: &'a dyn Desk<Outcome>,
+    done: Cell<usize>,
+    total: Cell<usize>,
+}
+
+impl<'a> Steps<'a> {
+    pub(in crate::app) fn new(desk: &'a dyn Desk<Outcome>) -> Self {
+        Self {
+            desk,
+            done: Cell::new(0),
+            total: Cell::new(0),
+        }
+    }
+
+    fn expect(&self, num: usize) {
+        self.total.set(self.total.get() + num);
+    }
+
+    fn step(&self) {
+        self.done.set(self.done.get() + 1);
+        let total = self.total.get().max(self.done.get());
+        self.desk.progress(self.done.get(), total);
+    }
+}
+
+/// Each shot's own inspection begins with its segmentation.
+impl Watch for Steps<'_> {
+    fn begins(&self, stage: Stage) {
+        if stage == Stage::Segment {
+            self.step();
+        }
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.desk.is_cancelled()
+    }
+}
+
+/// What follows the fusion, for the progress.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::app) enum Then {
+    /// Every shot is inspected.
+    Inspect,
+    /// A part is enrolled.
+    Enrol,
+}
+
+/// Reads the shots and puts them together; `None` when cancelled.
+pub(in crate::app) fn fuse(
+    request: &ScanRequest,
+    then: Then,
+    steps: &Steps<'_>,
+) -> Result<Option<FusedShots>, FuseError> {
+    let mut warnings = Vec::new();
+    let fused = read(request, steps, &mut warnings).and_then(|choice| {
+        let num = choice.num_taken();
+        steps.expect(match then {
+            Then::Inspect => 2 * num + 2,
+            Then::Enrol => num + 2,
+        });
+        let shots = choice.set.shots.iter().enumerate();
+        let taken = shots.filter(|(place, _)| !choice.dropped.contains(place));
+        let taken: Vec<Shot> = taken.map(|(_, shot)| shot.clone()).collect();
+        let params = ScanParams {
+            segment: request.recipe.segment.clone(),
+            ..ScanParams::default()
+        };
+        let scan = assembled(&taken, &params, steps)?;
+        let rows = rows(&choice, &scan);
+        let figure = ScanFigure::of(&choice, &scan);
+        Ok(FusedShots {
+            choice,
+            scan,
+            rows,
+            figure,
+            warnings,
+        })
+    });
+    match fused {
+        Err(error) if error.is_cancelled() => Ok(None),
+        fused => fused.map(Some),
+    }
+}
+
+fn read(
+    request: &ScanRequest,
+    steps: &Steps<'_>,
+    warnings: &mut Vec<Trouble>,
+) -> Result<ShotChoice, FuseError> {
+    let calibration = || {
+        let path = request.calibration.as_deref()?;
+        Some(CellCalibration::load(path).ok()?.calibration)
+    };
+    let mut frames_of = |paths: &[PathBuf], poses: Option<&Path>| {
+        let frames = read_frames(paths, &mut |news| {
+            match news {
+                FrameNews::Total(num) => steps.expect(num),
+                FrameNews::Read(name, odd) => {
+                    steps.step();
+                    warnings.extend(odd.iter().map(|warning| Trouble {
+                        what: format!("{name}: {warning}"),
+                        advice: warning.advice(),
+                    }));
+                }
+                FrameNews::Skipped(skipped) => {
+                    steps.step();
+                    warnings.push(Trouble {
+                        what: format!("{} is left out: {}", skipped.name, skipped.error),
+                        advice: skipped.error.advice(),
+                    });
+                }
+            }
+            if steps.is_cancelled() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        })?;
+        let calibration = calibration();
+        with_poses(paths, poses, frames, calibration.as_ref())
+    };
+    match &request.order {
+        ScanOrder::Known(choice) => Ok(choice.clone()),
+        ScanOrder::Open(files) => {
+            let mut shots = frames_of(&files.frames, files.poses.as_deref())?;
+            for (frame, poses) in &files.added {
+                shots.extend(frames_of(std::slice::from_ref(frame), Some(poses))?);
+            }
+            let is_dropped = |shot: &Shot| files.dropped.contains(&shot.name);
+            let dropped = (0..shots.len()).filter(|place| is_dropped(&shots[*place]));
+            Ok(ShotChoice {
+                dropped: dropped.collect(),
+                set: Arc::new(ShotSet {
+                    files: files.clone(),
+                    shots,
+                }),
+            })
+        }
+        ScanOrder::Add(choice, frame, given) => {
+            let name = file_name(frame);
+            let mut shots = choice.set.shots.clone();
+            if shots.iter().any(|shot| shot.name == name) {
+                return Err(FuseError::NameTaken { name });
+            }
+            let mut files = choice.set.files.clone();
+            // Its entry may have been added to the scan's poses since they were read.
+            let of_scan = files.poses.clone().or_else(|| poses_beside(&files.frames));
+            let paths = std::slice::from_ref(frame);
+            let beside = poses_beside(paths);
+            let candidates: Vec<&Path> = match given {
+                Some(given) => vec![given],
+                None => of_scan
+                    .iter()
+                    .chain(&beside)
+                    .map(PathBuf::as_path)
+                    .collect(),
+            };
+            let mut found = Err(FuseError::Frames(ScanFramesError::NoPoses));
+            for file in candidates {
+                let read = frames_of(paths, Some(file));
+                match read {
+                    Ok(read) => {
+                        found = Ok((read, file.to_owned()));
+                        break;
+                    }
+                    Err(error) => found = Err(error.into()),
+                }
+            }
+            let (read, file) = found?;
+            shots.extend(read);
+            files.added.push((frame.clone(), file));
+            Ok(ShotChoice {
+                dropped: choice.dropped.clone(),
+                set: Arc::new(ShotSet { files, shots }),
+            })
+        }
+    }
+}
+
+/// How the fusion is followed from another thread.
+#[derive(Default)]
+struct Relay {
+    num_begun: AtomicUsize,
+    is_cancelled: AtomicBool,
+}
+
+impl ScanWatch for Relay {
+    fn begins(&self, _step: ScanStep) {
+        self.num_begun.fetch_add(1, Ordering::Relaxed);
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.is_cancelled.load(Ordering::Relaxed)
+    }
+}
+
+/// How often it is looked whether the fusion is still wanted.
+const LOOKS: Duration = Duration::from_millis(10);
+
+/// Puts them together on a thread of its own, since the desk belongs to this one.
+fn assembled(shots: &[Shot], params: &ScanParams, steps: &Steps<'_>) -> Result<Scan, ScanError> {
+    let relay = Relay::default();
+    thread::scope(|scope| {
+        let work = scope.spawn(|| assemble(shots, params, &relay));
+        let mut num_told = 0;
+        loop {
+            let is_done = work.is_finished();
+            relay
+                .is_cancelled
+                .store(steps.is_cancelled(), Ordering::Relaxed);
+            while num_told < relay.num_begun.load(Ordering::Relaxed) {
+                num_told += 1;
+                steps.step();
+            }
+            if is_done {
+                break;
+            }
+            thread::sleep(LOOKS);
+        }
+        work.join().unwrap_or_else(|panic| resume_unwind(panic))
+    })
+}

@@ -1,0 +1,172 @@
+//! The frames of a scan with the poses of their cameras, from a folder, a recording or single files.
+//!
+//! The poses come from the file that is named, else from the recording, else from [`FRAME_POSES`] beside the frames.
+
+use std::{
+    ops::ControlFlow,
+    path::{Path, PathBuf},
+    sync::Arc,
+    time::Duration,
+};
+
+use super::{
+    calibration::CellCalibration,
+    frame_poses::{FRAME_POSES, FramePose, FramePoses, FramePosesError},
+};
+use crate::{
+    capture::{
+        CaptureError, CaptureWarning, DepthSource as _, Next, Pace, RecordingSpec, Replay, Skipped,
+        read_image,
+    },
+    error::Advice,
+    geometry::rigid::RigidTransform,
+    scan::Shot,
+    stages::scene::{SceneCloud, scene_from_image},
+};
+
+/// A frame, and where the arm stood if the recording says it.
+#[derive(Clone, Debug)]
+pub struct ScanFrame {
+    /// The frame's file name.
+    pub name: String,
+    /// What the camera saw, in camera space.
+    pub scene: Arc<SceneCloud>,
+    /// Takes the flange's frame to the robot's base.
+    robot_from_flange: Option<RigidTransform>,
+}
+
+/// Progress of [`read_frames`].
+#[derive(Debug)]
+pub enum FrameNews<'a> {
+    /// The number of frames to be read is known.
+    Total(usize),
+    /// A frame was read, and this is odd about it.
+    Read(&'a str, &'a [CaptureWarning]),
+    /// A frame cannot be read and is left out.
+    Skipped(&'a Skipped),
+}
+
+/// Why the frames of a scan or their poses cannot be read.
+#[derive(Debug, thiserror::Error)]
+pub enum ScanFramesError {
+    /// A frame or the folder cannot be read.
+    #[error(transparent)]
+    Frames(#[from] CaptureError),
+    /// Neither the frames nor a file beside them hold poses.
+    #[error(
+        "no poses: neither the frames nor a {FRAME_POSES} beside them say where the camera was"
+    )]
+    NoPoses,
+    /// The poses do not suffice.
+    #[error(transparent)]
+    Poses(#[from] FramePosesError),
+    /// The caller cancelled.
+    #[error("reading the frames was cancelled")]
+    Cancelled,
+}
+
+impl Advice for ScanFramesError {
+    fn advice(&self) -> String {
+        match self {
+            Self::Frames(error) => error.advice(),
+            Self::NoPoses => {
+                "Give the file with --poses, or record the frames with partsight capture --robot-poses".into()
+            }
+            Self::Poses(error) => error.advice(),
+            Self::Cancelled => "Start it again".into(),
+        }
+    }
+}
+
+/// Reads the frames of one folder or recording, or these files; `told` breaks off.
+pub fn read_frames(
+    paths: &[PathBuf],
+    told: &mut dyn FnMut(FrameNews<'_>) -> ControlFlow<()>,
+) -> Result<Vec<ScanFrame>, ScanFramesError> {
+    let mut tell = |news: FrameNews<'_>| match told(news) {
+        ControlFlow::Continue(()) => Ok(()),
+        ControlFlow::Break(()) => Err(ScanFramesError::Cancelled),
+    };
+    let mut frames = Vec::new();
+    if let [folder] = paths
+        && folder.is_dir()
+    {
+        let mut source = Replay::open(&RecordingSpec {
+            folder: folder.clone(),
+            pace: Some(Pace::Step),
+            camera: None,
+        })?;
+        tell(FrameNews::Total(source.num_frames()))?;
+        loop {
+            match source.next(Duration::ZERO)? {
+                Next::Captured(captured) => {
+                    tell(FrameNews::Read(&captured.name, &captured.warnings))?;
+                    frames.push(ScanFrame {
+                        scene: Arc::new(scene_from_image(captured.image)),
+                        name: captured.name,
+                        robot_from_flange: captured.robot_from_flange.map(|pose| *pose),
+                    });
+                }
+                Next::Skipped(skipped) => tell(FrameNews::Skipped(&skipped))?,
+                Next::NotYet => {}
+                Next::End => return Ok(frames),
+            }
+        }
+    }
+    tell(FrameNews::Total(paths.len()))?;
+    for file in paths {
+        let (image, warnings) = read_image(file)?;
+        let name = file.file_name().unwrap_or(file.as_os_str());
+        let name = name.to_string_lossy().into_owned();
+        tell(FrameNews::Read(&name, &warnings))?;
+        frames.push(ScanFrame {
+            name,
+            scene: Arc::new(scene_from_image(image)),
+            robot_from_flange: None,
+        });
+    }
+    Ok(frames)
+}
+
+/// The file of poses that lies beside the frames, if there is one.
+pub fn poses_beside(paths: &[PathBuf]) -> Option<PathBuf> {
+    let first = paths.first()?;
+    let folder = if first.is_dir() {
+        first
+    } else {
+        first.parent()?
+    };
+    Some(folder.join(FRAME_POSES)).filter(|file| file.is_file())
+}
+
+/// The frames with the poses of their cameras. Poses of the flange need the calibration of a camera on it.
+pub fn with_poses(
+    paths: &[PathBuf],
+    given: Option<&Path>,
+    frames: Vec<ScanFrame>,
+    calibration: Option<&CellCalibration>,
+) -> Result<Vec<Shot>, ScanFramesError> {
+    let recorded: Option<Vec<FramePose>> = frames
+        .iter()
+        .map(|frame| frame.robot_from_flange.map(FramePose::Flange))
+        .collect();
+    let recorded = recorded.filter(|all| given.is_none() && !all.is_empty());
+    let poses = if let Some(recorded) = recorded {
+        recorded
+    } else {
+        let file = given.map(Path::to_owned).or_else(|| poses_beside(paths));
+        let file = file.ok_or(ScanFramesError::NoPoses)?;
+        let names: Vec<String> = frames.iter().map(|frame| frame.name.clone()).collect();
+        let poses = FramePoses::read(&file, &names)?;
+        let of_frames = names.iter().filter_map(|name| poses.of(name).copied());
+        of_frames.collect()
+    };
+    let shot = |(frame, pose): (ScanFrame, FramePose)| {
+        Ok(Shot {
+            base_from_camera: pose.base_from_camera(&frame.name, calibration)?,
+            name: frame.name,
+            scene: frame.scene,
+        })
+    };
+    frames.into_iter().zip(poses).map(shot).collect()
+}
