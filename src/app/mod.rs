@@ -1,11 +1,16 @@
 //! The window: five-second answers for the operator, every step for the engineer.
 //!
 //! ```text
-//! panels ─► Action ─► apply(State) ─► Effect ─► Request ─► a thread per lane ─► Answer ─► Action ...
+//! a frame   Workspace::update (tasks, dialogs) ─► Workspace::ui ─► Message ─► Window ─► Event ─► every workspace
+//! a task    Task::start ─► a thread with its TaskContext ─► Task::poll ─► the state of the workspace that started it
 //! ```
 //!
-//! [`state`] is plain data, [`action`] the only thing that changes it. [`job`] says what can be asked for; [`worker`] is
-//! a thread, [`lane`] which one. Each workspace is a folder: its panel, its part of the state, and what its thread does.
+//! [`shell`] is what a workspace stands on: the session that all of them share, tasks, messages, file dialogs. A
+//! workspace is a folder with its state, its panels and the work of its tasks; none imports another, and the window
+//! knows it as a [`shell::workspace::Workspace`]. So far these are [`align`], [`compare`] and [`history`]. Inspect,
+//! Enrol, Live and the robot's cell still share one [`state`], changed by [`action`] alone, and ask threads by [`lane`]
+//! through [`job`] and [`worker`].
+//!
 //! [`theme`] holds every colour, distance and type size. Panels draw the last result, always, and never compute.
 
 pub mod action;

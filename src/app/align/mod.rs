@@ -7,6 +7,7 @@
 //! side      Table I, the true error                   table
 //! ```
 
+mod action;
 mod choosing;
 mod custom;
 mod pair;
@@ -25,11 +26,12 @@ mod work;
 use egui::{Frame, Key, Margin, Modifiers, Panel, Ui};
 
 pub use self::{
+    action::{AlignAction, AlignFile},
     custom::{CustomStart, Form},
     pair::{Pair, PairSource},
     playback::{Comparison, Playback},
     start::Start,
-    state::{AlignAction, AlignFile, AlignResult, AlignState, Pairing},
+    state::{AlignResult, AlignState, Pairing},
     table::{TableCell, TableFigures, TableRow, TableShown},
     track::{MethodRun, Track},
 };

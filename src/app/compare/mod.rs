@@ -3,6 +3,7 @@
 //! A case, the scene inspected last or a kept one, is inspected with the recipe on trial and laid against one enrolled
 //! part; all kept cases can be run, and their confusion matrix leads back to each of them.
 
+mod action;
 mod case_bar;
 mod changes_list;
 pub mod comparison;
@@ -27,7 +28,8 @@ use std::path::PathBuf;
 use egui::{Frame, Key, Margin, Modifiers, Panel, Rect, Ui, UiBuilder, pos2, vec2};
 
 pub use self::{
-    state::{Cases, CompareAction, CompareFile, CompareState, Front, Undo},
+    action::{CompareAction, CompareFile},
+    state::{Cases, CompareState, Front, Undo},
     work::{CaseChange, CaseDone, CaseRun, CompareResult, RunChanges},
 };
 use super::{

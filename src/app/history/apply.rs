@@ -250,8 +250,8 @@ impl HistoryState {
         self.look_if_stale(cx);
     }
 
-    /// Takes in what the thread that writes has to tell.
-    pub fn hear(&mut self, news: HistoryNews, cx: &mut ShellContext<'_>) {
+    /// Takes in what the thread that writes reports.
+    pub fn take_news(&mut self, news: HistoryNews, cx: &mut ShellContext<'_>) {
         match news {
             HistoryNews::Added { ticket, number } => self.added(ticket, number),
             HistoryNews::SetAside(SetAside { what, aside }) => {

@@ -164,7 +164,7 @@ impl Workspace for HistoryWorkspace {
             self.state.crowded(crowded[1], cx);
         }
         for news in self.keeper.take_news() {
-            self.state.hear(news, cx);
+            self.state.take_news(news, cx);
         }
         self.state.update(cx);
         self.write();

@@ -81,8 +81,8 @@ impl Bench {
         self.history.apply(action, &mut self.shell.context());
     }
 
-    fn hear(&mut self, news: HistoryNews) {
-        self.history.hear(news, &mut self.shell.context());
+    fn take_news(&mut self, news: HistoryNews) {
+        self.history.take_news(news, &mut self.shell.context());
     }
 
     fn inspected(&mut self, inspected: &Arc<Inspected>, purpose: Purpose) {
@@ -105,7 +105,7 @@ fn a_new_result_is_handed_over_and_the_newest_few_stay_whole() {
         assert_eq!(entry.record.summary.verdict, PastVerdict::NoPart);
         assert!(!bench.history.is_settled());
         assert_eq!(bench.history.num_rows(), number as usize);
-        bench.hear(HistoryNews::Added { ticket, number });
+        bench.take_news(HistoryNews::Added { ticket, number });
     }
     let whole = |number| bench.history.whole(number).is_some();
     assert!(whole(7) && whole(4) && !whole(3) && !whole(1));
@@ -121,7 +121,7 @@ fn who_looks_at_the_newest_goes_on_looking_at_the_newest() {
     assert_eq!(bench.history.selected, Some(3));
     let add = |bench: &mut Bench, number| {
         let ticket = bench.history.ticket(&found);
-        bench.hear(HistoryNews::Added { ticket, number });
+        bench.take_news(HistoryNews::Added { ticket, number });
     };
     add(&mut bench, 4);
     assert_eq!(bench.history.selected, Some(4));
@@ -155,15 +155,15 @@ fn what_waited_keeps_its_place_under_its_new_number() {
         what: "the disk is full".into(),
         advice: "Make room".into(),
     };
-    bench.hear(trouble);
-    bench.hear(HistoryNews::Added { ticket, number: -1 });
+    bench.take_news(trouble);
+    bench.take_news(HistoryNews::Added { ticket, number: -1 });
     assert_eq!(bench.history.selected, Some(-1));
     assert_eq!(bench.shell.notices().len(), 1);
     let works = HistoryNews::Works {
         numbers: vec![(-1, 58)],
         num_lost: 0,
     };
-    bench.hear(works);
+    bench.take_news(works);
     assert_eq!(bench.history.selected, Some(58));
     assert!(bench.history.whole(58).is_some() && bench.history.trouble.is_none());
     assert!(bench.shell.notices()[1].contains("one inspection that waited"));

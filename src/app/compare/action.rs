@@ -1,0 +1,77 @@
+//! What can happen in the workspace, and what a person is asked to choose.
+
+use std::path::PathBuf;
+
+use crate::{
+    app::shell::file_dialog::{FileChoice, FileRequest},
+    cases::{Cell, Truth},
+};
+
+/// Something that happened in the workspace.
+#[derive(Clone, Debug)]
+pub enum CompareAction {
+    /// Look whether there is something to do: the workspace came to the front, or another scene did.
+    Follow,
+    /// The case in front is the scene that was inspected last.
+    FrontScene,
+    /// The kept case of this name comes to the front.
+    OpenCase(String),
+    /// This is what it truly is.
+    SetTruth(Truth),
+    /// Compare with this part; without one the part follows from truth and verdict.
+    Against(Option<String>),
+    /// The remark that the case is kept with.
+    Remark(String),
+    /// Keep the case in front.
+    Keep,
+    /// Run all kept cases with the recipe on trial.
+    RunAll,
+    /// Have a person choose a file or folder.
+    Ask(CompareFile),
+    /// Use this folder of cases.
+    Folder(PathBuf),
+    /// List the cases of this cell of the matrix, or show the matrix.
+    ShowCell(Option<Cell>),
+    /// Measure from how many references on several workers pay.
+    MeasureScaling,
+    /// List what changed since the run that has written this file.
+    Earlier(PathBuf),
+    /// Remove the kept case of this name.
+    Remove(String),
+    /// Give the parameter of this key a value, as [`Parameter::set`](super::parameters::Parameter::set) takes it.
+    Set(&'static str, f64),
+    /// Give the parameter of this key its default.
+    Reset(&'static str),
+    /// Give every parameter its default.
+    ResetAll,
+    /// Inspect with the recipe on trial from now on.
+    Use,
+    /// Take back what was done last.
+    Undo,
+}
+
+/// What a person is asked to choose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum CompareFile {
+    /// A folder of kept cases.
+    Cases,
+    /// What an earlier run of all cases has written.
+    EarlierRun,
+}
+
+impl CompareFile {
+    pub(super) fn request(self) -> FileRequest {
+        match self {
+            Self::Cases => FileRequest {
+                title: "Folder of kept cases",
+                filters: &[],
+                choice: FileChoice::Folder,
+            },
+            Self::EarlierRun => FileRequest {
+                title: "What partsight evaluate --json has written",
+                filters: &[("Evaluations", &["json"])],
+                choice: FileChoice::File,
+            },
+        }
+    }
+}

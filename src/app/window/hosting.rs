@@ -1,0 +1,123 @@
+//! The workspaces that the window knows by their trait: it lends them the shell and does what they ask for.
+
+use std::any::Any;
+
+use super::Window;
+use crate::app::{
+    action::{Action, inspection_of_shown},
+    bars::Progress,
+    job::Request,
+    roles,
+    shell::{
+        context::ShellContext,
+        message::{Message, Purpose},
+        session::WorkspaceKind,
+        task::Running,
+        workspace::Workspace,
+    },
+};
+
+impl Window {
+    /// The workspace of this type.
+    pub fn workspace<W: Workspace>(&self) -> Option<&W> {
+        let mut all = self.workspaces.iter();
+        all.find_map(|workspace| (workspace.as_ref() as &dyn Any).downcast_ref())
+    }
+
+    /// Lends the workspace of this type the shell, as when a person does something in it.
+    pub fn with<W: Workspace, R>(
+        &mut self,
+        ctx: &egui::Context,
+        act: impl FnOnce(&mut W, &mut ShellContext<'_>) -> R,
+    ) -> Option<R> {
+        let kind = self.workspace::<W>()?.kind();
+        self.lend(kind, ctx, |workspace, cx| {
+            let workspace = (workspace as &mut dyn Any).downcast_mut()?;
+            Some(act(workspace, cx))
+        })?
+    }
+
+    pub(super) fn hosted(&self, kind: WorkspaceKind) -> Option<&dyn Workspace> {
+        let mut all = self.workspaces.iter().map(Box::as_ref);
+        all.find(|workspace| workspace.kind() == kind)
+    }
+
+    /// Lends a workspace the shell, and does what it sends.
+    pub(super) fn lend<R>(
+        &mut self,
+        kind: WorkspaceKind,
+        ctx: &egui::Context,
+        act: impl FnOnce(&mut dyn Workspace, &mut ShellContext<'_>) -> R,
+    ) -> Option<R> {
+        let mut all = self.workspaces.iter_mut();
+        let workspace = all.find(|workspace| workspace.kind() == kind)?;
+        let (session, services) = (&self.state.session, &self.services);
+        let mut cx = ShellContext::new(ctx, session, services, &mut self.messages);
+        let done = act(workspace.as_mut(), &mut cx);
+        for message in std::mem::take(&mut self.messages) {
+            self.deliver(message, kind, ctx);
+        }
+        Some(done)
+    }
+
+    /// Does what a workspace asked for.
+    fn deliver(&mut self, message: Message, from: WorkspaceKind, ctx: &egui::Context) {
+        match message {
+            Message::Notify(notice) => self.act(Action::Notify(notice), ctx),
+            Message::Retract(notice) => self.state.notices.retain(|known| *known != notice),
+            Message::CopyText(text) => ctx.copy_text(text),
+            Message::UseRecipe(recipe) => self.state.session.recipe = recipe,
+            Message::GoTo(kind) => self.act(Action::GoTo(kind), ctx),
+            Message::ShowPast(inspected) => self.act(Action::ShowPast(inspected), ctx),
+            Message::AskEngineer => {
+                roles::ask_engineer(&mut self.state, Action::EngineerIn(from));
+            }
+            Message::InspectShown { title } => {
+                if let Some(request) = inspection_of_shown(&self.state) {
+                    let effect = self.state.inspect(title, request, Purpose::New);
+                    self.make(effect, ctx);
+                }
+            }
+            Message::Inspect {
+                title,
+                request,
+                purpose,
+            } => {
+                let request = Request::Inspect(request);
+                let effect = self.state.inspect(title, request, purpose);
+                self.make(effect, ctx);
+            }
+        }
+    }
+
+    /// The work that the top bar tells of: the front workspace's own, else any.
+    pub(super) fn work(&self) -> Option<Progress> {
+        let of_hosted = |workspace: &dyn Workspace| {
+            let running = workspace.running()?.clone();
+            let cancel = Action::CancelTask(workspace.kind());
+            Some(Progress { running, cancel })
+        };
+        let own = self.hosted(self.state.workspace).and_then(of_hosted);
+        let named = || {
+            let (lane, work) = self.state.work()?;
+            let running = Running {
+                title: work.what.clone(),
+                stage: work.stage,
+                progress: work.progress,
+            };
+            let cancel = Action::Cancel(lane);
+            Some(Progress { running, cancel })
+        };
+        own.or_else(named).or_else(|| {
+            let mut all = self.workspaces.iter().map(Box::as_ref);
+            all.find_map(of_hosted)
+        })
+    }
+
+    /// True while nothing is at work.
+    pub fn is_idle(&self) -> bool {
+        let mut all = self.workspaces.iter();
+        let session = &self.state.session;
+        self.state.works.is_empty() && all.all(|workspace| workspace.is_idle(session))
+    }
+}
