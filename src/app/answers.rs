@@ -48,7 +48,7 @@ pub(super) fn hear(state: &mut State, lane: Lane, news: News<Outcome>) -> Option
 /// What came out goes to where it belongs.
 fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> Option<Effect> {
     match outcome {
-        Ok(Answer::Inspected(inspected)) => return show(state, generation, inspected),
+        Ok(Answer::Inspected(inspected)) => return Some(show(state, generation, inspected)),
         Ok(Answer::PosesWanted(order, trouble)) => {
             return Some(shots::ask_for_poses(state, lane, *order, trouble));
         }
@@ -82,7 +82,7 @@ fn without_scene(state: &mut State) {
     }
 }
 
-fn show(state: &mut State, generation: u64, inspected: Arc<Inspected>) -> Option<Effect> {
+fn show(state: &mut State, generation: u64, inspected: Arc<Inspected>) -> Effect {
     for warning in &inspected.warnings {
         notify(state, Trouble::of(warning).into());
     }
@@ -112,7 +112,7 @@ fn show(state: &mut State, generation: u64, inspected: Arc<Inspected>) -> Option
         session: None,
     });
     shots::settle(state, Lane::Inspect, generation, former);
-    Some(Effect::Tell(Event::Inspected { inspected, purpose }))
+    Effect::Tell(Event::Inspected { inspected, purpose })
 }
 
 /// From now on this library is shown; what had to be set aside in it is said once.

@@ -301,7 +301,7 @@ impl Window {
             }
         }
         for kind in WorkspaceKind::ALL {
-            self.lend(kind, ctx, |workspace, cx| workspace.update(cx));
+            self.lend(kind, ctx, Workspace::update);
         }
         match self.dialog.poll() {
             Some((ask, Ok(path))) => self.act(Action::Chosen(ask, path), ctx),

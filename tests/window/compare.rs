@@ -205,7 +205,7 @@ fn a_changed_parameter_shows_at_once_and_can_be_used_undone_and_reset() {
     press(&mut harness, "Compare");
     harness.get_by_label("0 changed from default");
     let study = |harness: &WindowHarness| {
-        let study = own(&harness).study.clone();
+        let study = own(harness).study.clone();
         study.expect("a study")
     };
     assert!(study(&harness).found.accepted);
@@ -259,7 +259,7 @@ fn another_part_can_be_compared_from_the_list_of_distances() {
     let mut harness = open(folder.path());
     press(&mut harness, "Compare");
     let against = |harness: &WindowHarness| {
-        let study = own(&harness).study.clone();
+        let study = own(harness).study.clone();
         study.expect("a study").against.clone()
     };
     assert_eq!(against(&harness).as_deref(), Some("front_door"));

@@ -5,9 +5,10 @@ use egui::{
 };
 
 use super::{
+    action::{AlignAction, AlignFile},
     custom::Form,
     start::Start,
-    state::{AlignAction, AlignFile, AlignState, Pairing},
+    state::{AlignState, Pairing},
     views::Look,
 };
 use crate::app::{

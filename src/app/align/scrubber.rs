@@ -6,9 +6,10 @@ use egui::{
 };
 
 use super::{
+    action::AlignAction,
     playback::{Comparison, Playback},
     plot::{self, Axes},
-    state::{AlignAction, AlignState},
+    state::AlignState,
 };
 use crate::app::{
     theme::{Theme, font, space},

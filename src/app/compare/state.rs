@@ -368,35 +368,6 @@ impl CompareState {
         self.front = Front::Kept(Box::new(case));
         self.due = Due::Now;
     }
-
-    fn run_all(&mut self, cx: &mut ShellContext<'_>) {
-        let cases = self.cases.as_ref().filter(|cases| !cases.list.is_empty());
-        let Some(cases) = cases else {
-            return cx.notify(Notice::look(
-                "There are no kept cases to run",
-                "Keep a case first, or choose a folder of cases",
-            ));
-        };
-        let job = Job::Run {
-            folder: cases.folder.clone(),
-            recipe: Arc::clone(self.tried_recipe(cx.session)),
-        };
-        self.cell = None;
-        self.changes = None;
-        self.run = None;
-        self.ask("Running the kept cases", job);
-    }
-
-    fn compare_with_earlier(&mut self, path: PathBuf, cx: &mut ShellContext<'_>) {
-        let run = self.run.clone().filter(|run| run.ended.is_some());
-        let Some(run) = run else {
-            return cx.notify(Notice::look(
-                "There is no run to compare with an earlier one",
-                "Run all cases first",
-            ));
-        };
-        self.ask("Comparing with an earlier run", Job::Earlier { path, run });
-    }
 }
 
 #[cfg(test)]

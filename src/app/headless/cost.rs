@@ -131,11 +131,14 @@ fn live(window: &mut HeadlessWindow, num_frames: usize) -> FrameCost {
     cost
 }
 
+/// Fills a workspace before it is measured.
+type Prepare = fn(&mut HeadlessWindow);
+
 /// Each as full as a person would have it: a part to enrol, a case under the glass, every method run.
 fn other_workspaces(window: &mut HeadlessWindow, num_frames: usize) -> Vec<FrameCost> {
-    let prepared: [(&str, Workspace, fn(&mut HeadlessWindow)); 4] = [
+    let prepared: [(&str, Workspace, Prepare); 4] = [
         ("Enrol, pointer moving", Workspace::Enrol, |window| {
-            window.act(Action::Enrol(EnrolAction::TakeShown))
+            window.act(Action::Enrol(EnrolAction::TakeShown));
         }),
         ("Compare, pointer moving", Workspace::Compare, |_| {}),
         ("Align, pointer moving", Workspace::Align, |window| {

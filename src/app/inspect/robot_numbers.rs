@@ -186,7 +186,7 @@ mod tests {
     fn what_is_copied_says_which_pose_it_is_and_reads_back() {
         let mut inspected = door();
         let mut state = State::default();
-        state.convention = Convention::Fanuc;
+        state.session.convention = Convention::Fanuc;
         let camera_from_part = accepted_pose(&inspected).expect("accepted");
         let robot = RobotFrame {
             robot_from_camera: from_euler_zyx([-2.2, 0.1, -1.6, 1.5, -0.2, 2.0]),

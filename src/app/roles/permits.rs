@@ -16,7 +16,7 @@ pub(in crate::app) fn is_operators(workspace: Workspace) -> bool {
 /// Every action is named: a new one has to be thought about.
 pub(super) fn needs_engineer(action: &Action) -> bool {
     match action {
-        Action::GoTo(workspace) => !is_operators(*workspace),
+        Action::GoTo(workspace) | Action::Press(workspace, _) => !is_operators(*workspace),
         Action::Ask(ask) | Action::Chosen(ask, _) => asks_for_engineer(*ask),
         Action::Role(action) => matches!(
             action,
@@ -32,7 +32,6 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
         | Action::ForgetEmptyCell
         | Action::UseFoundLibrary
         | Action::Enrol(_) => true,
-        Action::Press(workspace, _) => !is_operators(*workspace),
         Action::Capture
         | Action::UseCell(_)
         | Action::Open(_)

@@ -11,7 +11,7 @@ use crate::{
         job::{Outcome, answer},
         shelf::Shelf,
         source::Origin,
-        state::Workspace,
+        state::{Session, Workspace},
         worker::{Desk, News},
     },
     geometry::cloud::PointCloud,
@@ -50,8 +50,14 @@ struct Bench {
 impl Bench {
     fn new() -> Self {
         let folder = tempfile::tempdir().expect("a folder");
-        let mut state = State::default();
-        state.workspace = Workspace::Enrol;
+        let session = Session {
+            workspace: Workspace::Enrol,
+            ..Session::default()
+        };
+        let state = State {
+            session,
+            ..State::default()
+        };
         Self {
             state,
             shelf: Shelf::new(Some(folder.path().to_owned()), Camera::default()),
