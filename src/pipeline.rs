@@ -5,6 +5,7 @@
 mod identity;
 pub mod live;
 mod mirror;
+pub mod parameters;
 mod rejection;
 pub mod scan;
 mod verdict;

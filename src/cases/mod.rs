@@ -76,7 +76,8 @@ pub use self::{
     meta::{CaseAbout, CaseMeta, Edge, SCHEMA_VERSION, SceneRecord, TruePose},
     past::{PastCases, TruthFrom},
     record::{
-        CaseRecord, EarlierRun, EvaluationRecord, PoseErrors, PoseOff, RECORD_SCHEMA, RecordError,
+        CaseRecord, EarlierRun, EvaluationRecord, PoseErrors, PoseOff, RECORD_SCHEMA, RecipeRecord,
+        RecordError,
     },
     store::{CaseFolder, CaseList, KeptCase},
     trade_off::{AtThreshold, TradeOff},

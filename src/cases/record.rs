@@ -15,7 +15,7 @@
 //!  "damaged":["the kept case door is damaged and set aside: scene.pcd does not have its checksum"]}
 //! ```
 //!
-//! `accepted_as` is null where nothing was accepted. Errors are those of right guesses whose true pose is known.
+//! `changed` lists other parameters that were not at their default. `accepted_as` is null where nothing was accepted. Errors are those of right guesses whose true pose is known.
 
 use std::path::{Path, PathBuf};
 
@@ -40,8 +40,8 @@ pub const RECORD_SCHEMA: u32 = 1;
 #[derive(Debug, Serialize)]
 pub struct EvaluationRecord<'a, T> {
     schema: u32,
-    matcher: &'a str,
-    pose: &'a str,
+    #[serde(flatten)]
+    recipe: RecipeRecord<'a>,
     num_threads: usize,
     tally: Tally,
     by_truth: Vec<TruthTally<'a>>,
@@ -53,6 +53,18 @@ pub struct EvaluationRecord<'a, T> {
     times_ms: T,
     cases: Vec<CaseRecord>,
     damaged: Vec<String>,
+}
+
+/// By which recipe a run was made.
+#[derive(Clone, Copy, Debug, Serialize)]
+pub struct RecipeRecord<'a> {
+    /// The matcher.
+    pub matcher: &'a str,
+    /// The way to the pose.
+    pub pose: &'a str,
+    /// Other parameters that were not at their default, as `NAME=VALUE`.
+    #[serde(skip_serializing_if = "<[String]>::is_empty")]
+    pub changed: &'a [String],
 }
 
 #[derive(Debug, Serialize)]
@@ -159,10 +171,10 @@ impl From<&CaseResult> for CaseRecord {
 }
 
 impl<'a, T> EvaluationRecord<'a, T> {
-    /// Of an evaluation by this matcher and way to the pose, on so many threads.
+    /// Of an evaluation by this recipe, on so many threads.
     pub fn of(
         evaluation: &'a Evaluation,
-        [matcher, pose]: [&'a str; 2],
+        recipe: RecipeRecord<'a>,
         num_threads: usize,
         times_ms: T,
     ) -> Self {
@@ -196,8 +208,7 @@ impl<'a, T> EvaluationRecord<'a, T> {
         });
         Self {
             schema: RECORD_SCHEMA,
-            matcher,
-            pose,
+            recipe,
             num_threads,
             tally: confusion.tally,
             by_truth: by_truth.collect(),

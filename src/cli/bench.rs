@@ -24,6 +24,7 @@ use serde::Serialize;
 use super::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console, advised_error},
+    recipe::Settings,
 };
 use crate::{files::write_atomically, stages::rank::Matcher};
 
@@ -34,6 +35,7 @@ Examples:
   partsight bench
   partsight bench recognition --json recognition.json
   partsight bench recognition --suite placed --poses 50
+  partsight bench recognition --only-ours --set accept.min_score=0.95
   partsight bench recognition --suite hard --poses 20 --seed 3000000 --only-ours --pictures why/
   partsight bench calibration
   partsight bench table1 --csv table1.csv
@@ -89,6 +91,8 @@ pub(super) struct BenchArgs {
     /// Of table1: only this part; may be given several times
     #[arg(long, value_name = "NAME")]
     part: Vec<String>,
+    #[command(flatten)]
+    set: Settings,
     #[command(flatten)]
     library: LibraryChoice,
 }
@@ -159,6 +163,12 @@ fn check(args: &BenchArgs) -> anyhow::Result<()> {
         return Err(advised_error(
             "--mesh goes with bounds",
             "Ask for it: partsight bench bounds --mesh FILE#NAME",
+        ));
+    }
+    if bench != Bench::Recognition && !args.set.is_empty() {
+        return Err(advised_error(
+            "--set goes with recognition",
+            "Ask for it: partsight bench recognition --set NAME=VALUE",
         ));
     }
     if bench != Bench::Recognition && (args.only_ours || args.pictures.is_some()) {

@@ -10,11 +10,14 @@ use clap::Args;
 use super::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console, advised_error},
-    recipe::RecipeChoice,
+    recipe::{NAMED, RecipeChoice, changed_parameters, matcher_and_pose},
 };
 use crate::{
     bench::stage_times,
-    cases::{CaseFolder, CaseJudge, Changes, EarlierRun, Evaluation, EvaluationRecord, evaluate},
+    cases::{
+        CaseFolder, CaseJudge, Changes, EarlierRun, Evaluation, EvaluationRecord, RecipeRecord,
+        evaluate,
+    },
     files::write_atomically,
     geometry::parallel::num_cores,
     pipeline::Timings,
@@ -106,8 +109,15 @@ pub(super) fn run(args: &EvaluateArgs, console: &mut Console) -> anyhow::Result<
     if let Some(changes) = &changes {
         tables::show_changes(changes, console);
     }
+    let [matcher, pose] = matcher_and_pose(&recipe);
+    let changed = changed_parameters(&recipe, &NAMED);
     if let Some(path) = &args.json {
-        let record = EvaluationRecord::of(&evaluation, args.recipe.names(), num_threads, times);
+        let recipe = RecipeRecord {
+            matcher: &matcher,
+            pose: &pose,
+            changed: &changed,
+        };
+        let record = EvaluationRecord::of(&evaluation, recipe, num_threads, times);
         write_atomically(path, |writer| {
             serde_json::to_writer_pretty(&mut *writer, &record)?;
             writeln!(writer)
@@ -116,8 +126,11 @@ pub(super) fn run(args: &EvaluateArgs, console: &mut Console) -> anyhow::Result<
         .with_context(|| format!("{} was not written", path.display()))?;
     }
     if let Some(path) = &args.report {
-        let [matcher, pose] = args.recipe.names();
-        let title = format!("{}, matcher {matcher}, pose {pose}", args.folder.display());
+        let mut title = format!("{}, matcher {matcher}, pose {pose}", args.folder.display());
+        for change in &changed {
+            title.push_str(", ");
+            title.push_str(change);
+        }
         let threshold = recipe.accept.min_score;
         write_png(path, &evaluation_picture(&title, &evaluation, threshold))
             .advised()

@@ -70,6 +70,10 @@ pub struct Cli {
 }
 
 #[derive(Debug, Subcommand)]
+#[expect(
+    clippy::large_enum_variant,
+    reason = "there is one, made of the arguments"
+)]
 enum Command {
     Inspect(inspect::InspectArgs),
     Report(report::ReportArgs),

@@ -6,7 +6,7 @@ use std::path::{Path, PathBuf};
 use thiserror::Error;
 
 use super::cause::{advice_on, words_of};
-use super::names::{listed, nearest};
+use super::names::{listed, nearest_name};
 use crate::error::Advice;
 
 /// Why a file could not be read or written. Every variant names the file.
@@ -328,7 +328,7 @@ impl Advice for FileError {
                 path,
                 wanted,
                 available,
-            } => match nearest(available, wanted) {
+            } => match nearest_name(available.iter().map(String::as_str), wanted) {
                 Some(name) => format!(
                     "Did you mean {}#{name}? Give one of the names it has",
                     path.display()

@@ -51,6 +51,7 @@ pub(crate) use self::counting_order::in_counting_order;
 pub use self::depth_camera::{DepthCamera, Stored, Turn};
 pub use self::depth_png::write_depth_png;
 pub use self::error::{Expected, FileError, NoFile};
+pub(crate) use self::names::nearest_name;
 pub(crate) use self::open::open_bytes;
 pub use self::open::{FileWarning, Opened, open};
 pub use self::pcd::write_pcd;

@@ -1,4 +1,4 @@
-//! Names of meshes for an error: the nearest to what was asked for first, and not hundreds of them.
+//! Names for an error: the nearest to what was asked for first, and not hundreds of them.
 
 /// Names shown; a car has hundreds.
 const MAX_SHOWN: usize = 10;
@@ -8,7 +8,7 @@ pub(super) fn listed(names: &[String], wanted: &str) -> String {
     if names.is_empty() {
         return "no named meshes".into();
     }
-    let nearest = nearest_first(names, wanted);
+    let nearest = nearest_first(names.iter().map(String::as_str), wanted);
     let shown: Vec<&str> = nearest.iter().take(MAX_SHOWN).copied().collect();
     match names.len() - shown.len() {
         0 => shown.join(", "),
@@ -17,12 +17,15 @@ pub(super) fn listed(names: &[String], wanted: &str) -> String {
 }
 
 /// The name nearest to `wanted`, of equally near ones the first.
-pub(super) fn nearest<'a>(names: &'a [String], wanted: &str) -> Option<&'a str> {
+pub(crate) fn nearest_name<'a>(
+    names: impl Iterator<Item = &'a str>,
+    wanted: &str,
+) -> Option<&'a str> {
     nearest_first(names, wanted).first().copied()
 }
 
-fn nearest_first<'a>(names: &'a [String], wanted: &str) -> Vec<&'a str> {
-    let mut names: Vec<&str> = names.iter().map(String::as_str).collect();
+fn nearest_first<'a>(names: impl Iterator<Item = &'a str>, wanted: &str) -> Vec<&'a str> {
+    let mut names: Vec<&str> = names.collect();
     if !wanted.is_empty() {
         let wanted = letters_of(wanted);
         names.sort_by_cached_key(|name| edits_between(&letters_of(name), &wanted));
@@ -63,7 +66,8 @@ mod tests {
         let list = listed(&names, "door-fl");
         assert!(list.starts_with("Door_FL, Door_FR, bolt_"), "{list}");
         assert!(list.ends_with(" and 192 more"), "{list}");
-        assert_eq!(nearest(&names, "doorfr"), Some("Door_FR"));
+        let all = names.iter().map(String::as_str);
+        assert_eq!(nearest_name(all, "doorfr"), Some("Door_FR"));
         assert_eq!(listed(&names[..2], ""), "bolt_0, bolt_1");
         assert_eq!(listed(&[], "x"), "no named meshes");
     }

@@ -38,11 +38,11 @@ use crate::{
 pub struct StandOffParams {
     /// d₀, the distance at which the path was taught, 0.02..1 m.
     pub taught: Metres,
-    /// Nearest distance that still coats well, above 0 and below `farthest`.
+    /// Nearest distance that still coats well, 10..150 mm, always below `farthest`.
     pub nearest: Metres,
-    /// Farthest distance that still coats well, metres.
+    /// Farthest distance that still coats well, 160..1000 mm.
     pub farthest: Metres,
-    /// Rays of the taught path, 10..10 000. Raising it costs about 1 µs each and finds a smaller worst spot.
+    /// Rays of the taught path, 10..10 000. Raising it costs about 2 µs each and finds a smaller worst spot.
     pub num_rays: usize,
 }
 

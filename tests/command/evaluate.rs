@@ -90,6 +90,12 @@ fn simulated_cases_are_evaluated_with_the_same_results_on_any_number_of_threads(
     let png = fs::read(place.path("a.png")).expect("drawn");
     assert!(png.starts_with(b"\x89PNG"));
 
+    assert_eq!(record["changed"], Value::Null);
+    let strict = ["c.json", "--set", "accept.min_score=1"];
+    place.run(&[&evaluate[..], &strict].concat());
+    let changed = &place.json("c.json")["changed"];
+    assert_eq!(changed, &serde_json::json!(["accept.min_score=1"]));
+
     for threads in ["1", "3"] {
         let more = ["b.json", "--threads", threads, "--against", "a.json"];
         let out = place.accepted(&[&evaluate[..], &more].concat()).out;

@@ -221,6 +221,27 @@ fn the_paper_can_be_chosen_and_the_pose_left_out() {
 }
 
 #[test]
+fn any_parameter_can_be_set_and_what_is_no_value_is_refused() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    let inspect = ["inspect", "fender-reference.pcd", "--library", "parts"];
+    let with = |more: &[&'static str]| [&inspect[..], more].concat();
+    place.accepted(&inspect);
+    let strict = place.coded(1, &with(&["--json", "--set", "accept.min_score=1"]));
+    assert_eq!(strict.lines()[0]["accepted"], false);
+    let icp = with(&["--json", "--set", "pose=icp", "--set", "rank.matcher=paper"]);
+    assert_eq!(place.run(&icp).lines()[0]["pose"]["method"], "icp");
+    for (setting, expected) in [
+        ("segment.plane_distance=90", "it goes from 1 to 50 mm"),
+        ("plane_distance=9", "the nearest is segment.plane_distance"),
+        ("accept.min_score", "no = between name and value"),
+    ] {
+        let refused = place.coded(2, &with(&["--set", setting]));
+        assert!(refused.err.contains(expected), "{setting}: {}", refused.err);
+    }
+}
+
+#[test]
 fn a_report_holds_the_line_and_a_picture_of_every_stage() {
     let place = Workplace::new();
     place.with_part("fender");

@@ -38,7 +38,7 @@ pub enum CompareAction {
     Earlier(PathBuf),
     /// Remove the kept case of this name.
     Remove(String),
-    /// Give the parameter of this key a value, as [`Parameter::set`](super::parameters::Parameter::set) takes it.
+    /// Give the parameter of this key a value, as [`Parameter::set`](crate::pipeline::parameters::Parameter::set) takes it.
     Set(&'static str, f64),
     /// Give the parameter of this key its default.
     Reset(&'static str),

@@ -11,8 +11,6 @@ mod distances;
 mod keeping;
 mod kept_cases;
 pub mod matrix;
-mod parameter_table;
-pub mod parameters;
 mod pictures;
 mod recipe_panel;
 mod scaling_plot;

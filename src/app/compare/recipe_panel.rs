@@ -7,12 +7,7 @@ use egui::{
     Ui, Vec2, WidgetInfo, vec2,
 };
 
-use super::{
-    CompareAction, CompareState,
-    case_bar::judged,
-    parameters::{Choice, Group, Kind, Number, PARAMETERS, Parameter, Place, num_changed},
-    scaling_plot,
-};
+use super::{CompareAction, CompareState, case_bar::judged, scaling_plot};
 use crate::{
     app::{
         shell::session::Session,
@@ -20,7 +15,10 @@ use crate::{
         widgets::{Mark, labelled, mark},
     },
     cases::Judgement,
-    pipeline::Recipe,
+    pipeline::{
+        Recipe,
+        parameters::{Choice, Group, Kind, Number, PARAMETERS, Parameter, Place, num_changed},
+    },
 };
 
 /// Draws the panel.
@@ -192,8 +190,8 @@ fn control(
 fn hover_text(parameter: &Parameter, default: &Recipe) -> String {
     let default = parameter.text(default);
     let valid = match &parameter.kind {
-        Kind::Number(number) => format!("Valid {}", number.range_text()),
-        Kind::Choice(choice) => format!("One of {}", choice.options.join(", ")),
+        Kind::Number(_) => format!("Valid from {}", parameter.range_text()),
+        Kind::Choice(_) => format!("One of {}", parameter.range_text()),
     };
     format!("{}\n{valid}; default {default}", parameter.help)
 }

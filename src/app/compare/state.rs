@@ -4,7 +4,6 @@ use std::{collections::VecDeque, path::PathBuf, sync::Arc};
 
 use super::{
     action::{CompareAction, CompareFile},
-    parameters::Parameter,
     schedule::{Due, Job, JobKind},
     study::Study,
     work::{CaseChange, CaseDone, CaseRun, CompareResult, RunChanges},
@@ -23,7 +22,7 @@ use crate::{
     },
     bench::scaling::Scaling,
     cases::{CaseFolder, Cell, KeptCase, Truth},
-    pipeline::Recipe,
+    pipeline::{Recipe, parameters::Parameter},
 };
 
 /// What the workspace knows.

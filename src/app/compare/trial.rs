@@ -3,7 +3,6 @@
 use std::sync::Arc;
 
 use super::{
-    parameters::num_changed,
     schedule::Due,
     state::{CompareState, Undo},
     work::CaseChange,
@@ -13,7 +12,7 @@ use crate::{
         shell::{context::ShellContext, message::Message},
         user_error::UserError,
     },
-    pipeline::Recipe,
+    pipeline::{Recipe, parameters::num_changed},
 };
 
 impl CompareState {

@@ -18,6 +18,7 @@ use crate::{
     cli::{
         Outcome,
         console::{Advised as _, Console, Table},
+        recipe::changed_parameters,
     },
     library::EnrolParams,
     pipeline::{Inspection, Recipe, Unwatched},
@@ -84,6 +85,9 @@ struct RecognitionFile<'a> {
     schema: u32,
     simulated: bool,
     first_seed: u64,
+    /// Parameters that are not at their default.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    changed: Vec<String>,
     suites: &'a [SuiteResult],
     figures: &'a [SuiteFigures],
     closest: &'a [Closest],
@@ -93,7 +97,8 @@ struct RecognitionFile<'a> {
 
 pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let frames = Frames::of(args, &Suite::ALL, NUM_POSES);
-    let recipe = Recipe::default();
+    let mut recipe = Recipe::default();
+    args.set.apply(&mut recipe);
     let libraries = SuiteLibraries::enrol(&EnrolParams::default()).advised()?;
     let systems = if args.only_ours {
         None
@@ -102,14 +107,19 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     };
     let mut shown = Vec::new();
     let mut pictures = args.pictures.as_deref().map(Pictures::make).transpose()?;
-    let results = frames.inspect_with(&libraries, console, |suite, case, scene, inspection| {
-        if let Some(pictures) = &mut pictures {
-            pictures.keep(suite, case, scene, inspection, libraries.of(suite));
-        }
-        if let Some(systems) = systems.as_ref().filter(|_| suite.is_for_all_systems()) {
-            shown.extend(systems.recognise(suite, case, scene, &recipe));
-        }
-    })?;
+    let results = frames.inspect_with(
+        &libraries,
+        &recipe,
+        console,
+        |suite, case, scene, inspection| {
+            if let Some(pictures) = &mut pictures {
+                pictures.keep(suite, case, scene, inspection, libraries.of(suite));
+            }
+            if let Some(systems) = systems.as_ref().filter(|_| suite.is_for_all_systems()) {
+                shown.extend(systems.recognise(suite, case, scene, &recipe));
+            }
+        },
+    )?;
     if let Some(pictures) = pictures {
         pictures.write()?;
     }
@@ -118,6 +128,10 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         "Simulated: {}, one thread. Of what must not be accepted, right is not accepted.",
         frames.words()
     ));
+    let changed = changed_parameters(&recipe, &[]);
+    if !changed.is_empty() {
+        console.line(&format_args!("Changed: {}", changed.join(", ")));
+    }
     console.line(&"");
     show(&results, console);
     let figures: Vec<SuiteFigures> = results.iter().map(SuiteFigures::of).collect();
@@ -133,6 +147,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
             schema: 2,
             simulated: true,
             first_seed: frames.first_seed,
+            changed,
             suites: &results,
             figures: &figures,
             closest: &closest,
@@ -189,18 +204,18 @@ impl Frames {
     /// Inspects them one after the other, on this thread.
     pub(super) fn inspect(&self, console: &mut Console) -> anyhow::Result<Vec<SuiteResult>> {
         let libraries = SuiteLibraries::enrol(&EnrolParams::default()).advised()?;
-        self.inspect_with(&libraries, console, |_, _, _, _| {})
+        self.inspect_with(&libraries, &Recipe::default(), console, |_, _, _, _| {})
     }
 
-    /// The same with these libraries; `after_each` gets what came of every frame.
+    /// The same with these libraries and this recipe; `after_each` gets what came of every frame.
     fn inspect_with(
         &self,
         libraries: &SuiteLibraries,
+        recipe: &Recipe,
         console: &mut Console,
         mut after_each: impl FnMut(Suite, &SuiteCase, &SceneCloud, &Inspection),
     ) -> anyhow::Result<Vec<SuiteResult>> {
         console.start_progress(self.suites.iter().map(|(_, frames)| frames.len()).sum());
-        let recipe = Recipe::default();
         let mut results: Vec<SuiteResult> = Vec::new();
         for (suite, frames) in &self.suites {
             let library = libraries.of(*suite);
@@ -208,7 +223,7 @@ impl Frames {
                 after_each(*suite, case, scene, inspection);
                 console.done();
             };
-            let result = run_suite(*suite, frames, library, &recipe, &Unwatched, done)?;
+            let result = run_suite(*suite, frames, library, recipe, &Unwatched, done)?;
             results.push(result);
         }
         console.end_progress();

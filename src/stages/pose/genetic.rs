@@ -32,8 +32,8 @@ pub struct GeneticParams {
     pub population: usize,
     /// Generations, 1..10 000. Raising it settles better and takes time in proportion.
     pub generations: usize,
-    /// Individuals that compete to become a parent, 1..`population`. Raising it settles sooner and searches fewer
-    /// valleys.
+    /// Individuals that compete to become a parent, 1..100; at most the population. Raising it settles sooner and searches
+    /// fewer valleys.
     pub tournament: usize,
     /// Share of children that blend two parents, 0..1; the others begin as a copy of one. Raising it searches more
     /// between the parents and a little beyond, and less around each.

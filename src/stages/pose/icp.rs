@@ -21,13 +21,13 @@ use crate::{
 pub struct IcpParams {
     /// Most iterations, 1..1000.
     pub max_iterations: usize,
-    /// E at which Algorithm 3 is content, square metres; the paper's 1e-6 is 1 mm rms.
+    /// E below which Algorithm 3 stops, square metres, 0..0.001; the paper's 1e-6 is 1 mm rms.
     pub target_e_m2: f64,
     /// Source points used, thinned evenly; 100..1 000 000. Raising it costs time in proportion.
     pub max_source_points: usize,
-    /// A step smaller than this ends the search: shift.
+    /// A step that shifts by less than this, 0..10 mm, and turns little ends the search.
     pub shift_tolerance: Metres,
-    /// A step smaller than this ends the search: turn.
+    /// A step that turns by less than this, 0..5°, and shifts little ends the search.
     pub turn_tolerance: Radians,
 }
 

@@ -54,7 +54,7 @@ pub struct SegmentParams {
     pub link_distance: Metres,
     /// Less surface than this, seen from the camera, is no part, square metres, 0.001..1.
     pub min_part_area: f64,
-    /// Seed of the random samples.
+    /// Seed of the random samples, 0..999 999.
     pub seed: u64,
 }
 

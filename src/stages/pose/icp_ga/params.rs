@@ -9,7 +9,7 @@ use crate::{
 #[derive(Clone, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
 #[serde(default)]
 pub struct IcpGaParams {
-    /// E at which Algorithm 3 is content, square metres, 0..1e-4; the paper's 1e-6 is 1 mm rms. Lowering it costs
+    /// E below which Algorithm 3 stops, square metres, 0..1e-4; the paper's 1e-6 is 1 mm rms. Lowering it costs
     /// rounds, and below the noise of the clouds all of them.
     pub target_e_m2: f64,
     /// Each round's ICP. Raising its points or iterations slows every round: by experiment 400 points and 30 iterations
@@ -39,7 +39,7 @@ pub struct IcpGaParams {
     pub patience: usize,
     /// Share by which E must fall for a round to count as progress, 0..1. Raising it gives up sooner.
     pub least_progress: f64,
-    /// Seed of all that is drawn.
+    /// Seed of all that is drawn, 0..999 999.
     pub seed: u64,
 }
 

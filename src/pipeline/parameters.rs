@@ -1,7 +1,15 @@
-//! A parameter of a [`Recipe`], as a person sees it: what it is called, its unit, its range, and how it is set.
+//! The parameters of a [`Recipe`], as a person sees them: name, unit, range, default and what each does.
+//!
+//! [`PARAMETERS`] is their only list. The sliders of the window, the option `--set` ([`Setting`]) and the tables of
+//! `docs/guide/parameters.md` follow from it; defaults are those of `Recipe::default()`.
 
-pub use super::parameter_table::PARAMETERS;
-use crate::pipeline::Recipe;
+mod table;
+
+use std::str::FromStr;
+
+pub use self::table::PARAMETERS;
+use super::Recipe;
+use crate::{error::Advice, files::nearest_name};
 
 /// Where in the flow a parameter acts.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -63,7 +71,7 @@ pub enum Place {
 
 /// The unit that a value is shown in; inside it is metres, square metres or radians.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Unit {
+pub enum DisplayUnit {
     /// A plain number.
     None,
     /// Millimetres.
@@ -76,7 +84,7 @@ pub enum Unit {
     Degrees,
 }
 
-impl Unit {
+impl DisplayUnit {
     /// Its sign, after a number; empty for a plain one.
     pub fn sign(self) -> &'static str {
         match self {
@@ -104,13 +112,13 @@ impl Unit {
 #[derive(Clone, Copy, Debug)]
 pub struct Number {
     /// The unit.
-    pub unit: Unit,
+    pub unit: DisplayUnit,
     /// Least and greatest valid value.
     pub range: [f64; 2],
     /// Digits after the point.
     pub decimals: usize,
-    pub(super) get: fn(&Recipe) -> f64,
-    pub(super) set: fn(&mut Recipe, f64),
+    get: fn(&Recipe) -> f64,
+    set: fn(&mut Recipe, f64),
 }
 
 /// A choice among the parameters.
@@ -118,8 +126,8 @@ pub struct Number {
 pub struct Choice {
     /// The options, as a person reads them.
     pub options: &'static [&'static str],
-    pub(super) get: fn(&Recipe) -> usize,
-    pub(super) set: fn(&mut Recipe, usize),
+    get: fn(&Recipe) -> usize,
+    set: fn(&mut Recipe, usize),
 }
 
 /// What a parameter is.
@@ -152,7 +160,7 @@ pub struct Parameter {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum BadValue {
     /// Outside the valid range.
-    #[error("{name} cannot be {found}: it goes {range}")]
+    #[error("{name} cannot be {found}: it goes from {range}")]
     OutOfRange {
         /// The parameter.
         name: &'static str,
@@ -169,7 +177,7 @@ pub enum BadValue {
     },
 }
 
-impl crate::error::Advice for BadValue {
+impl Advice for BadValue {
     fn advice(&self) -> String {
         "The value before it stays".into()
     }
@@ -185,7 +193,9 @@ impl Parameter {
     pub fn value(&self, recipe: &Recipe) -> f64 {
         match &self.kind {
             // 0.01 is 10 mm, not 10.000000000000002.
-            Kind::Number(number) => tidy((number.get)(recipe) * number.unit.per_inner()),
+            Kind::Number(number) => {
+                round_to_12_digits((number.get)(recipe) * number.unit.per_inner())
+            }
             Kind::Choice(choice) => (choice.get)(recipe) as f64,
         }
     }
@@ -199,7 +209,7 @@ impl Parameter {
                     return Err(BadValue::OutOfRange {
                         name: self.name,
                         found: format!("{value}{}", number.unit.sign()),
-                        range: number.range_text(),
+                        range: self.range_text(),
                     });
                 }
                 (number.set)(recipe, value / number.unit.per_inner());
@@ -227,6 +237,17 @@ impl Parameter {
         self.value(a).to_bits() != self.value(b).to_bits()
     }
 
+    /// The valid range in words, or all options.
+    pub fn range_text(&self) -> String {
+        match &self.kind {
+            Kind::Number(number) => {
+                let [least, most] = number.range;
+                format!("{least} to {most}{}", number.unit.sign())
+            }
+            Kind::Choice(choice) => choice.options.join(", "),
+        }
+    }
+
     /// Its value in words.
     pub fn text(&self, recipe: &Recipe) -> String {
         let value = self.value(recipe);
@@ -245,24 +266,145 @@ impl Number {
     pub fn text(&self, value: f64) -> String {
         format!("{value:.*}{}", self.decimals, self.unit.sign())
     }
-
-    /// The valid range in words.
-    pub fn range_text(&self) -> String {
-        let [least, most] = self.range;
-        format!("from {least} to {most}{}", self.unit.sign())
-    }
 }
 
 /// Twelve digits: what a change of units leaves behind is gone.
-fn tidy(value: f64) -> f64 {
+fn round_to_12_digits(value: f64) -> f64 {
     format!("{value:.11e}").parse().unwrap_or(value)
 }
 
-/// How many parameters differ from the default recipe.
-pub fn num_changed(recipe: &Recipe) -> usize {
+/// The parameters in which a recipe differs from the default one.
+pub fn changed(recipe: &Recipe) -> impl Iterator<Item = &'static Parameter> {
     let default = Recipe::default();
-    let changed = PARAMETERS.iter().filter(|p| p.differs(recipe, &default));
-    changed.count()
+    PARAMETERS
+        .iter()
+        .filter(move |p| p.differs(recipe, &default))
+}
+
+/// How many they are.
+pub fn num_changed(recipe: &Recipe) -> usize {
+    changed(recipe).count()
+}
+
+/// A parameter with a valid value for it, written as `segment.plane_distance=12`: the value in the unit of the
+/// parameter, which may follow it, or the name of an option.
+#[derive(Clone, Copy, Debug)]
+pub struct Setting {
+    parameter: &'static Parameter,
+    /// As [`Parameter::set`] takes it.
+    value: f64,
+}
+
+impl Setting {
+    /// Gives the recipe this value.
+    pub fn apply(&self, recipe: &mut Recipe) {
+        let is_set = self.parameter.set(recipe, self.value);
+        assert!(is_set.is_ok(), "checked when it was read");
+    }
+}
+
+/// Why a text is no [`Setting`].
+#[derive(Clone, Debug, PartialEq, thiserror::Error)]
+pub enum SettingError {
+    /// No equals sign.
+    #[error("there is no = between name and value")]
+    NoEquals,
+    /// No parameter of this name.
+    #[error("there is no parameter {name}; the nearest is {nearest}")]
+    UnknownName {
+        /// The name given.
+        name: String,
+        /// The name that is most like it.
+        nearest: &'static str,
+    },
+    /// Neither a number, nor an option of the parameter.
+    #[error("{found} is no value of {key}, which goes from {range}")]
+    NotANumber {
+        /// The parameter.
+        key: &'static str,
+        /// The value given.
+        found: String,
+        /// The valid range, in words.
+        range: String,
+    },
+    /// Not one of the options.
+    #[error("{found} is no value of {key}, which is one of {options}")]
+    NotAnOption {
+        /// The parameter.
+        key: &'static str,
+        /// The value given.
+        found: String,
+        /// All options.
+        options: String,
+    },
+    /// A fraction of what is counted.
+    #[error("{found} is no value of {key}, which takes whole numbers")]
+    NotWhole {
+        /// The parameter.
+        key: &'static str,
+        /// The value given.
+        found: String,
+    },
+    /// Outside the valid range.
+    #[error(transparent)]
+    BadValue(#[from] BadValue),
+}
+
+impl Advice for SettingError {
+    fn advice(&self) -> String {
+        "Write NAME=VALUE; docs/guide/parameters.md lists names, units and ranges".into()
+    }
+}
+
+impl FromStr for Setting {
+    type Err = SettingError;
+
+    fn from_str(text: &str) -> Result<Self, SettingError> {
+        let (name, written) = text.split_once('=').ok_or(SettingError::NoEquals)?;
+        let (name, written) = (name.trim(), written.trim());
+        let unknown = || SettingError::UnknownName {
+            name: name.to_owned(),
+            nearest: nearest_key(name),
+        };
+        let parameter = Parameter::of_key(name).ok_or_else(unknown)?;
+        let (key, found) = (parameter.key, written.to_owned());
+        let value = match &parameter.kind {
+            Kind::Number(number) => {
+                let digits = written.trim_end_matches(number.unit.sign().trim()).trim();
+                let Ok(value) = digits.parse() else {
+                    let range = parameter.range_text();
+                    return Err(SettingError::NotANumber { key, found, range });
+                };
+                value
+            }
+            Kind::Choice(choice) => {
+                let mut options = choice.options.iter();
+                let place = options.position(|option| option.eq_ignore_ascii_case(written));
+                place.ok_or_else(|| SettingError::NotAnOption {
+                    key,
+                    found: found.clone(),
+                    options: parameter.range_text(),
+                })? as f64
+            }
+        };
+        let mut recipe = Recipe::default();
+        parameter.set(&mut recipe, value)?;
+        let is_kept = (parameter.value(&recipe) - value).abs() <= 1e-9 * value.abs();
+        if is_kept {
+            Ok(Self { parameter, value })
+        } else {
+            Err(SettingError::NotWhole { key, found })
+        }
+    }
+}
+
+/// The key that is most like a name, or ends with it.
+fn nearest_key(name: &str) -> &'static str {
+    let keys = || PARAMETERS.iter().map(|parameter| parameter.key);
+    let ends_so = keys().find(|key| key.rsplit('.').next() == Some(name));
+    ends_so
+        .or_else(|| nearest_name(keys(), name))
+        .expect("there are parameters")
 }
 
 #[cfg(test)]
@@ -272,6 +414,7 @@ mod tests {
     use serde_json::Value;
 
     use super::*;
+    use crate::{pipeline::PoseChoice, stages::pose::PoseMethod};
 
     /// The paths of all numbers and words; an object of further ones is gone into.
     fn leaves(value: &Value, path: &str, found: &mut BTreeSet<String>) {
@@ -370,5 +513,79 @@ mod tests {
         }
         let key = Parameter::of_key("segment.plane_distance").expect("there");
         assert_eq!(key.text(&Recipe::default()), "8.0 mm");
+    }
+
+    #[test]
+    fn the_guide_lists_every_parameter_as_the_table_has_it() {
+        let path = concat!(env!("CARGO_MANIFEST_DIR"), "/docs/guide/parameters.md");
+        let guide = std::fs::read_to_string(path).expect("the guide");
+        let default = Recipe::default();
+        for group in Group::ALL {
+            let title = group.title();
+            let (_, section) = guide.split_once(&format!("\n## {title}\n")).expect(title);
+            let section = section.split("\n## ").next().unwrap_or_default();
+            let is_row = |line: &&str| line.starts_with("| `");
+            let written: Vec<&str> = section.lines().filter(is_row).collect();
+            let of_group = PARAMETERS.iter().filter(|p| p.group == group);
+            let expected: Vec<String> = of_group
+                .map(|p| {
+                    let name = match p.place {
+                        Place::Front => format!("**{}**", p.name),
+                        Place::Fold => p.name.to_owned(),
+                    };
+                    let (text, range) = (p.text(&default), p.range_text());
+                    format!("| `{}` | {name} | {text} | {range} | {} |", p.key, p.help)
+                })
+                .collect();
+            assert_eq!(written, expected, "{title}");
+        }
+    }
+
+    #[test]
+    fn a_setting_is_read_in_the_unit_of_its_parameter() {
+        let set = |text: &str| {
+            let mut recipe = Recipe::default();
+            let setting: Setting = text.parse().expect(text);
+            setting.apply(&mut recipe);
+            recipe
+        };
+        for text in [
+            "segment.plane_distance=12",
+            " segment.plane_distance = 12 mm ",
+        ] {
+            assert!((set(text).segment.plane_distance.mm() - 12.0).abs() < 1e-12);
+        }
+        assert!((set("icp_ga.turn_range=90°").icp_ga.turn_range.degrees() - 90.0).abs() < 1e-9);
+        assert!((set("segment.min_part_area=100 cm²").segment.min_part_area - 0.01).abs() < 1e-12);
+        assert_eq!(set("signature.num_rays=512").signature.num_rays, 512);
+        assert_eq!(set("pose=icp-ga").pose, PoseChoice::By(PoseMethod::IcpGa));
+        assert_eq!(set("icp.max_iterations=7").icp.max_iterations, 7);
+        for parameter in &PARAMETERS {
+            let text = format!("{}={}", parameter.key, parameter.text(&Recipe::default()));
+            assert_eq!(num_changed(&set(&text)), 0, "{text}");
+        }
+    }
+
+    #[test]
+    fn a_setting_that_is_none_names_the_range_or_the_nearest_name() {
+        let refused = |text: &str| text.parse::<Setting>().expect_err(text).to_string();
+        for (text, expected) in [
+            ("segment.plane_distance", "no ="),
+            ("plane_distance=8", "nearest is segment.plane_distance"),
+            (
+                "segment.plane_distnce=8",
+                "nearest is segment.plane_distance",
+            ),
+            ("icp_ga.sed=8", "nearest is icp_ga.seed"),
+            ("segment.plane_distance=90", "from 1 to 50 mm"),
+            ("segment.plane_distance=8 cm", "from 1 to 50 mm"),
+            ("segment.plane_distance=nan", "from 1 to 50 mm"),
+            ("icp.max_iterations=1.5", "whole numbers"),
+            ("rank.matcher=best", "one of Default, Paper"),
+            ("signature.num_rays=300", "one of 64, 128"),
+        ] {
+            let message = refused(text);
+            assert!(message.contains(expected), "{text}: {message}");
+        }
     }
 }
