@@ -1,0 +1,226 @@
+//! Imports run down the list of layers in docs/ARCHITECTURE.md, and the crates of the window and of the command line stay
+//! in them.
+//!
+//! Reads `crate::…` paths, and `super::…` paths that lead to the root, of all of `src` but its tests: a test may build
+//! what it needs with whatever lies above.
+
+use std::{
+    collections::BTreeSet,
+    fs,
+    path::{Path, PathBuf},
+};
+
+/// Crates that only these folders may name.
+const RESERVED: [(&str, &[&str]); 6] = [
+    ("egui", &["app"]),
+    ("eframe", &["app"]),
+    ("rfd", &["app"]),
+    ("clap", &["cli", "main"]),
+    ("anyhow", &["cli"]),
+    ("indicatif", &["cli"]),
+];
+
+#[test]
+fn imports_run_down_the_layers_of_the_architecture() {
+    let layers = layers();
+    let rank = |name: &str| {
+        layers
+            .iter()
+            .position(|layer| layer.contains(&name.to_owned()))
+    };
+    let mut uphill = Vec::new();
+    let mut named = BTreeSet::new();
+    for file in sources() {
+        let from = file.folder().to_owned();
+        if matches!(from.as_str(), "lib" | "main") {
+            continue;
+        }
+        let Some(own) = rank(&from) else {
+            panic!("src/{from} is not among the layers of docs/ARCHITECTURE.md");
+        };
+        named.insert(from.clone());
+        for to in file.imports() {
+            let Some(other) = rank(&to) else {
+                panic!("{}: {to} is not among the layers", file.path.display());
+            };
+            // Those of one layer may use each other, as units and error do.
+            if other > own {
+                uphill.push(format!("{}: {from} -> {to}", file.path.display()));
+            }
+        }
+    }
+    assert!(
+        uphill.is_empty(),
+        "imports that run up:\n{}",
+        uphill.join("\n")
+    );
+    let listed: BTreeSet<String> = layers.into_iter().flatten().collect();
+    assert_eq!(named, listed, "folders of src and layers");
+}
+
+#[test]
+fn crates_of_the_window_and_the_command_line_stay_there() {
+    for file in sources() {
+        for (name, folders) in RESERVED {
+            let is_named = file.text.contains(&format!("{name}::"));
+            assert!(
+                !is_named || folders.contains(&file.folder()),
+                "{} names {name}",
+                file.path.display()
+            );
+        }
+    }
+}
+
+#[test]
+fn paths_in_all_their_forms_are_found() {
+    let imports = |path: &str, text: &str| {
+        let source = Source {
+            path: path.into(),
+            text: code_of(text),
+        };
+        source.imports().into_iter().collect::<Vec<_>>().join(" ")
+    };
+    let nested = "use crate::{\n    a::{x, y},\n    b::C as D,\n    e,\n};\n// crate::comment\nfn f(_: crate::g::H) {}";
+    assert_eq!(imports("files/open.rs", nested), "a b e g");
+    assert_eq!(imports("files/open.rs", "use super::super::h::I;"), "h");
+    assert_eq!(imports("files/open.rs", "use super::open;"), "");
+    assert_eq!(imports("files/mod.rs", "use super::{i, j::K};"), "i j");
+    assert_eq!(
+        imports(
+            "files.rs",
+            "use super::l::M; #[cfg(test)]\nmod tests { use crate::n; }"
+        ),
+        "l"
+    );
+}
+
+/// The layers of docs/ARCHITECTURE.md from the bottom up; those of one layer stand between two arrows.
+fn layers() -> Vec<Vec<String>> {
+    let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/ARCHITECTURE.md");
+    let text = fs::read_to_string(path).expect("the architecture");
+    let line = text
+        .lines()
+        .find(|line| line.contains(" ◄ "))
+        .expect("the list");
+    let layers = line.split(" ◄ ");
+    layers
+        .map(|layer| {
+            layer
+                .split(',')
+                .map(|name| name.trim().to_owned())
+                .collect()
+        })
+        .collect()
+}
+
+/// A file of `src` without comments and tests.
+struct Source {
+    /// Within `src`.
+    path: PathBuf,
+    text: String,
+}
+
+impl Source {
+    /// The folder or file at the top of `src`.
+    fn folder(&self) -> &str {
+        let first = self.path.iter().next().and_then(|name| name.to_str());
+        let first = first.expect("a name");
+        first.strip_suffix(".rs").unwrap_or(first)
+    }
+
+    /// How many `super` lead from this module to the root.
+    fn depth(&self) -> usize {
+        let depth = self.path.iter().count();
+        depth - usize::from(self.path.ends_with("mod.rs"))
+    }
+
+    /// The folders at the top of `src` that it names, but its own.
+    fn imports(&self) -> BTreeSet<String> {
+        let root = "super::".repeat(self.depth());
+        let after = |start: &str| {
+            let found = self.text.match_indices(start);
+            // `super::super::x` is not `super::x`, nor is `$crate` one of ours.
+            let is_whole = |at: &usize| {
+                let before = self.text[..*at].chars().next_back();
+                before.is_none_or(|c| !c.is_alphanumeric() && !matches!(c, '_' | ':' | '$'))
+            };
+            let places = found.map(|(at, _)| at).filter(is_whole);
+            places
+                .map(|at| &self.text[at + start.len()..])
+                .collect::<Vec<_>>()
+        };
+        let mut names = BTreeSet::new();
+        for rest in after("crate::").into_iter().chain(after(&root)) {
+            names.extend(first_names(rest));
+        }
+        names.remove(self.folder());
+        names
+    }
+}
+
+/// The first names of a path, several where it begins with a brace.
+fn first_names(rest: &str) -> Vec<String> {
+    let name = |text: &str| -> String {
+        let text = text.trim_start().chars();
+        text.take_while(|c| c.is_alphanumeric() || *c == '_')
+            .collect()
+    };
+    let Some(list) = rest.strip_prefix('{') else {
+        return vec![name(rest)];
+    };
+    let mut names = Vec::new();
+    let (mut depth, mut start) = (0, 0);
+    for (at, c) in list.char_indices() {
+        match c {
+            '{' => depth += 1,
+            '}' if depth > 0 => depth -= 1,
+            ',' | '}' if depth == 0 => {
+                names.push(name(&list[start..at]));
+                start = at + 1;
+                if c == '}' {
+                    break;
+                }
+            }
+            _ => {}
+        }
+    }
+    names.retain(|name| !name.is_empty() && name != "self");
+    names
+}
+
+/// Without comments, and without what follows the first module of tests.
+fn code_of(text: &str) -> String {
+    let lines = text
+        .lines()
+        .map(|line| line.split("//").next().unwrap_or_default());
+    let code = lines.collect::<Vec<_>>().join("\n");
+    let tests = code.find("#[cfg(test)]\nmod tests {");
+    code[..tests.unwrap_or(code.len())].to_owned()
+}
+
+fn sources() -> Vec<Source> {
+    let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let mut sources = Vec::new();
+    let mut folders = vec![root.clone()];
+    while let Some(folder) = folders.pop() {
+        for entry in fs::read_dir(&folder).expect("listed") {
+            let path = entry.expect("an entry").path();
+            if path.is_dir() {
+                folders.push(path);
+                continue;
+            }
+            let within = path.strip_prefix(&root).expect("within src").to_owned();
+            // Modules of tests outside their file, and what several of them share.
+            let is_test = within
+                .iter()
+                .any(|name| name == "tests" || name == "tests.rs" || name == "fixtures.rs");
+            if path.extension().is_some_and(|ending| ending == "rs") && !is_test {
+                let text = code_of(&fs::read_to_string(&path).expect("text"));
+                sources.push(Source { path: within, text });
+            }
+        }
+    }
+    assert!(sources.len() > 300, "only {} files", sources.len());
+    sources
+}
