@@ -14,7 +14,7 @@ mod watch;
 use crate::{
     library::Library,
     stages::{
-        confirm::{ConfirmParams, ConfirmedRanking, Scene, UNCONFIRMED, confirm},
+        confirm::{ConfirmParams, ConfirmedRanking, Scene, UNCONFIRMED_WEIGHT, confirm},
         contour::{Contour, ContourParams, find_contour},
         pose::{
             AlignParams, PoseError, PoseEstimate, PoseMethod, icp::IcpParams, icp_ga::IcpGaParams,
@@ -30,7 +30,7 @@ use crate::{
     },
 };
 
-use self::{mirror::look_into_the_mirror, verdict::verdict, watch::StageClock};
+use self::{mirror::check_mirror_image, verdict::verdict, watch::StageClock};
 pub use self::{
     mirror::{MirrorTally, OnlyMirrored},
     rejection::{Rejection, Unrecognisable},
@@ -129,13 +129,14 @@ pub fn run(
     match first.map_err(|no_part| *no_part) {
         Ok(first) => {
             first?.keep(&mut inspection);
-            if may_be_another(&inspection, recipe) {
+            if should_try_alternatives(&inspection, recipe) {
                 let likeliest = inspection.segmentation.part.clone();
-                look_elsewhere(&mut inspection, scene, library, recipe, &clock)?;
-                if may_be_another(&inspection, recipe) {
-                    look_into_the_mirror(&mut inspection, scene, library, recipe, &clock)?;
+                try_other_segments(&mut inspection, scene, library, recipe, &clock)?;
+                if should_try_alternatives(&inspection, recipe) {
+                    check_mirror_image(&mut inspection, scene, library, recipe, &clock)?;
                 }
-                if may_be_another(&inspection, recipe) && !inspection.verdict.is_likeness() {
+                if should_try_alternatives(&inspection, recipe) && !inspection.verdict.is_likeness()
+                {
                     let part = likeliest.as_ref().expect("it was inspected");
                     look_without_bars(&mut inspection, part, scene, library, recipe, &clock)?;
                 }
@@ -154,7 +155,7 @@ const MAX_OTHERS: usize = 3;
 const WORTH_CHANGING: f64 = 0.1;
 
 /// True if the part may be another of the surfaces in the scene. The paper knows only one.
-fn may_be_another(inspection: &Inspection, recipe: &Recipe) -> bool {
+fn should_try_alternatives(inspection: &Inspection, recipe: &Recipe) -> bool {
     let is_ours = recipe.rank.matcher == Matcher::Default
         && recipe.pose == PoseChoice::By(PoseMethod::Global);
     let is_accepted = matches!(inspection.verdict, Verdict::Part { rejected: None, .. });
@@ -162,7 +163,7 @@ fn may_be_another(inspection: &Inspection, recipe: &Recipe) -> bool {
 }
 
 /// Looks at the next largest surfaces too, and keeps the one that is most likely an enrolled part.
-fn look_elsewhere(
+fn try_other_segments(
     inspection: &mut Inspection,
     scene: &SceneCloud,
     library: &Library,
@@ -208,7 +209,7 @@ fn look_without_bars(
 
 /// What the stages after segmentation make of one surface.
 #[derive(Default)]
-struct Surface {
+struct SurfaceResult {
     plane: Option<PlaneImage>,
     contour: Option<Contour>,
     signature: Option<FanSignature>,
@@ -217,7 +218,7 @@ struct Surface {
     verdict: Option<Verdict>,
 }
 
-impl Surface {
+impl SurfaceResult {
     fn best_score(&self) -> f64 {
         self.ranking.entries.first().map_or(0.0, |e| e.score)
     }
@@ -280,8 +281,8 @@ fn inspect_surface(
     library: &Library,
     recipe: &Recipe,
     clock: &StageClock<'_>,
-) -> Result<Surface, Cancelled> {
-    let mut surface = Surface::default();
+) -> Result<SurfaceResult, Cancelled> {
+    let mut surface = SurfaceResult::default();
     let recognised = recognise(&mut surface, part, scene, library, recipe, clock)?;
     surface.verdict = Some(match recognised {
         Ok(()) => verdict(&surface.ranking, surface.pose.as_ref(), recipe),
@@ -292,7 +293,7 @@ fn inspect_surface(
 
 /// Each stage leaves its result in the surface.
 fn recognise(
-    inspection: &mut Surface,
+    inspection: &mut SurfaceResult,
     part: &SegmentedPart,
     scene: &SceneCloud,
     library: &Library,
@@ -338,7 +339,7 @@ fn recognise(
                 return Err(Cancelled);
             }
             // The order is the matcher's; what the first is worth shows at its pose.
-            let mut confirmed = ConfirmedRanking::untried(&ranking, UNCONFIRMED);
+            let mut confirmed = ConfirmedRanking::untried(&ranking, UNCONFIRMED_WEIGHT);
             confirmed.entries[0].score = pose.as_ref().map_or(0.0, |p| p.fit.score());
             confirmed.entries[0].pose = pose.as_ref().ok().cloned();
             inspection.ranking = confirmed;

@@ -7,9 +7,9 @@
 use std::collections::BTreeSet;
 
 use super::{
-    Inspection, Recipe, Surface, inspect_surface,
+    Inspection, Recipe, SurfaceResult, inspect_surface,
     rejection::Rejection,
-    verdict::{Verdict, unlikeness},
+    verdict::{Verdict, model_deviation},
     watch::{Cancelled, StageClock},
 };
 use crate::{error::Advice, library::Library, stages::scene::SceneCloud};
@@ -20,7 +20,7 @@ const MIRROR_LEAD: f64 = 0.3;
 const CLOSER: f64 = 2.0;
 
 /// Says so if the mirror image of an enrolled part fits, and the part itself does not.
-pub(super) fn look_into_the_mirror(
+pub(super) fn check_mirror_image(
     inspection: &mut Inspection,
     scene: &SceneCloud,
     library: &Library,
@@ -44,9 +44,9 @@ pub(super) fn look_into_the_mirror(
     let scene = scene.mirrored();
     let found = inspect_surface(&part.mirrored(&scene), &scene, library, recipe, clock)?;
     let seen = if is_other_model {
-        closer_in_the_mirror(inspection, &found, recipe)
+        closer_mirror_match(inspection, &found, recipe)
     } else {
-        only_in_the_mirror(inspection, &found, recipe)
+        mirror_only_match(inspection, &found, recipe)
     };
     if let (Some(seen), Verdict::Part { rejected, .. }) = (seen, &mut inspection.verdict) {
         *rejected = Some(seen);
@@ -55,9 +55,9 @@ pub(super) fn look_into_the_mirror(
 }
 
 /// The mirror image of a part that is nothing like the part itself.
-fn only_in_the_mirror(
+fn mirror_only_match(
     inspection: &Inspection,
-    found: &Surface,
+    found: &SurfaceResult,
     recipe: &Recipe,
 ) -> Option<Rejection> {
     let seen = found.ranking.entries.first()?;
@@ -73,9 +73,9 @@ fn only_in_the_mirror(
 }
 
 /// The mirror image of a part that is nearly symmetric: such a part has no other side.
-fn closer_in_the_mirror(
+fn closer_mirror_match(
     inspection: &Inspection,
-    found: &Surface,
+    found: &SurfaceResult,
     recipe: &Recipe,
 ) -> Option<Rejection> {
     let (straight, mirrored) = (
@@ -83,7 +83,7 @@ fn closer_in_the_mirror(
         found.ranking.entries.first()?,
     );
     let is_accepted = found.verdict.as_ref().is_some_and(Verdict::is_accepted);
-    let unlike = |evidence| unlikeness(evidence, &recipe.accept);
+    let unlike = |evidence| model_deviation(evidence, &recipe.accept);
     let is_closer =
         CLOSER * unlike(mirrored.evidence.as_ref()?) < unlike(straight.evidence.as_ref()?);
     (is_accepted && is_closer && mirrored.part == straight.part).then(|| Rejection::MirroredImage {

@@ -19,7 +19,7 @@ use crate::{
     },
     stages::{
         confirm::{
-            ConfirmedMatch, ConfirmedRanking, Evidence, Scene, UNCONFIRMED,
+            ConfirmedMatch, ConfirmedRanking, Evidence, Scene, UNCONFIRMED_WEIGHT,
             joint::{JointFit, JointPart, fit_jointly, own_outline},
         },
         pose::{PoseError, PoseEstimate, Sight, refine::Source},
@@ -242,7 +242,7 @@ fn entry_of(
         None => ConfirmedMatch {
             score: best.score
                 * if best.pose.is_some() {
-                    UNCONFIRMED
+                    UNCONFIRMED_WEIGHT
                 } else {
                     1.0
                 },
@@ -255,7 +255,7 @@ fn entry_of(
 
 /// What the frames see where a point of a reference should be, counted over its points.
 #[derive(Default)]
-struct Sights {
+struct VisibilityCounts {
     confirmed: f64,
     missing: f64,
     hidden: f64,
@@ -334,7 +334,7 @@ fn evidence(
     let cloud = &reference.cloud;
     let normals = cloud.normals.as_deref().unwrap_or_default();
     let step = (cloud.points.len() / NUM_LOOKED_FOR).max(1);
-    let mut sights = Sights::default();
+    let mut sights = VisibilityCounts::default();
     for (point, normal) in cloud.points.iter().zip(normals).step_by(step) {
         let count = match seen_together(&shots, point, normal, tolerance) {
             Some(Look::Here(_)) => &mut sights.confirmed,
@@ -347,7 +347,7 @@ fn evidence(
         };
         *count += 1.0;
     }
-    let Sights {
+    let VisibilityCounts {
         confirmed,
         missing,
         hidden,

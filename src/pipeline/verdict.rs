@@ -135,7 +135,7 @@ pub(super) fn verdict(
     let accept = &recipe.accept;
     let next = ranking.runner_up();
     let margin = best.score - next.map_or(0.0, |n| n.score);
-    let unlike = best.evidence.map_or(0.0, |e| unlikeness(&e, accept));
+    let unlike = best.evidence.map_or(0.0, |e| model_deviation(&e, accept));
     let other_model = best.evidence.filter(|_| unlike > 1.0);
     let freedom = |pose: &PoseEstimate| pose.uncertainty.and_then(|u| u.freedom);
     let rejected = match (pose, best.evidence) {
@@ -176,16 +176,16 @@ pub(super) fn verdict(
         score: best.score,
         margin,
         rejected,
-        is_approximate: unlike > MAY_BE_ANOTHER,
+        is_approximate: unlike > APPROXIMATE_FROM,
     }
 }
 
 /// From this share of what another model is refused at, a pose is called approximate: four fifths of the other models
 /// reach it, and one in thirty of the enrolled ones.
-const MAY_BE_ANOTHER: f64 = 0.55;
+const APPROXIMATE_FROM: f64 = 0.55;
 
 /// How much speaks for a part of the same type that is not this one; above 1 it is one.
-pub(super) fn unlikeness(evidence: &Evidence, accept: &AcceptParams) -> f64 {
+pub(super) fn model_deviation(evidence: &Evidence, accept: &AcceptParams) -> f64 {
     let relief = evidence.relief_m / accept.max_relief.0;
     // The rim is known to some millimetres only, and the smaller the piece, the more of it is rim.
     let in_sight = (1.0 - evidence.outside) * (1.0 - evidence.hidden);

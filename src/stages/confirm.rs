@@ -7,24 +7,24 @@
 //! both show is compared, and the piece is laid onto the references by itself.
 
 mod candidate;
-mod coarse;
 mod confirmed_match;
-mod ends;
 mod evidence;
 pub mod joint;
 mod local_normal;
+mod outline_ends;
 mod outline_shift;
+mod piece_search;
 
 use nalgebra::{Point3, Vector3};
 use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
 use self::{
-    candidate::Candidate,
-    coarse::Laid,
-    ends::{Outline, outline_of},
+    candidate::ReferenceCandidate,
     local_normal::LocalNormals,
+    outline_ends::{Outline, outline_of},
     outline_shift::outline_shift,
+    piece_search::PieceSample,
 };
 pub use self::{
     confirmed_match::{ConfirmedMatch, ConfirmedRanking},
@@ -204,7 +204,7 @@ fn confirm_drawn(
     ranking: &MatchRanking,
     params: &ConfirmParams,
 ) -> (Confirmed, Option<f64>) {
-    let seen = Seen::new(scene, references, params);
+    let seen = PreparedScene::new(scene, references, params);
     if seen.source.surface.len() < 20 {
         let error = PoseError::TooFewPoints {
             which: "source",
@@ -214,7 +214,7 @@ fn confirm_drawn(
         return ((ConfirmedRanking::untried(ranking, 1.0), Err(error)), None);
     }
     let mut entries: Vec<&MatchEntry> = ranking.entries.iter().collect();
-    let num_looked_at = seen.put_forward(&mut entries, references, params);
+    let num_looked_at = seen.select_entries(&mut entries, references, params);
     let trials = seen.trials(&entries[..num_looked_at], references);
     let costs = trials.iter().flatten().filter(|trial| !trial.is_piece);
     let least = costs.map(|trial| trial.cost).fold(f64::INFINITY, f64::min);
@@ -236,7 +236,7 @@ fn confirm_drawn(
                 Some(candidate) => candidate.evidence.score(),
                 // Whatever a piece was laid onto without success is not it.
                 None if number < num_looked_at => 0.0,
-                None => entry.score * UNCONFIRMED,
+                None => entry.score * UNCONFIRMED_WEIGHT,
             };
             Tried {
                 entry,
@@ -273,7 +273,7 @@ struct Tried<'a> {
     entry: &'a MatchEntry,
     score: f64,
     /// `None` if it was not tried, or has no cloud.
-    candidate: Option<Candidate>,
+    candidate: Option<ReferenceCandidate>,
 }
 
 impl Tried<'_> {
@@ -285,7 +285,7 @@ impl Tried<'_> {
         } = self;
         ConfirmedMatch {
             score,
-            pose: candidate.as_ref().map(Candidate::estimate),
+            pose: candidate.as_ref().map(ReferenceCandidate::estimate),
             evidence: candidate.map(|candidate| Evidence {
                 shape: entry.score,
                 ..candidate.evidence
@@ -305,7 +305,7 @@ const CONTENDS: f64 = 0.6;
 const HOPELESS_SCORE: f64 = 1e-4;
 
 /// The scene's side of all comparisons, prepared once.
-struct Seen<'a> {
+struct PreparedScene<'a> {
     scene: &'a Scene<'a>,
     source: Source,
     centre: Point3<f64>,
@@ -314,14 +314,14 @@ struct Seen<'a> {
     /// Share of the outline where only the view ends.
     cut_share: f64,
     /// `None` if a whole part is in sight, and whole ones are enrolled.
-    laid: Option<Laid>,
+    piece: Option<PieceSample>,
     tolerance: Tolerance,
 }
 
 /// References that are cut off and looked at whatever they rank.
 const MOST_CUT_REFERENCES: usize = 8;
 
-impl<'a> Seen<'a> {
+impl<'a> PreparedScene<'a> {
     fn new(scene: &'a Scene<'a>, references: &[Reference], params: &ConfirmParams) -> Self {
         let outline = outline_of(scene);
         let source = thinned_source(scene, &outline, params);
@@ -331,8 +331,8 @@ impl<'a> Seen<'a> {
                 .all(|reference| reference.cut.is_nothing())
         };
         let is_whole = outline.cut_share < CUT_SHARE && are_whole();
-        let laid = (!is_whole).then(|| {
-            Laid::new(
+        let piece = (!is_whole).then(|| {
+            PieceSample::new(
                 &source.surface,
                 oriented_border(scene, &outline),
                 params.seed,
@@ -344,7 +344,7 @@ impl<'a> Seen<'a> {
             source,
             own_m: outline.own.len() as f64 * scene.query.plane.pixel.0,
             cut_share: outline.cut_share,
-            laid,
+            piece,
             tolerance: Tolerance {
                 base: params.tolerance,
                 noise_at_1m: scene.part.noise_at_1m,
@@ -353,13 +353,13 @@ impl<'a> Seen<'a> {
     }
 
     /// What is laid onto a reference as a piece; `None` where both are whole.
-    fn piece_for(&self, reference: &Reference) -> Option<&Laid> {
+    fn piece_for(&self, reference: &Reference) -> Option<&PieceSample> {
         let is_piece = self.cut_share >= CUT_SHARE || !reference.cut.is_nothing();
-        self.laid.as_ref().filter(|_| is_piece)
+        self.piece.as_ref().filter(|_| is_piece)
     }
 
     /// Puts the entries that are to be looked at to the front, and counts them.
-    fn put_forward(
+    fn select_entries(
         &self,
         entries: &mut [&MatchEntry],
         references: &[Reference],
@@ -385,7 +385,7 @@ impl<'a> Seen<'a> {
     }
 
     /// Refines a candidate to the end.
-    fn finish(&self, reference: &Reference, candidate: &mut Candidate) {
+    fn finish(&self, reference: &Reference, candidate: &mut ReferenceCandidate) {
         let Some(target) = reference.target(candidate.view) else {
             return;
         };
@@ -398,7 +398,7 @@ impl<'a> Seen<'a> {
         let closest = Closest::of_each(&source.surface, &target, pose, Search::Tree);
         candidate.uncertainty = Some(uncertainty(source, &closest, &target, pose, &THIRD[2]));
         (candidate.fit, candidate.evidence) =
-            self.weigh(reference, candidate.view, pose, &closest, NUM_LOOKED_FOR);
+            self.evaluate(reference, candidate.view, pose, &closest, NUM_LOOKED_FOR);
         candidate.evidence.rival = candidate.rival;
         let view = &reference.views[candidate.view];
         let noise = self.scene.part.noise_at_1m;
@@ -415,7 +415,7 @@ impl<'a> Seen<'a> {
 }
 
 /// What a ranking's score is worth when the part was not looked for.
-pub const UNCONFIRMED: f64 = 0.3;
+pub const UNCONFIRMED_WEIGHT: f64 = 0.3;
 
 /// Thins part and edges at random, so that any first n of them are spread over the part.
 fn thinned_source(scene: &Scene<'_>, outline: &Outline, params: &ConfirmParams) -> Source {

@@ -3,9 +3,9 @@
 use nalgebra::{Isometry2, Isometry3, Translation3, UnitQuaternion, Vector3};
 
 use super::{
-    COST_LIMIT, FIRST, FIRST_OF_A_PIECE, HOPELESS, Seen,
-    coarse::{Laid, Start},
+    COST_LIMIT, FIRST, FIRST_OF_A_PIECE, HOPELESS, PreparedScene,
     evidence::{Evidence, facing_view},
+    piece_search::{PieceSample, Start},
 };
 use crate::{
     geometry::rigid::{RigidTransform, pose_error},
@@ -22,7 +22,7 @@ use crate::{
 };
 
 /// The best pose of one reference.
-pub(super) struct Candidate {
+pub(super) struct ReferenceCandidate {
     pub(super) refined: Refined,
     /// The view whose edges it is refined to.
     pub(super) view: usize,
@@ -36,7 +36,7 @@ pub(super) struct Candidate {
     pub(super) rival: f64,
 }
 
-impl Candidate {
+impl ReferenceCandidate {
     /// Everything known about it so far.
     pub(super) fn estimate(&self) -> PoseEstimate {
         let Self {
@@ -59,7 +59,7 @@ impl Candidate {
 }
 
 /// A pose of one reference on its way from coarse to fine.
-pub(super) struct Trial {
+pub(super) struct PoseTrial {
     view: usize,
     refined: Refined,
     /// Square metres of a whole part, without a unit of a piece.
@@ -84,21 +84,21 @@ const WORSE_POSE: f64 = 0.35;
 const NUM_MEASURED: usize = 500;
 const NUM_LOOKED_FOR: usize = 700;
 
-impl Seen<'_> {
+impl PreparedScene<'_> {
     /// Of each entry the poses that its placements lead to, the cheapest first; of a piece only those that are worth a
     /// refinement.
     pub(super) fn trials(
         &self,
         entries: &[&MatchEntry],
         references: &[Reference],
-    ) -> Vec<Vec<Trial>> {
+    ) -> Vec<Vec<PoseTrial>> {
         let mut starts: Vec<(usize, Start)> = Vec::new();
         for (number, entry) in entries.iter().enumerate() {
             let reference = &references[entry.reference];
-            if let Some(laid) = self.piece_for(reference) {
+            if let Some(piece) = self.piece_for(reference) {
                 let placed = self.distinct_starts(reference, &entry.placements);
                 let placed = placed.into_iter().map(|start| start.1);
-                let of_reference = self.coarse_starts(laid, reference, placed);
+                let of_reference = self.coarse_starts(piece, reference, placed);
                 starts.extend(of_reference.into_iter().map(|start| (number, start)));
             }
         }
@@ -112,14 +112,14 @@ impl Seen<'_> {
         starts.retain(|start| start.1.cost < least + WORSE_START);
         let of_entry = |(number, entry): (usize, &&MatchEntry)| {
             let reference = &references[entry.reference];
-            let mut trials: Vec<Trial> = match self.piece_for(reference) {
-                Some(laid) => starts
+            let mut trials: Vec<PoseTrial> = match self.piece_for(reference) {
+                Some(piece) => starts
                     .iter()
                     .filter(|start| start.0 == number)
                     .filter_map(|(_, start)| {
                         let pose = &start.target_from_source;
                         let view = facing_view(reference, pose);
-                        self.attempt(reference, view, pose, &FIRST_OF_A_PIECE, Some(laid))
+                        self.attempt(reference, view, pose, &FIRST_OF_A_PIECE, Some(piece))
                     })
                     .collect(),
                 None => self
@@ -131,7 +131,7 @@ impl Seen<'_> {
             trials.sort_by(|a, b| a.cost.total_cmp(&b.cost));
             trials
         };
-        let mut trials: Vec<Vec<Trial>> = entries.iter().enumerate().map(of_entry).collect();
+        let mut trials: Vec<Vec<PoseTrial>> = entries.iter().enumerate().map(of_entry).collect();
         let of_pieces = trials.iter().flatten().filter(|trial| trial.is_piece);
         let least = of_pieces
             .map(|trial| trial.cost)
@@ -146,39 +146,40 @@ impl Seen<'_> {
     pub(super) fn best_candidate(
         &self,
         reference: &Reference,
-        trials: &[Trial],
+        trials: &[PoseTrial],
         levels: &[Level],
-    ) -> Option<Candidate> {
-        let laid = self.piece_for(reference);
-        let num_poses = match laid {
+    ) -> Option<ReferenceCandidate> {
+        let piece = self.piece_for(reference);
+        let num_poses = match piece {
             Some(_) => POSES_OF_A_PIECE,
             None => POSES_OF_A_WHOLE,
         };
         let least = trials.first()?.cost;
-        let mut different: Vec<&Trial> = Vec::new();
+        let mut different: Vec<&PoseTrial> = Vec::new();
         for trial in trials {
             let pose = &trial.refined.target_from_source;
-            let is_apart =
-                |known: &&Trial| self.is_apart(&known.refined.target_from_source, pose, POSE_APART);
+            let is_apart = |known: &&PoseTrial| {
+                self.is_apart(&known.refined.target_from_source, pose, POSE_APART)
+            };
             if different.iter().all(is_apart) {
                 different.push(trial);
             }
         }
-        let mut finer: Vec<Trial> = different
+        let mut finer: Vec<PoseTrial> = different
             .into_iter()
             .take(num_poses)
             .filter_map(|trial| {
                 let may_win = trial.is_piece || trial.cost < HOPELESS * least;
-                self.finer(reference, trial, if may_win { levels } else { &[] }, laid)
+                self.finer(reference, trial, if may_win { levels } else { &[] }, piece)
             })
             .collect();
         finer.sort_by(|a, b| a.cost.total_cmp(&b.cost));
         // For a whole part the cost is enough.
-        let num_weighed = match laid {
+        let num_weighed = match piece {
             Some(_) => finer.len(),
             None => 1,
         };
-        let mut weighed: Vec<Candidate> = finer
+        let mut weighed: Vec<ReferenceCandidate> = finer
             .iter()
             .take(num_weighed)
             .filter_map(|trial| self.weighed(reference, trial))
@@ -206,26 +207,26 @@ impl Seen<'_> {
     fn finer(
         &self,
         reference: &Reference,
-        trial: &Trial,
+        trial: &PoseTrial,
         levels: &[Level],
-        laid: Option<&Laid>,
-    ) -> Option<Trial> {
+        piece: Option<&PieceSample>,
+    ) -> Option<PoseTrial> {
         let start = &trial.refined.target_from_source;
-        let mut finer = self.attempt(reference, trial.view, start, levels, laid)?;
+        let mut finer = self.attempt(reference, trial.view, start, levels, piece)?;
         let before = trial.refined.iterations.iter().copied();
         finer.refined.iterations.splice(0..0, before);
         Some(finer)
     }
 
-    fn weighed(&self, reference: &Reference, trial: &Trial) -> Option<Candidate> {
+    fn weighed(&self, reference: &Reference, trial: &PoseTrial) -> Option<ReferenceCandidate> {
         let pose = &trial.refined.target_from_source;
         let view = facing_view(reference, pose);
         let surface = &self.source.surface;
         let measured = &surface[..NUM_MEASURED.min(surface.len())];
         let target = reference.target(view)?;
         let closest = Closest::of_each(measured, &target, pose, Search::Field);
-        let (fit, evidence) = self.weigh(reference, view, pose, &closest, NUM_LOOKED_FOR);
-        Some(Candidate {
+        let (fit, evidence) = self.evaluate(reference, view, pose, &closest, NUM_LOOKED_FOR);
+        Some(ReferenceCandidate {
             refined: trial.refined.clone(),
             cost: trial.cost,
             view,
@@ -263,19 +264,19 @@ impl Seen<'_> {
         view: usize,
         start: &RigidTransform,
         levels: &[Level],
-        laid: Option<&Laid>,
-    ) -> Option<Trial> {
+        piece: Option<&PieceSample>,
+    ) -> Option<PoseTrial> {
         let target = reference.target(view)?;
         let refined = refine(&self.source, &target, start, levels);
         let level = levels.last().unwrap_or(&FIRST[1]);
         let pose = &refined.target_from_source;
-        let cost = match laid {
-            Some(laid) => self.coarse_cost(laid, reference, pose),
+        let cost = match piece {
+            Some(piece) => self.coarse_cost(piece, reference, pose),
             None => cost(&self.source, &target, pose, level, COST_LIMIT),
         };
-        Some(Trial {
+        Some(PoseTrial {
             view,
-            is_piece: laid.is_some(),
+            is_piece: piece.is_some(),
             refined,
             cost,
         })

@@ -17,7 +17,7 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::Seen;
+use super::PreparedScene;
 use crate::{
     geometry::rigid::RigidTransform,
     stages::{
@@ -79,9 +79,9 @@ const LEAST_IN_PATCH: f64 = 6.0;
 /// share theirs.
 const NOISE_LEFT: f64 = 0.3;
 
-impl Seen<'_> {
+impl PreparedScene<'_> {
     /// Takes the figures of one reference at a pose, from the closest points of the first of the part's.
-    pub(super) fn weigh(
+    pub(super) fn evaluate(
         &self,
         reference: &Reference,
         view: usize,

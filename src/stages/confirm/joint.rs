@@ -7,8 +7,8 @@ use nalgebra::{Isometry3, Point3};
 
 use super::{
     NOISE_OF_JOINT, POSES_APART, SECOND, Scene, THIRD,
-    ends::outline_of,
     evidence::{facing, facing_view, outline_distance, relief},
+    outline_ends::outline_of,
 };
 use crate::{
     geometry::rigid::{RigidTransform, pose_error},

@@ -10,7 +10,7 @@ use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
 use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
-use super::Seen;
+use super::PreparedScene;
 use crate::{
     geometry::{cloud::is_finite, rigid::RigidTransform},
     stages::reference::{
@@ -67,13 +67,13 @@ pub(super) struct Start {
 }
 
 /// What of a piece is laid onto references, camera space.
-pub(super) struct Laid {
+pub(super) struct PieceSample {
     surface: Vec<Point3<f32>>,
     border: Vec<BorderPoint>,
     pairs: Vec<BorderPair>,
 }
 
-impl Laid {
+impl PieceSample {
     /// Any first points of surface and border are spread over the piece.
     pub(super) fn new(surface: &[Point3<f32>], mut border: Vec<BorderPoint>, seed: u64) -> Self {
         let mut rng = Pcg64::seed_from_u64(seed);
@@ -97,18 +97,18 @@ impl Laid {
     }
 }
 
-impl Seen<'_> {
+impl PreparedScene<'_> {
     /// The best few poses of a reference, none of them refined; `others` are scored with them.
     pub(super) fn coarse_starts(
         &self,
-        laid: &Laid,
+        piece: &PieceSample,
         reference: &Reference,
         others: impl Iterator<Item = RigidTransform>,
     ) -> Vec<Start> {
         let mut poses: Vec<(f32, Isometry3<f32>)> = Vec::new();
         for border in reference.borders() {
-            for pair in &laid.pairs {
-                Self::lay_pair(laid, reference, border, pair, &mut poses);
+            for pair in &piece.pairs {
+                Self::align_border_pair(piece, reference, border, pair, &mut poses);
             }
         }
         if poses.len() > MOST_SCORED {
@@ -120,7 +120,7 @@ impl Seen<'_> {
             .map(|(_, pose)| pose.cast())
             .chain(others)
             .map(|target_from_source| Start {
-                cost: self.coarse_cost(laid, reference, &target_from_source),
+                cost: self.coarse_cost(piece, reference, &target_from_source),
                 target_from_source,
             })
             .collect();
@@ -142,14 +142,14 @@ impl Seen<'_> {
     }
 
     /// All poses in which a pair of the piece's border lies on one of the reference's, as far as the first points agree.
-    fn lay_pair(
-        laid: &Laid,
+    fn align_border_pair(
+        piece: &PieceSample,
         reference: &Reference,
         border: &Border,
         pair: &BorderPair,
         poses: &mut Vec<(f32, Isometry3<f32>)>,
     ) {
-        let ours = pair.of.map(|i| &laid.border[usize::from(i)]);
+        let ours = pair.of.map(|i| &piece.border[usize::from(i)]);
         let Some((middle, axes)) = frame_of(ours) else {
             return;
         };
@@ -167,7 +167,7 @@ impl Seen<'_> {
                 continue;
             }
             let shift = onto - turn * middle.coords;
-            if let Some(off) = try_on(laid, reference, border, &turn, &shift.coords) {
+            if let Some(off) = early_out_cost(piece, reference, border, &turn, &shift.coords) {
                 let turn =
                     UnitQuaternion::from_rotation_matrix(&Rotation3::from_matrix_unchecked(turn));
                 poses.push((off, Isometry3::from_parts(shift.coords.into(), turn)));
@@ -179,14 +179,14 @@ impl Seen<'_> {
     /// reference where the camera looks past it.
     pub(super) fn coarse_cost(
         &self,
-        laid: &Laid,
+        piece: &PieceSample,
         reference: &Reference,
         target_from_source: &RigidTransform,
     ) -> f64 {
         let moved = target_from_source.cast::<f32>();
         let is_beyond = |at: &Point3<f32>| reference.cut.depth_inside(&at.cast()) < AT_CUT;
         let (mut num, mut off) = (0_usize, 0.0_f32);
-        for p in &laid.surface {
+        for p in &piece.surface {
             let at = moved * p;
             if !is_beyond(&at) {
                 num += 1;
@@ -199,11 +199,11 @@ impl Seen<'_> {
         if num < LEAST_SHARED {
             return f64::INFINITY;
         }
-        let num_surface = laid.surface.len().max(1);
+        let num_surface = piece.surface.len().max(1);
         let beyond = 1.0 - num as f32 / num_surface as f32;
         let surface = off / num as f32;
         let (mut num, mut off) = (0.0_f32, 0.0_f32);
-        for p in &laid.border {
+        for p in &piece.border {
             let at = moved * p.at;
             if !is_beyond(&at) {
                 num += 1.0;
@@ -216,12 +216,12 @@ impl Seen<'_> {
             }
         }
         let border = if num > 0.0 { off / num } else { 0.0 };
-        let past = self.looked_past(reference, target_from_source);
+        let past = self.missing_share(reference, target_from_source);
         f64::from(surface + border + LOOKED_PAST * past + UNSEEN * beyond)
     }
 
     /// Share of a reference that the camera looks past, of what it sees or looks past.
-    fn looked_past(&self, reference: &Reference, target_from_source: &RigidTransform) -> f32 {
+    fn missing_share(&self, reference: &Reference, target_from_source: &RigidTransform) -> f32 {
         let scene = self.scene.scene;
         let (Some(camera), Some(normals)) = (scene.intrinsics, reference.cloud.normals.as_deref())
         else {
@@ -270,15 +270,15 @@ impl Seen<'_> {
 }
 
 /// Mean squared distance of the first points at a pose, or `None` as soon as too many of them are off.
-fn try_on(
-    laid: &Laid,
+fn early_out_cost(
+    piece: &PieceSample,
     reference: &Reference,
     border: &Border,
     turn: &Matrix3<f32>,
     shift: &Vector3<f32>,
 ) -> Option<f32> {
     let (mut num, mut num_off, mut sum) = (0_usize, 0_usize, 0.0_f32);
-    for p in laid.surface.iter().take(NUM_TRIED) {
+    for p in piece.surface.iter().take(NUM_TRIED) {
         let at = Point3::from(turn * p.coords + shift);
         if reference.cut.depth_inside(&at.cast()) < AT_CUT {
             continue;
@@ -299,7 +299,7 @@ fn try_on(
     }
     let surface = sum / num as f32;
     let (mut num, mut num_on, mut sum) = (0.0_f32, 0.0_f32, 0.0_f32);
-    for p in laid.border.iter().take(NUM_TRIED) {
+    for p in piece.border.iter().take(NUM_TRIED) {
         let at = Point3::from(turn * p.at.coords + shift);
         if reference.cut.depth_inside(&at.cast()) < AT_CUT {
             continue;
