@@ -5,6 +5,7 @@ pub mod app;
 pub mod bench;
 pub mod capture;
 pub mod cases;
+#[cfg(feature = "cli")]
 pub mod cli;
 pub mod error;
 pub mod files;
@@ -12,6 +13,7 @@ pub mod geometry;
 pub mod history;
 pub mod library;
 pub mod pipeline;
+#[cfg(feature = "cli")]
 pub mod report;
 pub mod robot;
 pub mod scan;

@@ -16,7 +16,6 @@
 //! Some can be set to other units or angles; what is written here is their default. `assets/conventions.md` has a
 //! table of one pose in all of them.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{euler::Order, robot_pose::Unit};
@@ -25,7 +24,8 @@ use super::{euler::Order, robot_pose::Unit};
 mod tests;
 
 /// How a pose is written down.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Hash, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(rename_all = "kebab-case")]
 pub enum Convention {
     /// 4×4 matrix.

@@ -1,7 +1,6 @@
 //! A pose in the numbers of a convention: to and fro.
 
 use nalgebra::{Isometry3, Quaternion, Translation3, UnitQuaternion, Vector3};
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::convention::{Convention, Layout};
@@ -11,7 +10,8 @@ use crate::{
 };
 
 /// What a number of a pose is counted in.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 pub enum Unit {
     /// Metres.
     #[serde(rename = "m")]
@@ -63,7 +63,8 @@ impl Unit {
 }
 
 /// One number of a pose.
-#[derive(Clone, Copy, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 pub struct RobotValue {
     /// Its name on the controller.
     pub name: &'static str,
@@ -88,7 +89,8 @@ impl RobotValue {
 }
 
 /// Whether three angles say a rotation well.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(rename_all = "snake_case")]
 pub enum GimbalLock {
     /// They do, or there are no three angles.
@@ -101,7 +103,8 @@ pub enum GimbalLock {
 }
 
 /// A pose in the numbers of a convention, in the order in which the controller wants them.
-#[derive(Clone, Debug, PartialEq, Serialize, JsonSchema)]
+#[derive(Clone, Debug, PartialEq, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 pub struct RobotPose {
     /// Which convention.
     pub convention: Convention,
