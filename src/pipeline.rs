@@ -24,7 +24,9 @@ use crate::{
         rank::{Matcher, Query, RankParams, place, rank},
         reference::Reference,
         scene::SceneCloud,
-        segment::{SegmentParams, Segmentation, SegmentedPart, other_parts, segment, without_bars},
+        segment::{
+            SegmentParams, Segmentation, SegmentedPart, other_segments, segment, without_bars,
+        },
         signature::{FanSignature, SignatureParams, describe},
         stand_off::StandOffParams,
     },
@@ -35,7 +37,7 @@ pub use self::{
     mirror::{MirrorTally, OnlyMirrored},
     rejection::{Rejection, Unrecognisable},
     verdict::{AcceptParams, Verdict},
-    watch::{Cancelled, Stage, Timings, Unwatched, Watch},
+    watch::{Cancelled, ProgressObserver, Stage, Timings, Unwatched},
 };
 
 /// All parameters of an inspection.
@@ -110,7 +112,7 @@ pub fn run(
     scene: &SceneCloud,
     library: &Library,
     recipe: &Recipe,
-    watch: &dyn Watch,
+    watch: &dyn ProgressObserver,
 ) -> Result<Inspection, Cancelled> {
     let clock = StageClock::start(watch);
     let segmentation = clock.time(Stage::Segment, || segment(scene, &recipe.segment))?;
@@ -171,7 +173,7 @@ fn try_other_segments(
     clock: &StageClock<'_>,
 ) -> Result<(), Cancelled> {
     let others = clock.time(Stage::Segment, || {
-        other_parts(scene, &inspection.segmentation, &recipe.segment, MAX_OTHERS)
+        other_segments(scene, &inspection.segmentation, &recipe.segment, MAX_OTHERS)
     })?;
     let mut best = inspection.best_score().max(WORTH_CHANGING);
     for part in others {

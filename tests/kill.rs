@@ -25,7 +25,8 @@ use partsight::{
         distortion::Distortion,
     },
     history::{
-        Detail, Filter, History, KeepFrames, NewEntry, PastVerdict, Record, Retention, Summary,
+        Filter, History, InspectionDetail, KeepFrames, NewEntry, Record, Retention, StoredVerdict,
+        Summary,
     },
     library::Library,
     pipeline::{self, Inspection, Recipe, Unwatched},
@@ -80,7 +81,7 @@ fn entry(number: i64) -> NewEntry {
                 scene: format!("frame {number}"),
                 source: "simulated".into(),
                 is_simulated: true,
-                verdict: PastVerdict::Unknown,
+                verdict: StoredVerdict::Unknown,
                 part: None,
                 title: "Unknown".into(),
                 score: Some([0.4, 0.1]),
@@ -89,7 +90,7 @@ fn entry(number: i64) -> NewEntry {
                 label: None,
                 frame_bytes: None,
             },
-            detail: Detail {
+            detail: InspectionDetail {
                 nearest: None,
                 complaint: None,
                 camera_from_part: None,

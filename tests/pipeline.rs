@@ -14,12 +14,12 @@ use partsight::{
     },
     library::{EnrolParams, Library},
     pipeline::{
-        Cancelled, Inspection, PoseChoice, Recipe, Rejection, Stage, Unrecognisable, Unwatched,
-        Verdict, Watch, run,
+        Cancelled, Inspection, PoseChoice, ProgressObserver, Recipe, Rejection, Stage,
+        Unrecognisable, Unwatched, Verdict, run,
     },
     simulate::{
         CellSetup, Clutter, FIRST_OTHER_MAKE, ObjectKind, PartKind, PartPose, SensorNoise, Side,
-        Subject, frame,
+        SimulatedObject, frame,
     },
     stages::{
         pose::PoseMethod,
@@ -123,7 +123,7 @@ fn nothing_to_see_is_no_part_whatever_the_recipe() {
     let library = standard();
     let nowhere = Point3::new(f32::NAN, f32::NAN, f32::NAN);
     let cloud = |points: Vec<Point3<f32>>| scene_from_cloud(PointCloud::from_points(points));
-    let empty_cell = scene_from_frame(&frame(&CellSetup::new(Subject::Nothing, 3)).frame);
+    let empty_cell = scene_from_frame(&frame(&CellSetup::new(SimulatedObject::Nothing, 3)).frame);
     let all_nan = scene_from_cloud(PointCloud {
         points: vec![nowhere; 640 * 480],
         grid: Some(Grid {
@@ -231,7 +231,7 @@ fn a_cancelled_inspection_stops_before_the_next_stage() {
         stage: Stage,
         reached: Cell<bool>,
     }
-    impl Watch for CancelAt {
+    impl ProgressObserver for CancelAt {
         fn begins(&self, stage: Stage) {
             assert!(!self.reached.get(), "{stage:?} began after the cancel");
             self.reached.set(stage == self.stage);
@@ -264,7 +264,7 @@ struct Midway {
     is_posing: Cell<bool>,
     num_asked: Cell<usize>,
 }
-impl Watch for Midway {
+impl ProgressObserver for Midway {
     fn begins(&self, stage: Stage) {
         self.is_posing.set(stage == Stage::Pose);
     }
@@ -429,7 +429,7 @@ fn what_nobody_enrolled_is_unknown() {
         (ObjectKind::Board, 6),
         (ObjectKind::Box, 7),
     ] {
-        let setup = CellSetup::new(Subject::Object(object), seed);
+        let setup = CellSetup::new(SimulatedObject::Object(object), seed);
         let verdict = inspected(
             &scene_from_frame(&frame(&setup).frame),
             &library,

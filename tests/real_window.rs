@@ -16,7 +16,7 @@ use std::{
 use image::RgbImage;
 use partsight::{
     files::save_cloud,
-    simulate::{CellSetup, PartKind, PartPose, Placement, Side, frame},
+    simulate::{CellSetup, PartKind, PartPose, PoseRange, Side, frame},
     stages::scene::scene_from_frame,
 };
 
@@ -171,7 +171,7 @@ fn the_program_opens_a_file_shows_every_workspace_and_closes_with_code_0() {
     let folder = tempfile::tempdir().expect("a folder");
     let scene_path = folder.path().join("captured.pcd");
     let mut setup = CellSetup::with_part(PartKind::Fender, Side::Left, 0, 5);
-    setup.pose = PartPose::Drawn(Placement::facing());
+    setup.pose = PartPose::Drawn(PoseRange::facing());
     let scene = scene_from_frame(&frame(&setup).frame);
     save_cloud(&scene_path, &scene.cloud).expect("written");
 

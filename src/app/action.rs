@@ -10,17 +10,18 @@ use super::{
         state::InspectAction,
         work::{InspectRequest, Inspected},
     },
-    job::{Outcome, Request, Trouble},
-    lane::Lane,
+    job::{Request, TaskOutcome, Trouble},
+    lane::TaskQueue,
     live::{self, LiveAction},
     robot::{self, RobotAction},
     roles::{self, RoleAction},
     shots::{self, ScanFiles, ShotsAction},
     source::{CellChoice, SceneSource, file_name},
     state::{
-        Event, HelpPage, Notice, NoticeKind, Purpose, Shown, Source, StagePanel, State, Workspace,
+        Event, HelpPage, Notice, NoticeKind, ReinspectionPurpose, Shown, Source, StagePanel, State,
+        Workspace,
     },
-    worker::News,
+    worker::TaskEvent,
 };
 use crate::{
     capture::{Pace, RecordingSpec, SourceSpec, WatchedFrom, WatchedSpec},
@@ -40,15 +41,15 @@ pub enum Action {
     /// Forget the empty cell.
     ForgetEmptyCell,
     /// Have a person choose a file or folder.
-    Ask(Ask),
+    Ask(DialogRequest),
     /// A person chose it.
-    Chosen(Ask, PathBuf),
+    Chosen(DialogRequest, PathBuf),
     /// Open this file, or the scan in this folder, and inspect or enrol it.
     Open(PathBuf),
     /// Use the library that is found without choosing one.
     UseFoundLibrary,
     /// Give up what this lane is at.
-    Cancel(Lane),
+    Cancel(TaskQueue),
     /// Bring a workspace to the front.
     GoTo(Workspace),
     /// Fill the middle with a stage.
@@ -96,12 +97,12 @@ pub enum Action {
     /// Of the robot's cell.
     Robot(RobotAction),
     /// A thread has news.
-    Hear(Lane, News<Outcome>),
+    Hear(TaskQueue, TaskEvent<TaskOutcome>),
 }
 
 /// What a person is asked to choose.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Ask {
+pub enum DialogRequest {
     /// A captured scene to open.
     Scene,
     /// The folder of a scan to open.
@@ -145,9 +146,9 @@ pub enum Effect {
         request: Request,
     },
     /// Have this lane give up.
-    CancelWork(Lane),
+    CancelWork(TaskQueue),
     /// Show the system's dialog.
-    ShowDialog(Ask),
+    ShowDialog(DialogRequest),
     /// Have a workspace do what its key at this place does.
     Press(Workspace, usize),
     /// Have a workspace cancel what it is at.
@@ -180,20 +181,20 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::ForgetEmptyCell => {
             state.empty_cell = None;
             notify(state, Notice::done("The empty cell is forgotten"));
-            return live::start_anew(state);
+            return live::restart_consensus(state);
         }
-        Action::Ask(Ask::Scene) if state.workspace == Workspace::Enrol => {
-            return Some(Effect::ShowDialog(Ask::Part));
+        Action::Ask(DialogRequest::Scene) if state.workspace == Workspace::Enrol => {
+            return Some(Effect::ShowDialog(DialogRequest::Part));
         }
         Action::Ask(ask) => return Some(Effect::ShowDialog(ask)),
         Action::Chosen(ask, path) => return chosen(state, ask, path),
-        Action::Open(path) if path.is_dir() => return chosen(state, Ask::Scan, path),
-        Action::Open(path) => return chosen(state, Ask::Scene, path),
+        Action::Open(path) if path.is_dir() => return chosen(state, DialogRequest::Scan, path),
+        Action::Open(path) => return chosen(state, DialogRequest::Scene, path),
         Action::UseFoundLibrary => {
             state.chosen_library = None;
             return Some(open_library(state));
         }
-        Action::Cancel(Lane::Live) => return None,
+        Action::Cancel(TaskQueue::Live) => return None,
         Action::Cancel(lane) => {
             state.works.remove(&lane);
             return Some(Effect::CancelWork(lane));
@@ -258,19 +259,19 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
 }
 
 /// What follows from the file or folder that was chosen.
-fn chosen(state: &mut State, ask: Ask, path: PathBuf) -> Option<Effect> {
+fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Effect> {
     match ask {
-        Ask::Scene | Ask::Part => {
+        DialogRequest::Scene | DialogRequest::Part => {
             state.source = Source::File(path);
             Some(capture(state))
         }
-        Ask::Scan => {
+        DialogRequest::Scan => {
             let files = ScanFiles::of_folder(path);
             shots::apply(state, ShotsAction::Open(files))
         }
-        Ask::ScanPoses => shots::apply(state, ShotsAction::Poses(path)),
-        Ask::Shot => shots::apply(state, ShotsAction::Add(path)),
-        Ask::Recording => {
+        DialogRequest::ScanPoses => shots::apply(state, ShotsAction::Poses(path)),
+        DialogRequest::Shot => shots::apply(state, ShotsAction::Add(path)),
+        DialogRequest::Recording => {
             let spec = SourceSpec::Recording(RecordingSpec {
                 folder: path,
                 pace: Some(Pace::AsTaken),
@@ -278,27 +279,27 @@ fn chosen(state: &mut State, ask: Ask, path: PathBuf) -> Option<Effect> {
             });
             live::apply(state, LiveAction::Use(spec))
         }
-        Ask::WatchedFolder => {
+        DialogRequest::WatchedFolder => {
             let spec = SourceSpec::Watched(WatchedSpec {
                 folder: path,
                 from: WatchedFrom::default(),
             });
             live::apply(state, LiveAction::Use(spec))
         }
-        Ask::RecordTo => live::apply(state, LiveAction::Record(path)),
-        Ask::Library => {
+        DialogRequest::RecordTo => live::apply(state, LiveAction::Record(path)),
+        DialogRequest::Library => {
             state.chosen_library = Some(path);
             Some(open_library(state))
         }
-        Ask::ReportFolder => export(state, path),
-        Ask::Picture => {
+        DialogRequest::ReportFolder => export(state, path),
+        DialogRequest::Picture => {
             state.inspect.picture_to = Some(path);
             None
         }
-        Ask::Calibration => robot::apply(state, RobotAction::Load(path)),
-        Ask::PartPath => enrol::apply(state, EnrolAction::StorePath(path)),
-        Ask::SprayPath => inspect::state::write_spray_path(state, path),
-        Ask::Pairs => robot::apply(state, RobotAction::Pairs(path)),
+        DialogRequest::Calibration => robot::apply(state, RobotAction::Load(path)),
+        DialogRequest::PartPath => enrol::apply(state, EnrolAction::StorePath(path)),
+        DialogRequest::SprayPath => inspect::state::write_spray_path(state, path),
+        DialogRequest::Pairs => robot::apply(state, RobotAction::Pairs(path)),
     }
 }
 
@@ -370,7 +371,7 @@ fn take_empty_cell(state: &mut State) -> Option<Effect> {
                 Notice::done(what)
             };
             notify(state, taken);
-            live::start_anew(state)
+            live::restart_consensus(state)
         }
         Err(error) => {
             notify(state, Trouble::of(&error).into());
@@ -406,10 +407,10 @@ fn no_pose() -> Notice {
 /// Inspects the scene in front again: something that its result rests on has changed.
 pub(super) fn inspect_again(state: &mut State) -> Option<Effect> {
     if state.is_live() {
-        return live::start_anew(state);
+        return live::restart_consensus(state);
     }
     let request = inspection_of_shown(state)?;
-    Some(state.inspect("Inspecting again", request, Purpose::Repeated))
+    Some(state.inspect("Inspecting again", request, ReinspectionPurpose::Repeated))
 }
 
 /// The scene in front, to be inspected with what holds now.
@@ -429,7 +430,7 @@ fn show_past(state: &mut State, inspected: Arc<Inspected>) -> Option<Effect> {
         session: None,
     });
     state.workspace = Workspace::Inspect;
-    live::give_way(state)
+    live::stop_live(state)
 }
 
 /// Shows a notice.
@@ -445,8 +446,8 @@ pub(super) fn notify(state: &mut State, notice: Notice) {
 mod tests {
     use super::*;
     use crate::{
-        app::{job::answer, shelf::Shelf, worker::Desk},
-        pipeline::{Stage, Watch},
+        app::{job::answer, shelf::LibraryCache, worker::TaskContext},
+        pipeline::{ProgressObserver, Stage},
     };
 
     fn posted(effect: Option<Effect>) -> (u64, Request) {
@@ -459,25 +460,25 @@ mod tests {
         }
     }
 
-    struct NobodysDesk;
+    struct DetachedContext;
 
-    impl Watch for NobodysDesk {}
+    impl ProgressObserver for DetachedContext {}
 
-    impl Desk<Outcome> for NobodysDesk {
+    impl TaskContext<TaskOutcome> for DetachedContext {
         fn progress(&self, _done: usize, _total: usize) {}
-        fn partly(&self, _outcome: Outcome) {}
-        fn stands(&self, _outcome: Outcome) {}
-        fn is_followed(&self) -> bool {
+        fn publish_partial(&self, _outcome: TaskOutcome) {}
+        fn stands(&self, _outcome: TaskOutcome) {}
+        fn wants_more(&self) -> bool {
             true
         }
     }
 
-    fn done(generation: u64, outcome: Outcome) -> Action {
-        let news = News::Done {
+    fn done(generation: u64, outcome: TaskOutcome) -> Action {
+        let news = TaskEvent::Done {
             generation,
             outcome,
         };
-        Action::Hear(Lane::Inspect, news)
+        Action::Hear(TaskQueue::Inspect, news)
     }
 
     fn trouble() -> Trouble {
@@ -491,8 +492,8 @@ mod tests {
     fn a_result_stays_and_is_old_until_the_next_is_there() {
         let mut state = State::default();
         let (generation, request) = posted(apply(&mut state, Action::Capture));
-        assert!(!state.is_old() && state.works.contains_key(&Lane::Inspect));
-        let first = answer(request, &Shelf::default(), &NobodysDesk).expect("answered");
+        assert!(!state.is_old() && state.works.contains_key(&TaskQueue::Inspect));
+        let first = answer(request, &LibraryCache::default(), &DetachedContext).expect("answered");
         apply(&mut state, done(generation, first));
         assert!(state.shown.is_some() && state.works.is_empty());
         assert!(matches!(
@@ -507,8 +508,8 @@ mod tests {
         apply(&mut state, Action::Capture);
         assert!(state.is_old());
         assert!(matches!(
-            apply(&mut state, Action::Cancel(Lane::Inspect)),
-            Some(Effect::CancelWork(Lane::Inspect))
+            apply(&mut state, Action::Cancel(TaskQueue::Inspect)),
+            Some(Effect::CancelWork(TaskQueue::Inspect))
         ));
         assert!(!state.is_old() && state.shown.is_some());
     }
@@ -519,12 +520,12 @@ mod tests {
         let (older, _) = posted(apply(&mut state, Action::Capture));
         let (newer, _) = posted(apply(&mut state, Action::Open("b.pcd".into())));
         apply(&mut state, done(older, Err(trouble())));
-        assert!(state.notices.is_empty() && state.works.contains_key(&Lane::Inspect));
-        let begins = News::Begins {
+        assert!(state.notices.is_empty() && state.works.contains_key(&TaskQueue::Inspect));
+        let begins = TaskEvent::Begins {
             generation: newer,
             stage: Stage::Contour,
         };
-        apply(&mut state, Action::Hear(Lane::Inspect, begins));
+        apply(&mut state, Action::Hear(TaskQueue::Inspect, begins));
         assert_eq!(
             state.work().and_then(|(_, work)| work.stage),
             Some(Stage::Contour)

@@ -9,30 +9,34 @@ use super::{
     action::{Effect, inspect_again, notify},
     enrol,
     inspect::work::Inspected,
-    job::{Answer, Outcome, Trouble},
-    lane::Lane,
+    job::{TaskOutcome, TaskResult, Trouble},
+    lane::TaskQueue,
     live, robot,
-    shelf::LibraryShown,
+    shelf::LibraryView,
     shots,
     source::Origin,
-    state::{Event, Notice, NoticeKind, Purpose, Shown, Source, State},
-    worker::News,
+    state::{Event, Notice, NoticeKind, ReinspectionPurpose, Shown, Source, State},
+    worker::TaskEvent,
 };
 
 /// Takes in what a thread tells, unless it is about something that nobody waits for any more.
-pub(super) fn hear(state: &mut State, lane: Lane, news: News<Outcome>) -> Option<Effect> {
+pub(super) fn hear(
+    state: &mut State,
+    lane: TaskQueue,
+    news: TaskEvent<TaskOutcome>,
+) -> Option<Effect> {
     let of = news.generation();
     let work = state.works.get_mut(&lane);
     let work = work.filter(|work| work.generation == of)?;
     match news {
-        News::Begins { stage, .. } => work.stage = Some(stage),
-        News::Progress { done, total, .. } => work.progress = Some((done, total)),
-        News::Partly { outcome, .. } => return take_in(state, lane, of, outcome),
-        News::Done { outcome, .. } => {
+        TaskEvent::Begins { stage, .. } => work.stage = Some(stage),
+        TaskEvent::Progress { done, total, .. } => work.progress = Some((done, total)),
+        TaskEvent::Partly { outcome, .. } => return take_in(state, lane, of, outcome),
+        TaskEvent::Done { outcome, .. } => {
             state.works.remove(&lane);
             return take_in(state, lane, of, outcome);
         }
-        News::Panicked { message, .. } => {
+        TaskEvent::Panicked { message, .. } => {
             state.works.remove(&lane);
             let broke_off = Notice {
                 kind: NoticeKind::Look,
@@ -46,28 +50,35 @@ pub(super) fn hear(state: &mut State, lane: Lane, news: News<Outcome>) -> Option
 }
 
 /// What came out goes to where it belongs.
-fn take_in(state: &mut State, lane: Lane, generation: u64, outcome: Outcome) -> Option<Effect> {
+fn take_in(
+    state: &mut State,
+    lane: TaskQueue,
+    generation: u64,
+    outcome: TaskOutcome,
+) -> Option<Effect> {
     match outcome {
-        Ok(Answer::Inspected(inspected)) => return Some(show(state, generation, inspected)),
-        Ok(Answer::PosesWanted(order, trouble)) => {
+        Ok(TaskResult::Inspected(inspected)) => return Some(show(state, generation, inspected)),
+        Ok(TaskResult::PosesWanted(order, trouble)) => {
             return Some(shots::ask_for_poses(state, lane, *order, trouble));
         }
-        Ok(Answer::Live(answer)) => return live::hear(state, Ok(answer)),
-        Ok(Answer::Enrol(answer)) => return enrol::hear(state, generation, Ok(answer)),
-        Ok(Answer::Library(library)) => {
+        Ok(TaskResult::Live(answer)) => return live::hear(state, Ok(answer)),
+        Ok(TaskResult::Enrol(answer)) => return enrol::hear(state, generation, Ok(answer)),
+        Ok(TaskResult::Library(library)) => {
             use_library(state, &library);
             return inspect_again(state);
         }
-        Ok(Answer::Robot(answer)) => return robot::hear(state, Ok(answer)),
-        Ok(Answer::Written(written)) => notify(state, Notice::done(written.what)),
-        Err(trouble) if lane == Lane::Robot => return robot::hear(state, Err(trouble)),
+        Ok(TaskResult::Robot(answer)) => return robot::hear(state, Ok(answer)),
+        Ok(TaskResult::Written(written)) => notify(state, Notice::done(written.what)),
+        Err(trouble) if lane == TaskQueue::Robot => return robot::hear(state, Err(trouble)),
         Err(trouble) => {
             notify(state, trouble.clone().into());
             match lane {
-                Lane::Enrol | Lane::Library => return enrol::hear(state, generation, Err(trouble)),
-                Lane::Inspect => without_scene(state),
-                Lane::Live => return live::hear(state, Err(trouble)),
-                Lane::Write | Lane::Robot => {}
+                TaskQueue::Enrol | TaskQueue::Library => {
+                    return enrol::hear(state, generation, Err(trouble));
+                }
+                TaskQueue::Inspect => without_scene(state),
+                TaskQueue::Live => return live::hear(state, Err(trouble)),
+                TaskQueue::Write | TaskQueue::Robot => {}
             }
         }
     }
@@ -102,21 +113,21 @@ fn show(state: &mut State, generation: u64, inspected: Arc<Inspected>) -> Effect
     let purpose = if of == generation {
         purpose
     } else {
-        Purpose::New
+        ReinspectionPurpose::New
     };
     state.candidate = 0;
     state.shown = Some(Shown {
         generation,
         inspected: Arc::clone(&inspected),
-        is_past: purpose == Purpose::Past,
+        is_past: purpose == ReinspectionPurpose::Past,
         session: None,
     });
-    shots::settle(state, Lane::Inspect, generation, former);
+    shots::settle(state, TaskQueue::Inspect, generation, former);
     Effect::Tell(Event::Inspected { inspected, purpose })
 }
 
 /// From now on this library is shown; what had to be set aside in it is said once.
-pub(super) fn use_library(state: &mut State, library: &Arc<LibraryShown>) {
+pub(super) fn use_library(state: &mut State, library: &Arc<LibraryView>) {
     let is_other = |known: &Arc<_>| !Arc::ptr_eq(known, library);
     if state.library.as_ref().is_none_or(is_other) {
         for trouble in library.troubles.clone() {

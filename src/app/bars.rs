@@ -4,10 +4,10 @@ use egui::{Align, Button, Frame, Layout, Margin, Panel, RichText, Ui, Vec2};
 
 pub(super) use super::widgets::{focus_ring, labelled, shortened};
 use super::{
-    action::{Action, Ask},
+    action::{Action, DialogRequest},
     live::{self, LiveAction},
     robot::RobotAction,
-    shelf::LibraryShown,
+    shelf::LibraryView,
     shell::task::Running,
     source::file_name,
     source_menu,
@@ -60,7 +60,7 @@ pub(super) fn top_bar(
                 let key = RichText::new("Ctrl O").font(font::small());
                 let open = Button::new("Open…").shortcut_text(key.color(theme.weak_text));
                 if labelled(ui, open, "Open…").clicked() {
-                    actions.push(Action::Ask(Ask::Scene));
+                    actions.push(Action::Ask(DialogRequest::Scene));
                 }
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
                     settings(ui, state, work.is_some(), theme, actions);
@@ -159,7 +159,7 @@ fn parts_word(num: usize) -> &'static str {
 }
 
 /// Which library is in use, and others to use.
-fn library_menu(ui: &mut Ui, state: &State, library: &LibraryShown, actions: &mut Vec<Action>) {
+fn library_menu(ui: &mut Ui, state: &State, library: &LibraryView, actions: &mut Vec<Action>) {
     let num = library.parts.len();
     let text = if ui.available_width() > 300.0 {
         let name = shortened(&file_name(&library.path), 20);
@@ -173,7 +173,7 @@ fn library_menu(ui: &mut Ui, state: &State, library: &LibraryShown, actions: &mu
         ui.label(library.path.display().to_string());
         ui.separator();
         if ui.button("Use another library…").clicked() {
-            actions.push(Action::Ask(Ask::Library));
+            actions.push(Action::Ask(DialogRequest::Library));
             ui.close();
         }
         if state.chosen_library.is_some() && ui.button("Use the usual library").clicked() {

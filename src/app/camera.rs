@@ -11,7 +11,8 @@ use std::{
 
 use crate::{
     capture::{
-        self, CaptureError, Captured, Delivery, DepthSource, Feed, FeedItem, FeedState, SourceSpec,
+        self, BackpressurePolicy, CaptureError, Captured, DepthSource, Feed, FeedItem, FeedState,
+        SourceSpec,
     },
     error::Advice,
 };
@@ -19,7 +20,7 @@ use crate::{
 /// A handle to the camera in use; clones share it.
 #[derive(Clone)]
 pub struct Camera {
-    opened: Arc<Mutex<Option<Opened>>>,
+    opened: Arc<Mutex<Option<OpenedCamera>>>,
     open: Arc<Open>,
 }
 
@@ -32,7 +33,7 @@ impl Default for Camera {
     }
 }
 
-struct Opened {
+struct OpenedCamera {
     spec: SourceSpec,
     feed: Arc<Feed>,
 }
@@ -82,7 +83,7 @@ impl Camera {
     /// that comes from now on is waited for with [`Feed::wait`].
     pub fn feed(&self, spec: &SourceSpec) -> Result<Arc<Feed>, CameraError> {
         let mut opened = self.lock();
-        if let Some(Opened { spec: known, feed }) = &*opened
+        if let Some(OpenedCamera { spec: known, feed }) = &*opened
             && known == spec
             && !feed.status().state.is_over()
         {
@@ -91,10 +92,14 @@ impl Camera {
         // One camera at a time: two handles of one device would refuse each other.
         *opened = None;
         let (open, wanted) = (Arc::clone(&self.open), spec.clone());
-        let feed = Feed::start_with(move || open(&wanted), Delivery::suiting(spec), || {})
-            .map_err(|error| CameraError::Capture(Arc::new(error)))?;
+        let feed = Feed::start_with(
+            move || open(&wanted),
+            BackpressurePolicy::for_source(spec),
+            || {},
+        )
+        .map_err(|error| CameraError::Capture(Arc::new(error)))?;
         let feed = Arc::new(feed);
-        *opened = Some(Opened {
+        *opened = Some(OpenedCamera {
             spec: spec.clone(),
             feed: Arc::clone(&feed),
         });
@@ -117,14 +122,15 @@ impl Camera {
     /// Closes a source that goes on by itself, unless somebody follows it.
     pub fn rest(&self) {
         let mut opened = self.lock();
-        let is_idle = |held: &mut Opened| held.spec.is_live() && Arc::strong_count(&held.feed) == 1;
+        let is_idle =
+            |held: &mut OpenedCamera| held.spec.is_live() && Arc::strong_count(&held.feed) == 1;
         let idle = opened.take_if(is_idle);
         drop(opened);
         // Waits for the camera's thread.
         drop(idle);
     }
 
-    fn lock(&self) -> MutexGuard<'_, Option<Opened>> {
+    fn lock(&self) -> MutexGuard<'_, Option<OpenedCamera>> {
         // What it holds is only ever replaced whole.
         self.opened.lock().unwrap_or_else(PoisonError::into_inner)
     }

@@ -1,40 +1,42 @@
 //! What the whole window asks in the system's file dialogs.
 
 use super::{
-    action::Ask,
+    action::DialogRequest,
     shell::file_dialog::{ALL_FILES, FileChoice, FileRequest, POINTS},
 };
 
 /// The dialog that asks this.
-pub(super) fn request(ask: Ask) -> FileRequest {
+pub(super) fn request(ask: DialogRequest) -> FileRequest {
     let (title, choice): (_, FileChoice) = match ask {
-        Ask::Scene => ("Open a captured scene", FileChoice::File),
-        Ask::Scan => (
+        DialogRequest::Scene => ("Open a captured scene", FileChoice::File),
+        DialogRequest::Scan => (
             "Folder of a scan: its frames and their poses",
             FileChoice::Folder,
         ),
-        Ask::ScanPoses => ("File of the poses of the shots", FileChoice::File),
-        Ask::Shot => ("Add a frame to the scan", FileChoice::File),
-        Ask::ReportFolder => (
+        DialogRequest::ScanPoses => ("File of the poses of the shots", FileChoice::File),
+        DialogRequest::Shot => ("Add a frame to the scan", FileChoice::File),
+        DialogRequest::ReportFolder => (
             "Folder for the report of this inspection",
             FileChoice::FolderToWrite,
         ),
-        Ask::Library => ("Use another library", FileChoice::Folder),
-        Ask::Picture => (
+        DialogRequest::Library => ("Use another library", FileChoice::Folder),
+        DialogRequest::Picture => (
             "Save a picture of the view",
             FileChoice::NewFile("view.png"),
         ),
-        Ask::Recording => ("Play a recording", FileChoice::Folder),
-        Ask::RecordTo => ("Folder to record the source in", FileChoice::FolderToWrite),
-        Ask::WatchedFolder => ("Folder that captures are saved to", FileChoice::Folder),
-        Ask::Part => ("Open a scene, a cloud or a mesh to enrol", FileChoice::File),
-        Ask::Calibration => ("Load the calibration of the robot's cell", FileChoice::File),
-        Ask::SprayPath => (
+        DialogRequest::Recording => ("Play a recording", FileChoice::Folder),
+        DialogRequest::RecordTo => ("Folder to record the source in", FileChoice::FolderToWrite),
+        DialogRequest::WatchedFolder => ("Folder that captures are saved to", FileChoice::Folder),
+        DialogRequest::Part => ("Open a scene, a cloud or a mesh to enrol", FileChoice::File),
+        DialogRequest::Calibration => {
+            ("Load the calibration of the robot's cell", FileChoice::File)
+        }
+        DialogRequest::SprayPath => (
             "Export the spray path for the robot",
             FileChoice::NewFile("spray-path.csv"),
         ),
-        Ask::PartPath => ("The nozzle's path over this part", FileChoice::File),
-        Ask::Pairs => ("Pairs of robot and camera poses", FileChoice::File),
+        DialogRequest::PartPath => ("The nozzle's path over this part", FileChoice::File),
+        DialogRequest::Pairs => ("Pairs of robot and camera poses", FileChoice::File),
     };
     FileRequest {
         title,
@@ -43,28 +45,28 @@ pub(super) fn request(ask: Ask) -> FileRequest {
     }
 }
 
-fn filters(ask: Ask) -> &'static [(&'static str, &'static [&'static str])] {
+fn filters(ask: DialogRequest) -> &'static [(&'static str, &'static [&'static str])] {
     match ask {
-        Ask::Scene => &[
+        DialogRequest::Scene => &[
             (
                 "Captured scenes",
                 &["pcd", "ply", "xyz", "txt", "csv", "png"],
             ),
             ALL_FILES,
         ],
-        Ask::ScanPoses => &[("Poses", &["json"]), ALL_FILES],
-        Ask::Shot => &[("Captured scenes", &["png", "pcd", "ply"]), ALL_FILES],
-        Ask::Picture => &[("Pictures", &["png"])],
-        Ask::Part => &[POINTS, ALL_FILES],
-        Ask::Calibration => &[("Calibrations", &["toml"]), ALL_FILES],
-        Ask::SprayPath => &[("Comma-separated values", &["csv"]), ("JSON", &["json"])],
-        Ask::PartPath => &[("Tables", &["csv", "txt"]), ALL_FILES],
-        Ask::Pairs => &[("Tables and JSON", &["csv", "txt", "json"]), ALL_FILES],
-        Ask::Scan
-        | Ask::ReportFolder
-        | Ask::Library
-        | Ask::Recording
-        | Ask::RecordTo
-        | Ask::WatchedFolder => &[],
+        DialogRequest::ScanPoses => &[("Poses", &["json"]), ALL_FILES],
+        DialogRequest::Shot => &[("Captured scenes", &["png", "pcd", "ply"]), ALL_FILES],
+        DialogRequest::Picture => &[("Pictures", &["png"])],
+        DialogRequest::Part => &[POINTS, ALL_FILES],
+        DialogRequest::Calibration => &[("Calibrations", &["toml"]), ALL_FILES],
+        DialogRequest::SprayPath => &[("Comma-separated values", &["csv"]), ("JSON", &["json"])],
+        DialogRequest::PartPath => &[("Tables", &["csv", "txt"]), ALL_FILES],
+        DialogRequest::Pairs => &[("Tables and JSON", &["csv", "txt", "json"]), ALL_FILES],
+        DialogRequest::Scan
+        | DialogRequest::ReportFolder
+        | DialogRequest::Library
+        | DialogRequest::Recording
+        | DialogRequest::RecordTo
+        | DialogRequest::WatchedFolder => &[],
     }
 }

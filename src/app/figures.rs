@@ -3,13 +3,13 @@
 use image::RgbImage;
 use nalgebra::{Isometry2, Point2};
 
-use super::shelf::LibraryShown;
+use super::shelf::LibraryView;
 use crate::{
     library::Library,
     pipeline::Inspection,
     report::stage_pictures,
     stages::{
-        confirm::ConfirmedMatch, contour::Contour, rank::Placement, reference::ReferenceView,
+        confirm::ConfirmedMatch, contour::Contour, rank::ImagePlacement, reference::ReferenceView,
         scene::SceneCloud, signature::FanSignature,
     },
 };
@@ -19,7 +19,7 @@ pub type PlaneLine = Vec<[f32; 2]>;
 
 /// What is drawn of an inspection. What its stages did not make is not there.
 #[derive(Debug, Default)]
-pub struct Figures {
+pub struct StageFigures {
     /// What every point was taken for, as the camera sees it.
     pub segmentation: Option<RgbImage>,
     /// The binary image, black on white.
@@ -27,9 +27,9 @@ pub struct Figures {
     /// Outline, openings and rays.
     pub contour: Option<ContourFigure>,
     /// Lengths and angles.
-    pub signature: Option<Curves>,
+    pub signature: Option<SignatureCurves>,
     /// One per entry of the ranking, in its order.
-    pub candidates: Vec<Candidate>,
+    pub candidates: Vec<RankedPartFigure>,
     /// Points of the part.
     pub num_part: usize,
     /// Points of the scene with a reading.
@@ -51,7 +51,7 @@ pub struct ContourFigure {
 
 /// The two curves of a signature.
 #[derive(Debug)]
-pub struct Curves {
+pub struct SignatureCurves {
     /// L, metres.
     pub lengths: Vec<f32>,
     /// Θ, radians, continuous.
@@ -60,7 +60,7 @@ pub struct Curves {
 
 /// An enrolled part as the ranking placed it.
 #[derive(Debug)]
-pub struct Candidate {
+pub struct RankedPartFigure {
     /// Its name for people.
     pub title: String,
     /// The same for a small picture: a side as its first letter.
@@ -70,7 +70,7 @@ pub struct Candidate {
     /// Its outline laid over the scene's, closed; empty if the matcher places nothing.
     pub outline: PlaneLine,
     /// Its signature at the best lag.
-    pub curves: Option<Curves>,
+    pub curves: Option<SignatureCurves>,
     /// What became of putting it in its place.
     pub alignment: Alignment,
 }
@@ -115,13 +115,13 @@ impl Alignment {
 /// More corners than this are finer than any picture shows.
 const MAX_CORNERS: usize = 400;
 
-impl Figures {
+impl StageFigures {
     /// Prepares them; `shown` knows the references' names for people.
     pub fn of(
         scene: &SceneCloud,
         inspection: &Inspection,
         library: &Library,
-        shown: &LibraryShown,
+        shown: &LibraryView,
     ) -> Self {
         let mut figures = Self {
             num_points: scene.cloud.num_finite(),
@@ -139,10 +139,13 @@ impl Figures {
         }
         if let (Some(contour), Some(signature)) = (&inspection.contour, &inspection.signature) {
             figures.contour = Some(ContourFigure::of(contour, signature));
-            figures.signature = Some(Curves::of(&signature.lengths(), &signature.angles()));
+            figures.signature = Some(SignatureCurves::of(
+                &signature.lengths(),
+                &signature.angles(),
+            ));
             let entries = inspection.ranking.entries.iter();
             figures.candidates = entries
-                .map(|entry| Candidate::of(entry, inspection, signature, library, shown))
+                .map(|entry| RankedPartFigure::of(entry, inspection, signature, library, shown))
                 .collect();
         }
         figures
@@ -169,7 +172,7 @@ impl ContourFigure {
     }
 }
 
-impl Curves {
+impl SignatureCurves {
     pub(super) fn of(lengths: &[f64], angles: &[f64]) -> Self {
         let narrow = |values: &[f64]| values.iter().map(|value| *value as f32).collect();
         Self {
@@ -181,7 +184,7 @@ impl Curves {
     /// A view's signature, shifted by the lag and turned, beside the scene's.
     pub(super) fn placed(
         view: &ReferenceView,
-        placement: &Placement,
+        placement: &ImagePlacement,
         scene: &FanSignature,
     ) -> Option<Self> {
         let (lengths, angles) = (view.signature.lengths(), view.signature.angles());
@@ -207,13 +210,13 @@ impl Curves {
     }
 }
 
-impl Candidate {
+impl RankedPartFigure {
     fn of(
         entry: &ConfirmedMatch,
         inspection: &Inspection,
         scene: &FanSignature,
         library: &Library,
-        shown: &LibraryShown,
+        shown: &LibraryView,
     ) -> Self {
         let title = shown.title(entry.reference).to_owned();
         let placed = entry.placements.first().and_then(|placement| {
@@ -229,7 +232,8 @@ impl Candidate {
             title,
             score: entry.score as f32,
             outline,
-            curves: placed.and_then(|(placement, view)| Curves::placed(view, placement, scene)),
+            curves: placed
+                .and_then(|(placement, view)| SignatureCurves::placed(view, placement, scene)),
             alignment: Alignment::of(entry, inspection, library),
         }
     }
@@ -262,7 +266,7 @@ mod tests {
     use crate::{
         app::{
             inspect::work::{InspectRequest, inspect},
-            shelf::Shelf,
+            shelf::LibraryCache,
             source::{CellChoice, SceneSource},
         },
         pipeline::{Recipe, Unwatched},
@@ -275,7 +279,7 @@ mod tests {
             source: SceneSource::Cell { choice, number: 1 },
             recipe: std::sync::Arc::default(),
         };
-        let inspected = inspect(&request, &Shelf::default(), &Unwatched).expect("inspected");
+        let inspected = inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected");
         let inspected = inspected.expect("not cancelled");
         let figures = &inspected.figures;
         let (contour, scene) = (
@@ -317,7 +321,7 @@ mod tests {
             source: SceneSource::Cell { choice, number: 1 },
             recipe: std::sync::Arc::new(recipe),
         };
-        let inspected = inspect(&request, &Shelf::default(), &Unwatched).expect("inspected");
+        let inspected = inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected");
         let inspected = inspected.expect("not cancelled");
         let candidates = &inspected.figures.candidates;
         let curves: Vec<&Vec<f32>> = candidates

@@ -6,27 +6,27 @@ use std::{
     sync::{Arc, Mutex, PoisonError},
 };
 
-use super::shelf::Shelved;
+use super::shelf::LoadedLibrary;
 use crate::{
     library::Library,
-    pipeline::{Recipe, Watch},
+    pipeline::{ProgressObserver, Recipe},
     stages::reference::{Reference, ReferenceParams},
 };
 
 /// The references prepared last with other parameters than the library was loaded with.
 #[derive(Debug, Default)]
-pub struct FittedCache(Mutex<Option<(ReferenceParams, Arc<Library>)>>);
+pub struct PreparedLibraryCache(Mutex<Option<(ReferenceParams, Arc<Library>)>>);
 
 /// A library prepared for a recipe.
 #[derive(Debug)]
-pub enum Fitted<'a> {
+pub enum PreparedLibrary<'a> {
     /// As it was loaded.
     AsLoaded(&'a Library),
     /// Prepared anew.
     Anew(Arc<Library>),
 }
 
-impl Deref for Fitted<'_> {
+impl Deref for PreparedLibrary<'_> {
     type Target = Library;
 
     fn deref(&self) -> &Library {
@@ -37,23 +37,27 @@ impl Deref for Fitted<'_> {
     }
 }
 
-impl Shelved {
+impl LoadedLibrary {
     /// The references, prepared as the recipe prepares scenes. Takes as long as loading the library when the
     /// parameters are neither the default nor those asked for last; `None` when cancelled.
-    pub fn fitting(&self, recipe: &Recipe, watch: &dyn Watch) -> Option<Fitted<'_>> {
+    pub fn fitting(
+        &self,
+        recipe: &Recipe,
+        watch: &dyn ProgressObserver,
+    ) -> Option<PreparedLibrary<'_>> {
         let params = ReferenceParams {
             project: recipe.project.clone(),
             contour: recipe.contour.clone(),
             signature: recipe.signature.clone(),
         };
         if params == ReferenceParams::default() {
-            return Some(Fitted::AsLoaded(&self.library));
+            return Some(PreparedLibrary::AsLoaded(&self.library));
         }
         let lock = || self.fitted.0.lock().unwrap_or_else(PoisonError::into_inner);
         if let Some((known, library)) = &*lock()
             && *known == params
         {
-            return Some(Fitted::Anew(Arc::clone(library)));
+            return Some(PreparedLibrary::Anew(Arc::clone(library)));
         }
         let references = self.library.references.iter().zip(&self.shown.parts);
         let references = references.map(|(loaded, meta)| {
@@ -69,17 +73,17 @@ impl Shelved {
             references: references.collect::<Option<_>>()?,
         });
         *lock() = Some((params, Arc::clone(&library)));
-        Some(Fitted::Anew(library))
+        Some(PreparedLibrary::Anew(library))
     }
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{app::shelf::Shelf, pipeline::Unwatched};
+    use crate::{app::shelf::LibraryCache, pipeline::Unwatched};
 
-    struct Hurried;
-    impl Watch for Hurried {
+    struct CancellableProgress;
+    impl ProgressObserver for CancellableProgress {
         fn is_cancelled(&self) -> bool {
             true
         }
@@ -87,10 +91,10 @@ mod tests {
 
     #[test]
     fn references_have_as_many_rays_as_the_recipe_gives_scenes() {
-        let shelved = Shelf::default().get().expect("the shipped parts");
+        let shelved = LibraryCache::default().get().expect("the shipped parts");
         let mut recipe = Recipe::default();
         let loaded = shelved.fitting(&recipe, &Unwatched).expect("loaded");
-        assert!(matches!(loaded, Fitted::AsLoaded(_)));
+        assert!(matches!(loaded, PreparedLibrary::AsLoaded(_)));
         recipe.signature.num_rays = 128;
         let fitted = shelved.fitting(&recipe, &Unwatched).expect("prepared");
         let names = |library: &Library| -> Vec<String> {
@@ -102,12 +106,12 @@ mod tests {
             assert_eq!(view.signature.rays.len(), 128);
         }
         let again = shelved.fitting(&recipe, &Unwatched).expect("known");
-        let (Fitted::Anew(first), Fitted::Anew(again)) = (fitted, again) else {
+        let (PreparedLibrary::Anew(first), PreparedLibrary::Anew(again)) = (fitted, again) else {
             panic!("prepared anew");
         };
         assert!(Arc::ptr_eq(&first, &again));
 
         recipe.signature.num_rays = 64;
-        assert!(shelved.fitting(&recipe, &Hurried).is_none());
+        assert!(shelved.fitting(&recipe, &CancellableProgress).is_none());
     }
 }

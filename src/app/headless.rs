@@ -20,7 +20,7 @@ use egui::{Event, FullOutput, RawInput, Rect, Vec2};
 
 pub use self::{
     cost::{FrameCost, WindowCost, window_cost},
-    live_cost::{LiveStretch, live_stretches},
+    live_cost::{LiveSample, live_stretches},
 };
 use super::{
     action::Action,

@@ -7,13 +7,13 @@ pub use super::user_error::UserError as Trouble;
 use super::{
     enrol::{EnrolAnswer, EnrolRequest},
     inspect::work::{InspectRequest, Inspected, inspect, inspect_scan},
-    lane::Lane,
+    lane::TaskQueue,
     live::{LiveAnswer, LiveRequest},
     robot::{RobotAnswer, RobotRequest},
-    shelf::{LibraryShown, Shelf},
+    shelf::{LibraryCache, LibraryView},
     shots::{ScanOrder, ScanRequest},
-    worker::Desk,
-    writing::{WriteRequest, Written},
+    worker::TaskContext,
+    writing::{WriteRequest, WriteResult},
 };
 
 /// What the window asks for.
@@ -37,20 +37,20 @@ pub enum Request {
 
 impl Request {
     /// Whose work it is.
-    pub fn lane(&self) -> Lane {
+    pub fn lane(&self) -> TaskQueue {
         match self {
-            Self::Inspect(_) | Self::InspectScan(_) | Self::Library(_) => Lane::Inspect,
-            Self::Live(_) => Lane::Live,
+            Self::Inspect(_) | Self::InspectScan(_) | Self::Library(_) => TaskQueue::Inspect,
+            Self::Live(_) => TaskQueue::Live,
             Self::Enrol(request) => request.lane(),
-            Self::Robot(_) => Lane::Robot,
-            Self::Write(_) => Lane::Write,
+            Self::Robot(_) => TaskQueue::Robot,
+            Self::Write(_) => TaskQueue::Write,
         }
     }
 }
 
 /// What comes back.
 #[derive(Clone, Debug)]
-pub enum Answer {
+pub enum TaskResult {
     /// A scene with everything that was found in it.
     Inspected(Arc<Inspected>),
     /// The poses of these shots were not found: a person has to name their file.
@@ -58,33 +58,37 @@ pub enum Answer {
     /// How following a camera stands.
     Live(LiveAnswer),
     /// The library that is in use now.
-    Library(Arc<LibraryShown>),
+    Library(Arc<LibraryView>),
     /// Something of the Enrol workspace.
     Enrol(EnrolAnswer),
     /// Something of the robot's cell.
     Robot(RobotAnswer),
     /// What was written.
-    Written(Written),
+    Written(WriteResult),
 }
 
 /// An answer, or what went wrong.
-pub type Outcome = Result<Answer, Trouble>;
+pub type TaskOutcome = Result<TaskResult, Trouble>;
 
 /// Does what is asked; `None` when it was cancelled. Called from the thread of the request's lane.
-pub fn answer(request: Request, shelf: &Shelf, desk: &dyn Desk<Outcome>) -> Option<Outcome> {
+pub fn answer(
+    request: Request,
+    shelf: &LibraryCache,
+    desk: &dyn TaskContext<TaskOutcome>,
+) -> Option<TaskOutcome> {
     match request {
         Request::Inspect(request) => match inspect(&request, shelf, desk) {
-            Ok(inspected) => inspected.map(|found| Ok(Answer::Inspected(Arc::new(found)))),
+            Ok(inspected) => inspected.map(|found| Ok(TaskResult::Inspected(Arc::new(found)))),
             Err(error) => Some(Err(Trouble::of(&error))),
         },
         Request::InspectScan(request) => inspect_scan(&request, shelf, desk),
         Request::Live(request) => super::live::answer(&request, shelf, desk),
         Request::Library(given) => Some(match shelf.choose(given) {
-            Ok(shelved) => Ok(Answer::Library(Arc::clone(&shelved.shown))),
+            Ok(shelved) => Ok(TaskResult::Library(Arc::clone(&shelved.shown))),
             Err(error) => Err(Trouble::of(&error)),
         }),
         Request::Enrol(request) => super::enrol::answer(request, shelf, desk),
-        Request::Write(request) => Some(super::writing::answer(&request).map(Answer::Written)),
+        Request::Write(request) => Some(super::writing::answer(&request).map(TaskResult::Written)),
         Request::Robot(request) => Some(super::robot::work::answer(request)),
     }
 }

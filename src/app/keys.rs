@@ -5,7 +5,7 @@ use egui::{
 };
 
 use super::{
-    action::{Action, Ask},
+    action::{Action, DialogRequest},
     bars::labelled,
     enrol, inspect,
     live::LiveAction,
@@ -48,21 +48,21 @@ const SHORTCUTS: [Shortcut; 13] = [
         key: Key::O,
         keys: "Ctrl Shift O",
         does: "Open a scan: several shots with their poses",
-        action: || Action::Ask(Ask::Scan),
+        action: || Action::Ask(DialogRequest::Scan),
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::O,
         keys: "Ctrl O",
         does: "Open a captured scene",
-        action: || Action::Ask(Ask::Scene),
+        action: || Action::Ask(DialogRequest::Scene),
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::E,
         keys: "Ctrl E",
         does: "Export the inspection in front",
-        action: || Action::Ask(Ask::ReportFolder),
+        action: || Action::Ask(DialogRequest::ReportFolder),
     },
     Shortcut {
         modifiers: Modifiers::NONE,

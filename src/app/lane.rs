@@ -2,7 +2,7 @@
 
 /// One lane, one thread; within it the newest request wins.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Lane {
+pub enum TaskQueue {
     /// Captures, opens and inspects scenes.
     Inspect,
     /// Follows a camera, frame after frame.
@@ -17,7 +17,7 @@ pub enum Lane {
     Robot,
 }
 
-impl Lane {
+impl TaskQueue {
     /// Every lane.
     pub const ALL: [Self; 6] = [
         Self::Inspect,

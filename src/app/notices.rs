@@ -22,7 +22,7 @@ const RIGHT: f32 = 340.0;
 const EDGE: f32 = 14.0;
 
 /// How long a notice stays, seconds; what deserves a look stays until it was looked at.
-fn life(kind: NoticeKind) -> Option<f64> {
+fn display_seconds(kind: NoticeKind) -> Option<f64> {
     match kind {
         NoticeKind::Look => None,
         NoticeKind::Done => Some(8.0),
@@ -83,13 +83,13 @@ fn line(ui: &mut Ui, place: usize, notice: &Notice, theme: &Theme, actions: &mut
 }
 
 /// A notice and since when it is there, seconds of egui's clock.
-type Since = Vec<(Notice, f64)>;
+type TimedNotice = Vec<(Notice, f64)>;
 
 fn expire(ctx: &Context, notices: &[Notice], actions: &mut Vec<Action>) {
     let now = ctx.input(|input| input.time);
     let id = Id::unique("notices since");
-    let since: Since = ctx.data_mut(|data| {
-        let since = data.get_temp_mut_or_default::<Since>(id);
+    let since: TimedNotice = ctx.data_mut(|data| {
+        let since = data.get_temp_mut_or_default::<TimedNotice>(id);
         since.retain(|(known, _)| notices.contains(known));
         for notice in notices {
             if !since.iter().any(|(known, _)| known == notice) {
@@ -101,10 +101,11 @@ fn expire(ctx: &Context, notices: &[Notice], actions: &mut Vec<Action>) {
     // From the last to the first, so that places stay what they are.
     for (place, notice) in notices.iter().enumerate().rev() {
         let begun = since.iter().find(|(known, _)| known == notice);
-        let (Some(life), Some((_, begun))) = (life(notice.kind), begun) else {
+        let (Some(display_seconds), Some((_, begun))) = (display_seconds(notice.kind), begun)
+        else {
             continue;
         };
-        let left = begun + life - now;
+        let left = begun + display_seconds - now;
         if left <= 0.0 {
             actions.push(Action::Dismiss(place));
         } else {

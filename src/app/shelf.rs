@@ -9,11 +9,11 @@ use std::{
 use image::RgbaImage;
 
 use super::{
-    camera::Camera, fitted::FittedCache, recording::SharedRecording, user_error::UserError,
+    camera::Camera, fitted::PreparedLibraryCache, recording::SharedRecording, user_error::UserError,
 };
 use crate::{
     error::Advice as _,
-    history::Keeper,
+    history::HistoryBuffer,
     library::{
         Library, LibraryError, LibraryLoad, LibraryPlace, PartMeta, SprayPath, open_library,
     },
@@ -22,36 +22,36 @@ use crate::{
 
 /// A handle to the library, the camera and the recording in use; clones share them.
 #[derive(Clone, Debug, Default)]
-pub struct Shelf {
+pub struct LibraryCache {
     choice: Arc<Mutex<Choice>>,
     camera: Camera,
     recording: SharedRecording,
-    history: Arc<Keeper>,
+    history: Arc<HistoryBuffer>,
 }
 
 #[derive(Debug, Default)]
 struct Choice {
     /// The folder that was asked for; without one [`open_library`] finds it.
     given: Option<PathBuf>,
-    loaded: Option<Arc<Shelved>>,
+    loaded: Option<Arc<LoadedLibrary>>,
 }
 
 /// A loaded library.
 #[derive(Debug)]
-pub struct Shelved {
+pub struct LoadedLibrary {
     /// Where it lies.
     pub place: LibraryPlace,
     /// The references, prepared.
     pub library: Library,
     /// What the window shows of it.
-    pub shown: Arc<LibraryShown>,
+    pub shown: Arc<LibraryView>,
     /// The references as another recipe wants them.
-    pub(super) fitted: FittedCache,
+    pub(super) fitted: PreparedLibraryCache,
 }
 
 /// What the window shows of a library.
 #[derive(Debug, Default)]
-pub struct LibraryShown {
+pub struct LibraryView {
     /// Its folder.
     pub path: PathBuf,
     /// [`LibraryLoad::identity`].
@@ -79,7 +79,7 @@ pub struct Damaged {
     pub trouble: UserError,
 }
 
-impl LibraryShown {
+impl LibraryView {
     /// Name for people of the part at this place.
     pub fn title(&self, place: usize) -> &str {
         self.parts.get(place).map_or("", PartMeta::shown_title)
@@ -93,7 +93,7 @@ impl LibraryShown {
     }
 }
 
-impl Shelf {
+impl LibraryCache {
     /// The library of this folder, else the one that [`open_library`] finds.
     pub fn new(given: Option<PathBuf>, camera: Camera) -> Self {
         let loaded = None;
@@ -107,12 +107,12 @@ impl Shelf {
 
     /// The same, with this history.
     #[must_use]
-    pub fn with_history(self, history: Arc<Keeper>) -> Self {
+    pub fn with_history(self, history: Arc<HistoryBuffer>) -> Self {
         Self { history, ..self }
     }
 
     /// The history.
-    pub fn history(&self) -> &Arc<Keeper> {
+    pub fn history(&self) -> &Arc<HistoryBuffer> {
         &self.history
     }
 
@@ -127,7 +127,7 @@ impl Shelf {
     }
 
     /// The library; loads it if nobody has yet.
-    pub fn get(&self) -> Result<Arc<Shelved>, LibraryError> {
+    pub fn get(&self) -> Result<Arc<LoadedLibrary>, LibraryError> {
         let mut choice = self.lock();
         if let Some(shelved) = &choice.loaded {
             return Ok(Arc::clone(shelved));
@@ -136,13 +136,13 @@ impl Shelf {
     }
 
     /// Loads it anew, after it was changed.
-    pub fn reload(&self) -> Result<Arc<Shelved>, LibraryError> {
+    pub fn reload(&self) -> Result<Arc<LoadedLibrary>, LibraryError> {
         self.lock().load()
     }
 
     /// Uses another library from now on: the one of this folder, else the one that [`open_library`] finds. One that
     /// cannot be loaded leaves the old one in use.
-    pub fn choose(&self, given: Option<PathBuf>) -> Result<Arc<Shelved>, LibraryError> {
+    pub fn choose(&self, given: Option<PathBuf>) -> Result<Arc<LoadedLibrary>, LibraryError> {
         let mut other = Choice {
             given,
             loaded: None,
@@ -159,14 +159,14 @@ impl Shelf {
 }
 
 impl Choice {
-    fn load(&mut self) -> Result<Arc<Shelved>, LibraryError> {
+    fn load(&mut self) -> Result<Arc<LoadedLibrary>, LibraryError> {
         let shelved = Arc::new(load(self.given.as_deref())?);
         self.loaded = Some(Arc::clone(&shelved));
         Ok(shelved)
     }
 }
 
-fn load(given: Option<&Path>) -> Result<Shelved, LibraryError> {
+fn load(given: Option<&Path>) -> Result<LoadedLibrary, LibraryError> {
     let place = open_library(given)?;
     let load = place.load(&ReferenceParams::default())?;
     let identity = load.identity();
@@ -204,7 +204,7 @@ fn load(given: Option<&Path>) -> Result<Shelved, LibraryError> {
         }),
         _ => None,
     };
-    let shown = Arc::new(LibraryShown {
+    let shown = Arc::new(LibraryView {
         path: place.location().into(),
         identity,
         thumbnails: thumbnails.collect(),
@@ -214,11 +214,11 @@ fn load(given: Option<&Path>) -> Result<Shelved, LibraryError> {
         parts,
         troubles,
     });
-    Ok(Shelved {
+    Ok(LoadedLibrary {
         place,
         library,
         shown,
-        fitted: FittedCache::default(),
+        fitted: PreparedLibraryCache::default(),
     })
 }
 
@@ -228,7 +228,7 @@ mod tests {
 
     #[test]
     fn a_library_that_cannot_be_loaded_leaves_the_old_one_in_use() {
-        let shelf = Shelf::default();
+        let shelf = LibraryCache::default();
         let before = shelf.get().expect("the shipped parts");
         assert_eq!(before.shown.place_of("fender"), Some(2));
         assert_eq!(before.shown.title(2), "Fender, left");

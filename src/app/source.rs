@@ -12,9 +12,11 @@ use super::{
 use crate::{
     capture::{self, CaptureWarning, CellScene, Image, SimulatedSpec, SourceSpec},
     error::Advice,
-    files::{self, FileError, Opened},
+    files::{self, FileContent, FileError},
     history::{FrameRecord, HistoryError, read_frame},
-    simulate::{CellSetup, ObjectKind, PartKind, PartPose, Placement, Side, Subject, frame},
+    simulate::{
+        CellSetup, ObjectKind, PartKind, PartPose, PoseRange, Side, SimulatedObject, frame,
+    },
     stages::{
         scene::{SceneCloud, scene_from_frame, scene_from_image},
         segment::EmptyCell,
@@ -85,10 +87,10 @@ impl CellChoice {
     }
 
     /// What hangs there for the frame of this number, counted from 1.
-    pub(super) fn subject(self, number: u64) -> Subject {
+    pub(super) fn subject(self, number: u64) -> SimulatedObject {
         /// The first frame shows a front door, as the first look in a terminal does.
         const FIRST: u64 = 3;
-        let part = |kind, side| Subject::Part {
+        let part = |kind, side| SimulatedObject::Part {
             kind,
             side,
             model_seed: 0,
@@ -102,8 +104,8 @@ impl CellChoice {
                 )
             }
             Self::Part(kind, side) => part(kind, side),
-            Self::Foreign(kind) => Subject::Object(kind),
-            Self::Empty => Subject::Nothing,
+            Self::Foreign(kind) => SimulatedObject::Object(kind),
+            Self::Empty => SimulatedObject::Nothing,
         }
     }
 }
@@ -216,12 +218,12 @@ pub enum SceneSource {
     /// Another source, whose camera saw this empty cell before.
     Before(Arc<EmptyCell>, Box<SceneSource>),
     /// A frame that the history keeps.
-    Kept(Box<KeptScene>),
+    Kept(Box<HistoryFrame>),
 }
 
 /// A frame that the history keeps.
 #[derive(Clone, Debug)]
-pub struct KeptScene {
+pub struct HistoryFrame {
     /// The folder of kept frames.
     pub folder: PathBuf,
     /// Its file, and what the file does not tell.
@@ -296,7 +298,7 @@ impl SceneSource {
         match self {
             Self::Cell { choice, number } => {
                 let mut setup = CellSetup::new(choice.subject(*number), *number);
-                setup.pose = PartPose::Drawn(Placement::facing());
+                setup.pose = PartPose::Drawn(PoseRange::facing());
                 Ok(Captured {
                     scene: Arc::new(scene_from_frame(&frame(&setup).frame)),
                     origin: Origin::Simulated {
@@ -310,9 +312,9 @@ impl SceneSource {
                 let opened = files::open(path)?;
                 let warnings = opened.warnings().into_iter().map(Into::into).collect();
                 let scene = match opened {
-                    Opened::Cloud(cloud) => scene_from_image(Image::Cloud(cloud)),
-                    Opened::Depth(frame) => scene_from_image(Image::Depth(frame)),
-                    Opened::Mesh(_) => {
+                    FileContent::Cloud(cloud) => scene_from_image(Image::Cloud(cloud)),
+                    FileContent::Depth(frame) => scene_from_image(Image::Depth(frame)),
+                    FileContent::Mesh(_) => {
                         return Err(SceneError::MeshIsNoScene { path: path.clone() });
                     }
                 };
@@ -367,7 +369,7 @@ mod tests {
     #[test]
     fn the_first_frame_is_a_front_door_and_all_eight_parts_come_in_turn() {
         let kind = |number| match CellChoice::InTurn.subject(number) {
-            Subject::Part { kind, .. } => kind,
+            SimulatedObject::Part { kind, .. } => kind,
             other => panic!("{other:?}"),
         };
         assert_eq!(kind(1), PartKind::FrontDoor);

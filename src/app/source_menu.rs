@@ -3,7 +3,7 @@
 use egui::{Button, RichText, ScrollArea, Ui, Vec2};
 
 use super::{
-    action::{Action, Ask},
+    action::{Action, DialogRequest},
     bars::{NARROW, shortened},
     live::LiveAction,
     source::{CellChoice, file_name},
@@ -119,20 +119,25 @@ fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
             is_recording,
             "Play a recording…",
             "A folder of depth images or clouds: Live plays and pauses it, Capture takes its next frame",
-            Ask::Recording,
+            DialogRequest::Recording,
         ),
         (
             is_watched,
             "Watch a folder…",
             "Every capture that another program saves there is inspected",
-            Ask::WatchedFolder,
+            DialogRequest::WatchedFolder,
         ),
-        (false, "Open a file…", "A single capture", Ask::Scene),
+        (
+            false,
+            "Open a file…",
+            "A single capture",
+            DialogRequest::Scene,
+        ),
         (
             matches!(state.source, Source::Scan(_)),
             "Open a scan…",
             "A folder with several shots of one part, each with the pose of its camera (Ctrl Shift O)",
-            Ask::Scan,
+            DialogRequest::Scan,
         ),
     ] {
         if ui

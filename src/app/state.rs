@@ -6,7 +6,7 @@ use std::{
 };
 
 pub use super::shell::{
-    message::{Event, Purpose},
+    message::{Event, ReinspectionPurpose},
     notice::{Notice, NoticeKind},
     session::{Session, Shown, Source, ThemeChoice, WorkspaceKind as Workspace},
 };
@@ -15,7 +15,7 @@ use super::{
     enrol::EnrolState,
     inspect::state::InspectState,
     job::Request,
-    lane::Lane,
+    lane::TaskQueue,
     live::{self, LiveState},
     robot::RobotState,
     roles::RoleState,
@@ -28,7 +28,7 @@ pub struct State {
     /// What the workspaces share.
     pub session: Session,
     /// What is being worked on, by whom; while a scene is, the result shown is old.
-    pub works: BTreeMap<Lane, Work>,
+    pub works: BTreeMap<TaskQueue, Work>,
     /// The cell's calibration, and the dialog about it.
     pub cell: RobotState,
     /// What a person should know, oldest first.
@@ -52,7 +52,7 @@ pub struct State {
     /// Of the Enrol workspace.
     pub enrol: EnrolState,
     /// What the newest inspection that was asked for is for: its generation, and the purpose.
-    pub purpose: (u64, Purpose),
+    pub purpose: (u64, ReinspectionPurpose),
 }
 
 impl Deref for State {
@@ -72,16 +72,21 @@ impl DerefMut for State {
 impl State {
     /// True while the result shown is not what was asked for last.
     pub fn is_old(&self) -> bool {
-        self.works.contains_key(&Lane::Inspect) && self.shown.is_some()
+        self.works.contains_key(&TaskQueue::Inspect) && self.shown.is_some()
     }
 
     /// The work that the window tells of: the front workspace's own, else any.
-    pub fn work(&self) -> Option<(Lane, &Work)> {
+    pub fn work(&self) -> Option<(TaskQueue, &Work)> {
         let own = self.workspace.lane();
         let all = self.works.iter().map(|(lane, work)| (*lane, work));
         // Quickly done, and not to be given up half-way.
         // A source is followed until it is no longer wanted, which has a button of its own.
-        let quick = [Lane::Write, Lane::Library, Lane::Live, Lane::Robot];
+        let quick = [
+            TaskQueue::Write,
+            TaskQueue::Library,
+            TaskQueue::Live,
+            TaskQueue::Robot,
+        ];
         let mut all = all.filter(|(lane, _)| !quick.contains(lane));
         let own = own.and_then(|own| self.works.get_key_value(&own).map(|(l, w)| (*l, w)));
         own.or_else(|| all.next())
@@ -92,7 +97,7 @@ impl State {
         let lane = request.lane();
         // First: this request's generation is the newest behind this.
         let stop = matches!(request, Request::Inspect(_) | Request::InspectScan(_))
-            .then(|| live::give_way(self));
+            .then(|| live::stop_live(self));
         self.generation += 1;
         let work = Work {
             generation: self.generation,
@@ -118,7 +123,7 @@ impl State {
         &mut self,
         what: impl Into<String>,
         request: Request,
-        purpose: Purpose,
+        purpose: ReinspectionPurpose,
     ) -> Effect {
         let effect = self.begin(what, request);
         self.purpose = (self.generation, purpose);
@@ -141,10 +146,10 @@ pub struct Work {
 
 impl Workspace {
     /// Who works for it.
-    pub fn lane(self) -> Option<Lane> {
+    pub fn lane(self) -> Option<TaskQueue> {
         match self {
-            Self::Inspect => Some(Lane::Inspect),
-            Self::Enrol => Some(Lane::Enrol),
+            Self::Inspect => Some(TaskQueue::Inspect),
+            Self::Enrol => Some(TaskQueue::Enrol),
             Self::Compare | Self::Align | Self::History => None,
         }
     }

@@ -6,7 +6,7 @@ use eframe::egui_wgpu::RenderState;
 use egui::{CentralPanel, Frame, Ui};
 
 use super::{
-    action::{Action, Ask, Effect, apply},
+    action::{Action, DialogRequest, Effect, apply},
     align::AlignWorkspace,
     bars,
     camera::Camera,
@@ -16,15 +16,15 @@ use super::{
     headless::WorkCounts,
     history::HistoryWorkspace,
     inspect::InspectPanel,
-    job::{Outcome, Request, Trouble, answer},
+    job::{Request, TaskOutcome, Trouble, answer},
     keys,
-    lane::Lane,
+    lane::TaskQueue,
     live::{self, LiveAction},
     memory::Memory,
     notices, rail, robot,
     roles::{self, RoleAction},
     settings,
-    shelf::Shelf,
+    shelf::LibraryCache,
     shell::{
         context::Services,
         file_dialog::{DialogLock, FileDialog},
@@ -38,7 +38,7 @@ use super::{
     worker::Worker,
 };
 use crate::{
-    history::{Keeper, Writer},
+    history::{HistoryBuffer, Writer},
     robot::frame_poses::FRAME_POSES,
 };
 
@@ -66,9 +66,9 @@ pub struct WindowOptions {
 /// The window.
 pub struct Window {
     state: State,
-    workers: BTreeMap<Lane, Worker<Request, Outcome>>,
+    workers: BTreeMap<TaskQueue, Worker<Request, TaskOutcome>>,
     memory: Memory,
-    dialog: FileDialog<Ask>,
+    dialog: FileDialog<DialogRequest>,
     services: Services,
     workspaces: Vec<Box<dyn Workspace>>,
     /// What the workspaces have sent and was not done yet.
@@ -99,14 +99,14 @@ impl Window {
             camera,
         } = options;
         let (remembered, trouble) = settings.as_deref().map(settings::load).unwrap_or_default();
-        let kept = Arc::new(Keeper::new(history));
+        let kept = Arc::new(HistoryBuffer::new(history));
         let repaint = ctx.clone();
         let runner = TaskRunner::new(move || repaint.request_repaint());
         let repaint = ctx.clone();
         let history_writer = Writer::start(Arc::clone(&kept), move || repaint.request_repaint())?;
-        let shelf = Shelf::new(library.or_else(|| remembered.library.clone()), camera)
+        let shelf = LibraryCache::new(library.or_else(|| remembered.library.clone()), camera)
             .with_history(Arc::clone(&kept));
-        let start = |lane: Lane| {
+        let start = |lane: TaskQueue| {
             let (shelf, repaint) = (shelf.clone(), ctx.clone());
             let worker = Worker::start(
                 lane.name(),
@@ -115,7 +115,7 @@ impl Window {
             );
             worker.map(|worker| (lane, worker))
         };
-        let workers = Lane::ALL
+        let workers = TaskQueue::ALL
             .into_iter()
             .map(start)
             .collect::<io::Result<_>>()?;
@@ -279,9 +279,9 @@ impl Window {
                 .extension()
                 .is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
             let opened = if path.is_dir() && !is_scan {
-                Action::Chosen(Ask::Recording, path)
+                Action::Chosen(DialogRequest::Recording, path)
             } else if is_json && self.state.wants_poses() {
-                Action::Chosen(Ask::ScanPoses, path)
+                Action::Chosen(DialogRequest::ScanPoses, path)
             } else {
                 Action::Open(path)
             };
@@ -295,7 +295,7 @@ impl Window {
         if self.is_lost() {
             ctx.send_viewport_cmd(egui::ViewportCommand::Close);
         }
-        for lane in Lane::ALL {
+        for lane in TaskQueue::ALL {
             while let Some(news) = self.workers.get(&lane).and_then(Worker::try_next) {
                 self.act(Action::Hear(lane, news), ctx);
             }
@@ -366,7 +366,7 @@ impl Window {
         if is_touched {
             self.touched = now;
         }
-        let Some(after) = self.state.roles.locks_after(self.state.role) else {
+        let Some(after) = self.state.roles.lock_timeout(self.state.role) else {
             return;
         };
         let left = self.touched + after - now;

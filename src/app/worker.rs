@@ -14,23 +14,23 @@ use std::{
     thread::{self, JoinHandle},
 };
 
-use crate::pipeline::{Stage, Watch};
+use crate::pipeline::{ProgressObserver, Stage};
 
 /// Where the work looks whether it is still wanted, and tells how far it is.
-pub trait Desk<T>: Watch {
+pub trait TaskContext<T>: ProgressObserver {
     /// So many of so many are done.
     fn progress(&self, done: usize, total: usize);
     /// Hands over what there is so far; the outcome still follows.
-    fn partly(&self, outcome: T);
+    fn publish_partial(&self, outcome: T);
     /// Hands over how things stand now, in the place of what was handed over so before and not fetched yet.
     fn stands(&self, outcome: T);
     /// True if nothing that [`stands`](Self::stands) handed over waits to be fetched: more would be looked at.
-    fn is_followed(&self) -> bool;
+    fn wants_more(&self) -> bool;
 }
 
 /// What the thread tells the window.
 #[derive(Debug)]
-pub enum News<T> {
+pub enum TaskEvent<T> {
     /// A stage begins.
     Begins {
         /// Of which request.
@@ -70,7 +70,7 @@ pub enum News<T> {
     },
 }
 
-impl<T> News<T> {
+impl<T> TaskEvent<T> {
     /// Which request it is about.
     pub fn generation(&self) -> u64 {
         match self {
@@ -89,13 +89,13 @@ const MAX_NEWS: usize = 32;
 /// The thread, its slot and its news. Dropping it cancels the work and waits for the thread.
 pub struct Worker<R, T> {
     shared: Arc<Shared<R>>,
-    news: Option<Receiver<News<T>>>,
-    standing: Arc<Standing<T>>,
+    news: Option<Receiver<TaskEvent<T>>>,
+    standing: Arc<LatestResult<T>>,
     thread: Option<JoinHandle<()>>,
 }
 
 /// How things stand, for whoever fetches it: the newest alone.
-type Standing<T> = Mutex<Option<(u64, T)>>;
+type LatestResult<T> = Mutex<Option<(u64, T)>>;
 
 struct Shared<R> {
     slot: Mutex<Slot<R>>,
@@ -114,7 +114,7 @@ impl<R: Send + 'static, T: Send + 'static> Worker<R, T> {
     /// thread whenever there is something to fetch.
     pub fn start(
         name: &str,
-        mut work: impl FnMut(R, &dyn Desk<T>) -> Option<T> + Send + 'static,
+        mut work: impl FnMut(R, &dyn TaskContext<T>) -> Option<T> + Send + 'static,
         on_news: impl Fn() + Send + 'static,
     ) -> std::io::Result<Self> {
         let shared = Arc::new(Shared {
@@ -131,7 +131,7 @@ impl<R: Send + 'static, T: Send + 'static> Worker<R, T> {
         let told_standing = Arc::clone(&standing);
         let thread = thread::Builder::new().name(name.into()).spawn(move || {
             while let Some((generation, request)) = of_thread.next() {
-                let desk = Following {
+                let desk = RequestContext {
                     generation,
                     newest: &of_thread.newest,
                     news: &sender,
@@ -141,12 +141,12 @@ impl<R: Send + 'static, T: Send + 'static> Worker<R, T> {
                 // What `work` holds (a loaded library) is only ever replaced whole.
                 let answer = catch_unwind(AssertUnwindSafe(|| work(request, &desk)));
                 let told = match answer {
-                    Ok(Some(outcome)) => News::Done {
+                    Ok(Some(outcome)) => TaskEvent::Done {
                         generation,
                         outcome,
                     },
                     Ok(None) => continue,
-                    Err(panic) => News::Panicked {
+                    Err(panic) => TaskEvent::Panicked {
                         generation,
                         message: message_of(panic.as_ref()),
                     },
@@ -179,11 +179,11 @@ impl<R: Send + 'static, T: Send + 'static> Worker<R, T> {
     }
 
     /// The next news, without waiting; `None` when there are none.
-    pub fn try_next(&self) -> Option<News<T>> {
+    pub fn try_next(&self) -> Option<TaskEvent<T>> {
         // In this order: what stands now is newer than what was told step by step.
         self.news.as_ref()?.try_recv().ok().or_else(|| {
             let (generation, outcome) = held(&self.standing).take()?;
-            Some(News::Partly {
+            Some(TaskEvent::Partly {
                 generation,
                 outcome,
             })
@@ -229,27 +229,27 @@ impl<R> Shared<R> {
 }
 
 /// Follows one request.
-struct Following<'a, T> {
+struct RequestContext<'a, T> {
     generation: u64,
     newest: &'a AtomicU64,
-    news: &'a SyncSender<News<T>>,
-    standing: &'a Standing<T>,
+    news: &'a SyncSender<TaskEvent<T>>,
+    standing: &'a LatestResult<T>,
     on_news: &'a dyn Fn(),
 }
 
-impl<T> Following<'_, T> {
+impl<T> RequestContext<'_, T> {
     /// A window that is behind misses how far the work is, not what came out.
-    fn tell_if_there_is_room(&self, news: News<T>) {
+    fn send_if_room(&self, news: TaskEvent<T>) {
         if self.news.try_send(news).is_ok() {
             (self.on_news)();
         }
     }
 }
 
-impl<T> Watch for Following<'_, T> {
+impl<T> ProgressObserver for RequestContext<'_, T> {
     fn begins(&self, stage: Stage) {
         let generation = self.generation;
-        self.tell_if_there_is_room(News::Begins { generation, stage });
+        self.send_if_room(TaskEvent::Begins { generation, stage });
     }
 
     fn is_cancelled(&self) -> bool {
@@ -257,19 +257,19 @@ impl<T> Watch for Following<'_, T> {
     }
 }
 
-impl<T> Desk<T> for Following<'_, T> {
+impl<T> TaskContext<T> for RequestContext<'_, T> {
     fn progress(&self, done: usize, total: usize) {
-        self.tell_if_there_is_room(News::Progress {
+        self.send_if_room(TaskEvent::Progress {
             generation: self.generation,
             done,
             total,
         });
     }
 
-    fn partly(&self, outcome: T) {
+    fn publish_partial(&self, outcome: T) {
         let generation = self.generation;
         // Without a reader the window is closing.
-        let _ = self.news.send(News::Partly {
+        let _ = self.news.send(TaskEvent::Partly {
             generation,
             outcome,
         });
@@ -281,12 +281,12 @@ impl<T> Desk<T> for Following<'_, T> {
         (self.on_news)();
     }
 
-    fn is_followed(&self) -> bool {
+    fn wants_more(&self) -> bool {
         held(self.standing).is_none()
     }
 }
 
-fn held<T>(standing: &Standing<T>) -> MutexGuard<'_, Option<(u64, T)>> {
+fn held<T>(standing: &LatestResult<T>) -> MutexGuard<'_, Option<(u64, T)>> {
     standing.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
@@ -302,7 +302,7 @@ mod tests {
 
     use super::*;
 
-    fn wait_for<R: Send + 'static, T: Send + 'static>(worker: &Worker<R, T>) -> News<T> {
+    fn wait_for<R: Send + 'static, T: Send + 'static>(worker: &Worker<R, T>) -> TaskEvent<T> {
         let until = Instant::now() + Duration::from_secs(10);
         while Instant::now() < until {
             if let Some(news) = worker.try_next() {
@@ -315,7 +315,7 @@ mod tests {
 
     #[test]
     fn a_newer_request_cancels_the_one_at_work() {
-        let work = |seconds: u64, desk: &dyn Desk<_>| {
+        let work = |seconds: u64, desk: &dyn TaskContext<_>| {
             let until = Instant::now() + Duration::from_secs(seconds);
             while Instant::now() < until {
                 if desk.is_cancelled() {
@@ -332,7 +332,7 @@ mod tests {
         worker.request(3, 0);
         assert!(matches!(
             wait_for(&worker),
-            News::Done {
+            TaskEvent::Done {
                 generation: 3,
                 outcome: 0
             }
@@ -341,7 +341,7 @@ mod tests {
 
     #[test]
     fn a_cancelled_request_says_nothing_and_closing_does_not_wait_for_it() {
-        let work = |(), desk: &dyn Desk<_>| {
+        let work = |(), desk: &dyn TaskContext<_>| {
             while !desk.is_cancelled() {
                 thread::sleep(Duration::from_millis(1));
             }
@@ -361,11 +361,11 @@ mod tests {
     fn of_how_things_stand_only_the_newest_waits() {
         let (told_all, waits) = (sync_channel::<bool>(1), sync_channel::<()>(1));
         let (tell, go_on) = (told_all.0, waits.1);
-        let work = move |num: u32, desk: &dyn Desk<u32>| {
+        let work = move |num: u32, desk: &dyn TaskContext<u32>| {
             (1..=num).for_each(|number| desk.stands(number));
-            tell.send(desk.is_followed()).ok()?;
+            tell.send(desk.wants_more()).ok()?;
             go_on.recv().ok()?;
-            tell.send(desk.is_followed()).ok()?;
+            tell.send(desk.wants_more()).ok()?;
             Some(0)
         };
         let worker = Worker::start("test", work, || {}).expect("started");
@@ -374,19 +374,22 @@ mod tests {
         let stands = wait_for(&worker);
         assert!(matches!(
             stands,
-            News::Partly {
+            TaskEvent::Partly {
                 generation: 1,
                 outcome: 100
             }
         ));
         waits.0.send(()).expect("it waits");
         assert!(told_all.1.recv().expect("told"), "it was fetched");
-        assert!(matches!(wait_for(&worker), News::Done { outcome: 0, .. }));
+        assert!(matches!(
+            wait_for(&worker),
+            TaskEvent::Done { outcome: 0, .. }
+        ));
     }
 
     #[test]
     fn a_panic_is_told_and_the_next_request_is_answered() {
-        let work = |number: u32, desk: &dyn Desk<_>| {
+        let work = |number: u32, desk: &dyn TaskContext<_>| {
             desk.begins(Stage::Segment);
             assert!(number != 7, "seven is too much");
             Some(number)
@@ -395,20 +398,20 @@ mod tests {
         worker.request(1, 7);
         assert!(matches!(
             wait_for(&worker),
-            News::Begins { generation: 1, .. }
+            TaskEvent::Begins { generation: 1, .. }
         ));
-        let News::Panicked { message, .. } = wait_for(&worker) else {
+        let TaskEvent::Panicked { message, .. } = wait_for(&worker) else {
             panic!("the panic was not told");
         };
         assert!(message.contains("seven"));
         worker.request(2, 8);
         assert!(matches!(
             wait_for(&worker),
-            News::Begins { generation: 2, .. }
+            TaskEvent::Begins { generation: 2, .. }
         ));
         assert!(matches!(
             wait_for(&worker),
-            News::Done {
+            TaskEvent::Done {
                 generation: 2,
                 outcome: 8
             }

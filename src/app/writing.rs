@@ -64,7 +64,7 @@ pub enum WriteRequest {
 
 /// What was written.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Written {
+pub struct WriteResult {
     /// In words, for a notice.
     pub what: String,
     /// The file, or the folder of the files.
@@ -72,7 +72,7 @@ pub struct Written {
 }
 
 /// Writes it: whole, or not at all.
-pub(super) fn answer(request: &WriteRequest) -> Result<Written, UserError> {
+pub(super) fn answer(request: &WriteRequest) -> Result<WriteResult, UserError> {
     match request {
         WriteRequest::Report {
             folder,
@@ -99,7 +99,7 @@ pub(super) fn answer(request: &WriteRequest) -> Result<Written, UserError> {
                 writer.write_all(png.get_ref())
             })
             .map_err(|error| UserError::of(&error))?;
-            Ok(Written {
+            Ok(WriteResult {
                 what: format!("Saved the picture {}", path.display()),
                 path: path.clone(),
             })
@@ -113,7 +113,7 @@ fn write_spray_path(
     inspected: &Inspected,
     robot: &RobotFrame,
     convention: Convention,
-) -> Result<Written, UserError> {
+) -> Result<WriteResult, UserError> {
     let first = inspected.inspection.ranking.entries.first();
     let part = first.and_then(|first| inspected.library.parts.get(first.reference));
     let (Some(carried), Some(part)) = (&inspected.spray, part) else {
@@ -134,7 +134,7 @@ fn write_spray_path(
         at: inspected.at,
     };
     export.save(path).map_err(|error| UserError::of(&error))?;
-    Ok(Written {
+    Ok(WriteResult {
         what: format!(
             "Wrote {}: {} of {} points within the band, as {}",
             path.display(),
@@ -191,7 +191,7 @@ fn write_report(
     inspected: &Inspected,
     report: &PoseReport,
     shot: Option<&ViewShot>,
-) -> Result<Written, UserError> {
+) -> Result<WriteResult, UserError> {
     let trouble = |error: ReportError| UserError::of(&error);
     let name = scene_name(&inspected.origin);
     let scene = name.display().to_string();
@@ -226,9 +226,9 @@ fn write_report(
     if let CsvAppended::SetAside(aside) = appended {
         let aside = file_name(&aside);
         let what = format!("{what}; its last row had no end and was set aside in {aside}");
-        return Ok(Written { what, path });
+        return Ok(WriteResult { what, path });
     }
-    Ok(Written { what, path })
+    Ok(WriteResult { what, path })
 }
 
 /// The same view in the colours of paper.

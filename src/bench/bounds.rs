@@ -9,14 +9,14 @@ mod subject;
 use nalgebra::{Point3, Vector3};
 use serde::Serialize;
 
-pub use self::subject::{BoundsLibrary, Subject};
+pub use self::subject::{BoundsLibrary, BoundsPart};
 use super::suites::pushed_out_of_the_picture;
 use crate::{
-    geometry::rigid::{PoseError, pose_error},
-    pipeline::{Cancelled, Inspection, Recipe, Watch, run},
-    simulate::{self, CellSetup, PartPose, Placement, frame_of_mesh},
+    geometry::rigid::{PoseDelta, pose_error},
+    pipeline::{Cancelled, Inspection, ProgressObserver, Recipe, run},
+    simulate::{self, CellSetup, PartPose, PoseRange, frame_of_mesh},
     stages::{
-        pose::{Doubt, Uncertainty},
+        pose::{PoseWarning, Uncertainty},
         scene::scene_from_frame,
     },
     units::{Metres, Radians},
@@ -59,21 +59,21 @@ pub struct BoundsCase {
     /// Whether it was accepted.
     pub is_accepted: bool,
     /// The pose, if it was named.
-    pub found: Option<FoundPose>,
+    pub found: Option<PoseAgainstTruth>,
 }
 
 /// A pose beside the truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct FoundPose {
+pub struct PoseAgainstTruth {
     /// How far off, the shift at the middle of what was seen.
-    pub error: PoseError,
+    pub error: PoseDelta,
     /// How far off it may be.
     pub bounds: Option<Uncertainty>,
     /// Why it should not be relied upon.
-    pub doubt: Option<Doubt>,
+    pub doubt: Option<PoseWarning>,
 }
 
-impl FoundPose {
+impl PoseAgainstTruth {
     /// True of a pose that is not another one altogether: within 5° and 40 mm.
     pub fn is_near(&self) -> bool {
         self.error.rotation.degrees() <= 5.0 && self.error.shift.mm() <= 40.0
@@ -85,13 +85,13 @@ impl FoundPose {
     }
 }
 
-fn placement() -> Placement {
-    Placement {
+fn placement() -> PoseRange {
+    PoseRange {
         yaw: Radians::from_degrees(30.0),
         pitch: Radians::from_degrees(30.0),
         nearest: Metres(1.0),
         farthest: Metres(2.0),
-        ..Placement::placed()
+        ..PoseRange::placed()
     }
 }
 
@@ -103,7 +103,7 @@ pub fn bounds_cases(
     library: &BoundsLibrary,
     num_poses: u64,
     first_seed: u64,
-    watch: &dyn Watch,
+    watch: &dyn ProgressObserver,
     mut after_each: impl FnMut(&BoundsCase),
 ) -> Result<Vec<BoundsCase>, Cancelled> {
     let mut cases = Vec::new();
@@ -121,13 +121,13 @@ pub fn bounds_cases(
 }
 
 fn inspected(
-    subject: &Subject,
+    subject: &BoundsPart,
     library: &BoundsLibrary,
     view: View,
     seed: u64,
-    watch: &dyn Watch,
+    watch: &dyn ProgressObserver,
 ) -> Result<BoundsCase, Cancelled> {
-    let mut setup = CellSetup::new(simulate::Subject::Nothing, seed);
+    let mut setup = CellSetup::new(simulate::SimulatedObject::Nothing, seed);
     setup.pose = PartPose::Drawn(placement());
     if view == View::Cut {
         let placed = placement().draw(&subject.mesh, &setup.intrinsics, seed);
@@ -148,7 +148,7 @@ fn inspected(
         .filter(|_| is_named);
     let found = pose
         .zip(middle_of_seen(&inspection))
-        .map(|(pose, middle)| FoundPose {
+        .map(|(pose, middle)| PoseAgainstTruth {
             error: pose_error(&pose.target_from_source, &part_from_camera, &middle),
             bounds: pose.uncertainty,
             doubt: pose.doubt(),
@@ -189,14 +189,14 @@ mod tests {
         let cases = bounds_cases(&library, 4, 3_000_000, &Unwatched, |_| ()).expect("to the end");
         assert_eq!(cases.len(), 16);
         let found = cases.iter().filter(|case| case.is_accepted);
-        let found: Vec<FoundPose> = found.filter_map(|case| case.found).collect();
+        let found: Vec<PoseAgainstTruth> = found.filter_map(|case| case.found).collect();
         assert!(found.len() >= 6, "{} accepted", found.len());
-        let held: Vec<(FoundPose, Uncertainty)> = found
+        let held: Vec<(PoseAgainstTruth, Uncertainty)> = found
             .iter()
             .filter_map(|found| Some((*found, found.held()?)))
             .collect();
         assert!(held.len() + 1 >= found.len(), "{found:?}");
-        let within = |(found, bounds): &&(FoundPose, Uncertainty)| {
+        let within = |(found, bounds): &&(PoseAgainstTruth, Uncertainty)| {
             found.error.shift.0 <= bounds.shift.0 && found.error.rotation.0 <= bounds.turn.0
         };
         assert!(

@@ -171,7 +171,7 @@ fn logistic(x: f64) -> f64 {
 
 /// Of the verdicts whose score falls into a band: how many there are, and how many are right.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Band {
+pub struct ScoreBand {
     /// Lower end of the band.
     pub from: f64,
     /// Mean score of those in it.
@@ -183,7 +183,7 @@ pub struct Band {
 }
 
 /// How often best guesses were right, by score: calibrated is as often as the score says.
-pub fn bands(results: &[SuiteResult]) -> Vec<Band> {
+pub fn bands(results: &[SuiteResult]) -> Vec<ScoreBand> {
     const ENDS: [f64; 8] = [0.0, 0.1, 0.3, 0.5, 0.7, 0.9, 0.97, 0.99];
     let cases: Vec<(f64, bool)> = results
         .iter()
@@ -201,7 +201,7 @@ pub fn bands(results: &[SuiteResult]) -> Vec<Band> {
         .map(|(i, &from)| {
             let to = ENDS.get(i + 1).copied().unwrap_or(f64::INFINITY);
             let inside: Vec<_> = cases.iter().filter(|c| c.0 >= from && c.0 < to).collect();
-            Band {
+            ScoreBand {
                 from,
                 mean_score: inside.iter().map(|c| c.0).sum::<f64>() / inside.len().max(1) as f64,
                 num: inside.len(),

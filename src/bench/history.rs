@@ -8,8 +8,8 @@ use serde::Serialize;
 use super::quantile;
 use crate::{
     history::{
-        Detail, Filter, History, HistoryError, KeepFrames, NewEntry, PastVerdict, Record,
-        Retention, Summary,
+        Filter, History, HistoryError, InspectionDetail, KeepFrames, NewEntry, Record, Retention,
+        StoredVerdict, Summary,
     },
     pipeline::Recipe,
     simulate::{CellSetup, PartKind, Side, frame},
@@ -74,7 +74,7 @@ pub fn history_times(num_rows: usize) -> Result<Vec<HistoryTime>, HistoryError> 
         (
             "not accepted",
             Filter {
-                verdict: Some(PastVerdict::NotAccepted),
+                verdict: Some(StoredVerdict::NotAccepted),
                 ..everything()
             },
         ),
@@ -97,7 +97,7 @@ pub fn history_times(num_rows: usize) -> Result<Vec<HistoryTime>, HistoryError> 
             Filter {
                 since: since(num_rows / 2),
                 part: part(),
-                verdict: Some(PastVerdict::NotAccepted),
+                verdict: Some(StoredVerdict::NotAccepted),
                 text: "grille simulated".into(),
                 ..everything()
             },
@@ -154,9 +154,9 @@ fn entry(
     let part = PartKind::ALL[i % PartKind::ALL.len()];
     let is_accepted = !i.is_multiple_of(9);
     let verdict = if is_accepted {
-        PastVerdict::Accepted
+        StoredVerdict::Accepted
     } else {
-        PastVerdict::NotAccepted
+        StoredVerdict::NotAccepted
     };
     NewEntry {
         record: Record {
@@ -175,7 +175,7 @@ fn entry(
                 label: None,
                 frame_bytes: None,
             },
-            detail: Detail {
+            detail: InspectionDetail {
                 nearest: Some(part.name().into()),
                 complaint: None,
                 camera_from_part: None,

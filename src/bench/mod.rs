@@ -16,6 +16,6 @@ pub mod table1;
 
 pub use self::{
     history::{HistoryTime, history_times},
-    processor_time::{ProcessorWatch, process_seconds, waited_for_a_core},
+    processor_time::{ProcessorWatch, cpu_wait_seconds, process_seconds},
     speed::{StageTimes, quantile, stage_times},
 };

@@ -40,7 +40,7 @@ fn seconds(clock: ClockId) -> f64 {
 
 /// Seconds that this thread could have run so far, and waited for a core that others had; `None` where the system does
 /// not tell.
-pub fn waited_for_a_core() -> Option<f64> {
+pub fn cpu_wait_seconds() -> Option<f64> {
     // Nanoseconds run, nanoseconds waited, turns taken.
     let text = fs::read_to_string("/proc/thread-self/schedstat").ok()?;
     let waited: f64 = text.split_whitespace().nth(1)?.parse().ok()?;

@@ -20,7 +20,7 @@ use crate::{
     },
     simulate::{PartKind, PartModel, Side},
     stages::pose::{
-        AlignParams, Doubt, PoseError, PoseMethod, PreparedTarget, Uncertainty, align_to,
+        AlignParams, PoseError, PoseMethod, PoseWarning, PreparedTarget, Uncertainty, align_to,
         displacements::displacements,
     },
     units::Metres,
@@ -100,16 +100,16 @@ pub struct Attempt {
     /// Time of the estimation without preparing the target.
     pub time: Duration,
     /// The pose found, or why there is none.
-    pub found: Result<Found, PoseError>,
+    pub found: Result<PoseAgainstTruth, PoseError>,
 }
 
 /// A pose beside the truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Found {
+pub struct PoseAgainstTruth {
     /// How far off the truth; the shift is that of the source's middle.
-    pub error: rigid::PoseError,
+    pub error: rigid::PoseDelta,
     /// Why the pose says that it should not be relied upon.
-    pub doubt: Option<Doubt>,
+    pub doubt: Option<PoseWarning>,
     /// How far off the pose says that it may be.
     pub uncertainty: Option<Uncertainty>,
 }
@@ -180,7 +180,7 @@ pub fn register_all(
                     part,
                     source,
                     time,
-                    found: aligned.map(|pose| Found {
+                    found: aligned.map(|pose| PoseAgainstTruth {
                         error: pose_error(&pose.target_from_source, &target_from_source, &middle),
                         doubt: pose.doubt(),
                         uncertainty: pose.uncertainty,

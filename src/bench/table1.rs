@@ -48,16 +48,16 @@ pub struct Attempt {
     /// Time of the estimation without preparing the target.
     pub time: Duration,
     /// The pose found, or why there is none.
-    pub found: Result<Found, PoseError>,
+    pub found: Result<PoseAgainstTruth, PoseError>,
 }
 
 /// A pose beside the truth.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Found {
+pub struct PoseAgainstTruth {
     /// Eq. 12 over all points of the source, square metres.
     pub e_m2: f64,
     /// How far off the truth; the shift is that of the part's middle.
-    pub error: rigid::PoseError,
+    pub error: rigid::PoseDelta,
     /// Iterations, generations included.
     pub num_iterations: usize,
     /// How it ended.
@@ -154,7 +154,7 @@ fn attempts(
         let aligned =
             prepared.and_then(|target| align_to(&source, target, &params, None, is_cancelled));
         let time = clock.elapsed();
-        let found = aligned.map(|pose| Found {
+        let found = aligned.map(|pose| PoseAgainstTruth {
             e_m2: e_m2(&source, reference, &pose.target_from_source),
             error: pose_error(&pose.target_from_source, &truth, &middle),
             num_iterations: pose.iterations.len(),

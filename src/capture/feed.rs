@@ -14,7 +14,7 @@ use self::slot::Slot;
 use super::{
     error::{CaptureError, Recovery},
     open,
-    source::{Captured, DepthSource, Next, Skipped},
+    source::{Captured, DepthSource, NextCapture, SkippedCapture},
     spec::SourceSpec,
 };
 
@@ -26,16 +26,16 @@ pub struct Feed {
 
 /// What becomes of a capture that nobody has taken when the next one comes.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Delivery {
+pub enum BackpressurePolicy {
     /// It is dropped and counted: what is looked at is never older than the camera's last frame.
     Newest,
     /// The next one waits: every capture is looked at, in order.
     Every,
 }
 
-impl Delivery {
+impl BackpressurePolicy {
     /// What suits a source: a live camera's frames are dropped, those of recordings and files are not.
-    pub fn suiting(spec: &SourceSpec) -> Self {
+    pub fn for_source(spec: &SourceSpec) -> Self {
         if spec.is_live() {
             Self::Newest
         } else {
@@ -54,7 +54,7 @@ pub enum FeedItem {
     /// A capture.
     Captured(Captured),
     /// Something that was meant to be a capture and cannot be read.
-    Skipped(Skipped),
+    Skipped(SkippedCapture),
 }
 
 /// How a feed is.
@@ -117,7 +117,7 @@ impl Feed {
     /// capture; it should do little, such as asking a window to draw.
     pub fn start(
         spec: SourceSpec,
-        delivery: Delivery,
+        delivery: BackpressurePolicy,
         on_news: impl Fn() + Send + Sync + 'static,
     ) -> Result<Self, CaptureError> {
         Self::start_with(move || open::open(&spec), delivery, on_news)
@@ -126,7 +126,7 @@ impl Feed {
     /// As [`Feed::start`], with another way to open the source.
     pub fn start_with(
         mut open: impl FnMut() -> Result<Box<dyn DepthSource>, CaptureError> + Send + 'static,
-        delivery: Delivery,
+        delivery: BackpressurePolicy,
         on_news: impl Fn() + Send + Sync + 'static,
     ) -> Result<Self, CaptureError> {
         let slot = Arc::new(Slot::new(delivery, Box::new(on_news)));
@@ -186,7 +186,7 @@ struct Camera<'a> {
 }
 
 /// Why the thread leaves a source.
-enum Left {
+enum StopReason {
     /// For good.
     Over(FeedState),
     /// To open it anew.
@@ -208,24 +208,24 @@ impl Camera<'_> {
                 Err(error) => self.pause(error),
             };
             match left {
-                Some(Left::Over(state)) => return self.slot.set_state(state),
-                Some(Left::ToReopen) | None => {}
+                Some(StopReason::Over(state)) => return self.slot.set_state(state),
+                Some(StopReason::ToReopen) | None => {}
             }
         }
     }
 
     /// Takes what the source gives until it is lost, over, or no longer wanted.
-    fn follow(&mut self, source: &mut dyn DepthSource) -> Option<Left> {
+    fn follow(&mut self, source: &mut dyn DepthSource) -> Option<StopReason> {
         while !self.slot.is_stopping() {
             match source.next(TURN) {
-                Ok(Next::NotYet) => self.slot.set_running(),
-                Ok(Next::End) => return Some(Left::Over(FeedState::Ended)),
-                Ok(Next::Captured(captured)) => {
+                Ok(NextCapture::NotYet) => self.slot.set_running(),
+                Ok(NextCapture::End) => return Some(StopReason::Over(FeedState::Ended)),
+                Ok(NextCapture::Captured(captured)) => {
                     self.retry = FIRST_RETRY;
                     self.slot.set_running();
                     self.slot.put(FeedItem::Captured(captured));
                 }
-                Ok(Next::Skipped(skipped)) => {
+                Ok(NextCapture::Skipped(skipped)) => {
                     self.slot.set_running();
                     self.slot.put(FeedItem::Skipped(skipped));
                 }
@@ -240,15 +240,15 @@ impl Camera<'_> {
     }
 
     /// Waits until it is time to try again; `None` if the same source can be asked.
-    fn pause(&mut self, error: CaptureError) -> Option<Left> {
+    fn pause(&mut self, error: CaptureError) -> Option<StopReason> {
         let recovery = error.recovery();
         let error = Arc::new(error);
         if recovery == Recovery::None {
-            return Some(Left::Over(FeedState::Failed(error)));
+            return Some(StopReason::Over(FeedState::Failed(error)));
         }
         self.slot.lost(error, Instant::now() + self.retry);
         self.slot.sleep(self.retry);
         self.retry = (2 * self.retry).min(LONGEST_RETRY);
-        (recovery == Recovery::Reopen).then_some(Left::ToReopen)
+        (recovery == Recovery::Reopen).then_some(StopReason::ToReopen)
     }
 }

@@ -30,12 +30,12 @@ use self::{
     failure::Failed,
     freenect::{Context, Device, Library},
     header::{DEPTH_11BIT, DEPTH_MM, DEPTH_MM_MAX, FrameMode},
-    search::Found,
+    search::LoadedDriver,
 };
 use super::{
     error::{CaptureError, CaptureWarning},
-    open::Listed,
-    source::{Captured, DepthSource, Image, Next},
+    open::SourceListing,
+    source::{Captured, DepthSource, Image, NextCapture},
     spec::{KinectSpec, SourceSpec},
 };
 use crate::geometry::{
@@ -57,7 +57,7 @@ pub(super) struct Kinect {
     /// Where it plays a recorded session, how long that is.
     num_entries: Option<usize>,
     num_frames: u64,
-    silence: Silence,
+    silence: ReadTimeout,
     warnings: Vec<CaptureWarning>,
 }
 
@@ -74,11 +74,11 @@ pub(super) fn open(spec: &KinectSpec) -> Result<Box<dyn DepthSource>, CaptureErr
 }
 
 /// The Kinects that are plugged in, or why there is none, with libfreenect where the environment or the system has it.
-pub(super) fn list() -> Vec<Listed> {
+pub(super) fn list() -> Vec<SourceListing> {
     found_devices().unwrap_or_else(|error| vec![cannot_be_opened(error)])
 }
 
-fn found_devices() -> Result<Vec<Listed>, KinectError> {
+fn found_devices() -> Result<Vec<SourceListing>, KinectError> {
     let library = search::find(None)?;
     let (context, num_entries) = start(&library)?;
     let num_devices = context.num_devices().map_err(KinectError::of_opening)?;
@@ -90,7 +90,7 @@ fn found_devices() -> Result<Vec<Listed>, KinectError> {
             serial,
             library: None,
         };
-        Listed {
+        SourceListing {
             title: title(&spec, &library),
             spec: Some(SourceSpec::Kinect(spec)),
             trouble: None,
@@ -110,15 +110,15 @@ fn found_devices() -> Result<Vec<Listed>, KinectError> {
         .collect())
 }
 
-fn cannot_be_opened(error: KinectError) -> Listed {
-    Listed {
+fn cannot_be_opened(error: KinectError) -> SourceListing {
+    SourceListing {
         title: "Kinect".into(),
         spec: None,
         trouble: Some(error.into()),
     }
 }
 
-fn title(spec: &KinectSpec, library: &Found) -> String {
+fn title(spec: &KinectSpec, library: &LoadedDriver) -> String {
     if library.library.plays_sessions() {
         "Kinect, a recorded session".into()
     } else {
@@ -128,7 +128,7 @@ fn title(spec: &KinectSpec, library: &Found) -> String {
 
 /// Starts the library. A build that plays recorded sessions ends the program where it has none, so that is looked at
 /// before; its number of entries comes with the context.
-fn start(found: &Found) -> Result<(Context, Option<usize>), KinectError> {
+fn start(found: &LoadedDriver) -> Result<(Context, Option<usize>), KinectError> {
     let plays_session = found.library.plays_sessions();
     let num_entries = plays_session
         .then(|| session::check(&found.name))
@@ -167,14 +167,14 @@ impl Kinect {
             library: library.library,
             num_entries,
             num_frames: 0,
-            silence: Silence::default(),
+            silence: ReadTimeout::default(),
             warnings,
         })
     }
 
     fn captured(&mut self, depth: Vec<u16>) -> Captured {
         self.num_frames += 1;
-        self.silence = Silence::default();
+        self.silence = ReadTimeout::default();
         Captured {
             number: self.num_frames,
             name: format!("Kinect frame {}", self.num_frames),
@@ -194,7 +194,7 @@ impl Kinect {
     }
 
     /// Lets the camera go.
-    fn end(&mut self, reason: KinectError) -> Result<Next, CaptureError> {
+    fn end(&mut self, reason: KinectError) -> Result<NextCapture, CaptureError> {
         self.device = None;
         Err(reason.into())
     }
@@ -209,7 +209,7 @@ impl DepthSource for Kinect {
         false
     }
 
-    fn next(&mut self, wait: Duration) -> Result<Next, CaptureError> {
+    fn next(&mut self, wait: Duration) -> Result<NextCapture, CaptureError> {
         let start = Instant::now();
         let mut waited = Duration::ZERO;
         loop {
@@ -221,14 +221,14 @@ impl DepthSource for Kinect {
                 self.device = None;
             }
             let Some(device) = &mut self.device else {
-                return Ok(Next::End);
+                return Ok(NextCapture::End);
             };
             let received = device.receive(wait.saturating_sub(waited));
             let depth = received.map(|values| values.map(|values| self.units.millimetres(values)));
             let turn = start.elapsed().saturating_sub(waited);
             waited += turn;
             match depth {
-                Ok(Some(depth)) => return Ok(Next::Captured(self.captured(depth))),
+                Ok(Some(depth)) => return Ok(NextCapture::Captured(self.captured(depth))),
                 Ok(None) if self.num_entries.is_some() => {}
                 Ok(None) => {
                     if let Some(seconds) = self.silence.goes_on(turn) {
@@ -238,12 +238,12 @@ impl DepthSource for Kinect {
                 // A session that is over and a camera that is gone have the same code.
                 Err(_) if self.num_entries.is_some() => {
                     self.device = None;
-                    return Ok(Next::End);
+                    return Ok(NextCapture::End);
                 }
                 Err(Failed { said, .. }) => return self.end(KinectError::Lost { said }),
             }
             if waited >= wait {
-                return Ok(Next::NotYet);
+                return Ok(NextCapture::NotYet);
             }
         }
     }
@@ -267,9 +267,9 @@ impl Units {
 
 /// How long a camera was waited for and sent nothing. Pauses in which nobody waited do not count.
 #[derive(Default)]
-struct Silence(Duration);
+struct ReadTimeout(Duration);
 
-impl Silence {
+impl ReadTimeout {
     /// It went on for so long. Its whole seconds, if those are too many for a camera that is well.
     fn goes_on(&mut self, turn: Duration) -> Option<u64> {
         self.0 += turn;
@@ -354,7 +354,7 @@ mod tests {
 
     #[test]
     fn a_camera_is_silent_for_too_long_only_after_its_time() {
-        let mut silence = Silence::default();
+        let mut silence = ReadTimeout::default();
         assert_eq!(silence.goes_on(Duration::ZERO), None);
         assert_eq!(silence.goes_on(Duration::from_millis(4_999)), None);
         assert_eq!(silence.goes_on(Duration::from_millis(1)), Some(5));

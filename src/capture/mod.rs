@@ -21,16 +21,16 @@ mod spec;
 mod watched;
 
 pub use self::error::{CaptureError, CaptureWarning, Recovery};
-pub use self::feed::{Delivery, Feed, FeedItem, FeedState, FeedStatus};
+pub use self::feed::{BackpressurePolicy, Feed, FeedItem, FeedState, FeedStatus};
 pub use self::kinect::{KinectError, KinectWarning};
-pub use self::open::{Listed, list, open};
+pub use self::open::{SourceListing, list, open};
 pub use self::rate::FrameRate;
 pub(crate) use self::read::read_image;
 pub use self::recording::{Recorder, Replay};
 pub use self::simulated::SimulatedCell;
-pub use self::source::{Captured, DepthSource, Image, Next, Skipped};
+pub use self::source::{Captured, DepthSource, Image, NextCapture, SkippedCapture};
 pub use self::spec::{
-    CellScene, HungPose, KinectSpec, Pace, RecordingSpec, SimulatedSpec, SourceSpec, SpecError,
-    WatchedFrom, WatchedSpec,
+    CellScene, KinectSpec, Pace, RecordingSpec, SimulatedPose, SimulatedSpec, SourceSpec,
+    SpecError, WatchedFrom, WatchedSpec,
 };
 pub use self::watched::WatchedFolder;

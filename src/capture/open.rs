@@ -22,7 +22,7 @@ pub fn open(spec: &SourceSpec) -> Result<Box<dyn DepthSource>, CaptureError> {
 
 /// A source that could be opened now, or a kind of source and why it cannot.
 #[derive(Debug)]
-pub struct Listed {
+pub struct SourceListing {
     /// What a person calls it.
     pub title: String,
     /// What to open; `None` where something has to be done first.
@@ -32,8 +32,8 @@ pub struct Listed {
 }
 
 /// The sources that can be found without being told a folder: the simulated cell and every connected camera.
-pub fn list() -> Vec<Listed> {
-    let simulated = Listed {
+pub fn list() -> Vec<SourceListing> {
+    let simulated = SourceListing {
         title: "Simulated cell".into(),
         spec: Some(SourceSpec::Simulated(SimulatedSpec::default())),
         trouble: None,

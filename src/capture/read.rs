@@ -9,7 +9,7 @@ use super::{
     source::Image,
 };
 use crate::{
-    files::{self, FileError, Opened},
+    files::{self, FileContent, FileError},
     geometry::cloud::PointCloud,
 };
 
@@ -40,7 +40,7 @@ pub(crate) fn read_image(path: &Path) -> Result<(Image, Vec<CaptureWarning>), Ca
 
 /// As [`read_image`], of a file that is opened.
 pub(super) fn image_of(
-    opened: Result<Opened, FileError>,
+    opened: Result<FileContent, FileError>,
     path: &Path,
 ) -> Result<(Image, Vec<CaptureWarning>), CaptureError> {
     let opened = match opened {
@@ -53,9 +53,9 @@ pub(super) fn image_of(
     let warnings = opened.warnings().into_iter().map(CaptureWarning::File);
     let warnings = warnings.collect();
     let image = match opened {
-        Opened::Cloud(cloud) => Image::Cloud(cloud),
-        Opened::Depth(frame) => Image::Depth(frame),
-        Opened::Mesh(_) => {
+        FileContent::Cloud(cloud) => Image::Cloud(cloud),
+        FileContent::Depth(frame) => Image::Depth(frame),
+        FileContent::Mesh(_) => {
             let path = path.to_owned();
             return Err(CaptureError::MeshIsNoCapture { path });
         }

@@ -10,7 +10,7 @@ use jiff::Timestamp;
 use super::error::{CaptureError, CaptureWarning};
 use crate::{
     geometry::{cloud::PointCloud, depth_frame::DepthFrame, rigid::RigidTransform},
-    simulate::Truth,
+    simulate::FrameTruth,
 };
 
 /// Gives captures one at a time. Opened, used and dropped on one thread, so it need not be `Send`.
@@ -21,10 +21,10 @@ pub trait DepthSource {
     /// True if what it gives was simulated, live or when it was recorded.
     fn is_simulated(&self) -> bool;
 
-    /// The next capture, or [`Next::NotYet`] after waiting at most about `wait`.
+    /// The next capture, or [`NextCapture::NotYet`] after waiting at most about `wait`.
     ///
     /// An error ends this source unless its [`CaptureError::recovery`] says that it may be asked again.
-    fn next(&mut self, wait: Duration) -> Result<Next, CaptureError>;
+    fn next(&mut self, wait: Duration) -> Result<NextCapture, CaptureError>;
 }
 
 /// What a source has to give.
@@ -33,11 +33,11 @@ pub trait DepthSource {
     clippy::large_enum_variant,
     reason = "nearly all are captures, each moved once"
 )]
-pub enum Next {
+pub enum NextCapture {
     /// A capture.
     Captured(Captured),
     /// Something that was meant to be a capture and cannot be read; the source goes on.
-    Skipped(Skipped),
+    Skipped(SkippedCapture),
     /// Nothing within the time.
     NotYet,
     /// No more, ever.
@@ -60,7 +60,7 @@ pub struct Captured {
     /// True if no camera was read, also where a recording of the simulated cell is replayed.
     pub is_simulated: bool,
     /// What is known about it; without the labels of its pixels.
-    pub truth: Option<Arc<Truth>>,
+    pub truth: Option<Arc<FrameTruth>>,
     /// Where the arm that carries the camera stood: takes the flange's frame to the robot's base, if that was recorded.
     pub robot_from_flange: Option<Box<RigidTransform>>,
     /// What is odd about it.
@@ -88,7 +88,7 @@ impl Image {
 
 /// Something that was meant to be a capture and cannot be read.
 #[derive(Clone, Debug)]
-pub struct Skipped {
+pub struct SkippedCapture {
     /// What a person calls it: a file's name.
     pub name: String,
     /// Why not.

@@ -3,7 +3,7 @@
 use std::collections::{BTreeMap, BTreeSet};
 
 use super::{
-    judge::{CaseResult, Found, Judgement, Truth},
+    judge::{CaseOutcome, CaseResult, FoundVerdict, Truth},
     record::{CaseRecord, EarlierRun},
 };
 
@@ -18,11 +18,11 @@ pub struct CaseChange {
     /// What it truly is.
     pub truth: Truth,
     /// What was found before.
-    pub before: Found,
+    pub before: FoundVerdict,
     /// What is found now.
-    pub now: Found,
+    pub now: FoundVerdict,
     /// Whether that was right, and whether this is.
-    pub judgements: [Judgement; 2],
+    pub judgements: [CaseOutcome; 2],
 }
 
 /// What differs between two runs; each list in the order of the later run's cases.
@@ -63,7 +63,7 @@ impl Changes {
                 before: case.found.clone(),
                 now: result.found.clone(),
                 judgements: [
-                    Judgement::of(&result.truth, &case.found.answered()),
+                    CaseOutcome::of(&result.truth, &case.found.answered()),
                     result.judgement(),
                 ],
             };
@@ -102,16 +102,16 @@ mod tests {
     use super::*;
     use crate::pipeline::Timings;
 
-    fn found(part: Option<&str>, score: f64, accepted: bool) -> Found {
-        Found {
+    fn found(part: Option<&str>, score: f64, accepted: bool) -> FoundVerdict {
+        FoundVerdict {
             part: part.map(Into::into),
             score: part.map(|_| score),
             accepted,
-            ..Found::default()
+            ..FoundVerdict::default()
         }
     }
 
-    fn result(name: &str, truth: &Truth, found: Found) -> CaseResult {
+    fn result(name: &str, truth: &Truth, found: FoundVerdict) -> CaseResult {
         CaseResult {
             name: name.into(),
             difficulty: None,
@@ -184,7 +184,7 @@ mod tests {
             cases: vec![CaseRecord::from(&result("a", &door, answer.clone()))],
         };
         let results = [result("a", &Truth::NotEnrolled, answer)];
-        assert_eq!(results[0].judgement(), Judgement::WrongAccepted);
+        assert_eq!(results[0].judgement(), CaseOutcome::WrongAccepted);
         let changes = Changes::between(&earlier, &results);
         assert_eq!(changes.regressions, []);
         assert_eq!(changes.num_common, 1);

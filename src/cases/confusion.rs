@@ -4,10 +4,10 @@ use std::collections::{BTreeMap, BTreeSet};
 
 use serde::Serialize;
 
-use super::judge::{Answered, CaseResult, Judgement, Truth};
+use super::judge::{CaseAnswer, CaseOutcome, CaseResult, Truth};
 
 /// A cell of the matrix.
-pub type Cell = (Truth, Answered);
+pub type Cell = (Truth, CaseAnswer);
 
 /// How many came out how.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize)]
@@ -31,9 +31,9 @@ impl Tally {
         for result in results {
             tally.total += 1;
             match result.judgement() {
-                Judgement::Right => tally.right += 1,
-                Judgement::WrongAccepted => tally.wrong_accepted += 1,
-                Judgement::Refused => tally.refused += 1,
+                CaseOutcome::Right => tally.right += 1,
+                CaseOutcome::WrongAccepted => tally.wrong_accepted += 1,
+                CaseOutcome::Refused => tally.refused += 1,
             }
             tally.guessed_right += usize::from(result.is_guess_right() == Some(true));
         }
@@ -47,7 +47,7 @@ pub struct Confusion {
     /// What there truly was: parts in the library's order, then those no longer enrolled, then the rest.
     pub rows: Vec<Truth>,
     /// What they may be taken for: every part among the rows or the answers, last the refusal.
-    pub columns: Vec<Answered>,
+    pub columns: Vec<CaseAnswer>,
     /// Places in the list of results, per cell that has any.
     pub cells: BTreeMap<Cell, Vec<usize>>,
     /// The sums.
@@ -67,7 +67,7 @@ impl Confusion {
             let answered = result.found.answered();
             truths.insert(result.truth.clone());
             parts.extend(result.truth.part().map(str::to_owned));
-            if let Answered::Part(part) = &answered {
+            if let CaseAnswer::Part(part) = &answered {
                 parts.insert(part.clone());
             }
             let cell = (result.truth.clone(), answered);
@@ -82,8 +82,8 @@ impl Confusion {
             .sort_by_key(|truth| truth.part().map_or(usize::MAX, rank));
         let mut parts: Vec<String> = parts.into_iter().collect();
         parts.sort_by_key(|part| rank(part));
-        let parts = parts.into_iter().map(Answered::Part);
-        confusion.columns = parts.chain([Answered::NotAccepted]).collect();
+        let parts = parts.into_iter().map(CaseAnswer::Part);
+        confusion.columns = parts.chain([CaseAnswer::NotAccepted]).collect();
         confusion
     }
 }
@@ -91,17 +91,17 @@ impl Confusion {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{cases::Found, pipeline::Timings};
+    use crate::{cases::FoundVerdict, pipeline::Timings};
 
     fn result(truth: Truth, found: Option<&str>) -> CaseResult {
         CaseResult {
             name: "case".into(),
             difficulty: None,
             truth,
-            found: Found {
+            found: FoundVerdict {
                 part: found.map(Into::into),
                 accepted: found.is_some(),
-                ..Found::default()
+                ..FoundVerdict::default()
             },
             pose_error: None,
             timings: Timings::default(),
@@ -140,15 +140,15 @@ mod tests {
             ]
         );
         let columns: Vec<_> = ["trunk", "door", "sold_off"]
-            .map(|name| Answered::Part(name.into()))
+            .map(|name| CaseAnswer::Part(name.into()))
             .into_iter()
-            .chain([Answered::NotAccepted])
+            .chain([CaseAnswer::NotAccepted])
             .collect();
         assert_eq!(confusion.columns, columns);
         let mut places: Vec<usize> = confusion.cells.values().flatten().copied().collect();
         places.sort_unstable();
         assert_eq!(places, [0, 1, 2, 3, 4]);
-        let cell = (Truth::NotEnrolled, Answered::Part("trunk".into()));
+        let cell = (Truth::NotEnrolled, CaseAnswer::Part("trunk".into()));
         assert_eq!(confusion.cells[&cell], [0]);
     }
 }

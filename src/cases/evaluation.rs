@@ -9,17 +9,17 @@ use super::{
     calibration::Calibration,
     confusion::{Confusion, Tally},
     error::CaseError,
-    judge::{CaseResult, Found, Truth},
+    judge::{CaseResult, FoundVerdict, Truth},
     store::{CaseFolder, CaseList, KeptCase},
     trade_off::TradeOff,
 };
 use crate::{
     geometry::{
         parallel::map_in_order,
-        rigid::{PoseError, pose_error},
+        rigid::{PoseDelta, pose_error},
     },
     library::{CloudCheck, Library},
-    pipeline::{self, Cancelled, Inspection, Recipe, Unwatched, Watch},
+    pipeline::{self, Cancelled, Inspection, ProgressObserver, Recipe, Unwatched},
     stages::scene::SceneCloud,
 };
 
@@ -48,7 +48,7 @@ impl<'a> CaseJudge<'a> {
         &self,
         case: &KeptCase,
         scene: &SceneCloud,
-        watch: &dyn Watch,
+        watch: &dyn ProgressObserver,
     ) -> Result<CaseResult, Cancelled> {
         let inspection = pipeline::run(scene, self.library, self.recipe, watch)?;
         let about = &case.meta.about;
@@ -56,7 +56,7 @@ impl<'a> CaseJudge<'a> {
             name: case.name.clone(),
             difficulty: about.difficulty.clone(),
             truth: about.truth.clone(),
-            found: Found::from(&inspection.verdict),
+            found: FoundVerdict::from(&inspection.verdict),
             pose_error: None,
             timings: inspection.timings,
         };
@@ -66,7 +66,7 @@ impl<'a> CaseJudge<'a> {
         Ok(result)
     }
 
-    fn pose_error(&self, case: &KeptCase, inspection: &Inspection) -> Option<PoseError> {
+    fn pose_error(&self, case: &KeptCase, inspection: &Inspection) -> Option<PoseDelta> {
         let truth = case.meta.about.pose.as_ref()?;
         let found = inspection.pose.as_ref()?.as_ref().ok()?;
         let place = inspection.ranking.entries.first()?.reference;
@@ -166,7 +166,7 @@ pub fn evaluate(
 mod tests {
     use super::*;
     use crate::{
-        cases::{CaseAbout, TruePose},
+        cases::{CaseDescription, TruePose},
         library::shipped_enrolled_at,
         simulate::{CellSetup, PartKind, Side, frame},
         stages::scene::scene_from_frame,
@@ -192,14 +192,14 @@ mod tests {
             ("not_said", None),
             ("of_another", Some("00000000".into())),
         ] {
-            let about = CaseAbout {
+            let about = CaseDescription {
                 origin: name.into(),
                 simulated: true,
                 kept_at: jiff::Timestamp::UNIX_EPOCH,
                 remark: String::new(),
                 difficulty: Some("placed".into()),
                 truth: Truth::Part("fender".into()),
-                found: Found::default(),
+                found: FoundVerdict::default(),
                 pose: Some(TruePose {
                     camera_from_part,
                     cloud_crc32,
@@ -234,14 +234,14 @@ mod tests {
         let cases = CaseFolder::at(folder.path());
         let points = (0..12).map(|i| nalgebra::Point3::new(i as f32 * 0.1, 0.2, 1.0));
         let cloud = crate::geometry::cloud::PointCloud::from_points(points);
-        let about = CaseAbout {
+        let about = CaseDescription {
             origin: "stretched".into(),
             simulated: true,
             kept_at: jiff::Timestamp::UNIX_EPOCH,
             remark: String::new(),
             difficulty: None,
             truth: Truth::Nothing,
-            found: Found::default(),
+            found: FoundVerdict::default(),
             pose: None,
         };
         let scene = crate::stages::scene::scene_from_cloud(cloud);

@@ -4,15 +4,15 @@ use serde::{Deserialize, Serialize};
 
 pub use crate::library::Truth;
 use crate::{
-    geometry::rigid::PoseError,
+    geometry::rigid::PoseDelta,
     library::Library,
-    pipeline::{self, Cancelled, Recipe, Timings, Verdict, Watch},
+    pipeline::{self, Cancelled, ProgressObserver, Recipe, Timings, Verdict},
     stages::scene::SceneCloud,
 };
 
 /// What an inspection found, in short.
 #[derive(Clone, Debug, Default, PartialEq, Serialize, Deserialize)]
-pub struct Found {
+pub struct FoundVerdict {
     /// The best guess; `None` if nothing could be recognised.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub part: Option<String>,
@@ -29,7 +29,7 @@ pub struct Found {
     pub reason: Option<String>,
 }
 
-impl From<&Verdict> for Found {
+impl From<&Verdict> for FoundVerdict {
     fn from(verdict: &Verdict) -> Self {
         match verdict {
             Verdict::Part {
@@ -53,19 +53,19 @@ impl From<&Verdict> for Found {
     }
 }
 
-impl Found {
+impl FoundVerdict {
     /// What it comes to for whoever waits for the answer.
-    pub fn answered(&self) -> Answered {
+    pub fn answered(&self) -> CaseAnswer {
         match &self.part {
-            Some(part) if self.accepted => Answered::Part(part.clone()),
-            _ => Answered::NotAccepted,
+            Some(part) if self.accepted => CaseAnswer::Part(part.clone()),
+            _ => CaseAnswer::NotAccepted,
         }
     }
 }
 
 /// What a verdict comes to: an accepted part, or a refusal.
 #[derive(Clone, Debug, PartialEq, Eq, PartialOrd, Ord)]
-pub enum Answered {
+pub enum CaseAnswer {
     /// Accepted as the part of this name.
     Part(String),
     /// Not accepted, or nothing found: the robot stands still.
@@ -75,7 +75,7 @@ pub enum Answered {
 /// Whether an answer is right; the later, the worse.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Judgement {
+pub enum CaseOutcome {
     /// The part was accepted as what it is, or what is no enrolled part was refused.
     Right,
     /// An enrolled part was refused.
@@ -84,14 +84,14 @@ pub enum Judgement {
     WrongAccepted,
 }
 
-impl Judgement {
+impl CaseOutcome {
     /// Holds an answer against the truth.
-    pub fn of(truth: &Truth, answered: &Answered) -> Self {
+    pub fn of(truth: &Truth, answered: &CaseAnswer) -> Self {
         match (truth, answered) {
-            (Truth::Part(is), Answered::Part(found)) if is == found => Self::Right,
-            (_, Answered::Part(_)) => Self::WrongAccepted,
-            (Truth::Part(_), Answered::NotAccepted) => Self::Refused,
-            (Truth::NotEnrolled | Truth::Nothing, Answered::NotAccepted) => Self::Right,
+            (Truth::Part(is), CaseAnswer::Part(found)) if is == found => Self::Right,
+            (_, CaseAnswer::Part(_)) => Self::WrongAccepted,
+            (Truth::Part(_), CaseAnswer::NotAccepted) => Self::Refused,
+            (Truth::NotEnrolled | Truth::Nothing, CaseAnswer::NotAccepted) => Self::Right,
         }
     }
 
@@ -115,17 +115,17 @@ pub struct CaseResult {
     /// What it truly is.
     pub truth: Truth,
     /// What was found.
-    pub found: Found,
+    pub found: FoundVerdict,
     /// How far the pose is off, the shift taken at the part's middle; only of a right guess whose true pose is known.
-    pub pose_error: Option<PoseError>,
+    pub pose_error: Option<PoseDelta>,
     /// How long the stages took.
     pub timings: Timings,
 }
 
 impl CaseResult {
     /// Whether the answer is right.
-    pub fn judgement(&self) -> Judgement {
-        Judgement::of(&self.truth, &self.found.answered())
+    pub fn judgement(&self) -> CaseOutcome {
+        CaseOutcome::of(&self.truth, &self.found.answered())
     }
 
     /// Whether the best guess, accepted or not, is right; `None` without a guess.
@@ -140,10 +140,10 @@ pub fn found_in(
     scene: &SceneCloud,
     library: &Library,
     recipe: &Recipe,
-    watch: &dyn Watch,
-) -> Result<Found, Cancelled> {
+    watch: &dyn ProgressObserver,
+) -> Result<FoundVerdict, Cancelled> {
     let inspection = pipeline::run(scene, library, recipe, watch)?;
-    Ok(Found::from(&inspection.verdict))
+    Ok(FoundVerdict::from(&inspection.verdict))
 }
 
 #[cfg(test)]
@@ -153,26 +153,26 @@ mod tests {
     #[test]
     fn only_an_accepted_wrong_part_is_wrong_and_accepted() {
         let door = || Truth::Part("door".into());
-        let as_door = Answered::Part("door".into());
-        let refused = Answered::NotAccepted;
+        let as_door = CaseAnswer::Part("door".into());
+        let refused = CaseAnswer::NotAccepted;
         for (truth, answered, expected) in [
-            (door(), &as_door, Judgement::Right),
-            (door(), &refused, Judgement::Refused),
+            (door(), &as_door, CaseOutcome::Right),
+            (door(), &refused, CaseOutcome::Refused),
             (
                 Truth::Part("hood".into()),
                 &as_door,
-                Judgement::WrongAccepted,
+                CaseOutcome::WrongAccepted,
             ),
-            (Truth::NotEnrolled, &as_door, Judgement::WrongAccepted),
-            (Truth::NotEnrolled, &refused, Judgement::Right),
-            (Truth::Nothing, &refused, Judgement::Right),
+            (Truth::NotEnrolled, &as_door, CaseOutcome::WrongAccepted),
+            (Truth::NotEnrolled, &refused, CaseOutcome::Right),
+            (Truth::Nothing, &refused, CaseOutcome::Right),
         ] {
-            assert_eq!(Judgement::of(&truth, answered), expected, "{truth:?}");
+            assert_eq!(CaseOutcome::of(&truth, answered), expected, "{truth:?}");
         }
-        let guess = Found {
+        let guess = FoundVerdict {
             part: Some("door".into()),
-            ..Found::default()
+            ..FoundVerdict::default()
         };
-        assert_eq!(guess.answered(), Answered::NotAccepted);
+        assert_eq!(guess.answered(), CaseAnswer::NotAccepted);
     }
 }

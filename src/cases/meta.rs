@@ -3,7 +3,7 @@
 use jiff::Timestamp;
 use serde::{Deserialize, Serialize};
 
-use super::judge::{Found, Truth};
+use super::judge::{FoundVerdict, Truth};
 use crate::{
     geometry::{depth_frame::Intrinsics, rigid::RigidTransform, sixteen_numbers},
     stages::scene::PictureEdge,
@@ -14,7 +14,7 @@ pub const SCHEMA_VERSION: u32 = 1;
 
 /// What a person and an inspection say of a case that is to be kept.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct CaseAbout {
+pub struct CaseDescription {
     /// Where the scene came from, for people.
     pub origin: String,
     /// True if no camera was read.
@@ -30,7 +30,7 @@ pub struct CaseAbout {
     /// What it truly is.
     pub truth: Truth,
     /// What was found when it was kept.
-    pub found: Found,
+    pub found: FoundVerdict,
     /// Where the part truly is, if it is known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub pose: Option<TruePose>,
@@ -55,7 +55,7 @@ pub struct CaseMeta {
     pub schema_version: u32,
     /// What is said of it.
     #[serde(flatten)]
-    pub about: CaseAbout,
+    pub about: CaseDescription,
     /// What the cloud alone does not tell of the scene.
     pub scene: SceneRecord,
 }

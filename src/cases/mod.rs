@@ -72,13 +72,13 @@ pub use self::{
     confusion::{Cell, Confusion, Tally},
     error::CaseError,
     evaluation::{CaseJudge, Evaluation, evaluate},
-    judge::{Answered, CaseResult, Found, Judgement, Truth, found_in},
-    meta::{CaseAbout, CaseMeta, Edge, SCHEMA_VERSION, SceneRecord, TruePose},
+    judge::{CaseAnswer, CaseOutcome, CaseResult, FoundVerdict, Truth, found_in},
+    meta::{CaseDescription, CaseMeta, Edge, SCHEMA_VERSION, SceneRecord, TruePose},
     past::{PastCases, TruthFrom},
     record::{
         CaseRecord, EarlierRun, EvaluationRecord, PoseErrors, PoseOff, RECORD_SCHEMA, RecipeRecord,
         RecordError,
     },
     store::{CaseFolder, CaseList, KeptCase},
-    trade_off::{AtThreshold, TradeOff},
+    trade_off::{ThresholdCounts, TradeOff},
 };

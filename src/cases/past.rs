@@ -4,11 +4,11 @@ use std::path::Path;
 
 use super::{
     error::CaseError,
-    judge::{Found, Truth},
-    meta::CaseAbout,
+    judge::{FoundVerdict, Truth},
+    meta::CaseDescription,
     store::CaseFolder,
 };
-use crate::history::{HistoryError, PastVerdict, Record, read_frame};
+use crate::history::{HistoryError, Record, StoredVerdict, read_frame};
 
 /// What is taken for the truth of a past inspection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -24,7 +24,7 @@ impl TruthFrom {
         let summary = &record.summary;
         let accepted = summary.part.as_ref();
         let accepted = accepted
-            .filter(|_| self == Self::LabelOrVerdict && summary.verdict == PastVerdict::Accepted);
+            .filter(|_| self == Self::LabelOrVerdict && summary.verdict == StoredVerdict::Accepted);
         summary
             .label
             .clone()
@@ -80,18 +80,18 @@ impl<'a> PastCases<'a> {
             }
         };
         let Record { summary, detail } = record;
-        let about = CaseAbout {
+        let about = CaseDescription {
             origin: format!("inspection {} {}", summary.number, summary.scene),
             simulated: summary.is_simulated,
             kept_at: summary.at,
             remark: summary.remark.clone(),
             difficulty: None,
             truth,
-            found: Found {
+            found: FoundVerdict {
                 part: detail.nearest.clone(),
                 score: summary.score.map(|[score, _]| score),
                 margin: summary.score.map(|[_, margin]| margin),
-                accepted: summary.verdict == PastVerdict::Accepted,
+                accepted: summary.verdict == StoredVerdict::Accepted,
                 reason: detail.complaint.as_ref().map(|[reason, _]| reason.clone()),
             },
             pose: None,

@@ -25,7 +25,7 @@ use super::{
     calibration::Calibration,
     confusion::Tally,
     evaluation::Evaluation,
-    judge::{Answered, CaseResult, Found, Judgement, Truth},
+    judge::{CaseAnswer, CaseOutcome, CaseResult, FoundVerdict, Truth},
     trade_off::TradeOff,
 };
 use crate::{
@@ -141,9 +141,9 @@ pub struct CaseRecord {
     /// What it truly is.
     pub truth: Truth,
     /// What was found.
-    pub found: Found,
+    pub found: FoundVerdict,
     /// Whether that was right.
-    pub judgement: Judgement,
+    pub judgement: CaseOutcome,
     /// How far the pose is turned, degrees.
     #[serde(default)]
     pub rotation_error_deg: Option<f64>,
@@ -201,8 +201,8 @@ impl<'a, T> EvaluationRecord<'a, T> {
         let cells = cells.map(|((truth, answered), places)| CellRecord {
             truth,
             accepted_as: match answered {
-                Answered::Part(part) => Some(part),
-                Answered::NotAccepted => None,
+                CaseAnswer::Part(part) => Some(part),
+                CaseAnswer::NotAccepted => None,
             },
             num: places.len(),
         });

@@ -11,11 +11,12 @@ use std::{
 
 use super::{
     error::CaseError,
-    meta::{CaseAbout, CaseMeta, SCHEMA_VERSION, SceneRecord},
+    meta::{CaseDescription, CaseMeta, SCHEMA_VERSION, SceneRecord},
 };
 use crate::{
     files::{
-        FileError, Opened, crc32, in_counting_order, open_bytes, read_bytes, words_of, write_pcd,
+        FileContent, FileError, crc32, in_counting_order, open_bytes, read_bytes, words_of,
+        write_pcd,
     },
     geometry::cloud::PointCloud,
     stages::{scene::SceneCloud, segment::EmptyCell},
@@ -88,7 +89,7 @@ impl CaseFolder {
     }
 
     /// Keeps a scene, whole or not at all; the name follows from its origin.
-    pub fn keep(&self, scene: &SceneCloud, about: CaseAbout) -> Result<KeptCase, CaseError> {
+    pub fn keep(&self, scene: &SceneCloud, about: CaseDescription) -> Result<KeptCase, CaseError> {
         let kept = || -> io::Result<KeptCase> {
             fs::create_dir_all(&self.path)?;
             self.writing(|| {
@@ -381,7 +382,7 @@ fn cloud_of(folder: &Path, file: &str, checksum: u32) -> Result<PointCloud, Stri
         return Err(format!("{file} does not have its checksum"));
     }
     match open_bytes(&path, &bytes).map_err(of_file)? {
-        Opened::Cloud(cloud) => Ok(cloud),
+        FileContent::Cloud(cloud) => Ok(cloud),
         _ => Err(format!("{file} holds no cloud")),
     }
 }

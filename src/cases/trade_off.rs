@@ -11,7 +11,7 @@ const NUM_STEPS: usize = 50;
 
 /// How the cases would come out at one threshold.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct AtThreshold {
+pub struct ThresholdCounts {
     /// Least score to be accepted.
     pub threshold: f64,
     /// Cases that would be accepted as what they are not.
@@ -28,19 +28,19 @@ pub struct TradeOff {
     /// Cases that show an enrolled part.
     pub num_enrolled: usize,
     /// In the order of thresholds, from 0 to 1.
-    pub steps: Vec<AtThreshold>,
+    pub steps: Vec<ThresholdCounts>,
 }
 
 impl TradeOff {
     /// Of these cases.
     pub fn of<'a>(results: impl IntoIterator<Item = &'a CaseResult>) -> Self {
-        let guesses: Vec<Guess> = results.into_iter().map(Guess::of).collect();
+        let guesses: Vec<BestMatch> = results.into_iter().map(BestMatch::of).collect();
         let step = |place: usize| {
             let threshold = place as f64 / NUM_STEPS as f64;
-            let is_accepted = |guess: &&Guess| guess.score.is_some_and(|s| s >= threshold);
+            let is_accepted = |guess: &&BestMatch| guess.score.is_some_and(|s| s >= threshold);
             let accepted = || guesses.iter().filter(is_accepted);
             let num_right = accepted().filter(|guess| guess.is_right).count();
-            AtThreshold {
+            ThresholdCounts {
                 threshold,
                 num_wrong_accepted: accepted().count() - num_right,
                 num_refused: num_enrolled(&guesses) - num_right,
@@ -54,19 +54,19 @@ impl TradeOff {
     }
 }
 
-fn num_enrolled(guesses: &[Guess]) -> usize {
+fn num_enrolled(guesses: &[BestMatch]) -> usize {
     guesses.iter().filter(|guess| guess.is_enrolled).count()
 }
 
 /// A best guess, accepted or not.
-struct Guess {
+struct BestMatch {
     /// `None` if nothing was taken for a part.
     score: Option<f64>,
     is_right: bool,
     is_enrolled: bool,
 }
 
-impl Guess {
+impl BestMatch {
     fn of(result: &CaseResult) -> Self {
         Self {
             score: result.found.part.as_ref().and(result.found.score),
@@ -79,17 +79,17 @@ impl Guess {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{cases::Found, pipeline::Timings};
+    use crate::{cases::FoundVerdict, pipeline::Timings};
 
     fn result(truth: Truth, part: Option<&str>, score: f64) -> CaseResult {
         CaseResult {
             name: "case".into(),
             difficulty: None,
             truth,
-            found: Found {
+            found: FoundVerdict {
                 part: part.map(Into::into),
                 score: part.map(|_| score),
-                ..Found::default()
+                ..FoundVerdict::default()
             },
             pose_error: None,
             timings: Timings::default(),

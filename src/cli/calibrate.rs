@@ -66,7 +66,7 @@ struct SetArgs {
     #[arg(value_name = "POSE", value_parser = robot_pose, allow_hyphen_values = true)]
     pose: WrittenPose,
     #[command(flatten)]
-    kept: KeptAs,
+    kept: CalibrationOutput,
     /// What the camera is fixed to
     #[arg(long, value_enum)]
     mount: MountChoice,
@@ -90,7 +90,7 @@ struct CapturePoseArgs {
 
 /// Where a new calibration goes, and what it is called.
 #[derive(Debug, Args)]
-struct KeptAs {
+struct CalibrationOutput {
     /// The file to write; without it, your own cell.toml. What was there is kept beside it
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
@@ -102,7 +102,7 @@ struct KeptAs {
     notes: String,
 }
 
-impl KeptAs {
+impl CalibrationOutput {
     fn calibration(&self, camera: CameraPlace, origin: Origin) -> CellCalibration {
         CellCalibration {
             name: self.name.clone(),
@@ -169,7 +169,7 @@ fn capture_pose(args: &CapturePoseArgs, console: &mut Console) -> anyhow::Result
 fn keep(
     camera: CameraPlace,
     origin: Origin,
-    kept: &KeptAs,
+    kept: &CalibrationOutput,
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
     let path = path_of(kept.out.as_deref())?;

@@ -9,7 +9,7 @@ use std::{
 
 use clap::Args;
 
-use self::arm::{Arm, ArmChoice, ForFrame};
+use self::arm::{ArmChoice, ArmPoseSource, FramePoseResult};
 use super::{
     Outcome,
     console::{Advised as _, Console, Table, advised_error},
@@ -43,7 +43,7 @@ pub(super) struct CaptureArgs {
 pub(super) fn run(args: &CaptureArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     match (&args.source, &args.out) {
         (Some(source), Some(out)) => {
-            let arm = Arm::of(&args.arm)?;
+            let arm = ArmPoseSource::of(&args.arm)?;
             record(source, out, (args.frames, arm), console)
         }
         _ => Ok(show_list(console)),
@@ -53,7 +53,7 @@ pub(super) fn run(args: &CaptureArgs, console: &mut Console) -> anyhow::Result<O
 fn record(
     source: &SourceSpec,
     out: &Path,
-    (frames, mut arm): (Option<u64>, Arm),
+    (frames, mut arm): (Option<u64>, ArmPoseSource),
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
     let frames = frames.or(arm.num_left());
@@ -78,10 +78,10 @@ fn record(
         };
         match arm.pose_for(&captured, source.is_live(), console)? {
             // What is replayed may bring its own.
-            ForFrame::Record(None) => {}
-            ForFrame::Record(pose) => captured.robot_from_flange = pose.map(Box::new),
-            ForFrame::TooEarly => return Ok(ControlFlow::Continue(())),
-            ForFrame::End => return Ok(ControlFlow::Break(())),
+            FramePoseResult::Record(None) => {}
+            FramePoseResult::Record(pose) => captured.robot_from_flange = pose.map(Box::new),
+            FramePoseResult::TooEarly => return Ok(ControlFlow::Continue(())),
+            FramePoseResult::End => return Ok(ControlFlow::Break(())),
         }
         for warning in &captured.warnings {
             if told.contains(warning) {

@@ -117,22 +117,22 @@ impl Console {
 
 /// An error that brings its advice along.
 #[derive(Debug)]
-struct WithAdvice {
+struct AdvisedError {
     message: String,
     advice: String,
 }
 
-impl Display for WithAdvice {
+impl Display for AdvisedError {
     fn fmt(&self, f: &mut std::fmt::Formatter<'_>) -> std::fmt::Result {
         f.write_str(&self.message)
     }
 }
 
-impl std::error::Error for WithAdvice {}
+impl std::error::Error for AdvisedError {}
 
 fn advice_of(error: &anyhow::Error) -> Option<&str> {
     error
-        .downcast_ref::<WithAdvice>()
+        .downcast_ref::<AdvisedError>()
         .map(|e| e.advice.as_str())
 }
 
@@ -144,7 +144,7 @@ pub(super) trait Advised<T> {
 impl<T, E: std::error::Error + Advice + Send + Sync + 'static> Advised<T> for Result<T, E> {
     fn advised(self) -> anyhow::Result<T> {
         self.map_err(|error| {
-            anyhow::Error::new(WithAdvice {
+            anyhow::Error::new(AdvisedError {
                 advice: error.advice(),
                 // Our messages hold their causes in words already.
                 message: error.to_string(),
@@ -158,7 +158,7 @@ pub(super) fn advised_error(
     message: impl Into<String>,
     advice: impl Into<String>,
 ) -> anyhow::Error {
-    anyhow::Error::new(WithAdvice {
+    anyhow::Error::new(AdvisedError {
         message: message.into(),
         advice: advice.into(),
     })

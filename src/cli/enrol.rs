@@ -11,11 +11,11 @@ use super::{
 };
 use crate::{
     error::Advice as _,
-    files::{self, Opened},
+    files::{self, FileContent},
     geometry::cloud::Grid,
     library::{
-        About, EnrolError, EnrolParams, Enrolled, LibraryError, LibraryFolder, MAX_TITLE, PartName,
-        enrol_captured, enrol_mesh, enrol_scan, enrol_surface, enrol_whole, most_alike,
+        EnrolError, EnrolParams, Enrolled, LibraryError, LibraryFolder, MAX_TITLE, PartDescription,
+        PartName, enrol_captured, enrol_mesh, enrol_scan, enrol_surface, enrol_whole, most_similar,
         surfaces_to_enrol,
     },
     stages::{
@@ -116,7 +116,7 @@ pub(super) fn run(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Out
         }
     }
     let others = folder.load(&ReferenceParams::default()).advised()?.library;
-    if let Some(likeness) = most_alike(&enrolled.reference, part.meta.coverage, &others) {
+    if let Some(likeness) = most_similar(&enrolled.reference, part.meta.coverage, &others) {
         console.warn(&likeness, &likeness);
     }
     Ok(Outcome::Accepted)
@@ -155,9 +155,9 @@ pub(super) fn parse_title(text: &str) -> Result<String, String> {
 }
 
 /// What is said of a part; `simulated` as its file says.
-fn about(args: &EnrolArgs, from: &Path, simulated: bool) -> anyhow::Result<About> {
+fn about(args: &EnrolArgs, from: &Path, simulated: bool) -> anyhow::Result<PartDescription> {
     let file_name = from.file_name().unwrap_or(from.as_os_str());
-    Ok(About {
+    Ok(PartDescription {
         name: args.name.clone(),
         title: args.title.clone(),
         notes: args.notes.clone(),
@@ -204,21 +204,23 @@ fn enrolled_from(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Enro
         }),
     };
     let enrolled = match opened {
-        Opened::Mesh(_) if args.segment.is_some() => {
+        FileContent::Mesh(_) if args.segment.is_some() => {
             return Err(advised_error(
                 format!("{path}: a mesh has no background to take the part out of"),
                 "Leave --segment out",
             ));
         }
-        Opened::Mesh(mesh) => enrol_mesh(&mesh, &about, &params),
-        Opened::Depth(frame) if args.whole => {
+        FileContent::Mesh(mesh) => enrol_mesh(&mesh, &about, &params),
+        FileContent::Depth(frame) if args.whole => {
             enrol_whole(&scene_from_frame(&frame).cloud, &about, &params)
         }
-        Opened::Depth(frame) => captured(&scene_from_frame(&frame)),
-        Opened::Cloud(cloud) if args.segment.is_some() || (cloud.grid.is_some() && !args.whole) => {
+        FileContent::Depth(frame) => captured(&scene_from_frame(&frame)),
+        FileContent::Cloud(cloud)
+            if args.segment.is_some() || (cloud.grid.is_some() && !args.whole) =>
+        {
             captured(&scene_from_cloud(cloud))
         }
-        Opened::Cloud(cloud) => enrol_whole(&cloud, &about, &params),
+        FileContent::Cloud(cloud) => enrol_whole(&cloud, &about, &params),
     };
     // The error speaks of the cloud, not of the file.
     enrolled.map_err(|error| advised_error(format!("{path}: {error}"), error.advice()))

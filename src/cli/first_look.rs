@@ -3,7 +3,7 @@
 use super::{LibraryChoice, Outcome, console::Console, verdict::show_card};
 use crate::{
     pipeline::{self, Recipe, Unwatched},
-    simulate::{CellSetup, PartKind, PartPose, Placement, Side, frame},
+    simulate::{CellSetup, PartKind, PartPose, PoseRange, Side, frame},
     stages::scene::scene_from_frame,
 };
 
@@ -13,7 +13,7 @@ const SEED: u64 = 1;
 pub(super) fn run(library: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome> {
     let load = library.load_some(console)?;
     let mut setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 0, SEED);
-    setup.pose = PartPose::Drawn(Placement::facing());
+    setup.pose = PartPose::Drawn(PoseRange::facing());
     let scene = scene_from_frame(&frame(&setup).frame);
     let inspection = pipeline::run(&scene, &load.library, &Recipe::default(), &Unwatched)?;
     console.line(&"Simulated: no camera was read. A front door hangs in the simulated cell; this is what was found.");

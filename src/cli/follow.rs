@@ -7,7 +7,7 @@ use super::{
     interrupt::Interrupt,
 };
 use crate::{
-    capture::{Delivery, Feed, FeedItem, FeedState, FeedStatus, Pace, SourceSpec},
+    capture::{BackpressurePolicy, Feed, FeedItem, FeedState, FeedStatus, Pace, SourceSpec},
     error::Advice as _,
 };
 
@@ -29,7 +29,7 @@ pub(super) fn follow(
     mut each: impl FnMut(FeedItem, &FeedStatus, &mut Console) -> anyhow::Result<ControlFlow<()>>,
 ) -> anyhow::Result<FeedStatus> {
     let interrupt = Interrupt::listen()?;
-    let feed = Feed::start(spec.clone(), Delivery::suiting(spec), || ()).advised()?;
+    let feed = Feed::start(spec.clone(), BackpressurePolicy::for_source(spec), || ()).advised()?;
     let mut lost: Option<String> = None;
     while !interrupt.came() {
         // Asked before: what was put there before the end is taken yet.

@@ -20,7 +20,7 @@ use super::{
     record::HistoryChoice,
 };
 use crate::{
-    history::{Filter, History, HistoryError, KeepFrames, PastVerdict, Retention, Summary},
+    history::{Filter, History, HistoryError, KeepFrames, Retention, StoredVerdict, Summary},
     library::Truth,
 };
 
@@ -111,7 +111,7 @@ enum VerdictChoice {
     NoPart,
 }
 
-impl From<VerdictChoice> for PastVerdict {
+impl From<VerdictChoice> for StoredVerdict {
     fn from(choice: VerdictChoice) -> Self {
         match choice {
             VerdictChoice::Accepted => Self::Accepted,
@@ -345,7 +345,7 @@ fn keep(history: &mut History, asked: &KeepArgs, console: &mut Console) -> anyho
         max_days: asked.days.unwrap_or(before.max_days),
         max_gigabytes: asked.gigabytes.unwrap_or(before.max_gigabytes),
     }
-    .sensible();
+    .clamped();
     if rule != before {
         history.set_retention(&rule).advised()?;
         let swept = history.sweep(&rule, Timestamp::now()).advised()?;

@@ -10,7 +10,7 @@ use super::console::{Advised as _, Console};
 use crate::{
     capture::Image,
     error::Advice,
-    files::{self, FileError, FileWarning, Opened},
+    files::{self, FileContent, FileError, FileWarning},
     geometry::cloud::PointCloud,
     stages::{
         scene::{SceneCloud, cloud_of, scene_from_image},
@@ -74,9 +74,9 @@ pub(super) fn open_scene(path: &Path) -> OpenedScene {
     };
     let warnings = opened.warnings();
     let scene = match opened {
-        Opened::Cloud(cloud) => scene_from_image(Image::Cloud(cloud)),
-        Opened::Depth(frame) => scene_from_image(Image::Depth(frame)),
-        Opened::Mesh(_) => {
+        FileContent::Cloud(cloud) => scene_from_image(Image::Cloud(cloud)),
+        FileContent::Depth(frame) => scene_from_image(Image::Depth(frame)),
+        FileContent::Mesh(_) => {
             return Err(InputError::MeshIsNoScene {
                 path: path.display().to_string(),
             });

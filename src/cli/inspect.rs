@@ -18,10 +18,10 @@ use super::{
     console::{Advised as _, Console},
     follow::{follow, parse_source},
     input::{OpenedScene, Scenes, before, open_ahead, open_empty_cell},
+    output::{Columns, OutputFormat},
     recipe::RecipeChoice,
-    record::{HistoryChoice, Recording, Taken},
+    record::{HistoryChoice, HistoryRecorder, SceneOrigin},
     scan::PosesChoice,
-    telling::{Columns, Telling},
     verdict::{outcome_of, show_in_robot},
 };
 use crate::{
@@ -126,10 +126,10 @@ fn inspect(
         .spray
         .start(&args.files, robot.as_ref(), place, &load)?;
     let telling = match (args.json, args.files.as_slice()) {
-        (true, _) => Telling::Json,
-        (false, []) => Telling::Rows(Columns::for_captures(&load.library)),
-        (false, [_]) => Telling::Card,
-        (false, files) => Telling::Rows(Columns::for_files(files, &load.library)),
+        (true, _) => OutputFormat::Json,
+        (false, []) => OutputFormat::Rows(Columns::for_captures(&load.library)),
+        (false, [_]) => OutputFormat::Card,
+        (false, files) => OutputFormat::Rows(Columns::for_files(files, &load.library)),
     };
     let report = args.report.as_deref().map(ReportFolder::make);
     let report = report.transpose().advised()?;
@@ -139,10 +139,10 @@ fn inspect(
         .map(|path| open_empty_cell(path, console));
     let empty_cell = empty_cell.transpose()?;
     let recording = (!args.no_history)
-        .then(|| Recording::start(&args.history, &load, &recipe, console))
+        .then(|| HistoryRecorder::start(&args.history, &load, &recipe, console))
         .flatten();
     telling.head(console);
-    let mut one = Inspector {
+    let mut one = InspectSession {
         library: load.library,
         recipe,
         empty_cell,
@@ -169,7 +169,7 @@ fn inspect(
 fn inspect_files(
     num_files: usize,
     scenes: Scenes<'_>,
-    one: &mut Inspector,
+    one: &mut InspectSession,
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
     console.start_progress(num_files);
@@ -183,19 +183,19 @@ fn inspect_files(
 }
 
 /// What stays the same from file to file.
-struct Inspector {
+struct InspectSession {
     library: Library,
     recipe: Recipe,
     empty_cell: Option<Arc<EmptyCell>>,
     robot: Option<RobotFrame>,
     spray: Option<spray::SprayFile>,
-    telling: Telling,
+    telling: OutputFormat,
     report: Option<ReportFolder>,
-    recording: Option<Recording>,
+    recording: Option<HistoryRecorder>,
     mirrored: MirrorTally,
 }
 
-impl Inspector {
+impl InspectSession {
     fn inspect(
         &mut self,
         path: &Path,
@@ -259,7 +259,7 @@ impl Inspector {
         let inspection = pipeline::run(&scene, library, recipe, &Unwatched)?;
         mirrored.add(&inspection.verdict);
         let file_says_simulated = capture.is_none() && scene.cloud.is_simulated;
-        let taken = Taken {
+        let taken = SceneOrigin {
             scene: &name,
             source: capture.as_ref().map_or("file", CaptureLine::source),
             is_simulated: capture.map_or(file_says_simulated, |c| c.is_simulated()),
@@ -272,16 +272,16 @@ impl Inspector {
         let line = line.in_robot(robot, &inspection).to_json();
         // The table has no room for it; its reports and the history say it of each.
         let shown = match telling {
-            Telling::Card if file_says_simulated => format!("{name}, simulated"),
+            OutputFormat::Card if file_says_simulated => format!("{name}, simulated"),
             _ => name.clone(),
         };
         telling.inspected(&shown, &line, &inspection, library, console);
-        if let (Telling::Card, Some(robot)) = (telling, robot) {
+        if let (OutputFormat::Card, Some(robot)) = (telling, robot) {
             show_in_robot(robot, &inspection, library, console);
         }
         let mut outcome = outcome_of(&inspection);
         if let (Some(spray), Some(robot)) = (spray, robot) {
-            let seen = spray::Seen {
+            let seen = spray::SprayResult {
                 scene: &name,
                 inspection: &inspection,
                 library,
@@ -304,7 +304,7 @@ impl Inspector {
 fn inspect_source(
     source: &SourceSpec,
     frames: Option<u64>,
-    inspector: &mut Inspector,
+    inspector: &mut InspectSession,
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
     let text = source.to_string();

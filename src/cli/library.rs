@@ -9,7 +9,7 @@ use super::{
     console::{Advised as _, Console, Table, advised_error},
 };
 use crate::{
-    library::{EntryError, LibraryError, LibraryFolder, PartName, PartWords, StoredPart},
+    library::{EntryError, LibraryError, LibraryFolder, PartName, PartNaming, StoredPart},
     stages::reference::{Coverage, Reference, ReferenceParams},
     units::Metres,
 };
@@ -292,7 +292,7 @@ fn rename(
     }
     let folder = choice.open_to_change()?;
     let before = folder.words(name).advised()?;
-    let words = PartWords {
+    let words = PartNaming {
         name: to.clone().unwrap_or(before.name),
         title: title.clone().unwrap_or(before.title),
         notes: notes.clone().unwrap_or(before.notes),

@@ -17,12 +17,12 @@ mod input;
 mod inspect;
 mod interrupt;
 mod library;
+mod output;
 mod recipe;
 mod record;
 mod report;
 mod scan;
 mod simulate;
-mod telling;
 mod verdict;
 
 use std::{

@@ -7,7 +7,10 @@ use jiff::Timestamp;
 
 use super::console::Console;
 use crate::{
-    history::{About, HistoryError, HistoryNews, Keeper, NewEntry, Writer, users_folder},
+    history::{
+        HistoryBuffer, HistoryError, HistoryEvent, InspectionContext, NewEntry, Writer,
+        users_folder,
+    },
     library::LibraryLoad,
     pipeline::{Inspection, Recipe, Verdict},
     report::segmentation_picture,
@@ -30,8 +33,8 @@ impl HistoryChoice {
 }
 
 /// Writes inspections into the history, on a thread of its own. Whatever goes wrong is a warning: the verdict counts.
-pub(super) struct Recording {
-    keeper: Arc<Keeper>,
+pub(super) struct HistoryRecorder {
+    keeper: Arc<HistoryBuffer>,
     writer: Writer,
     library: String,
     titles: BTreeMap<String, String>,
@@ -39,7 +42,7 @@ pub(super) struct Recording {
     num: u64,
 }
 
-impl Recording {
+impl HistoryRecorder {
     /// Into this folder; `None`, and a warning, where it cannot even begin.
     pub(super) fn start(
         choice: &HistoryChoice,
@@ -54,7 +57,7 @@ impl Recording {
                 return None;
             }
         };
-        let keeper = Arc::new(Keeper::new(Some(folder)));
+        let keeper = Arc::new(HistoryBuffer::new(Some(folder)));
         let Ok(writer) = Writer::start(Arc::clone(&keeper), || ()) else {
             console
                 .note(&"warning: the history is not written: the system starts no thread for it");
@@ -75,7 +78,7 @@ impl Recording {
     /// Hands an inspection over; `line` is what `--json` shows of it.
     pub(super) fn add(
         &mut self,
-        taken: Taken<'_>,
+        taken: SceneOrigin<'_>,
         scene: &Arc<SceneCloud>,
         inspection: &Inspection,
         line: &str,
@@ -86,7 +89,7 @@ impl Recording {
             Verdict::NoPart(_) => None,
         };
         let picture = segmentation_picture(scene, &inspection.segmentation);
-        let about = About {
+        let about = InspectionContext {
             at: Timestamp::now(),
             scene: taken.scene.to_owned(),
             source: taken.source.to_owned(),
@@ -107,28 +110,28 @@ impl Recording {
     fn tell(&self, console: &Console) {
         for news in self.keeper.take_news() {
             match news {
-                HistoryNews::Failed { what, advice } => {
+                HistoryEvent::Failed { what, advice } => {
                     console.note(&format_args!("warning: {what}"));
                     console.note(&format_args!(
                         "  to do: {advice}; the verdicts are not affected"
                     ));
                 }
-                HistoryNews::SetAside(aside) => {
+                HistoryEvent::SetAside(aside) => {
                     console.note(&format_args!("warning: the history: {}", aside.what));
                     let place = aside.aside.display();
                     console.note(&format_args!("  it was set aside as {place}"));
                 }
-                HistoryNews::Works { numbers, .. } => {
+                HistoryEvent::Works { numbers, .. } => {
                     let num = numbers.len();
                     console.note(&format_args!(
                         "The history is written again, with the {num} inspections that waited"
                     ));
                 }
-                HistoryNews::Added { .. }
-                | HistoryNews::Changed { .. }
-                | HistoryNews::NotChanged { .. }
-                | HistoryNews::RuleChanged
-                | HistoryNews::Swept(_) => {}
+                HistoryEvent::Added { .. }
+                | HistoryEvent::Changed { .. }
+                | HistoryEvent::NotChanged { .. }
+                | HistoryEvent::RuleChanged
+                | HistoryEvent::Swept(_) => {}
             }
         }
     }
@@ -138,7 +141,7 @@ impl Recording {
         self.writer.finish();
         self.tell(console);
         let num_waiting = self.keeper.num_waiting();
-        let [num_bare, num_lost] = self.writer.take_crowded();
+        let [num_bare, num_lost] = self.writer.take_dropped();
         for (num, what) in [
             (num_waiting, "are not in the history"),
             (num_lost, "are not in the history: the disk is too slow"),
@@ -156,7 +159,7 @@ impl Recording {
 
 /// Where a scene came from.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Taken<'a> {
+pub(super) struct SceneOrigin<'a> {
     /// Its name.
     pub(super) scene: &'a str,
     /// A source as it can be opened again, or a file.

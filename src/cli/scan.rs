@@ -1,14 +1,14 @@
 //! `partsight scan`: several frames, each with its camera's pose, become one cloud.
 
+mod output;
 mod shots;
-mod telling;
 
 use std::path::{Path, PathBuf};
 
 use clap::Args;
 
+use self::output::{ScanLine, show};
 pub(super) use self::shots::open_scan;
-use self::telling::{ScanLine, show};
 use super::{
     Outcome,
     console::{Advised as _, Console, advised_error},

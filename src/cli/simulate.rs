@@ -16,8 +16,8 @@ use crate::{
     files::{depth_png::intrinsics_path, save_cloud, write_atomically, write_depth_png},
     geometry::written_pose::{GivenPose, parse_pose},
     simulate::{
-        CellSetup, Clutter, ObjectKind, PartKind, PartPose, Placement, Side, SimulatedFrame, Stand,
-        Subject, frame,
+        CellSetup, Clutter, ObjectKind, PartKind, PartPose, PoseRange, Side, SimulatedFrame,
+        SimulatedObject, Stand, frame,
     },
     stages::scene::scene_from_frame,
 };
@@ -127,8 +127,8 @@ fn parse_noise(text: &str) -> Result<f64, String> {
 
 impl SimulateArgs {
     /// What hangs there.
-    fn subjects(&self) -> anyhow::Result<Vec<Subject>> {
-        let part = |kind| Subject::Part {
+    fn subjects(&self) -> anyhow::Result<Vec<SimulatedObject>> {
+        let part = |kind| SimulatedObject::Part {
             kind,
             side: match self.side {
                 SideChoice::Left => Side::Left,
@@ -146,11 +146,11 @@ impl SimulateArgs {
                 PartKind::from_name(name),
                 ObjectKind::from_name(name),
             ) {
-                (EMPTY, ..) => subjects.push(Subject::Nothing),
+                (EMPTY, ..) => subjects.push(SimulatedObject::Nothing),
                 (ALL, ..) => subjects.extend(PartKind::ALL.map(part)),
-                (OBJECTS, ..) => subjects.extend(ObjectKind::ALL.map(Subject::Object)),
+                (OBJECTS, ..) => subjects.extend(ObjectKind::ALL.map(SimulatedObject::Object)),
                 (_, Some(kind), _) => subjects.push(part(kind)),
-                (_, None, Some(kind)) => subjects.push(Subject::Object(kind)),
+                (_, None, Some(kind)) => subjects.push(SimulatedObject::Object(kind)),
                 (_, None, None) => anyhow::bail!("no part is called {name}"),
             }
         }
@@ -158,7 +158,7 @@ impl SimulateArgs {
     }
 
     /// The cell with this in it; the pose is drawn.
-    fn cell(&self, subject: Subject, seed: u64) -> CellSetup {
+    fn cell(&self, subject: SimulatedObject, seed: u64) -> CellSetup {
         if self.booth {
             let mut setup = CellSetup::booth(subject, seed);
             setup.noise.multiplier = self.noise;
@@ -227,7 +227,7 @@ impl PlacementChoice {
     }
 }
 
-impl From<PlacementChoice> for Placement {
+impl From<PlacementChoice> for PoseRange {
     fn from(choice: PlacementChoice) -> Self {
         match choice {
             PlacementChoice::Facing => Self::facing(),
@@ -271,9 +271,9 @@ pub(super) fn run(args: &SimulateArgs, console: &mut Console) -> anyhow::Result<
         .advised()?;
     }
     let what = match subject {
-        Subject::Part { kind, .. } => kind.title().to_lowercase(),
-        Subject::Object(kind) => kind.name().to_owned(),
-        Subject::Nothing => {
+        SimulatedObject::Part { kind, .. } => kind.title().to_lowercase(),
+        SimulatedObject::Object(kind) => kind.name().to_owned(),
+        SimulatedObject::Nothing => {
             console.line(&format_args!("{}: a simulated empty cell", out.display()));
             return Ok(Outcome::Accepted);
         }

@@ -25,13 +25,13 @@ pub struct DepthCamera {
     pub is_simulated: bool,
     /// How the stored image differs from what the camera saw.
     #[serde(flatten)]
-    pub stored: Stored,
+    pub stored: StoredOrientation,
 }
 
 /// How a stored image differs from what the camera saw. It is put right on loading.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(default)]
-pub struct Stored {
+pub struct StoredOrientation {
     /// True if left and right are exchanged. This is put right first.
     #[serde(rename = "mirrored", skip_serializing_if = "std::ops::Not::not")]
     pub is_mirrored: bool,
@@ -101,7 +101,7 @@ struct Written {
     #[serde(default)]
     simulated: bool,
     #[serde(flatten)]
-    stored: Stored,
+    stored: StoredOrientation,
     distortion: Option<WrittenDistortion>,
 }
 
@@ -165,7 +165,7 @@ impl DepthCamera {
             intrinsics: frame.intrinsics,
             metres_per_unit: frame.metres_per_unit,
             is_simulated: frame.is_simulated,
-            stored: Stored::default(),
+            stored: StoredOrientation::default(),
         }
     }
 
@@ -224,7 +224,7 @@ impl DepthCamera {
     }
 }
 
-impl Stored {
+impl StoredOrientation {
     /// The frame as the camera saw it.
     fn put_right(self, mut frame: DepthFrame) -> DepthFrame {
         if self.is_mirrored {

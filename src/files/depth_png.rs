@@ -10,7 +10,7 @@
 //! The fields are those of [`Intrinsics`] and [`DepthFrame`], and all are about the image as it is stored; of a simulated
 //! camera `"simulated":true` besides. May be added: OpenCV's coefficients of the lens distortion by name (`k1` to `k6`,
 //! `p1`, `p2`), or in its order as `distortion`; how the stored image differs from what the camera saw
-//! ([`Stored`](super::Stored)), which is put right on loading; `depth_scale` instead of `metres_per_unit`. Others are
+//! ([`StoredOrientation`](super::StoredOrientation)), which is put right on loading; `depth_scale` instead of `metres_per_unit`. Others are
 //! read over. Images of one camera may share an `intrinsics.json` in their folder: an image without a JSON of its own
 //! has that camera.
 

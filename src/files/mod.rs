@@ -11,7 +11,7 @@
 //! | 16-bit depth PNG with a JSON of intrinsics beside it | depth frame | see [`depth_png`] |
 //!
 //! Lengths are taken as metres, whatever the file meant: none of the cloud formats says its unit.
-//! [`Opened::warnings`] tells when the numbers look like millimetres.
+//! [`FileContent::warnings`] tells when the numbers look like millimetres.
 //!
 //! Every size that a header claims is held against the bytes really there before memory is taken for it.
 //!
@@ -48,12 +48,12 @@ pub(crate) use self::cause::{advice_on, words_of};
 pub(crate) use self::cells::{cells, content_lines, number_in};
 pub(crate) use self::checksum::crc32;
 pub(crate) use self::counting_order::in_counting_order;
-pub use self::depth_camera::{DepthCamera, Stored, Turn};
+pub use self::depth_camera::{DepthCamera, StoredOrientation, Turn};
 pub use self::depth_png::write_depth_png;
 pub use self::error::{Expected, FileError, NoFile};
 pub(crate) use self::names::nearest_name;
 pub(crate) use self::open::open_bytes;
-pub use self::open::{FileWarning, Opened, open};
+pub use self::open::{FileContent, FileWarning, open};
 pub use self::pcd::write_pcd;
 pub use self::ply::{write_ply, write_ply_with};
 pub(crate) use self::source::read_bytes;

@@ -7,7 +7,7 @@
 use nalgebra::Point3;
 
 use super::error::FileError;
-use super::open::Opened;
+use super::open::FileContent;
 use super::readings::tidy;
 use super::scalar::parse_real;
 use super::source::Source;
@@ -29,7 +29,7 @@ pub(super) fn is_obj(source: Source<'_>) -> bool {
     })
 }
 
-pub(super) fn read(source: Source<'_>) -> Result<Opened, FileError> {
+pub(super) fn read(source: Source<'_>) -> Result<FileContent, FileError> {
     let mut points = Vec::new();
     let mut triangles = Vec::new();
     let mut statement = String::new();
@@ -78,9 +78,9 @@ pub(super) fn read(source: Source<'_>) -> Result<Opened, FileError> {
             },
             source,
         )
-        .map(Opened::Cloud)
+        .map(FileContent::Cloud)
     } else {
-        checked_mesh(source, points, triangles).map(Opened::Mesh)
+        checked_mesh(source, points, triangles).map(FileContent::Mesh)
     }
 }
 
@@ -108,7 +108,7 @@ mod tests {
 
     use super::*;
 
-    fn read_text(text: &str) -> Result<Opened, FileError> {
+    fn read_text(text: &str) -> Result<FileContent, FileError> {
         let source = Source {
             path: Path::new("test.obj"),
             bytes: text.as_bytes(),
@@ -121,7 +121,7 @@ mod tests {
     fn polygons_become_fans_and_indices_count_from_either_end() {
         let text = "# a comment\nmtllib none.mtl\no square\nv 0 0 0\nv 1 0 0 1\nv 1 1 0 0.5 0.5 0.5\nvn 0 0 1\n\
                     v 0 1 0\ns off\nusemtl paint\nf 1//1 2//1 \\\n 3//1 4//1\nf -4 -3 -2\n";
-        let Opened::Mesh(mesh) = read_text(text).unwrap() else {
+        let FileContent::Mesh(mesh) = read_text(text).unwrap() else {
             panic!("expected a mesh");
         };
         assert_eq!(mesh.vertices.len(), 4);
@@ -132,7 +132,7 @@ mod tests {
     fn without_faces_it_is_a_cloud() {
         let opened = read_text("v 0 0 0\nv 1 2 3\nv nan 0 0\n").unwrap();
         let expected = PointCloud::from_points([Point3::origin(), Point3::new(1.0, 2.0, 3.0)]);
-        assert_eq!(opened, Opened::Cloud(expected));
+        assert_eq!(opened, FileContent::Cloud(expected));
     }
 
     #[test]

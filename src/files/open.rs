@@ -15,7 +15,7 @@ use crate::units::Metres;
 
 /// What a file held.
 #[derive(Clone, Debug, PartialEq)]
-pub enum Opened {
+pub enum FileContent {
     /// Points, in the camera's space unless the file's maker meant otherwise. At least one is finite.
     Cloud(PointCloud),
     /// A surface with at least one triangle.
@@ -46,7 +46,7 @@ impl Advice for FileWarning {
 /// Extents from here on, in metres, are warned about: a mirror of 0.1 m reads so in millimetres, and no cell is as wide.
 const SUSPICIOUS_EXTENT: f64 = 100.0;
 
-impl Opened {
+impl FileContent {
     /// True if the file says that no camera read what it holds.
     pub fn is_simulated(&self) -> bool {
         match self {
@@ -77,7 +77,7 @@ impl Opened {
 ///
 /// One mesh of a glTF or GLB file is chosen by `#` and its name after the path: `car.gltf#Door_FL`. A file whose own
 /// name has a `#` in it is found first.
-pub fn open(path: &Path) -> Result<Opened, FileError> {
+pub fn open(path: &Path) -> Result<FileContent, FileError> {
     let (file, mesh_name) = split_mesh_name(path);
     let bytes = read_bytes(&file)?;
     read(&file, &bytes, mesh_name.as_deref())
@@ -85,11 +85,11 @@ pub fn open(path: &Path) -> Result<Opened, FileError> {
 
 /// As [`open`], for bytes that are in memory already; `path` is for the errors about them, and where a depth image's
 /// camera is looked for.
-pub(crate) fn open_bytes(path: &Path, bytes: &[u8]) -> Result<Opened, FileError> {
+pub(crate) fn open_bytes(path: &Path, bytes: &[u8]) -> Result<FileContent, FileError> {
     read(path, bytes, None)
 }
 
-fn read(path: &Path, bytes: &[u8], mesh_name: Option<&str>) -> Result<Opened, FileError> {
+fn read(path: &Path, bytes: &[u8], mesh_name: Option<&str>) -> Result<FileContent, FileError> {
     let source = Source { path, bytes };
     let format = recognise(source)?;
     if let (Some(wanted), false) = (mesh_name, matches!(format, Format::Gltf)) {
@@ -100,13 +100,13 @@ fn read(path: &Path, bytes: &[u8], mesh_name: Option<&str>) -> Result<Opened, Fi
         });
     }
     match format {
-        Format::Pcd => pcd::read(source).map(Opened::Cloud),
+        Format::Pcd => pcd::read(source).map(FileContent::Cloud),
         Format::Ply => ply::read(source),
-        Format::Stl => stl::read(source).map(Opened::Mesh),
+        Format::Stl => stl::read(source).map(FileContent::Mesh),
         Format::Obj => obj::read(source),
-        Format::Gltf => gltf::read(source, mesh_name).map(Opened::Mesh),
-        Format::DepthPng => depth_png::read(source).map(Opened::Depth),
-        Format::Xyz => xyz::read(source).map(Opened::Cloud),
+        Format::Gltf => gltf::read(source, mesh_name).map(FileContent::Mesh),
+        Format::DepthPng => depth_png::read(source).map(FileContent::Depth),
+        Format::Xyz => xyz::read(source).map(FileContent::Cloud),
     }
 }
 

@@ -121,7 +121,7 @@ mod tests {
                 save_cloud(&path, &cloud).unwrap();
                 let opened = crate::files::open(&path).unwrap();
                 assert_eq!(opened.is_simulated(), is_simulated, "{ending}");
-                assert_eq!(opened, crate::files::Opened::Cloud(cloud.clone()));
+                assert_eq!(opened, crate::files::FileContent::Cloud(cloud.clone()));
             }
         }
         let unknown = save_cloud(&folder.path().join("cloud"), &cloud);

@@ -55,7 +55,7 @@ pub fn from_row_major(m: &[f64; 16], tolerance: f64) -> Option<RigidTransform> {
 
 /// How far two poses of the same thing are apart.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct PoseError {
+pub struct PoseDelta {
     /// The angle of the rotation that leads from one to the other, 0..π.
     pub rotation: Radians,
     /// How far the point of interest moves from one to the other.
@@ -66,8 +66,8 @@ pub struct PoseError {
 ///
 /// The shift is taken at a point that matters, such as the part's centroid: at a far origin the same small
 /// rotation would read as a large shift.
-pub fn pose_error(a: &RigidTransform, b: &RigidTransform, at: &Point3<f64>) -> PoseError {
-    PoseError {
+pub fn pose_error(a: &RigidTransform, b: &RigidTransform, at: &Point3<f64>) -> PoseDelta {
+    PoseDelta {
         rotation: Radians(a.rotation.angle_to(&b.rotation)),
         shift: Metres((a * at - b * at).norm()),
     }

@@ -2,18 +2,18 @@
 
 use nalgebra::Point3;
 
-use super::entry::{PastVerdict, Record};
+use super::entry::{Record, StoredVerdict};
 use crate::{
-    geometry::rigid::{PoseError, RigidTransform, pose_error},
+    geometry::rigid::{PoseDelta, RigidTransform, pose_error},
     pipeline::{Inspection, Verdict},
     stages::pose::PoseEstimate,
 };
 
 /// What an inspection found, as far as it is compared.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Finding {
+pub struct InspectionSummary {
     /// How it ended.
-    pub verdict: PastVerdict,
+    pub verdict: StoredVerdict,
     /// The best guess.
     pub nearest: Option<String>,
     /// Its score and its lead.
@@ -28,7 +28,7 @@ pub struct Finding {
     pub program: String,
 }
 
-impl Finding {
+impl InspectionSummary {
     /// Of an inspection of now, with this recipe and library.
     pub fn of(inspection: &Inspection, recipe: &str, library: &str) -> Self {
         let (nearest, score) = match &inspection.verdict {
@@ -42,7 +42,7 @@ impl Finding {
         };
         let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
         Self {
-            verdict: PastVerdict::from(&inspection.verdict),
+            verdict: StoredVerdict::from(&inspection.verdict),
             nearest,
             score,
             camera_from_part: pose.map(PoseEstimate::camera_from_part),
@@ -53,7 +53,7 @@ impl Finding {
     }
 }
 
-impl From<&Record> for Finding {
+impl From<&Record> for InspectionSummary {
     fn from(Record { summary, detail }: &Record) -> Self {
         Self {
             verdict: summary.verdict,
@@ -71,11 +71,11 @@ impl From<&Record> for Finding {
 #[derive(Clone, Debug, PartialEq)]
 pub struct Differences {
     /// What was found then.
-    pub before: Finding,
+    pub before: InspectionSummary,
     /// What is found now.
-    pub now: Finding,
+    pub now: InspectionSummary,
     /// How far the pose is from where it was, if both have one of the same part: at the part's middle.
-    pub pose: Option<PoseError>,
+    pub pose: Option<PoseDelta>,
 }
 
 /// Two scores nearer than this read the same.
@@ -85,7 +85,11 @@ const SAME_POSE: f64 = 1e-6;
 
 impl Differences {
     /// Of what was found then and now; `middle` is the middle of the part's extent, part space, metres.
-    pub fn between(before: Finding, now: Finding, middle: Option<Point3<f64>>) -> Self {
+    pub fn between(
+        before: InspectionSummary,
+        now: InspectionSummary,
+        middle: Option<Point3<f64>>,
+    ) -> Self {
         let both = before.camera_from_part.zip(now.camera_from_part);
         let both = both.filter(|_| before.nearest == now.nearest);
         let middle = middle.unwrap_or_else(Point3::origin);
@@ -96,7 +100,8 @@ impl Differences {
     /// True if nothing reads otherwise: verdict, best guess, score and pose.
     pub fn is_same(&self) -> bool {
         let Self { before, now, pose } = self;
-        let score = |finding: &Finding| finding.score.map_or(f64::NAN, |[score, _]| score);
+        let score =
+            |finding: &InspectionSummary| finding.score.map_or(f64::NAN, |[score, _]| score);
         let has_score = (before.score.is_none() && now.score.is_none())
             || (score(before) - score(now)).abs() < SAME_SCORE;
         let has_pose = match pose {
@@ -107,7 +112,7 @@ impl Differences {
     }
 
     /// What else is not as it was, in words; empty if recipe, library and program are the same.
-    pub fn causes(&self) -> Vec<&'static str> {
+    pub fn changed_inputs(&self) -> Vec<&'static str> {
         let Self { before, now, .. } = self;
         [
             (before.recipe != now.recipe, "recipe"),
@@ -125,9 +130,9 @@ mod tests {
     use super::*;
     use crate::geometry::rigid::from_euler_zyx;
 
-    fn finding(shift: f64) -> Finding {
-        Finding {
-            verdict: PastVerdict::Accepted,
+    fn finding(shift: f64) -> InspectionSummary {
+        InspectionSummary {
+            verdict: StoredVerdict::Accepted,
             nearest: Some("fender".into()),
             score: Some([0.97, 0.4]),
             camera_from_part: Some(from_euler_zyx([0.0, 0.0, 0.0, shift, 0.0, 1.4])),
@@ -140,7 +145,7 @@ mod tests {
     #[test]
     fn a_pose_that_moved_says_by_how_much() {
         let same = Differences::between(finding(0.0), finding(0.0), None);
-        assert!(same.is_same() && same.causes().is_empty());
+        assert!(same.is_same() && same.changed_inputs().is_empty());
         let moved = Differences::between(finding(0.0), finding(0.003), None);
         assert!(!moved.is_same());
         let off = moved.pose.expect("both have one");
@@ -149,13 +154,13 @@ mod tests {
 
     #[test]
     fn poses_of_two_parts_are_not_compared_and_causes_are_named() {
-        let other = Finding {
+        let other = InspectionSummary {
             nearest: Some("grille".into()),
             library: "c".into(),
             ..finding(0.0)
         };
         let found = Differences::between(finding(0.0), other, None);
         assert_eq!((found.pose, found.is_same()), (None, false));
-        assert_eq!(found.causes(), ["library"]);
+        assert_eq!(found.changed_inputs(), ["library"]);
     }
 }

@@ -19,7 +19,7 @@ use crate::{
 
 /// How an inspection ended.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PastVerdict {
+pub enum StoredVerdict {
     /// A part, accepted.
     Accepted,
     /// A part, not accepted.
@@ -30,7 +30,7 @@ pub enum PastVerdict {
     NoPart,
 }
 
-impl PastVerdict {
+impl StoredVerdict {
     /// Every verdict.
     pub const ALL: [Self; 4] = [
         Self::Accepted,
@@ -65,7 +65,7 @@ impl PastVerdict {
     }
 }
 
-impl From<&Verdict> for PastVerdict {
+impl From<&Verdict> for StoredVerdict {
     fn from(verdict: &Verdict) -> Self {
         match verdict {
             verdict if verdict.is_accepted() => Self::Accepted,
@@ -90,7 +90,7 @@ pub struct Summary {
     /// True if no camera was read.
     pub is_simulated: bool,
     /// How it ended.
-    pub verdict: PastVerdict,
+    pub verdict: StoredVerdict,
     /// What it was recognised as, accepted or not; nothing where it is unknown.
     pub part: Option<String>,
     /// The same for people.
@@ -127,7 +127,7 @@ impl Summary {
 
 /// What is known of an inspection beside its row.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Detail {
+pub struct InspectionDetail {
     /// The best guess, named or not.
     pub nearest: Option<String>,
     /// Why it was not accepted and what to do, if it was not.
@@ -158,7 +158,7 @@ pub struct Record {
     /// What lists show.
     pub summary: Summary,
     /// The rest.
-    pub detail: Detail,
+    pub detail: InspectionDetail,
 }
 
 /// Width and height of a thumbnail at most, pixels.
@@ -177,7 +177,7 @@ pub struct NewEntry {
 
 /// What an inspection itself does not know.
 #[derive(Clone, Debug)]
-pub struct About<'a> {
+pub struct InspectionContext<'a> {
     /// When it was inspected.
     pub at: Timestamp,
     /// The scene's name for people.
@@ -201,12 +201,12 @@ pub struct About<'a> {
 impl NewEntry {
     /// Of an inspection.
     pub fn of(
-        about: About<'_>,
+        about: InspectionContext<'_>,
         scene: &Arc<SceneCloud>,
         inspection: &Inspection,
         recipe: &Arc<Recipe>,
     ) -> Self {
-        let verdict = PastVerdict::from(&inspection.verdict);
+        let verdict = StoredVerdict::from(&inspection.verdict);
         let (nearest, score, complaint) = match &inspection.verdict {
             Verdict::Part {
                 part,
@@ -222,13 +222,13 @@ impl NewEntry {
         };
         let name = about.title.or(nearest.as_deref()).unwrap_or_default();
         let title = match verdict {
-            PastVerdict::Accepted => name.to_owned(),
-            PastVerdict::NotAccepted => format!("Not recognised · nearest {name}"),
-            PastVerdict::Unknown => format!("Unknown · nearest {name}"),
-            PastVerdict::NoPart => "No part".to_owned(),
+            StoredVerdict::Accepted => name.to_owned(),
+            StoredVerdict::NotAccepted => format!("Not recognised · nearest {name}"),
+            StoredVerdict::Unknown => format!("Unknown · nearest {name}"),
+            StoredVerdict::NoPart => "No part".to_owned(),
         };
         let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
-        let is_named = !matches!(verdict, PastVerdict::Unknown | PastVerdict::NoPart);
+        let is_named = !matches!(verdict, StoredVerdict::Unknown | StoredVerdict::NoPart);
         let micro = about.at.as_microsecond();
         let summary = Summary {
             number: 0,
@@ -246,7 +246,7 @@ impl NewEntry {
             label: None,
             frame_bytes: None,
         };
-        let detail = Detail {
+        let detail = InspectionDetail {
             nearest,
             complaint,
             camera_from_part: pose.map(PoseEstimate::camera_from_part),

@@ -3,7 +3,7 @@
 use jiff::Timestamp;
 use rusqlite::types::Value;
 
-use super::entry::{PastVerdict, Summary};
+use super::entry::{StoredVerdict, Summary};
 
 /// Which inspections a list shows; the default lets every one through.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -15,7 +15,7 @@ pub struct Filter {
     /// Recognised as this part, accepted or not.
     pub part: Option<String>,
     /// With this verdict.
-    pub verdict: Option<PastVerdict>,
+    pub verdict: Option<StoredVerdict>,
     /// Simulated, or not.
     pub is_simulated: Option<bool>,
     /// Each of these words is in the name of part, scene or source, in the remark or in the true label; case does not

@@ -5,7 +5,7 @@ use std::{path::Path, sync::Arc};
 use image::RgbImage;
 use jiff::{SignedDuration, Timestamp};
 
-use super::{Detail, History, NewEntry, PastVerdict, Record, Summary};
+use super::{History, InspectionDetail, NewEntry, Record, StoredVerdict, Summary};
 use crate::{
     geometry::{
         depth_frame::{DepthFrame, Intrinsics},
@@ -43,8 +43,11 @@ pub(super) fn scene(seed: u16) -> Arc<SceneCloud> {
 }
 
 /// An inspection of that moment.
-pub(super) fn entry(seconds: i64, verdict: PastVerdict, part: &str) -> NewEntry {
-    let is_named = matches!(verdict, PastVerdict::Accepted | PastVerdict::NotAccepted);
+pub(super) fn entry(seconds: i64, verdict: StoredVerdict, part: &str) -> NewEntry {
+    let is_named = matches!(
+        verdict,
+        StoredVerdict::Accepted | StoredVerdict::NotAccepted
+    );
     let recipe = Recipe::default();
     NewEntry {
         record: Record {
@@ -57,16 +60,16 @@ pub(super) fn entry(seconds: i64, verdict: PastVerdict, part: &str) -> NewEntry 
                 verdict,
                 part: is_named.then(|| part.to_owned()),
                 title: part.replace('_', " "),
-                score: (verdict != PastVerdict::NoPart).then_some([0.97, 0.25]),
+                score: (verdict != StoredVerdict::NoPart).then_some([0.97, 0.25]),
                 total_ms: 31.5,
                 remark: String::new(),
                 label: None,
                 frame_bytes: None,
             },
-            detail: Detail {
+            detail: InspectionDetail {
                 nearest: Some(part.to_owned()),
                 complaint: Some(["too low".into(), "look again".into()])
-                    .filter(|_| verdict != PastVerdict::Accepted),
+                    .filter(|_| verdict != StoredVerdict::Accepted),
                 camera_from_part: Some(from_euler_zyx([0.1, 0.2, 0.3, 0.01, 0.02, 1.4])),
                 recipe_identity: recipe.identity(),
                 recipe: Some(Arc::new(recipe)),

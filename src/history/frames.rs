@@ -22,7 +22,7 @@ use super::error::HistoryError;
 use crate::{
     capture::Image,
     files::{
-        DepthCamera, Opened, Stored, crc32,
+        DepthCamera, FileContent, StoredOrientation, crc32,
         depth_png::{FOLDER_CAMERA, read_depths, write_camera, write_depths},
         open_bytes, read_bytes, write_atomically, write_pcd,
     },
@@ -215,7 +215,7 @@ pub fn read(folder: &Path, frame: &FrameRecord) -> Result<SceneCloud, HistoryErr
                 intrinsics,
                 metres_per_unit,
                 is_simulated: frame.is_simulated,
-                stored: Stored::default(),
+                stored: StoredOrientation::default(),
             };
             let camera = camera.checked().map_err(|what| damaged(&what))?;
             Image::Depth(camera.frame(size, depth).map_err(|what| damaged(&what))?)
@@ -237,7 +237,7 @@ pub fn read(folder: &Path, frame: &FrameRecord) -> Result<SceneCloud, HistoryErr
 
 fn cloud_of(path: &Path, bytes: &[u8]) -> Result<PointCloud, HistoryError> {
     match open_bytes(path, bytes)? {
-        Opened::Cloud(cloud) => Ok(cloud),
+        FileContent::Cloud(cloud) => Ok(cloud),
         _ => Err(HistoryError::FrameDamaged {
             path: path.to_owned(),
             what: "it holds no cloud".into(),
@@ -338,7 +338,7 @@ mod tests {
         assert_eq!(ending(&record), Some("png"));
         assert_same(&scene, &read(folder.path(), &record).expect("read"));
         let opened = crate::files::open(&folder.path().join(&record.file)).expect("opened");
-        assert!(matches!(opened, Opened::Depth(_)));
+        assert!(matches!(opened, FileContent::Depth(_)));
     }
 
     #[test]
@@ -390,7 +390,7 @@ mod tests {
         let record = record.expect("kept");
         assert_same(&scene, &read(folder.path(), &record).expect("read"));
         let opened = crate::files::open(&folder.path().join(&record.file)).expect("opened");
-        assert_eq!(opened, Opened::Depth(frame.clone()));
+        assert_eq!(opened, FileContent::Depth(frame.clone()));
         // As a cloud with rows and columns.
         let scene = scene_from_cloud(full_scene(&frame).cloud);
         assert_eq!(scene.cloud.points.len(), 640 * 480);
@@ -399,7 +399,7 @@ mod tests {
         assert_eq!(ending(&record), Some("pcd"));
         assert_same(&scene, &read(folder.path(), &record).expect("read"));
         let opened = crate::files::open(&folder.path().join(&record.file)).expect("opened");
-        assert!(matches!(opened, Opened::Cloud(cloud) if cloud.points.len() == width * 960));
+        assert!(matches!(opened, FileContent::Cloud(cloud) if cloud.points.len() == width * 960));
     }
 
     #[test]

@@ -14,6 +14,7 @@
 //! A kill at any moment loses at most the inspection that was being written. What cannot be opened is never deleted: a
 //! damaged file is set aside under another name, a newer one is refused and left as it is.
 
+mod buffer;
 mod differences;
 mod entry;
 mod error;
@@ -21,7 +22,6 @@ mod filter;
 #[cfg(test)]
 mod fixtures;
 mod frames;
-mod keeper;
 mod news;
 mod open;
 mod retention;
@@ -34,15 +34,15 @@ mod tests;
 mod writer;
 
 pub use self::{
-    differences::{Differences, Finding},
-    entry::{About, Detail, NewEntry, PastVerdict, Record, Summary},
+    buffer::HistoryBuffer,
+    differences::{Differences, InspectionSummary},
+    entry::{InspectionContext, InspectionDetail, NewEntry, Record, StoredVerdict, Summary},
     error::HistoryError,
     filter::Filter,
     frames::{FrameRecord, read as read_frame},
-    keeper::Keeper,
-    news::HistoryNews,
+    news::HistoryEvent,
     open::{FILE, OpenedHistory, SetAside, users_folder},
-    retention::{KeepFrames, Retention, Swept, Usage},
+    retention::{KeepFrames, PruneResult, Retention, Usage},
     store::{History, Page},
     table::{write_head, write_row},
     writer::Writer,

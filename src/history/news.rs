@@ -1,10 +1,10 @@
 //! What happened to the history, for whoever watches it.
 
-use super::{open::SetAside, retention::Swept};
+use super::{open::SetAside, retention::PruneResult};
 
 /// What happened to the history.
 #[derive(Clone, Debug, PartialEq)]
-pub enum HistoryNews {
+pub enum HistoryEvent {
     /// An inspection is in the list: the number that it was handed over with, and the one that it has now.
     Added {
         /// As it was handed over.
@@ -43,5 +43,5 @@ pub enum HistoryNews {
     /// Frames are kept by another rule.
     RuleChanged,
     /// Frames were taken away.
-    Swept(Swept),
+    Swept(PruneResult),
 }

@@ -63,7 +63,7 @@ impl History {
         let path = folder.join(FILE);
         let mut set_aside = None;
         if let Some(_alone) = Lock::alone(folder)? {
-            set_aside = make_sound(&path)?;
+            set_aside = set_aside_damaged(&path)?;
             let history = Self::new(connect(&path)?, folder);
             history.tidy()?;
         }
@@ -255,7 +255,7 @@ fn first_bytes(path: &Path, most: u64) -> Result<Option<Vec<u8>>, HistoryError> 
 }
 
 /// Sets aside what cannot be used; afterwards there is a sound file or none. Only while nobody else has it open.
-fn make_sound(path: &Path) -> Result<Option<SetAside>, HistoryError> {
+fn set_aside_damaged(path: &Path) -> Result<Option<SetAside>, HistoryError> {
     let log = with_ending(path, "-wal");
     if let Some(bytes) = first_bytes(&log, 4)? {
         let magic = bytes.first_chunk().map_or(0, |b| u32::from_be_bytes(*b));

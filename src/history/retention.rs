@@ -10,7 +10,7 @@ use jiff::{SignedDuration, Timestamp};
 use rusqlite::{OptionalExtension as _, TransactionBehavior};
 
 use super::{
-    entry::PastVerdict,
+    entry::StoredVerdict,
     error::HistoryError,
     frames::{self, FrameRecord},
     store::History,
@@ -41,7 +41,7 @@ impl Default for Retention {
 impl Retention {
     /// The same within what makes sense.
     #[must_use]
-    pub fn sensible(self) -> Self {
+    pub fn clamped(self) -> Self {
         let gigabytes = if self.max_gigabytes.is_finite() {
             self.max_gigabytes
         } else {
@@ -81,10 +81,10 @@ impl KeepFrames {
         }
     }
 
-    pub(super) fn keeps(self, verdict: PastVerdict) -> bool {
+    pub(super) fn keeps(self, verdict: StoredVerdict) -> bool {
         match self {
             Self::All => true,
-            Self::NotAccepted => verdict != PastVerdict::Accepted,
+            Self::NotAccepted => verdict != StoredVerdict::Accepted,
             Self::None => false,
         }
     }
@@ -103,14 +103,14 @@ pub struct Usage {
 
 /// What a sweep took away.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct Swept {
+pub struct PruneResult {
     /// Frames.
     pub num_frames: usize,
     /// Their bytes.
     pub num_bytes: u64,
 }
 
-struct Candidate {
+struct PrunableFrame {
     number: i64,
     at: i64,
     bytes: u64,
@@ -128,12 +128,12 @@ impl History {
             .query_row(asked, [SETTING], |row| row.get::<_, String>(0));
         let found = found.optional().map_err(|error| self.error(error))?;
         let rule = found.and_then(|json| serde_json::from_str::<Retention>(&json).ok());
-        Ok(rule.unwrap_or_default().sensible())
+        Ok(rule.unwrap_or_default().clamped())
     }
 
     /// Keeps frames by this rule from now on; what it does not keep goes with the next sweep.
     pub fn set_retention(&mut self, retention: &Retention) -> Result<(), HistoryError> {
-        let json = serde_json::to_string(&retention.sensible()).unwrap_or_default();
+        let json = serde_json::to_string(&retention.clamped()).unwrap_or_default();
         let written = self.file.execute(
             "INSERT INTO setting (name, json) VALUES (?, ?)
             ON CONFLICT (name) DO UPDATE SET json = excluded.json",
@@ -160,12 +160,16 @@ impl History {
     /// Takes away the frames that the rule does not keep any longer. The rows stay.
     ///
     /// First no row speaks of a frame any more, then its file goes: what is killed between the two leaves strays.
-    pub fn sweep(&mut self, retention: &Retention, now: Timestamp) -> Result<Swept, HistoryError> {
+    pub fn sweep(
+        &mut self,
+        retention: &Retention,
+        now: Timestamp,
+    ) -> Result<PruneResult, HistoryError> {
         let Retention {
             max_days,
             max_gigabytes,
             ..
-        } = retention.sensible();
+        } = retention.clamped();
         let days = SignedDuration::from_hours(24 * i64::from(max_days));
         let oldest = now
             .checked_sub(days)
@@ -173,7 +177,7 @@ impl History {
         let mut left = self.usage()?.num_bytes;
         let most = (max_gigabytes * 1e9) as u64;
         let candidates = self.candidates().map_err(|error| self.error(error))?;
-        let goes = |candidate: &Candidate| {
+        let goes = |candidate: &PrunableFrame| {
             let goes = candidate.at < oldest || left > most;
             if goes {
                 left = left.saturating_sub(candidate.bytes);
@@ -182,28 +186,28 @@ impl History {
         };
         // The oldest come first: behind the first that stays all stay.
         let mut goes = goes;
-        let leaving: Vec<Candidate> = candidates.into_iter().take_while(|c| goes(c)).collect();
+        let leaving: Vec<PrunableFrame> = candidates.into_iter().take_while(|c| goes(c)).collect();
         if leaving.is_empty() {
-            return Ok(Swept::default());
+            return Ok(PruneResult::default());
         }
         let numbers: Vec<i64> = leaving.iter().map(|candidate| candidate.number).collect();
         let files = self.forget(&numbers).map_err(|error| self.error(error))?;
         self.remove_files(&files)?;
-        Ok(Swept {
+        Ok(PruneResult {
             num_frames: leaving.len(),
             num_bytes: leaving.iter().map(|candidate| candidate.bytes).sum(),
         })
     }
 
     /// Frames that a rule may take away, the oldest first.
-    fn candidates(&self) -> rusqlite::Result<Vec<Candidate>> {
+    fn candidates(&self) -> rusqlite::Result<Vec<PrunableFrame>> {
         let mut asked = self.file.prepare(
             "SELECT number, at, frame_bytes FROM inspection
             WHERE frame_bytes IS NOT NULL AND remark = '' AND label IS NULL ORDER BY at",
         )?;
         let rows = asked.query_map([], |row| {
             let bytes: i64 = row.get(2)?;
-            Ok(Candidate {
+            Ok(PrunableFrame {
                 number: row.get(0)?,
                 at: row.get(1)?,
                 bytes: bytes as u64,

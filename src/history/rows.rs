@@ -6,7 +6,7 @@ use jiff::Timestamp;
 use rusqlite::{Connection, Row, params};
 
 use super::{
-    entry::{Detail, NewEntry, PastVerdict, Record, Summary, png_of},
+    entry::{InspectionDetail, NewEntry, Record, StoredVerdict, Summary, png_of},
     frames::FrameRecord,
 };
 use crate::{geometry::sixteen_numbers, pipeline::Recipe};
@@ -111,7 +111,7 @@ pub(super) fn summary_of(row: &Row<'_>) -> rusqlite::Result<Summary> {
         source: row.get("source")?,
         is_simulated: row.get("simulated")?,
         // What nobody knows was certainly not accepted.
-        verdict: PastVerdict::named(&verdict).unwrap_or(PastVerdict::NotAccepted),
+        verdict: StoredVerdict::named(&verdict).unwrap_or(StoredVerdict::NotAccepted),
         part: row.get("part")?,
         title: row.get("title")?,
         score: score.zip(margin).map(|(score, margin)| [score, margin]),
@@ -134,7 +134,7 @@ pub(super) fn record_of(row: &Row<'_>) -> rusqlite::Result<Record> {
     let thumbnail: Option<Vec<u8>> = row.get("thumbnail")?;
     Ok(Record {
         summary: summary_of(row)?,
-        detail: Detail {
+        detail: InspectionDetail {
             nearest: row.get("nearest")?,
             complaint: reason.map(|reason| [reason, advice.unwrap_or_default()]),
             camera_from_part: pose,

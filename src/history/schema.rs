@@ -3,10 +3,10 @@
 use rusqlite::{Connection, Transaction, TransactionBehavior};
 
 /// One step from a version to the next.
-type Step = fn(&Transaction<'_>) -> rusqlite::Result<()>;
+type Migration = fn(&Transaction<'_>) -> rusqlite::Result<()>;
 
 /// Every step, in order; the version of a file counts those that it has seen.
-const STEPS: [Step; 1] = [first];
+const STEPS: [Migration; 1] = [first];
 
 /// The version that is written.
 pub(super) const VERSION: u32 = STEPS.len() as u32;
@@ -75,7 +75,7 @@ pub(super) fn migrate(file: &mut Connection) -> rusqlite::Result<()> {
     migrate_by(file, &STEPS)
 }
 
-fn migrate_by(file: &mut Connection, steps: &[Step]) -> rusqlite::Result<()> {
+fn migrate_by(file: &mut Connection, steps: &[Migration]) -> rusqlite::Result<()> {
     if version(file)? as usize >= steps.len() {
         return Ok(());
     }

@@ -27,7 +27,7 @@ fn numbers(history: &History, filter: &Filter) -> Vec<i64> {
 #[test]
 fn what_is_written_comes_back_whole_also_after_closing() {
     let (folder, mut history) = opened();
-    let written = entry(1, PastVerdict::NotAccepted, "front_door");
+    let written = entry(1, StoredVerdict::NotAccepted, "front_door");
     assert_eq!(history.add(&written, &ALL).expect("written"), 1);
     history.set_remark(1, " a dent, below ").expect("written");
     let label = Truth::Part("back_door".into());
@@ -82,7 +82,7 @@ fn what_is_written_comes_back_whole_also_after_closing() {
 fn the_newest_come_first_page_by_page() {
     let (_folder, mut history) = opened();
     for seconds in [5, 3, 9, 1, 7] {
-        let entry = entry(seconds, PastVerdict::Accepted, "fender");
+        let entry = entry(seconds, StoredVerdict::Accepted, "fender");
         history.add(&entry, &Retention::default()).expect("written");
     }
     let page = |offset| {
@@ -106,7 +106,7 @@ fn every_filter_lets_through_what_a_plain_look_at_the_rows_does() {
     let parts = ["front_door", "Fender", "back_door"];
     let mut rows = Vec::new();
     for _ in 0..200 {
-        let verdict = PastVerdict::ALL[random.random_range(0..4)];
+        let verdict = StoredVerdict::ALL[random.random_range(0..4)];
         let part = parts[random.random_range(0..3)];
         let mut entry = entry(random.random_range(0..500), verdict, part);
         entry.record.summary.is_simulated = random.random();
@@ -128,7 +128,7 @@ fn every_filter_lets_through_what_a_plain_look_at_the_rows_does() {
                 .then(|| parts[random.random_range(0..3)].to_owned()),
             verdict: random
                 .random_bool(0.3)
-                .then(|| PastVerdict::ALL[random.random_range(0..4)]),
+                .then(|| StoredVerdict::ALL[random.random_range(0..4)]),
             is_simulated: random.random_bool(0.3).then(|| random.random()),
             text: [
                 "",
@@ -159,9 +159,9 @@ fn a_hundred_thousand_rows_are_asked_right_and_from_the_index_alone() {
     let (_folder, mut history) = opened();
     let entries = (0..NUM).map(|i| {
         let verdict = if i % 10 == 0 {
-            PastVerdict::NotAccepted
+            StoredVerdict::NotAccepted
         } else {
-            PastVerdict::Accepted
+            StoredVerdict::Accepted
         };
         let mut entry = entry(i, verdict, if i % 8 == 0 { "grille" } else { "front_door" });
         (entry.picture, entry.scene) = (None, None);
@@ -172,7 +172,7 @@ fn a_hundred_thousand_rows_are_asked_right_and_from_the_index_alone() {
         (Filter::default(), NUM),
         (
             Filter {
-                verdict: Some(PastVerdict::NotAccepted),
+                verdict: Some(StoredVerdict::NotAccepted),
                 ..Filter::default()
             },
             NUM / 10,
@@ -202,7 +202,7 @@ fn a_hundred_thousand_rows_are_asked_right_and_from_the_index_alone() {
         (
             Filter {
                 text: "grille".into(),
-                verdict: Some(PastVerdict::NotAccepted),
+                verdict: Some(StoredVerdict::NotAccepted),
                 until: Some(moment(NUM / 2)),
                 ..Filter::default()
             },
@@ -260,19 +260,19 @@ fn frames_go_by_rule_age_and_size_and_marked_ones_stay() {
         (number, frame)
     };
     assert!(
-        add(0, PastVerdict::Accepted, keep(KeepFrames::NotAccepted))
+        add(0, StoredVerdict::Accepted, keep(KeepFrames::NotAccepted))
             .1
             .is_none()
     );
     assert!(
-        add(0, PastVerdict::NoPart, keep(KeepFrames::None))
+        add(0, StoredVerdict::NoPart, keep(KeepFrames::None))
             .1
             .is_none()
     );
-    let (old, _) = add(1, PastVerdict::Unknown, keep(KeepFrames::NotAccepted));
-    let (marked, _) = add(2, PastVerdict::NotAccepted, ALL);
-    let (next, bytes) = add(40, PastVerdict::Accepted, ALL);
-    let (newest, _) = add(41, PastVerdict::Accepted, ALL);
+    let (old, _) = add(1, StoredVerdict::Unknown, keep(KeepFrames::NotAccepted));
+    let (marked, _) = add(2, StoredVerdict::NotAccepted, ALL);
+    let (next, bytes) = add(40, StoredVerdict::Accepted, ALL);
+    let (newest, _) = add(41, StoredVerdict::Accepted, ALL);
     history.set_remark(marked, "asked about").expect("written");
     let is_kept = |history: &History, number| {
         history
@@ -314,10 +314,10 @@ fn frames_go_by_rule_age_and_size_and_marked_ones_stay() {
 fn frames_without_a_row_go_and_rows_without_a_frame_say_so() {
     let (folder, mut history) = opened();
     let number = history
-        .add(&entry(1, PastVerdict::NoPart, "grille"), &ALL)
+        .add(&entry(1, StoredVerdict::NoPart, "grille"), &ALL)
         .expect("written");
     let other = history
-        .add(&entry(2, PastVerdict::NoPart, "grille"), &ALL)
+        .add(&entry(2, StoredVerdict::NoPart, "grille"), &ALL)
         .expect("written");
     let frame = history
         .known(number)
@@ -345,11 +345,11 @@ fn frames_without_a_row_go_and_rows_without_a_frame_say_so() {
 #[test]
 fn two_recipes_with_one_identity_are_both_kept() {
     let (_folder, mut history) = opened();
-    let mut second = entry(2, PastVerdict::NoPart, "grille");
+    let mut second = entry(2, StoredVerdict::NoPart, "grille");
     let mut recipe = Recipe::default();
     recipe.accept.min_score = 0.5;
     second.record.detail.recipe = Some(Arc::new(recipe.clone()));
-    for entry in [entry(1, PastVerdict::NoPart, "grille"), second] {
+    for entry in [entry(1, StoredVerdict::NoPart, "grille"), second] {
         history.add(&entry, &Retention::default()).expect("written");
     }
     let recipe_of = |number| history.known(number).expect("there").detail.recipe;
@@ -363,7 +363,7 @@ fn the_table_has_a_line_for_each_row_and_as_many_fields_as_its_head() {
     for seconds in 1..=3 {
         history
             .add(
-                &entry(seconds, PastVerdict::NotAccepted, "grille"),
+                &entry(seconds, StoredVerdict::NotAccepted, "grille"),
                 &Retention::default(),
             )
             .expect("written");

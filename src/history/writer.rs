@@ -8,7 +8,7 @@ use std::{
     time::Instant,
 };
 
-use super::{entry::NewEntry, keeper::Keeper, retention::Retention};
+use super::{buffer::HistoryBuffer, entry::NewEntry, retention::Retention};
 use crate::library::Truth;
 
 /// Inspections whose scenes wait for the thread at most, 4 MB each; beyond that their frames are not kept.
@@ -50,7 +50,10 @@ struct Jobs {
 
 impl Writer {
     /// Starts the thread, which opens the history; `on_news` is called from it whenever the keeper may have news.
-    pub fn start(keeper: Arc<Keeper>, on_news: impl Fn() + Send + 'static) -> io::Result<Self> {
+    pub fn start(
+        keeper: Arc<HistoryBuffer>,
+        on_news: impl Fn() + Send + 'static,
+    ) -> io::Result<Self> {
         let queue = Arc::<Queue>::default();
         // Busy from the beginning: whoever waits for it waits until it is open.
         queue.lock().is_busy = true;
@@ -121,7 +124,7 @@ impl Writer {
 
     /// How many inspections' frames were not kept, and how many inspections were lost, because the disk was too slow;
     /// counted since this was asked last.
-    pub fn take_crowded(&self) -> [usize; 2] {
+    pub fn take_dropped(&self) -> [usize; 2] {
         std::mem::take(&mut self.queue.lock().num_crowded)
     }
 }
@@ -143,7 +146,7 @@ impl Queue {
     }
 
     /// Waits for a job, and meanwhile tries again what failed; `None` once it is closed and all is done.
-    fn next(&self, keeper: &Keeper, on_news: &dyn Fn()) -> Option<Job> {
+    fn next(&self, keeper: &HistoryBuffer, on_news: &dyn Fn()) -> Option<Job> {
         let mut jobs = self.lock();
         jobs.is_busy = false;
         loop {
@@ -184,7 +187,7 @@ impl Queue {
     }
 }
 
-fn work(keeper: &Keeper, job: Job) {
+fn work(keeper: &HistoryBuffer, job: Job) {
     match job {
         Job::Add(ticket, entry) => keeper.add(ticket, *entry, Instant::now()),
         Job::Remark(number, remark) => keeper.set_remark(number, &remark),

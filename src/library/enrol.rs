@@ -16,7 +16,8 @@ pub use self::{
 use super::{
     name::PartName,
     part::{
-        CloudCheck, Enrolment, How, PLAIN_VERSION, Part, PartMeta, SCANNED_VERSION, StoredSignature,
+        CloudCheck, EnrolMethod, Enrolment, PLAIN_VERSION, Part, PartMeta, SCANNED_VERSION,
+        StoredSignature,
     },
     thumbnail,
 };
@@ -28,7 +29,7 @@ use crate::{
     stages::{
         reference::{Coverage, Reference, ReferenceError, ReferenceParams, ViewCut},
         scene::SceneCloud,
-        segment::{NoPart, SegmentParams, SegmentedPart, other_parts, segment},
+        segment::{NoPart, SegmentParams, SegmentedPart, other_segments, segment},
     },
     units::Metres,
 };
@@ -60,7 +61,7 @@ impl Default for EnrolParams {
 
 /// What a person says of a part.
 #[derive(Clone, Debug, PartialEq)]
-pub struct About {
+pub struct PartDescription {
     /// Its name.
     pub name: PartName,
     /// Its name for people; may be empty.
@@ -93,7 +94,7 @@ const MIN_POINTS: usize = 100;
 /// background is refused.
 pub fn enrol_captured(
     scene: &SceneCloud,
-    about: &About,
+    about: &PartDescription,
     params: &EnrolParams,
 ) -> Result<Enrolled, EnrolError> {
     let found = segment(scene, &params.segment).part?;
@@ -112,7 +113,7 @@ pub fn surfaces_to_enrol(
     params: &EnrolParams,
 ) -> Result<Vec<SegmentedPart>, NoPart> {
     let found = segment(scene, &params.segment);
-    let others = other_parts(scene, &found, &params.segment, MAX_SURFACES - 1);
+    let others = other_segments(scene, &found, &params.segment, MAX_SURFACES - 1);
     Ok(std::iter::once(found.part?).chain(others).collect())
 }
 
@@ -120,7 +121,7 @@ pub fn surfaces_to_enrol(
 pub fn enrol_surface(
     scene: &SceneCloud,
     number: usize,
-    about: &About,
+    about: &PartDescription,
     params: &EnrolParams,
 ) -> Result<Enrolled, EnrolError> {
     let all = surfaces_to_enrol(scene, params)?;
@@ -136,7 +137,7 @@ pub fn enrol_surface(
 fn enrol_chosen(
     found: &SegmentedPart,
     scene: &SceneCloud,
-    about: &About,
+    about: &PartDescription,
     params: &EnrolParams,
 ) -> Result<Enrolled, EnrolError> {
     let mut enrolled = enrol_one_side(found, scene, about, params)?;
@@ -149,7 +150,7 @@ fn enrol_chosen(
 pub fn enrol_selected(
     scene: &SceneCloud,
     indices: &[u32],
-    about: &About,
+    about: &PartDescription,
     params: &EnrolParams,
 ) -> Result<Enrolled, EnrolError> {
     let found = SegmentedPart::selected(scene, indices, &params.segment);
@@ -167,14 +168,14 @@ pub fn enrol_selected(
 fn enrol_one_side(
     found: &SegmentedPart,
     scene: &SceneCloud,
-    about: &About,
+    about: &PartDescription,
     params: &EnrolParams,
 ) -> Result<Enrolled, EnrolError> {
     let (mut cloud, voxel) = thinned(&found.cloud, params);
     cloud.normals = Some(normals_towards(&cloud, voxel, &Point3::origin()));
-    let source = Source {
+    let source = ReferenceOrigin {
         coverage: Coverage::OneSide,
-        how: How::Segmented,
+        how: EnrolMethod::Segmented,
         num_points: found.cloud.points.len(),
         num_shots: None,
         voxel: Some(voxel),
@@ -194,7 +195,7 @@ fn enrol_one_side(
 /// which is right for a part that bulges and a guess for one that does not.
 pub fn enrol_whole(
     cloud: &PointCloud,
-    about: &About,
+    about: &PartDescription,
     params: &EnrolParams,
 ) -> Result<Enrolled, EnrolError> {
     let finite = finite_only(cloud);
@@ -218,9 +219,9 @@ pub fn enrol_whole(
             }
         });
     }
-    let source = Source {
+    let source = ReferenceOrigin {
         coverage,
-        how: How::WholeCloud,
+        how: EnrolMethod::WholeCloud,
         num_points,
         num_shots: None,
         voxel: Some(voxel),
@@ -232,7 +233,7 @@ pub fn enrol_whole(
 /// Enrols a mesh, sampled evenly.
 pub fn enrol_mesh(
     mesh: &TriangleMesh,
-    about: &About,
+    about: &PartDescription,
     params: &EnrolParams,
 ) -> Result<Enrolled, EnrolError> {
     let cloud = mesh
@@ -240,9 +241,9 @@ pub fn enrol_mesh(
         .ok_or(EnrolError::NoArea {
             num_triangles: mesh.triangles.len(),
         })?;
-    let source = Source {
+    let source = ReferenceOrigin {
         coverage: Coverage::AllAround,
-        how: How::Mesh,
+        how: EnrolMethod::Mesh,
         num_points: cloud.points.len(),
         num_shots: None,
         voxel: None,
@@ -252,9 +253,9 @@ pub fn enrol_mesh(
 }
 
 /// What a cloud was made from.
-struct Source {
+struct ReferenceOrigin {
     coverage: Coverage,
-    how: How,
+    how: EnrolMethod,
     num_points: usize,
     num_shots: Option<usize>,
     voxel: Option<Metres>,
@@ -263,8 +264,8 @@ struct Source {
 
 fn assemble(
     mut cloud: PointCloud,
-    source: &Source,
-    about: &About,
+    source: &ReferenceOrigin,
+    about: &PartDescription,
     params: &EnrolParams,
 ) -> Result<Enrolled, EnrolError> {
     // Colours are kept in no library: nothing uses them.
@@ -283,8 +284,10 @@ fn assemble(
     let part = Part {
         meta: PartMeta {
             schema_version: match source.how {
-                How::Scan => SCANNED_VERSION,
-                How::Segmented | How::WholeCloud | How::Mesh => PLAIN_VERSION,
+                EnrolMethod::Scan => SCANNED_VERSION,
+                EnrolMethod::Segmented | EnrolMethod::WholeCloud | EnrolMethod::Mesh => {
+                    PLAIN_VERSION
+                }
             },
             name: about.name.clone(),
             part: None,

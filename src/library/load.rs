@@ -14,13 +14,13 @@ use super::{
     entry::{CLOUD, Entry, META, SIGNATURE, THUMBNAIL},
     error::LibraryError,
     part::{CloudCheck, PartMeta, SCHEMA_VERSION, StoredSignature},
-    problem::{EntryError, EntryProblem, EntryWarning, MAX_POINTS, Trouble},
+    problem::{EntryError, EntryIssue, EntryProblem, EntryWarning, MAX_POINTS},
     shipped::shipped_entries,
     spray_store::read_spray_path,
     store::LibraryFolder,
 };
 use crate::{
-    files::{FileError, Opened, open_bytes, read_bytes},
+    files::{FileContent, FileError, open_bytes, read_bytes},
     geometry::{
         cloud::PointCloud,
         nearest::KdTree,
@@ -60,7 +60,7 @@ const MAX_TEXT: u64 = 8 << 20;
 
 /// How closely a stored part is looked at.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Look {
+enum CloudCheckLevel {
     /// What an inspection needs.
     Quick,
     /// All files, against each other.
@@ -70,12 +70,12 @@ enum Look {
 impl LibraryFolder {
     /// Loads all parts. Only a folder that cannot be listed is an error; damaged parts are in `problems`.
     pub fn load(&self, params: &ReferenceParams) -> Result<LibraryLoad, LibraryError> {
-        self.load_looking(Look::Quick, params)
+        self.load_looking(CloudCheckLevel::Quick, params)
     }
 
     /// As [`Self::load`], and holds every file of every part against its cloud.
     pub fn verify(&self, params: &ReferenceParams) -> Result<LibraryLoad, LibraryError> {
-        self.load_looking(Look::Thorough, params)
+        self.load_looking(CloudCheckLevel::Thorough, params)
     }
 
     /// Loads one part.
@@ -84,7 +84,11 @@ impl LibraryFolder {
         name: &str,
         params: &ReferenceParams,
     ) -> Result<Result<StoredPart, EntryProblem>, LibraryError> {
-        Ok(read_entry(&self.entry(name)?, Look::Quick, params))
+        Ok(read_entry(
+            &self.entry(name)?,
+            CloudCheckLevel::Quick,
+            params,
+        ))
     }
 
     /// The path of a file that people look at, such as the thumbnail, if it is there.
@@ -95,7 +99,7 @@ impl LibraryFolder {
 
     fn load_looking(
         &self,
-        look: Look,
+        look: CloudCheckLevel,
         params: &ReferenceParams,
     ) -> Result<LibraryLoad, LibraryError> {
         Ok(load_entries(&self.entries()?, look, params))
@@ -104,7 +108,7 @@ impl LibraryFolder {
 
 /// Loads the parts that lie inside the program.
 pub(super) fn load_shipped(params: &ReferenceParams) -> LibraryLoad {
-    load_entries(&shipped_entries(), Look::Quick, params)
+    load_entries(&shipped_entries(), CloudCheckLevel::Quick, params)
 }
 
 /// Loads one of the parts that lie inside the program; `None` if there is none of that name.
@@ -113,10 +117,10 @@ pub(super) fn read_shipped(
     params: &ReferenceParams,
 ) -> Option<Result<StoredPart, EntryProblem>> {
     let entry = shipped_entries().into_iter().find(|e| e.name == name)?;
-    Some(read_entry(&entry, Look::Quick, params))
+    Some(read_entry(&entry, CloudCheckLevel::Quick, params))
 }
 
-fn load_entries(entries: &[Entry], look: Look, params: &ReferenceParams) -> LibraryLoad {
+fn load_entries(entries: &[Entry], look: CloudCheckLevel, params: &ReferenceParams) -> LibraryLoad {
     let mut load = LibraryLoad::default();
     for read in read_in_parallel(entries, look, params) {
         match read {
@@ -134,7 +138,7 @@ fn load_entries(entries: &[Entry], look: Look, params: &ReferenceParams) -> Libr
 /// Reads all entries on all cores; the results are in the order of the entries.
 fn read_in_parallel(
     entries: &[Entry],
-    look: Look,
+    look: CloudCheckLevel,
     params: &ReferenceParams,
 ) -> Vec<Result<StoredPart, EntryProblem>> {
     map_in_order(
@@ -147,7 +151,7 @@ fn read_in_parallel(
 
 fn read_entry(
     entry: &Entry,
-    look: Look,
+    look: CloudCheckLevel,
     params: &ReferenceParams,
 ) -> Result<StoredPart, EntryProblem> {
     let read = || -> Result<StoredPart, EntryError> {
@@ -158,11 +162,11 @@ fn read_entry(
                 .with_cut(meta.cut);
         meta.name.as_str().clone_into(&mut reference.enrolled_as);
         let mut troubles = troubles(entry, &reference, look, params);
-        if look == Look::Thorough
+        if look == CloudCheckLevel::Thorough
             && let Err(error) = read_spray_path(&entry.path, &meta)
         {
             let why = error.to_string();
-            troubles.push(Trouble::SprayPath { why });
+            troubles.push(EntryIssue::SprayPath { why });
         }
         let warnings = troubles
             .into_iter()
@@ -262,9 +266,9 @@ fn read_cloud(entry: &Entry, expected: &CloudCheck) -> Result<PointCloud, EntryE
         Err(error) => return Err(EntryError::BadCloud(Box::new(error))),
     };
     let mut cloud = match opened {
-        Opened::Cloud(cloud) => cloud,
-        Opened::Mesh(_) => return Err(not_a_cloud("a mesh")),
-        Opened::Depth(_) => return Err(not_a_cloud("a depth image")),
+        FileContent::Cloud(cloud) => cloud,
+        FileContent::Mesh(_) => return Err(not_a_cloud("a mesh")),
+        FileContent::Depth(_) => return Err(not_a_cloud("a depth image")),
     };
     let found = CloudCheck::of(&bytes, cloud.points.len());
     if found != *expected {
@@ -297,21 +301,23 @@ fn read_cloud(entry: &Entry, expected: &CloudCheck) -> Result<PointCloud, EntryE
 fn troubles(
     entry: &Entry,
     reference: &Reference,
-    look: Look,
+    look: CloudCheckLevel,
     params: &ReferenceParams,
-) -> Vec<Trouble> {
+) -> Vec<EntryIssue> {
     let mut troubles = Vec::new();
     if entry.shipped.is_some() {
         return troubles;
     }
     if !entry.path.ends_with(&entry.name) {
-        troubles.push(Trouble::LeftAside);
+        troubles.push(EntryIssue::LeftAside);
     }
     for file in [SIGNATURE, THUMBNAIL] {
         if !fs::exists(entry.path.join(file)).unwrap_or(false) {
-            troubles.push(Trouble::Missing { file });
-        } else if look == Look::Thorough && !belongs(&entry.path.join(file), reference, params) {
-            troubles.push(Trouble::Stale { file });
+            troubles.push(EntryIssue::Missing { file });
+        } else if look == CloudCheckLevel::Thorough
+            && !belongs(&entry.path.join(file), reference, params)
+        {
+            troubles.push(EntryIssue::Stale { file });
         }
     }
     troubles

@@ -19,7 +19,6 @@ mod enrol;
 mod entry;
 mod error;
 mod identity;
-mod likeness;
 mod load;
 mod name;
 mod part;
@@ -27,6 +26,7 @@ mod place;
 mod problem;
 mod references;
 mod shipped;
+mod similarity;
 mod spray_path;
 mod spray_store;
 mod store;
@@ -38,23 +38,23 @@ use crate::stages::reference::Reference;
 
 pub use self::{
     enrol::{
-        About, EnrolError, EnrolParams, EnrolWarning, Enrolled, enrol_captured, enrol_mesh,
-        enrol_scan, enrol_selected, enrol_surface, enrol_whole, surfaces_to_enrol,
+        EnrolError, EnrolParams, EnrolWarning, Enrolled, PartDescription, enrol_captured,
+        enrol_mesh, enrol_scan, enrol_selected, enrol_surface, enrol_whole, surfaces_to_enrol,
     },
     error::LibraryError,
-    likeness::{Likeness, likenesses, most_alike},
     load::{LibraryLoad, StoredPart},
     name::{BadName, PartName},
     part::{
-        CloudCheck, Enrolment, How, MAX_TITLE, Part, PartMeta, PartWords, SCHEMA_VERSION,
+        CloudCheck, EnrolMethod, Enrolment, MAX_TITLE, Part, PartMeta, PartNaming, SCHEMA_VERSION,
         SprayCheck, StoredLiteral, StoredSignature,
     },
     place::{LibraryPlace, open_library},
-    problem::{EntryError, EntryProblem, EntryWarning, Trouble},
+    problem::{EntryError, EntryIssue, EntryProblem, EntryWarning},
     shipped::{EnrolledAt, shipped_enrolled_at},
+    similarity::{Similarity, likenesses, most_similar},
     spray_path::{MAX_PATH_POINTS, PathLineProblem, PathPoint, SprayPath, SprayPathError},
     store::{LibraryFolder, Renamed, Restored, Saved},
-    trash::Trashed,
+    trash::TrashEntry,
     truth::Truth,
 };
 

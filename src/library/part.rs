@@ -73,8 +73,8 @@ pub struct PartMeta {
 
 impl PartMeta {
     /// What it is called.
-    pub fn words(&self) -> PartWords {
-        PartWords {
+    pub fn words(&self) -> PartNaming {
+        PartNaming {
             name: self.name.clone(),
             title: self.title.clone(),
             notes: self.notes.clone(),
@@ -103,7 +103,7 @@ impl PartMeta {
 
 /// What a person calls a part, and may call otherwise later.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct PartWords {
+pub struct PartNaming {
     /// Its name.
     pub name: PartName,
     /// Its name for people; may be empty. At most [`MAX_TITLE`] characters.
@@ -173,7 +173,7 @@ pub struct Enrolment {
     /// From what: the name of a file or a source.
     pub from: String,
     /// In which way.
-    pub how: How,
+    pub how: EnrolMethod,
     /// Points of the part before thinning; those sampled of a mesh.
     pub num_points: usize,
     /// Captures that a scan was put together from; none if it was no scan.
@@ -187,7 +187,7 @@ pub struct Enrolment {
 /// What a part was enrolled from.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum How {
+pub enum EnrolMethod {
     /// The part found in a captured scene.
     Segmented,
     /// A cloud that holds nothing but the part.
@@ -198,7 +198,7 @@ pub enum How {
     Scan,
 }
 
-impl How {
+impl EnrolMethod {
     /// In words, for people.
     pub fn describe(self) -> &'static str {
         match self {

@@ -110,12 +110,12 @@ pub struct EntryWarning {
     /// The part.
     pub entry: String,
     /// What is odd.
-    pub trouble: Trouble,
+    pub trouble: EntryIssue,
 }
 
 /// What can be odd about a stored part.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Trouble {
+pub enum EntryIssue {
     /// A file that can be made again from the cloud is not there.
     #[error("{file} is missing; it was made again from the cloud in memory")]
     Missing {
@@ -142,16 +142,16 @@ pub enum Trouble {
 impl Advice for EntryWarning {
     fn advice(&self) -> String {
         match self.trouble {
-            Trouble::Missing { .. } | Trouble::Stale { .. } => {
+            EntryIssue::Missing { .. } | EntryIssue::Stale { .. } => {
                 "Copy the part again from where it was made, or enrol it again".into()
             }
-            Trouble::SprayPath { .. } => {
+            EntryIssue::SprayPath { .. } => {
                 format!(
                     "Store the path again: partsight library path {} path.csv",
                     self.entry
                 )
             }
-            Trouble::LeftAside => "Check that the part is the one you want".into(),
+            EntryIssue::LeftAside => "Check that the part is the one you want".into(),
         }
     }
 }

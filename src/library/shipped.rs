@@ -10,7 +10,7 @@ use super::{
     part::CloudCheck,
 };
 use crate::{
-    files::{Opened, open_bytes},
+    files::{FileContent, open_bytes},
     geometry::rigid::RigidTransform,
 };
 
@@ -72,7 +72,7 @@ pub struct EnrolledAt {
 pub fn shipped_enrolled_at(name: &str) -> Option<EnrolledAt> {
     let part = SHIPPED.iter().find(|part| part.name == name)?;
     let (_, bytes) = part.files.iter().find(|(file, _)| *file == CLOUD)?;
-    let Ok(Opened::Cloud(cloud)) = open_bytes(Path::new(CLOUD), bytes) else {
+    let Ok(FileContent::Cloud(cloud)) = open_bytes(Path::new(CLOUD), bytes) else {
         return None;
     };
     Some(EnrolledAt {

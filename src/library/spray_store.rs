@@ -34,7 +34,7 @@ impl LibraryFolder {
     ) -> Result<(), LibraryError> {
         self.entry(name.as_str())?;
         self.writing(|| {
-            self.tidy_up()?;
+            self.finish_interrupted_write()?;
             let meta = self.entry(name.as_str()).and_then(|entry| {
                 meta_of(&entry).map_err(|problem| LibraryError::Damaged(Box::new(problem)))
             });
@@ -105,7 +105,7 @@ mod tests {
     use nalgebra::{Point3, Vector3};
 
     use super::*;
-    use crate::library::{PartWords, PathPoint, place::open_library, shipped::write_shipped};
+    use crate::library::{PartNaming, PathPoint, place::open_library, shipped::write_shipped};
 
     fn path(x: f64) -> SprayPath {
         let point = PathPoint {
@@ -163,7 +163,7 @@ mod tests {
         library
             .set_spray_path(&fender, Some(&path(0.1)))
             .expect("stored");
-        let words = PartWords {
+        let words = PartNaming {
             name: name("mudguard"),
             title: "Mudguard".into(),
             notes: String::new(),
@@ -202,7 +202,7 @@ mod tests {
             .read("fender", &params)
             .expect("listed")
             .expect("read");
-        let about = crate::library::About {
+        let about = crate::library::PartDescription {
             name: name("fender"),
             title: String::new(),
             notes: String::new(),

@@ -32,7 +32,7 @@ use super::{
     error::LibraryError,
     load::meta_of,
     name::PartName,
-    part::{Part, PartMeta, PartWords},
+    part::{Part, PartMeta, PartNaming},
     trash,
 };
 
@@ -60,7 +60,7 @@ pub struct Saved {
 #[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Renamed {
     /// What it was called before.
-    pub before: PartWords,
+    pub before: PartNaming,
     /// Where it lies as it was before, if its name is another one now.
     pub former: Option<PathBuf>,
     /// How many more references of it were carried along to the new name.
@@ -150,7 +150,7 @@ impl LibraryFolder {
                 else {
                     continue;
                 };
-                if let Some(Aside { name, successor }) = Aside::of(&file_name) {
+                if let Some(RenamedFolder { name, successor }) = RenamedFolder::of(&file_name) {
                     if !self.path.join(successor).exists() {
                         aside.push(Entry::in_folder(name.to_owned(), path));
                     }
@@ -190,12 +190,12 @@ impl LibraryFolder {
     /// Saves a part; one of the same name goes to the trash once the new one is in place.
     pub fn save(&self, part: &Part) -> Result<Saved, LibraryError> {
         self.writing(|| {
-            self.tidy_up()?;
+            self.finish_interrupted_write()?;
             let name = part.meta.name.as_str();
             let former = self.entry(name).ok().and_then(|entry| meta_of(&entry).ok());
             let building = new_folder(&self.path, name)?;
             write_part(building.path(), part)?;
-            let replaced = self.put_in_place(building.path(), name, name)?;
+            let replaced = self.replace_entry(building.path(), name, name)?;
             // Renamed away: nothing is left to be cleared up.
             let _ = building.keep();
             Ok(Saved {
@@ -210,7 +210,7 @@ impl LibraryFolder {
     pub fn remove(&self, name: &PartName) -> Result<PathBuf, LibraryError> {
         self.entry(name.as_str())?;
         self.writing(|| {
-            self.tidy_up()?;
+            self.finish_interrupted_write()?;
             let trash = trash::take_in(&self.path, &self.path.join(name.as_str()), name.as_str())?;
             sync_folder(&self.path)?;
             Ok(trash)
@@ -218,7 +218,7 @@ impl LibraryFolder {
     }
 
     /// What a part is called.
-    pub fn words(&self, name: &PartName) -> Result<PartWords, LibraryError> {
+    pub fn words(&self, name: &PartName) -> Result<PartNaming, LibraryError> {
         let meta = meta_of(&self.entry(name.as_str())?);
         meta.map(|meta| meta.words())
             .map_err(|problem| LibraryError::Damaged(Box::new(problem)))
@@ -227,11 +227,11 @@ impl LibraryFolder {
     /// Calls a part otherwise. Under another name it is a part built anew of the same files, and the former one goes to
     /// the trash once the new one is in place and its references name that; otherwise only its description is written
     /// anew.
-    pub fn rename(&self, name: &PartName, words: &PartWords) -> Result<Renamed, LibraryError> {
+    pub fn rename(&self, name: &PartName, words: &PartNaming) -> Result<Renamed, LibraryError> {
         self.entry(name.as_str())?;
         self.writing(|| {
-            self.tidy_up()?;
-            let meta = match self.meta_to_rename(name, &words.name) {
+            self.finish_interrupted_write()?;
+            let meta = match self.renamed_meta(name, &words.name) {
                 Ok(meta) => meta,
                 Err(error) => return Ok(Err(error)),
             };
@@ -261,11 +261,12 @@ impl LibraryFolder {
                 copy_files(&folder, building.path())?;
                 write_file(&building.path().join(META), meta_text(&meta)?.as_bytes())?;
                 sync_folder(building.path())?;
-                let aside = self.put_beside(building.path(), words.name.as_str(), name.as_str())?;
+                let aside =
+                    self.install_entry(building.path(), words.name.as_str(), name.as_str())?;
                 // Renamed away: nothing is left to be cleared up.
                 let _ = building.keep();
                 let num_references = self.carry_references(name, &words.name)?;
-                (self.trash_aside(aside, name.as_str())?, num_references)
+                (self.trash_replaced(aside, name.as_str())?, num_references)
             };
             Ok(Ok(Renamed {
                 before,
@@ -282,14 +283,14 @@ impl LibraryFolder {
         };
         let name = trash::name_of(&self.path, kept).ok_or_else(not_there)?;
         self.writing(|| {
-            self.tidy_up()?;
-            let replaced = self.put_in_place(kept, name.as_str(), name.as_str())?;
+            self.finish_interrupted_write()?;
+            let replaced = self.replace_entry(kept, name.as_str(), name.as_str())?;
             Ok(Restored { name, replaced })
         })
     }
 
     /// The description of a part that is to be renamed to `to`.
-    fn meta_to_rename(&self, name: &PartName, to: &PartName) -> Result<PartMeta, LibraryError> {
+    fn renamed_meta(&self, name: &PartName, to: &PartName) -> Result<PartMeta, LibraryError> {
         if to != name && self.path.join(to.as_str()).exists() {
             return Err(LibraryError::NameTaken {
                 path: self.path.clone(),
@@ -302,16 +303,26 @@ impl LibraryFolder {
 
     /// Puts a folder in place as the part `name`, which succeeds `former`: that one goes to the trash once the new one
     /// is in place. Says where it lies then.
-    fn put_in_place(&self, coming: &Path, name: &str, former: &str) -> io::Result<Option<PathBuf>> {
-        let aside = self.put_beside(coming, name, former)?;
-        self.trash_aside(aside, former)
+    fn replace_entry(
+        &self,
+        coming: &Path,
+        name: &str,
+        former: &str,
+    ) -> io::Result<Option<PathBuf>> {
+        let aside = self.install_entry(coming, name, former)?;
+        self.trash_replaced(aside, former)
     }
 
-    /// As [`Self::put_in_place`], but leaves the former one where it was renamed aside to, and says where, if there is
+    /// As [`Self::replace_entry`], but leaves the former one where it was renamed aside to, and says where, if there is
     /// one.
-    fn put_beside(&self, coming: &Path, name: &str, former: &str) -> io::Result<Option<PathBuf>> {
+    fn install_entry(
+        &self,
+        coming: &Path,
+        name: &str,
+        former: &str,
+    ) -> io::Result<Option<PathBuf>> {
         let leaving = self.path.join(former);
-        let aside = self.path.join(Aside::file_name(former, name));
+        let aside = self.path.join(RenamedFolder::file_name(former, name));
         let is_succeeding = leaving.exists();
         if is_succeeding {
             fs::rename(&leaving, &aside)?;
@@ -327,7 +338,7 @@ impl LibraryFolder {
     }
 
     /// Moves what was renamed aside to the trash and says where it lies there.
-    fn trash_aside(&self, aside: Option<PathBuf>, former: &str) -> io::Result<Option<PathBuf>> {
+    fn trash_replaced(&self, aside: Option<PathBuf>, former: &str) -> io::Result<Option<PathBuf>> {
         aside
             .map(|aside| trash::take_in(&self.path, &aside, former))
             .transpose()
@@ -354,13 +365,13 @@ impl LibraryFolder {
     }
 
     /// Finishes what an interrupted writer left. Only under the lock: another writer's folders are not leftovers.
-    pub(super) fn tidy_up(&self) -> io::Result<()> {
+    pub(super) fn finish_interrupted_write(&self) -> io::Result<()> {
         for found in fs::read_dir(&self.path)? {
             let path = found?.path();
             let Some(file_name) = path.file_name().and_then(|n| n.to_str()) else {
                 continue;
             };
-            if let Some(Aside { name, successor }) = Aside::of(file_name) {
+            if let Some(RenamedFolder { name, successor }) = RenamedFolder::of(file_name) {
                 if self.path.join(successor).exists() {
                     if let (Ok(from), Ok(to)) = (PartName::new(name), PartName::new(successor))
                         && from != to
@@ -380,14 +391,14 @@ impl LibraryFolder {
 }
 
 /// A part that was renamed aside, by its folder's name.
-struct Aside<'a> {
+struct RenamedFolder<'a> {
     /// The part.
     name: &'a str,
     /// The part that takes its place; as a rule of the same name.
     successor: &'a str,
 }
 
-impl<'a> Aside<'a> {
+impl<'a> RenamedFolder<'a> {
     /// Between the two names: cannot stand in one.
     const SEPARATOR: char = '+';
 

@@ -20,7 +20,7 @@ const COLOUR: Vector3<f64> = Vector3::new(0.56, 0.66, 0.76);
 
 /// Draws a prepared reference: from one side as the camera saw it, else in its standard view.
 pub(super) fn render(reference: &Reference, coverage: Coverage) -> RgbaImage {
-    let drawn = Splats::of(reference, coverage);
+    let drawn = SplatBuffer::of(reference, coverage);
     let samples = drawn.map(|s| s.shaded());
     RgbaImage::from_fn(SIZE[0] as u32, SIZE[1] as u32, |u, v| {
         let Some(samples) = &samples else {
@@ -49,12 +49,12 @@ const HEIGHT: usize = SIZE[1] * SAMPLES;
 
 /// What each sample shows: depth (samples, growing away from the viewer) and normal. Picture space: x right, y down,
 /// z away.
-struct Splats {
+struct SplatBuffer {
     depths: Vec<f64>,
     normals: Vec<Vector3<f64>>,
 }
 
-impl Splats {
+impl SplatBuffer {
     fn of(reference: &Reference, coverage: Coverage) -> Option<Self> {
         let cloud = &reference.cloud;
         let view = reference.views.first()?;

@@ -12,7 +12,7 @@ pub(super) const TRASH: &str = ".trash";
 
 /// Something that lies in the trash.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Trashed {
+pub struct TrashEntry {
     /// The part's name.
     pub name: PartName,
     /// Where it lies; [`LibraryFolder::restore`] brings it back.
@@ -23,8 +23,8 @@ pub struct Trashed {
 
 impl LibraryFolder {
     /// Everything in the trash that can be restored, newest first. Without a trash there is nothing in it.
-    pub fn trashed(&self) -> Result<Vec<Trashed>, LibraryError> {
-        let list = || -> io::Result<Vec<Trashed>> {
+    pub fn trashed(&self) -> Result<Vec<TrashEntry>, LibraryError> {
+        let list = || -> io::Result<Vec<TrashEntry>> {
             let found = match fs::read_dir(self.path().join(TRASH)) {
                 Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
                 found => found?,
@@ -66,7 +66,7 @@ pub(super) fn name_of(library: &Path, kept: &Path) -> Option<PartName> {
     Some(found.name)
 }
 
-fn trashed(kept: PathBuf) -> Option<Trashed> {
+fn trashed(kept: PathBuf) -> Option<TrashEntry> {
     let file_name = kept.file_name()?.to_str()?;
     // No name of a part holds the capitals of a moment.
     let (name, stamp, count) = file_name.match_indices('-').find_map(|(at, _)| {
@@ -76,7 +76,7 @@ fn trashed(kept: PathBuf) -> Option<Trashed> {
         Some((&file_name[..at], stamp, count))
     })?;
     let (name, order) = (PartName::new(name).ok()?, (stamp.to_owned(), count));
-    kept.is_dir().then_some(Trashed { name, kept, order })
+    kept.is_dir().then_some(TrashEntry { name, kept, order })
 }
 
 /// True for a moment such as `20260102T030405Z`.

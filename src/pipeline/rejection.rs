@@ -5,7 +5,7 @@ use crate::{
     error::Advice,
     stages::{
         contour::ContourError,
-        pose::{Freedom, PoseError},
+        pose::{FreeMotion, PoseError},
         project::ProjectError,
         segment::NoPart,
         signature::SignatureError,
@@ -95,7 +95,7 @@ pub enum Rejection {
         /// Best match.
         part: String,
         /// How it can move and still fit.
-        freedom: Freedom,
+        freedom: FreeMotion,
     },
     /// Nothing enrolled is like it.
     #[error("unknown: nothing enrolled is like it; the nearest, {nearest}, scores {score:.2}")]

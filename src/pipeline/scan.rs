@@ -9,20 +9,22 @@ use nalgebra::{Point3, Vector3};
 use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
-use super::{Cancelled, Inspection, Recipe, Unrecognisable, Verdict, Watch, run, verdict::verdict};
+use super::{
+    Cancelled, Inspection, ProgressObserver, Recipe, Unrecognisable, Verdict, run, verdict::verdict,
+};
 use crate::{
     geometry::{nearest::KdTree, rigid::RigidTransform},
     library::Library,
     scan::{
         Scan, ScannedShot,
-        look::{Look, look},
+        visibility::{Visibility, visibility_at},
     },
     stages::{
         confirm::{
             ConfirmedMatch, ConfirmedRanking, Evidence, Scene, UNCONFIRMED_WEIGHT,
             joint::{JointFit, JointPart, fit_jointly, own_outline},
         },
-        pose::{PoseError, PoseEstimate, Sight, refine::Source},
+        pose::{PoseError, PoseEstimate, VisibilityShares, refine::AlignmentSource},
         rank::Query,
         reference::Reference,
         segment::NoPart,
@@ -61,7 +63,7 @@ pub fn run_scan(
     scan: &Scan,
     library: &Library,
     recipe: &Recipe,
-    watch: &dyn Watch,
+    watch: &dyn ProgressObserver,
 ) -> Result<ScanInspection, Cancelled> {
     let mut frames = Vec::new();
     for (number, shot) in scan.used() {
@@ -180,7 +182,7 @@ fn joint_part(scan: &Scan, frames: &[(usize, Inspection)], recipe: &Recipe) -> O
     }
     edges.shuffle(&mut random);
     Some(JointPart {
-        source: Source { surface, edges },
+        source: AlignmentSource { surface, edges },
         cameras: scan
             .used()
             .map(|(_, shot)| Point3::from(shot.base_from_camera.translation.vector))
@@ -279,14 +281,14 @@ fn seen_together(
     point: &Point3<f32>,
     normal: &Vector3<f32>,
     tolerance: Metres,
-) -> Option<Look> {
+) -> Option<Visibility> {
     // What says more about the point comes first.
-    let rank = |look: &Look| match look {
-        Look::Here(_) => 0,
-        Look::Through => 1,
-        Look::NoReading => 2,
-        Look::Hidden => 3,
-        Look::Outside => 4,
+    let rank = |look: &Visibility| match look {
+        Visibility::Here(_) => 0,
+        Visibility::Through => 1,
+        Visibility::NoReading => 2,
+        Visibility::Hidden => 3,
+        Visibility::Outside => 4,
     };
     let looks = shots.iter().filter_map(|(shot, camera_from_part)| {
         let at = camera_from_part * point.cast::<f64>();
@@ -295,7 +297,12 @@ fn seen_together(
             return None;
         }
         let noise = 3.0 * shot.surface.noise_at_1m.0 * at.z * at.z;
-        Some(look(&shot.surface, &at, &normal, tolerance.0 + noise))
+        Some(visibility_at(
+            &shot.surface,
+            &at,
+            &normal,
+            tolerance.0 + noise,
+        ))
     });
     looks.min_by_key(rank)
 }
@@ -313,7 +320,7 @@ pub fn unseen_points(
     let normals = cloud.normals.as_deref().unwrap_or_default();
     let is_unseen = |(point, normal): (&Point3<f32>, &Vector3<f32>)| {
         let seen = seen_together(&shots, point, normal, tolerance);
-        !matches!(seen, Some(Look::Here(_) | Look::Through))
+        !matches!(seen, Some(Visibility::Here(_) | Visibility::Through))
     };
     let all = cloud.points.iter().zip(normals).enumerate();
     all.filter(|(_, both)| is_unseen(*both))
@@ -328,7 +335,7 @@ fn evidence(
     reference: &Reference,
     fit: &JointFit,
     (of_frame, tolerance): (&Evidence, Metres),
-) -> (Evidence, Option<Sight>) {
+) -> (Evidence, Option<VisibilityShares>) {
     let base_from_part = fit.estimate.camera_from_part();
     let shots = shots_of(scan, &base_from_part);
     let cloud = &reference.cloud;
@@ -337,11 +344,11 @@ fn evidence(
     let mut sights = VisibilityCounts::default();
     for (point, normal) in cloud.points.iter().zip(normals).step_by(step) {
         let count = match seen_together(&shots, point, normal, tolerance) {
-            Some(Look::Here(_)) => &mut sights.confirmed,
-            Some(Look::Through) => &mut sights.missing,
-            Some(Look::NoReading) => &mut sights.unknown,
-            Some(Look::Hidden) => &mut sights.hidden,
-            Some(Look::Outside) => &mut sights.outside,
+            Some(Visibility::Here(_)) => &mut sights.confirmed,
+            Some(Visibility::Through) => &mut sights.missing,
+            Some(Visibility::NoReading) => &mut sights.unknown,
+            Some(Visibility::Hidden) => &mut sights.hidden,
+            Some(Visibility::Outside) => &mut sights.outside,
             // It faces away from all cameras.
             None => continue,
         };
@@ -355,7 +362,7 @@ fn evidence(
         outside,
     } = sights;
     let total = confirmed + missing + hidden + unknown;
-    let sight = (total >= 1.0).then(|| Sight {
+    let sight = (total >= 1.0).then(|| VisibilityShares {
         confirmed: confirmed / total,
         missing: missing / total,
         hidden: hidden / total,

@@ -42,7 +42,7 @@ pub enum Stage {
 }
 
 /// How a caller follows and stops an inspection.
-pub trait Watch {
+pub trait ProgressObserver {
     /// A stage begins.
     fn begins(&self, _stage: Stage) {}
     /// True when the caller has lost interest.
@@ -54,7 +54,7 @@ pub trait Watch {
 /// Nobody is watching.
 pub struct Unwatched;
 
-impl Watch for Unwatched {}
+impl ProgressObserver for Unwatched {}
 
 /// The caller cancelled.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
@@ -63,13 +63,13 @@ pub struct Cancelled;
 
 /// Times stages, tells the watch about them and stops between them when cancelled.
 pub(super) struct StageClock<'a> {
-    watch: &'a dyn Watch,
+    watch: &'a dyn ProgressObserver,
     started: Instant,
     timings: Cell<Timings>,
 }
 
 impl<'a> StageClock<'a> {
-    pub(super) fn start(watch: &'a dyn Watch) -> Self {
+    pub(super) fn start(watch: &'a dyn ProgressObserver) -> Self {
         Self {
             watch,
             started: Instant::now(),

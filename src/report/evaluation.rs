@@ -9,7 +9,7 @@ use super::{
     pictures::{DARK, FAINT, LIGHT},
     score_plots::{PLOT, draw_calibration, draw_trade_off},
 };
-use crate::cases::{Answered, Confusion, Evaluation, Judgement, Truth};
+use crate::cases::{CaseAnswer, CaseOutcome, Confusion, Evaluation, Truth};
 
 /// Side of a cell of the matrix, pixels.
 const CELL: f64 = 46.0;
@@ -83,19 +83,19 @@ fn row_name(truth: &Truth) -> &str {
     }
 }
 
-fn column_name(answered: &Answered) -> &str {
+fn column_name(answered: &CaseAnswer) -> &str {
     match answered {
-        Answered::Part(name) => name,
-        Answered::NotAccepted => "not accepted",
+        CaseAnswer::Part(name) => name,
+        CaseAnswer::NotAccepted => "not accepted",
     }
 }
 
 /// What a judgement looks like; colour is not the only sign.
-fn look(judgement: Judgement) -> (Rgb<u8>, &'static str) {
+fn look(judgement: CaseOutcome) -> (Rgb<u8>, &'static str) {
     match judgement {
-        Judgement::Right => (Rgb([44, 104, 78]), ""),
-        Judgement::Refused => (Rgb([140, 100, 30]), " !"),
-        Judgement::WrongAccepted => (Rgb([176, 52, 52]), " ×"),
+        CaseOutcome::Right => (Rgb([44, 104, 78]), ""),
+        CaseOutcome::Refused => (Rgb([140, 100, 30]), " !"),
+        CaseOutcome::WrongAccepted => (Rgb([176, 52, 52]), " ×"),
     }
 }
 
@@ -135,7 +135,7 @@ fn draw_matrix(
         let (Some(row), Some(column)) = (row, column) else {
             continue;
         };
-        let (colour, sign) = look(Judgement::of(truth, answered));
+        let (colour, sign) = look(CaseOutcome::of(truth, answered));
         let (from, to) = inner(corner(row, column));
         canvas.block(from, to, colour);
         let text = format!("{}{sign}", places.len());
@@ -151,7 +151,7 @@ fn draw_matrix(
 mod tests {
     use super::*;
     use crate::{
-        cases::{CaseResult, Found},
+        cases::{CaseResult, FoundVerdict},
         pipeline::Timings,
     };
 
@@ -161,11 +161,11 @@ mod tests {
             name: "case".into(),
             difficulty: None,
             truth,
-            found: Found {
+            found: FoundVerdict {
                 part: Some(part.into()),
                 score: Some(score),
                 accepted,
-                ..Found::default()
+                ..FoundVerdict::default()
             },
             pose_error: None,
             timings: Timings::default(),
@@ -179,9 +179,9 @@ mod tests {
         let evaluation = Evaluation::of(results, Vec::new(), &["door".into()]);
         let image = evaluation_picture("A trial", &evaluation, 0.9);
         for judgement in [
-            Judgement::Right,
-            Judgement::Refused,
-            Judgement::WrongAccepted,
+            CaseOutcome::Right,
+            CaseOutcome::Refused,
+            CaseOutcome::WrongAccepted,
         ] {
             let num = image.pixels().filter(|p| **p == look(judgement).0).count();
             assert!(num > 1000, "{judgement:?}: {num} pixels");

@@ -2,21 +2,21 @@
 
 mod canvas;
 mod chart;
-mod contenders;
 mod evaluation;
 mod folder;
 mod lettering;
 mod line;
 mod pictures;
 pub mod pose_report;
+mod runner_up_picture;
 mod scaling;
 mod score_plots;
 
 pub use self::{
-    contenders::contenders_picture,
     evaluation::evaluation_picture,
     folder::{ReportError, ReportFolder},
     line::{CaptureLine, InspectionLine, SCHEMA, ScanLine, TimingsLine},
     pictures::{Picture, segmentation_picture, stage_pictures, strip, write_png},
+    runner_up_picture::runner_up_picture,
     scaling::{TimeCurve, scaling_picture, stacked},
 };

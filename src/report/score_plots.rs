@@ -8,7 +8,7 @@ use super::{
     lettering::{Anchor, Lettering},
     pictures::{DIM, LIGHT, OPENING, PART},
 };
-use crate::cases::{AtThreshold, Calibration, TradeOff};
+use crate::cases::{Calibration, ThresholdCounts, TradeOff};
 
 /// Side of a plot, pixels.
 pub(super) const PLOT: f64 = 400.0;
@@ -85,8 +85,8 @@ pub(super) fn draw_trade_off(
     let ends = [0.0, 1.0].map(|share| chart.place([threshold, share]));
     canvas.line(ends[0], ends[1], DIM);
     let share = |num: usize, of: usize| num as f64 / of.max(1) as f64;
-    let curve = |height: &dyn Fn(&AtThreshold) -> f64| -> Vec<[f64; 2]> {
-        let at = |step: &AtThreshold| chart.place([step.threshold, height(step)]);
+    let curve = |height: &dyn Fn(&ThresholdCounts) -> f64| -> Vec<[f64; 2]> {
+        let at = |step: &ThresholdCounts| chart.place([step.threshold, height(step)]);
         steps.iter().map(at).collect()
     };
     let refused = curve(&|step| share(step.num_refused, *num_enrolled));

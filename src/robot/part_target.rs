@@ -14,7 +14,7 @@ use crate::{
 
 /// The part that a capture shows, as a target.
 #[derive(Clone, Debug, PartialEq)]
-pub struct SeenPart {
+pub struct ObservedTarget {
     /// Its name.
     pub part: String,
     /// Which of the library's references it was found by: each has a frame of its own.
@@ -44,7 +44,7 @@ impl Advice for NoTarget {
 }
 
 /// The part of an inspection as a target.
-pub fn seen_part(inspection: &Inspection, library: &Library) -> Result<SeenPart, NoTarget> {
+pub fn seen_part(inspection: &Inspection, library: &Library) -> Result<ObservedTarget, NoTarget> {
     let part = match &inspection.verdict {
         Verdict::Part {
             part,
@@ -75,7 +75,7 @@ pub fn seen_part(inspection: &Inspection, library: &Library) -> Result<SeenPart,
     let bounds = reference.and_then(|reference| reference.cloud.bounds());
     let (low, high) = bounds.ok_or(NoTarget::NoPose)?;
     let middle = nalgebra::center(&low, &high).cast::<f64>();
-    Ok(SeenPart {
+    Ok(ObservedTarget {
         part: part.clone(),
         reference: first.reference,
         camera_from_target: pose.camera_from_part() * Translation3::from(middle.coords),

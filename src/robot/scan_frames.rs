@@ -15,8 +15,8 @@ use super::{
 };
 use crate::{
     capture::{
-        CaptureError, CaptureWarning, DepthSource as _, Next, Pace, RecordingSpec, Replay, Skipped,
-        read_image,
+        CaptureError, CaptureWarning, DepthSource as _, NextCapture, Pace, RecordingSpec, Replay,
+        SkippedCapture, read_image,
     },
     error::Advice,
     geometry::rigid::RigidTransform,
@@ -43,7 +43,7 @@ pub enum FrameNews<'a> {
     /// A frame was read, and this is odd about it.
     Read(&'a str, &'a [CaptureWarning]),
     /// A frame cannot be read and is left out.
-    Skipped(&'a Skipped),
+    Skipped(&'a SkippedCapture),
 }
 
 /// Why the frames of a scan or their poses cannot be read.
@@ -99,7 +99,7 @@ pub fn read_frames(
         tell(FrameNews::Total(source.num_frames()))?;
         loop {
             match source.next(Duration::ZERO)? {
-                Next::Captured(captured) => {
+                NextCapture::Captured(captured) => {
                     tell(FrameNews::Read(&captured.name, &captured.warnings))?;
                     frames.push(ScanFrame {
                         scene: Arc::new(scene_from_image(captured.image)),
@@ -107,9 +107,9 @@ pub fn read_frames(
                         robot_from_flange: captured.robot_from_flange.map(|pose| *pose),
                     });
                 }
-                Next::Skipped(skipped) => tell(FrameNews::Skipped(&skipped))?,
-                Next::NotYet => {}
-                Next::End => return Ok(frames),
+                NextCapture::Skipped(skipped) => tell(FrameNews::Skipped(&skipped))?,
+                NextCapture::NotYet => {}
+                NextCapture::End => return Ok(frames),
             }
         }
     }

@@ -5,18 +5,19 @@ use std::sync::Arc;
 use nalgebra::{Point3, Vector3};
 
 use super::{
-    FusedCloud, Scan, ScanError, ScanParams, ScanStep, ScanWatch, ScannedShot, Shot, Surface,
+    FusedCloud, Scan, ScanError, ScanObserver, ScanParams, ScanStep, ScannedShot, Shot,
+    ShotSurface,
     error::MAX_SHOTS,
-    fuse::{Seen, fuse},
+    fuse::{FusionShot, fuse},
     overlap::{Agreement, overlap},
     part::keep_best_piece,
     register::{register, samples_of},
-    suspects::{Candidate, worst},
+    suspects::{ShotFit, worst},
 };
 use crate::{
     geometry::{
         parallel::map_in_order,
-        rigid::{PoseError, RigidTransform, pose_error},
+        rigid::{PoseDelta, RigidTransform, pose_error},
     },
     stages::segment::{Segmentation, segment},
     units::{Metres, Radians},
@@ -26,8 +27,8 @@ use crate::{
 const LEAST_READINGS: usize = 500;
 
 /// A shot on its way.
-struct Prepared {
-    surface: Arc<Surface>,
+struct PreparedShot {
+    surface: Arc<ShotSurface>,
     segmentation: Arc<Segmentation>,
     /// The middle of what it sees, camera space.
     middle: Point3<f64>,
@@ -37,7 +38,7 @@ struct Prepared {
 pub fn assemble(
     shots: &[Shot],
     params: &ScanParams,
-    watch: &dyn ScanWatch,
+    watch: &dyn ScanObserver,
 ) -> Result<Scan, ScanError> {
     let found = shots.len();
     if found < 2 {
@@ -59,7 +60,7 @@ pub fn assemble(
             prepare(&shots[i], params)
         },
     );
-    let prepared: Vec<Prepared> = prepared.into_iter().collect::<Result<_, _>>()?;
+    let prepared: Vec<PreparedShot> = prepared.into_iter().collect::<Result<_, _>>()?;
     go_on(watch, ScanStep::Align)?;
     let mut scanned: Vec<ScannedShot> = shots
         .iter()
@@ -80,7 +81,7 @@ pub fn assemble(
     })
 }
 
-fn go_on(watch: &dyn ScanWatch, next: ScanStep) -> Result<(), ScanError> {
+fn go_on(watch: &dyn ScanObserver, next: ScanStep) -> Result<(), ScanError> {
     if watch.is_cancelled() {
         return Err(ScanError::Cancelled);
     }
@@ -88,10 +89,10 @@ fn go_on(watch: &dyn ScanWatch, next: ScanStep) -> Result<(), ScanError> {
     Ok(())
 }
 
-fn prepare(shot: &Shot, params: &ScanParams) -> Result<Prepared, ScanError> {
+fn prepare(shot: &Shot, params: &ScanParams) -> Result<PreparedShot, ScanError> {
     let name = || shot.name.clone();
     let num_finite = shot.scene.cloud.finite().take(LEAST_READINGS).count();
-    let surface = Surface::of(&shot.scene);
+    let surface = ShotSurface::of(&shot.scene);
     let too_few = |found| ScanError::TooFewReadings {
         name: name(),
         found,
@@ -109,7 +110,7 @@ fn prepare(shot: &Shot, params: &ScanParams) -> Result<Prepared, ScanError> {
     let sum = samples.iter().fold(Vector3::zeros(), |sum, &i| {
         sum + surface.points[i as usize].coords.cast::<f64>()
     });
-    Ok(Prepared {
+    Ok(PreparedShot {
         middle: Point3::from(sum / samples.len() as f64),
         surface: Arc::new(surface),
         segmentation: Arc::new(segment(&shot.scene, &params.segment)),
@@ -117,7 +118,7 @@ fn prepare(shot: &Shot, params: &ScanParams) -> Result<Prepared, ScanError> {
 }
 
 impl ScannedShot {
-    fn new(shot: &Shot, prepared: &Prepared) -> Self {
+    fn new(shot: &Shot, prepared: &PreparedShot) -> Self {
         Self {
             name: shot.name.clone(),
             scene: Arc::clone(&shot.scene),
@@ -125,7 +126,7 @@ impl ScannedShot {
             segmentation: Arc::clone(&prepared.segmentation),
             given: shot.base_from_camera,
             base_from_camera: shot.base_from_camera,
-            moved: PoseError {
+            moved: PoseDelta {
                 rotation: Radians(0.0),
                 shift: Metres(0.0),
             },
@@ -141,25 +142,25 @@ impl ScannedShot {
 /// Refines the poses and excludes the shot that least belongs, until all that are left belong together.
 fn align(
     scanned: &mut [ScannedShot],
-    prepared: &[Prepared],
+    prepared: &[PreparedShot],
     params: &ScanParams,
-    watch: &dyn ScanWatch,
+    watch: &dyn ScanObserver,
 ) -> Result<(), ScanError> {
     let mut used: Vec<usize> = (0..scanned.len()).collect();
     loop {
         if watch.is_cancelled() {
             return Err(ScanError::Cancelled);
         }
-        let surfaces: Vec<&Surface> = used.iter().map(|&i| &*prepared[i].surface).collect();
+        let surfaces: Vec<&ShotSurface> = used.iter().map(|&i| &*prepared[i].surface).collect();
         let given: Vec<RigidTransform> = used.iter().map(|&i| scanned[i].given).collect();
         let poses = register(&surfaces, &given, &params.register);
         for (&i, pose) in used.iter().zip(&poses) {
             scanned[i].base_from_camera = *pose;
             scanned[i].moved = pose_error(pose, &scanned[i].given, &prepared[i].middle);
         }
-        let candidates: Vec<Candidate<'_>> = used
+        let candidates: Vec<ShotFit<'_>> = used
             .iter()
-            .map(|&i| Candidate {
+            .map(|&i| ShotFit {
                 surface: &prepared[i].surface,
                 segmentation: &prepared[i].segmentation,
                 base_from_camera: scanned[i].base_from_camera,
@@ -190,8 +191,8 @@ fn agreement(
 ) -> (Agreement, Agreement) {
     let is_used = |shot: &&mut ScannedShot| shot.excluded.is_none();
     let mut used: Vec<&mut ScannedShot> = scanned.iter_mut().filter(is_used).collect();
-    let surfaces: Vec<Arc<Surface>> = used.iter().map(|s| Arc::clone(&s.surface)).collect();
-    let surfaces: Vec<&Surface> = surfaces.iter().map(|s| &**s).collect();
+    let surfaces: Vec<Arc<ShotSurface>> = used.iter().map(|s| Arc::clone(&s.surface)).collect();
+    let surfaces: Vec<&ShotSurface> = surfaces.iter().map(|s| &**s).collect();
     let given: Vec<RigidTransform> = used.iter().map(|s| s.given).collect();
     let refined: Vec<RigidTransform> = used.iter().map(|s| s.base_from_camera).collect();
     let part = cloud.part_cells();
@@ -207,11 +208,11 @@ fn agreement(
 }
 
 fn fused(scanned: &[ScannedShot], params: &ScanParams) -> FusedCloud {
-    let seen: Vec<Seen<'_>> = scanned
+    let seen: Vec<FusionShot<'_>> = scanned
         .iter()
         .enumerate()
         .filter(|(_, shot)| shot.excluded.is_none())
-        .map(|(number, shot)| Seen {
+        .map(|(number, shot)| FusionShot {
             number,
             surface: &shot.surface,
             base_from_camera: shot.base_from_camera,

@@ -7,8 +7,8 @@
 use nalgebra::{Point3, Vector3};
 
 use super::{
-    look::{Look, look},
-    surface::{Surface, Use},
+    surface::{ShotSurface, Use},
+    visibility::{Visibility, visibility_at},
 };
 use crate::{
     geometry::{cloud::PointCloud, parallel::map_in_order, rigid::RigidTransform},
@@ -87,10 +87,10 @@ impl PartCells {
 }
 
 /// A shot as the fusion sees it.
-pub(super) struct Seen<'a> {
+pub(super) struct FusionShot<'a> {
     /// Its number among all shots of the scan.
     pub(super) number: usize,
-    pub(super) surface: &'a Surface,
+    pub(super) surface: &'a ShotSurface,
     pub(super) base_from_camera: RigidTransform,
     /// What its segmentation says of each reading; `None` if it found no part.
     pub(super) labels: Option<&'a [PointLabel]>,
@@ -122,7 +122,7 @@ const PIECE: usize = 4096;
 const BITS: u32 = 21;
 
 /// Fuses the readings of these shots; `is_part` of each point is the shots' vote.
-pub(super) fn fuse(shots: &[Seen<'_>], voxel: Metres, num_workers: usize) -> FusedCloud {
+pub(super) fn fuse(shots: &[FusionShot<'_>], voxel: Metres, num_workers: usize) -> FusedCloud {
     let means = means_of_readings(shots, voxel);
     let pieces = means.len().div_ceil(PIECE);
     let cameras: Vec<RigidTransform> = shots
@@ -166,7 +166,7 @@ fn voxel_of(point: &Point3<f64>, per_metre: f64) -> u64 {
 }
 
 /// The mean of each voxel's readings, ordered by voxel.
-fn means_of_readings(shots: &[Seen<'_>], voxel: Metres) -> Vec<Voxel> {
+fn means_of_readings(shots: &[FusionShot<'_>], voxel: Metres) -> Vec<Voxel> {
     let per_metre = 1.0 / voxel.0;
     let mut readings: Vec<(u64, u32, u32)> = Vec::new();
     for (k, shot) in shots.iter().enumerate() {
@@ -205,7 +205,11 @@ fn means_of_readings(shots: &[Seen<'_>], voxel: Metres) -> Vec<Voxel> {
 }
 
 /// The mean of what all shots see at a point; `None` if they rather look through it.
-fn drawn_to_surface(mean: &Voxel, shots: &[Seen<'_>], cameras: &[RigidTransform]) -> Option<Voxel> {
+fn drawn_to_surface(
+    mean: &Voxel,
+    shots: &[FusionShot<'_>],
+    cameras: &[RigidTransform],
+) -> Option<Voxel> {
     let (mut num_here, mut num_through) = (0_u32, 0_u32);
     let (mut off_sum, mut weight_sum) = (0.0, 0.0);
     let (mut seen_by, mut votes, mut part_votes) = (0_u64, 0, 0);
@@ -218,8 +222,8 @@ fn drawn_to_surface(mean: &Voxel, shots: &[Seen<'_>], cameras: &[RigidTransform]
         }
         let surface = shot.surface;
         let noise = surface.noise_at_1m.0 * at.z * at.z;
-        match look(surface, &at, &normal, TOLERANCE + 3.0 * noise) {
-            Look::Here(i) => {
+        match visibility_at(surface, &at, &normal, TOLERANCE + 3.0 * noise) {
+            Visibility::Here(i) => {
                 num_here += 1;
                 seen_by |= 1 << shot.number;
                 let weight = 1.0 / surface.sigma(i).powi(2);
@@ -234,8 +238,8 @@ fn drawn_to_surface(mean: &Voxel, shots: &[Seen<'_>], cameras: &[RigidTransform]
                     Some(PointLabel::NoReading) | None => 0,
                 };
             }
-            Look::Through => num_through += 1,
-            Look::Hidden | Look::NoReading | Look::Outside => {}
+            Visibility::Through => num_through += 1,
+            Visibility::Hidden | Visibility::NoReading | Visibility::Outside => {}
         }
     }
     if num_here == 0 || 2 * num_through > num_here {

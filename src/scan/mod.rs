@@ -19,7 +19,6 @@
 mod assemble;
 mod error;
 pub mod fuse;
-pub mod look;
 pub mod overlap;
 mod pairs;
 pub mod part;
@@ -27,11 +26,12 @@ pub mod register;
 pub mod surface;
 pub mod suspects;
 pub mod unseen;
+pub mod visibility;
 
 use std::sync::Arc;
 
 use crate::{
-    geometry::rigid::{PoseError, RigidTransform},
+    geometry::rigid::{PoseDelta, RigidTransform},
     stages::{
         scene::SceneCloud,
         segment::{SegmentParams, Segmentation},
@@ -45,7 +45,7 @@ pub use self::{
     fuse::FusedCloud,
     overlap::{Agreement, Overlap},
     register::RegisterParams,
-    surface::Surface,
+    surface::ShotSurface,
     suspects::{Excluded, SuspectParams},
 };
 
@@ -96,7 +96,7 @@ pub enum ScanStep {
 }
 
 /// How a caller follows and stops [`assemble()`].
-pub trait ScanWatch: Sync {
+pub trait ScanObserver: Sync {
     /// A step begins; those of several shots may begin at once, on other threads.
     fn begins(&self, _step: ScanStep) {}
     /// True when the caller has lost interest.
@@ -108,7 +108,7 @@ pub trait ScanWatch: Sync {
 /// Nobody is watching.
 pub struct Unwatched;
 
-impl ScanWatch for Unwatched {}
+impl ScanObserver for Unwatched {}
 
 /// A scan put together.
 #[derive(Clone, Debug)]
@@ -131,7 +131,7 @@ pub struct ScannedShot {
     /// What the camera saw.
     pub scene: Arc<SceneCloud>,
     /// Its readings with normals and noise.
-    pub surface: Arc<Surface>,
+    pub surface: Arc<ShotSurface>,
     /// What segmentation made of it.
     pub segmentation: Arc<Segmentation>,
     /// The camera's pose by the robot.
@@ -139,7 +139,7 @@ pub struct ScannedShot {
     /// The refined pose; of an excluded shot the one at which it was found not to fit.
     pub base_from_camera: RigidTransform,
     /// How far the refinement moved what it saw.
-    pub moved: PoseError,
+    pub moved: PoseDelta,
     /// How it agrees with the other shots at the robot's poses; `None` if it overlaps none.
     pub before: Option<Overlap>,
     /// The same at the refined poses.

@@ -7,9 +7,9 @@
 use nalgebra::Point3;
 
 use super::{
-    pairs::{Met, Reach, meet},
+    pairs::{ProjectedReading, Reach, meet},
     register::samples_of,
-    surface::Surface,
+    surface::ShotSurface,
 };
 use crate::{
     geometry::{parallel::map_in_order, rigid::RigidTransform},
@@ -66,7 +66,7 @@ pub struct Agreement {
 
 /// How shots agree at these poses; `is_part` says of a point of the base frame whether it is the part.
 pub fn overlap(
-    surfaces: &[&Surface],
+    surfaces: &[&ShotSurface],
     poses: &[RigidTransform],
     is_part: impl Fn(&Point3<f64>) -> bool + Sync,
     num_workers: usize,
@@ -105,9 +105,9 @@ pub fn overlap(
 
 /// Magnitudes of the distances of one shot's samples to the surface that another sees, and whether that is the part.
 fn distances(
-    from: &Surface,
+    from: &ShotSurface,
     samples: &[u32],
-    to: &Surface,
+    to: &ShotSurface,
     base_from_from: &RigidTransform,
     base_from_to: &RigidTransform,
     is_part: &(impl Fn(&Point3<f64>) -> bool + Sync),
@@ -120,7 +120,9 @@ fn distances(
             sigmas: 0.0,
         };
         let met = meet(from, i as usize, to, &to_from, base_from_to, reach);
-        let Met::Pair(pair) = met else { return None };
+        let ProjectedReading::Pair(pair) = met else {
+            return None;
+        };
         let (column, row) = from.pixel(&(from_base * pair.to))?;
         let own = (
             i64::from(i) % from.camera.width as i64,

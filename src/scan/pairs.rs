@@ -6,13 +6,13 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::surface::{Surface, Use};
+use super::surface::{ShotSurface, Use};
 use crate::geometry::rigid::RigidTransform;
 
 /// A shot as the registration sees it.
 #[derive(Clone, Copy, Debug)]
-pub(super) struct Posed<'a> {
-    pub(super) surface: &'a Surface,
+pub(super) struct RegistrationShot<'a> {
+    pub(super) surface: &'a ShotSurface,
     pub(super) base_from_camera: RigidTransform,
     /// Some of its readings on a surface, spread over the picture.
     pub(super) samples: &'a [u32],
@@ -39,7 +39,7 @@ impl Pair {
 
 /// What the other shot shows where a reading should be.
 #[derive(Clone, Copy, Debug)]
-pub(super) enum Met {
+pub(super) enum ProjectedReading {
     /// A surface within reach that faces the same way.
     Pair(Pair),
     /// The other camera looks through the place, to a surface beyond reach.
@@ -62,22 +62,22 @@ pub(super) struct Reach {
 
 /// Projects one reading of a shot into another.
 pub(super) fn meet(
-    from: &Surface,
+    from: &ShotSurface,
     i: usize,
-    to: &Surface,
+    to: &ShotSurface,
     to_from: &RigidTransform,
     base_from_to: &RigidTransform,
     reach: Reach,
-) -> Met {
+) -> ProjectedReading {
     let at = to_from * from.points[i].cast::<f64>();
     let Some((column, row)) = to.pixel(&at) else {
-        return Met::Nothing;
+        return ProjectedReading::Nothing;
     };
     let Some(j) = to.reading(column, row) else {
-        return Met::Nothing;
+        return ProjectedReading::Nothing;
     };
     if to.uses[j] != Use::Surface {
-        return Met::Nothing;
+        return ProjectedReading::Nothing;
     }
     let seen = to.points[j].cast::<f64>();
     let normal = to.normals[j];
@@ -86,7 +86,7 @@ pub(super) fn meet(
     let sigma = from.sigma(i).hypot(to.sigma(j));
     let reach = reach.least.max(reach.sigmas * sigma);
     if (seen - at).norm() < reach && faces {
-        return Met::Pair(Pair {
+        return ProjectedReading::Pair(Pair {
             from: base_from_to * at,
             to: base_from_to * seen,
             normal: base_from_to.rotation * normal.cast::<f64>(),
@@ -96,8 +96,8 @@ pub(super) fn meet(
     // A surface that is seen from behind, or edge-on, would not be seen at all.
     let would_be_seen = -own.dot(&at.coords) > 0.3 * at.coords.norm();
     if seen.z - at.z > reach && would_be_seen {
-        Met::Through
+        ProjectedReading::Through
     } else {
-        Met::Nothing
+        ProjectedReading::Nothing
     }
 }

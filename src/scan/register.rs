@@ -14,8 +14,8 @@ use nalgebra::{
 };
 
 use super::{
-    pairs::{Met, Posed, Reach, meet},
-    surface::{Surface, Use},
+    pairs::{ProjectedReading, Reach, RegistrationShot, meet},
+    surface::{ShotSurface, Use},
 };
 use crate::{
     geometry::{
@@ -64,7 +64,7 @@ const CORRELATED: f64 = 25.0;
 const SETTLED: f64 = 2e-6;
 
 /// Some of the readings that a shot can be registered with, spread over its picture.
-pub fn samples_of(surface: &Surface, num: usize) -> Vec<u32> {
+pub fn samples_of(surface: &ShotSurface, num: usize) -> Vec<u32> {
     // An odd step visits all columns.
     let step = (surface.num_surface / num.max(1)).max(1) | 1;
     let usable = surface.uses.iter().enumerate();
@@ -77,7 +77,7 @@ pub fn samples_of(surface: &Surface, num: usize) -> Vec<u32> {
 
 /// The refined poses of these shots, in order; `given` are the robot's.
 pub fn register(
-    surfaces: &[&Surface],
+    surfaces: &[&ShotSurface],
     given: &[RigidTransform],
     params: &RegisterParams,
 ) -> Vec<RigidTransform> {
@@ -90,11 +90,11 @@ pub fn register(
     let mut poses = given.to_vec();
     for (scale, num_steps) in LEVELS {
         for _ in 0..num_steps {
-            let posed: Vec<Posed<'_>> = surfaces
+            let posed: Vec<RegistrationShot<'_>> = surfaces
                 .iter()
                 .zip(&poses)
                 .zip(&samples)
-                .map(|((surface, pose), samples)| Posed {
+                .map(|((surface, pose), samples)| RegistrationShot {
                     surface,
                     base_from_camera: *pose,
                     samples,
@@ -128,7 +128,7 @@ fn moved(pose: &RigidTransform, step: &Vector6<f64>) -> RigidTransform {
 
 /// The steps of all cameras that one Gauss-Newton step asks for.
 fn step(
-    posed: &[Posed<'_>],
+    posed: &[RegistrationShot<'_>],
     given: &[RigidTransform],
     scale: f64,
     params: &RegisterParams,
@@ -188,7 +188,7 @@ struct Block {
     other_right: Vector6<f64>,
 }
 
-fn blocks_of(posed: &[Posed<'_>], i: usize, scale: f64) -> Vec<Option<Block>> {
+fn blocks_of(posed: &[RegistrationShot<'_>], i: usize, scale: f64) -> Vec<Option<Block>> {
     let own = &posed[i];
     let others = posed.iter().enumerate();
     others
@@ -196,9 +196,10 @@ fn blocks_of(posed: &[Posed<'_>], i: usize, scale: f64) -> Vec<Option<Block>> {
         .collect()
 }
 
-fn block_of(own: &Posed<'_>, other: &Posed<'_>, scale: f64) -> Block {
+fn block_of(own: &RegistrationShot<'_>, other: &RegistrationShot<'_>, scale: f64) -> Block {
     let other_from_own = other.base_from_camera.inverse() * own.base_from_camera;
-    let centre = |posed: &Posed<'_>| Point3::from(posed.base_from_camera.translation.vector);
+    let centre =
+        |posed: &RegistrationShot<'_>| Point3::from(posed.base_from_camera.translation.vector);
     let (own_centre, other_centre) = (centre(own), centre(other));
     let mut block = Block {
         own: Matrix6::zeros(),
@@ -219,7 +220,9 @@ fn block_of(own: &Posed<'_>, other: &Posed<'_>, scale: f64) -> Block {
                 sigmas: REACH * SIGMAS,
             },
         );
-        let Met::Pair(pair) = met else { continue };
+        let ProjectedReading::Pair(pair) = met else {
+            continue;
+        };
         let off = pair.off();
         let robust = (-(off / scale.max(SIGMAS * pair.sigma)).powi(2)).exp();
         let weight = robust / (CORRELATED * (pair.sigma.powi(2) + FLOOR * FLOOR));

@@ -31,7 +31,7 @@ pub enum Use {
 
 /// The readings of a shot with their normals, in camera space.
 #[derive(Clone, Debug)]
-pub struct Surface {
+pub struct ShotSurface {
     /// The camera.
     pub camera: Intrinsics,
     /// The points, row by row.
@@ -66,7 +66,7 @@ const LEAST_REGISTERED: usize = 22;
 const LEAST_COSINE_FUSED: f64 = 0.17;
 const LEAST_COSINE_REGISTERED: f64 = 0.3;
 
-impl Surface {
+impl ShotSurface {
     /// Prepares a shot; `None` without rows, columns and a camera.
     pub fn of(scene: &SceneCloud) -> Option<Self> {
         let camera = scene.intrinsics?;
@@ -224,7 +224,7 @@ mod tests {
     #[test]
     fn a_tilted_board_has_its_own_normal_and_its_rim_is_not_registered_with() {
         let (scene, normal) = board_before_wall();
-        let surface = Surface::of(&scene).expect("a picture");
+        let surface = ShotSurface::of(&scene).expect("a picture");
         let at = |column: usize, row: usize| row * 640 + column;
         let inside = at(320, 240);
         assert_eq!(surface.uses[inside], Use::Surface);
@@ -245,14 +245,14 @@ mod tests {
             let p = camera.point_at(199.0, f64::from(row), z);
             scene.cloud.points[row as usize * 640 + 199] = p.cast();
         }
-        let surface = Surface::of(&scene).expect("a picture");
+        let surface = ShotSurface::of(&scene).expect("a picture");
         assert!((150..330).all(|row| surface.uses[row * 640 + 199] == Use::None));
     }
 
     #[test]
     fn a_surface_seen_further_away_or_edge_on_is_less_certain() {
         let (scene, _) = board_before_wall();
-        let surface = Surface::of(&scene).expect("a picture");
+        let surface = ShotSurface::of(&scene).expect("a picture");
         let (board, wall) = (
             surface.sigma(240 * 640 + 320),
             surface.sigma(20 * 640 + 320),
@@ -262,6 +262,6 @@ mod tests {
 
     #[test]
     fn a_cloud_without_a_picture_has_no_surface() {
-        assert!(Surface::of(&SceneCloud::default()).is_none());
+        assert!(ShotSurface::of(&SceneCloud::default()).is_none());
     }
 }

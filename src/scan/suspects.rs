@@ -1,14 +1,14 @@
 //! Which shot does not belong: its pose is wrong, or the part stood elsewhere when it was taken.
 
 use super::{
-    pairs::{Met, Reach, meet},
+    pairs::{ProjectedReading, Reach, meet},
     register::samples_of,
-    surface::Surface,
+    surface::ShotSurface,
 };
 use crate::{
     geometry::{
         parallel::map_in_order,
-        rigid::{PoseError, RigidTransform},
+        rigid::{PoseDelta, RigidTransform},
     },
     stages::segment::{PointLabel, Segmentation},
     units::{Metres, Radians},
@@ -43,7 +43,7 @@ pub enum Excluded {
     #[error("its pose is wrong: the frame fits {} and {} away", moved.shift, moved.rotation)]
     WrongPose {
         /// From the robot's pose to the one at which it fits better.
-        moved: PoseError,
+        moved: PoseDelta,
     },
     /// The frame fits nowhere near.
     #[error("it contradicts the other frames: {:.0} % of what they see together agrees", share * 100.0)]
@@ -82,13 +82,13 @@ impl crate::error::Advice for Excluded {
 }
 
 /// A shot at its refined pose.
-pub(super) struct Candidate<'a> {
-    pub(super) surface: &'a Surface,
+pub(super) struct ShotFit<'a> {
+    pub(super) surface: &'a ShotSurface,
     pub(super) segmentation: &'a Segmentation,
     pub(super) base_from_camera: RigidTransform,
     /// The robot's pose.
     pub(super) given: RigidTransform,
-    pub(super) moved: PoseError,
+    pub(super) moved: PoseDelta,
 }
 
 /// Readings that two shots see at one place: how many agree, and how many do not.
@@ -125,7 +125,7 @@ const REACH: Reach = Reach {
 
 /// The shot that least belongs to the others, and why; `None` if all belong.
 pub(super) fn worst(
-    shots: &[Candidate<'_>],
+    shots: &[ShotFit<'_>],
     params: &SuspectParams,
     num_workers: usize,
 ) -> Option<(usize, Excluded)> {
@@ -187,11 +187,11 @@ pub(super) fn worst(
 
 /// That a shot's part moved, if its cell fits the other shots at the robot's pose at least as well as where the refinement
 /// put it: a part that stands elsewhere draws the pose along.
-fn part_moved(shots: &[Candidate<'_>], which: usize) -> Option<Excluded> {
+fn part_moved(shots: &[ShotFit<'_>], which: usize) -> Option<Excluded> {
     let suspect = &shots[which];
     let samples = samples_of(suspect.surface, NUM_SAMPLES);
     let at = |base_from_camera: RigidTransform| {
-        let posed = Candidate {
+        let posed = ShotFit {
             base_from_camera,
             ..*suspect
         };
@@ -210,14 +210,16 @@ fn part_moved(shots: &[Candidate<'_>], which: usize) -> Option<Excluded> {
 }
 
 /// How well the readings of the cell without the part lie on what another shot sees: 1 for each that lies on it.
-fn fit_of_cell(from: &Candidate<'_>, samples: &[u32], to: &Candidate<'_>) -> f64 {
+fn fit_of_cell(from: &ShotFit<'_>, samples: &[u32], to: &ShotFit<'_>) -> f64 {
     let to_from = to.base_from_camera.inverse() * from.base_from_camera;
     let fit = |&i: &u32| {
         let i = i as usize;
         let is_part = from.segmentation.labels.get(i) == Some(&PointLabel::Part);
         let base_from_to = &to.base_from_camera;
         match meet(from.surface, i, to.surface, &to_from, base_from_to, REACH) {
-            Met::Pair(pair) if !is_part => (-(pair.off() / pair.sigma).powi(2) / 2.0).exp(),
+            ProjectedReading::Pair(pair) if !is_part => {
+                (-(pair.off() / pair.sigma).powi(2) / 2.0).exp()
+            }
             _ => 0.0,
         }
     };
@@ -225,7 +227,7 @@ fn fit_of_cell(from: &Candidate<'_>, samples: &[u32], to: &Candidate<'_>) -> f64
 }
 
 /// Everything, and the part alone.
-fn count(from: &Candidate<'_>, samples: &[u32], to: &Candidate<'_>) -> [Count; 2] {
+fn count(from: &ShotFit<'_>, samples: &[u32], to: &ShotFit<'_>) -> [Count; 2] {
     let to_from = to.base_from_camera.inverse() * from.base_from_camera;
     let mut counts = [Count::default(); 2];
     for &i in samples {
@@ -233,9 +235,9 @@ fn count(from: &Candidate<'_>, samples: &[u32], to: &Candidate<'_>) -> [Count; 2
         let base_from_to = &to.base_from_camera;
         let met = meet(from.surface, i, to.surface, &to_from, base_from_to, REACH);
         let agrees = match met {
-            Met::Pair(pair) => pair.off().abs() < AGREES + 3.0 * pair.sigma,
-            Met::Through => false,
-            Met::Nothing => continue,
+            ProjectedReading::Pair(pair) => pair.off().abs() < AGREES + 3.0 * pair.sigma,
+            ProjectedReading::Through => false,
+            ProjectedReading::Nothing => continue,
         };
         let one = Count {
             agree: f64::from(agrees),

@@ -5,14 +5,14 @@ use nalgebra::{Isometry3, Point3, Translation3};
 use super::*;
 use crate::{
     geometry::{nearest::KdTree, rigid::pose_error},
-    simulate::{PartKind, ScanSetup, Side, SimulatedScan, Subject},
+    simulate::{PartKind, ScanSetup, Side, SimulatedObject, SimulatedScan},
     stages::scene::scene_from_frame,
     units::Radians,
 };
 
 fn simulated(kind: PartKind, num_shots: usize, seed: u64) -> SimulatedScan {
     SimulatedScan::new(ScanSetup {
-        subject: Subject::Part {
+        subject: SimulatedObject::Part {
             kind,
             side: Side::Left,
             model_seed: 0,
@@ -39,7 +39,7 @@ fn shots_of(scan: &SimulatedScan) -> (Vec<Shot>, Vec<RigidTransform>) {
 /// A caller who has lost interest.
 struct Impatient;
 
-impl ScanWatch for Impatient {
+impl ScanObserver for Impatient {
     fn is_cancelled(&self) -> bool {
         true
     }

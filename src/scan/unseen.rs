@@ -8,7 +8,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::{
     Scan,
-    look::{Look, look},
+    visibility::{Visibility, visibility_at},
 };
 use crate::geometry::nearest::KdTree;
 
@@ -66,8 +66,11 @@ pub fn outline(scan: &Scan) -> Vec<OutlinePoint> {
             scan.used().any(|(_, shot)| {
                 let camera_from_base = shot.base_from_camera.inverse();
                 let at = camera_from_base * probe;
-                let seen = look(&shot.surface, &at, &Vector3::zeros(), TOLERANCE);
-                matches!(seen, Look::Through | Look::Here(_) | Look::NoReading)
+                let seen = visibility_at(&shot.surface, &at, &Vector3::zeros(), TOLERANCE);
+                matches!(
+                    seen,
+                    Visibility::Through | Visibility::Here(_) | Visibility::NoReading
+                )
             })
         });
         outline.push(OutlinePoint {

@@ -10,7 +10,7 @@ use super::booth;
 use super::clutter::{Clutter, on_floor, plank};
 use super::object::ObjectKind;
 use super::part::{PartKind, PartModel, Side};
-use super::placement::{Placed, Placement};
+use super::placement::{PoseRange, SampledPose};
 use super::rasteriser::{Plane, Rendering, SurfaceLabel};
 use super::sensor::{Sensor, SensorNoise};
 use super::stand::{Stand, down_from_above, floor_below, post};
@@ -22,7 +22,7 @@ use crate::units::{Metres, Radians};
 /// What hangs before the camera.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Subject {
+pub enum SimulatedObject {
     /// One of the eight parts.
     Part {
         /// Which.
@@ -38,7 +38,7 @@ pub enum Subject {
     Nothing,
 }
 
-impl Subject {
+impl SimulatedObject {
     /// Its surface in its own coordinates, metres.
     pub fn mesh(&self) -> TriangleMesh {
         match *self {
@@ -59,7 +59,7 @@ pub enum PartPose {
     /// Exactly here: `camera_from_part`.
     Fixed(RigidTransform),
     /// Drawn from a range by the cell's seed.
-    Drawn(Placement),
+    Drawn(PoseRange),
 }
 
 /// What surrounds the part, and which kind of camera sees it.
@@ -78,7 +78,7 @@ pub enum Surroundings {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct CellSetup {
     /// What hangs before the camera.
-    pub subject: Subject,
+    pub subject: SimulatedObject,
     /// Where it hangs.
     pub pose: PartPose,
     /// What holds it.
@@ -100,11 +100,11 @@ pub struct CellSetup {
 }
 
 impl CellSetup {
-    /// A tidy cell: the subject at a drawn pose ([`Placement::placed`]) before wall and floor, a Kinect's noise.
-    pub fn new(subject: Subject, seed: u64) -> Self {
+    /// A tidy cell: the subject at a drawn pose ([`PoseRange::placed`]) before wall and floor, a Kinect's noise.
+    pub fn new(subject: SimulatedObject, seed: u64) -> Self {
         Self {
             subject,
-            pose: PartPose::Drawn(Placement::placed()),
+            pose: PartPose::Drawn(PoseRange::placed()),
             stand: Stand::None,
             clutter: Clutter::None,
             noise: SensorNoise::kinect(seed),
@@ -117,7 +117,7 @@ impl CellSetup {
     }
 
     /// A paint booth with the subject on a stand.
-    pub fn booth(subject: Subject, seed: u64) -> Self {
+    pub fn booth(subject: SimulatedObject, seed: u64) -> Self {
         Self {
             intrinsics: booth::CAMERA,
             surroundings: Surroundings::Booth,
@@ -128,7 +128,7 @@ impl CellSetup {
     /// A tidy cell with a part in it.
     pub fn with_part(kind: PartKind, side: Side, model_seed: u64, seed: u64) -> Self {
         Self::new(
-            Subject::Part {
+            SimulatedObject::Part {
                 kind,
                 side,
                 model_seed,
@@ -169,12 +169,12 @@ impl<'a> Cell<'a> {
 
     fn plain(setup: &CellSetup, part: &'a TriangleMesh) -> Self {
         let mut random = Pcg64::seed_from_u64(setup.seed ^ STREAM);
-        let Placed {
+        let SampledPose {
             camera_from_part,
             fully_visible,
         } = match setup.pose {
             PartPose::Drawn(placement) => placement.draw(part, &setup.intrinsics, setup.seed),
-            PartPose::Fixed(camera_from_part) => Placed {
+            PartPose::Fixed(camera_from_part) => SampledPose {
                 camera_from_part,
                 fully_visible: is_in_frame(part, &camera_from_part, &setup.intrinsics),
             },

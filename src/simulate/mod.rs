@@ -30,15 +30,15 @@ mod stand;
 mod standing_cell;
 mod variation;
 
-pub use cell::{CellSetup, PartPose, Subject, Surroundings};
+pub use cell::{CellSetup, PartPose, SimulatedObject, Surroundings};
 pub use clutter::Clutter;
 pub use object::ObjectKind;
 pub use part::{PartKind, PartModel, Side};
-pub use placement::{Placed, Placement};
+pub use placement::{PoseRange, SampledPose};
 pub use rasteriser::SurfaceLabel;
 pub use scan::{ScanSetup, SimulatedScan, SimulatedShot};
 pub use sensor::SensorNoise;
-pub use shot::{SimulatedFrame, Truth, frame, frame_of_mesh};
+pub use shot::{FrameTruth, SimulatedFrame, frame, frame_of_mesh};
 pub use stand::Stand;
 pub use standing_cell::StandingCell;
 pub use variation::FIRST_OTHER_MAKE;

@@ -24,7 +24,7 @@ const STREAM: u64 = 0x705e_705e_705e_705e;
 
 /// A range of poses. Turned by yaw about its own upright axis first, then pitch, then roll about the optical axis.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Placement {
+pub struct PoseRange {
     /// Yaw is drawn from ± this angle.
     pub yaw: Radians,
     /// Pitch is drawn from ± this angle.
@@ -39,7 +39,7 @@ pub struct Placement {
 
 /// A drawn pose.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Placed {
+pub struct SampledPose {
     /// Maps the part's coordinates to the camera's.
     pub camera_from_part: RigidTransform,
     /// False if the part does not fit the frame anywhere in the range at this attitude; it then hangs at the far
@@ -47,7 +47,7 @@ pub struct Placed {
     pub fully_visible: bool,
 }
 
-impl Placement {
+impl PoseRange {
     /// Hung with care: ± 10° about every axis, 1.0 to 1.4 m away.
     pub fn facing() -> Self {
         Self {
@@ -83,7 +83,7 @@ impl Placement {
     ///
     /// The distance is drawn evenly; a part that would leave the frame moves away to the nearest distance within the
     /// range at which it fits, and sideways as far as needed.
-    pub fn draw(&self, mesh: &TriangleMesh, intrinsics: &Intrinsics, seed: u64) -> Placed {
+    pub fn draw(&self, mesh: &TriangleMesh, intrinsics: &Intrinsics, seed: u64) -> SampledPose {
         let mut random = Pcg64::seed_from_u64(seed ^ STREAM);
         let mut within = |limit: Radians| limit.0 * (2.0 * random.random::<f64>() - 1.0);
         let yaw = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), within(self.yaw));
@@ -102,13 +102,16 @@ impl Placement {
             .map(|p| rotation * p.cast::<f64>())
             .collect();
         let axes = [
-            Room::new(&turned, 0, intrinsics.cx, intrinsics.fx, intrinsics.width),
-            Room::new(&turned, 1, intrinsics.cy, intrinsics.fy, intrinsics.height),
+            ShiftRange::new(&turned, 0, intrinsics.cx, intrinsics.fx, intrinsics.width),
+            ShiftRange::new(&turned, 1, intrinsics.cy, intrinsics.fy, intrinsics.height),
         ];
-        let fitting = axes.iter().map(Room::nearest_fit).fold(drawn, f64::max);
+        let fitting = axes
+            .iter()
+            .map(ShiftRange::nearest_fit)
+            .fold(drawn, f64::max);
         let distance = fitting.min(self.farthest.0);
         let [x, y] = [0, 1].map(|axis| axes[axis].shift(distance, wished[axis]));
-        Placed {
+        SampledPose {
             camera_from_part: RigidTransform::from_parts(
                 Translation3::new(x, y, distance),
                 rotation,
@@ -119,14 +122,14 @@ impl Placement {
 }
 
 /// The sideways room of the part along one image axis: shifts from `low_slope·d + low` to `high_slope·d + high`.
-struct Room {
+struct ShiftRange {
     low_slope: f64,
     low: f64,
     high_slope: f64,
     high: f64,
 }
 
-impl Room {
+impl ShiftRange {
     fn new(
         turned: &[Point3<f64>],
         axis: usize,
@@ -188,7 +191,7 @@ mod tests {
             for model_seed in 0..4 {
                 let part = PartModel::new(kind, Side::Left, model_seed);
                 for seed in 0..12 {
-                    let placed = Placement::placed().draw(part.mesh(), &Intrinsics::KINECT, seed);
+                    let placed = PoseRange::placed().draw(part.mesh(), &Intrinsics::KINECT, seed);
                     assert!(
                         placed.fully_visible,
                         "{kind} model {model_seed} seed {seed}"
@@ -204,9 +207,9 @@ mod tests {
     #[test]
     fn a_part_that_cannot_fit_says_so() {
         let part = PartModel::new(PartKind::FrontBumper, Side::Left, 0);
-        let range = Placement {
+        let range = PoseRange {
             farthest: Metres(0.9),
-            ..Placement::placed()
+            ..PoseRange::placed()
         };
         let placed = range.draw(part.mesh(), &Intrinsics::KINECT, 3);
         assert!(!placed.fully_visible);
@@ -216,10 +219,10 @@ mod tests {
     #[test]
     fn a_small_part_keeps_its_drawn_distance_and_a_large_one_is_moved_no_farther_than_needed() {
         let part = PartModel::new(PartKind::FrontDoor, Side::Left, 0);
-        let range = Placement {
+        let range = PoseRange {
             farthest: Metres(3.0),
             nearest: Metres(0.5),
-            ..Placement::facing()
+            ..PoseRange::facing()
         };
         for seed in 0..20 {
             let placed = range

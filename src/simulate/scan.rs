@@ -11,7 +11,7 @@ use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
 use super::assembly::Assembly;
-use super::cell::Subject;
+use super::cell::SimulatedObject;
 use super::rasteriser::{Rendering, SurfaceLabel};
 use super::sensor::{Sensor, SensorNoise};
 use crate::geometry::depth_frame::{DepthFrame, Intrinsics};
@@ -23,7 +23,7 @@ use crate::units::{Metres, Radians};
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct ScanSetup {
     /// What stands in the cell.
-    pub subject: Subject,
+    pub subject: SimulatedObject,
     /// Frames.
     pub num_shots: usize,
     /// How far the camera is from where the robot says.
@@ -185,7 +185,7 @@ mod tests {
     #[test]
     fn the_camera_looks_at_the_part_and_the_robot_errs_by_what_was_asked_for() {
         let scan = SimulatedScan::new(ScanSetup {
-            subject: Subject::Part {
+            subject: SimulatedObject::Part {
                 kind: PartKind::Fender,
                 side: Side::Left,
                 model_seed: 0,

@@ -106,7 +106,7 @@ impl Sensor {
 /// The frame that a Kinect delivers of a perfect rendering.
 fn sense(rendering: &Rendering, noise: &SensorNoise) -> DepthFrame {
     let depth = if noise.multiplier > 0.0 {
-        disturbed(rendering, noise)
+        with_noise(rendering, noise)
     } else {
         rendering
             .depth
@@ -132,7 +132,7 @@ fn in_units(metres: f64) -> u16 {
     }
 }
 
-fn disturbed(rendering: &Rendering, noise: &SensorNoise) -> Vec<u16> {
+fn with_noise(rendering: &Rendering, noise: &SensorNoise) -> Vec<u16> {
     let camera = &rendering.intrinsics;
     let focal_baseline = camera.fx * BASELINE;
     // Infinite depth becomes no disparity.

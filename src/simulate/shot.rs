@@ -2,7 +2,7 @@
 
 use serde::{Deserialize, Serialize};
 
-use super::cell::{Cell, CellSetup, Subject};
+use super::cell::{Cell, CellSetup, SimulatedObject};
 use super::part::PartKind;
 use super::rasteriser::{Rendering, SurfaceLabel};
 use crate::geometry::depth_frame::{DepthFrame, Intrinsics};
@@ -12,9 +12,9 @@ use crate::geometry::sixteen_numbers;
 
 /// What is known about a simulated frame.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Truth {
+pub struct FrameTruth {
     /// What hangs before the camera.
-    pub subject: Subject,
+    pub subject: SimulatedObject,
     /// Maps the model's own coordinates to the camera's; written as `camera_from_model`, 16 numbers row after row. An
     /// enrolled part has other coordinates: those of the camera that saw it.
     #[serde(rename = "camera_from_model", with = "sixteen_numbers")]
@@ -30,12 +30,12 @@ pub struct Truth {
     pub labels: Vec<SurfaceLabel>,
 }
 
-impl Truth {
+impl FrameTruth {
     /// The part, if it is one of the eight.
     pub fn part(&self) -> Option<PartKind> {
         match self.subject {
-            Subject::Part { kind, .. } => Some(kind),
-            Subject::Object(_) | Subject::Nothing => None,
+            SimulatedObject::Part { kind, .. } => Some(kind),
+            SimulatedObject::Object(_) | SimulatedObject::Nothing => None,
         }
     }
 }
@@ -46,7 +46,7 @@ pub struct SimulatedFrame {
     /// The frame.
     pub frame: DepthFrame,
     /// The truth.
-    pub truth: Truth,
+    pub truth: FrameTruth,
 }
 
 /// Builds the subject, arranges the cell, and takes one frame of it.
@@ -70,7 +70,7 @@ pub fn frame_of_mesh(setup: &CellSetup, mesh: &TriangleMesh) -> SimulatedFrame {
     let num_visible = cell.sensor.num_part_pixels(&rendering);
     SimulatedFrame {
         frame: cell.sensor.sense(&rendering, &setup.noise),
-        truth: Truth {
+        truth: FrameTruth {
             subject: setup.subject,
             camera_from_part: cell.camera_from_part,
             fully_visible: cell.fits_frame && num_in_view == num_in_frame,

@@ -1,16 +1,16 @@
 //! A cell that stands still while many frames are taken of it: what does not move is drawn once.
 
-use super::cell::{Cell, CellSetup, Subject, is_in_frame};
+use super::cell::{Cell, CellSetup, SimulatedObject, is_in_frame};
 use super::rasteriser::{Rendering, SurfaceLabel};
 use super::sensor::{Sensor, SensorNoise};
-use super::shot::{SimulatedFrame, Truth};
+use super::shot::{FrameTruth, SimulatedFrame};
 use crate::geometry::depth_frame::Intrinsics;
 use crate::geometry::mesh::TriangleMesh;
 use crate::geometry::rigid::RigidTransform;
 
 /// A cell that stands still; only the part moves, and the sensor's noise changes.
 pub struct StandingCell {
-    subject: Subject,
+    subject: SimulatedObject,
     mesh: TriangleMesh,
     intrinsics: Intrinsics,
     camera_from_part: RigidTransform,
@@ -37,12 +37,12 @@ impl StandingCell {
     }
 
     /// Where the part hangs at rest: `camera_from_part`.
-    pub fn at_rest(&self) -> RigidTransform {
+    pub fn rest_pose(&self) -> RigidTransform {
         self.camera_from_part
     }
 
     /// A frame with the part at this pose. A part of which nothing is in the picture is not there: the truth says
-    /// [`Subject::Nothing`].
+    /// [`SimulatedObject::Nothing`].
     pub fn frame(&self, camera_from_part: &RigidTransform, noise: &SensorNoise) -> SimulatedFrame {
         let mut rendering = Rendering::new(self.intrinsics);
         rendering.draw_mesh(&self.mesh, camera_from_part, SurfaceLabel::Part);
@@ -59,9 +59,9 @@ impl StandingCell {
         let num_visible = self.sensor.num_part_pixels(&rendering);
         SimulatedFrame {
             frame: self.sensor.sense(&rendering, noise),
-            truth: Truth {
+            truth: FrameTruth {
                 subject: if num_in_frame == 0 {
-                    Subject::Nothing
+                    SimulatedObject::Nothing
                 } else {
                     self.subject
                 },
@@ -107,11 +107,11 @@ mod tests {
             let mut setup = CellSetup::with_part(kind, Side::Left, 0, seed);
             setup.clutter = clutter;
             let cell = StandingCell::arrange(&setup, setup.subject.mesh());
-            let found = cell.frame(&cell.at_rest(), &setup.noise);
+            let found = cell.frame(&cell.rest_pose(), &setup.noise);
             assert!(found == frame(&setup), "seed {seed}");
         }
         let booth = CellSetup::booth(
-            Subject::Part {
+            SimulatedObject::Part {
                 kind: PartKind::Fender,
                 side: Side::Left,
                 model_seed: 0,
@@ -119,7 +119,7 @@ mod tests {
             7,
         );
         let cell = StandingCell::arrange(&booth, booth.subject.mesh());
-        let found = cell.frame(&cell.at_rest(), &booth.noise);
+        let found = cell.frame(&cell.rest_pose(), &booth.noise);
         assert!(found.frame == frame(&booth).frame);
     }
 
@@ -127,13 +127,13 @@ mod tests {
     fn what_is_out_of_the_picture_is_not_there() {
         let setup = CellSetup::with_part(PartKind::Grille, Side::Left, 0, 5);
         let cell = StandingCell::arrange(&setup, setup.subject.mesh());
-        let mut aside = cell.at_rest();
+        let mut aside = cell.rest_pose();
         aside.translation.x += 5.0;
         let SimulatedFrame { frame: seen, truth } = cell.frame(&aside, &setup.noise);
-        assert_eq!(truth.subject, Subject::Nothing);
+        assert_eq!(truth.subject, SimulatedObject::Nothing);
         assert!(!truth.labels.contains(&SurfaceLabel::Part));
         assert!(seen.depth.iter().any(|&depth| depth > 0));
-        let mut half = cell.at_rest();
+        let mut half = cell.rest_pose();
         half.translation.x += 0.8;
         let truth = cell.frame(&half, &setup.noise).truth;
         assert_eq!(truth.subject, setup.subject);

@@ -34,9 +34,9 @@ use crate::{
     stages::{
         pose::{
             PoseError, PoseEstimate,
-            closest::Closest,
+            closest::Correspondence,
             quality::{NUM_LOOKED_FOR, Tolerance},
-            refine::{Level, Search, Source, refine},
+            refine::{AlignmentSource, Level, Search, refine},
             uncertainty::uncertainty,
         },
         rank::{MatchEntry, MatchRanking, Query},
@@ -307,7 +307,7 @@ const HOPELESS_SCORE: f64 = 1e-4;
 /// The scene's side of all comparisons, prepared once.
 struct PreparedScene<'a> {
     scene: &'a Scene<'a>,
-    source: Source,
+    source: AlignmentSource,
     centre: Point3<f64>,
     /// Length of the outline that is the part's own, metres.
     own_m: f64,
@@ -395,7 +395,7 @@ impl<'a> PreparedScene<'a> {
         candidate.refined.stopped = last.stopped;
         candidate.refined.target_from_source = last.target_from_source;
         let (source, pose) = (&self.source, &last.target_from_source);
-        let closest = Closest::of_each(&source.surface, &target, pose, Search::Tree);
+        let closest = Correspondence::of_each(&source.surface, &target, pose, Search::Tree);
         candidate.uncertainty = Some(uncertainty(source, &closest, &target, pose, &THIRD[2]));
         (candidate.fit, candidate.evidence) =
             self.evaluate(reference, candidate.view, pose, &closest, NUM_LOOKED_FOR);
@@ -418,7 +418,7 @@ impl<'a> PreparedScene<'a> {
 pub const UNCONFIRMED_WEIGHT: f64 = 0.3;
 
 /// Thins part and edges at random, so that any first n of them are spread over the part.
-fn thinned_source(scene: &Scene<'_>, outline: &Outline, params: &ConfirmParams) -> Source {
+fn thinned_source(scene: &Scene<'_>, outline: &Outline, params: &ConfirmParams) -> AlignmentSource {
     let mut rng = Pcg64::seed_from_u64(params.seed);
     let points = &scene.part.cloud.points;
     let wanted = THIRD[2].num_surface;
@@ -436,7 +436,7 @@ fn thinned_source(scene: &Scene<'_>, outline: &Outline, params: &ConfirmParams) 
         .map(|p| (camera_from_plane * p).cast())
         .collect();
     edges.shuffle(&mut rng);
-    Source { surface, edges }
+    AlignmentSource { surface, edges }
 }
 
 /// An outline of which more than this share is not the part's own is that of a piece.

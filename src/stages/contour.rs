@@ -40,7 +40,7 @@ pub enum BorderKind {
 
 /// One border as it was followed.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Border {
+pub struct TracedBorder {
     /// What it surrounds.
     pub kind: BorderKind,
     /// Index of the border around this one; `None` for the frame of the image.
@@ -84,7 +84,7 @@ impl Advice for ContourError {
 /// The part's outline (the border that encloses the largest area) and its openings.
 pub fn find_contour(plane: &PlaneImage, params: &ContourParams) -> Result<Contour, ContourError> {
     let borders = follow_borders(&plane.image);
-    let to_plane = |border: &Border| -> Vec<Point2<f64>> {
+    let to_plane = |border: &TracedBorder| -> Vec<Point2<f64>> {
         border
             .pixels
             .iter()
@@ -200,7 +200,7 @@ const CLOCKWISE: [(i64, i64); 8] = [
 ];
 
 /// All borders of an image with their nesting, in the order in which a scan meets them.
-pub fn follow_borders(image: &BinaryImage) -> Vec<Border> {
+pub fn follow_borders(image: &BinaryImage) -> Vec<TracedBorder> {
     // A frame of unset pixels, so that no neighbour is ever outside.
     let stride = image.width + 2;
     let mut labels = vec![0_i32; stride * (image.height + 2)];
@@ -210,7 +210,7 @@ pub fn follow_borders(image: &BinaryImage) -> Vec<Border> {
         }
     }
     let steps = CLOCKWISE.map(|(du, dv)| dv as isize * stride as isize + du as isize);
-    let mut borders: Vec<Border> = Vec::new();
+    let mut borders: Vec<TracedBorder> = Vec::new();
     for row in 1..=image.height {
         // Label of the last border met on this row; 1 is the frame of the image.
         let mut last_met = 1;
@@ -236,7 +236,7 @@ pub fn follow_borders(image: &BinaryImage) -> Vec<Border> {
                 // Labels 0 and 1 are background and unvisited, so border k carries label k + 2.
                 let label = borders.len() as i32 + 2;
                 let pixels = follow(&mut labels, &steps, stride, at, from, label);
-                borders.push(Border {
+                borders.push(TracedBorder {
                     kind,
                     parent,
                     pixels,
@@ -252,7 +252,7 @@ pub fn follow_borders(image: &BinaryImage) -> Vec<Border> {
 }
 
 /// Table 1 of the article: the parent follows from the new border's kind and the border met last.
-fn parent_of(kind: BorderKind, last_met: i32, borders: &[Border]) -> Option<usize> {
+fn parent_of(kind: BorderKind, last_met: i32, borders: &[TracedBorder]) -> Option<usize> {
     let last = (last_met >= 2).then(|| last_met as usize - 2)?;
     if borders[last].kind == kind {
         borders[last].parent

@@ -48,13 +48,13 @@ impl RaySpectra {
 }
 
 /// Plans transforms of one precision, and keeps them: planning one takes as long as dozens of transforms.
-type Planner<T> = LazyLock<Mutex<FftPlanner<T>>>;
-static PLANNER: Planner<f32> = LazyLock::new(|| Mutex::new(FftPlanner::new()));
-static EXACT_PLANNER: Planner<f64> = LazyLock::new(|| Mutex::new(FftPlanner::new()));
+type FftPlanCache<T> = LazyLock<Mutex<FftPlanner<T>>>;
+static PLANNER: FftPlanCache<f32> = LazyLock::new(|| Mutex::new(FftPlanner::new()));
+static EXACT_PLANNER: FftPlanCache<f64> = LazyLock::new(|| Mutex::new(FftPlanner::new()));
 
 /// The transform of so many values.
 fn planned<T: FftNum>(
-    planner: &Planner<T>,
+    planner: &FftPlanCache<T>,
     length: usize,
     direction: FftDirection,
 ) -> Arc<dyn Fft<T>> {

@@ -9,9 +9,9 @@
 
 mod placement;
 
-use placement::{Placer, refine_first};
+use placement::{PlacementSearch, refine_first};
 
-pub use self::placement::Placement;
+pub use self::placement::ImagePlacement;
 use crate::{
     geometry::parallel::{map_in_order, num_cores},
     stages::{
@@ -87,7 +87,7 @@ pub struct MatchEntry {
     /// The matcher's own distance: metres between outlines by default, ‖A - C‖₁ for the paper's.
     pub distance: f64,
     /// Placements, best first; the paper's matcher finds none.
-    pub placements: Vec<Placement>,
+    pub placements: Vec<ImagePlacement>,
 }
 
 /// All references, best first.
@@ -165,7 +165,7 @@ fn rank_by_overlap(
     references: &[Reference],
     params: &RankParams,
 ) -> Vec<MatchEntry> {
-    let entry = |placer: &mut Placer<'_>, reference: usize| {
+    let entry = |placer: &mut PlacementSearch<'_>, reference: usize| {
         let enrolled = &references[reference];
         let placements = placer.place(enrolled);
         MatchEntry {
@@ -179,13 +179,13 @@ fn rank_by_overlap(
             placements,
         }
     };
-    let prepare = || Placer::new(query, params);
+    let prepare = || PlacementSearch::new(query, params);
     map_in_order(references.len(), num_workers, prepare, entry)
 }
 
 /// The ways of laying one reference over the scene, best first; for a matcher that finds none itself.
-pub fn place(query: &Query<'_>, reference: &Reference, params: &RankParams) -> Vec<Placement> {
-    let mut placements = Placer::new(query, params).place(reference);
+pub fn place(query: &Query<'_>, reference: &Reference, params: &RankParams) -> Vec<ImagePlacement> {
+    let mut placements = PlacementSearch::new(query, params).place(reference);
     refine_first(&mut placements, query, reference);
     placements
 }

@@ -13,7 +13,7 @@ use std::sync::OnceLock;
 use nalgebra::{Isometry2, Point2, Point3, Vector3};
 
 use self::{
-    border::{Border, BorderPoint},
+    border::{BorderPoint, ReferenceBorder},
     viewpoints::{VIEW_DISTANCE, viewpoints, visible_from},
 };
 pub use self::{view_cut::ViewCut, viewpoints::seen_around};
@@ -26,7 +26,7 @@ use crate::{
     stages::{
         contour::{Contour, ContourParams, find_contour, lift_oriented},
         correlation::{LiteralReference, RaySpectra},
-        pose::{PoseError, PreparedTarget, edge_points::EdgePoints, refine::Target},
+        pose::{PoseError, PreparedTarget, edge_points::EdgePoints, refine::AlignmentTarget},
         project::{PlaneImage, ProjectParams, project_weighted},
         signature::{FanSignature, LiteralSignature, SignatureParams, describe},
     },
@@ -113,7 +113,7 @@ pub struct Reference {
     pub cut: ViewCut,
     /// Oriented points and their pairs, from each side that it can be seen from; made when the first piece of a part is
     /// laid onto it.
-    borders: OnceLock<Vec<Border>>,
+    borders: OnceLock<Vec<ReferenceBorder>>,
     /// Likewise: the default pose begins from placements and needs none of it.
     whole: OnceLock<Result<PreparedTarget, PoseError>>,
 }
@@ -202,12 +202,12 @@ impl Reference {
     }
 
     /// The reference as the target of a pose, with the edges of one of its views; `None` for a flat shape.
-    pub fn target(&self, view: usize) -> Option<Target<'_>> {
+    pub fn target(&self, view: usize) -> Option<AlignmentTarget<'_>> {
         let Self {
             cloud, tree, field, ..
         } = self;
         let view = self.views.get(view)?;
-        (!cloud.points.is_empty()).then_some(Target {
+        (!cloud.points.is_empty()).then_some(AlignmentTarget {
             cloud,
             tree,
             field,
@@ -222,7 +222,7 @@ impl Reference {
 
     /// Makes now what is otherwise made when it is first asked for, a millisecond or two: for who measures what an
     /// inspection takes once all is made.
-    pub fn make_ready(&self) {
+    pub fn prefetch(&self) {
         self.tree();
         self.literal();
         for view in 0..self.views.len() {
@@ -237,7 +237,7 @@ impl Reference {
     }
 
     /// Its border from each side that it can be seen from.
-    pub fn borders(&self) -> &[Border] {
+    pub fn borders(&self) -> &[ReferenceBorder] {
         self.borders.get_or_init(|| {
             let Some(front) = self.views.first() else {
                 return Vec::new();
@@ -251,7 +251,9 @@ impl Reference {
                 .filter(|view| turned(view) < -0.9);
             std::iter::once(front)
                 .chain(back)
-                .map(|view| Border::new(&sheet_edges(view, &self.cloud, &self.field, &self.cut)))
+                .map(|view| {
+                    ReferenceBorder::new(&sheet_edges(view, &self.cloud, &self.field, &self.cut))
+                })
                 .collect()
         })
     }

@@ -20,7 +20,7 @@ use super::{
 };
 use crate::{
     capture::Image,
-    files::Opened,
+    files::FileContent,
     geometry::{
         cloud::{Grid, PointCloud, is_finite},
         depth_frame::{DepthFrame, Intrinsics},
@@ -119,11 +119,11 @@ pub enum PictureEdge {
 const MESH_POINTS: usize = 16_000;
 
 /// Every point of what a file holds; a mesh is sampled evenly, and gives `None` if it has no area.
-pub fn cloud_of(opened: Opened) -> Option<PointCloud> {
+pub fn cloud_of(opened: FileContent) -> Option<PointCloud> {
     match opened {
-        Opened::Cloud(cloud) => Some(cloud),
-        Opened::Depth(frame) => Some(scene_from_image(Image::Depth(frame)).cloud),
-        Opened::Mesh(mesh) => mesh.sample_evenly(MESH_POINTS, 1),
+        FileContent::Cloud(cloud) => Some(cloud),
+        FileContent::Depth(frame) => Some(scene_from_image(Image::Depth(frame)).cloud),
+        FileContent::Mesh(mesh) => mesh.sample_evenly(MESH_POINTS, 1),
     }
 }
 

@@ -7,7 +7,8 @@ fn a_cloud_is_aligned_with_itself_moved() {
     let place = Workplace::new();
     place.with_part("fender");
     let cloud = place.path("parts/fender/cloud.ply");
-    let partsight::files::Opened::Cloud(target) = partsight::files::open(&cloud).expect("a cloud")
+    let partsight::files::FileContent::Cloud(target) =
+        partsight::files::open(&cloud).expect("a cloud")
     else {
         panic!("a cloud");
     };

@@ -10,7 +10,10 @@ use std::{
 
 use jiff::Timestamp;
 use partsight::{
-    history::{About, Filter, History, HistoryNews, KeepFrames, Keeper, NewEntry, Retention},
+    history::{
+        Filter, History, HistoryBuffer, HistoryEvent, InspectionContext, KeepFrames, NewEntry,
+        Retention,
+    },
     library::Library,
     pipeline::{self, Recipe, Unwatched},
     simulate::{CellSetup, PartKind, Side, frame},
@@ -247,7 +250,7 @@ fn entries() -> impl Iterator<Item = NewEntry> {
     let recipe = Arc::new(Recipe::default());
     let inspection = pipeline::run(&scene, &Library::default(), &recipe, &Unwatched).expect("ran");
     (1..).map(move |number| {
-        let about = About {
+        let about = InspectionContext {
             at: Timestamp::now(),
             scene: format!("frame {number}"),
             source: "simulated".into(),
@@ -262,8 +265,8 @@ fn entries() -> impl Iterator<Item = NewEntry> {
     })
 }
 
-fn num_failures(news: &[HistoryNews]) -> usize {
-    let is_failure = |news: &&HistoryNews| matches!(news, HistoryNews::Failed { .. });
+fn num_failures(news: &[HistoryEvent]) -> usize {
+    let is_failure = |news: &&HistoryEvent| matches!(news, HistoryEvent::Failed { .. });
     news.iter().filter(is_failure).count()
 }
 
@@ -275,7 +278,7 @@ fn a_full_disk_is_said_once_and_inspections_are_kept_until_there_is_room() {
     let Some(disk) = Disk::of_kilobytes(1500) else {
         return;
     };
-    let keeper = Keeper::new(Some(disk.path().join("history")));
+    let keeper = HistoryBuffer::new(Some(disk.path().join("history")));
     let begun = Instant::now();
     keeper.open(begun);
     let num = 25;
@@ -284,7 +287,7 @@ fn a_full_disk_is_said_once_and_inspections_are_kept_until_there_is_room() {
     }
     let news = keeper.take_news();
     assert_eq!(num_failures(&news), 1, "{news:?}");
-    let full = |news: &HistoryNews| matches!(news, HistoryNews::Failed { what, advice } if what.contains("full") && advice.contains("room"));
+    let full = |news: &HistoryEvent| matches!(news, HistoryEvent::Failed { what, advice } if what.contains("full") && advice.contains("room"));
     assert!(news.iter().any(full), "{news:?}");
     let page = keeper.page(&Filter::default(), 0, 100).expect("asked");
     assert_eq!(
@@ -300,7 +303,7 @@ fn a_full_disk_is_said_once_and_inspections_are_kept_until_there_is_room() {
     keeper.retry(begun + 2 * LATER);
     let news = keeper.take_news();
     assert!(
-        matches!(news.as_slice(), [HistoryNews::Works { num_lost: 0, .. }]),
+        matches!(news.as_slice(), [HistoryEvent::Works { num_lost: 0, .. }]),
         "{news:?}"
     );
     assert_eq!(keeper.num_waiting(), 0);
@@ -365,7 +368,7 @@ fn a_write_protected_history_can_be_read_and_is_written_again_later() {
         inspected.err
     );
 
-    let keeper = Keeper::new(Some(disk.path().to_owned()));
+    let keeper = HistoryBuffer::new(Some(disk.path().to_owned()));
     let begun = Instant::now();
     keeper.open(begun);
     for (ticket, entry) in (0..2).zip(entries()) {

@@ -11,7 +11,7 @@ use std::{
 
 use partsight::{
     capture::{
-        CaptureError, Image, KinectError, KinectSpec, Next, Recovery, SourceSpec, list, open,
+        CaptureError, Image, KinectError, KinectSpec, NextCapture, Recovery, SourceSpec, list, open,
     },
     error::Advice as _,
 };
@@ -160,7 +160,7 @@ fn an_unplugged_camera_is_an_error_that_opening_again_may_help() {
         // The library stopped the stream itself, and we once more, which does nothing.
         let whole = WHOLE.replace("stop 1", "stop 1,stop 1");
         assert_eq!(calls(), whole, "let go at once");
-        assert!(matches!(kinect.next(Duration::ZERO), Ok(Next::End)));
+        assert!(matches!(kinect.next(Duration::ZERO), Ok(NextCapture::End)));
         drop(kinect);
         assert_eq!(calls(), "");
     });
@@ -174,7 +174,7 @@ fn a_camera_that_sends_nothing_is_waited_for() {
         let next = kinect
             .next(Duration::from_millis(5))
             .expect("no trouble yet");
-        assert!(matches!(next, Next::NotYet), "{next:?}");
+        assert!(matches!(next, NextCapture::NotYet), "{next:?}");
         drop(kinect);
         assert_eq!(calls(), WHOLE);
     });

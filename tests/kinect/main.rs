@@ -20,7 +20,7 @@ use std::{
 };
 
 use partsight::capture::{
-    CaptureError, Captured, DepthSource, KinectError, KinectSpec, Next, SourceSpec, open,
+    CaptureError, Captured, DepthSource, KinectError, KinectSpec, NextCapture, SourceSpec, open,
 };
 
 /// Longer than any step of a test takes, so that only one that hangs comes to its end.
@@ -48,10 +48,10 @@ fn next_capture(source: &mut dyn DepthSource) -> Option<Captured> {
     let start = Instant::now();
     while start.elapsed() < PATIENCE {
         match source.next(Duration::from_millis(20)).expect("no trouble") {
-            Next::Captured(captured) => return Some(captured),
-            Next::End => return None,
-            Next::NotYet => {}
-            Next::Skipped(skipped) => panic!("{skipped:?}"),
+            NextCapture::Captured(captured) => return Some(captured),
+            NextCapture::End => return None,
+            NextCapture::NotYet => {}
+            NextCapture::Skipped(skipped) => panic!("{skipped:?}"),
         }
     }
     panic!("nothing came");

@@ -4,8 +4,8 @@ use std::{ffi::OsStr, fs, path::Path, sync::mpsc, time::Duration};
 
 use partsight::{
     capture::{
-        CaptureWarning, Captured, Delivery, Feed, FeedState, Image, KinectError, KinectSpec,
-        KinectWarning, Next, SourceSpec,
+        BackpressurePolicy, CaptureWarning, Captured, Feed, FeedState, Image, KinectError,
+        KinectSpec, KinectWarning, NextCapture, SourceSpec,
     },
     error::Advice as _,
     geometry::depth_frame::DepthFrame,
@@ -65,7 +65,7 @@ fn frames_arrive_with_the_depth_that_was_seen_and_the_session_ends() {
             }
             for _ in 0..3 {
                 let next = kinect.next(Duration::ZERO).expect("an end");
-                assert!(matches!(next, Next::End), "{next:?}");
+                assert!(matches!(next, NextCapture::End), "{next:?}");
             }
         },
     );
@@ -147,7 +147,7 @@ fn stopping_works_from_any_state() {
         // On the camera's own thread: before anything came, between frames, and after its end.
         let spec = || SourceSpec::Kinect(KinectSpec::default());
         for num_before in [0, 3] {
-            let feed = Feed::start(spec(), Delivery::Newest, || {}).expect("a thread");
+            let feed = Feed::start(spec(), BackpressurePolicy::Newest, || {}).expect("a thread");
             for _ in 0..num_before {
                 feed.wait(PATIENCE).expect("a frame");
             }
@@ -167,7 +167,7 @@ fn a_session_that_is_over_ends_the_feed_and_stays_over() {
             let (sender, receiver) = mpsc::channel();
             let spec = SourceSpec::Kinect(KinectSpec::default());
             let on_news = move || sender.send(()).unwrap_or(());
-            let feed = Feed::start(spec, Delivery::Every, on_news).expect("a thread");
+            let feed = Feed::start(spec, BackpressurePolicy::Every, on_news).expect("a thread");
             let mut num_frames = 0;
             while !feed.status().state.is_over() {
                 receiver.recv_timeout(PATIENCE).expect("news");

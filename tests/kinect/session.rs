@@ -7,7 +7,7 @@ use partsight::{
         depth_frame::{DepthFrame, Intrinsics},
         distortion::Distortion,
     },
-    simulate::{CellSetup, PartKind, PartPose, Placement, Side, Subject, frame},
+    simulate::{CellSetup, PartKind, PartPose, PoseRange, Side, SimulatedObject, frame},
 };
 
 /// A Kinect's distance of projector and camera, cm.
@@ -34,12 +34,12 @@ pub(crate) const CAMERA: Intrinsics = Intrinsics {
 pub(crate) fn frames() -> Vec<DepthFrame> {
     let part = |kind| {
         let mut setup = CellSetup::with_part(kind, Side::Left, 0, 5);
-        setup.pose = PartPose::Drawn(Placement::facing());
+        setup.pose = PartPose::Drawn(PoseRange::facing());
         setup
     };
     let setups = [
         part(PartKind::Fender),
-        CellSetup::new(Subject::Nothing, 6),
+        CellSetup::new(SimulatedObject::Nothing, 6),
         part(PartKind::FrontDoor),
     ];
     let seen = setups.into_iter().map(|mut setup| {

@@ -3,7 +3,7 @@
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use partsight::{
     bench::suites::enrolment_pose,
-    files::{Opened, depth_png::write_depth_png, open},
+    files::{FileContent, depth_png::write_depth_png, open},
     geometry::{
         depth_frame::{DepthFrame, Intrinsics},
         distortion::Distortion,
@@ -179,10 +179,10 @@ fn a_file_that_says_its_image_is_mirrored_gives_the_frame_that_the_camera_saw() 
         ..mirrored(frame.clone())
     };
     write_depth_png(&path, &stored).expect("written");
-    assert_eq!(open(&path).expect("opened"), Opened::Depth(stored));
+    assert_eq!(open(&path).expect("opened"), FileContent::Depth(stored));
     let json = path.with_extension("json");
     let text = std::fs::read_to_string(&json).expect("the camera");
     let flagged = text.replacen('{', "{\"mirrored\": true,", 1);
     std::fs::write(&json, flagged).expect("written");
-    assert_eq!(open(&path).expect("opened"), Opened::Depth(frame));
+    assert_eq!(open(&path).expect("opened"), FileContent::Depth(frame));
 }

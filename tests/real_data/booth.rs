@@ -4,13 +4,13 @@ use std::{collections::BTreeMap, path::Path};
 
 use nalgebra::Point3;
 use partsight::{
-    files::{Opened, open},
+    files::{FileContent, open},
     geometry::{
         cloud::is_finite,
         rigid::{RigidTransform, from_row_major, pose_error},
     },
     library::{
-        About, EnrolError, EnrolParams, EnrolWarning, Library, LibraryFolder, PartName,
+        EnrolError, EnrolParams, EnrolWarning, Library, LibraryFolder, PartDescription, PartName,
         enrol_captured, enrol_surface, surfaces_to_enrol,
     },
     pipeline::{Recipe, Unwatched, Verdict, run},
@@ -91,7 +91,7 @@ fn contains(outline: &[[i32; 2]], u: f64, v: f64) -> bool {
 
 fn scene(path: &Path) -> SceneCloud {
     match open(path) {
-        Ok(Opened::Depth(frame)) => scene_from_frame(&frame),
+        Ok(FileContent::Depth(frame)) => scene_from_frame(&frame),
         other => panic!("{}: {other:?}", path.display()),
     }
 }
@@ -116,8 +116,8 @@ fn the_part_is_cut_out_of_a_booth_as_a_hand_would() {
     }
 }
 
-fn about(name: &str) -> About {
-    About {
+fn about(name: &str) -> PartDescription {
+    PartDescription {
         name: PartName::new(name).expect("a name"),
         title: String::new(),
         notes: String::new(),

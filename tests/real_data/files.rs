@@ -6,7 +6,7 @@
 use std::path::Path;
 
 use nalgebra::Point3;
-use partsight::files::{Opened, open, save_cloud, write_pcd};
+use partsight::files::{FileContent, open, save_cloud, write_pcd};
 use partsight::geometry::cloud::{Grid, PointCloud};
 
 use crate::data_folder;
@@ -150,7 +150,7 @@ const MESHES: [ExpectedMesh; 62] = [
 
 fn cloud_at(path: &Path) -> PointCloud {
     match open(path) {
-        Ok(Opened::Cloud(cloud)) => cloud,
+        Ok(FileContent::Cloud(cloud)) => cloud,
         other => panic!("{}: expected a cloud, got {other:?}", path.display()),
     }
 }
@@ -216,7 +216,7 @@ fn every_mesh_of_the_car_is_where_an_independent_reader_puts_it() {
     };
     for (name, num_vertices, num_triangles, low, high, area) in MESHES {
         let path = folder.join(format!("car/vehicle_example.gltf#{name}"));
-        let Ok(Opened::Mesh(mesh)) = open(&path) else {
+        let Ok(FileContent::Mesh(mesh)) = open(&path) else {
             panic!("{}: expected a mesh", path.display());
         };
         assert_eq!(

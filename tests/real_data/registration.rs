@@ -2,10 +2,10 @@
 
 use nalgebra::{Isometry3, Matrix3, Point3, Quaternion, Rotation3, Translation3, UnitQuaternion};
 use partsight::{
-    files::{Opened, open},
+    files::{FileContent, open},
     geometry::{
         cloud::PointCloud,
-        rigid::{PoseError, RigidTransform, pose_error},
+        rigid::{PoseDelta, RigidTransform, pose_error},
     },
     stages::pose::{PoseEstimate, PoseMethod, align},
 };
@@ -16,7 +16,7 @@ fn aligned(source: &str, target: &str, method: PoseMethod) -> Option<PoseEstimat
     let folder = data_folder()?.join("registration");
     let cloud = |name: &str| -> PointCloud {
         match open(&folder.join(name)) {
-            Ok(Opened::Cloud(cloud)) => cloud,
+            Ok(FileContent::Cloud(cloud)) => cloud,
             other => panic!("{name}: expected a cloud, got {other:?}"),
         }
     };
@@ -24,7 +24,7 @@ fn aligned(source: &str, target: &str, method: PoseMethod) -> Option<PoseEstimat
 }
 
 #[expect(clippy::print_stderr, reason = "the figures are worth reading")]
-fn report(what: &str, estimate: &PoseEstimate, error: &PoseError) {
+fn report(what: &str, estimate: &PoseEstimate, error: &PoseDelta) {
     eprintln!(
         "{what} by {}: off by {} and {}",
         estimate.method.name(),

@@ -4,10 +4,10 @@ use std::{path::Path, sync::Arc};
 
 use nalgebra::{Point3, Vector3};
 use partsight::{
-    files::{Opened, open},
+    files::{FileContent, open},
     geometry::{nearest::KdTree, rigid::RigidTransform},
     robot::frame_poses::{FramePose, FramePoses},
-    scan::{Scan, ScanParams, Shot, Surface, Unwatched, assemble, surface::Use},
+    scan::{Scan, ScanParams, Shot, ShotSurface, Unwatched, assemble, surface::Use},
     stages::scene::scene_from_frame,
 };
 
@@ -17,7 +17,7 @@ fn shots(folder: &Path, series: &str, num: usize) -> Vec<Shot> {
     let names: Vec<String> = (0..num).map(|k| format!("{series}_{k:02}.png")).collect();
     let poses = FramePoses::read(&folder.join("truth.json"), &names).expect("poses");
     let shot = |name: &String| {
-        let Ok(Opened::Depth(frame)) = open(&folder.join(name)) else {
+        let Ok(FileContent::Depth(frame)) = open(&folder.join(name)) else {
             panic!("{name}: no depth image");
         };
         let Some(FramePose::Camera(base_from_camera)) = poses.of(name) else {
@@ -36,7 +36,10 @@ fn shots(folder: &Path, series: &str, num: usize) -> Vec<Shot> {
 const NEAR: f32 = 1.5;
 
 /// Points of a shot's near surfaces, base frame, with normals; those beside depth discontinuities left out.
-fn near_surface(surface: &Surface, pose: &RigidTransform) -> (Vec<Point3<f32>>, Vec<Vector3<f32>>) {
+fn near_surface(
+    surface: &ShotSurface,
+    pose: &RigidTransform,
+) -> (Vec<Point3<f32>>, Vec<Vector3<f32>>) {
     let is_near = |i: &usize| surface.uses[*i] == Use::Surface && surface.points[*i].z < NEAR;
     let near = (0..surface.points.len()).filter(is_near).step_by(5);
     let pose = pose.cast::<f32>();

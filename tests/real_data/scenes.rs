@@ -4,14 +4,14 @@ use std::path::Path;
 
 use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, UnitQuaternion};
 use partsight::{
-    files::{Opened, open},
+    files::{FileContent, open},
     geometry::{
         mesh::TriangleMesh,
         rigid::{RigidTransform, pose_error},
     },
-    library::{About, EnrolParams, Library, LibraryFolder, PartName, enrol_mesh},
+    library::{EnrolParams, Library, LibraryFolder, PartDescription, PartName, enrol_mesh},
     pipeline::{Inspection, Recipe, Unwatched, Verdict, run},
-    simulate::{CellSetup, Placement, Subject, frame_of_mesh},
+    simulate::{CellSetup, PoseRange, SimulatedObject, frame_of_mesh},
     stages::{
         reference::ReferenceParams,
         scene::{SceneCloud, scene_from_cloud, scene_from_frame},
@@ -41,7 +41,7 @@ fn no_recorded_scene_is_accepted_as_a_car_part() {
             .collect();
         paths.sort();
         for path in paths {
-            let Ok(Opened::Cloud(cloud)) = open(&path) else {
+            let Ok(FileContent::Cloud(cloud)) = open(&path) else {
                 panic!("{} does not load", path.display())
             };
             let inspection = inspected(&scene_from_cloud(cloud), &library);
@@ -113,7 +113,7 @@ fn car_mesh(data: &Path, name: &str) -> TriangleMesh {
         .join("car")
         .join(format!("vehicle_example.gltf#{name}"));
     match open(&path) {
-        Ok(Opened::Mesh(mesh)) => mesh,
+        Ok(FileContent::Mesh(mesh)) => mesh,
         other => panic!("{name}: expected a mesh, got {other:?}"),
     }
 }
@@ -143,7 +143,7 @@ fn doors_and_lid_of_a_car_are_told_apart_and_left_is_never_right() {
     let Some(data) = data_folder() else { return };
     let mut library = Library::default();
     for part in car_parts() {
-        let about = About {
+        let about = PartDescription {
             name: PartName::new(part.name).expect("a good name"),
             title: String::new(),
             notes: String::new(),
@@ -165,8 +165,8 @@ fn doors_and_lid_of_a_car_are_told_apart_and_left_is_never_right() {
     for part in &parts {
         let (paint_from_car, mesh) = hung(&car_mesh(&data, part.mesh_name), &part.paint_from_car);
         for seed in 0..20 {
-            let mut setup = CellSetup::new(Subject::Nothing, 900 + seed);
-            setup.pose = partsight::simulate::PartPose::Drawn(Placement::placed());
+            let mut setup = CellSetup::new(SimulatedObject::Nothing, 900 + seed);
+            setup.pose = partsight::simulate::PartPose::Drawn(PoseRange::placed());
             let shot = frame_of_mesh(&setup, &mesh);
             let inspection = inspected(&scene_from_frame(&shot.frame), &library);
             let Verdict::Part {

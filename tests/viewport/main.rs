@@ -16,7 +16,7 @@ use nalgebra::Point3;
 use partsight::{
     app::viewport::{PointSet, TextLabel, ViewError, ViewScene, ViewportGpu, furniture},
     geometry::{nearest::KdTree, rigid::RigidTransform},
-    simulate::{self, CellSetup, PartKind, PartPose, Placement, Side},
+    simulate::{self, CellSetup, PartKind, PartPose, PoseRange, Side},
     stages::{
         scene::scene_from_frame,
         segment::{SegmentParams, Segmentation, segment},
@@ -62,7 +62,7 @@ fn keep(name: &str, picture: &RgbaImage) {
 /// A simulated front door, segmented, with its deviation from the exact part, axes, camera and nozzle.
 fn example() -> ViewScene {
     let mut setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 1, 7);
-    setup.pose = PartPose::Drawn(Placement::facing());
+    setup.pose = PartPose::Drawn(PoseRange::facing());
     let shot = simulate::frame(&setup);
     let scene = scene_from_frame(&shot.frame);
     let segmentation = segment(&scene, &SegmentParams::default());

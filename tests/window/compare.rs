@@ -14,7 +14,7 @@ use partsight::{
         compare::{CompareAction, CompareState, CompareWorkspace, Front},
         source::CellChoice,
     },
-    cases::{CaseAbout, CaseFolder, Found, Truth},
+    cases::{CaseDescription, CaseFolder, FoundVerdict, Truth},
     pipeline::Recipe,
     simulate::{CellSetup, ObjectKind, PartKind, Side, frame},
     stages::scene::scene_from_frame,
@@ -309,14 +309,14 @@ fn every_control_is_large_enough_labelled_and_inside_a_small_window() {
 fn an_earlier_run_is_compared_and_what_is_worse_is_listed_first() {
     let folder = tempfile::tempdir().expect("a folder");
     let setup = CellSetup::with_part(PartKind::Fender, Side::Left, 0, 5);
-    let about = CaseAbout {
+    let about = CaseDescription {
         origin: "Monday".into(),
         simulated: true,
         kept_at: jiff::Timestamp::UNIX_EPOCH,
         remark: String::new(),
         difficulty: Some("placed anyhow".into()),
         truth: Truth::Part("fender".into()),
-        found: Found::default(),
+        found: FoundVerdict::default(),
         pose: None,
     };
     let cases = CaseFolder::at(folder.path().join("cases"));

@@ -12,7 +12,7 @@ use egui_kittest::kittest::Queryable as _;
 use partsight::{
     app::{
         WindowOptions,
-        action::{Action, Ask},
+        action::{Action, DialogRequest},
         history::{HistoryAction, HistoryFile, HistoryWorkspace, ListFilter},
         source::CellChoice,
         state::{ThemeChoice, Workspace},
@@ -282,7 +282,10 @@ fn the_report_of_an_inspection_is_written_and_a_bad_folder_is_a_notice() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = open();
     let out = folder.path().join("report");
-    act(&mut harness, Action::Chosen(Ask::ReportFolder, out.clone()));
+    act(
+        &mut harness,
+        Action::Chosen(DialogRequest::ReportFolder, out.clone()),
+    );
     let text = fs::read_to_string(out.join("simulated_1.report.json")).expect("written");
     let line: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     assert_eq!(line["part"], "front_door");
@@ -305,7 +308,10 @@ fn the_report_of_an_inspection_is_written_and_a_bad_folder_is_a_notice() {
 
     let taken = folder.path().join("taken");
     fs::write(&taken, "a file").expect("written");
-    act(&mut harness, Action::Chosen(Ask::ReportFolder, taken));
+    act(
+        &mut harness,
+        Action::Chosen(DialogRequest::ReportFolder, taken),
+    );
     harness.get_by_label_contains("cannot make the report's folder");
     harness.get_by_label("Accepted");
 }

@@ -12,7 +12,7 @@ use partsight::{
     },
     files::save_cloud,
     robot::Convention,
-    simulate::{CellSetup, PartKind, PartPose, Placement, Side, frame},
+    simulate::{CellSetup, PartKind, PartPose, PoseRange, Side, frame},
     stages::scene::scene_from_frame,
 };
 
@@ -49,7 +49,7 @@ fn a_file_dropped_on_the_window_is_inspected() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("captured.pcd");
     let mut setup = CellSetup::with_part(PartKind::Fender, Side::Left, 0, 5);
-    setup.pose = PartPose::Drawn(Placement::facing());
+    setup.pose = PartPose::Drawn(PoseRange::facing());
     let scene = scene_from_frame(&frame(&setup).frame);
     save_cloud(&path, &scene.cloud).expect("written");
     let mut harness = open();
@@ -171,7 +171,7 @@ fn a_part_that_is_not_accepted_has_no_numbers_for_a_robot() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("other.pcd");
     let mut setup = CellSetup::with_part(PartKind::Fender, Side::Right, 0, 5);
-    setup.pose = PartPose::Drawn(Placement::facing());
+    setup.pose = PartPose::Drawn(PoseRange::facing());
     let scene = scene_from_frame(&frame(&setup).frame);
     save_cloud(&path, &scene.cloud).expect("written");
     let mut harness = open();

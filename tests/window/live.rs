@@ -21,10 +21,10 @@ use partsight::{
         source::CellChoice,
         state::{Source, State, Workspace},
     },
-    capture::{CaptureError, Captured, DepthSource, Image, Next},
-    history::PastVerdict,
+    capture::{CaptureError, Captured, DepthSource, Image, NextCapture},
+    history::StoredVerdict,
     simulate::{
-        CellSetup, PartKind, PartModel, PartPose, Placement, SensorNoise, Side, frame_of_mesh,
+        CellSetup, PartKind, PartModel, PartPose, PoseRange, SensorNoise, Side, frame_of_mesh,
     },
 };
 
@@ -64,18 +64,18 @@ impl DepthSource for Wired {
         true
     }
 
-    fn next(&mut self, wait: Duration) -> Result<Next, CaptureError> {
+    fn next(&mut self, wait: Duration) -> Result<NextCapture, CaptureError> {
         let step = self.steps.lock().expect("no panic").recv_timeout(wait);
         match step {
-            Err(RecvTimeoutError::Timeout) => Ok(Next::NotYet),
-            Err(RecvTimeoutError::Disconnected) | Ok(Step::End) => Ok(Next::End),
+            Err(RecvTimeoutError::Timeout) => Ok(NextCapture::NotYet),
+            Err(RecvTimeoutError::Disconnected) | Ok(Step::End) => Ok(NextCapture::End),
             Ok(Step::Unplugged) => Err(CaptureError::FolderGone {
                 path: "wired camera".into(),
                 may_come: true,
             }),
             Ok(Step::Fender(x)) => {
                 self.number += 1;
-                Ok(Next::Captured(self.frame(x)))
+                Ok(NextCapture::Captured(self.frame(x)))
             }
         }
     }
@@ -85,7 +85,7 @@ impl Wired {
     fn frame(&self, x: f64) -> Captured {
         let mut setup = CellSetup::with_part(PartKind::Fender, Side::Left, 0, 3);
         let mesh = self.mesh.mesh();
-        let placed = Placement::facing().draw(mesh, &setup.intrinsics, 3);
+        let placed = PoseRange::facing().draw(mesh, &setup.intrinsics, 3);
         let aside = Translation3::new(x, 0.0, 0.0);
         setup.pose = PartPose::Fixed(aside * placed.camera_from_part);
         setup.noise = SensorNoise::kinect(self.number);
@@ -183,7 +183,7 @@ fn a_part_counts_once_it_hangs_still_and_no_longer_when_it_moves() {
         "the first frame of the window, and this one"
     );
     let newest = history.row(0).expect("kept");
-    assert_eq!(newest.verdict, PastVerdict::Accepted);
+    assert_eq!(newest.verdict, StoredVerdict::Accepted);
     assert!(newest.is_simulated);
 
     sees(&mut harness, &wire, [0.03, 0.06]);
@@ -357,7 +357,7 @@ fn a_recording_is_made_and_plays_as_what_it_was() {
         "the first frame, two captures, and this"
     );
     let newest = history.row(0).expect("kept");
-    assert_eq!(newest.verdict, PastVerdict::Accepted);
+    assert_eq!(newest.verdict, StoredVerdict::Accepted);
     assert!(newest.is_simulated);
 }
 

@@ -16,16 +16,16 @@ use image::{Rgba, RgbaImage};
 use partsight::{
     app::{
         Window, WindowOptions,
-        action::{Action, Ask},
+        action::{Action, DialogRequest},
         align::{AlignWorkspace, MethodRun},
         camera::Camera,
         inspect::work::{InspectRequest, Inspected, inspect},
-        job::Answer,
-        lane::Lane,
-        shelf::Shelf,
+        job::TaskResult,
+        lane::TaskQueue,
+        shelf::LibraryCache,
         source::{CellChoice, SceneSource},
         state::Workspace,
-        worker::News,
+        worker::TaskEvent,
     },
     library::{LibraryFolder, PartName},
     pipeline::{Timings, Unwatched},
@@ -60,10 +60,10 @@ fn draws_in_software() -> bool {
 
 /// The first frame of the cell, as if every inspection took the same time at the same moment.
 fn inspected() -> Inspected {
-    inspected_by(&Shelf::default())
+    inspected_by(&LibraryCache::default())
 }
 
-fn inspected_by(shelf: &Shelf) -> Inspected {
+fn inspected_by(shelf: &LibraryCache) -> Inspected {
     let choice = CellChoice::InTurn;
     let request = InspectRequest {
         source: SceneSource::Cell { choice, number: 1 },
@@ -109,12 +109,12 @@ fn open_with(size: Vec2, inspected: Inspected) -> WindowHarness {
                 Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), options).expect("threads");
             // Before the thread's own answer, which nobody waits for any more.
             let generation = window.state().generation;
-            let outcome = Ok(Answer::Inspected(Arc::clone(&inspected)));
-            let done = News::Done {
+            let outcome = Ok(TaskResult::Inspected(Arc::clone(&inspected)));
+            let done = TaskEvent::Done {
                 generation,
                 outcome,
             };
-            window.act(Action::Hear(Lane::Inspect, done), &cc.egui_ctx);
+            window.act(Action::Hear(TaskQueue::Inspect, done), &cc.egui_ctx);
             window
         });
     settle(&mut harness);
@@ -267,7 +267,10 @@ fn the_robots_cell_looks_as_it_did() {
     let pairs = folder.path().join("pairs.csv");
     std::fs::write(&pairs, robot::pairs(&robot::TURNS)).expect("written");
     let mut harness = open_drawn(USUAL);
-    act(&mut harness, Action::Chosen(Ask::Pairs, pairs.clone()));
+    act(
+        &mut harness,
+        Action::Chosen(DialogRequest::Pairs, pairs.clone()),
+    );
     compare(&mut harness, "robot_pairs");
 
     let parts = folder.path().join("parts");
@@ -279,7 +282,7 @@ fn the_robots_cell_looks_as_it_did() {
         .expect("stored");
     let cell = folder.path().join("cell.toml");
     robot::save_calibration(&cell);
-    let shelf = Shelf::new(Some(parts), Camera::default());
+    let shelf = LibraryCache::new(Some(parts), Camera::default());
     for (size, is_light, name) in [
         (USUAL, false, "spray_path"),
         (SMALL, true, "spray_path_small_light"),
@@ -288,7 +291,10 @@ fn the_robots_cell_looks_as_it_did() {
         if is_light {
             act(&mut harness, Action::SwitchTheme);
         }
-        act(&mut harness, Action::Chosen(Ask::Calibration, cell.clone()));
+        act(
+            &mut harness,
+            Action::Chosen(DialogRequest::Calibration, cell.clone()),
+        );
         if !is_light {
             // Where the rays can be told apart.
             press(&mut harness, "Top");
@@ -299,7 +305,7 @@ fn the_robots_cell_looks_as_it_did() {
     std::fs::write(&pairs, robot::pairs(&turns)).expect("written");
     let mut harness = open_drawn(SMALL);
     act(&mut harness, Action::SwitchTheme);
-    act(&mut harness, Action::Chosen(Ask::Pairs, pairs));
+    act(&mut harness, Action::Chosen(DialogRequest::Pairs, pairs));
     compare(&mut harness, "robot_doubts_small_light");
 }
 

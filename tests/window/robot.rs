@@ -8,7 +8,7 @@ use nalgebra::{Point3, Vector3};
 use partsight::{
     app::{
         WindowOptions,
-        action::{Action, Ask},
+        action::{Action, DialogRequest},
         enrol::EnrolAction,
         inspect::state::ViewPart,
         robot::{RememberedCell, RobotAction},
@@ -142,7 +142,7 @@ fn pairs_are_calculated_shown_corrected_and_used() {
     });
     fs::write(&file, text.collect::<String>()).expect("written");
     let mut harness = open_with(USUAL, own(folder.path()));
-    act(&mut harness, Action::Chosen(Ask::Pairs, file));
+    act(&mut harness, Action::Chosen(DialogRequest::Pairs, file));
     harness.get_by_label_contains("P4 (line 6) is suspect");
     press(&mut harness, "p4 (line 6)");
     assert!(harness.query_by_label_contains("is suspect").is_none());
@@ -165,7 +165,10 @@ fn pairs_that_do_not_span_are_used_only_by_insisting() {
     let turns: Vec<[f64; 3]> = (0..6).map(|i| [0.0, 0.0, 0.3 * f64::from(i)]).collect();
     fs::write(&file, pairs(&turns)).expect("written");
     let mut harness = open_with(USUAL, own(folder.path()));
-    act(&mut harness, Action::Chosen(Ask::Pairs, file.clone()));
+    act(
+        &mut harness,
+        Action::Chosen(DialogRequest::Pairs, file.clone()),
+    );
     harness.get_by_label_contains("Nearly all turns are about one axis");
     harness.get_by_label_contains("another axis by at least 30°");
     act(&mut harness, Action::Robot(RobotAction::UseSolved));
@@ -175,7 +178,7 @@ fn pairs_that_do_not_span_are_used_only_by_insisting() {
     assert!(state(&harness).robot.is_some());
     // A bad file is said where it was chosen.
     fs::write(&file, "# robot: kuka\n1 2 3\n").expect("written");
-    act(&mut harness, Action::Chosen(Ask::Pairs, file));
+    act(&mut harness, Action::Chosen(DialogRequest::Pairs, file));
     harness.get_by_label_contains("line 2: 3 numbers, expected 22");
 }
 
@@ -270,7 +273,7 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
     fs::write(&file, text).expect("written");
     act(&mut harness, Action::GoTo(Workspace::Enrol));
     act(&mut harness, Action::Enrol(EnrolAction::Open(door)));
-    act(&mut harness, Action::Chosen(Ask::PartPath, file));
+    act(&mut harness, Action::Chosen(DialogRequest::PartPath, file));
     harness.get_by_label_contains("· spray path of 6 points");
     assert_eq!(
         library
@@ -295,13 +298,22 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
 
     // Without a calibrated cell there is nothing to export.
     let out = folder.path().join("out.csv");
-    act(&mut harness, Action::Chosen(Ask::SprayPath, out.clone()));
+    act(
+        &mut harness,
+        Action::Chosen(DialogRequest::SprayPath, out.clone()),
+    );
     assert!(!out.exists());
     let cell = folder.path().join("cell.toml");
     save_calibration(&cell);
-    act(&mut harness, Action::Chosen(Ask::Calibration, cell));
+    act(
+        &mut harness,
+        Action::Chosen(DialogRequest::Calibration, cell),
+    );
     act(&mut harness, Action::UseConvention(Convention::Fanuc));
-    act(&mut harness, Action::Chosen(Ask::SprayPath, out.clone()));
+    act(
+        &mut harness,
+        Action::Chosen(DialogRequest::SprayPath, out.clone()),
+    );
     let text = fs::read_to_string(&out).expect("written");
     assert!(text.contains("FANUC") || text.contains("fanuc"), "{text}");
     assert!(

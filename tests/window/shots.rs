@@ -11,14 +11,14 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use partsight::{
     app::{
         WindowOptions,
-        action::{Action, Ask},
+        action::{Action, DialogRequest},
         shots::{FusedShots, ShotFate},
         state::{Source, State, Workspace},
     },
     files::write_depth_png,
     geometry::depth_frame::DepthFrame,
     geometry::rigid::{RigidTransform, row_major},
-    simulate::{PartKind, ScanSetup, Side, SimulatedScan, Subject},
+    simulate::{PartKind, ScanSetup, Side, SimulatedObject, SimulatedScan},
     units::{Metres, Radians},
 };
 use serde_json::{Value, json};
@@ -36,7 +36,7 @@ impl ScanFolder {
             folder: tempfile::tempdir().expect("a folder"),
         };
         let scan = SimulatedScan::new(ScanSetup {
-            subject: Subject::Part {
+            subject: SimulatedObject::Part {
                 kind: PartKind::Fender,
                 side: Side::Left,
                 model_seed: 0,
@@ -208,9 +208,12 @@ fn a_scan_is_listed_shots_are_dropped_and_taken_back_and_it_is_inspected_as_one(
 
     // One more, whose pose lies beside it.
     let spare = scan.path("spare/shot-9.png");
-    act(&mut harness, Action::Chosen(Ask::Shot, spare.clone()));
+    act(
+        &mut harness,
+        Action::Chosen(DialogRequest::Shot, spare.clone()),
+    );
     assert_eq!(used(&harness), [0, 2, 3]);
-    act(&mut harness, Action::Chosen(Ask::Shot, spare));
+    act(&mut harness, Action::Chosen(DialogRequest::Shot, spare));
     harness.get_by_label_contains("shot-9.png is among the shots already");
     assert_eq!(used(&harness), [0, 2, 3]);
     press(&mut harness, "Stages");

@@ -8,7 +8,7 @@ use egui_kittest::{Harness, kittest::Queryable as _};
 use partsight::{
     app::{
         Window, WindowOptions,
-        action::{Action, Ask},
+        action::{Action, DialogRequest},
         inspect::state::ViewPart,
         source::CellChoice,
         viewport::{Colouring, ViewportGpu},
@@ -144,7 +144,10 @@ fn without_a_view_a_picture_of_it_is_refused_in_words() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("view.png");
     let mut harness = open();
-    act(&mut harness, Action::Chosen(Ask::Picture, path.clone()));
+    act(
+        &mut harness,
+        Action::Chosen(DialogRequest::Picture, path.clone()),
+    );
     let notices = &harness.state().state().notices;
     assert_eq!(notices.len(), 1);
     assert!(
@@ -162,7 +165,7 @@ fn a_picture_of_the_view_is_saved_on_its_own_thread() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = open_at(SMALL, Drawn::ForReal);
     // Without an ending it is a PNG all the same.
-    let chosen = Action::Chosen(Ask::Picture, folder.path().join("door"));
+    let chosen = Action::Chosen(DialogRequest::Picture, folder.path().join("door"));
     act(&mut harness, chosen);
     let notices = &harness.state().state().notices;
     assert!(notices[0].what.contains("door.png"), "{notices:?}");

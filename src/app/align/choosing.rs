@@ -9,7 +9,7 @@ use super::{
     custom::Form,
     start::Start,
     state::{AlignState, Pairing},
-    views::Look,
+    views::ViewDirection,
 };
 use crate::app::{
     shell::session::Session,
@@ -42,7 +42,7 @@ pub(super) fn ui(
     session: &Session,
     theme: &Theme,
     actions: &mut Vec<AlignAction>,
-) -> Option<Look> {
+) -> Option<ViewDirection> {
     let mut look = None;
     ui.horizontal(|ui| {
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -81,13 +81,13 @@ pub(super) fn ui(
 }
 
 /// From where the views look, for all of them at once.
-fn look_menu(ui: &mut Ui) -> Option<Look> {
+fn look_menu(ui: &mut Ui) -> Option<ViewDirection> {
     let menu = ui.menu_button("View ▼", |ui| {
         let looks = [
-            ("Fit", Look::Fit),
-            ("Front", Look::From(StandardView::Front)),
-            ("Top", Look::From(StandardView::Top)),
-            ("Side", Look::From(StandardView::Side)),
+            ("Fit", ViewDirection::Fit),
+            ("Front", ViewDirection::From(StandardView::Front)),
+            ("Top", ViewDirection::From(StandardView::Top)),
+            ("Side", ViewDirection::From(StandardView::Side)),
         ];
         let chosen = looks
             .into_iter()

@@ -29,7 +29,7 @@ pub use self::{
     action::{AlignAction, AlignFile},
     custom::{CustomStart, Form},
     pair::{Pair, PairSource},
-    playback::{Comparison, Playback},
+    playback::{MethodComparison, Playback},
     start::Start,
     state::{AlignResult, AlignState, Pairing},
     table::{TableCell, TableFigures, TableRow, TableShown},

@@ -11,7 +11,7 @@ use super::start::Start;
 use crate::{
     app::{
         inspect::work::Inspected,
-        shelf::{Shelf, Shelved},
+        shelf::{LibraryCache, LoadedLibrary},
         source::file_name,
         user_error::UserError,
         viewport::{PointSet, Role},
@@ -87,7 +87,7 @@ const SAMPLE: usize = 4_000;
 
 impl Pair {
     /// Reads and prepares both clouds.
-    pub fn of(source: &PairSource, shelf: &Shelf) -> Result<Self, UserError> {
+    pub fn of(source: &PairSource, shelf: &LibraryCache) -> Result<Self, UserError> {
         match source {
             PairSource::MovedCopy { part, start } => {
                 let shelved = shelf.get().map_err(|error| UserError::of(&error))?;
@@ -174,7 +174,7 @@ impl Pair {
     }
 
     /// How far a pose is from the truth, where that is known.
-    pub fn true_error(&self, target_from_source: &RigidTransform) -> Option<rigid::PoseError> {
+    pub fn true_error(&self, target_from_source: &RigidTransform) -> Option<rigid::PoseDelta> {
         let truth = self.truth.as_ref()?;
         Some(rigid::pose_error(target_from_source, truth, &self.middle))
     }
@@ -208,7 +208,7 @@ fn drawn(cloud: &PointCloud, role: Role) -> PointSet {
 }
 
 /// The enrolled part of this name, and its name for people.
-fn find<'a>(shelved: &'a Shelved, part: &str) -> Result<(&'a Reference, &'a str), UserError> {
+fn find<'a>(shelved: &'a LoadedLibrary, part: &str) -> Result<(&'a Reference, &'a str), UserError> {
     let place = shelved.shown.place_of(part);
     let reference = place.and_then(|place| shelved.library.references.get(place));
     let reference = reference.ok_or_else(|| UserError {

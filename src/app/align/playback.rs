@@ -10,14 +10,14 @@ use super::{
 
 /// A pair and what the methods made of it.
 #[derive(Debug)]
-pub struct Comparison {
+pub struct MethodComparison {
     /// The pair.
     pub pair: Arc<Pair>,
     /// One per method that has run, in their order.
     pub runs: Vec<Arc<MethodRun>>,
 }
 
-impl Comparison {
+impl MethodComparison {
     /// The longest way's last place.
     pub fn last_place(&self) -> usize {
         let tracks = self.tracks().map(|(_, track)| track.poses.len());
@@ -51,7 +51,7 @@ const LEAST_PACE: f32 = 10.0;
 impl AlignState {
     /// The last place of the scrubber.
     pub fn last_place(&self) -> usize {
-        self.shown.as_ref().map_or(0, Comparison::last_place)
+        self.shown.as_ref().map_or(0, MethodComparison::last_place)
     }
 
     pub(super) fn go_to(&mut self, place: f32) {
@@ -87,7 +87,7 @@ impl AlignState {
         match (self.coming.take(), &mut self.shown) {
             (Some(pair), shown) => {
                 let runs = vec![run];
-                *shown = Some(Comparison { pair, runs });
+                *shown = Some(MethodComparison { pair, runs });
                 self.playback = Playback::Paused;
             }
             (None, Some(shown)) => shown.runs.push(run),

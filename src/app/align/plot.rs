@@ -5,7 +5,7 @@ use std::ops::RangeInclusive;
 use egui::{Align2, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
 
 use super::{
-    playback::Comparison,
+    playback::MethodComparison,
     series,
     track::{MethodRun, Track},
 };
@@ -35,7 +35,7 @@ pub(super) struct Axes {
 
 impl Axes {
     /// The axes of a comparison in a rectangle.
-    pub(super) fn of(shown: &Comparison, rect: Rect) -> Self {
+    pub(super) fn of(shown: &MethodComparison, rect: Rect) -> Self {
         let range = shown.tracks().map(|(_, track)| track.log_range);
         let [low, high] = range.fold([GOAL, GOAL + 1.0], |[low, high], range| {
             [low.min(range[0]), high.max(range[1])]
@@ -66,7 +66,13 @@ impl Axes {
 }
 
 /// Draws scale, goal, searches, curves and the scrubber at `place`.
-pub(super) fn paint(painter: &Painter, axes: &Axes, shown: &Comparison, place: f32, theme: &Theme) {
+pub(super) fn paint(
+    painter: &Painter,
+    axes: &Axes,
+    shown: &MethodComparison,
+    place: f32,
+    theme: &Theme,
+) {
     let Axes {
         area, across, up, ..
     } = *axes;
@@ -144,7 +150,7 @@ fn shade(painter: &Painter, axes: &Axes, track: &Track, theme: &Theme) {
 fn name_the_searches(
     painter: &Painter,
     axes: &Axes,
-    shown: &Comparison,
+    shown: &MethodComparison,
     theme: &Theme,
 ) -> Option<Rect> {
     let mut searches = shown.tracks().flat_map(|(_, track)| &track.searches);

@@ -7,7 +7,7 @@ use egui::{
 
 use super::{
     action::AlignAction,
-    playback::{Comparison, Playback},
+    playback::{MethodComparison, Playback},
     plot::{self, Axes},
     state::AlignState,
 };
@@ -56,7 +56,7 @@ pub(super) fn ui(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut V
 
 fn heading(
     ui: &mut Ui,
-    shown: &Comparison,
+    shown: &MethodComparison,
     align: &AlignState,
     theme: &Theme,
     actions: &mut Vec<AlignAction>,

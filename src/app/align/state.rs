@@ -6,7 +6,7 @@ use super::{
     action::{AlignAction, AlignFile},
     custom::{CustomStart, Form},
     pair::{Pair, PairSource},
-    playback::{Comparison, Playback},
+    playback::{MethodComparison, Playback},
     start::Start,
     table::{self, TableRow, TableShown},
     track::MethodRun,
@@ -43,7 +43,7 @@ pub struct AlignState {
     /// The file that stays.
     pub target: Option<PathBuf>,
     /// The last result; methods are added as they come.
-    pub shown: Option<Comparison>,
+    pub shown: Option<MethodComparison>,
     /// The pair being aligned, until its first method has run: then it is shown.
     pub coming: Option<Arc<Pair>>,
     /// Place on the scrubber, iterations.

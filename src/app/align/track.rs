@@ -11,8 +11,8 @@ use crate::{
     error::Advice as _,
     geometry::rigid::{self, RigidTransform},
     stages::pose::{
-        Doubt, Fit, Iteration, Phase, PoseError, PoseEstimate, PoseMethod, Stopped, Uncertainty,
-        align_to,
+        FitQuality, Iteration, Phase, PoseError, PoseEstimate, PoseMethod, PoseWarning, Stopped,
+        Uncertainty, align_to,
     },
 };
 
@@ -43,11 +43,11 @@ pub struct Track {
     /// Why it ended.
     pub stopped: Stopped,
     /// How well the end fits.
-    pub fit: Fit,
+    pub fit: FitQuality,
     /// How far off the end may be.
     pub uncertainty: Option<Uncertainty>,
     /// How far the end is from the truth, where that is known.
-    pub true_error: Option<rigid::PoseError>,
+    pub true_error: Option<rigid::PoseDelta>,
     /// Why the end should not be relied upon.
     pub doubt: Option<UserError>,
 }
@@ -192,18 +192,18 @@ pub(super) fn in_the_window(error: &PoseError) -> UserError {
     }
 }
 
-fn doubted(doubt: &Doubt, pair: &Pair) -> UserError {
+fn doubted(doubt: &PoseWarning, pair: &Pair) -> UserError {
     let advice = match doubt {
-        Doubt::Ambiguous { .. } => "Check which way round the part lies".into(),
-        Doubt::Loose { .. } => {
+        PoseWarning::Ambiguous { .. } => "Check which way round the part lies".into(),
+        PoseWarning::Loose { .. } => {
             "Look for an edge or a bend that only one place of the part has".into()
         }
-        Doubt::Unsettled { .. } => "Try another method, or a start that is nearer".into(),
+        PoseWarning::Unsettled { .. } => "Try another method, or a start that is nearer".into(),
         // They do show the same.
-        Doubt::LittleOverlap { .. } if pair.truth.is_some() => {
+        PoseWarning::LittleOverlap { .. } if pair.truth.is_some() => {
             "Choose a start that is nearer".into()
         }
-        Doubt::LittleOverlap { .. } => doubt.advice(),
+        PoseWarning::LittleOverlap { .. } => doubt.advice(),
     };
     UserError {
         what: sentence(&doubt.to_string()),

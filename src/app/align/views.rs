@@ -6,7 +6,7 @@ use egui::{Align2, Rect, RichText, Ui, UiBuilder, pos2, vec2};
 
 use super::{
     pair::Pair,
-    playback::Comparison,
+    playback::MethodComparison,
     series,
     state::AlignState,
     track::{MethodRun, Track},
@@ -33,7 +33,7 @@ const POINT: Metres = Metres(0.0075);
 
 /// From where the views are to look.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Look {
+pub(super) enum ViewDirection {
     /// As now, but so that all is seen.
     Fit,
     /// From a side.
@@ -125,15 +125,15 @@ impl LinkedViews {
     }
 
     /// Turns all views, and fits them.
-    pub(super) fn look(&mut self, look: Look) {
-        if let Look::From(view) = look {
+    pub(super) fn look(&mut self, look: ViewDirection) {
+        if let ViewDirection::From(view) = look {
             self.camera.look(view);
         }
         self.camera.request_fit(FitRequest::Focus);
     }
 
     /// Takes in a pair not seen before; its points are shared, not copied.
-    fn put_in(&mut self, shown: &Comparison, size: egui::Vec2) {
+    fn put_in(&mut self, shown: &MethodComparison, size: egui::Vec2) {
         let pair = &shown.pair;
         if self
             .shows
@@ -163,7 +163,7 @@ impl View {
     fn ui(
         &mut self,
         ui: &mut Ui,
-        shown: &Comparison,
+        shown: &MethodComparison,
         camera: &mut ViewCamera,
         align: &AlignState,
         session: &Session,

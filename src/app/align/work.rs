@@ -11,19 +11,19 @@ use super::{
 };
 use crate::{
     app::{
-        shelf::Shelf,
+        shelf::LibraryCache,
         shell::task::{TaskContext, TaskError},
         user_error::UserError,
     },
     files::write_atomically,
-    pipeline::Watch as _,
+    pipeline::ProgressObserver as _,
     stages::pose::PoseMethod,
 };
 
 /// Aligns a pair by every method.
 pub(super) fn pair(
     source: &PairSource,
-    shelf: &Shelf,
+    shelf: &LibraryCache,
     context: &TaskContext<AlignResult>,
 ) -> Result<AlignResult, TaskError> {
     let pair = Arc::new(Pair::of(source, shelf)?);
@@ -41,7 +41,7 @@ pub(super) fn pair(
 /// Works out Table I but for the rows done: name of the part and start.
 pub(super) fn table(
     done: &[(String, usize)],
-    shelf: &Shelf,
+    shelf: &LibraryCache,
     context: &TaskContext<AlignResult>,
 ) -> Result<AlignResult, TaskError> {
     let shelved = shelf.get().map_err(|error| UserError::of(&error))?;

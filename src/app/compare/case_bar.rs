@@ -5,12 +5,12 @@ use egui::{Button, RichText, ScrollArea, Sense, TextEdit, Ui, Vec2, WidgetInfo};
 use super::{CompareAction, CompareState, Front, matrix::truth_title};
 use crate::{
     app::{
-        shelf::LibraryShown,
+        shelf::LibraryView,
         shell::session::Session,
         theme::{Theme, font, space},
         widgets::{Mark, labelled, mark, shortened},
     },
-    cases::{Answered, Judgement, Truth},
+    cases::{CaseAnswer, CaseOutcome, Truth},
 };
 
 /// A bar wider than this has room for a long remark.
@@ -41,7 +41,7 @@ pub(super) fn ui(
         ui.label(RichText::new("against").color(theme.weak_text));
         against_menu(ui, compare, session, acts);
         ui.add_space(space::MEDIUM);
-        deeds(ui, compare, remark, theme, acts);
+        case_buttons(ui, compare, remark, theme, acts);
     });
 }
 
@@ -112,7 +112,7 @@ fn verdict(ui: &mut Ui, compare: &CompareState, session: &Session, theme: &Theme
     ui.label(strong(part));
     let judgement = judged(compare);
     // What was refused, rightly or not, does not look accepted.
-    let sign = if found.accepted && judgement != Some(Judgement::WrongAccepted) {
+    let sign = if found.accepted && judgement != Some(CaseOutcome::WrongAccepted) {
         Mark::Good
     } else {
         Mark::Bad
@@ -126,8 +126,8 @@ fn verdict(ui: &mut Ui, compare: &CompareState, session: &Session, theme: &Theme
     };
     let asked = match judgement {
         None => format!("{word} · {ASKED}"),
-        Some(Judgement::Right) => format!("{word}, and it is"),
-        Some(Judgement::WrongAccepted | Judgement::Refused) => format!("{word}, but it is"),
+        Some(CaseOutcome::Right) => format!("{word}, and it is"),
+        Some(CaseOutcome::WrongAccepted | CaseOutcome::Refused) => format!("{word}, but it is"),
     };
     let word = ui.label(weak(&asked));
     if let Some(refusal) = study.refusal(session.units) {
@@ -136,15 +136,15 @@ fn verdict(ui: &mut Ui, compare: &CompareState, session: &Session, theme: &Theme
 }
 
 /// Whether the verdict of the case in front is right, once its truth is known.
-pub(super) fn judged(compare: &CompareState) -> Option<Judgement> {
+pub(super) fn judged(compare: &CompareState) -> Option<CaseOutcome> {
     let truth = compare.truth.as_ref()?;
     let found = &compare.study.as_ref()?.found;
-    let answered: Answered = found.answered();
-    Some(Judgement::of(truth, &answered))
+    let answered: CaseAnswer = found.answered();
+    Some(CaseOutcome::of(truth, &answered))
 }
 
 /// What a truth is called where it is chosen.
-fn chosen_title(truth: &Truth, library: &LibraryShown) -> String {
+fn chosen_title(truth: &Truth, library: &LibraryView) -> String {
     match truth {
         Truth::Nothing => "Nothing (empty cell)".into(),
         Truth::Part(_) | Truth::NotEnrolled => truth_title(truth, library),
@@ -228,7 +228,7 @@ fn against_menu(
 }
 
 /// What can be done with the case, and with all of them.
-fn deeds(
+fn case_buttons(
     ui: &mut Ui,
     compare: &CompareState,
     remark_width: f32,

@@ -5,17 +5,17 @@ use egui::{RichText, ScrollArea, Ui};
 use super::{CompareAction, RunChanges, kept_cases::case_row, matrix::part_title};
 use crate::{
     app::{
-        shelf::LibraryShown,
+        shelf::LibraryView,
         theme::{Theme, font},
     },
-    cases::{CaseChange, Found, Judgement},
+    cases::{CaseChange, CaseOutcome, FoundVerdict},
 };
 
 /// Draws all of it.
 pub(super) fn ui(
     ui: &mut Ui,
     changes: &RunChanges,
-    shown: &LibraryShown,
+    shown: &LibraryView,
     theme: &Theme,
     acts: &mut Vec<CompareAction>,
 ) {
@@ -65,8 +65,8 @@ pub(super) fn ui(
 }
 
 /// Short: a row has room for some sixty letters.
-fn words(word: &str, change: &CaseChange, shown: &LibraryShown) -> String {
-    let found = |found: &Found| match (&found.part, found.score) {
+fn words(word: &str, change: &CaseChange, shown: &LibraryView) -> String {
+    let found = |found: &FoundVerdict| match (&found.part, found.score) {
         (Some(part), Some(score)) => format!("{} {score:.2}", part_title(part, shown)),
         _ => "nothing".into(),
     };
@@ -75,7 +75,7 @@ fn words(word: &str, change: &CaseChange, shown: &LibraryShown) -> String {
         Some(score) if change.before.part == change.now.part => format!("{score:.2}"),
         _ => found(&change.now),
     };
-    let [was, is] = change.judgements.map(Judgement::words);
+    let [was, is] = change.judgements.map(CaseOutcome::words);
     if was == is {
         format!("{word}: {before} → {now}")
     } else {

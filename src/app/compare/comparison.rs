@@ -10,10 +10,10 @@
 //!   both (eq. 11).
 
 use crate::{
-    app::figures::{Curves, PlaneLine, closed, plain},
+    app::figures::{PlaneLine, SignatureCurves, closed, plain},
     stages::{
         correlation::{CircularCorrelator, RaySpectra, linear_correlation},
-        rank::{Matcher, Placement, Query},
+        rank::{ImagePlacement, Matcher, Query},
         reference::{Reference, ReferenceView},
         signature::LiteralSignature,
     },
@@ -21,7 +21,7 @@ use crate::{
 
 /// What a number on an axis is.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Measure {
+pub enum AxisQuantity {
     /// Metres.
     Length,
     /// Radians.
@@ -32,7 +32,7 @@ pub enum Measure {
 
 /// A scene's outline against an enrolled part's.
 #[derive(Debug)]
-pub struct Comparison {
+pub struct OutlineComparison {
     /// The part's name for people.
     pub title: String,
     /// The matcher whose figures these are.
@@ -80,7 +80,7 @@ pub struct Trace {
     /// L or Θ.
     pub name: &'static str,
     /// What its values are.
-    pub measure: Measure,
+    pub measure: AxisQuantity,
     /// The scene's.
     pub query: Vec<f32>,
     /// The part's, shifted by the lag where there is one.
@@ -115,13 +115,13 @@ const NUM_JOINS: usize = 128;
 /// More values of a curve than this are finer than any picture shows.
 const MAX_VALUES: usize = 1200;
 
-impl Comparison {
+impl OutlineComparison {
     /// Compares; `placement` is the best that the default matcher finds.
     pub fn of(
         title: &str,
         query: &Query<'_>,
         reference: &Reference,
-        placement: Option<&Placement>,
+        placement: Option<&ImagePlacement>,
         matcher: Matcher,
     ) -> Self {
         let placed = placement.and_then(|p| Some((p, reference.views.get(p.view)?)));
@@ -146,7 +146,7 @@ impl Comparison {
 }
 
 impl Overlay {
-    fn of(query: &Query<'_>, view: &ReferenceView, placement: &Placement) -> Self {
+    fn of(query: &Query<'_>, view: &ReferenceView, placement: &ImagePlacement) -> Self {
         let scene = query.signature;
         let moved = view.scene_plane_from_view_plane(placement.turn, &scene.centroid);
         let num_rays = scene.rays.len();
@@ -183,7 +183,7 @@ impl Overlay {
 }
 
 impl Trace {
-    fn new(name: &'static str, measure: Measure, query: &[f32], reference: &[f32]) -> Self {
+    fn new(name: &'static str, measure: AxisQuantity, query: &[f32], reference: &[f32]) -> Self {
         let range = range_of(query.iter().chain(reference));
         Self {
             name,
@@ -233,15 +233,16 @@ impl Correlation {
 /// The default matcher's figures.
 fn of_rays(
     query: &Query<'_>,
-    placed: Option<(&Placement, &ReferenceView)>,
+    placed: Option<(&ImagePlacement, &ReferenceView)>,
 ) -> ([Trace; 2], Vec<Correlation>) {
     let scene = query.signature;
-    let own = Curves::of(&scene.lengths(), &scene.angles());
-    let other = placed.and_then(|(placement, view)| Curves::placed(view, placement, scene));
+    let own = SignatureCurves::of(&scene.lengths(), &scene.angles());
+    let other =
+        placed.and_then(|(placement, view)| SignatureCurves::placed(view, placement, scene));
     let (lengths, angles) = other.map_or_else(Default::default, |c| (c.lengths, c.angles));
     let traces = [
-        Trace::new("L", Measure::Length, &own.lengths, &lengths),
-        Trace::new("Θ", Measure::Angle, &own.angles, &angles),
+        Trace::new("L", AxisQuantity::Length, &own.lengths, &lengths),
+        Trace::new("Θ", AxisQuantity::Angle, &own.angles, &angles),
     ];
     let num = scene.rays.len();
     let same_num = |(_, view): &(_, &ReferenceView)| view.signature.rays.len() == num && num > 0;
@@ -281,8 +282,8 @@ fn of_rays(
 fn as_written(query: &Query<'_>, reference: &Reference) -> ([Trace; 2], Vec<Correlation>) {
     let scene = LiteralSignature::of(&query.contour.outline_pixels);
     let part = reference.literal();
-    let own = Curves::of(&scene.lengths, &scene.angles);
-    let other = Curves::of(&part.signature.lengths, &part.signature.angles);
+    let own = SignatureCurves::of(&scene.lengths, &scene.angles);
+    let other = SignatureCurves::of(&part.signature.lengths, &part.signature.angles);
     let first_lag = 1 - part.signature.lengths.len() as i64;
     let correlated = |name, auto: &[f64], of_part: &[f64], of_scene: &[f64]| {
         let cross = linear_correlation(of_part, of_scene);
@@ -303,8 +304,8 @@ fn as_written(query: &Query<'_>, reference: &Reference) -> ([Trace; 2], Vec<Corr
         ),
     ];
     let traces = [
-        Trace::new("L", Measure::Pixels, &own.lengths, &other.lengths),
-        Trace::new("Θ", Measure::Angle, &own.angles, &other.angles),
+        Trace::new("L", AxisQuantity::Pixels, &own.lengths, &other.lengths),
+        Trace::new("Θ", AxisQuantity::Angle, &own.angles, &other.angles),
     ];
     (traces, correlations)
 }
@@ -367,7 +368,7 @@ mod tests {
         Reference::from_plane("plate", plane, contour, signature)
     }
 
-    fn compared(turn: f64, matcher: Matcher) -> Comparison {
+    fn compared(turn: f64, matcher: Matcher) -> OutlineComparison {
         let (plane, contour, signature) = plate(turn);
         let query = Query {
             plane: &plane,
@@ -376,7 +377,7 @@ mod tests {
         };
         let reference = enrolled(0.0);
         let placements = place(&query, &reference, &RankParams::default());
-        Comparison::of("Plate", &query, &reference, placements.first(), matcher)
+        OutlineComparison::of("Plate", &query, &reference, placements.first(), matcher)
     }
 
     #[test]
@@ -424,7 +425,7 @@ mod tests {
             signature: &signature,
         };
         let reference = enrolled(0.0);
-        let figures = Comparison::of("Plate", &query, &reference, None, Matcher::Paper);
+        let figures = OutlineComparison::of("Plate", &query, &reference, None, Matcher::Paper);
         let expected = reference
             .literal()
             .distance(&LiteralSignature::of(&contour.outline_pixels));

@@ -4,7 +4,7 @@ use egui::{Align2, Rect, RichText, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2
 
 use super::{
     CompareAction, CompareState,
-    study::{PartDistance, Study},
+    study::{CaseStudy, PartDistance},
 };
 use crate::{
     app::{
@@ -82,7 +82,7 @@ pub(super) fn ui(
 /// True when it was pressed.
 fn row(
     ui: &mut Ui,
-    study: &Study,
+    study: &CaseStudy,
     distance: &PartDistance,
     units: UnitSystem,
     theme: &Theme,

@@ -11,7 +11,7 @@ use super::{
 };
 use crate::{
     app::shell::{context::ShellContext, notice::Notice},
-    cases::CaseAbout,
+    cases::CaseDescription,
 };
 
 impl CompareState {
@@ -36,7 +36,7 @@ impl CompareState {
                 "Choose first what it is",
             ));
         };
-        let about = CaseAbout {
+        let about = CaseDescription {
             origin: study.title.clone(),
             simulated: study.camera == CameraKind::Simulated,
             kept_at: Timestamp::now(),

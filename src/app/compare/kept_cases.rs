@@ -18,7 +18,7 @@ use crate::{
         theme::{ROUNDING, Theme, font, space},
         widgets::{focus_ring, labelled, shortened},
     },
-    cases::{Answered, Judgement, KeptCase},
+    cases::{CaseAnswer, CaseOutcome, KeptCase},
 };
 
 /// Width of the rows' names.
@@ -236,8 +236,8 @@ fn of_cell(
     let (truth, answer) = &cell.cell;
     let (truth, num) = (truth_title(truth, shown), cell.results.len());
     let text = match answer {
-        Answered::Part(part) => format!("{truth} taken for {}: {num}", part_title(part, shown)),
-        Answered::NotAccepted => format!("{truth}, not accepted: {num}"),
+        CaseAnswer::Part(part) => format!("{truth} taken for {}: {num}", part_title(part, shown)),
+        CaseAnswer::NotAccepted => format!("{truth}, not accepted: {num}"),
     };
     ui.label(RichText::new(text).color(theme.weak_text));
     for result in cell
@@ -335,22 +335,22 @@ fn matrix(ui: &mut Ui, matrix: &Matrix, theme: &Theme, acts: &mut Vec<CompareAct
         let (truth, answer) = (name(&matrix.rows, row), name(&matrix.columns, column));
         let num = cell.results.len();
         let (colour, word) = match cell.judgement {
-            Judgement::Right => (theme.accepted, "right"),
-            Judgement::WrongAccepted => (theme.rejected, "wrong and accepted"),
-            Judgement::Refused => (theme.warning, "wrongly refused"),
+            CaseOutcome::Right => (theme.accepted, "right"),
+            CaseOutcome::WrongAccepted => (theme.rejected, "wrong and accepted"),
+            CaseOutcome::Refused => (theme.warning, "wrongly refused"),
         };
         let label = match &cell.cell.1 {
-            Answered::Part(_) => format!("{truth} taken for {answer}: {num}, {word}"),
-            Answered::NotAccepted => format!("{truth}, not accepted: {num}, {word}"),
+            CaseAnswer::Part(_) => format!("{truth} taken for {answer}: {num}, {word}"),
+            CaseAnswer::NotAccepted => format!("{truth}, not accepted: {num}, {word}"),
         };
         response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &label));
         painter.rect_filled(rect, ROUNDING, colour.gamma_multiply(0.28));
         let stroke = Stroke::new(if response.hovered() { 2.0 } else { 1.0 }, colour);
         painter.rect_stroke(rect, ROUNDING, stroke, StrokeKind::Inside);
         let sign = match cell.judgement {
-            Judgement::Right => "",
-            Judgement::WrongAccepted => " ×",
-            Judgement::Refused => " !",
+            CaseOutcome::Right => "",
+            CaseOutcome::WrongAccepted => " ×",
+            CaseOutcome::Refused => " !",
         };
         let text = format!("{num}{sign}");
         let at = rect.center();

@@ -1,8 +1,8 @@
 //! The confusion matrix as it is drawn: names for people, counts and judgements, prepared once.
 
 use crate::{
-    app::shelf::LibraryShown,
-    cases::{Answered, Cell, Confusion, Judgement, Tally, Truth},
+    app::shelf::LibraryView,
+    cases::{CaseAnswer, CaseOutcome, Cell, Confusion, Tally, Truth},
 };
 
 /// The matrix, row by row.
@@ -26,14 +26,14 @@ pub struct MatrixCell {
     /// Row and column.
     pub place: [usize; 2],
     /// Whether its cases are right.
-    pub judgement: Judgement,
+    pub judgement: CaseOutcome,
     /// Places in the list of results.
     pub results: Vec<usize>,
 }
 
 impl Matrix {
     /// Names everything.
-    pub fn of(confusion: Confusion, shown: &LibraryShown) -> Self {
+    pub fn of(confusion: Confusion, shown: &LibraryView) -> Self {
         let Confusion {
             rows,
             columns,
@@ -44,7 +44,7 @@ impl Matrix {
             let row = rows.iter().position(|row| *row == cell.0)?;
             let column = columns.iter().position(|column| *column == cell.1)?;
             Some(MatrixCell {
-                judgement: Judgement::of(&cell.0, &cell.1),
+                judgement: CaseOutcome::of(&cell.0, &cell.1),
                 place: [row, column],
                 cell,
                 results,
@@ -68,7 +68,7 @@ impl Matrix {
 }
 
 /// What a person calls what truly hangs there.
-pub fn truth_title(truth: &Truth, shown: &LibraryShown) -> String {
+pub fn truth_title(truth: &Truth, shown: &LibraryView) -> String {
     match truth {
         Truth::Part(name) => part_title(name, shown),
         Truth::NotEnrolled => "Not enrolled".into(),
@@ -77,15 +77,15 @@ pub fn truth_title(truth: &Truth, shown: &LibraryShown) -> String {
 }
 
 /// What a person calls an answer.
-pub fn answer_title(answer: &Answered, shown: &LibraryShown) -> String {
+pub fn answer_title(answer: &CaseAnswer, shown: &LibraryView) -> String {
     match answer {
-        Answered::Part(name) => part_title(name, shown),
-        Answered::NotAccepted => "Not accepted".into(),
+        CaseAnswer::Part(name) => part_title(name, shown),
+        CaseAnswer::NotAccepted => "Not accepted".into(),
     }
 }
 
 /// What a person calls a part.
-pub fn part_title(name: &str, shown: &LibraryShown) -> String {
+pub fn part_title(name: &str, shown: &LibraryView) -> String {
     let place = shown.place_of(name);
     place.map_or_else(|| name.to_owned(), |place| shown.title(place).to_owned())
 }

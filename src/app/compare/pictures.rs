@@ -7,7 +7,7 @@ use egui::{
 
 use super::{
     CompareState,
-    comparison::{Comparison, Correlation, Measure, Overlay, Trace},
+    comparison::{AxisQuantity, Correlation, OutlineComparison, Overlay, Trace},
 };
 use crate::{
     app::{
@@ -67,7 +67,7 @@ pub(super) fn ui(
     });
 }
 
-fn outline_captions(comparison: &Comparison, units: UnitSystem) -> String {
+fn outline_captions(comparison: &OutlineComparison, units: UnitSystem) -> String {
     comparison.overlay.as_ref().map_or_else(
         || "no lag found".into(),
         |overlay| {
@@ -166,7 +166,7 @@ impl Picture {
         }
     }
 
-    fn overlay(&self, comparison: &Comparison, theme: &Theme) {
+    fn overlay(&self, comparison: &OutlineComparison, theme: &Theme) {
         let part = format!("- - {}", comparison.title);
         self.legend(&[
             ("— query", theme.first_series),
@@ -201,7 +201,7 @@ impl Picture {
             .circle_filled(at(&overlay.centroid), 3.5, theme.second_series);
     }
 
-    fn traces(&self, comparison: &Comparison, units: UnitSystem, theme: &Theme) {
+    fn traces(&self, comparison: &OutlineComparison, units: UnitSystem, theme: &Theme) {
         for (trace, area) in comparison.traces.iter().zip(halves(self.inner, 2)) {
             self.trace(trace, area, units, theme);
         }
@@ -241,7 +241,7 @@ impl Picture {
         self.readout(area, plot, num, theme, &read);
     }
 
-    fn correlations(&self, comparison: &Comparison, theme: &Theme) {
+    fn correlations(&self, comparison: &OutlineComparison, theme: &Theme) {
         let correlations = &comparison.correlations;
         if correlations.is_empty() {
             let at = self.inner.center();
@@ -370,13 +370,15 @@ impl Picture {
 }
 
 /// Factor, sign and digits in which a measure is shown.
-fn shown_in(measure: Measure, units: UnitSystem) -> (f32, &'static str, usize) {
+fn shown_in(measure: AxisQuantity, units: UnitSystem) -> (f32, &'static str, usize) {
     match (measure, units) {
-        (Measure::Length, UnitSystem::MillimetresDegrees) => (1000.0, "mm", 0),
-        (Measure::Length, UnitSystem::MetresRadians) => (1.0, "m", 3),
-        (Measure::Angle, UnitSystem::MillimetresDegrees) => (180.0 / std::f32::consts::PI, "°", 0),
-        (Measure::Angle, UnitSystem::MetresRadians) => (1.0, "rad", 2),
-        (Measure::Pixels, _) => (1.0, "px", 0),
+        (AxisQuantity::Length, UnitSystem::MillimetresDegrees) => (1000.0, "mm", 0),
+        (AxisQuantity::Length, UnitSystem::MetresRadians) => (1.0, "m", 3),
+        (AxisQuantity::Angle, UnitSystem::MillimetresDegrees) => {
+            (180.0 / std::f32::consts::PI, "°", 0)
+        }
+        (AxisQuantity::Angle, UnitSystem::MetresRadians) => (1.0, "rad", 2),
+        (AxisQuantity::Pixels, _) => (1.0, "px", 0),
     }
 }
 

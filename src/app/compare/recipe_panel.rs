@@ -14,7 +14,7 @@ use crate::{
         theme::{Theme, font, space},
         widgets::{Mark, labelled, mark},
     },
-    cases::Judgement,
+    cases::CaseOutcome,
     pipeline::{
         Recipe,
         parameters::{Choice, Group, Kind, Number, PARAMETERS, Parameter, Place, num_changed},
@@ -333,7 +333,7 @@ fn outcome(
             };
             let judgement = judged(compare);
             let (sign, colour) = match (judgement, found.accepted) {
-                (Some(Judgement::WrongAccepted), _) | (_, false) => (Mark::Bad, theme.rejected),
+                (Some(CaseOutcome::WrongAccepted), _) | (_, false) => (Mark::Bad, theme.rejected),
                 (_, true) => (Mark::Good, theme.accepted),
             };
             ui.horizontal_top(|ui| {
@@ -343,10 +343,10 @@ fn outcome(
                 ui.add(egui::Label::new(text).wrap());
             });
             let (word, colour) = match (judgement, found.accepted) {
-                (Some(Judgement::Right), true) => ("Right and accepted", theme.accepted),
-                (Some(Judgement::Right), false) => ("Rightly refused", theme.accepted),
-                (Some(Judgement::WrongAccepted), _) => ("Wrong and accepted", theme.rejected),
-                (Some(Judgement::Refused), _) => ("Wrongly refused", theme.warning),
+                (Some(CaseOutcome::Right), true) => ("Right and accepted", theme.accepted),
+                (Some(CaseOutcome::Right), false) => ("Rightly refused", theme.accepted),
+                (Some(CaseOutcome::WrongAccepted), _) => ("Wrong and accepted", theme.rejected),
+                (Some(CaseOutcome::Refused), _) => ("Wrongly refused", theme.warning),
                 (None, true) => ("Accepted", theme.text),
                 (None, false) => ("Whether rightly is not known", theme.text),
             };

@@ -20,7 +20,7 @@ use crate::{
 
 /// Whether the case in front has to be studied.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, PartialOrd, Ord)]
-pub(super) enum Due {
+pub(super) enum StudyNeed {
     #[default]
     No,
     /// Once a run is over.
@@ -98,15 +98,15 @@ impl CompareState {
 
     /// True while the study shown, if any, is not of what was asked for last; also after that was cancelled.
     pub fn is_study_old(&self) -> bool {
-        !self.is_current || self.due != Due::No
+        !self.is_current || self.due != StudyNeed::No
     }
 
     /// True if [`CompareAction::Follow`](super::CompareAction::Follow) would do something.
     pub fn is_behind(&self, session: &Session) -> bool {
-        let has_more = !self.queue.is_empty() || self.due != Due::No;
+        let has_more = !self.queue.is_empty() || self.due != StudyNeed::No;
         let is_free = match self.job_at_work() {
             None => true,
-            Some(JobKind::Run | JobKind::Scaling) => self.due == Due::Now,
+            Some(JobKind::Run | JobKind::Scaling) => self.due == StudyNeed::Now,
             Some(JobKind::Study | JobKind::Cases) => false,
         };
         !self.is_listed || has_more && is_free || self.has_new_scene(session)
@@ -139,7 +139,7 @@ impl CompareState {
         match at_work {
             Some(JobKind::Cases) => return,
             Some(JobKind::Run | JobKind::Scaling)
-                if self.queue.is_empty() && self.due != Due::Now =>
+                if self.queue.is_empty() && self.due != StudyNeed::Now =>
             {
                 return;
             }
@@ -148,17 +148,17 @@ impl CompareState {
         let shelf = cx.services.shelf.clone();
         if let Some((title, job)) = self.queue.pop_front() {
             if at_work == Some(JobKind::Study) {
-                self.due = self.due.max(Due::WhenFree);
+                self.due = self.due.max(StudyNeed::WhenFree);
             }
             self.job = Some(job.kind());
             self.task
                 .start(title, move |context| work::run(job, &shelf, context));
             return;
         }
-        if self.due == Due::No {
+        if self.due == StudyNeed::No {
             return;
         }
-        self.due = Due::No;
+        self.due = StudyNeed::No;
         if let Some(request) = self.study_request(cx.session) {
             self.is_current = false;
             self.job = Some(JobKind::Study);

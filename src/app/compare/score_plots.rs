@@ -4,7 +4,7 @@ use egui::{Align2, Color32, Pos2, Rect, Sense, Shape, Stroke, Ui, WidgetInfo, po
 
 use crate::{
     app::theme::{Theme, font, space},
-    cases::{AtThreshold, Calibration, TradeOff},
+    cases::{Calibration, ThresholdCounts, TradeOff},
 };
 
 /// Width of the plot with what is written around it.
@@ -13,9 +13,9 @@ pub(super) const WIDTH: f32 = 238.0;
 const SIDE: f32 = 176.0;
 
 /// The square from 0 to 1 both ways that a plot is drawn into.
-struct Square(Rect);
+struct PlotArea(Rect);
 
-impl Square {
+impl PlotArea {
     fn place(&self, across: f64, up: f64) -> Pos2 {
         let Self(area) = self;
         pos2(
@@ -26,14 +26,14 @@ impl Square {
 }
 
 /// Title, scales and caption.
-fn framed(ui: &mut Ui, said: Said<'_>, theme: &Theme) -> Square {
+fn framed(ui: &mut Ui, said: PlotText<'_>, theme: &Theme) -> PlotArea {
     let size = vec2(WIDTH, SIDE + 62.0);
     let (all, response) = ui.allocate_exact_size(size, Sense::hover());
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, &said.words));
     response.on_hover_text(said.help);
     let painter = ui.painter();
     let area = Rect::from_min_size(all.min + vec2(44.0, 22.0), vec2(SIDE, SIDE));
-    let square = Square(area);
+    let square = PlotArea(area);
     let (small, text) = (font::small(), theme.text);
     painter.text(all.min, Align2::LEFT_TOP, said.title, small.clone(), text);
     painter.rect_filled(area, 0.0, theme.canvas);
@@ -54,7 +54,7 @@ fn framed(ui: &mut Ui, said: Said<'_>, theme: &Theme) -> Square {
 }
 
 /// What a plot says in words.
-struct Said<'a> {
+struct PlotText<'a> {
     title: &'a str,
     caption: String,
     /// All of it, for those who do not see it.
@@ -64,7 +64,7 @@ struct Said<'a> {
 
 /// Draws the share of right guesses over their score; on the diagonal a score says how often it is right.
 pub(super) fn calibration(ui: &mut Ui, calibration: &Calibration, theme: &Theme) {
-    let said = Said {
+    let said = PlotText {
         title: "Calibration",
         caption: match calibration.expected_error {
             Some(error) => format!("right over score · error {error:.2}"),
@@ -111,7 +111,7 @@ pub(super) fn trade_off(ui: &mut Ui, trade_off: &TradeOff, threshold: f64, theme
                 step.num_wrong_accepted, step.num_refused
             )
         });
-    let said = Said {
+    let said = PlotText {
         title: "Threshold",
         caption: "share over least score".into(),
         words,
@@ -121,8 +121,8 @@ pub(super) fn trade_off(ui: &mut Ui, trade_off: &TradeOff, threshold: f64, theme
     let square = framed(ui, said, theme);
     let painter = ui.painter();
     let share = |num: usize, of: usize| num as f64 / of.max(1) as f64;
-    let curve = |height: &dyn Fn(&AtThreshold) -> f64| -> Vec<Pos2> {
-        let at = |step: &AtThreshold| square.place(step.threshold, height(step));
+    let curve = |height: &dyn Fn(&ThresholdCounts) -> f64| -> Vec<Pos2> {
+        let at = |step: &ThresholdCounts| square.place(step.threshold, height(step));
         steps.iter().map(at).collect()
     };
     let wrong = curve(&|step| share(step.num_wrong_accepted, *num_cases));
@@ -131,7 +131,7 @@ pub(super) fn trade_off(ui: &mut Ui, trade_off: &TradeOff, threshold: f64, theme
     painter.extend(accepting(&wrong, theme));
     let at = square.place(threshold, 0.0).x;
     painter.vline(at, square.0.y_range(), Stroke::new(1.0, theme.text));
-    let legend: [(&str, Look, Color32); 2] = [
+    let legend: [(&str, CurveStyle, Color32); 2] = [
         ("wrong and accepted", accepting, theme.rejected),
         ("parts refused", refusing, theme.first_series),
     ];
@@ -145,7 +145,7 @@ pub(super) fn trade_off(ui: &mut Ui, trade_off: &TradeOff, threshold: f64, theme
 }
 
 /// How a curve is drawn.
-type Look = fn(&[Pos2], &Theme) -> Vec<Shape>;
+type CurveStyle = fn(&[Pos2], &Theme) -> Vec<Shape>;
 
 /// The curve of what is wrong and accepted: a whole line.
 fn accepting(points: &[Pos2], theme: &Theme) -> Vec<Shape> {

@@ -4,8 +4,8 @@ use std::{collections::VecDeque, path::PathBuf, sync::Arc};
 
 use super::{
     action::{CompareAction, CompareFile},
-    schedule::{Due, Job, JobKind},
-    study::Study,
+    schedule::{Job, JobKind, StudyNeed},
+    study::CaseStudy,
     work::{CaseChange, CaseDone, CaseRun, CompareResult, RunChanges},
 };
 use crate::{
@@ -41,7 +41,7 @@ pub struct CompareState {
     /// The recipe on trial; without one that in use.
     pub tried: Option<Arc<Recipe>>,
     /// The case under the glass; while another is prepared it is old.
-    pub study: Option<Arc<Study>>,
+    pub study: Option<Arc<CaseStudy>>,
     /// The kept cases, once listed.
     pub cases: Option<Cases>,
     /// What came out of them, the last time.
@@ -56,7 +56,7 @@ pub struct CompareState {
     pub undo: Option<Undo>,
     /// True while the study is of what was asked for last.
     pub(super) is_current: bool,
-    pub(super) due: Due,
+    pub(super) due: StudyNeed,
     /// What comes next, each with its title.
     pub(super) queue: VecDeque<(String, Job)>,
     pub(super) task: Task<CompareResult>,
@@ -131,7 +131,7 @@ impl CompareState {
             changes: None,
             undo: None,
             is_current: false,
-            due: Due::No,
+            due: StudyNeed::No,
             queue: VecDeque::new(),
             task: Task::new("compare", runner),
             job: None,
@@ -158,16 +158,16 @@ impl CompareState {
             CompareAction::Follow => self.follow(cx),
             CompareAction::FrontScene => {
                 self.front_scene();
-                self.due = Due::Now;
+                self.due = StudyNeed::Now;
             }
             CompareAction::OpenCase(name) => self.open_case(&name, cx),
             CompareAction::SetTruth(truth) => {
                 self.truth = Some(truth);
-                self.due = Due::WhenFree;
+                self.due = StudyNeed::WhenFree;
             }
             CompareAction::Against(part) => {
                 self.against = part;
-                self.due = Due::WhenFree;
+                self.due = StudyNeed::WhenFree;
             }
             CompareAction::Remark(remark) => self.remark = remark,
             CompareAction::Keep => self.keep(cx),
@@ -283,7 +283,7 @@ impl CompareState {
                 self.say(format!("Removed {name}"), cx);
                 if matches!(&self.front, Front::Kept(case) if case.name == name) {
                     self.front_scene();
-                    self.due = Due::WhenFree;
+                    self.due = StudyNeed::WhenFree;
                 }
                 self.undo = Some(Undo::Removal { name, trash });
             }
@@ -335,7 +335,7 @@ impl CompareState {
                 // What was captured or opened now is what a person wants to see.
                 self.front_scene();
             }
-            self.due = self.due.max(Due::WhenFree);
+            self.due = self.due.max(StudyNeed::WhenFree);
         }
     }
 
@@ -348,7 +348,7 @@ impl CompareState {
         self.undo = None;
         if matches!(self.front, Front::Kept(_)) {
             self.front_scene();
-            self.due = Due::WhenFree;
+            self.due = StudyNeed::WhenFree;
         }
         self.change_cases("Listing the kept cases", CaseChange::List);
     }
@@ -365,7 +365,7 @@ impl CompareState {
         self.forget();
         self.truth = Some(case.meta.about.truth.clone());
         self.front = Front::Kept(Box::new(case));
-        self.due = Due::Now;
+        self.due = StudyNeed::Now;
     }
 }
 

@@ -2,18 +2,18 @@
 
 use std::sync::Arc;
 
-use super::comparison::Comparison;
+use super::comparison::OutlineComparison;
 use crate::{
     app::{
-        shelf::{LibraryShown, Shelf},
+        shelf::{LibraryCache, LibraryView},
         shell::task::TaskError,
         unit_system::UnitSystem,
         user_error::UserError,
     },
-    cases::{CaseFolder, Found, KeptCase, Truth},
+    cases::{CaseFolder, FoundVerdict, KeptCase, Truth},
     error::Advice,
     library::Library,
-    pipeline::{self, Inspection, Recipe, Rejection, Verdict, Watch},
+    pipeline::{self, Inspection, ProgressObserver, Recipe, Rejection, Verdict},
     stages::{
         rank::{MatchRanking, Matcher, Query, RankParams, rank},
         scene::SceneCloud,
@@ -66,7 +66,7 @@ pub struct StudyRequest {
 
 /// What came out.
 #[derive(Debug)]
-pub struct Study {
+pub struct CaseStudy {
     /// The scene.
     pub scene: Arc<SceneCloud>,
     /// Where it came from, for people.
@@ -76,7 +76,7 @@ pub struct Study {
     /// The recipe on trial.
     pub recipe: Arc<Recipe>,
     /// What was found with it.
-    pub found: Found,
+    pub found: FoundVerdict,
     /// The found part's name for people.
     pub found_title: String,
     /// Why it was refused, in figures.
@@ -90,9 +90,9 @@ pub struct Study {
     /// The part compared with.
     pub against: Option<String>,
     /// The figures; without an outline there are none.
-    pub comparison: Option<Comparison>,
+    pub comparison: Option<OutlineComparison>,
     /// The library.
-    pub library: Arc<LibraryShown>,
+    pub library: Arc<LibraryView>,
 }
 
 /// How far a part is off, for both matchers.
@@ -112,7 +112,7 @@ pub struct PartDistance {
     pub score: f64,
 }
 
-impl Study {
+impl CaseStudy {
     /// Why it was refused, in one sentence.
     pub fn refusal(&self, units: UnitSystem) -> Option<String> {
         let refused = self.refused.as_ref()?;
@@ -130,7 +130,11 @@ impl Study {
 }
 
 /// Inspects and compares.
-pub fn study(request: &StudyRequest, shelf: &Shelf, watch: &dyn Watch) -> Result<Study, TaskError> {
+pub fn study(
+    request: &StudyRequest,
+    shelf: &LibraryCache,
+    watch: &dyn ProgressObserver,
+) -> Result<CaseStudy, TaskError> {
     let shelved = shelf.get().map_err(|error| UserError::of(&error))?;
     let (scene, title, camera) = opened(&request.case)?;
     if watch.is_cancelled() {
@@ -140,14 +144,14 @@ pub fn study(request: &StudyRequest, shelf: &Shelf, watch: &dyn Watch) -> Result
     let fitted = fitted.ok_or(TaskError::Cancelled)?;
     let library: &Library = &fitted;
     let inspection = pipeline::run(&scene, library, &request.recipe, watch)?;
-    let found = Found::from(&inspection.verdict);
+    let found = FoundVerdict::from(&inspection.verdict);
     let shown = &shelved.shown;
     let title_of = |name: &str| {
         let place = shown.place_of(name);
         place.map_or_else(|| name.to_owned(), |place| shown.title(place).to_owned())
     };
     let against = against(request, &found, library);
-    let mut study = Study {
+    let mut study = CaseStudy {
         scene: Arc::clone(&scene),
         title,
         camera,
@@ -181,7 +185,9 @@ pub fn study(request: &StudyRequest, shelf: &Shelf, watch: &dyn Watch) -> Result
     {
         let placement = entry.placements.first();
         let title = title_of(part);
-        study.comparison = Some(Comparison::of(&title, &query, reference, placement, chosen));
+        study.comparison = Some(OutlineComparison::of(
+            &title, &query, reference, placement, chosen,
+        ));
     }
     Ok(study)
 }
@@ -207,7 +213,7 @@ fn opened(case: &CaseScene) -> Result<(Arc<SceneCloud>, String, CameraKind), Use
 }
 
 /// The part chosen, else what it truly is where that differs from what was found, else what was found.
-fn against(request: &StudyRequest, found: &Found, library: &Library) -> Option<String> {
+fn against(request: &StudyRequest, found: &FoundVerdict, library: &Library) -> Option<String> {
     let is_enrolled = |name: &&str| library.references.iter().any(|r| r.name == **name);
     let chosen = request.against.as_deref().filter(is_enrolled);
     let truth = request.truth.as_ref().and_then(Truth::part);
@@ -365,8 +371,8 @@ mod tests {
         }
     }
 
-    fn studied(request: &StudyRequest) -> Study {
-        let study = study(request, &Shelf::default(), &Unwatched);
+    fn studied(request: &StudyRequest) -> CaseStudy {
+        let study = study(request, &LibraryCache::default(), &Unwatched);
         study.expect("studied")
     }
 

@@ -3,7 +3,7 @@
 use std::sync::Arc;
 
 use super::{
-    schedule::Due,
+    schedule::StudyNeed,
     state::{CompareState, Undo},
     work::CaseChange,
 };
@@ -29,7 +29,7 @@ impl CompareState {
             Ok(()) => {
                 let is_in_use = recipe == *cx.session.recipe;
                 self.tried = (!is_in_use).then(|| Arc::new(recipe));
-                self.due = Due::Now;
+                self.due = StudyNeed::Now;
             }
             Err(error) => cx.notify(error),
         }

@@ -7,17 +7,17 @@ use std::{
 
 use jiff::Timestamp;
 
-use super::{matrix::Matrix, schedule::Job, study::Study};
+use super::{matrix::Matrix, schedule::Job, study::CaseStudy};
 use crate::{
     app::{
-        shelf::Shelf,
+        shelf::LibraryCache,
         shell::task::{TaskContext, TaskError},
         user_error::UserError,
     },
     bench::scaling::{Scaling, ScalingError, ScalingRow, scaling, sizes},
     cases::{
-        Calibration, CaseAbout, CaseError, CaseFolder, CaseJudge, CaseResult, Changes, Confusion,
-        EarlierRun, KeptCase, RecordError, TradeOff,
+        Calibration, CaseDescription, CaseError, CaseFolder, CaseJudge, CaseResult, Changes,
+        Confusion, EarlierRun, KeptCase, RecordError, TradeOff,
     },
     pipeline::Recipe,
     stages::{rank::Matcher, scene::SceneCloud},
@@ -33,7 +33,7 @@ pub enum CaseChange {
         /// Its scene.
         scene: Arc<SceneCloud>,
         /// What is said of it.
-        about: Box<CaseAbout>,
+        about: Box<CaseDescription>,
     },
     /// Remove the case of this name.
     Remove(String),
@@ -68,7 +68,7 @@ pub enum CaseDone {
 #[derive(Clone, Debug)]
 pub enum CompareResult {
     /// A case under the glass.
-    Studied(Arc<Study>),
+    Studied(Arc<CaseStudy>),
     /// The kept cases.
     Cases {
         /// Their folder.
@@ -123,7 +123,7 @@ pub struct CaseRun {
 /// Does what is asked.
 pub(super) fn run(
     job: Job,
-    shelf: &Shelf,
+    shelf: &LibraryCache,
     context: &TaskContext<CompareResult>,
 ) -> Result<CompareResult, TaskError> {
     Ok(match job {
@@ -192,7 +192,7 @@ fn cases(folder: Option<&Path>, change: CaseChange) -> Result<CompareResult, Cas
 fn run_cases(
     folder: &CaseFolder,
     recipe: &Arc<Recipe>,
-    shelf: &Shelf,
+    shelf: &LibraryCache,
     context: &TaskContext<CompareResult>,
 ) -> Result<CompareResult, TaskError> {
     let shelved = shelf.get().map_err(|error| UserError::of(&error))?;

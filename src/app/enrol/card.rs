@@ -5,12 +5,12 @@ use egui::{Button, Rect, RichText, ScrollArea, Ui, pos2, vec2};
 use super::{
     EnrolAction,
     fields::{self, complaint},
-    state::OpenPart,
+    state::OpenedPart,
     thumbnails::Thumbnails,
 };
 use crate::{
     app::{
-        action::{Action, Ask},
+        action::{Action, DialogRequest},
         inspect::grouped,
         state::State,
         theme::{ROUNDING, Theme, font, space},
@@ -22,7 +22,7 @@ use crate::{
 /// Draws the card.
 pub(super) fn ui(
     ui: &mut Ui,
-    open: &OpenPart,
+    open: &OpenedPart,
     state: &State,
     thumbnails: &Thumbnails,
     theme: &Theme,
@@ -67,7 +67,7 @@ pub(super) fn ui(
                 });
                 ui.add_space(space::SMALL);
                 if button(ui, "Spray path…") {
-                    actions.push(Action::Ask(Ask::PartPath));
+                    actions.push(Action::Ask(DialogRequest::PartPath));
                 }
                 if part.spray.is_some() && button(ui, "Take the spray path away") {
                     let name = open.name.clone();

@@ -11,7 +11,7 @@ use crate::{
     app::{
         action::Action,
         bars::{focus_ring, shortened},
-        shelf::LibraryShown,
+        shelf::LibraryView,
         state::State,
         theme::{ROUNDING, Theme, font, space},
         widgets::{Mark, fitted, mark},
@@ -28,13 +28,13 @@ const LETTERS: usize = 18;
 #[derive(Default)]
 pub(super) struct Catalogue {
     /// The library, and the places of its parts in the order of their titles.
-    sorted: Option<(Arc<LibraryShown>, Vec<usize>)>,
+    sorted: Option<(Arc<LibraryView>, Vec<usize>)>,
     /// The change of the library that was scrolled to.
     followed: u64,
 }
 
 /// What a card shows.
-struct Shown<'a> {
+struct CardContent<'a> {
     name: &'a str,
     title: &'a str,
     below: [String; 2],
@@ -45,7 +45,7 @@ struct Shown<'a> {
 
 impl Catalogue {
     /// Sorts the parts when the library is another one.
-    fn sort(&mut self, library: &Arc<LibraryShown>) {
+    fn sort(&mut self, library: &Arc<LibraryView>) {
         let sorted = self.sorted.as_ref();
         if sorted.is_some_and(|(of, _)| Arc::ptr_eq(of, library)) {
             return;
@@ -81,13 +81,13 @@ impl Catalogue {
                 .color(theme.weak_text),
         );
         let order = self.sorted.as_ref().map_or(&[][..], |(_, order)| order);
-        let is_followed = self.followed == state.enrol.num_changes;
+        let wants_more = self.followed == state.enrol.num_changes;
         // A wheel turns it as well.
         ui.style_mut().always_scroll_the_only_direction = true;
         ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
             ui.horizontal(|ui| {
                 for damaged in &library.damaged {
-                    let shown = Shown {
+                    let shown = CardContent {
                         name: &damaged.entry,
                         title: &damaged.entry,
                         below: ["Damaged".into(), String::new()],
@@ -103,7 +103,7 @@ impl Catalogue {
                 for (place, part) in parts {
                     let latest = state.enrol.latest.as_ref();
                     let latest = latest.filter(|latest| latest.name == part.name);
-                    let shown = Shown {
+                    let shown = CardContent {
                         name: part.name.as_str(),
                         title: part.shown_title(),
                         below: when(part),
@@ -112,7 +112,7 @@ impl Catalogue {
                         latest: latest.map(|latest| latest.what),
                     };
                     let response = card(ui, &shown, state, theme, actions);
-                    if latest.is_some() && !is_followed {
+                    if latest.is_some() && !wants_more {
                         response.scroll_to_me(Some(Align::Center));
                     }
                 }
@@ -135,7 +135,7 @@ fn when(part: &PartMeta) -> [String; 2] {
 
 fn card(
     ui: &mut Ui,
-    shown: &Shown<'_>,
+    shown: &CardContent<'_>,
     state: &State,
     theme: &Theme,
     actions: &mut Vec<Action>,

@@ -5,10 +5,10 @@ use std::{path::PathBuf, sync::Arc};
 use crate::{
     app::{
         job::Trouble,
-        shelf::{LibraryShown, Shelf},
+        shelf::{LibraryCache, LibraryView},
     },
     library::{
-        Enrolled, LibraryError, LibraryFolder, Part, PartMeta, PartName, PartWords, Saved,
+        Enrolled, LibraryError, LibraryFolder, Part, PartMeta, PartName, PartNaming, Saved,
         SprayPath,
     },
 };
@@ -17,9 +17,9 @@ use crate::{
 #[derive(Clone, Debug)]
 pub enum LibraryChange {
     /// Save what was prepared; a part of the same name is replaced.
-    Save(Arc<Enrolled>, PartWords),
+    Save(Arc<Enrolled>, PartNaming),
     /// Call a part otherwise.
-    Rename(PartName, PartWords),
+    Rename(PartName, PartNaming),
     /// Move a part to the trash.
     Remove(PartName),
     /// Bring a part back from where it lies in the trash.
@@ -40,11 +40,11 @@ pub struct Changed {
     /// The part, if it is in the library now.
     pub name: Option<PartName>,
     /// The library as it is now.
-    pub library: Arc<LibraryShown>,
+    pub library: Arc<LibraryView>,
 }
 
 /// Changes the library in use and loads it anew.
-pub(super) fn change(change: &LibraryChange, shelf: &Shelf) -> Result<Changed, Trouble> {
+pub(super) fn change(change: &LibraryChange, shelf: &LibraryCache) -> Result<Changed, Trouble> {
     let shelved = shelf.get().map_err(|error| Trouble::of(&error))?;
     let Some(folder) = shelved.place.folder() else {
         return Err(inside_the_program(shelved.shown.is_fixed.as_ref()));
@@ -146,7 +146,7 @@ fn make(
 }
 
 /// The part under the words that a person found for it.
-fn described(part: &Part, words: &PartWords) -> Part {
+fn described(part: &Part, words: &PartNaming) -> Part {
     Part {
         meta: PartMeta {
             name: words.name.clone(),

@@ -4,12 +4,12 @@ use std::sync::Arc;
 
 use super::{
     selection::{Corrections, Selection},
-    subject::Subject,
+    subject::EnrolInput,
     work::Checked,
 };
 use crate::{
-    app::{job::Trouble, shelf::LibraryShown},
-    library::{BadName, Likeness, MAX_TITLE, PartName, PartWords},
+    app::{job::Trouble, shelf::LibraryView},
+    library::{BadName, MAX_TITLE, PartName, PartNaming, Similarity},
 };
 
 /// The part that is about to be enrolled.
@@ -18,7 +18,7 @@ pub struct Draft {
     /// By which number what belongs to it is known.
     pub number: u64,
     /// What it is enrolled from.
-    pub subject: Arc<Subject>,
+    pub subject: Arc<EnrolInput>,
     /// What was corrected.
     pub corrections: Corrections,
     /// What is kept.
@@ -36,7 +36,7 @@ impl Draft {
     }
 
     /// The enrolled part that it is hardest to tell from, the one that it replaces left out.
-    pub fn hardest(&self) -> Option<&Likeness> {
+    pub fn hardest(&self) -> Option<&Similarity> {
         let mut all = self.ready()?.likenesses.iter();
         all.find(|likeness| likeness.other != self.form.name)
     }
@@ -78,7 +78,7 @@ pub enum Field {
 
 impl Form {
     /// What an enrolled part is called.
-    pub fn of(words: PartWords) -> Self {
+    pub fn of(words: PartNaming) -> Self {
         Self {
             title: words.title,
             name: words.name.to_string(),
@@ -111,8 +111,8 @@ impl Form {
     }
 
     /// The words, if the name is one.
-    pub fn words(&self) -> Result<PartWords, BadName> {
-        Ok(PartWords {
+    pub fn words(&self) -> Result<PartNaming, BadName> {
+        Ok(PartNaming {
             name: PartName::new(&self.name)?,
             title: self.title.trim().to_owned(),
             notes: self.notes.trim().to_owned(),
@@ -120,7 +120,7 @@ impl Form {
     }
 
     /// The enrolled part of this name.
-    pub fn namesake<'a>(&self, library: &'a LibraryShown) -> Option<&'a str> {
+    pub fn namesake<'a>(&self, library: &'a LibraryView) -> Option<&'a str> {
         let place = library.place_of(&self.name)?;
         Some(library.title(place))
     }

@@ -16,7 +16,7 @@ use crate::{
         action::Action,
         bars::{labelled, shortened},
         inspect::grouped,
-        lane::Lane,
+        lane::TaskQueue,
         shots::summary,
         state::State,
         theme::{ROUNDING, Theme, font, space},
@@ -122,7 +122,7 @@ fn stored(
     let picture = Rect::from_min_size(rect.min, vec2(150.0, rect.height()));
     ui.painter().rect_filled(picture, ROUNDING, theme.canvas);
     let beside = Rect::from_min_max(pos2(picture.right() + space::MEDIUM, rect.top()), rect.max);
-    let is_working = state.works.contains_key(&Lane::Enrol);
+    let is_working = state.works.contains_key(&TaskQueue::Enrol);
     if draft.ready().is_some()
         && let Some(texture) = thumbnails.of_draft()
     {
@@ -203,7 +203,7 @@ fn likeness(ui: &mut Ui, draft: &Draft, state: &State, theme: &Theme, actions: &
     );
     ui.add_space(space::MEDIUM);
     ui.label(RichText::new(text).color(theme.text));
-    if likeness.can_be_told_apart() {
+    if likeness.is_distinguishable() {
         said(ui, Mark::Good, "The two can be told apart", theme);
         return;
     }

@@ -23,8 +23,8 @@ use egui::{
 };
 
 use self::{
-    catalogue::Catalogue, draft::Draft, picture::PicturePane, state::Panes, thumbnails::Thumbnails,
-    view::DraftView,
+    catalogue::Catalogue, draft::Draft, picture::PicturePane, state::DraftPanes,
+    thumbnails::Thumbnails, view::DraftView,
 };
 pub use self::{
     state::{EnrolAction, EnrolState, apply, hear},
@@ -35,10 +35,10 @@ pub(super) use self::{
     work::answer,
 };
 use super::{
-    action::{Action, Ask},
+    action::{Action, DialogRequest},
     bars::labelled,
     keys::Shortcut,
-    lane::Lane,
+    lane::TaskQueue,
     shots::{ShotList, StripTab},
     state::State,
     theme::{Theme, font, space},
@@ -167,9 +167,9 @@ impl EnrolPanel {
         let share = (wanted / all.width().max(1.0)).clamp(0.5, 0.58);
         let (left, right) = all.split_left_right_at_fraction(share);
         let (picture, view) = match state.enrol.panes() {
-            Panes::Both => (Some(left), Some(right)),
-            Panes::Picture => (Some(all), None),
-            Panes::View => (None, Some(all)),
+            DraftPanes::Both => (Some(left), Some(right)),
+            DraftPanes::Picture => (Some(all), None),
+            DraftPanes::View => (None, Some(all)),
         };
         let mut inside = |rect: Rect, draw: &mut dyn FnMut(&mut Ui)| {
             ui.scope_builder(UiBuilder::new().max_rect(rect), |ui| draw(ui));
@@ -201,7 +201,7 @@ fn empty(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
     let layout = Layout::top_down(Align::Center);
     ui.with_layout(layout, |ui| {
         ui.add_space((height / 2.0 - 110.0).max(space::LARGE));
-        if let Some(work) = state.works.get(&Lane::Enrol) {
+        if let Some(work) = state.works.get(&TaskQueue::Enrol) {
             ui.add(egui::Spinner::new().size(28.0).color(theme.accent));
             let text = RichText::new(format!("{}…", work.what));
             ui.label(text.font(font::verdict()).color(theme.weak_text));
@@ -236,7 +236,7 @@ fn empty(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
             .on_hover_text("Several shots from several sides, each with the pose of its camera (Ctrl Shift O)")
             .clicked()
         {
-            actions.push(Action::Ask(Ask::Scan));
+            actions.push(Action::Ask(DialogRequest::Scan));
         }
         if replaced.is_some() {
             form::as_new(ui, actions);
@@ -246,7 +246,7 @@ fn empty(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
 
 /// The name for people of an enrolled part.
 fn title_of<'a>(state: &'a State, name: &'a str) -> &'a str {
-    let place = |library: &'a super::shelf::LibraryShown| {
+    let place = |library: &'a super::shelf::LibraryView| {
         library.place_of(name).map(|place| library.title(place))
     };
     state.library.as_deref().and_then(place).unwrap_or(name)

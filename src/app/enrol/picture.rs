@@ -11,7 +11,7 @@ use super::{
     EnrolAction,
     draft::Draft,
     selection::{Edit, PixelBox, Selection},
-    subject::Fate,
+    subject::PointAction,
 };
 use crate::app::{
     action::Action,
@@ -234,9 +234,9 @@ pub(super) fn toggled(draft: &Draft, segment: u16) -> Option<Edit> {
     let place = usize::from(segment);
     let num_kept = *draft.selection.kept_of.get(place)?;
     let fate = if num_kept == 0 {
-        Fate::Kept
+        PointAction::Kept
     } else {
-        Fate::Dropped
+        PointAction::Dropped
     };
     Some(Edit::Segment(place, fate))
 }

@@ -2,7 +2,7 @@
 
 use image::{Rgb, RgbImage};
 
-use super::subject::{Fate, SegmentKind, Segments, Subject, Taking};
+use super::subject::{EnrolInput, InitialSelection, PointAction, SegmentKind, Segments};
 use crate::{
     app::viewport::{PointSet, Role, ViewColours},
     geometry::cloud::is_finite,
@@ -13,14 +13,14 @@ use crate::{
 #[derive(Clone, Debug, PartialEq)]
 pub struct Corrections {
     /// What they start from.
-    pub taking: Taking,
+    pub taking: InitialSelection,
     /// One after the other.
     pub edits: Vec<Edit>,
 }
 
 impl Corrections {
     /// None yet.
-    pub fn none(taking: Taking) -> Self {
+    pub fn none(taking: InitialSelection) -> Self {
         Self {
             taking,
             edits: Vec::new(),
@@ -32,7 +32,7 @@ impl Corrections {
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub enum Edit {
     /// Keep or drop a segment, by its place in the list.
-    Segment(usize, Fate),
+    Segment(usize, PointAction),
     /// Keep or drop by a box in the picture.
     Box(BoxMode, PixelBox),
 }
@@ -104,7 +104,7 @@ pub struct Selection {
 
 impl Selection {
     /// Goes through the corrections and prepares what is drawn.
-    pub(super) fn of(subject: &Subject, corrections: &Corrections) -> Self {
+    pub(super) fn of(subject: &EnrolInput, corrections: &Corrections) -> Self {
         let segments = subject.segments(corrections.taking);
         let kept = kept(subject, corrections);
         let mut kept_of = vec![0; segments.list.len()];
@@ -126,13 +126,13 @@ impl Selection {
 }
 
 /// For each point whether it is kept.
-fn kept(subject: &Subject, corrections: &Corrections) -> Vec<bool> {
+fn kept(subject: &EnrolInput, corrections: &Corrections) -> Vec<bool> {
     let segments = subject.segments(corrections.taking);
     let of_point = &segments.of_point;
     let usual: Vec<bool> = segments
         .list
         .iter()
-        .map(|s| s.usual == Fate::Kept)
+        .map(|s| s.usual == PointAction::Kept)
         .collect();
     let is_usual = |of: &u16| usual.get(usize::from(*of)).copied().unwrap_or(false);
     let mut kept: Vec<bool> = of_point.iter().map(is_usual).collect();
@@ -142,7 +142,7 @@ fn kept(subject: &Subject, corrections: &Corrections) -> Vec<bool> {
             Edit::Segment(place, fate) => {
                 let of_it = of_point.iter().zip(&mut kept);
                 for (_, kept) in of_it.filter(|(of, _)| usize::from(**of) == *place) {
-                    *kept = *fate == Fate::Kept;
+                    *kept = *fate == PointAction::Kept;
                 }
             }
             Edit::Box(mode, pixel_box) => {
@@ -178,7 +178,11 @@ fn labels(segments: &Segments, kept: &[bool]) -> Vec<PointLabel> {
 
 /// Kept points stand out by brightness as well as by hue; nearer is brighter. A picture has its colours in any window,
 /// as a photograph has.
-fn picture(subject: &Subject, segments: &Segments, labels: &[PointLabel]) -> (RgbImage, Vec<u16>) {
+fn picture(
+    subject: &EnrolInput,
+    segments: &Segments,
+    labels: &[PointLabel],
+) -> (RgbImage, Vec<u16>) {
     let [width, height] = subject.picture.size();
     let spread = subject.picture.spread();
     let cloud = subject.cloud();
@@ -233,12 +237,12 @@ mod tests {
         simulate::{PartKind, Side},
     };
 
-    fn captured() -> Subject {
+    fn captured() -> EnrolInput {
         let source = SceneSource::Cell {
             choice: CellChoice::Part(PartKind::BackDoor, Side::Right),
             number: 5,
         };
-        let read = Subject::read(
+        let read = EnrolInput::read(
             &source,
             &EnrolParams::default(),
             &crate::app::camera::Camera::default(),
@@ -248,9 +252,9 @@ mod tests {
         read.expect("a subject")
     }
 
-    fn with(subject: &Subject, edits: &[Edit]) -> Selection {
+    fn with(subject: &EnrolInput, edits: &[Edit]) -> Selection {
         let corrections = Corrections {
-            taking: Taking::Segmented,
+            taking: InitialSelection::Segmented,
             edits: edits.to_vec(),
         };
         Selection::of(subject, &corrections)
@@ -289,12 +293,12 @@ mod tests {
     fn a_dropped_segment_comes_back_whole_and_the_last_word_counts() {
         let subject = captured();
         let untouched = with(&subject, &[]);
-        let dropped = with(&subject, &[Edit::Segment(0, Fate::Dropped)]);
+        let dropped = with(&subject, &[Edit::Segment(0, PointAction::Dropped)]);
         assert_eq!((dropped.indices.len(), dropped.kept_of[0]), (0, 0));
         let edits = [
             Edit::Box(BoxMode::Drop, LEFT),
-            Edit::Segment(0, Fate::Dropped),
-            Edit::Segment(0, Fate::Kept),
+            Edit::Segment(0, PointAction::Dropped),
+            Edit::Segment(0, PointAction::Kept),
         ];
         assert_eq!(with(&subject, &edits).indices, untouched.indices);
     }

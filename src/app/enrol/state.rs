@@ -6,20 +6,23 @@ use super::{
     change::LibraryChange,
     draft::{Draft, Field, Form},
     selection::{BoxMode, Corrections, Edit, Selection},
-    subject::{Subject, Taking},
-    undo::{DraftThen, LibraryStep, Step, Steps, Way, change, changed_library, did, make_step},
+    subject::{EnrolInput, InitialSelection},
+    undo::{
+        DraftEffect, LibraryStep, UndoDirection, UndoStack, UndoStep, apply_step, change,
+        changed_library, did,
+    },
     work::{EnrolAnswer, EnrolRequest},
 };
 use crate::{
     app::{
         action::{Effect, notify},
         job::{Request, Trouble},
-        lane::Lane,
+        lane::TaskQueue,
         shots::{self, ScanRequest, ShotsState},
         source::SceneSource,
         state::{Notice, NoticeKind, State},
     },
-    library::{PartName, PartWords},
+    library::{PartName, PartNaming},
 };
 
 /// What the workspace knows.
@@ -32,30 +35,30 @@ pub struct EnrolState {
     /// The enrolled part that the draft, or the next one, replaces.
     pub replacing: Option<PartName>,
     /// The part that the last change of the library left there.
-    pub latest: Option<Latest>,
+    pub latest: Option<LastChangedPart>,
     /// How many changes of the library there were.
     pub num_changes: u64,
     /// The enrolled part that is looked at.
-    pub open: Option<OpenPart>,
+    pub open: Option<OpenedPart>,
     /// What a box in the picture does.
     pub box_mode: BoxMode,
     /// What is shown of the draft.
-    panes: Panes,
+    panes: DraftPanes,
     /// What is shown of a draft that is a scan, which has no picture of its own.
     scan_panes: ScanPanes,
     /// Of the scan that the draft is, if it is one.
     pub shots: ShotsState,
     /// What can be taken back and done again.
-    pub steps: Steps,
+    pub steps: UndoStack,
     /// The generation of the request for another draft, until that is there.
     taking: Option<u64>,
     /// The change of the library that is being made.
-    pub(super) pending: Option<(Way, LibraryStep)>,
+    pub(super) pending: Option<(UndoDirection, LibraryStep)>,
 }
 
 /// An enrolled part that is looked at.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct OpenPart {
+pub struct OpenedPart {
     /// The part.
     pub name: PartName,
     /// What it is called, as a person writes it.
@@ -64,7 +67,7 @@ pub struct OpenPart {
 
 /// The part that the last change of the library left there.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Latest {
+pub struct LastChangedPart {
     /// The part.
     pub name: PartName,
     /// What became of it, in words.
@@ -73,7 +76,7 @@ pub struct Latest {
 
 /// What is shown of the draft.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Panes {
+pub enum DraftPanes {
     /// The picture and the 3-D view.
     #[default]
     Both,
@@ -83,7 +86,7 @@ pub enum Panes {
     View,
 }
 
-impl Panes {
+impl DraftPanes {
     /// Every choice.
     pub const ALL: [Self; 3] = [Self::Both, Self::Picture, Self::View];
 
@@ -99,17 +102,17 @@ impl Panes {
 
 /// The panes of a scan: at first the 3-D view alone.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct ScanPanes(Panes);
+struct ScanPanes(DraftPanes);
 
 impl Default for ScanPanes {
     fn default() -> Self {
-        Self(Panes::View)
+        Self(DraftPanes::View)
     }
 }
 
 impl EnrolState {
     /// What is shown of the draft.
-    pub fn panes(&self) -> Panes {
+    pub fn panes(&self) -> DraftPanes {
         if self.has_scan() {
             self.scan_panes.0
         } else {
@@ -131,13 +134,13 @@ pub enum EnrolAction {
     /// Correct what is kept.
     Correct(Edit),
     /// Start from other points.
-    TakeAs(Taking),
+    TakeAs(InitialSelection),
     /// Take all corrections away.
     Reset,
     /// Have a box do something else.
     BoxMode(BoxMode),
     /// Show other panes.
-    Panes(Panes),
+    Panes(DraftPanes),
     /// Write a line about the draft.
     Write(Field),
     /// Look at the draft again, after it was cancelled.
@@ -183,20 +186,20 @@ impl State {
 
     /// True while the draft is not the one that was asked for last.
     pub fn is_taking_another(&self) -> bool {
-        let work = self.works.get(&Lane::Enrol);
+        let work = self.works.get(&TaskQueue::Enrol);
         work.is_some_and(|work| self.enrol.taking == Some(work.generation))
     }
 
     /// True while the library is being changed.
     pub fn is_changing_library(&self) -> bool {
-        self.works.contains_key(&Lane::Library)
+        self.works.contains_key(&TaskQueue::Library)
     }
 }
 
 /// Makes it so.
 pub fn apply(state: &mut State, action: EnrolAction) -> Option<Effect> {
     match action {
-        EnrolAction::TakeShown => return take_shown(state),
+        EnrolAction::TakeShown => return load_shown_part(state),
         EnrolAction::Correct(edit) => {
             return correct(state, |corrections| corrections.edits.push(edit));
         }
@@ -231,16 +234,16 @@ pub fn apply(state: &mut State, action: EnrolAction) -> Option<Effect> {
         EnrolAction::Save => return save(state),
         EnrolAction::Discard => {
             let former = state.enrol.draft.take()?;
-            did(state, Step::Draft(Some(Box::new(former))));
+            did(state, UndoStep::Draft(Some(Box::new(former))));
         }
-        EnrolAction::Undo => return make_step(state, Way::Back),
-        EnrolAction::Redo => return make_step(state, Way::Again),
+        EnrolAction::Undo => return apply_step(state, UndoDirection::Back),
+        EnrolAction::Redo => return apply_step(state, UndoDirection::Again),
         EnrolAction::Open(name) => open(state, name),
         EnrolAction::Close => state.enrol.open = None,
         EnrolAction::WriteOpen(field) => state.enrol.open.as_mut()?.form.write(field),
         EnrolAction::Rename => return rename(state),
         EnrolAction::Remove(name) => {
-            return change(state, LibraryChange::Remove(name), DraftThen::Stays);
+            return change(state, LibraryChange::Remove(name), DraftEffect::Stays);
         }
         EnrolAction::Replace(name) => {
             let words = words_of(state, &name)?;
@@ -252,10 +255,18 @@ pub fn apply(state: &mut State, action: EnrolAction) -> Option<Effect> {
         }
         EnrolAction::StorePath(file) => {
             let name = state.enrol.open.as_ref()?.name.clone();
-            return change(state, LibraryChange::ReadPath(name, file), DraftThen::Stays);
+            return change(
+                state,
+                LibraryChange::ReadPath(name, file),
+                DraftEffect::Stays,
+            );
         }
         EnrolAction::RemovePath(name) => {
-            return change(state, LibraryChange::SetPath(name, None), DraftThen::Stays);
+            return change(
+                state,
+                LibraryChange::SetPath(name, None),
+                DraftEffect::Stays,
+            );
         }
         EnrolAction::ReplaceNone => {
             state.enrol.replacing = None;
@@ -276,7 +287,7 @@ pub fn hear(
     match outcome {
         Ok(EnrolAnswer::Taken(subject, selection)) => {
             taken(state, subject, selection);
-            shots::settle(state, Lane::Enrol, generation, None);
+            shots::settle(state, TaskQueue::Enrol, generation, None);
         }
         Ok(EnrolAnswer::Selected(selection)) => {
             state.enrol.draft.as_mut()?.selection = selection;
@@ -288,10 +299,10 @@ pub fn hear(
         Err(_) => {
             if !state.is_changing_library()
                 && let Some((way, step)) = state.enrol.pending.take()
-                && way != Way::First
+                && way != UndoDirection::First
             {
                 // It still can be taken back or done again.
-                state.enrol.steps.from(way).push(Step::Library(step));
+                state.enrol.steps.from(way).push(UndoStep::Library(step));
             }
         }
     }
@@ -315,7 +326,7 @@ pub(in crate::app) fn take_scan(state: &mut State, request: ScanRequest, what: S
     effect
 }
 
-fn take_shown(state: &mut State) -> Option<Effect> {
+fn load_shown_part(state: &mut State) -> Option<Effect> {
     if let Some(effect) = shots::enrol_shown(state) {
         return Some(effect);
     }
@@ -325,7 +336,7 @@ fn take_shown(state: &mut State) -> Option<Effect> {
 }
 
 /// The former draft can be brought back; what was written about it is kept, for it may be the same part again.
-fn taken(state: &mut State, subject: Arc<Subject>, selection: Arc<Selection>) {
+fn taken(state: &mut State, subject: Arc<EnrolInput>, selection: Arc<Selection>) {
     for warning in &subject.warnings {
         notify(state, Trouble::of(warning).into());
     }
@@ -341,7 +352,7 @@ fn taken(state: &mut State, subject: Arc<Subject>, selection: Arc<Selection>) {
         (None, None) => Form::default(),
     };
     if let Some(former) = former {
-        did(state, Step::Draft(Some(Box::new(former))));
+        did(state, UndoStep::Draft(Some(Box::new(former))));
     }
     state.enrol.taking = None;
     state.enrol.num_drafts += 1;
@@ -366,7 +377,7 @@ fn correct(state: &mut State, change: impl FnOnce(&mut Corrections)) -> Option<E
     if draft.corrections == before {
         return None;
     }
-    let step = Step::Corrections(draft.number, before);
+    let step = UndoStep::Corrections(draft.number, before);
     did(state, step);
     select(state)
 }
@@ -402,7 +413,7 @@ fn save(state: &mut State) -> Option<Effect> {
         return None;
     };
     let save = LibraryChange::Save(Arc::clone(&checked.enrolled), words);
-    change(state, save, DraftThen::MakesWay(None))
+    change(state, save, DraftEffect::MakesWay(None))
 }
 
 fn rename(state: &mut State) -> Option<Effect> {
@@ -410,7 +421,7 @@ fn rename(state: &mut State) -> Option<Effect> {
     match open.form.words() {
         Ok(words) => {
             let rename = LibraryChange::Rename(open.name.clone(), words);
-            change(state, rename, DraftThen::Stays)
+            change(state, rename, DraftEffect::Stays)
         }
         Err(error) => {
             notify(state, Trouble::of(&error).into());
@@ -423,10 +434,10 @@ pub(super) fn open(state: &mut State, name: PartName) {
     let words = words_of(state, &name);
     // A damaged one cannot be described; it can be removed.
     let form = words.map_or_else(Form::default, Form::of);
-    state.enrol.open = Some(OpenPart { name, form });
+    state.enrol.open = Some(OpenedPart { name, form });
 }
 
-pub(super) fn words_of(state: &State, name: &PartName) -> Option<PartWords> {
+pub(super) fn words_of(state: &State, name: &PartName) -> Option<PartNaming> {
     let library = state.library.as_ref()?;
     let part = library.parts.get(library.place_of(name.as_str())?)?;
     Some(part.words())

@@ -13,7 +13,7 @@ use crate::{
         shots::FusedShots,
         source::{Origin, SceneError, SceneSource},
     },
-    files::{self, FileWarning, Opened},
+    files::{self, FileContent, FileWarning},
     geometry::{
         cloud::{Grid, PointCloud, is_finite},
         mesh::TriangleMesh,
@@ -27,14 +27,14 @@ use crate::{
 
 /// Which of the points are the part before anything is corrected.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Taking {
+pub enum InitialSelection {
     /// The part that stands before the background.
     Segmented,
     /// Everything.
     Whole,
 }
 
-impl Taking {
+impl InitialSelection {
     /// Both.
     pub const ALL: [Self; 2] = [Self::Segmented, Self::Whole];
 
@@ -49,15 +49,15 @@ impl Taking {
 
 /// What a part is enrolled from. Its points have the same places in every list.
 #[derive(Debug)]
-pub struct Subject {
+pub struct EnrolInput {
     /// Where it came from.
     pub origin: Origin,
     /// What was odd about the file.
     pub warnings: Vec<FileWarning>,
     /// What it is.
-    pub matter: Matter,
+    pub matter: EnrolInputKind,
     /// How it is taken at first.
-    pub usual: Taking,
+    pub usual: InitialSelection,
     /// The part and what lies about it; a mesh has none.
     pub segmented: Option<Segments>,
     /// The pieces of all of it.
@@ -70,7 +70,7 @@ pub struct Subject {
 
 /// What a subject is.
 #[derive(Debug)]
-pub enum Matter {
+pub enum EnrolInputKind {
     /// Points.
     Scene(Arc<SceneCloud>),
     /// A surface, with points sampled on it to be looked at.
@@ -98,7 +98,7 @@ pub struct Segment {
     /// Its points.
     pub num_points: usize,
     /// What becomes of it unless a person says otherwise.
-    pub usual: Fate,
+    pub usual: PointAction,
 }
 
 /// What a segment is.
@@ -114,7 +114,7 @@ pub enum SegmentKind {
 
 /// What becomes of points.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Fate {
+pub enum PointAction {
     /// They are of the part.
     Kept,
     /// They are not.
@@ -133,10 +133,10 @@ impl Segments {
         let mut all = Self::of_num(found.labels.len());
         let part = found.part.as_ref().map(|part| part.indices.clone());
         let part = part.unwrap_or_default();
-        all.add(SegmentKind::Surface, "Part", Fate::Kept, &part);
+        all.add(SegmentKind::Surface, "Part", PointAction::Kept, &part);
         let stand = found.part.as_ref().map(|part| part.stand.clone());
         let stand = stand.unwrap_or_default();
-        all.add(SegmentKind::Surface, "Stand", Fate::Dropped, &stand);
+        all.add(SegmentKind::Surface, "Stand", PointAction::Dropped, &stand);
         let others = surfaces(scene, &found, params);
         let is_other = |indices: &&Vec<u32>| {
             let first = indices.first();
@@ -145,16 +145,16 @@ impl Segments {
         let others = others.iter().filter(is_other);
         for (number, indices) in others.take(Self::MAX_SURFACES).enumerate() {
             let title = format!("Surface {}", number + 1);
-            all.add(SegmentKind::Surface, &title, Fate::Dropped, indices);
+            all.add(SegmentKind::Surface, &title, PointAction::Dropped, indices);
         }
         for plane in 0..found.planes.len() as u8 {
             let is_on = |label: &PointLabel| *label == PointLabel::Background(plane);
             let indices = places(found.labels.iter().map(is_on));
             let title = format!("Background {}", plane + 1);
             let kind = SegmentKind::Plane(plane);
-            all.add(kind, &title, Fate::Dropped, &indices);
+            all.add(kind, &title, PointAction::Dropped, &indices);
         }
-        all.add_specks(scene, Fate::Dropped);
+        all.add_specks(scene, PointAction::Dropped);
         all
     }
 
@@ -164,9 +164,9 @@ impl Segments {
         let found = pieces(scene, params);
         for (number, indices) in found.iter().take(Self::MAX_SURFACES).enumerate() {
             let title = format!("Piece {}", number + 1);
-            all.add(SegmentKind::Surface, &title, Fate::Kept, indices);
+            all.add(SegmentKind::Surface, &title, PointAction::Kept, indices);
         }
-        all.add_specks(scene, Fate::Kept);
+        all.add_specks(scene, PointAction::Kept);
         all
     }
 
@@ -177,7 +177,7 @@ impl Segments {
         }
     }
 
-    fn add(&mut self, kind: SegmentKind, title: &str, usual: Fate, indices: &[u32]) {
+    fn add(&mut self, kind: SegmentKind, title: &str, usual: PointAction, indices: &[u32]) {
         if indices.is_empty() {
             return;
         }
@@ -194,7 +194,7 @@ impl Segments {
     }
 
     /// The readings that are in no segment yet.
-    fn add_specks(&mut self, scene: &SceneCloud, usual: Fate) {
+    fn add_specks(&mut self, scene: &SceneCloud, usual: PointAction) {
         let points = scene.cloud.points.iter().zip(&self.of_point);
         let indices = places(points.map(|(p, of)| *of == Self::NONE && is_finite(p)));
         self.add(SegmentKind::Specks, "Specks", usual, &indices);
@@ -280,7 +280,7 @@ impl PicturePlane {
     }
 }
 
-impl Subject {
+impl EnrolInput {
     /// Gets it and cuts it into segments.
     pub(super) fn read(
         source: &SceneSource,
@@ -290,7 +290,7 @@ impl Subject {
     ) -> Result<Result<Self, EnrolError>, SceneError> {
         let SceneSource::File(path) = source else {
             let captured = source.take(camera, is_cancelled)?;
-            let usual = Taking::Segmented;
+            let usual = InitialSelection::Segmented;
             let (scene, origin) = (captured.scene, captured.origin);
             return Ok(Ok(Self::of_scene(scene, origin, usual, params)));
         };
@@ -301,16 +301,21 @@ impl Subject {
             is_simulated: opened.is_simulated(),
         };
         let read = match opened {
-            Opened::Mesh(mesh) => Self::of_mesh(mesh, origin, params),
-            Opened::Depth(frame) => {
+            FileContent::Mesh(mesh) => Self::of_mesh(mesh, origin, params),
+            FileContent::Depth(frame) => {
                 let scene = Arc::new(scene_from_frame(&frame));
-                Ok(Self::of_scene(scene, origin, Taking::Segmented, params))
+                Ok(Self::of_scene(
+                    scene,
+                    origin,
+                    InitialSelection::Segmented,
+                    params,
+                ))
             }
-            Opened::Cloud(cloud) => {
+            FileContent::Cloud(cloud) => {
                 // As on the command line: only what the camera read as a picture is taken for a scene.
                 let (usual, scene) = match cloud.grid {
-                    Some(_) => (Taking::Segmented, scene_from_cloud(cloud)),
-                    None => (Taking::Whole, scene_of_whole(cloud)),
+                    Some(_) => (InitialSelection::Segmented, scene_from_cloud(cloud)),
+                    None => (InitialSelection::Whole, scene_of_whole(cloud)),
                 };
                 Ok(Self::of_scene(Arc::new(scene), origin, usual, params))
             }
@@ -324,7 +329,7 @@ impl Subject {
     fn of_scene(
         scene: Arc<SceneCloud>,
         origin: Origin,
-        usual: Taking,
+        usual: InitialSelection,
         params: &EnrolParams,
     ) -> Self {
         let positions = scene.cloud.points.iter().map(|p| [p.x, p.y, p.z]);
@@ -336,7 +341,7 @@ impl Subject {
             whole: Segments::all_of(&scene, &params.segment),
             picture: PicturePlane::of(&scene.cloud),
             positions: positions.collect(),
-            matter: Matter::Scene(scene),
+            matter: EnrolInputKind::Scene(scene),
         }
     }
 
@@ -351,16 +356,16 @@ impl Subject {
         let cloud = mesh.sample_evenly(params.max_points, 1).ok_or(no_area)?;
         let mut whole = Segments::of_num(cloud.points.len());
         let all: Vec<u32> = (0..cloud.points.len() as u32).collect();
-        whole.add(SegmentKind::Surface, "Mesh", Fate::Kept, &all);
+        whole.add(SegmentKind::Surface, "Mesh", PointAction::Kept, &all);
         Ok(Self {
             origin,
             warnings: Vec::new(),
-            usual: Taking::Whole,
+            usual: InitialSelection::Whole,
             segmented: None,
             whole,
             picture: PicturePlane::of(&cloud),
             positions: cloud.points.iter().map(|p| [p.x, p.y, p.z]).collect(),
-            matter: Matter::Mesh(Arc::new(mesh), Arc::new(cloud)),
+            matter: EnrolInputKind::Mesh(Arc::new(mesh), Arc::new(cloud)),
         })
     }
 
@@ -370,38 +375,38 @@ impl Subject {
         let num_points = matter.cloud.points.len();
         let mut segments = Segments::of_num(num_points);
         let (part, rest) = (matter.voted(true), matter.voted(false));
-        segments.add(SegmentKind::Surface, "Part", Fate::Kept, &part);
+        segments.add(SegmentKind::Surface, "Part", PointAction::Kept, &part);
         segments.add(
             SegmentKind::Plane(0),
             "Cell around it",
-            Fate::Dropped,
+            PointAction::Dropped,
             &rest,
         );
         let positions = matter.cloud.points.iter().map(|p| [p.x, p.y, p.z]);
         Self {
             origin: matter.fused.origin(),
             warnings: Vec::new(),
-            usual: Taking::Segmented,
+            usual: InitialSelection::Segmented,
             segmented: Some(segments),
             whole: Segments::of_num(num_points),
             picture: PicturePlane::of(&matter.cloud),
             positions: positions.collect(),
-            matter: Matter::Scan(Box::new(matter)),
+            matter: EnrolInputKind::Scan(Box::new(matter)),
         }
     }
 
     /// True if it can be taken so.
-    pub fn allows(&self, taking: Taking) -> bool {
+    pub fn allows(&self, taking: InitialSelection) -> bool {
         match taking {
-            Taking::Whole => self.scan().is_none(),
-            Taking::Segmented => self.segmented.is_some(),
+            InitialSelection::Whole => self.scan().is_none(),
+            InitialSelection::Segmented => self.segmented.is_some(),
         }
     }
 
     /// Its segments when it is taken so.
-    pub fn segments(&self, taking: Taking) -> &Segments {
+    pub fn segments(&self, taking: InitialSelection) -> &Segments {
         match (taking, &self.segmented) {
-            (Taking::Segmented, Some(segmented)) => segmented,
+            (InitialSelection::Segmented, Some(segmented)) => segmented,
             _ => &self.whole,
         }
     }
@@ -409,31 +414,31 @@ impl Subject {
     /// Its points.
     pub fn cloud(&self) -> &PointCloud {
         match &self.matter {
-            Matter::Scene(scene) => &scene.cloud,
-            Matter::Mesh(_, cloud) => cloud,
-            Matter::Scan(scan) => &scan.cloud,
+            EnrolInputKind::Scene(scene) => &scene.cloud,
+            EnrolInputKind::Mesh(_, cloud) => cloud,
+            EnrolInputKind::Scan(scan) => &scan.cloud,
         }
     }
 
     /// The scene, if it is one.
     pub fn scene(&self) -> Option<&Arc<SceneCloud>> {
         match &self.matter {
-            Matter::Scene(scene) => Some(scene),
-            Matter::Mesh(..) | Matter::Scan(_) => None,
+            EnrolInputKind::Scene(scene) => Some(scene),
+            EnrolInputKind::Mesh(..) | EnrolInputKind::Scan(_) => None,
         }
     }
 
     /// The shots, if it is a scan.
     pub fn scan(&self) -> Option<&Arc<FusedShots>> {
         match &self.matter {
-            Matter::Scan(scan) => Some(&scan.fused),
-            Matter::Scene(_) | Matter::Mesh(..) => None,
+            EnrolInputKind::Scan(scan) => Some(&scan.fused),
+            EnrolInputKind::Scene(_) | EnrolInputKind::Mesh(..) => None,
         }
     }
 
     /// True if parts of it can be dropped: a mesh is enrolled by its surface, whole.
     pub fn can_be_corrected(&self) -> bool {
-        !matches!(self.matter, Matter::Mesh(..))
+        !matches!(self.matter, EnrolInputKind::Mesh(..))
     }
 }
 
@@ -447,12 +452,12 @@ mod tests {
     use super::*;
     use crate::{app::source::CellChoice, simulate::PartKind};
 
-    fn captured() -> Subject {
+    fn captured() -> EnrolInput {
         let source = SceneSource::Cell {
             choice: CellChoice::Part(PartKind::Fender, crate::simulate::Side::Left),
             number: 3,
         };
-        let read = Subject::read(
+        let read = EnrolInput::read(
             &source,
             &EnrolParams::default(),
             &Camera::default(),
@@ -465,7 +470,7 @@ mod tests {
     #[test]
     fn every_reading_of_a_scene_is_in_one_segment() {
         let subject = captured();
-        for taking in Taking::ALL {
+        for taking in InitialSelection::ALL {
             let segments = subject.segments(taking);
             let in_lists: usize = segments.list.iter().map(|s| s.num_points).sum();
             assert_eq!(in_lists, subject.cloud().num_finite(), "{taking:?}");
@@ -474,8 +479,11 @@ mod tests {
                 assert_eq!(of_it.count(), segment.num_points, "{}", segment.title);
             }
         }
-        let segmented = subject.segments(Taking::Segmented);
-        let kept = segmented.list.iter().filter(|s| s.usual == Fate::Kept);
+        let segmented = subject.segments(InitialSelection::Segmented);
+        let kept = segmented
+            .list
+            .iter()
+            .filter(|s| s.usual == PointAction::Kept);
         assert_eq!(kept.map(|s| s.title.as_str()).collect::<Vec<_>>(), ["Part"]);
         assert!(
             segmented

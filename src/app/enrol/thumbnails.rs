@@ -6,12 +6,12 @@ use egui::{ColorImage, Context, TextureHandle, TextureOptions};
 use image::RgbaImage;
 
 use super::work::Checked;
-use crate::app::{shelf::LibraryShown, state::State};
+use crate::app::{shelf::LibraryView, state::State};
 
 /// The textures, and what they were made of.
 #[derive(Default)]
 pub(super) struct Thumbnails {
-    library: Option<(Arc<LibraryShown>, Vec<Option<TextureHandle>>)>,
+    library: Option<(Arc<LibraryView>, Vec<Option<TextureHandle>>)>,
     draft: Option<(Arc<Checked>, TextureHandle)>,
 }
 

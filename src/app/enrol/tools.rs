@@ -6,8 +6,8 @@ use super::{
     EnrolAction,
     draft::Draft,
     selection::{BoxMode, Edit},
-    state::Panes,
-    subject::{Fate, Taking},
+    state::DraftPanes,
+    subject::{InitialSelection, PointAction},
 };
 use crate::app::{
     action::Action,
@@ -72,7 +72,7 @@ fn boxes(ui: &mut Ui, draft: &Draft, state: &State, actions: &mut Vec<Action>) {
     let can_correct = draft.subject.can_be_corrected();
     // The shots have voted what of a scan is the part.
     let is_scan = draft.subject.scan().is_some();
-    for taking in Taking::ALL.into_iter().filter(|_| !is_scan) {
+    for taking in InitialSelection::ALL.into_iter().filter(|_| !is_scan) {
         let is_chosen = draft.corrections.taking == taking;
         let is_allowed = draft.subject.allows(taking);
         let title = taking.title();
@@ -121,7 +121,7 @@ fn steps(ui: &mut Ui, draft: &Draft, state: &State, actions: &mut Vec<Action>) {
         }
     }
     ui.add_space(space::MEDIUM);
-    for panes in Panes::ALL {
+    for panes in DraftPanes::ALL {
         let is_chosen = state.enrol.panes() == panes;
         let label = format!("Show {}", panes.title().to_lowercase());
         if choice(ui, panes.title(), &label, is_chosen, true).clicked() {
@@ -147,9 +147,9 @@ pub(super) fn segments(ui: &mut Ui, draft: &Draft, actions: &mut Vec<Action>) {
                 for (place, segment) in segments.list.iter().enumerate() {
                     let num_kept = kept_of(place);
                     let (word, fate) = match num_kept {
-                        0 => ("dropped", Fate::Kept),
-                        num if num < segment.num_points => ("partly kept", Fate::Dropped),
-                        _ => ("kept", Fate::Dropped),
+                        0 => ("dropped", PointAction::Kept),
+                        num if num < segment.num_points => ("partly kept", PointAction::Dropped),
+                        _ => ("kept", PointAction::Dropped),
                     };
                     let all = grouped(segment.num_points);
                     let text = if word == "partly kept" {
@@ -163,8 +163,8 @@ pub(super) fn segments(ui: &mut Ui, draft: &Draft, actions: &mut Vec<Action>) {
                         response.scroll_to_me(None);
                     }
                     let hint = match fate {
-                        Fate::Kept => "Take it",
-                        Fate::Dropped => "Drop it",
+                        PointAction::Kept => "Take it",
+                        PointAction::Dropped => "Drop it",
                     };
                     if response.on_hover_text(hint).clicked() {
                         let edit = Edit::Segment(place, fate);

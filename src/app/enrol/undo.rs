@@ -6,7 +6,7 @@ use super::{
     change::{Changed, LibraryChange},
     draft::Draft,
     selection::Corrections,
-    state::{Latest, open, select, words_of},
+    state::{LastChangedPart, open, select, words_of},
     work::EnrolRequest,
 };
 use crate::app::{
@@ -14,7 +14,7 @@ use crate::app::{
     answers::use_library,
     inspect::work::InspectRequest,
     job::Request,
-    lane::Lane,
+    lane::TaskQueue,
     shots::{inspection_again, inspection_of},
     source::SceneSource,
     state::{Notice, NoticeKind, State},
@@ -22,16 +22,16 @@ use crate::app::{
 
 /// What can be taken back, and what was taken back and can be done again; the latest last.
 #[derive(Debug, Default)]
-pub struct Steps {
+pub struct UndoStack {
     /// What was done.
-    pub done: Vec<Step>,
+    pub done: Vec<UndoStep>,
     /// What was taken back.
-    pub undone: Vec<Step>,
+    pub undone: Vec<UndoStep>,
 }
 
 /// How to get from here to what was before, or back again.
 #[derive(Clone, Debug)]
-pub enum Step {
+pub enum UndoStep {
     /// The corrections of the draft of this number as they were.
     Corrections(u64, Corrections),
     /// The draft as it was.
@@ -40,7 +40,7 @@ pub enum Step {
     Library(LibraryStep),
 }
 
-impl Step {
+impl UndoStep {
     fn is_scan(&self) -> bool {
         match self {
             Self::Draft(Some(draft)) => draft.subject.scan().is_some(),
@@ -57,12 +57,12 @@ pub struct LibraryStep {
     /// What was done first, in words.
     pub what: String,
     /// What becomes of the draft by it.
-    pub draft: DraftThen,
+    pub draft: DraftEffect,
 }
 
 /// What becomes of the draft when a step is made.
 #[derive(Clone, Debug)]
-pub enum DraftThen {
+pub enum DraftEffect {
     /// It stays.
     Stays,
     /// It makes way for this one: a saved draft goes, and comes back when the saving is taken back.
@@ -71,7 +71,7 @@ pub enum DraftThen {
 
 /// Which way a step is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Way {
+pub enum UndoDirection {
     /// For the first time.
     First,
     /// Taken back.
@@ -85,9 +85,9 @@ const MAX_STEPS: usize = 100;
 /// The same of drafts that are scans: each holds about a hundred megabytes.
 const MAX_SCANS: usize = 4;
 
-impl Steps {
+impl UndoStack {
     /// Something was done for the first time: what was taken back before can no longer be done again.
-    pub fn push(&mut self, back: Step) {
+    pub fn push(&mut self, back: UndoStep) {
         self.undone.clear();
         self.done.push(back);
         if self.done.len() > MAX_STEPS {
@@ -101,33 +101,37 @@ impl Steps {
     }
 
     /// The list that the next step that way is taken from.
-    pub fn from(&mut self, way: Way) -> &mut Vec<Step> {
+    pub fn from(&mut self, way: UndoDirection) -> &mut Vec<UndoStep> {
         match way {
-            Way::First | Way::Back => &mut self.done,
-            Way::Again => &mut self.undone,
+            UndoDirection::First | UndoDirection::Back => &mut self.done,
+            UndoDirection::Again => &mut self.undone,
         }
     }
 
     /// The list that the way back is put into.
-    pub fn to(&mut self, way: Way) -> &mut Vec<Step> {
+    pub fn to(&mut self, way: UndoDirection) -> &mut Vec<UndoStep> {
         match way {
-            Way::Back => &mut self.undone,
-            Way::First | Way::Again => &mut self.done,
+            UndoDirection::Back => &mut self.undone,
+            UndoDirection::First | UndoDirection::Again => &mut self.done,
         }
     }
 }
 
 /// Has the library changed for the first time; one change at a time.
-pub(super) fn change(state: &mut State, change: LibraryChange, draft: DraftThen) -> Option<Effect> {
+pub(super) fn change(
+    state: &mut State,
+    change: LibraryChange,
+    draft: DraftEffect,
+) -> Option<Effect> {
     let step = LibraryStep {
         change,
         what: String::new(),
         draft,
     };
-    begin_change(state, Way::First, step)
+    start_change(state, UndoDirection::First, step)
 }
 
-fn begin_change(state: &mut State, way: Way, step: LibraryStep) -> Option<Effect> {
+fn start_change(state: &mut State, way: UndoDirection, step: LibraryStep) -> Option<Effect> {
     if state.is_changing_library() {
         return None;
     }
@@ -146,10 +150,10 @@ pub(super) fn changed_library(state: &mut State, changed: Changed) -> Option<Eff
     } = changed;
     let (way, mut step) = state.enrol.pending.take()?;
     use_library(state, &library);
-    withdraw_offers(state);
-    follow_replaced(state, &step.change);
+    dismiss_undo_notices(state);
+    track_replaced_part(state, &step.change);
     state.enrol.num_changes += 1;
-    state.enrol.latest = name.clone().map(|name| Latest {
+    state.enrol.latest = name.clone().map(|name| LastChangedPart {
         name,
         what: match &step.change {
             LibraryChange::Rename(..) => "Just renamed",
@@ -160,27 +164,27 @@ pub(super) fn changed_library(state: &mut State, changed: Changed) -> Option<Eff
     });
     step.change = back;
     let notice = match way {
-        Way::First => {
+        UndoDirection::First => {
             step.what.clone_from(&what);
             state.enrol.steps.undone.clear();
             Notice::undoable(what)
         }
-        Way::Back => Notice::done(format!("Undone: {}", lower_first(&step.what))),
-        Way::Again => Notice::undoable(step.what.clone()),
+        UndoDirection::Back => Notice::done(format!("Undone: {}", lower_first(&step.what))),
+        UndoDirection::Again => Notice::undoable(step.what.clone()),
     };
     notify(state, notice);
     let mut saved = None;
-    if let DraftThen::MakesWay(other) = &mut step.draft {
+    if let DraftEffect::MakesWay(other) = &mut step.draft {
         let coming = other.take();
         let going = state.enrol.draft.take().map(Box::new);
-        if way != Way::Back {
+        if way != UndoDirection::Back {
             saved.clone_from(&going);
         }
         state.enrol.draft = coming.map(|draft| *draft);
         *other = going;
         state.enrol.replacing = None;
     }
-    state.enrol.steps.to(way).push(Step::Library(step));
+    state.enrol.steps.to(way).push(UndoStep::Library(step));
     match (&state.enrol.open, name) {
         (Some(_), Some(name)) => open(state, name),
         (Some(_), None) => state.enrol.open = None,
@@ -192,7 +196,7 @@ pub(super) fn changed_library(state: &mut State, changed: Changed) -> Option<Eff
 }
 
 /// The part to be replaced may be called otherwise now, or be gone.
-fn follow_replaced(state: &mut State, made: &LibraryChange) {
+fn track_replaced_part(state: &mut State, made: &LibraryChange) {
     let Some(replaced) = state.enrol.replacing.clone() else {
         return;
     };
@@ -220,7 +224,7 @@ fn inspect_again(state: &mut State, saved: Option<&Draft>) -> Option<Effect> {
         let recipe = Arc::clone(&state.recipe);
         Some(Request::Inspect(InspectRequest { source, recipe }))
     });
-    let is_busy = state.works.contains_key(&Lane::Inspect);
+    let is_busy = state.works.contains_key(&TaskQueue::Inspect);
     let shown = state.shown.as_ref().filter(|_| !is_busy);
     let of_shown = shown.map(|shown| inspection_again(state, &shown.inspected));
     let request = of_saved.or(of_shown)?;
@@ -228,27 +232,27 @@ fn inspect_again(state: &mut State, saved: Option<&Draft>) -> Option<Effect> {
 }
 
 /// Takes the last step back, or does it again.
-pub(super) fn make_step(state: &mut State, way: Way) -> Option<Effect> {
+pub(super) fn apply_step(state: &mut State, way: UndoDirection) -> Option<Effect> {
     if state.is_changing_library() {
         return None;
     }
     loop {
         let step = state.enrol.steps.from(way).pop()?;
-        withdraw_offers(state);
+        dismiss_undo_notices(state);
         match step {
-            Step::Library(step) => return begin_change(state, way, step),
-            Step::Draft(other) => {
+            UndoStep::Library(step) => return start_change(state, way, step),
+            UndoStep::Draft(other) => {
                 let current = state.enrol.draft.take().map(Box::new);
                 state.enrol.draft = other.map(|draft| *draft);
-                state.enrol.steps.to(way).push(Step::Draft(current));
+                state.enrol.steps.to(way).push(UndoStep::Draft(current));
                 return select(state);
             }
-            Step::Corrections(number, before) => {
+            UndoStep::Corrections(number, before) => {
                 let draft = state.enrol.draft.as_mut();
                 // Of a draft that is no longer there: the step before it counts.
                 if let Some(draft) = draft.filter(|draft| draft.number == number) {
                     let now = mem::replace(&mut draft.corrections, before);
-                    let back = Step::Corrections(number, now);
+                    let back = UndoStep::Corrections(number, now);
                     state.enrol.steps.to(way).push(back);
                     return select(state);
                 }
@@ -258,13 +262,13 @@ pub(super) fn make_step(state: &mut State, way: Way) -> Option<Effect> {
 }
 
 /// Something else was done: it is what Undo takes back now.
-pub(super) fn did(state: &mut State, back: Step) {
+pub(super) fn did(state: &mut State, back: UndoStep) {
     state.enrol.steps.push(back);
-    withdraw_offers(state);
+    dismiss_undo_notices(state);
 }
 
 /// Notices no longer offer to take back what they tell of.
-fn withdraw_offers(state: &mut State) {
+fn dismiss_undo_notices(state: &mut State) {
     for notice in &mut state.notices {
         if notice.kind == NoticeKind::Undoable {
             notice.kind = NoticeKind::Done;

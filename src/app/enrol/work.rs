@@ -7,21 +7,21 @@ use jiff::Timestamp;
 use super::{
     change::{Changed, LibraryChange, change},
     selection::{Corrections, Selection},
-    subject::{Matter, Subject, Taking},
+    subject::{EnrolInput, EnrolInputKind, InitialSelection},
 };
 use crate::{
     app::{
         camera::CameraError,
-        job::{Answer, Outcome, Trouble},
-        lane::Lane,
-        shelf::Shelf,
+        job::{TaskOutcome, TaskResult, Trouble},
+        lane::TaskQueue,
+        shelf::LibraryCache,
         shots::{ScanRequest, Steps, Then, fuse},
         source::{SceneError, SceneSource},
-        worker::Desk,
+        worker::TaskContext,
     },
     library::{
-        About, EnrolError, EnrolParams, Enrolled, Likeness, PartName, enrol_mesh, enrol_scan,
-        enrol_selected, enrol_whole, likenesses,
+        EnrolError, EnrolParams, Enrolled, PartDescription, PartName, Similarity, enrol_mesh,
+        enrol_scan, enrol_selected, enrol_whole, likenesses,
     },
     pipeline::Recipe,
     stages::segment::SegmentedPart,
@@ -42,7 +42,7 @@ pub enum EnrolRequest {
     /// Go through the corrections, and see what would be stored.
     Select {
         /// Of what.
-        subject: Arc<Subject>,
+        subject: Arc<EnrolInput>,
         /// All of them.
         corrections: Corrections,
         /// All parameters.
@@ -54,10 +54,10 @@ pub enum EnrolRequest {
 
 impl EnrolRequest {
     /// Whose work it is: a change of the library is never given up for a newer correction.
-    pub fn lane(&self) -> Lane {
+    pub fn lane(&self) -> TaskQueue {
         match self {
-            Self::Take { .. } | Self::TakeScan(_) | Self::Select { .. } => Lane::Enrol,
-            Self::Change(_) => Lane::Library,
+            Self::Take { .. } | Self::TakeScan(_) | Self::Select { .. } => TaskQueue::Enrol,
+            Self::Change(_) => TaskQueue::Library,
         }
     }
 }
@@ -66,7 +66,7 @@ impl EnrolRequest {
 #[derive(Clone, Debug)]
 pub enum EnrolAnswer {
     /// Something to enrol, and what of it is kept. What would be stored follows.
-    Taken(Arc<Subject>, Arc<Selection>),
+    Taken(Arc<EnrolInput>, Arc<Selection>),
     /// What is kept after the corrections. What would be stored follows.
     Selected(Arc<Selection>),
     /// What would be stored, or why nothing can be.
@@ -83,21 +83,21 @@ pub struct Checked {
     /// What is odd about it.
     pub warnings: Vec<Trouble>,
     /// How like every enrolled part it is, the one that it is hardest to tell from first.
-    pub likenesses: Vec<Likeness>,
+    pub likenesses: Vec<Similarity>,
 }
 
 /// Does what is asked.
 pub(in crate::app) fn answer(
     request: EnrolRequest,
-    shelf: &Shelf,
-    desk: &dyn Desk<Outcome>,
-) -> Option<Outcome> {
-    let said = |answer| Some(Ok(Answer::Enrol(answer)));
+    shelf: &LibraryCache,
+    desk: &dyn TaskContext<TaskOutcome>,
+) -> Option<TaskOutcome> {
+    let said = |answer| Some(Ok(TaskResult::Enrol(answer)));
     match request {
         EnrolRequest::Take { source, recipe } => {
             let params = params_of(&recipe);
             let subject =
-                match Subject::read(&source, &params, shelf.camera(), &|| desk.is_cancelled()) {
+                match EnrolInput::read(&source, &params, shelf.camera(), &|| desk.is_cancelled()) {
                     Ok(Ok(subject)) => subject,
                     Ok(Err(error)) => return Some(Err(Trouble::of(&error))),
                     Err(SceneError::Camera(CameraError::Cancelled)) => return None,
@@ -111,7 +111,7 @@ pub(in crate::app) fn answer(
                 Err(error) => return Some(error.outcome(&request)),
             };
             let params = params_of(&request.recipe);
-            said(take(Subject::of_scan(fused), &params, shelf, desk)?)
+            said(take(EnrolInput::of_scan(fused), &params, shelf, desk)?)
         }
         EnrolRequest::Select {
             subject,
@@ -124,7 +124,7 @@ pub(in crate::app) fn answer(
                 return None;
             }
             let selected = EnrolAnswer::Selected(Arc::clone(&selection));
-            desk.partly(Ok(Answer::Enrol(selected)));
+            desk.publish_partial(Ok(TaskResult::Enrol(selected)));
             said(check(
                 &subject,
                 &corrections,
@@ -135,17 +135,18 @@ pub(in crate::app) fn answer(
             )?)
         }
         EnrolRequest::Change(asked) => Some(
-            change(&asked, shelf).map(|done| Answer::Enrol(EnrolAnswer::Changed(Box::new(done)))),
+            change(&asked, shelf)
+                .map(|done| TaskResult::Enrol(EnrolAnswer::Changed(Box::new(done)))),
         ),
     }
 }
 
 /// Hands over what there is to enrol, then looks at what would be stored; `None` when cancelled.
 fn take(
-    subject: Subject,
+    subject: EnrolInput,
     params: &EnrolParams,
-    shelf: &Shelf,
-    desk: &dyn Desk<Outcome>,
+    shelf: &LibraryCache,
+    desk: &dyn TaskContext<TaskOutcome>,
 ) -> Option<EnrolAnswer> {
     let subject = Arc::new(subject);
     let corrections = Corrections::none(subject.usual);
@@ -154,7 +155,7 @@ fn take(
         return None;
     }
     let taken = EnrolAnswer::Taken(Arc::clone(&subject), Arc::clone(&selection));
-    desk.partly(Ok(Answer::Enrol(taken)));
+    desk.publish_partial(Ok(TaskResult::Enrol(taken)));
     check(&subject, &corrections, &selection, params, shelf, desk)
 }
 
@@ -168,12 +169,12 @@ fn params_of(recipe: &Recipe) -> EnrolParams {
 
 /// Makes the part and holds it against every enrolled one; `None` when cancelled.
 fn check(
-    subject: &Subject,
+    subject: &EnrolInput,
     corrections: &Corrections,
     selection: &Selection,
     params: &EnrolParams,
-    shelf: &Shelf,
-    desk: &dyn Desk<Outcome>,
+    shelf: &LibraryCache,
+    desk: &dyn TaskContext<TaskOutcome>,
 ) -> Option<EnrolAnswer> {
     let mut enrolled = match enrol(subject, corrections.taking, selection, params) {
         Ok(enrolled) => enrolled,
@@ -198,13 +199,13 @@ fn check(
 }
 
 fn enrol(
-    subject: &Subject,
-    taking: Taking,
+    subject: &EnrolInput,
+    taking: InitialSelection,
     selection: &Selection,
     params: &EnrolParams,
 ) -> Result<Enrolled, EnrolError> {
     let now = Timestamp::now();
-    let about = About {
+    let about = PartDescription {
         name: PartName::new("part").expect("a name"),
         title: String::new(),
         notes: String::new(),
@@ -217,12 +218,14 @@ fn enrol(
         simulated: subject.origin.is_simulated(),
     };
     match (&subject.matter, taking) {
-        (Matter::Mesh(mesh, _), _) => enrol_mesh(mesh, &about, params),
-        (Matter::Scan(scan), _) => enrol_scan(&scan.with_part(&selection.indices), &about, params),
-        (Matter::Scene(scene), Taking::Segmented) => {
+        (EnrolInputKind::Mesh(mesh, _), _) => enrol_mesh(mesh, &about, params),
+        (EnrolInputKind::Scan(scan), _) => {
+            enrol_scan(&scan.with_part(&selection.indices), &about, params)
+        }
+        (EnrolInputKind::Scene(scene), InitialSelection::Segmented) => {
             enrol_selected(scene, &selection.indices, &about, params)
         }
-        (Matter::Scene(scene), Taking::Whole) => {
+        (EnrolInputKind::Scene(scene), InitialSelection::Whole) => {
             let kept = SegmentedPart::selected(scene, &selection.indices, &params.segment);
             enrol_whole(&kept.cloud, &about, params)
         }

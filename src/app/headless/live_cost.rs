@@ -15,12 +15,12 @@ use crate::{
         live::{LiveAction, LiveStatus},
         viewport::ViewError,
     },
-    bench::{quantile, waited_for_a_core},
+    bench::{cpu_wait_seconds, quantile},
 };
 
 /// What one stretch of time was like.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct LiveStretch {
+pub struct LiveSample {
     /// When it ended, seconds from the beginning.
     pub until_s: f64,
     /// Frames a second that came, and that were inspected.
@@ -53,13 +53,13 @@ const TICK: Duration = Duration::from_micros(16_667);
 pub fn live_stretches(
     num_stretches: usize,
     stretch: Duration,
-    mut told: impl FnMut(&LiveStretch),
-) -> Result<Vec<LiveStretch>, ViewError> {
+    mut told: impl FnMut(&LiveSample),
+) -> Result<Vec<LiveSample>, ViewError> {
     let mut window = HeadlessWindow::open(SIZE, WindowOptions::default())?;
     window.settle();
     window.act(Action::Live(LiveAction::Toggle));
     let begun = Instant::now();
-    let mut stretches: Vec<LiveStretch> = Vec::new();
+    let mut stretches: Vec<LiveSample> = Vec::new();
     let mut before = (0, 0);
     for number in 1..=num_stretches as u32 {
         let end = begun + stretch * number;
@@ -69,7 +69,7 @@ pub fn live_stretches(
         let share = |share| quantile(busy.iter().copied(), share).unwrap_or(0.0);
         let latency = status.and_then(|status| status.latency);
         let per_second = |num: u64| num as f64 / stretch.as_secs_f64();
-        let found = LiveStretch {
+        let found = LiveSample {
             until_s: begun.elapsed().as_secs_f64(),
             captured_per_s: per_second(now.0 - before.0),
             inspected_per_s: per_second(now.1 - before.1),
@@ -98,7 +98,7 @@ fn seen(status: &LiveStatus) -> (u64, u64) {
 
 /// A frame of the window's thread.
 #[derive(Clone, Copy, Default)]
-struct Away {
+struct UiThreadTime {
     /// By the clock, seconds.
     whole_s: f64,
     /// Of that, how long it waited for a core.
@@ -106,23 +106,23 @@ struct Away {
 }
 
 /// Draws as a display would have it; the busy times of the frames with a new result, milliseconds, and the longest frame.
-fn draw_until(window: &mut HeadlessWindow, end: Instant) -> (Vec<f64>, Away) {
+fn draw_until(window: &mut HeadlessWindow, end: Instant) -> (Vec<f64>, UiThreadTime) {
     let mut busy = Vec::new();
-    let mut longest = Away::default();
+    let mut longest = UiThreadTime::default();
     let generation = |window: &HeadlessWindow| {
         let shown = window.window().state().shown.as_ref();
         shown.map(|shown| shown.generation)
     };
     while Instant::now() < end {
         let before = generation(window);
-        let waited_before = waited_for_a_core();
+        let waited_before = cpu_wait_seconds();
         let began = Instant::now();
         let time = window.frame(Vec::new(), Pace::Ahead);
         let whole_s = began.elapsed().as_secs_f64();
         if whole_s > longest.whole_s {
-            let waited = waited_for_a_core().zip(waited_before);
+            let waited = cpu_wait_seconds().zip(waited_before);
             let waited_s = waited.map(|(now, before)| now - before);
-            longest = Away { whole_s, waited_s };
+            longest = UiThreadTime { whole_s, waited_s };
         }
         if generation(window) != before {
             busy.push(time.busy * 1e3);

@@ -8,7 +8,7 @@ use super::{
     export::{self, PastExport},
     filter::ListFilter,
     state::HistoryState,
-    work::Looked,
+    work::HistoryResult,
 };
 use crate::{
     app::{
@@ -16,7 +16,7 @@ use crate::{
         shell::{
             context::ShellContext,
             file_dialog::{FileChoice, FileRequest},
-            message::{Event, Message, Purpose},
+            message::{Event, Message, ReinspectionPurpose},
             notice::Notice,
             session::UserRole,
             task::TaskEvent,
@@ -24,7 +24,7 @@ use crate::{
         source::file_name,
         user_error::UserError,
     },
-    history::{HistoryNews, NewEntry, Retention, SetAside, Swept},
+    history::{HistoryEvent, NewEntry, PruneResult, Retention, SetAside},
     library::Truth,
 };
 
@@ -167,7 +167,7 @@ impl HistoryState {
             HistoryAction::Keep(rule) => {
                 self.rule = None;
                 self.asked();
-                self.jobs.push(HistoryJob::Keep(rule.sensible()));
+                self.jobs.push(HistoryJob::Keep(rule.clamped()));
             }
             HistoryAction::Ask(file) => {
                 let lock = &cx.services.dialogs;
@@ -195,10 +195,10 @@ impl HistoryState {
         match event {
             Event::Inspected { inspected, purpose } => match purpose {
                 // One frame, which is all that the history keeps, would not give the result of a scan again.
-                Purpose::New if inspected.scan.is_some() => {}
-                Purpose::New => self.keep(inspected),
-                Purpose::Repeated => {}
-                Purpose::Past => self.remade(inspected, cx),
+                ReinspectionPurpose::New if inspected.scan.is_some() => {}
+                ReinspectionPurpose::New => self.keep(inspected),
+                ReinspectionPurpose::Repeated => {}
+                ReinspectionPurpose::Past => self.remade(inspected, cx),
             },
             Event::EngineerIn => {
                 if let Some(action) = self.held.take() {
@@ -247,21 +247,21 @@ impl HistoryState {
                 "Keep fewer frames (Frames… in History), or use a quicker disk",
             ));
         }
-        self.look_if_stale(cx);
+        self.refresh_if_stale(cx);
     }
 
     /// Takes in what the thread that writes reports.
-    pub fn take_news(&mut self, news: HistoryNews, cx: &mut ShellContext<'_>) {
+    pub fn take_news(&mut self, news: HistoryEvent, cx: &mut ShellContext<'_>) {
         match news {
-            HistoryNews::Added { ticket, number } => self.added(ticket, number),
-            HistoryNews::SetAside(SetAside { what, aside }) => {
+            HistoryEvent::Added { ticket, number } => self.added(ticket, number),
+            HistoryEvent::SetAside(SetAside { what, aside }) => {
                 let aside = aside.display();
                 cx.notify(Notice::look(
                     format!("The history: {what}"),
                     format!("It was set aside as {aside}; a new one is begun"),
                 ));
             }
-            HistoryNews::Failed { what, advice } => {
+            HistoryEvent::Failed { what, advice } => {
                 let error = UserError { what, advice };
                 self.trouble = Some(error.clone());
                 let mut notice = Notice::from(error);
@@ -270,7 +270,7 @@ impl HistoryState {
                     .push_str("; inspections go on, and are kept in memory until then");
                 cx.notify(notice);
             }
-            HistoryNews::Works { numbers, num_lost } => {
+            HistoryEvent::Works { numbers, num_lost } => {
                 self.trouble = None;
                 self.renumber(&numbers);
                 let mut what = format!(
@@ -282,11 +282,11 @@ impl HistoryState {
                 }
                 cx.notify(Notice::done(what));
             }
-            HistoryNews::NotChanged { what, advice } => {
+            HistoryEvent::NotChanged { what, advice } => {
                 self.answered();
                 cx.notify(UserError { what, advice });
             }
-            HistoryNews::Swept(Swept {
+            HistoryEvent::Swept(PruneResult {
                 num_frames,
                 num_bytes,
             }) => {
@@ -298,13 +298,13 @@ impl HistoryState {
                 cx.notify(Notice::done(what));
                 self.stale();
             }
-            HistoryNews::Changed { .. } | HistoryNews::RuleChanged => self.answered(),
+            HistoryEvent::Changed { .. } | HistoryEvent::RuleChanged => self.answered(),
         }
-        self.look_if_stale(cx);
+        self.refresh_if_stale(cx);
     }
 
     /// Takes in what was looked up.
-    pub fn take_in(&mut self, looked: Looked, cx: &mut ShellContext<'_>) {
+    pub fn take_in(&mut self, looked: HistoryResult, cx: &mut ShellContext<'_>) {
         let before = self.selected;
         self.take(looked);
         if before == self.selected {

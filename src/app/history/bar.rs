@@ -4,7 +4,7 @@ use egui::{Align, Button, Layout, RichText, ScrollArea, TextEdit, Ui, WidgetInfo
 
 use super::{
     HistoryAction, HistoryFile, HistoryState,
-    filter::{Days, ListFilter, day_of},
+    filter::{DateRange, ListFilter, day_of},
 };
 use crate::{
     app::{
@@ -12,7 +12,7 @@ use crate::{
         theme::{Theme, space},
         widgets::{labelled, shortened},
     },
-    history::PastVerdict,
+    history::StoredVerdict,
 };
 
 /// Draws the bar.
@@ -36,7 +36,7 @@ pub(super) fn ui(
             filter = ListFilter::default();
         }
     });
-    if filter.days == Days::Typed {
+    if filter.days == DateRange::Typed {
         ui.horizontal(|ui| typed(ui, &mut filter, theme));
     }
     ui.horizontal(|ui| {
@@ -44,7 +44,7 @@ pub(super) fn ui(
         ui.label(RichText::new(&counted).color(theme.weak_text))
             .widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, &counted));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            ways_on(ui, history, actions);
+            action_buttons(ui, history, actions);
         });
     });
     if filter != *known {
@@ -52,7 +52,7 @@ pub(super) fn ui(
     }
 }
 
-fn ways_on(ui: &mut Ui, history: &HistoryState, actions: &mut Vec<HistoryAction>) {
+fn action_buttons(ui: &mut Ui, history: &HistoryState, actions: &mut Vec<HistoryAction>) {
     let ways = [
         (
             "Export CSV…",
@@ -123,13 +123,13 @@ fn menu<T: PartialEq + Clone>(
 }
 
 fn days(ui: &mut Ui, filter: &mut ListFilter) {
-    let choices = Days::ALL.map(|days| (days, days.title().to_owned()));
+    let choices = DateRange::ALL.map(|days| (days, days.title().to_owned()));
     menu(ui, "Days", &mut filter.days, choices.into_iter());
 }
 
 fn verdicts(ui: &mut Ui, filter: &mut ListFilter) {
     let all = std::iter::once((None, "All".to_owned()));
-    let each = PastVerdict::ALL.map(|verdict| (Some(verdict), verdict.title().to_owned()));
+    let each = StoredVerdict::ALL.map(|verdict| (Some(verdict), verdict.title().to_owned()));
     menu(ui, "Verdict", &mut filter.verdict, all.chain(each));
 }
 

@@ -4,7 +4,7 @@ use std::sync::Arc;
 
 use egui::{Button, RichText, ScrollArea, Sense, TextureHandle, Ui, Vec2, vec2};
 
-use super::{HistoryAction, HistoryState, LookedAt, differences, label, list::when};
+use super::{HistoryAction, HistoryState, OpenedInspection, differences, label, list::when};
 use crate::{
     app::{
         shell::session::Session,
@@ -12,20 +12,20 @@ use crate::{
         unit_system::UnitSystem,
         widgets::{Mark, fitted, heading, labelled, mark, row, shortened, texture},
     },
-    history::{Detail, PastVerdict, Record, Summary},
+    history::{InspectionDetail, Record, StoredVerdict, Summary},
     pipeline::Recipe,
 };
 
 /// What the details keep between frames.
 #[derive(Default)]
 pub(super) struct Details {
-    picture: Option<(i64, Source, TextureHandle)>,
+    picture: Option<(i64, PictureOrigin, TextureHandle)>,
     pub(super) remark: label::Remark,
 }
 
 /// What the picture was made of.
 #[derive(Clone, Copy, PartialEq, Eq)]
-enum Source {
+enum PictureOrigin {
     Whole,
     Thumbnail,
 }
@@ -69,11 +69,11 @@ impl Details {
     }
 
     /// Uploads the picture, once.
-    fn make(&mut self, ui: &Ui, history: &HistoryState, past: &Arc<LookedAt>) {
+    fn make(&mut self, ui: &Ui, history: &HistoryState, past: &Arc<OpenedInspection>) {
         let number = past.record.summary.number;
         let whole = history.whole(number);
         let large = whole.and_then(|whole| whole.figures.segmentation.as_ref());
-        let source = large.map_or(Source::Thumbnail, |_| Source::Whole);
+        let source = large.map_or(PictureOrigin::Thumbnail, |_| PictureOrigin::Whole);
         let made = self.picture.as_ref();
         if made.is_some_and(|(of, from, _)| (*of, *from) == (number, source)) {
             return;
@@ -113,8 +113,8 @@ fn verdict(ui: &mut Ui, record: &Record, theme: &Theme) {
     let title = RichText::new(&summary.title).font(font::title());
     ui.label(title.color(theme.text));
     let (sign, colour) = match summary.verdict {
-        PastVerdict::Accepted => (Mark::Good, theme.accepted),
-        PastVerdict::NotAccepted | PastVerdict::Unknown | PastVerdict::NoPart => {
+        StoredVerdict::Accepted => (Mark::Good, theme.accepted),
+        StoredVerdict::NotAccepted | StoredVerdict::Unknown | StoredVerdict::NoPart => {
             (Mark::Bad, theme.rejected)
         }
     };
@@ -122,8 +122,8 @@ fn verdict(ui: &mut Ui, record: &Record, theme: &Theme) {
         let (rect, _) = ui.allocate_exact_size(Vec2::splat(20.0), Sense::hover());
         mark(ui.painter(), rect.center(), 9.0, sign, theme);
         let word = match summary.verdict {
-            PastVerdict::Accepted => PastVerdict::Accepted,
-            _ => PastVerdict::NotAccepted,
+            StoredVerdict::Accepted => StoredVerdict::Accepted,
+            _ => StoredVerdict::NotAccepted,
         };
         let word = RichText::new(word.title()).font(font::verdict());
         ui.label(word.color(colour));
@@ -159,7 +159,7 @@ fn figures(ui: &mut Ui, record: &Record, theme: &Theme) {
         row("score", &format!("{score:.2}"));
         row("margin", &format!("{margin:.2}"));
     }
-    let Detail {
+    let InspectionDetail {
         recipe,
         recipe_identity,
         library_identity,

@@ -8,11 +8,11 @@ use crate::{
         unit_system::UnitSystem,
         widgets::heading,
     },
-    history::{Differences, Finding},
+    history::{Differences, InspectionSummary},
 };
 
 /// What a row tells of a finding.
-type Told<'a> = &'a dyn Fn(&Finding) -> String;
+type FindingText<'a> = &'a dyn Fn(&InspectionSummary) -> String;
 
 /// Draws the table.
 pub(super) fn ui(ui: &mut Ui, found: &Differences, units: UnitSystem, theme: &Theme) {
@@ -30,7 +30,7 @@ pub(super) fn ui(ui: &mut Ui, found: &Differences, units: UnitSystem, theme: &Th
     }));
     let Differences { before, now, pose } = found;
     let none = || "-".to_owned();
-    let rows: [(&str, Told<'_>); 5] = [
+    let rows: [(&str, FindingText<'_>); 5] = [
         ("verdict", &|of| of.verdict.title().to_owned()),
         ("nearest", &|of| of.nearest.clone().unwrap_or_else(none)),
         ("score", &|of| {

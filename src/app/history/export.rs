@@ -7,7 +7,7 @@ use crate::{
     app::user_error::UserError,
     cases::{CaseFolder, PastCases, TruthFrom},
     files::write_atomically,
-    history::{Filter, HistoryError, Keeper, write_head, write_row},
+    history::{Filter, HistoryBuffer, HistoryError, write_head, write_row},
 };
 
 /// Where inspections of the history are written to.
@@ -23,7 +23,7 @@ pub(super) enum PastExport {
 pub(super) fn write(
     filter: &Filter,
     to: &PastExport,
-    history: &Keeper,
+    history: &HistoryBuffer,
 ) -> Result<String, UserError> {
     match to {
         PastExport::Csv(path) => write_table(filter, path, history),
@@ -32,7 +32,7 @@ pub(super) fn write(
 }
 
 /// As `partsight history export --csv` does.
-fn write_table(filter: &Filter, path: &Path, history: &Keeper) -> Result<String, UserError> {
+fn write_table(filter: &Filter, path: &Path, history: &HistoryBuffer) -> Result<String, UserError> {
     let mut table = Vec::new();
     let mut num = 0;
     let in_memory = |error| HistoryError::Unwritable {
@@ -52,7 +52,11 @@ fn write_table(filter: &Filter, path: &Path, history: &Keeper) -> Result<String,
 }
 
 /// As `partsight history export --cases` does.
-fn write_cases(filter: &Filter, folder: &Path, history: &Keeper) -> Result<String, UserError> {
+fn write_cases(
+    filter: &Filter,
+    folder: &Path,
+    history: &HistoryBuffer,
+) -> Result<String, UserError> {
     let cases = CaseFolder::at(folder);
     let frames = history.frames_folder().unwrap_or_default();
     let mut kept = PastCases::new(&cases, &frames, TruthFrom::Label);

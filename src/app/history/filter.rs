@@ -2,26 +2,26 @@
 
 use jiff::{Span, Timestamp, Zoned, civil};
 
-use crate::history::{Filter, PastVerdict};
+use crate::history::{Filter, StoredVerdict};
 
 /// What the list shows.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub struct ListFilter {
     /// Of which days.
-    pub days: Days,
-    /// The first and the last day, as they are typed; for [`Days::Typed`].
+    pub days: DateRange,
+    /// The first and the last day, as they are typed; for [`DateRange::Typed`].
     pub typed: [String; 2],
     /// Recognised as this part.
     pub part: Option<String>,
     /// Only this verdict.
-    pub verdict: Option<PastVerdict>,
+    pub verdict: Option<StoredVerdict>,
     /// Words of the names of part, scene and source, of the remark and of the true label.
     pub text: String,
 }
 
 /// Of which days.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Days {
+pub enum DateRange {
     /// All.
     #[default]
     All,
@@ -35,7 +35,7 @@ pub enum Days {
     Typed,
 }
 
-impl Days {
+impl DateRange {
     /// Every choice.
     pub const ALL: [Self; 5] = [Self::All, Self::Today, Self::Week, Self::Month, Self::Typed];
 
@@ -69,11 +69,11 @@ impl ListFilter {
         let days_before = |days: i64| now.date().checked_sub(Span::new().days(days)).ok();
         let typed = |place: usize| day_of(&self.typed[place]).ok().flatten();
         let (since, until): (Option<Timestamp>, Option<Timestamp>) = match self.days {
-            Days::All => (None, None),
-            Days::Today => (begin(now.date()), None),
-            Days::Week => (days_before(6).and_then(begin), None),
-            Days::Month => (days_before(29).and_then(begin), None),
-            Days::Typed => (
+            DateRange::All => (None, None),
+            DateRange::Today => (begin(now.date()), None),
+            DateRange::Week => (days_before(6).and_then(begin), None),
+            DateRange::Month => (days_before(29).and_then(begin), None),
+            DateRange::Typed => (
                 typed(0).and_then(begin),
                 typed(1).and_then(|day| begin(day.tomorrow().ok()?)),
             ),
@@ -108,14 +108,20 @@ mod tests {
             let Filter { since, until, .. } = filter.at(&now);
             [since, until].map(|at| at.map_or_else(String::new, |at| at.to_string()))
         };
-        assert_eq!(filter(Days::All, "", ""), ["", ""]);
-        assert_eq!(filter(Days::Today, "", ""), ["2026-11-20T23:00:00Z", ""]);
-        assert_eq!(filter(Days::Week, "", ""), ["2026-11-14T23:00:00Z", ""]);
+        assert_eq!(filter(DateRange::All, "", ""), ["", ""]);
         assert_eq!(
-            filter(Days::Typed, " 2026-11-01", "2026-11-02"),
+            filter(DateRange::Today, "", ""),
+            ["2026-11-20T23:00:00Z", ""]
+        );
+        assert_eq!(
+            filter(DateRange::Week, "", ""),
+            ["2026-11-14T23:00:00Z", ""]
+        );
+        assert_eq!(
+            filter(DateRange::Typed, " 2026-11-01", "2026-11-02"),
             ["2026-10-31T23:00:00Z", "2026-11-02T23:00:00Z"]
         );
-        assert_eq!(filter(Days::Typed, "", "2026-11-0"), ["", ""]);
+        assert_eq!(filter(DateRange::Typed, "", "2026-11-0"), ["", ""]);
         assert!(day_of("2026-11-0").is_err());
     }
 }

@@ -5,7 +5,7 @@ use egui::{ScrollArea, TextEdit, Ui, WidgetInfo, vec2};
 use super::HistoryAction;
 use crate::{
     app::{
-        shelf::LibraryShown,
+        shelf::LibraryView,
         shell::session::Session,
         theme::{Theme, space},
         widgets::{heading, shortened},
@@ -73,7 +73,7 @@ impl Remark {
 }
 
 /// What a truth is called where it is chosen.
-fn title_of(truth: Option<&Truth>, library: Option<&LibraryShown>) -> String {
+fn title_of(truth: Option<&Truth>, library: Option<&LibraryView>) -> String {
     match truth {
         None => "Not said".into(),
         Some(Truth::NotEnrolled) => "Not enrolled".into(),

@@ -10,7 +10,7 @@ use crate::{
         theme::{ROUNDING, Theme, font, space},
         widgets::{Mark, focus_ring, mark},
     },
-    history::{PastVerdict, Summary},
+    history::{StoredVerdict, Summary},
 };
 
 /// Height of a row: a target for a gloved finger.
@@ -198,8 +198,8 @@ fn paint(painter: &Painter, rect: Rect, past: &Summary, columns: &Columns, theme
         format!("{} · {}", past.remark, past.scene)
     };
     let sign = match past.verdict {
-        PastVerdict::Accepted => Mark::Good,
-        PastVerdict::NotAccepted | PastVerdict::Unknown | PastVerdict::NoPart => Mark::Bad,
+        StoredVerdict::Accepted => Mark::Good,
+        StoredVerdict::NotAccepted | StoredVerdict::Unknown | StoredVerdict::NoPart => Mark::Bad,
     };
     mark(painter, pos2(rect.left() + 20.0, y), 9.0, sign, theme);
     let left = |from: f32, to: f32, text: &str, font, colour| {

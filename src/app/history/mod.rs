@@ -19,9 +19,9 @@ use egui::{CentralPanel, Frame, Key, Margin, Modifiers, Panel, RichText, Ui};
 
 pub use self::{
     apply::{Direction, HistoryAction, HistoryFile, HistoryJob},
-    filter::{Days, ListFilter},
+    filter::{DateRange, ListFilter},
     state::HistoryState,
-    work::{LookRequest, Looked, LookedAt},
+    work::{HistoryQuery, HistoryResult, OpenedInspection},
 };
 use self::{details::Details, list::List};
 use super::{
@@ -35,7 +35,7 @@ use super::{
     },
     theme::{Theme, font, space},
 };
-use crate::history::{Keeper, Writer};
+use crate::history::{HistoryBuffer, Writer};
 
 /// Width of the details, logical pixels, and in a narrow window.
 const DETAILS: [f32; 2] = [340.0, 300.0];
@@ -78,12 +78,12 @@ pub struct HistoryWorkspace {
     details: Details,
     list: List,
     writer: Writer,
-    keeper: Arc<Keeper>,
+    keeper: Arc<HistoryBuffer>,
 }
 
 impl HistoryWorkspace {
     /// `writer` writes what `keeper` keeps.
-    pub fn new(writer: Writer, keeper: Arc<Keeper>, runner: &TaskRunner) -> Self {
+    pub fn new(writer: Writer, keeper: Arc<HistoryBuffer>, runner: &TaskRunner) -> Self {
         Self {
             state: HistoryState::new(runner),
             details: Details::default(),
@@ -159,7 +159,7 @@ impl Workspace for HistoryWorkspace {
     }
 
     fn update(&mut self, cx: &mut ShellContext<'_>) {
-        let crowded = self.writer.take_crowded();
+        let crowded = self.writer.take_dropped();
         if crowded != [0; 2] {
             self.state.crowded(crowded[1], cx);
         }

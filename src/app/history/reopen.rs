@@ -3,21 +3,21 @@
 use std::sync::Arc;
 
 use super::{
-    state::{HistoryState, RemakeFor, Remaking},
-    work::LookedAt,
+    state::{HistoryState, ReinspectionJob, RemakeFor},
+    work::OpenedInspection,
 };
 use crate::{
     app::{
         inspect::work::{InspectRequest, Inspected},
         shell::{
             context::ShellContext,
-            message::{Message, Purpose},
+            message::{Message, ReinspectionPurpose},
             notice::Notice,
             session::WorkspaceKind,
         },
-        source::{KeptScene, Origin, SceneSource},
+        source::{HistoryFrame, Origin, SceneSource},
     },
-    history::{Differences, Finding, Record},
+    history::{Differences, InspectionSummary, Record},
 };
 
 impl HistoryState {
@@ -25,13 +25,13 @@ impl HistoryState {
     pub(super) fn open(&mut self, number: i64, cx: &mut ShellContext<'_>) {
         match self.whole(number) {
             Some(inspected) => cx.send(Message::ShowPast(Arc::clone(inspected))),
-            None => self.remake(number, RemakeFor::Open, cx),
+            None => self.reinspect(number, RemakeFor::Open, cx),
         }
     }
 
     /// Inspects its scene again with the recipe and the library now in use.
     pub(super) fn inspect_again(&mut self, number: i64, cx: &mut ShellContext<'_>) {
-        self.remake(number, RemakeFor::Compare, cx);
+        self.reinspect(number, RemakeFor::Compare, cx);
     }
 
     /// Makes again what was waited for.
@@ -39,11 +39,11 @@ impl HistoryState {
         if let Some((number, purpose)) = self.then.take()
             && self.looked_at_as(number).is_some()
         {
-            self.remake(number, purpose, cx);
+            self.reinspect(number, purpose, cx);
         }
     }
 
-    fn remake(&mut self, number: i64, purpose: RemakeFor, cx: &mut ShellContext<'_>) {
+    fn reinspect(&mut self, number: i64, purpose: RemakeFor, cx: &mut ShellContext<'_>) {
         let Some(past) = self.looked_at_as(number).cloned() else {
             // Once it is there.
             self.selected = Some(number);
@@ -79,9 +79,9 @@ impl HistoryState {
         cx.send(Message::Inspect {
             title,
             request: InspectRequest { source, recipe },
-            purpose: Purpose::Past,
+            purpose: ReinspectionPurpose::Past,
         });
-        self.remaking = Some(Remaking { past, purpose });
+        self.remaking = Some(ReinspectionJob { past, purpose });
     }
 
     /// Where its scene can be had: in memory, among the kept frames, or where it came from.
@@ -92,7 +92,7 @@ impl HistoryState {
         }
         let origin = origin_of(record);
         if let (Some(frame), Some(folder)) = (&record.detail.frame, &self.frames) {
-            return Some(SceneSource::Kept(Box::new(KeptScene {
+            return Some(SceneSource::Kept(Box::new(HistoryFrame {
                 folder: folder.clone(),
                 frame: frame.clone(),
                 origin,
@@ -103,7 +103,7 @@ impl HistoryState {
 
     /// Takes in a past inspection that was made again.
     pub(super) fn remade(&mut self, inspected: &Arc<Inspected>, cx: &mut ShellContext<'_>) {
-        let Some(Remaking { past, purpose }) = self.remaking.take() else {
+        let Some(ReinspectionJob { past, purpose }) = self.remaking.take() else {
             return;
         };
         let differences = differences(&past, inspected);
@@ -128,20 +128,20 @@ fn origin_of(record: &Record) -> Origin {
     })
 }
 
-fn differences(past: &LookedAt, inspected: &Inspected) -> Differences {
-    let now = Finding::of(
+fn differences(past: &OpenedInspection, inspected: &Inspected) -> Differences {
+    let now = InspectionSummary::of(
         &inspected.inspection,
         &inspected.entry.record.detail.recipe_identity,
         &inspected.library.identity,
     );
-    Differences::between(Finding::from(&past.record), now, inspected.middle)
+    Differences::between(InspectionSummary::from(&past.record), now, inspected.middle)
 }
 
 fn other_result(record: &Record, differences: &Differences) -> Notice {
-    let causes = differences.causes();
-    let cause = match causes.as_slice() {
+    let changed_inputs = differences.changed_inputs();
+    let cause = match changed_inputs.as_slice() {
         [] => "its file or frame".to_owned(),
-        causes => format!("the {}", causes.join(" and the ")),
+        changed_inputs => format!("the {}", changed_inputs.join(" and the ")),
     };
     let scene = &record.summary.scene;
     Notice::look(

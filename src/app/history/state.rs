@@ -10,7 +10,7 @@ use std::{
 use super::{
     apply::{HistoryAction, HistoryFile, HistoryJob},
     filter::ListFilter,
-    work::{self, LookRequest, Looked, LookedAt},
+    work::{self, HistoryQuery, HistoryResult, OpenedInspection},
 };
 use crate::{
     app::{
@@ -44,7 +44,7 @@ pub struct HistoryState {
     /// The inspection that is looked at.
     pub selected: Option<i64>,
     /// The same in full, once fetched.
-    pub record: Option<Arc<LookedAt>>,
+    pub record: Option<Arc<OpenedInspection>>,
     /// The rule by which frames are kept, and how much is.
     pub kept: (Retention, Usage),
     /// The folder of the kept frames.
@@ -69,21 +69,21 @@ pub struct HistoryState {
     /// What is to be made again as soon as it was fetched.
     pub(super) then: Option<(i64, RemakeFor)>,
     /// An inspection that is being made again.
-    pub(super) remaking: Option<Remaking>,
+    pub(super) remaking: Option<ReinspectionJob>,
     /// What the thread that writes is asked for next.
     pub(super) jobs: Vec<HistoryJob>,
     /// What is done once the engineer is in.
     pub(super) held: Option<HistoryAction>,
-    pub(super) looking: Task<Box<Looked>>,
+    pub(super) looking: Task<Box<HistoryResult>>,
     pub(super) exporting: Task<String>,
     pub(super) dialog: FileDialog<HistoryFile>,
 }
 
 /// A past inspection that is being made again.
 #[derive(Clone, Debug)]
-pub(super) struct Remaking {
+pub(super) struct ReinspectionJob {
     /// As it was.
-    pub(super) past: Arc<LookedAt>,
+    pub(super) past: Arc<OpenedInspection>,
     /// What for.
     pub(super) purpose: RemakeFor,
 }
@@ -155,7 +155,7 @@ impl HistoryState {
     }
 
     /// This inspection in full, if it is the one that was fetched last.
-    pub(super) fn looked_at_as(&self, number: i64) -> Option<&Arc<LookedAt>> {
+    pub(super) fn looked_at_as(&self, number: i64) -> Option<&Arc<OpenedInspection>> {
         let looked_at = self.record.as_ref()?;
         (looked_at.record.summary.number == number).then_some(looked_at)
     }
@@ -251,17 +251,17 @@ impl HistoryState {
         !has_all && end > self.visible.start
     }
 
-    fn wanted(&self) -> LookRequest {
+    fn wanted(&self) -> HistoryQuery {
         let Range { start, end } = self.visible;
-        LookRequest {
+        HistoryQuery {
             filter: self.filter.clone(),
             rows: start.saturating_sub(MARGIN)..end + MARGIN,
             selected: self.selected,
         }
     }
 
-    pub(super) fn take(&mut self, looked: Looked) {
-        let Looked {
+    pub(super) fn take(&mut self, looked: HistoryResult) {
+        let HistoryResult {
             asked,
             page,
             record,
@@ -294,7 +294,7 @@ impl HistoryState {
     }
 
     /// The same, if it is not up to date.
-    pub(super) fn look_if_stale(&mut self, cx: &ShellContext<'_>) {
+    pub(super) fn refresh_if_stale(&mut self, cx: &ShellContext<'_>) {
         if self.is_stale {
             self.look(cx);
         }

@@ -8,12 +8,12 @@ use jiff::Zoned;
 use super::filter::ListFilter;
 use crate::{
     app::user_error::UserError,
-    history::{HistoryError, Keeper, Page, Record, Retention, Usage},
+    history::{HistoryBuffer, HistoryError, Page, Record, Retention, Usage},
 };
 
 /// What the window wants to see.
 #[derive(Clone, Debug, PartialEq, Eq)]
-pub struct LookRequest {
+pub struct HistoryQuery {
     /// Which inspections.
     pub filter: ListFilter,
     /// Which of their rows, counted from the newest.
@@ -24,13 +24,13 @@ pub struct LookRequest {
 
 /// What is there.
 #[derive(Clone, Debug)]
-pub struct Looked {
+pub struct HistoryResult {
     /// What was asked.
-    pub asked: LookRequest,
+    pub asked: HistoryQuery,
     /// The rows.
     pub page: Page,
     /// The inspection that is looked at, if it is there.
-    pub record: Option<Arc<LookedAt>>,
+    pub record: Option<Arc<OpenedInspection>>,
     /// The rule by which frames are kept, and how much is.
     pub kept: (Retention, Usage),
     /// The folder of the kept frames.
@@ -39,7 +39,7 @@ pub struct Looked {
 
 /// An inspection with its picture.
 #[derive(Clone, Debug, PartialEq)]
-pub struct LookedAt {
+pub struct OpenedInspection {
     /// All of it.
     pub record: Record,
     /// Its small picture.
@@ -47,11 +47,14 @@ pub struct LookedAt {
 }
 
 /// Looks.
-pub(super) fn look(request: &LookRequest, history: &Keeper) -> Result<Looked, UserError> {
+pub(super) fn look(
+    request: &HistoryQuery,
+    history: &HistoryBuffer,
+) -> Result<HistoryResult, UserError> {
     looked(request, history).map_err(|error| UserError::of(&error))
 }
 
-fn looked(request: &LookRequest, history: &Keeper) -> Result<Looked, HistoryError> {
+fn looked(request: &HistoryQuery, history: &HistoryBuffer) -> Result<HistoryResult, HistoryError> {
     let filter = request.filter.at(&Zoned::now());
     let rows = &request.rows;
     let page = history.page(&filter, rows.start, rows.len())?;
@@ -61,12 +64,12 @@ fn looked(request: &LookRequest, history: &Keeper) -> Result<Looked, HistoryErro
     };
     let record = record.map(|record| {
         let picture = image::load_from_memory(&record.detail.thumbnail).ok();
-        Arc::new(LookedAt {
+        Arc::new(OpenedInspection {
             picture: picture.map(DynamicImage::into_rgb8),
             record,
         })
     });
-    Ok(Looked {
+    Ok(HistoryResult {
         asked: request.clone(),
         page,
         record,

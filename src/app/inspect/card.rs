@@ -8,9 +8,9 @@ use egui::{
 use super::{robot_numbers, stand_off};
 use crate::{
     app::{
-        action::{Action, Ask},
+        action::{Action, DialogRequest},
         bars::focus_ring,
-        inspect::work::{Followed, Inspected},
+        inspect::work::{Inspected, LiveFrameContext},
         live,
         shots::summary,
         state::{State, Workspace},
@@ -20,7 +20,7 @@ use crate::{
     },
     error::Advice as _,
     geometry::rigid::RigidTransform,
-    pipeline::{Rejection, Verdict, live::Stillness},
+    pipeline::{Rejection, Verdict, live::MotionState},
     stages::pose::PoseEstimate,
 };
 
@@ -93,19 +93,19 @@ impl Headline {
     }
 
     /// Of a frame whose verdict does not count.
-    fn not_yet(inspected: &Inspected, followed: &Followed) -> Self {
+    fn not_yet(inspected: &Inspected, followed: &LiveFrameContext) -> Self {
         let is_part = matches!(inspected.inspection.verdict, Verdict::Part { .. });
         let nearest = inspected.figures.candidates.first();
         let (title, complaint) = match followed.stillness {
-            Stillness::Moving => (
+            MotionState::Moving => (
                 "Moving",
                 (
                     "something moves before the camera",
                     "Let the part hang still for a second",
                 ),
             ),
-            Stillness::Watching => ("Looking", ("it was not seen long enough", "Wait a moment")),
-            Stillness::Steady { .. } => ("Looking", ("it hangs still", "Wait a moment")),
+            MotionState::Watching => ("Looking", ("it was not seen long enough", "Wait a moment")),
+            MotionState::Steady { .. } => ("Looking", ("it hangs still", "Wait a moment")),
         };
         Self {
             title: title.into(),
@@ -150,7 +150,7 @@ pub(super) fn ui(
         .resizable(false)
         .show_separator_line(false)
         .frame(Frame::new())
-        .show(ui, |ui| ways_on(ui, pose_to_copy, theme, actions));
+        .show(ui, |ui| action_buttons(ui, pose_to_copy, theme, actions));
     // Text lies closer than controls do.
     ui.spacing_mut().interact_size.y = 20.0;
     ui.spacing_mut().item_spacing.y = 3.0;
@@ -181,12 +181,17 @@ pub(super) fn ui(
 }
 
 /// What can be done with the result.
-fn ways_on(ui: &mut Ui, pose: Option<&PoseEstimate>, theme: &Theme, actions: &mut Vec<Action>) {
+fn action_buttons(
+    ui: &mut Ui,
+    pose: Option<&PoseEstimate>,
+    theme: &Theme,
+    actions: &mut Vec<Action>,
+) {
     let ways = [
         (
             "Export…",
             "A report: JSON, a page of PDF, a row in a table of poses, and the pictures of all stages (Ctrl E)",
-            (|| Action::Ask(Ask::ReportFolder)) as fn() -> Action,
+            (|| Action::Ask(DialogRequest::ReportFolder)) as fn() -> Action,
         ),
         (
             "Wrong part?",

@@ -8,7 +8,7 @@ use super::{
     work::Inspected,
 };
 use crate::app::{
-    action::{Action, Ask},
+    action::{Action, DialogRequest},
     state::State,
     theme::{font, space},
     viewport::{Colouring, FitRequest, StandardView, ViewTool},
@@ -62,7 +62,7 @@ pub(super) fn ui(
             "Needs an accepted part with a stored spray path, and a calibrated cell",
         );
         if export.clicked() {
-            actions.push(Action::Ask(Ask::SprayPath));
+            actions.push(Action::Ask(DialogRequest::SprayPath));
             ui.close();
         }
     });
@@ -82,7 +82,7 @@ pub(super) fn ui(
         .on_hover_text("Save a picture of the view (P)")
         .clicked()
     {
-        actions.push(Action::Ask(Ask::Picture));
+        actions.push(Action::Ask(DialogRequest::Picture));
     }
 }
 

@@ -25,7 +25,7 @@ use self::{
 };
 pub(super) use super::widgets::texture;
 use super::{
-    action::{Action, Ask},
+    action::{Action, DialogRequest},
     headless::WorkCounts,
     keys::Shortcut,
     shots::{ShotList, ShotsAction, StripTab},
@@ -60,7 +60,7 @@ pub(in crate::app) const SHORTCUTS: [Shortcut; 7] = [
         key: Key::P,
         keys: "P",
         does: "Save a picture of the 3-D view",
-        action: || Action::Ask(Ask::Picture),
+        action: || Action::Ask(DialogRequest::Picture),
     },
     Shortcut {
         modifiers: Modifiers::NONE,
@@ -96,12 +96,12 @@ pub(in crate::app) const SHORTCUTS: [Shortcut; 7] = [
 pub(super) struct InspectPanel {
     view: SceneView,
     shots: ShotList,
-    made: Option<Made>,
+    made: Option<TextureSet>,
     num_made: u64,
 }
 
 /// Textures of one result.
-struct Made {
+struct TextureSet {
     generation: u64,
     segmentation: Option<TextureHandle>,
     binary: Option<TextureHandle>,
@@ -227,7 +227,7 @@ impl InspectPanel {
         }
         self.num_made += 1;
         let figures = &shown.inspected.figures;
-        self.made = Some(Made {
+        self.made = Some(TextureSet {
             generation: shown.generation,
             segmentation: texture(ctx, "segmentation", figures.segmentation.as_ref()),
             binary: texture(ctx, "binary image", figures.binary.as_ref()),

@@ -6,7 +6,7 @@ use egui::{
 };
 
 use crate::app::{
-    figures::{Alignment, Candidate, ContourFigure, Curves, PlaneLine},
+    figures::{Alignment, ContourFigure, PlaneLine, RankedPartFigure, SignatureCurves},
     inspect::work::Inspected,
     state::{StagePanel, State},
     theme::{ROUNDING, Theme, font},
@@ -24,14 +24,14 @@ pub(super) struct Pictures<'a> {
 
 /// How much a picture tells.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Detail {
+pub(super) enum PlotDetail {
     /// In the strip: the shape alone.
     Small,
     /// Enlarged: with scales and names.
     Large,
 }
 
-impl Detail {
+impl PlotDetail {
     /// Of so many corners drawn over so many logical pixels, every how-manieth is worth drawing: a stroke costs the
     /// same however short, and a small picture shows none shorter than two pixels.
     fn step(self, num_corners: usize, pixels: f32) -> usize {
@@ -49,10 +49,20 @@ const GOAL: f32 = -6.0;
 
 impl Pictures<'_> {
     /// Draws the picture of a stage into a rectangle.
-    pub(super) fn paint(&self, panel: StagePanel, painter: &Painter, rect: Rect, detail: Detail) {
+    pub(super) fn paint(
+        &self,
+        panel: StagePanel,
+        painter: &Painter,
+        rect: Rect,
+        detail: PlotDetail,
+    ) {
         painter.rect_filled(rect, ROUNDING, self.theme.canvas);
         let figures = &self.inspected.figures;
-        let inner = rect.shrink(if detail == Detail::Large { 12.0 } else { 5.0 });
+        let inner = rect.shrink(if detail == PlotDetail::Large {
+            12.0
+        } else {
+            5.0
+        });
         let is_there = match panel {
             StagePanel::Segmentation => self.texture(self.segmentation, painter, rect),
             StagePanel::BinaryImage => self.texture(self.binary, painter, rect),
@@ -89,7 +99,7 @@ impl Pictures<'_> {
         painter.galley(top, galley, self.theme.weak_text);
     }
 
-    fn candidate(&self) -> Option<&Candidate> {
+    fn candidate(&self) -> Option<&RankedPartFigure> {
         self.inspected.figures.candidates.get(self.state.candidate)
     }
 
@@ -117,7 +127,7 @@ impl Pictures<'_> {
         Some(())
     }
 
-    fn contour(&self, figure: &ContourFigure, painter: &Painter, rect: Rect, detail: Detail) {
+    fn contour(&self, figure: &ContourFigure, painter: &Painter, rect: Rect, detail: PlotDetail) {
         let [low, high] = figure.bounds;
         let (wide, tall) = ((high[0] - low[0]).max(1e-3), (high[1] - low[1]).max(1e-3));
         let place = fitted(rect, wide / tall);
@@ -153,7 +163,13 @@ impl Pictures<'_> {
         painter.circle_filled(centroid, 3.5, self.theme.second_series);
     }
 
-    fn signature(&self, scene: &Curves, painter: &Painter, rect: Rect, detail: Detail) {
+    fn signature(
+        &self,
+        scene: &SignatureCurves,
+        painter: &Painter,
+        rect: Rect,
+        detail: PlotDetail,
+    ) {
         let reference = self.candidate().and_then(|c| c.curves.as_ref());
         let half = rect.height() / 2.0;
         let halves = [
@@ -183,7 +199,7 @@ impl Pictures<'_> {
                 |values: &[f32]| -> Vec<f32> { values.iter().step_by(step).copied().collect() };
             let last = (values.len().saturating_sub(1) / step).max(1) as f32;
             let across = Scale::new([0.0, last], [area.left(), area.right()]);
-            if detail == Detail::Large {
+            if detail == PlotDetail::Large {
                 self.level(painter, area, &up, range[0], &format!("{:.2}", range[0]));
                 self.level(painter, area, &up, range[1], &format!("{:.2}", range[1]));
             }
@@ -192,14 +208,20 @@ impl Pictures<'_> {
                 painter.line(curve(&thin(other), &across, &up), stroke);
             }
             painter.line(curve(&thin(values), &across, &up), Stroke::new(1.6, colour));
-            if detail == Detail::Large {
+            if detail == PlotDetail::Large {
                 let at = area.left_center();
                 painter.text(at, Align2::LEFT_CENTER, name, font::body_strong(), colour);
             }
         }
     }
 
-    fn alignment(&self, candidate: &Candidate, painter: &Painter, rect: Rect, detail: Detail) {
+    fn alignment(
+        &self,
+        candidate: &RankedPartFigure,
+        painter: &Painter,
+        rect: Rect,
+        detail: PlotDetail,
+    ) {
         let (log_e, rms_m) = match &candidate.alignment {
             Alignment::Done { log_e, rms_m } if !log_e.is_empty() => (log_e, *rms_m),
             Alignment::Done { .. } => return self.says(painter, rect, "E stayed at 0"),
@@ -208,9 +230,17 @@ impl Pictures<'_> {
         let [low, high] = range_of(log_e.iter());
         let (low, high) = (low.min(GOAL).floor(), high.max(GOAL + 1.0).ceil());
         let mut area = rect;
-        area.min.x += if detail == Detail::Large { 44.0 } else { 26.0 };
+        area.min.x += if detail == PlotDetail::Large {
+            44.0
+        } else {
+            26.0
+        };
         // Room for a line of text over the curve.
-        area.min.y += if detail == Detail::Large { 22.0 } else { 0.0 };
+        area.min.y += if detail == PlotDetail::Large {
+            22.0
+        } else {
+            0.0
+        };
         let up = Scale::new([low, high], [area.bottom() - 4.0, area.top() + 6.0]);
         let last = (log_e.len() - 1).max(1) as f32;
         let across = Scale::new([0.0, last], [area.left() + 4.0, area.right() - 6.0]);
@@ -235,7 +265,7 @@ impl Pictures<'_> {
             painter.circle_filled(*end, 3.0, self.theme.first_series);
         }
         painter.line(points, Stroke::new(1.8, self.theme.first_series));
-        if detail == Detail::Large {
+        if detail == PlotDetail::Large {
             let rms = self.state.units.length(rms_m);
             let text = format!("{} ended at rms {rms}", candidate.title);
             let at = rect.right_top();
@@ -276,13 +306,13 @@ fn range_of<'a>(values: impl Iterator<Item = &'a f32>) -> [f32; 2] {
 
 #[cfg(test)]
 mod tests {
-    use super::Detail;
+    use super::PlotDetail;
 
     #[test]
     fn a_small_picture_draws_no_more_strokes_than_show() {
-        assert_eq!(Detail::Large.step(512, 146.0), 1);
-        assert_eq!(Detail::Small.step(512, 146.0), 8);
-        assert_eq!(Detail::Small.step(40, 146.0), 1);
-        assert_eq!(Detail::Small.step(0, 0.0), 1);
+        assert_eq!(PlotDetail::Large.step(512, 146.0), 1);
+        assert_eq!(PlotDetail::Small.step(512, 146.0), 8);
+        assert_eq!(PlotDetail::Small.step(40, 146.0), 1);
+        assert_eq!(PlotDetail::Small.step(0, 0.0), 1);
     }
 }

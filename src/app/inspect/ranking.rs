@@ -7,9 +7,9 @@ use egui::{
     text::{LayoutJob, TextWrapping},
 };
 
-use super::plots::{Detail, Pictures};
+use super::plots::{Pictures, PlotDetail};
 use crate::{
-    app::{figures::Candidate, theme::font, widgets::Scale},
+    app::{figures::RankedPartFigure, theme::font, widgets::Scale},
     pipeline::Verdict,
 };
 
@@ -19,10 +19,10 @@ const STACKED: f32 = 125.0;
 impl Pictures<'_> {
     pub(super) fn ranking(
         &self,
-        candidates: &[Candidate],
+        candidates: &[RankedPartFigure],
         painter: &Painter,
         rect: Rect,
-        detail: Detail,
+        detail: PlotDetail,
     ) {
         let theme = self.theme;
         if rect.width() < STACKED {
@@ -30,11 +30,11 @@ impl Pictures<'_> {
             return;
         }
         let num_rows = candidates.len().min(match detail {
-            Detail::Small => 6,
-            Detail::Large => 16,
+            PlotDetail::Small => 6,
+            PlotDetail::Large => 16,
         });
         let row = (rect.height() / num_rows.max(1) as f32).min(40.0);
-        let is_large = detail == Detail::Large;
+        let is_large = detail == PlotDetail::Large;
         let titles: Vec<_> = candidates
             .iter()
             .take(num_rows)
@@ -94,7 +94,7 @@ impl Pictures<'_> {
     }
 
     /// As [`Self::ranking`], in little room: each name over its bar, the first few alone.
-    fn stacked_ranking(&self, candidates: &[Candidate], painter: &Painter, rect: Rect) {
+    fn stacked_ranking(&self, candidates: &[RankedPartFigure], painter: &Painter, rect: Rect) {
         const ROW: f32 = 22.0;
         const BAR: f32 = 6.0;
         let theme = self.theme;

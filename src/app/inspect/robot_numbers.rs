@@ -162,7 +162,7 @@ mod tests {
     use crate::{
         app::{
             inspect::work::{InspectRequest, inspect},
-            shelf::Shelf,
+            shelf::LibraryCache,
             source::{CellChoice, SceneSource},
         },
         geometry::rigid::from_euler_zyx,
@@ -178,7 +178,7 @@ mod tests {
             },
             recipe: Arc::default(),
         };
-        let found = inspect(&request, &Shelf::default(), &Unwatched).expect("inspected");
+        let found = inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected");
         found.expect("not cancelled")
     }
 

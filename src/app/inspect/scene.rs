@@ -12,7 +12,7 @@ use crate::{
     },
     geometry::rigid::RigidTransform,
     pipeline::Inspection,
-    robot::spray::{Band, CarriedPath},
+    robot::spray::{BandStatus, CarriedPath},
     stages::{
         contour::lift_border,
         pose::PoseEstimate,
@@ -67,7 +67,7 @@ pub struct NozzleFigure {
 }
 
 /// What a [`SceneFigure`] is made of.
-pub(super) struct Ingredients<'a> {
+pub(super) struct SceneFigureInput<'a> {
     pub(super) scene: &'a SceneCloud,
     /// Of a scan, whose points take the place of the scene's.
     pub(super) scan: Option<&'a ScanFigure>,
@@ -83,8 +83,8 @@ pub(super) struct Ingredients<'a> {
 
 impl SceneFigure {
     /// Makes it: goes through every point.
-    pub(super) fn of(given: &Ingredients<'_>) -> Self {
-        let Ingredients {
+    pub(super) fn of(given: &SceneFigureInput<'_>) -> Self {
+        let SceneFigureInput {
             scene,
             scan,
             inspection,
@@ -144,7 +144,7 @@ impl SprayFigure {
             let along = vec3(&point.direction().into());
             let length = point.meets.map_or(UNMET, |met| met.distance.0 as f32);
             let ray = Line::new([mouth, mouth + along * length], Role::Nozzle);
-            if point.band == Band::Inside {
+            if point.band == BandStatus::Inside {
                 lines.push(ray);
                 continue;
             }
@@ -229,7 +229,7 @@ mod tests {
     use crate::{
         app::{
             inspect::work::{InspectRequest, inspect},
-            shelf::Shelf,
+            shelf::LibraryCache,
             source::{CellChoice, SceneSource},
         },
         geometry::nearest::KdTree,
@@ -245,7 +245,7 @@ mod tests {
             },
             recipe: std::sync::Arc::default(),
         };
-        let inspected = inspect(&request, &Shelf::default(), &Unwatched).expect("inspected");
+        let inspected = inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected");
         let inspected = inspected.expect("not cancelled");
         let part = &inspected.inspection.segmentation.part;
         let part = &part.as_ref().expect("a part").cloud.points;

@@ -175,7 +175,7 @@ pub(in crate::app) fn write_spray_path(state: &mut State, path: PathBuf) -> Opti
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::action::{Action, Ask, apply as apply_any};
+    use crate::app::action::{Action, DialogRequest, apply as apply_any};
 
     #[test]
     fn what_is_shown_is_hidden_and_shown_again() {
@@ -196,7 +196,10 @@ mod tests {
         let none = || InspectAction::Picture(Err(trouble()));
         // Nobody asked.
         assert!(apply(&mut state, none()).is_none() && state.notices.is_empty());
-        apply_any(&mut state, Action::Chosen(Ask::Picture, "view".into()));
+        apply_any(
+            &mut state,
+            Action::Chosen(DialogRequest::Picture, "view".into()),
+        );
         assert_eq!(state.inspect.picture_to, Some("view".into()));
         assert!(apply(&mut state, none()).is_none());
         assert_eq!((state.notices.len(), &state.inspect.picture_to), (1, &None));

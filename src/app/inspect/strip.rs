@@ -4,7 +4,7 @@ use egui::{
     Align, Button, Frame, Label, Layout, Margin, Rect, RichText, Sense, Ui, Vec2, pos2, vec2,
 };
 
-use super::plots::{Detail, Pictures};
+use super::plots::{Pictures, PlotDetail};
 use crate::{
     app::{
         action::Action,
@@ -74,7 +74,7 @@ pub(super) fn ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<Action>
             (inner.right_top(), egui::Align2::RIGHT_TOP)
         };
         painter.text(at, anchor, time, font::small(), theme.weak_text);
-        pictures.paint(panel, &painter, picture, Detail::Small);
+        pictures.paint(panel, &painter, picture, PlotDetail::Small);
         focus_ring(ui, cell, &response, theme);
         if response.clicked() {
             actions.push(if is_enlarged {
@@ -137,7 +137,7 @@ pub(super) fn enlarged_ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Ve
             }
             egui::WidgetInfo::labeled(egui::Role::Image, true, label)
         });
-        pictures.paint(panel, ui.painter(), rect, Detail::Large);
+        pictures.paint(panel, ui.painter(), rect, PlotDetail::Large);
     });
 }
 

@@ -36,7 +36,7 @@ const NARROW: f32 = 655.0;
 
 /// What the lines and words of a scene are chosen by.
 #[derive(PartialEq)]
-struct Placed {
+struct SceneAnnotation {
     parts: BTreeSet<ViewPart>,
     units: UnitSystem,
     camera_from_robot: Option<RigidTransform>,
@@ -53,7 +53,7 @@ pub(super) struct SceneView {
     /// The size of points but for those of a scan.
     usual_size: PointSize,
     /// What the lines and words of the scene were chosen by.
-    placed: Option<Placed>,
+    placed: Option<SceneAnnotation>,
     num_placed: u64,
     has_deviations: bool,
     has_focus: bool,
@@ -98,10 +98,10 @@ impl SceneView {
         self.scene.points = vec![inspected.view.points.clone()];
         self.placed = None;
         // While a source is followed, a person looks from where they please.
-        let is_followed = shown.session.is_some() && self.session == shown.session;
+        let wants_more = shown.session.is_some() && self.session == shown.session;
         // The same scan with other shots dropped lies where it did.
         let space = inspected.scan.as_ref().and_then(|scan| scan.fused.space());
-        if !(is_followed || space.is_some() && space == self.space) {
+        if !(wants_more || space.is_some() && space == self.space) {
             self.camera.request_fit(FitRequest::Focus);
         }
         self.space = space;
@@ -207,7 +207,7 @@ impl SceneView {
     fn place(&mut self, state: &State, inspected: &Inspected) {
         let figure = &inspected.view;
         let robot = inspected.robot(state);
-        let by = Placed {
+        let by = SceneAnnotation {
             parts: state.inspect.parts.clone(),
             units: state.units,
             camera_from_robot: robot.map(|robot| robot.robot_from_camera.inverse()),

@@ -5,28 +5,28 @@ use std::{sync::Arc, time::Instant};
 use jiff::Timestamp;
 use nalgebra::Point3;
 
-use super::scene::{Ingredients, SceneFigure};
+use super::scene::{SceneFigure, SceneFigureInput};
 use crate::{
     app::{
         camera::CameraError,
         deviation::{deviations, deviations_at},
-        figures::Figures,
-        job::{Answer, Outcome, Trouble},
-        shelf::{LibraryShown, Shelf},
+        figures::StageFigures,
+        job::{TaskOutcome, TaskResult, Trouble},
+        shelf::{LibraryCache, LibraryView},
         shots::{FusedShots, ScanRequest, Steps, Then, fuse, marked},
         source::{Captured, Origin, SceneError, SceneSource},
         state::State,
         viewport::{PointSet, Role},
-        worker::Desk,
+        worker::TaskContext,
     },
     capture::CaptureWarning,
     error::Advice,
     geometry::{cloud::PointCloud, rigid::RigidTransform},
-    history::{About, NewEntry},
+    history::{InspectionContext, NewEntry},
     library::{Library, LibraryError},
     pipeline::{
-        self, Inspection, Recipe, Watch,
-        live::{Standing, Stillness},
+        self, Inspection, ProgressObserver, Recipe,
+        live::{LiveVerdict, MotionState},
         scan::{ScanInspection, run_scan, unseen_points},
     },
     report::InspectionLine,
@@ -64,9 +64,9 @@ pub struct Inspected {
     /// What was found.
     pub inspection: Inspection,
     /// What the panels draw.
-    pub figures: Figures,
+    pub figures: StageFigures,
     /// The library it was compared with.
-    pub library: Arc<LibraryShown>,
+    pub library: Arc<LibraryView>,
     /// What was odd about the file.
     pub warnings: Vec<CaptureWarning>,
     /// Middle of the best reference's extent, part space, metres.
@@ -81,7 +81,7 @@ pub struct Inspected {
     /// What the 3-D view shows.
     pub view: SceneFigure,
     /// Of a frame among others: what they say together.
-    pub followed: Option<Followed>,
+    pub followed: Option<LiveFrameContext>,
     /// The scan that it rests on, if it is one; the scene is then its first shot.
     pub scan: Option<InspectedScan>,
     /// The same for the history.
@@ -111,11 +111,11 @@ impl Inspected {
 
 /// What a frame stands for that is one of many.
 #[derive(Clone, Debug)]
-pub struct Followed {
+pub struct LiveFrameContext {
     /// Whether the scene moves.
-    pub stillness: Stillness,
+    pub stillness: MotionState,
     /// What counts.
-    pub standing: Standing,
+    pub standing: LiveVerdict,
     /// Frames that its depth is averaged over.
     pub num_averaged: usize,
 }
@@ -143,8 +143,8 @@ impl Advice for InspectError {
 /// Gets the scene and inspects it; `None` when cancelled.
 pub fn inspect(
     request: &InspectRequest,
-    shelf: &Shelf,
-    watch: &dyn Watch,
+    shelf: &LibraryCache,
+    watch: &dyn ProgressObserver,
 ) -> Result<Option<Inspected>, InspectError> {
     let shelved = shelf.get()?;
     if watch.is_cancelled() {
@@ -167,7 +167,7 @@ pub fn inspect(
     let Ok(inspection) = pipeline::run(&scene, &fitted, &request.recipe, watch) else {
         return Ok(None);
     };
-    let found = Found {
+    let found = FinishedInspection {
         scene,
         origin,
         warnings,
@@ -183,9 +183,9 @@ pub fn inspect(
 /// Puts the shots of a scan together and inspects them; `None` when cancelled.
 pub(in crate::app) fn inspect_scan(
     request: &ScanRequest,
-    shelf: &Shelf,
-    desk: &dyn Desk<Outcome>,
-) -> Option<Outcome> {
+    shelf: &LibraryCache,
+    desk: &dyn TaskContext<TaskOutcome>,
+) -> Option<TaskOutcome> {
     let begun = Instant::now();
     let shelved = match shelf.get() {
         Ok(shelved) => shelved,
@@ -205,7 +205,7 @@ pub(in crate::app) fn inspect_scan(
     } = run_scan(&fused.scan, &fitted, &request.recipe, &steps).ok()?;
     inspection.timings.total = begun.elapsed();
     let shot = fused.scan.shots.get(first)?;
-    let found = Found {
+    let found = FinishedInspection {
         scene: Arc::clone(&shot.scene),
         origin: fused.origin(),
         warnings: Vec::new(),
@@ -223,17 +223,17 @@ pub(in crate::app) fn inspect_scan(
         }),
     };
     let inspected = found.prepared(&fitted, &shelved.shown);
-    Some(Ok(Answer::Inspected(Arc::new(inspected))))
+    Some(Ok(TaskResult::Inspected(Arc::new(inspected))))
 }
 
 /// An inspection, before what the panels draw of it is made.
-pub(in crate::app) struct Found {
+pub(in crate::app) struct FinishedInspection {
     pub(in crate::app) scene: Arc<SceneCloud>,
     pub(in crate::app) origin: Origin,
     pub(in crate::app) warnings: Vec<CaptureWarning>,
     pub(in crate::app) recipe: Arc<Recipe>,
     pub(in crate::app) inspection: Inspection,
-    pub(in crate::app) followed: Option<Followed>,
+    pub(in crate::app) followed: Option<LiveFrameContext>,
     /// Where the scene came from, as the history has it.
     pub(in crate::app) source: String,
     /// The scan that the inspection rests on.
@@ -279,7 +279,7 @@ impl FoundScan {
     }
 }
 
-impl Found {
+impl FinishedInspection {
     /// Middle of the best reference's extent, part space, metres.
     pub(in crate::app) fn middle(
         inspection: &Inspection,
@@ -289,11 +289,7 @@ impl Found {
     }
 
     /// Makes what the panels draw: goes through every point.
-    pub(in crate::app) fn prepared(
-        self,
-        library: &Library,
-        shown: &Arc<LibraryShown>,
-    ) -> Inspected {
+    pub(in crate::app) fn prepared(self, library: &Library, shown: &Arc<LibraryView>) -> Inspected {
         let Self {
             scene,
             origin,
@@ -337,7 +333,7 @@ impl Found {
                 &recipe.stand_off,
             ))
         });
-        let view = SceneFigure::of(&Ingredients {
+        let view = SceneFigure::of(&SceneFigureInput {
             scene: &scene,
             scan: scan.as_ref().map(|found| &found.fused.figure),
             inspection: &inspection,
@@ -347,7 +343,7 @@ impl Found {
             stand_off: stand_off.as_ref().and_then(|found| found.as_ref().ok()),
             spray: spray.as_ref(),
         });
-        let mut figures = Figures::of(&scene, &inspection, library, shown);
+        let mut figures = StageFigures::of(&scene, &inspection, library, shown);
         if let (Some(found), Some(part)) = (&scan, &seen_by_all) {
             figures.num_points = found.fused.figure.positions.len();
             figures.num_part = part.points.len();
@@ -359,7 +355,7 @@ impl Found {
         });
         let at = Timestamp::now();
         let title = origin.title();
-        let about = About {
+        let about = InspectionContext {
             at,
             line: InspectionLine::of(&title, &inspection).to_json(),
             is_simulated: origin.is_simulated(),
@@ -410,7 +406,7 @@ mod tests {
             },
             recipe: Arc::default(),
         };
-        let inspected = inspect(&request, &Shelf::default(), &Unwatched).expect("inspected");
+        let inspected = inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected");
         let inspected = inspected.expect("not cancelled");
         let Verdict::Part { part, rejected, .. } = &inspected.inspection.verdict else {
             panic!("no part");

@@ -10,11 +10,11 @@ mod work;
 
 pub(super) use self::{
     set_up::set_up,
-    state::{apply, give_way, hear, source_changed, start_anew},
+    state::{apply, hear, restart_consensus, source_changed, stop_live},
     status::{card, chip},
     work::answer,
 };
 pub use self::{
     state::{LiveAction, LiveState},
-    work::{FollowRequest, LiveAnswer, LiveRequest, LiveStatus, LiveTold, SourceState},
+    work::{LiveAnswer, LiveRequest, LiveStart, LiveStatus, LiveStatusUpdate, SourceState},
 };

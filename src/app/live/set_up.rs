@@ -11,7 +11,7 @@ use crate::{
         theme::{Theme, font, space},
         widgets::sentence,
     },
-    capture::{CellScene, HungPose, SimulatedSpec, SourceSpec},
+    capture::{CellScene, SimulatedPose, SimulatedSpec, SourceSpec},
     simulate::{Clutter, ObjectKind, PartKind, Side},
 };
 
@@ -103,9 +103,9 @@ fn rows(ui: &mut Ui, spec: &mut SimulatedSpec) {
     });
     row(ui, "Hung", |ui| {
         for (text, pose) in [
-            ("With care", HungPose::Facing),
-            ("Anyhow", HungPose::Placed),
-            ("Turned away", HungPose::Hard),
+            ("With care", SimulatedPose::Facing),
+            ("Anyhow", SimulatedPose::Placed),
+            ("Turned away", SimulatedPose::Hard),
         ] {
             choice(ui, &mut spec.pose, pose, text);
         }

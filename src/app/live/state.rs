@@ -4,15 +4,15 @@ use std::{path::PathBuf, sync::Arc};
 
 use super::{
     status::frames_word,
-    work::{FollowRequest, LiveAnswer, LiveRequest, LiveStatus, SourceState},
+    work::{LiveAnswer, LiveRequest, LiveStart, LiveStatus, SourceState},
 };
 use crate::{
     app::{
-        action::{self, Ask, Effect, notify},
+        action::{self, DialogRequest, Effect, notify},
         answers,
         job::{Request, Trouble},
-        lane::Lane,
-        state::{Event, Notice, NoticeKind, Purpose, Shown, Source, State, Workspace},
+        lane::TaskQueue,
+        state::{Event, Notice, NoticeKind, ReinspectionPurpose, Shown, Source, State, Workspace},
     },
     capture::{SourceSpec, WatchedSpec},
     pipeline::live::{LiveParams, MAX_AVERAGED},
@@ -105,22 +105,22 @@ pub(in crate::app) fn apply(state: &mut State, action: LiveAction) -> Option<Eff
         }
         LiveAction::Average(num) => {
             state.live.params.average = num.clamp(1, MAX_AVERAGED);
-            start_anew(state)
+            restart_consensus(state)
         }
         LiveAction::Record(folder) => {
             state.live.recording = Some(folder);
             if state.is_live() {
-                start_anew(state)
+                restart_consensus(state)
             } else {
                 start(state)
             }
         }
         LiveAction::ToggleRecording if state.live.recording.is_none() => {
-            Some(Effect::ShowDialog(Ask::RecordTo))
+            Some(Effect::ShowDialog(DialogRequest::RecordTo))
         }
         LiveAction::StopRecording | LiveAction::ToggleRecording => {
             end_recording(state);
-            start_anew(state)
+            restart_consensus(state)
         }
         LiveAction::SetUp(spec) => {
             state.live.setup = spec;
@@ -154,18 +154,18 @@ fn start(state: &mut State) -> Option<Effect> {
         return None;
     }
     state.live.session += 1;
-    forget_lost(state);
-    state.works.remove(&Lane::Inspect);
+    dismiss_lost_notice(state);
+    state.works.remove(&TaskQueue::Inspect);
     let follow = follow(state)?;
     Some(Effect::Several(vec![
-        Effect::CancelWork(Lane::Inspect),
+        Effect::CancelWork(TaskQueue::Inspect),
         follow,
     ]))
 }
 
 /// Has the lane's thread follow the source with what holds now.
 fn follow(state: &mut State) -> Option<Effect> {
-    let request = FollowRequest {
+    let request = LiveStart {
         spec: state.source.followed()?,
         recipe: Arc::clone(&state.recipe),
         params: state.live.params.clone(),
@@ -179,7 +179,7 @@ fn follow(state: &mut State) -> Option<Effect> {
 }
 
 /// Something that verdicts rest on has changed: none of those before counts. Does nothing while nothing is followed.
-pub(in crate::app) fn start_anew(state: &mut State) -> Option<Effect> {
+pub(in crate::app) fn restart_consensus(state: &mut State) -> Option<Effect> {
     if state.is_live() { follow(state) } else { None }
 }
 
@@ -214,11 +214,11 @@ fn ended(state: &mut State) {
     end_recording(state);
     state.live.switch = LiveSwitch::Off;
     state.live.status = None;
-    forget_lost(state);
+    dismiss_lost_notice(state);
 }
 
 /// Ends following, if anything is followed: something else comes to the front.
-pub(in crate::app) fn give_way(state: &mut State) -> Option<Effect> {
+pub(in crate::app) fn stop_live(state: &mut State) -> Option<Effect> {
     state.is_live().then(|| stop(state))
 }
 
@@ -240,7 +240,7 @@ pub(in crate::app) fn hear(
                 notify(state, Trouble::of(warning).into());
             }
             show(state, Arc::clone(&inspected));
-            let purpose = Purpose::New;
+            let purpose = ReinspectionPurpose::New;
             return Some(Effect::Tell(Event::Inspected { inspected, purpose }));
         }
         Ok(LiveAnswer::NotRecorded(trouble)) => {
@@ -291,14 +291,14 @@ fn watch_source(state: &mut State, source: &SourceState) {
         SourceState::Lost(trouble) => {
             let notice = Notice::from(trouble.clone());
             if state.live.lost.as_ref() != Some(&notice) {
-                forget_lost(state);
+                dismiss_lost_notice(state);
                 notify(state, notice.clone());
                 state.live.lost = Some(notice);
             }
         }
         SourceState::Opening => {}
         SourceState::Running => {
-            if forget_lost(state) {
+            if dismiss_lost_notice(state) {
                 notify(state, Notice::done("The source is there again"));
             }
         }
@@ -306,7 +306,7 @@ fn watch_source(state: &mut State, source: &SourceState) {
 }
 
 /// Takes the notice away; true if there was one.
-fn forget_lost(state: &mut State) -> bool {
+fn dismiss_lost_notice(state: &mut State) -> bool {
     let Some(lost) = state.live.lost.take() else {
         return false;
     };
@@ -371,7 +371,7 @@ mod tests {
         assert!(!state.is_live() && rests(&captured));
         assert!(captured.iter().any(|r| matches!(r, Request::Inspect(_))));
         // The capture is the newest request of its lane, whatever was posted along with it.
-        assert!(state.works.contains_key(&Lane::Inspect));
+        assert!(state.works.contains_key(&TaskQueue::Inspect));
     }
 
     #[test]
@@ -395,7 +395,7 @@ mod tests {
     #[test]
     fn changed_parameters_follow_anew_and_nothing_is_followed_for_them_alone() {
         let mut state = State::default();
-        assert!(start_anew(&mut state).is_none());
+        assert!(restart_consensus(&mut state).is_none());
         toggled(&mut state);
         let before = state.live.session;
         let requests = posted(action::apply(

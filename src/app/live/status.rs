@@ -8,13 +8,13 @@ use super::{
 };
 use crate::{
     app::{
-        action::{Action, Ask},
+        action::{Action, DialogRequest},
         state::{Source, State},
         theme::{Theme, font, space},
         widgets::{Mark, mark},
     },
     capture::SourceSpec,
-    pipeline::live::{Agreed, Standing, Stillness},
+    pipeline::live::{ConsensusVerdict, LiveVerdict, MotionState},
 };
 
 /// Height of what the card says first, logical pixels: as high whatever it says, so that nothing below moves.
@@ -39,7 +39,7 @@ pub(in crate::app) fn card(ui: &mut Ui, state: &State, theme: &Theme, actions: &
             ui.add(Label::new(words.color(theme.text)).truncate());
         });
         let status = state.live.status.as_ref();
-        ui.label(small(status.map_or_else(String::new, rests_on)));
+        ui.label(small(status.map_or_else(String::new, evidence_text)));
         ui.label(small(status.map_or_else(String::new, figures)));
     });
     record(ui, state, actions);
@@ -58,7 +58,7 @@ fn record(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
             .on_hover_text(says)
             .clicked()
         {
-            actions.push(Action::Ask(Ask::RecordTo));
+            actions.push(Action::Ask(DialogRequest::RecordTo));
         }
         return;
     }
@@ -108,9 +108,9 @@ fn words(state: &State) -> (Mark, String) {
         (SourceState::Lost(_), _) => (Mark::Bad, "lost, looking for it".into()),
         (SourceState::Opening, _) => (Mark::Look, "opening".into()),
         (SourceState::Running, None) => (Mark::Good, "each capture counts".into()),
-        (SourceState::Running, Some(Stillness::Watching)) => (Mark::Look, "looking".into()),
-        (SourceState::Running, Some(Stillness::Moving)) => (Mark::Look, "moving".into()),
-        (SourceState::Running, Some(Stillness::Steady { lasting, .. })) => (
+        (SourceState::Running, Some(MotionState::Watching)) => (Mark::Look, "looking".into()),
+        (SourceState::Running, Some(MotionState::Moving)) => (Mark::Look, "moving".into()),
+        (SourceState::Running, Some(MotionState::Steady { lasting, .. })) => (
             Mark::Good,
             format!("steady for {:.1} s", lasting.as_secs_f64()),
         ),
@@ -119,22 +119,22 @@ fn words(state: &State) -> (Mark, String) {
 }
 
 /// What the verdict rests on.
-fn rests_on(status: &LiveStatus) -> String {
+fn evidence_text(status: &LiveStatus) -> String {
     let averaged = match status.num_averaged {
         0 | 1 => String::new(),
         num => format!(" · depth of {num}"),
     };
     match (&status.standing, status.stillness) {
         (_, None) => "Every new file is inspected by itself".into(),
-        (Standing::Open, _) => "No verdict counts until it hangs still".into(),
-        (Standing::Gathering { num_frames, needed }, _) => {
+        (LiveVerdict::Open, _) => "No verdict counts until it hangs still".into(),
+        (LiveVerdict::Gathering { num_frames, needed }, _) => {
             format!(
                 "{num_frames} of {needed} {}{averaged}",
                 frames_word(*needed)
             )
         }
-        (Standing::Counted(agreed), _) => {
-            let Agreed {
+        (LiveVerdict::Counted(agreed), _) => {
+            let ConsensusVerdict {
                 num_frames,
                 num_agreeing,
                 ..

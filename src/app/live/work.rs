@@ -9,17 +9,17 @@ use std::{
 
 use crate::{
     app::{
-        inspect::work::{Followed, Found, Inspected},
-        job::{Answer, Outcome, Trouble},
+        inspect::work::{FinishedInspection, Inspected, LiveFrameContext},
+        job::{TaskOutcome, TaskResult, Trouble},
         recording::Recorded,
-        shelf::Shelf,
-        source::Captured as Taken,
-        worker::Desk,
+        shelf::LibraryCache,
+        source::Captured as SceneOrigin,
+        worker::TaskContext,
     },
     capture::{Captured, Feed, FeedItem, FeedState, FrameRate, SourceSpec},
     pipeline::{
-        self, Recipe, Verdict, Watch,
-        live::{LiveParams, LiveWatch, Standing, Stillness},
+        self, ProgressObserver, Recipe, Verdict,
+        live::{LiveParams, LiveTracker, LiveVerdict, MotionState},
     },
     stages::segment::EmptyCell,
 };
@@ -28,14 +28,14 @@ use crate::{
 #[derive(Clone, Debug)]
 pub enum LiveRequest {
     /// Follow a source until something else is asked for.
-    Follow(Box<FollowRequest>),
+    Follow(Box<LiveStart>),
     /// Let the camera rest.
     Rest,
 }
 
 /// Which source to follow, and how.
 #[derive(Clone, Debug)]
-pub struct FollowRequest {
+pub struct LiveStart {
     /// The source.
     pub spec: SourceSpec,
     /// All parameters.
@@ -52,7 +52,7 @@ pub struct FollowRequest {
 #[derive(Clone, Debug)]
 pub enum LiveAnswer {
     /// How things stand.
-    Stands(Box<LiveTold>),
+    Stands(Box<LiveStatusUpdate>),
     /// A verdict that counts, and was not told before.
     Counts(Arc<Inspected>),
     /// It is not recorded any more.
@@ -67,7 +67,7 @@ pub enum LiveAnswer {
 
 /// How things stand.
 #[derive(Clone, Debug)]
-pub struct LiveTold {
+pub struct LiveStatusUpdate {
     /// In figures.
     pub status: LiveStatus,
     /// The last frame that everything was made of that the panels draw.
@@ -80,9 +80,9 @@ pub struct LiveStatus {
     /// Whether frames come.
     pub source: SourceState,
     /// Whether the scene moves; `None` of a source whose captures stand for themselves.
-    pub stillness: Option<Stillness>,
+    pub stillness: Option<MotionState>,
     /// What counts.
-    pub standing: Standing,
+    pub standing: LiveVerdict,
     /// Frames a second that come, and of those the ones that were inspected.
     pub rates: [Option<f64>; 2],
     /// From a frame's arrival to its verdict, the median of the last ones.
@@ -116,24 +116,24 @@ const NUM_LATENCIES: usize = 15;
 /// Does what is asked; `None` when something else was asked for.
 pub(in crate::app) fn answer(
     request: &LiveRequest,
-    shelf: &Shelf,
-    desk: &dyn Desk<Outcome>,
-) -> Option<Outcome> {
+    shelf: &LibraryCache,
+    desk: &dyn TaskContext<TaskOutcome>,
+) -> Option<TaskOutcome> {
     let LiveRequest::Follow(request) = request else {
         shelf.recording().end();
         shelf.camera().rest();
-        return Some(Ok(Answer::Live(LiveAnswer::Rests)));
+        return Some(Ok(TaskResult::Live(LiveAnswer::Rests)));
     };
     // It stays open behind this: whoever asks next may follow the same one.
     match shelf.camera().feed(&request.spec) {
-        Ok(feed) => Follower::new(request, shelf, desk).follow(&feed),
+        Ok(feed) => LiveSession::new(request, shelf, desk).follow(&feed),
         Err(error) => Some(Err(Trouble::of(&error))),
     }
 }
 
-struct Follower<'a> {
-    shelf: &'a Shelf,
-    desk: &'a dyn Desk<Outcome>,
+struct LiveSession<'a> {
+    shelf: &'a LibraryCache,
+    desk: &'a dyn TaskContext<TaskOutcome>,
     spec: &'a SourceSpec,
     /// Where it is recorded; not any more after a failure.
     record: Option<&'a Path>,
@@ -141,11 +141,11 @@ struct Follower<'a> {
     recipe: &'a Arc<Recipe>,
     empty_cell: Option<&'a Arc<EmptyCell>>,
     /// `None` of a source whose captures stand for themselves.
-    watch: Option<LiveWatch>,
+    watch: Option<LiveTracker>,
     rate: FrameRate,
     latencies: VecDeque<Duration>,
-    standing: Standing,
-    stillness: Option<Stillness>,
+    standing: LiveVerdict,
+    stillness: Option<MotionState>,
     num_inspected: u64,
     /// Frames that the source had dropped before.
     dropped_before: u64,
@@ -156,18 +156,22 @@ struct Follower<'a> {
 }
 
 /// Stages are not told one by one: frames come faster than anybody reads.
-struct Quietly<'a>(&'a dyn Desk<Outcome>);
+struct SilentContext<'a>(&'a dyn TaskContext<TaskOutcome>);
 
-impl Watch for Quietly<'_> {
+impl ProgressObserver for SilentContext<'_> {
     fn is_cancelled(&self) -> bool {
         self.0.is_cancelled()
     }
 }
 
-impl<'a> Follower<'a> {
-    fn new(request: &'a FollowRequest, shelf: &'a Shelf, desk: &'a dyn Desk<Outcome>) -> Self {
+impl<'a> LiveSession<'a> {
+    fn new(
+        request: &'a LiveStart,
+        shelf: &'a LibraryCache,
+        desk: &'a dyn TaskContext<TaskOutcome>,
+    ) -> Self {
         let stands_for_itself = matches!(request.spec, SourceSpec::Watched(_));
-        let watch = (!stands_for_itself).then(|| LiveWatch::new(&request.params));
+        let watch = (!stands_for_itself).then(|| LiveTracker::new(&request.params));
         Self {
             shelf,
             desk,
@@ -176,11 +180,11 @@ impl<'a> Follower<'a> {
             recorded: None,
             recipe: &request.recipe,
             empty_cell: request.empty_cell.as_ref(),
-            stillness: watch.as_ref().map(LiveWatch::stillness),
+            stillness: watch.as_ref().map(LiveTracker::stillness),
             watch,
             rate: FrameRate::default(),
             latencies: VecDeque::new(),
-            standing: Standing::Open,
+            standing: LiveVerdict::Open,
             num_inspected: 0,
             dropped_before: 0,
             inspected: None,
@@ -189,7 +193,7 @@ impl<'a> Follower<'a> {
         }
     }
 
-    fn follow(mut self, feed: &Feed) -> Option<Outcome> {
+    fn follow(mut self, feed: &Feed) -> Option<TaskOutcome> {
         self.dropped_before = feed.status().num_dropped;
         loop {
             if self.desk.is_cancelled() {
@@ -208,13 +212,13 @@ impl<'a> Follower<'a> {
                 }
                 None => match feed.status().state {
                     FeedState::Ended | FeedState::Stopped => {
-                        return Some(Ok(Answer::Live(LiveAnswer::AtItsEnd)));
+                        return Some(Ok(TaskResult::Live(LiveAnswer::AtItsEnd)));
                     }
                     FeedState::Failed(error) => return Some(Err(Trouble::of(&*error))),
                     FeedState::Opening | FeedState::Running | FeedState::Lost { .. } => {}
                 },
             }
-            self.tell_how_it_stands(feed);
+            self.publish_status(feed);
         }
     }
 
@@ -237,10 +241,10 @@ impl<'a> Follower<'a> {
             Ok(shelved) => shelved,
             Err(error) => return Some(Err(Trouble::of(&error))),
         };
-        let watching = Quietly(self.desk);
+        let watching = SilentContext(self.desk);
         let fitted = shelved.fitting(self.recipe, &watching)?;
         let (arrived, at) = (captured.arrived, seconds(&captured));
-        let Taken {
+        let SceneOrigin {
             mut scene,
             origin,
             warnings,
@@ -254,10 +258,10 @@ impl<'a> Follower<'a> {
         let mut inspection = pipeline::run(&scene, &fitted, self.recipe, &watching).ok()?;
         let mut followed = None;
         if let Some(watch) = &mut self.watch {
-            let middle = Found::middle(&inspection, &fitted);
+            let middle = FinishedInspection::middle(&inspection, &fitted);
             self.standing = watch.judge(&mut inspection, middle, &self.recipe.accept);
             self.stillness = Some(watch.stillness());
-            followed = Some(Followed {
+            followed = Some(LiveFrameContext {
                 stillness: watch.stillness(),
                 standing: self.standing.clone(),
                 num_averaged: watch.num_averaged(),
@@ -268,12 +272,12 @@ impl<'a> Follower<'a> {
         self.latencies.push_front(arrived.elapsed());
         self.latencies.truncate(NUM_LATENCIES);
 
-        let counts_anew = self.counts_anew(&inspection.verdict);
-        if !counts_anew && !self.desk.is_followed() {
+        let is_new_verdict = self.is_new_verdict(&inspection.verdict);
+        if !is_new_verdict && !self.desk.wants_more() {
             // The window has not even shown the one before.
             return Some(Ok(()));
         }
-        let found = Found {
+        let found = FinishedInspection {
             scan: None,
             scene,
             origin,
@@ -285,14 +289,14 @@ impl<'a> Follower<'a> {
         };
         let inspected = Arc::new(found.prepared(&fitted, &shelved.shown));
         self.inspected = Some(Arc::clone(&inspected));
-        if counts_anew {
+        if is_new_verdict {
             self.tell(LiveAnswer::Counts(inspected));
         }
         Some(Ok(()))
     }
 
     /// True if the verdict counts and says something else than the last one that did.
-    fn counts_anew(&mut self, verdict: &Verdict) -> bool {
+    fn is_new_verdict(&mut self, verdict: &Verdict) -> bool {
         if self.watch.is_none() {
             return true;
         }
@@ -313,11 +317,11 @@ impl<'a> Follower<'a> {
     }
 
     fn tell(&self, answer: LiveAnswer) {
-        self.desk.partly(Ok(Answer::Live(answer)));
+        self.desk.publish_partial(Ok(TaskResult::Live(answer)));
     }
 
     /// Says how things stand, unless nothing has changed.
-    fn tell_how_it_stands(&mut self, feed: &Feed) {
+    fn publish_status(&mut self, feed: &Feed) {
         let feed = feed.status();
         let source = match feed.state {
             FeedState::Opening => SourceState::Opening,
@@ -326,7 +330,7 @@ impl<'a> Follower<'a> {
         };
         if matches!(source, SourceState::Lost(_)) {
             // What hangs there when it comes back was not seen to hang still.
-            self.standing = Standing::Open;
+            self.standing = LiveVerdict::Open;
             self.counted = None;
         }
         let mut latencies: Vec<Duration> = self.latencies.iter().copied().collect();
@@ -339,7 +343,7 @@ impl<'a> Follower<'a> {
             latency: latencies.get(latencies.len() / 2).copied(),
             num_inspected: self.num_inspected,
             num_dropped: feed.num_dropped.saturating_sub(self.dropped_before),
-            num_averaged: self.watch.as_ref().map_or(1, LiveWatch::num_averaged),
+            num_averaged: self.watch.as_ref().map_or(1, LiveTracker::num_averaged),
             recorded: self.recorded.clone(),
         };
         let is_news = self.told.as_ref().is_none_or(|told| {
@@ -347,12 +351,12 @@ impl<'a> Follower<'a> {
         });
         if is_news {
             self.told = Some(status.clone());
-            let told = LiveTold {
+            let told = LiveStatusUpdate {
                 status,
                 inspected: self.inspected.clone(),
             };
             let told = LiveAnswer::Stands(Box::new(told));
-            self.desk.stands(Ok(Answer::Live(told)));
+            self.desk.stands(Ok(TaskResult::Live(told)));
         }
     }
 }

@@ -9,10 +9,10 @@ use super::{
     work::SolvedPairs,
 };
 use crate::app::{
-    action::{Action, Ask},
+    action::{Action, DialogRequest},
     bars::labelled,
     job::Trouble,
-    lane::Lane,
+    lane::TaskQueue,
     source::file_name,
     state::State,
     theme::{Theme, font, space},
@@ -35,7 +35,7 @@ pub(super) fn ui(
     ui.add_space(space::SMALL);
     ui.horizontal(|ui| {
         if labelled(ui, Button::new("Choose pairs…"), "Choose pairs…").clicked() {
-            caused.push(Action::Ask(Ask::Pairs));
+            caused.push(Action::Ask(DialogRequest::Pairs));
         }
         match &dialog.pairs {
             Some(path) => ui.label(RichText::new(file_name(path)).color(theme.text)),
@@ -44,7 +44,7 @@ pub(super) fn ui(
                     .color(theme.weak_text),
             ),
         };
-        if state.works.contains_key(&Lane::Robot) {
+        if state.works.contains_key(&TaskQueue::Robot) {
             ui.add(egui::Spinner::new().size(18.0).color(theme.accent));
         }
     });

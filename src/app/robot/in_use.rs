@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     app::{
-        action::{Action, Ask},
+        action::{Action, DialogRequest},
         bars::labelled,
         job::Trouble,
         state::State,
@@ -69,7 +69,7 @@ pub(super) fn ui(
     ui.add_space(space::MEDIUM);
     ui.horizontal(|ui| {
         if labelled(ui, Button::new("Load…"), "Load…").clicked() {
-            caused.push(Action::Ask(Ask::Calibration));
+            caused.push(Action::Ask(DialogRequest::Calibration));
         }
         if in_use.is_some() && labelled(ui, Button::new("Forget"), "Forget").clicked() {
             caused.push(Action::Robot(RobotAction::Forget));

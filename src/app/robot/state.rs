@@ -15,7 +15,7 @@ use crate::{
     },
     robot::{
         Convention, WrittenPose, WrittenPoseError,
-        calibration::{CameraPlace, CellCalibration, Fit, Origin},
+        calibration::{CalibrationFit, CameraPlace, CellCalibration, Origin},
         hand_eye::Mount,
         parse_written_pose,
     },
@@ -187,7 +187,7 @@ pub(in crate::app) fn apply(state: &mut State, action: RobotAction) -> Option<Ef
             let found = dialog.solved.clone().filter(|_| dialog.may_use_solved())?;
             let camera = CameraPlace::on(found.solved.mount, found.solved.mount_from_camera);
             let file = file_name(&found.path);
-            let fit = Fit::of(&found.solved, file, found.left_out.clone());
+            let fit = CalibrationFit::of(&found.solved, file, found.left_out.clone());
             return save(state, camera, Origin::HandEye(fit));
         }
         RobotAction::StoreArm => {
@@ -392,7 +392,7 @@ mod tests {
             dialog.numbers = "1200 -400 1900 10 20 30".into();
         });
         let saved = super::super::work::answer(request(apply(&mut state, RobotAction::UseTyped)));
-        let Ok(crate::app::job::Answer::Robot(answer)) = saved else {
+        let Ok(crate::app::job::TaskResult::Robot(answer)) = saved else {
             panic!("{saved:?}");
         };
         hear(&mut state, Ok(answer));

@@ -3,7 +3,7 @@
 use std::{path::PathBuf, sync::Arc};
 
 use crate::{
-    app::job::{Answer, Outcome, Trouble},
+    app::job::{TaskOutcome, TaskResult, Trouble},
     robot::{
         Convention, RobotFrame,
         calibration::{CellCalibration, Loaded},
@@ -78,7 +78,7 @@ pub struct SolvedPairs {
 }
 
 /// Does what is asked.
-pub(in crate::app) fn answer(request: RobotRequest) -> Outcome {
+pub(in crate::app) fn answer(request: RobotRequest) -> TaskOutcome {
     match request {
         RobotRequest::Load(path) => in_use(path, None),
         RobotRequest::Save { path, calibration } => {
@@ -97,18 +97,20 @@ pub(in crate::app) fn answer(request: RobotRequest) -> Outcome {
             let mut pairs = read.pairs;
             pairs.retain(|pair| !left_out.contains(&pair.name));
             let solved = solve(&pairs, mount).map_err(|error| Trouble::of(&error))?;
-            Ok(Answer::Robot(RobotAnswer::Solved(Arc::new(SolvedPairs {
-                path,
-                names,
-                left_out,
-                conventions: [read.robot, read.camera],
-                solved,
-            }))))
+            Ok(TaskResult::Robot(RobotAnswer::Solved(Arc::new(
+                SolvedPairs {
+                    path,
+                    names,
+                    left_out,
+                    conventions: [read.robot, read.camera],
+                    solved,
+                },
+            ))))
         }
     }
 }
 
-fn in_use(path: PathBuf, former: Option<PathBuf>) -> Outcome {
+fn in_use(path: PathBuf, former: Option<PathBuf>) -> TaskOutcome {
     let Loaded {
         calibration,
         is_edited,
@@ -118,5 +120,5 @@ fn in_use(path: PathBuf, former: Option<PathBuf>) -> Outcome {
         calibration,
         is_edited,
     });
-    Ok(Answer::Robot(RobotAnswer::InUse(in_use, former)))
+    Ok(TaskResult::Robot(RobotAnswer::InUse(in_use, former)))
 }

@@ -2,7 +2,7 @@
 
 use egui::{Button, Context, Event, Frame, Id, Key, Margin, Modal, RichText, Ui, vec2};
 
-use super::{Question, RoleAction, pin::MOST_DIGITS};
+use super::{RoleAction, RoleQuestion, pin::MOST_DIGITS};
 use crate::app::{
     action::Action,
     bars::labelled,
@@ -23,24 +23,24 @@ pub(in crate::app) fn dialog(
     let Some(asked) = &state.roles.asked else {
         return;
     };
-    let asks_pin = state.roles.pin.is_some() || !matches!(asked.question, Question::MayI(_));
+    let asks_pin = state.roles.pin.is_some() || !matches!(asked.question, RoleQuestion::MayI(_));
     let (title, says, done) = match asked.question {
-        Question::MayI(_) if asks_pin => (
+        RoleQuestion::MayI(_) if asks_pin => (
             "Engineer's view",
             "Write the PIN: recipe, thresholds, library and cell can be changed then",
             "Unlock",
         ),
-        Question::MayI(_) => (
+        RoleQuestion::MayI(_) => (
             "Engineer's view",
             "Recipe, thresholds, library and cell can be changed in it",
             "Change to it",
         ),
-        Question::NewPin => (
+        RoleQuestion::NewPin => (
             "New PIN",
             "Four to eight digits that the engineer's view asks for from now on",
             "Next",
         ),
-        Question::NewPinAgain(_) => ("New PIN", "The same digits once more", "Set the PIN"),
+        RoleQuestion::NewPinAgain(_) => ("New PIN", "The same digits once more", "Set the PIN"),
     };
     let modal = Modal::new(Id::unique("role"))
         .frame(Frame::window(&ctx.global_style()).inner_margin(Margin::same(18)))

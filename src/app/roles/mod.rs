@@ -34,7 +34,7 @@ pub struct RoleState {
     /// Minutes without a hand on the window until it is the operator's again; only with a PIN.
     pub lock_after: u32,
     /// What is asked, while it is.
-    pub asked: Option<Asked>,
+    pub asked: Option<OpenQuestion>,
 }
 
 impl Default for RoleState {
@@ -62,7 +62,7 @@ impl RoleState {
     }
 
     /// Seconds without a hand on this person's window until it locks; `None` if it does not.
-    pub fn locks_after(&self, role: UserRole) -> Option<f64> {
+    pub fn lock_timeout(&self, role: UserRole) -> Option<f64> {
         let locks = role == UserRole::Engineer && self.pin.is_some();
         locks.then_some(f64::from(self.lock_after) * 60.0)
     }
@@ -70,17 +70,17 @@ impl RoleState {
 
 /// A question on top of the window.
 #[derive(Debug)]
-pub struct Asked {
+pub struct OpenQuestion {
     /// What it is about.
-    pub question: Question,
+    pub question: RoleQuestion,
     /// The digits written so far.
     pub digits: String,
     /// What was wrong with the last ones.
     pub wrong: Option<&'static str>,
 }
 
-impl Asked {
-    fn about(question: Question) -> Self {
+impl OpenQuestion {
+    fn about(question: RoleQuestion) -> Self {
         Self {
             question,
             digits: String::new(),
@@ -91,7 +91,7 @@ impl Asked {
 
 /// What is asked.
 #[derive(Debug)]
-pub enum Question {
+pub enum RoleQuestion {
     /// The PIN, or without one a yes, to come into the engineer's view and do this.
     MayI(Option<Box<Action>>),
     /// A new PIN.
@@ -134,7 +134,9 @@ pub(super) fn permitted(state: &mut State, action: Action) -> Option<Action> {
 
 /// Asks for the engineer's view, and does this once it is there.
 pub(super) fn ask_engineer(state: &mut State, then: Action) {
-    state.roles.asked = Some(Asked::about(Question::MayI(Some(Box::new(then)))));
+    state.roles.asked = Some(OpenQuestion::about(RoleQuestion::MayI(Some(Box::new(
+        then,
+    )))));
 }
 
 /// Makes it so.
@@ -143,15 +145,15 @@ pub(super) fn apply(state: &mut State, action: RoleAction) -> Option<Effect> {
     let own = &mut state.roles;
     match action {
         RoleAction::Switch => match role {
-            UserRole::Engineer => become_operators(state),
-            UserRole::Operator => own.asked = Some(Asked::about(Question::MayI(None))),
+            UserRole::Engineer => switch_to_operator(state),
+            UserRole::Operator => own.asked = Some(OpenQuestion::about(RoleQuestion::MayI(None))),
         },
         RoleAction::Lock => {
-            become_operators(state);
+            switch_to_operator(state);
             let what = "Nobody was at the window for a while: it is the operator's again";
             notify(state, Notice::done(what));
         }
-        RoleAction::SetPin => own.asked = Some(Asked::about(Question::NewPin)),
+        RoleAction::SetPin => own.asked = Some(OpenQuestion::about(RoleQuestion::NewPin)),
         RoleAction::RemovePin => {
             own.pin = None;
             notify(state, Notice::done("No PIN is asked for any more"));
@@ -177,7 +179,7 @@ pub(super) fn apply(state: &mut State, action: RoleAction) -> Option<Effect> {
     None
 }
 
-fn become_operators(state: &mut State) {
+fn switch_to_operator(state: &mut State) {
     state.role = UserRole::Operator;
     state.roles.asked = None;
     if !is_operators(state.workspace) {
@@ -188,32 +190,34 @@ fn become_operators(state: &mut State) {
 /// What follows from the digits that were written.
 fn enter(state: &mut State) -> Option<Effect> {
     let own = &mut state.roles;
-    let Asked {
+    let OpenQuestion {
         question, digits, ..
     } = own.asked.take()?;
     let again = |question, wrong| {
-        Some(Asked {
+        Some(OpenQuestion {
             wrong: Some(wrong),
-            ..Asked::about(question)
+            ..OpenQuestion::about(question)
         })
     };
     match question {
-        Question::MayI(then) => {
+        RoleQuestion::MayI(then) => {
             if own.pin.as_ref().is_some_and(|pin| !pin.is(&digits)) {
-                own.asked = again(Question::MayI(then), "That is not the PIN");
+                own.asked = again(RoleQuestion::MayI(then), "That is not the PIN");
                 return None;
             }
             state.role = UserRole::Engineer;
             return apply_any(state, *then?);
         }
-        Question::NewPin if digits.len() < pin::LEAST_DIGITS => {
-            own.asked = again(Question::NewPin, "Four digits at least");
+        RoleQuestion::NewPin if digits.len() < pin::LEAST_DIGITS => {
+            own.asked = again(RoleQuestion::NewPin, "Four digits at least");
         }
-        Question::NewPin => own.asked = Some(Asked::about(Question::NewPinAgain(digits))),
-        Question::NewPinAgain(first) if first != digits => {
-            own.asked = again(Question::NewPin, "The two differ: write a PIN anew");
+        RoleQuestion::NewPin => {
+            own.asked = Some(OpenQuestion::about(RoleQuestion::NewPinAgain(digits)))
         }
-        Question::NewPinAgain(_) => {
+        RoleQuestion::NewPinAgain(first) if first != digits => {
+            own.asked = again(RoleQuestion::NewPin, "The two differ: write a PIN anew");
+        }
+        RoleQuestion::NewPinAgain(_) => {
             own.pin = Some(Pin::of(&digits));
             let what = "The PIN is set: the window starts as the operator's from now on";
             notify(state, Notice::done(what));

@@ -1,7 +1,7 @@
 //! What the operator's view lets through.
 
 use super::{Action, RoleAction, Workspace};
-use crate::app::{action::Ask, live::LiveAction, robot::RobotAction};
+use crate::app::{action::DialogRequest, live::LiveAction, robot::RobotAction};
 
 /// True for the workspaces in which nothing can be changed that verdicts rest on.
 pub(in crate::app) fn is_operators(workspace: Workspace) -> bool {
@@ -55,18 +55,22 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
     }
 }
 
-fn asks_for_engineer(ask: Ask) -> bool {
+fn asks_for_engineer(ask: DialogRequest) -> bool {
     match ask {
-        Ask::Library | Ask::Part | Ask::PartPath | Ask::Calibration | Ask::Pairs => true,
-        Ask::Scene
-        | Ask::Scan
-        | Ask::ScanPoses
-        | Ask::Shot
-        | Ask::Recording
-        | Ask::WatchedFolder
-        | Ask::RecordTo
-        | Ask::ReportFolder
-        | Ask::SprayPath
-        | Ask::Picture => false,
+        DialogRequest::Library
+        | DialogRequest::Part
+        | DialogRequest::PartPath
+        | DialogRequest::Calibration
+        | DialogRequest::Pairs => true,
+        DialogRequest::Scene
+        | DialogRequest::Scan
+        | DialogRequest::ScanPoses
+        | DialogRequest::Shot
+        | DialogRequest::Recording
+        | DialogRequest::WatchedFolder
+        | DialogRequest::RecordTo
+        | DialogRequest::ReportFolder
+        | DialogRequest::SprayPath
+        | DialogRequest::Picture => false,
     }
 }

@@ -1,6 +1,6 @@
 use super::*;
 use crate::app::{
-    action::{Ask, apply as apply_any},
+    action::{DialogRequest, apply as apply_any},
     robot::RobotAction,
 };
 
@@ -27,8 +27,8 @@ fn the_operators_view_changes_nothing_that_a_verdict_rests_on() {
     let held_back = [
         Action::Robot(RobotAction::Forget),
         Action::Press(Workspace::Compare, 0),
-        Action::Ask(Ask::Library),
-        Action::Chosen(Ask::Library, "other".into()),
+        Action::Ask(DialogRequest::Library),
+        Action::Chosen(DialogRequest::Library, "other".into()),
         Action::TakeEmptyCell,
         Action::GoTo(Workspace::Enrol),
     ];
@@ -43,7 +43,7 @@ fn the_operators_view_changes_nothing_that_a_verdict_rests_on() {
         (&None, Workspace::Inspect)
     );
     assert!(apply_any(&mut state, Action::Capture).is_some());
-    assert!(apply_any(&mut state, Action::Ask(Ask::ReportFolder)).is_some());
+    assert!(apply_any(&mut state, Action::Ask(DialogRequest::ReportFolder)).is_some());
 }
 
 #[test]
@@ -87,24 +87,24 @@ fn a_pin_is_written_twice_and_has_four_digits() {
     write(&mut state, "123456789");
     assert!(matches!(
         state.roles.asked.as_ref().map(|asked| &asked.question),
-        Some(Question::NewPinAgain(digits)) if digits == "12345678"
+        Some(RoleQuestion::NewPinAgain(digits)) if digits == "12345678"
     ));
 }
 
 #[test]
 fn with_a_pin_the_window_starts_as_the_operators_and_locks_again() {
     let state = with_pin("1357");
-    assert_eq!(state.roles.locks_after(state.role), Some(300.0));
+    assert_eq!(state.roles.lock_timeout(state.role), Some(300.0));
     let mut state = State {
         roles: RoleState::starting(state.roles.pin, 15),
         ..State::default()
     };
     state.role = state.roles.first_role();
     assert_eq!(state.role, UserRole::Operator);
-    assert_eq!(state.roles.locks_after(state.role), None);
+    assert_eq!(state.roles.lock_timeout(state.role), None);
     apply(&mut state, RoleAction::Switch);
     write(&mut state, "1357");
-    assert_eq!(state.roles.locks_after(state.role), Some(900.0));
+    assert_eq!(state.roles.lock_timeout(state.role), Some(900.0));
     apply(&mut state, RoleAction::RemovePin);
-    assert_eq!(state.roles.locks_after(state.role), None);
+    assert_eq!(state.roles.lock_timeout(state.role), None);
 }

@@ -1,13 +1,13 @@
 //! What the shell lends a workspace while it draws or takes in a result.
 
 use super::{file_dialog::DialogLock, message::Message, notice::Notice, session::Session};
-use crate::app::{shelf::Shelf, theme::Theme};
+use crate::app::{shelf::LibraryCache, theme::Theme};
 
 /// What tasks share. Clones go into jobs.
 #[derive(Clone, Debug, Default)]
 pub struct Services {
     /// The library, the camera, the recording and the history in use.
-    pub shelf: Shelf,
+    pub shelf: LibraryCache,
     /// Keeps a second file dialog from opening behind the first.
     pub dialogs: DialogLock,
 }

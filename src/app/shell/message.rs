@@ -28,7 +28,7 @@ pub enum Message {
         /// What to inspect.
         request: InspectRequest,
         /// What for.
-        purpose: Purpose,
+        purpose: ReinspectionPurpose,
     },
     /// Inspect the scene in front once more, as an inspection of its own.
     InspectShown {
@@ -43,7 +43,7 @@ pub enum Message {
 
 /// What a scene is inspected for. It comes back with the result.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Purpose {
+pub enum ReinspectionPurpose {
     /// An inspection of its own.
     #[default]
     New,
@@ -61,7 +61,7 @@ pub enum Event {
         /// The result.
         inspected: Arc<Inspected>,
         /// What it was inspected for.
-        purpose: Purpose,
+        purpose: ReinspectionPurpose,
     },
     /// The engineer's view, which this workspace asked for, is there.
     EngineerIn,

@@ -5,7 +5,7 @@ use std::{path::PathBuf, sync::Arc};
 pub use crate::app::theme::ThemeChoice;
 use crate::{
     app::{
-        inspect::work::Inspected, shelf::LibraryShown, shots::ScanFiles, source::CellChoice,
+        inspect::work::Inspected, shelf::LibraryView, shots::ScanFiles, source::CellChoice,
         unit_system::UnitSystem,
     },
     capture::SourceSpec,
@@ -26,7 +26,7 @@ pub struct Session {
     /// The last result.
     pub shown: Option<Shown>,
     /// The library in use, once loaded.
-    pub library: Option<Arc<LibraryShown>>,
+    pub library: Option<Arc<LibraryView>>,
     /// The library's folder that a person chose in the window.
     pub chosen_library: Option<PathBuf>,
     /// The parameters that scenes are inspected with.

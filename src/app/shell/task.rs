@@ -17,7 +17,7 @@ use std::{
 
 use crate::{
     app::user_error::UserError,
-    pipeline::{Cancelled, Stage, Watch},
+    pipeline::{Cancelled, ProgressObserver, Stage},
 };
 
 /// Starts the threads of tasks, and wakes the window when one has something to read. Clones share it.
@@ -358,7 +358,7 @@ impl<T> TaskContext<T> {
     }
 }
 
-impl<T> Watch for TaskContext<T> {
+impl<T> ProgressObserver for TaskContext<T> {
     fn begins(&self, stage: Stage) {
         lock(&self.shared.progress).stage = Some(stage);
         (self.wake)();

@@ -11,7 +11,7 @@ use crate::{
     app::viewport::{Colouring, LineSet, PointSet, Role, ViewColours, furniture},
     geometry::{
         cloud::is_finite,
-        rigid::{PoseError, RigidTransform},
+        rigid::{PoseDelta, RigidTransform},
     },
     scan::{
         Excluded, Scan, ScannedShot, Shot,
@@ -44,7 +44,7 @@ pub enum ShotFate {
     /// It is part of the result.
     Used {
         /// How far the refinement moved what it saw.
-        moved: PoseError,
+        moved: PoseDelta,
         /// Distance to what the others see of the same surface, of the part where they see that together; `None` if it
         /// overlaps none.
         rms: Option<Metres>,

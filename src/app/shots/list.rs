@@ -14,7 +14,7 @@ use super::{
     work::FusedShots,
 };
 use crate::app::{
-    action::{Action, Ask},
+    action::{Action, DialogRequest},
     bars::{focus_ring, labelled, shortened},
     inspect::grouped,
     state::{State, Workspace},
@@ -65,7 +65,7 @@ impl ShotList {
                     .on_hover_text("A frame of the same part; its pose must be in the file of the poses or in poses.json beside it")
                     .clicked()
                 {
-                    actions.push(Action::Ask(Ask::Shot));
+                    actions.push(Action::Ask(DialogRequest::Shot));
                 }
                 // Enrol has its own, for corrections and shots alike.
                 if state.workspace != Workspace::Enrol {

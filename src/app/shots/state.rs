@@ -4,11 +4,11 @@ use std::{path::PathBuf, sync::Arc};
 
 use super::work::{FusedShots, ScanFiles, ScanOrder, ScanRequest, ShotChoice};
 use crate::app::{
-    action::{Ask, Effect, notify},
+    action::{DialogRequest, Effect, notify},
     enrol,
     inspect::work::{InspectRequest, Inspected},
     job::{Request, Trouble},
-    lane::Lane,
+    lane::TaskQueue,
     robot::calibration_path,
     source::SceneSource,
     state::{Notice, NoticeKind, Source, State, Workspace},
@@ -132,10 +132,10 @@ impl ShotsState {
     }
 }
 
-fn lane(workspace: Workspace) -> Lane {
+fn lane(workspace: Workspace) -> TaskQueue {
     match workspace {
-        Workspace::Enrol => Lane::Enrol,
-        _ => Lane::Inspect,
+        Workspace::Enrol => TaskQueue::Enrol,
+        _ => TaskQueue::Inspect,
     }
 }
 
@@ -143,9 +143,9 @@ fn own(state: &mut State) -> &mut ShotsState {
     of_lane(state, lane(state.workspace))
 }
 
-fn of_lane(state: &mut State, lane: Lane) -> &mut ShotsState {
+fn of_lane(state: &mut State, lane: TaskQueue) -> &mut ShotsState {
     match lane {
-        Lane::Enrol => &mut state.enrol.shots,
+        TaskQueue::Enrol => &mut state.enrol.shots,
         _ => &mut state.inspect.shots,
     }
 }
@@ -286,24 +286,24 @@ pub(in crate::app) fn enrol_shown(state: &mut State) -> Option<Effect> {
 /// Asks for the file of the poses that were not found.
 pub(in crate::app) fn ask_for_poses(
     state: &mut State,
-    lane: Lane,
+    lane: TaskQueue,
     order: ScanOrder,
     trouble: Trouble,
 ) -> Effect {
     notify(state, trouble.into());
     of_lane(state, lane).wants_poses = Some(order);
-    Effect::ShowDialog(Ask::ScanPoses)
+    Effect::ShowDialog(DialogRequest::ScanPoses)
 }
 
 /// A result has come, in the place of one with the choice `former`: what was asked for can be taken back.
 pub(in crate::app) fn settle(
     state: &mut State,
-    lane: Lane,
+    lane: TaskQueue,
     generation: u64,
     former: Option<ShotChoice>,
 ) {
     let files = match lane {
-        Lane::Enrol => state.enrol.draft.as_ref().and_then(|draft| {
+        TaskQueue::Enrol => state.enrol.draft.as_ref().and_then(|draft| {
             let fused = draft.subject.scan()?;
             Some(fused.choice.files())
         }),
@@ -360,24 +360,24 @@ mod tests {
     use crate::{
         app::{
             action::{Action, apply as apply_any},
-            job::{Outcome, answer},
-            shelf::Shelf,
-            worker::{Desk, News},
+            job::{TaskOutcome, answer},
+            shelf::LibraryCache,
+            worker::{TaskContext, TaskEvent},
         },
         files::write_depth_png,
         geometry::depth_frame::{DepthFrame, Intrinsics},
-        pipeline::Watch,
+        pipeline::ProgressObserver,
     };
 
     struct NobodysDesk;
 
-    impl Watch for NobodysDesk {}
+    impl ProgressObserver for NobodysDesk {}
 
-    impl Desk<Outcome> for NobodysDesk {
+    impl TaskContext<TaskOutcome> for NobodysDesk {
         fn progress(&self, _done: usize, _total: usize) {}
-        fn partly(&self, _outcome: Outcome) {}
-        fn stands(&self, _outcome: Outcome) {}
-        fn is_followed(&self) -> bool {
+        fn publish_partial(&self, _outcome: TaskOutcome) {}
+        fn stands(&self, _outcome: TaskOutcome) {}
+        fn wants_more(&self) -> bool {
             true
         }
     }
@@ -412,14 +412,14 @@ mod tests {
         let opened = apply_any(&mut state, Action::Open(folder.path().to_owned()));
         let (generation, request) = posted(opened);
         let request = Request::InspectScan(request);
-        let outcome = answer(request, &Shelf::default(), &NobodysDesk).expect("answered");
-        let done = News::Done {
+        let outcome = answer(request, &LibraryCache::default(), &NobodysDesk).expect("answered");
+        let done = TaskEvent::Done {
             generation,
             outcome,
         };
-        let effect = apply_any(&mut state, Action::Hear(Lane::Inspect, done));
+        let effect = apply_any(&mut state, Action::Hear(TaskQueue::Inspect, done));
         assert!(
-            matches!(effect, Some(Effect::ShowDialog(Ask::ScanPoses))),
+            matches!(effect, Some(Effect::ShowDialog(DialogRequest::ScanPoses))),
             "{effect:?}"
         );
         assert!(state.wants_poses() && state.works.is_empty());
@@ -428,7 +428,7 @@ mod tests {
         assert!(said.advice.contains("Choose the file"), "{said:?}");
 
         let file = folder.path().join("elsewhere.json");
-        let chosen = Action::Chosen(Ask::ScanPoses, file.clone());
+        let chosen = Action::Chosen(DialogRequest::ScanPoses, file.clone());
         let (_, request) = posted(apply_any(&mut state, chosen));
         let ScanOrder::Open(files) = request.order else {
             panic!("{:?}", request.order);

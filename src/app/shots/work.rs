@@ -19,19 +19,19 @@ use serde::{Deserialize, Serialize};
 use super::figure::{ScanFigure, ShotRow, rows};
 use crate::{
     app::{
-        job::{Answer, Outcome, Trouble},
+        job::{TaskOutcome, TaskResult, Trouble},
         source::{Origin, file_name},
-        worker::Desk,
+        worker::TaskContext,
     },
     error::Advice,
     geometry::rigid::RigidTransform,
-    pipeline::{Recipe, Stage, Watch},
+    pipeline::{ProgressObserver, Recipe, Stage},
     robot::{
         calibration::CellCalibration,
         frame_poses::FramePosesError,
         scan_frames::{FrameNews, ScanFramesError, poses_beside, read_frames, with_poses},
     },
-    scan::{Scan, ScanError, ScanParams, ScanStep, ScanWatch, Shot, assemble},
+    scan::{Scan, ScanError, ScanObserver, ScanParams, ScanStep, Shot, assemble},
 };
 
 /// The files of a scan, and which of its shots are left out.
@@ -215,11 +215,11 @@ impl FuseError {
     }
 
     /// As it comes back from the thread.
-    pub(in crate::app) fn outcome(&self, request: &ScanRequest) -> Outcome {
+    pub(in crate::app) fn outcome(&self, request: &ScanRequest) -> TaskOutcome {
         let trouble = Trouble::of(self);
         if self.wants_poses() {
             let order = Box::new(request.order.clone());
-            Ok(Answer::PosesWanted(order, trouble))
+            Ok(TaskResult::PosesWanted(order, trouble))
         } else {
             Err(trouble)
         }
@@ -258,13 +258,13 @@ impl Advice for FuseError {
 
 /// Counts what is done of all that a request has to do.
 pub(in crate::app) struct Steps<'a> {
-    desk: &'a dyn Desk<Outcome>,
+    desk: &'a dyn TaskContext<TaskOutcome>,
     done: Cell<usize>,
     total: Cell<usize>,
 }
 
 impl<'a> Steps<'a> {
-    pub(in crate::app) fn new(desk: &'a dyn Desk<Outcome>) -> Self {
+    pub(in crate::app) fn new(desk: &'a dyn TaskContext<TaskOutcome>) -> Self {
         Self {
             desk,
             done: Cell::new(0),
@@ -284,7 +284,7 @@ impl<'a> Steps<'a> {
 }
 
 /// Each shot's own inspection begins with its segmentation.
-impl Watch for Steps<'_> {
+impl ProgressObserver for Steps<'_> {
     fn begins(&self, stage: Stage) {
         if stage == Stage::Segment {
             self.step();
@@ -444,7 +444,7 @@ struct Relay {
     is_cancelled: AtomicBool,
 }
 
-impl ScanWatch for Relay {
+impl ScanObserver for Relay {
     fn begins(&self, _step: ScanStep) {
         self.num_begun.fetch_add(1, Ordering::Relaxed);
     }

@@ -10,14 +10,14 @@ const BOX_SIGMAS: f64 = 4.0;
 
 /// An upright box, world, metres.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Bounds {
+pub struct PointBounds {
     /// Smallest coordinates.
     pub low: Vec3,
     /// Largest coordinates.
     pub high: Vec3,
 }
 
-impl Bounds {
+impl PointBounds {
     /// The middle.
     pub fn centre(&self) -> Vec3 {
         self.low.midpoint(self.high)
@@ -65,9 +65,9 @@ impl Bounds {
     /// 2 σ, then ± 4 σ cut at the outermost points. Points that are not finite do not count; `None` without any.
     pub fn robust(points: impl Iterator<Item = Vec3> + Clone) -> Option<Self> {
         let finite = points.filter(|p| p.is_finite());
-        let first = Spread::of(finite.clone())?;
+        let first = RobustExtent::of(finite.clone())?;
         let trimmed =
-            Spread::of(finite.filter(|p| first.contains(*p, TRIM_SIGMAS))).unwrap_or(first);
+            RobustExtent::of(finite.filter(|p| first.contains(*p, TRIM_SIGMAS))).unwrap_or(first);
         let reach = trimmed.sigma * BOX_SIGMAS;
         Some(Self {
             low: (trimmed.mean - reach).as_vec3().max(first.low),
@@ -77,14 +77,14 @@ impl Bounds {
 }
 
 #[derive(Clone, Copy)]
-struct Spread {
+struct RobustExtent {
     mean: DVec3,
     sigma: DVec3,
     low: Vec3,
     high: Vec3,
 }
 
-impl Spread {
+impl RobustExtent {
     fn of(points: impl Iterator<Item = Vec3>) -> Option<Self> {
         let (mut count, mut sum, mut sum_sq) = (0.0, DVec3::ZERO, DVec3::ZERO);
         let (mut low, mut high) = (Vec3::INFINITY, Vec3::NEG_INFINITY);
@@ -130,7 +130,7 @@ mod tests {
 
     #[test]
     fn an_even_surface_is_held_whole() {
-        let bounds = Bounds::robust(square().into_iter()).expect("points");
+        let bounds = PointBounds::robust(square().into_iter()).expect("points");
         assert_eq!(bounds.low, Vec3::new(0.0, 0.0, 1.0));
         assert_eq!(bounds.high, Vec3::new(0.99, 0.99, 1.0));
     }
@@ -143,15 +143,15 @@ mod tests {
             Vec3::NAN,
             Vec3::new(f32::INFINITY, 0.0, 0.0),
         ]);
-        let bounds = Bounds::robust(points.into_iter()).expect("points");
+        let bounds = PointBounds::robust(points.into_iter()).expect("points");
         assert!((bounds.high - bounds.low).max_element() < 2.5, "{bounds:?}");
     }
 
     #[test]
     fn no_points_have_no_box_and_one_point_has_an_empty_one() {
-        assert_eq!(Bounds::robust(std::iter::empty()), None);
-        assert_eq!(Bounds::robust(std::iter::once(Vec3::NAN)), None);
-        let bounds = Bounds::robust(std::iter::once(Vec3::ONE)).expect("a point");
+        assert_eq!(PointBounds::robust(std::iter::empty()), None);
+        assert_eq!(PointBounds::robust(std::iter::once(Vec3::NAN)), None);
+        let bounds = PointBounds::robust(std::iter::once(Vec3::ONE)).expect("a point");
         assert_eq!(bounds.low, bounds.high);
     }
 }

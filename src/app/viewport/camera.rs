@@ -20,7 +20,7 @@ use std::f32::consts::{FRAC_PI_2, PI};
 
 use glam::{Mat4, Vec2, Vec3, camera::rh};
 
-use super::bounds::Bounds;
+use super::bounds::PointBounds;
 
 /// Vertical opening of the view: near a Kinect's own 43° × 57°, so that the front view looks like the frame.
 const VERTICAL_FOV: f32 = 45.0 * PI / 180.0;
@@ -167,7 +167,7 @@ impl ViewCamera {
     }
 
     /// Moves eye and target, without turning, so that the box just fills the view.
-    pub fn fit(&mut self, bounds: &Bounds, size: ViewSize) -> bool {
+    pub fn fit(&mut self, bounds: &PointBounds, size: ViewSize) -> bool {
         let (right, up, forward) = (self.right(), self.up(), self.forward());
         let half = size / (2.0 * focal(size)) * (1.0 - FIT_MARGIN);
         let centre = bounds.centre();

@@ -8,10 +8,10 @@ use super::pass::{self, PassSpec};
 /// The text of the shader.
 pub(super) const SHADER: &str = include_str!("composite.wgsl");
 
-/// `Placement` in composite.wgsl.
+/// `CompositeUniform` in composite.wgsl.
 #[repr(C)]
 #[derive(Clone, Copy, Debug, PartialEq, Pod, Zeroable)]
-struct Placement {
+struct CompositeUniform {
     origin: [i32; 2],
     pixel_side: u32,
     padding: u32,
@@ -19,7 +19,7 @@ struct Placement {
 
 /// Bytes of the placement, to be compared with the shader.
 #[cfg(test)]
-pub(super) const PLACEMENT_SIZE: usize = size_of::<Placement>();
+pub(super) const PLACEMENT_SIZE: usize = size_of::<CompositeUniform>();
 
 /// The pass, for windows of one format.
 pub(super) struct Composite {
@@ -30,7 +30,7 @@ pub(super) struct Composite {
 /// A picture bound for this pass.
 pub(super) struct BoundPicture {
     placement: wgpu::Buffer,
-    written: Option<Placement>,
+    written: Option<CompositeUniform>,
     group: wgpu::BindGroup,
 }
 
@@ -38,7 +38,7 @@ impl BoundPicture {
     /// Says where in the window the picture's top left corner is, physical pixels, and how many of them one of the
     /// picture's is wide and high.
     pub(super) fn place(&mut self, queue: &wgpu::Queue, origin: [i32; 2], pixel_side: u32) {
-        let placement = Placement {
+        let placement = CompositeUniform {
             origin,
             pixel_side,
             padding: 0,
@@ -72,7 +72,7 @@ impl Composite {
     pub(super) fn bind(&self, device: &wgpu::Device, picture: &wgpu::TextureView) -> BoundPicture {
         let placement = device.create_buffer(&wgpu::BufferDescriptor {
             label: Some("view placement"),
-            size: size_of::<Placement>() as u64,
+            size: size_of::<CompositeUniform>() as u64,
             usage: wgpu::BufferUsages::UNIFORM | wgpu::BufferUsages::COPY_DST,
             mapped_at_creation: false,
         });

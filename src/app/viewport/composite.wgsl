@@ -1,8 +1,8 @@
 // Copies the finished picture into the window, pixel for pixel; a coarse one pixel for square.
 
 @group(0) @binding(0) var picture: texture_2d<f32>;
-// The Rust side is `Placement` in composite.rs.
-struct Placement {
+// The Rust side is `CompositeUniform` in composite.rs.
+struct CompositeUniform {
     // Of the picture's top left corner in the window, physical pixels.
     origin: vec2<i32>,
     // Pixels of the window along the side of a pixel of the picture.
@@ -11,7 +11,7 @@ struct Placement {
 }
 // True if the window wants linear values: the picture holds sRGB ones.
 override is_linear: bool;
-@group(0) @binding(1) var<uniform> placement: Placement;
+@group(0) @binding(1) var<uniform> placement: CompositeUniform;
 
 @vertex
 fn vertex_main(@builtin(vertex_index) index: u32) -> @builtin(position) vec4<f32> {

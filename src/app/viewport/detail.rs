@@ -22,7 +22,7 @@ pub(super) fn pixel_side(num_samples: usize) -> u32 {
 
 /// When the frame after this one is needed.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) enum Next {
+pub(super) enum NextRepaint {
     /// At once: the view moves, and what this frame costs shows in when the next begins.
     AtOnce,
     /// In so many seconds the view is at rest, if nothing more happens.
@@ -60,7 +60,7 @@ impl Default for MovingDetail {
 
 impl MovingDetail {
     /// The samples to draw in a frame at `now`, and what is to follow it.
-    pub(super) fn frame(&mut self, has_moved: bool, now: f64) -> (usize, Next) {
+    pub(super) fn frame(&mut self, has_moved: bool, now: f64) -> (usize, NextRepaint) {
         if let Some(drawn) = self.drawn.take() {
             self.learn((now - drawn) as f32);
         }
@@ -70,16 +70,16 @@ impl MovingDetail {
         }
         let since = self.last_move.map_or(f64::INFINITY, |last| now - last);
         let next = if has_moved {
-            Next::AtOnce
+            NextRepaint::AtOnce
         } else if since >= REST || self.num_samples == NUM_SAMPLES {
             self.last_move = None;
-            Next::Whenever
+            NextRepaint::Whenever
         } else {
-            Next::Within(REST - since)
+            NextRepaint::Within(REST - since)
         };
         self.shown = match next {
-            Next::Whenever => NUM_SAMPLES,
-            Next::AtOnce | Next::Within(_) => self.num_samples,
+            NextRepaint::Whenever => NUM_SAMPLES,
+            NextRepaint::AtOnce | NextRepaint::Within(_) => self.num_samples,
         };
         (self.shown, next)
     }
@@ -119,15 +119,17 @@ mod tests {
                 now += seconds;
                 let next;
                 (drawn, next) = detail.frame(true, now);
-                assert_eq!(next, Next::AtOnce);
+                assert_eq!(next, NextRepaint::AtOnce);
             }
             assert!(drawn < NUM_SAMPLES / 2, "{seconds}: {drawn}");
             let (still, next) = detail.frame(false, now + 0.05);
             assert!(still <= drawn && still < NUM_SAMPLES, "not yet at rest");
-            assert!(matches!(next, Next::Within(seconds) if (0.1..=REST).contains(&seconds)));
+            assert!(
+                matches!(next, NextRepaint::Within(seconds) if (0.1..=REST).contains(&seconds))
+            );
             assert_eq!(
                 detail.frame(false, now + 0.3),
-                (NUM_SAMPLES, Next::Whenever)
+                (NUM_SAMPLES, NextRepaint::Whenever)
             );
             assert!((detail.share() - 1.0).abs() < 1e-6);
         }

@@ -12,11 +12,11 @@ use crate::units::Metres;
 
 /// Up to two points, and what lies between them.
 #[derive(Clone, Copy, Debug, Default, PartialEq)]
-pub struct Measure {
+pub struct Measurement {
     points: [Option<Vec3>; 2],
 }
 
-impl Measure {
+impl Measurement {
     /// Takes the next point; a third one begins anew.
     pub fn add(&mut self, point: Vec3) {
         self.points = match self.points {
@@ -114,7 +114,7 @@ mod tests {
 
     #[test]
     fn two_points_give_a_distance_and_a_third_begins_anew() {
-        let mut measure = Measure::default();
+        let mut measure = Measurement::default();
         measure.add(Vec3::ZERO);
         assert_eq!(measure.distance(), None);
         assert!(

@@ -51,7 +51,7 @@ mod widget;
 pub use self::{
     camera::{FitRequest, StandardView, ViewCamera},
     gpu::{ViewError, ViewportGpu},
-    measure::Measure,
+    measure::Measurement,
     picking::PickedPoint,
     scene::{Line, LineSet, PointSet, TextLabel, ViewScene},
     screenshot::{ViewShot, screenshot},

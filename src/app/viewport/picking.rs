@@ -26,7 +26,7 @@ pub struct PickedPoint {
     pub position: Vec3,
 }
 
-struct Candidate {
+struct PickHit {
     point: PickedPoint,
     depth: f32,
     off_cursor_sq: f32,
@@ -61,7 +61,7 @@ pub(super) fn pick(
                     index,
                     position,
                 };
-                candidates.push(Candidate {
+                candidates.push(PickHit {
                     point,
                     depth: clip.w,
                     off_cursor_sq,

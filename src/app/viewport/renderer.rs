@@ -51,14 +51,14 @@ struct PictureKey {
 #[derive(Default)]
 pub(super) struct ViewRenderer {
     drawn: Option<PictureKey>,
-    held: Option<Held>,
+    held: Option<GpuBuffers>,
     points: Vec<Arc<GpuPoints>>,
     lines: Vec<Arc<GpuLines>>,
     set_uniforms: Vec<Uniform>,
     num_pictures: u64,
 }
 
-struct Held {
+struct GpuBuffers {
     targets: Targets,
     bound: BoundPicture,
     view: Uniform,
@@ -123,7 +123,7 @@ impl ViewRenderer {
         let targets = Targets::new(device, &pipelines.targets, size);
         let bound = pipelines.composite.bind(device, &targets.picture);
         let view = Uniform::new::<ViewUniform>(device, "view", &pipelines.uniform);
-        self.held = Some(Held {
+        self.held = Some(GpuBuffers {
             targets,
             bound,
             view,
@@ -177,7 +177,7 @@ impl ViewRenderer {
     fn record(
         &self,
         gpu: &ViewportGpu,
-        held: &Held,
+        held: &GpuBuffers,
         encoder: &mut wgpu::CommandEncoder,
         key: &PictureKey,
     ) {

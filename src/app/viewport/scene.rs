@@ -12,7 +12,7 @@ use std::sync::{
 use glam::{Mat4, Vec3};
 
 use super::{
-    bounds::Bounds,
+    bounds::PointBounds,
     points::PackedPoints,
     style::{Colouring, Role},
 };
@@ -36,8 +36,8 @@ pub struct PointSet {
     deviations: Option<Arc<[f32]>>,
     packed: Option<Arc<PackedPoints>>,
     generation: u64,
-    bounds: Option<Bounds>,
-    focus: Option<Bounds>,
+    bounds: Option<PointBounds>,
+    focus: Option<PointBounds>,
 }
 
 #[derive(Clone, Debug)]
@@ -50,7 +50,7 @@ impl PointSet {
     /// Points that all play one role. Those with a coordinate that is not finite are never shown.
     pub fn new(positions: impl Into<Arc<[[f32; 3]]>>, role: Role) -> Self {
         let positions = positions.into();
-        let bounds = Bounds::robust(positions.iter().map(|p| Vec3::from(*p)));
+        let bounds = PointBounds::robust(positions.iter().map(|p| Vec3::from(*p)));
         Self {
             world_from_set: Mat4::IDENTITY,
             colouring: None,
@@ -71,7 +71,7 @@ impl PointSet {
         let roles: Arc<[u8]> = labels.iter().map(|label| Role::of(*label) as u8).collect();
         let is_part = |(_, label): &(&[f32; 3], &u8)| **label == Role::Part as u8;
         let of_part = set.positions.iter().zip(roles.iter()).filter(is_part);
-        set.focus = Bounds::robust(of_part.map(|(p, _)| Vec3::from(*p)));
+        set.focus = PointBounds::robust(of_part.map(|(p, _)| Vec3::from(*p)));
         set.labels = Labels::Each(roles);
         set
     }
@@ -262,20 +262,20 @@ pub struct ViewScene {
 
 impl ViewScene {
     /// The box about all points, stray ones left out; `None` without any.
-    pub fn bounds(&self) -> Option<Bounds> {
+    pub fn bounds(&self) -> Option<PointBounds> {
         self.union(|set| set.bounds)
     }
 
     /// The box about the part where there is one, else about everything.
-    pub fn focus(&self) -> Option<Bounds> {
+    pub fn focus(&self) -> Option<PointBounds> {
         self.union(|set| set.focus).or_else(|| self.bounds())
     }
 
-    fn union(&self, bounds: impl Fn(&PointSet) -> Option<Bounds>) -> Option<Bounds> {
+    fn union(&self, bounds: impl Fn(&PointSet) -> Option<PointBounds>) -> Option<PointBounds> {
         let boxes = self
             .points
             .iter()
             .filter_map(|set| Some(bounds(set)?.moved(&set.world_from_set)));
-        boxes.reduce(Bounds::union)
+        boxes.reduce(PointBounds::union)
     }
 }

@@ -13,10 +13,10 @@ use egui::{
 
 use super::{
     camera::ViewCamera,
-    detail::{MovingDetail, Next, pixel_side},
+    detail::{MovingDetail, NextRepaint, pixel_side},
     gpu::{ViewError, ViewportGpu, lock},
     legend,
-    measure::{self, Anchor, Measure},
+    measure::{self, Anchor, Measurement},
     navigation::{self, vec2},
     picking::{self, PickedPoint},
     renderer::{Frame, ViewRenderer},
@@ -48,7 +48,7 @@ pub struct Viewport {
     /// What a click does.
     pub tool: ViewTool,
     /// The distance being measured.
-    pub measure: Measure,
+    pub measure: Measurement,
 }
 
 /// What happened in a view in this frame.
@@ -73,7 +73,7 @@ impl Viewport {
             detail: MovingDetail::default(),
             shown_camera: None,
             tool: ViewTool::default(),
-            measure: Measure::default(),
+            measure: Measurement::default(),
         }
     }
 
@@ -181,10 +181,10 @@ impl Viewport {
                 ViewTool::Measure => ViewTool::Look,
             };
         }
-        let is_measuring = self.tool == ViewTool::Measure || self.measure != Measure::default();
+        let is_measuring = self.tool == ViewTool::Measure || self.measure != Measurement::default();
         if is_measuring && pressed(Key::Escape) {
             self.tool = ViewTool::Look;
-            self.measure = Measure::default();
+            self.measure = Measurement::default();
         }
     }
 
@@ -221,9 +221,9 @@ impl Viewport {
         self.shown_camera = Some(*camera);
         let (num_samples, next) = self.detail.frame(has_moved, now);
         match next {
-            Next::AtOnce => ui.request_repaint(),
-            Next::Within(seconds) => ui.request_repaint_after_secs(seconds as f32),
-            Next::Whenever => {}
+            NextRepaint::AtOnce => ui.request_repaint(),
+            NextRepaint::Within(seconds) => ui.request_repaint_after_secs(seconds as f32),
+            NextRepaint::Whenever => {}
         }
         let callback = PaintView {
             gpu: gpu.clone(),

@@ -10,7 +10,7 @@ use crate::app::{
     roles,
     shell::{
         context::ShellContext,
-        message::{Message, Purpose},
+        message::{Message, ReinspectionPurpose},
         session::WorkspaceKind,
         task::Running,
         workspace::Workspace,
@@ -74,7 +74,7 @@ impl Window {
             }
             Message::InspectShown { title } => {
                 if let Some(request) = inspection_of_shown(&self.state) {
-                    let effect = self.state.inspect(title, request, Purpose::New);
+                    let effect = self.state.inspect(title, request, ReinspectionPurpose::New);
                     self.make(effect, ctx);
                 }
             }

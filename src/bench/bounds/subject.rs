@@ -5,13 +5,13 @@ use nalgebra::{Point3, UnitQuaternion, Vector3};
 use crate::{
     bench::suites::{enrol_part, enrolled_name, enrolment_pose},
     geometry::{mesh::TriangleMesh, principal::principal_axes, rigid::RigidTransform},
-    library::{About, EnrolError, EnrolParams, Library, PartName, enrol_mesh},
+    library::{EnrolError, EnrolParams, Library, PartDescription, PartName, enrol_mesh},
     simulate::{PartKind, PartModel, Side},
 };
 
 /// A part that is rendered and inspected.
 #[derive(Clone, Debug)]
-pub struct Subject {
+pub struct BoundsPart {
     /// The name that it is enrolled by.
     pub name: String,
     /// Its surface, centred, its face towards -z: as the simulated cell hangs parts.
@@ -28,7 +28,7 @@ pub struct BoundsLibrary {
     /// What they are inspected against.
     pub library: Library,
     /// The parts, in the library's order.
-    pub subjects: Vec<Subject>,
+    pub subjects: Vec<BoundsPart>,
 }
 
 impl BoundsLibrary {
@@ -38,7 +38,7 @@ impl BoundsLibrary {
         for kind in PartKind::ALL {
             let reference = enrol_part(kind, Side::Left, model_seed, &EnrolParams::default())?;
             all.library.references.push(reference);
-            all.subjects.push(Subject {
+            all.subjects.push(BoundsPart {
                 name: enrolled_name(kind, Side::Left),
                 mesh: PartModel::new(kind, Side::Left, model_seed).into_mesh(),
                 mesh_from_part: enrolment_pose().inverse(),
@@ -65,7 +65,7 @@ impl BoundsLibrary {
             let plain = PartName::new(&name.to_lowercase());
             let spare =
                 || PartName::new(&format!("part_{number}")).expect("our own names are valid");
-            let about = About {
+            let about = PartDescription {
                 name: plain.unwrap_or_else(|_| spare()),
                 title: name,
                 notes: String::new(),
@@ -74,11 +74,11 @@ impl BoundsLibrary {
                 simulated: true,
             };
             let reference = enrol_mesh(&mesh, &about, &EnrolParams::default())?.reference;
-            reference.make_ready();
+            reference.prefetch();
             all.library.references.push(reference);
             let mesh_from_part = hung_from_mesh(&mesh);
             let hang = |p: &Point3<f32>| (mesh_from_part * p.cast::<f64>()).cast();
-            all.subjects.push(Subject {
+            all.subjects.push(BoundsPart {
                 name: about.name.as_str().to_owned(),
                 mesh: TriangleMesh {
                     vertices: mesh.vertices.iter().map(hang).collect(),

@@ -11,7 +11,7 @@ use crate::{
         mesh::TriangleMesh,
         rigid::RigidTransform,
     },
-    simulate::{CellSetup, PartModel, PartPose, Placement, Side, SurfaceLabel, frame_of_mesh},
+    simulate::{CellSetup, PartModel, PartPose, PoseRange, Side, SurfaceLabel, frame_of_mesh},
     stages::scene::scene_from_frame,
     units::{Metres, Radians},
 };
@@ -67,10 +67,10 @@ pub(super) fn stray(cloud: &mut PointCloud, share: f64, seed: u64) {
 /// What the simulated camera sees of a part from within 60° of its front, thinned, and the pose that puts it back.
 pub(super) fn view(model: &PartModel, seed: u64) -> (PointCloud, RigidTransform) {
     let mut rng = Pcg64::seed_from_u64(seed);
-    let placement = Placement {
+    let placement = PoseRange {
         yaw: Radians::from_degrees(60.0),
         pitch: Radians::from_degrees(60.0),
-        ..Placement::placed()
+        ..PoseRange::placed()
     };
     loop {
         let side = model.side().unwrap_or(Side::Left);

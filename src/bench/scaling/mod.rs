@@ -20,7 +20,7 @@ use crate::{
     error::Advice,
     geometry::parallel::num_cores,
     library::{EnrolError, Library},
-    pipeline::{self, Cancelled, Inspection, Recipe, Watch},
+    pipeline::{self, Cancelled, Inspection, ProgressObserver, Recipe},
     simulate::{CellSetup, PartKind, Side, frame},
     stages::{
         rank::{Matcher, Query, RankParams, rank_by},
@@ -100,7 +100,7 @@ impl Advice for ScalingError {
 pub fn scaling(
     matcher: Matcher,
     most: usize,
-    watch: &dyn Watch,
+    watch: &dyn ProgressObserver,
     after_row: &mut dyn FnMut(&ScalingRow),
 ) -> Result<Scaling, ScalingError> {
     let inspection = query(watch)?;
@@ -167,7 +167,7 @@ fn measure(
     query: &Query<'_>,
     references: &[Reference],
     params: &RankParams,
-    watch: &dyn Watch,
+    watch: &dyn ProgressObserver,
     is_identical: &mut bool,
 ) -> Result<ScalingRow, Cancelled> {
     // Also warms up.
@@ -200,7 +200,7 @@ fn measure(
 }
 
 /// What is ranked: a captured front door of the standard car, as far as its signature.
-fn query(watch: &dyn Watch) -> Result<Inspection, Cancelled> {
+fn query(watch: &dyn ProgressObserver) -> Result<Inspection, Cancelled> {
     let setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 0, 3_000_000);
     let scene = scene_from_frame(&frame(&setup).frame);
     pipeline::run(&scene, &Library::default(), &Recipe::default(), watch)

@@ -14,7 +14,7 @@ use crate::{
     bench::suites::enrol_part,
     geometry::{cloud::PointCloud, nearest_field::NearestField, raster::BinaryImage},
     library::EnrolParams,
-    pipeline::{Cancelled, Watch},
+    pipeline::{Cancelled, ProgressObserver},
     simulate::{PartKind, Side},
     stages::{
         correlation::LiteralReference,
@@ -29,7 +29,10 @@ use crate::{
 const NUM_MODELS: u64 = 8;
 
 /// The parts that are enrolled in earnest.
-pub(super) fn originals(most: usize, watch: &dyn Watch) -> Result<Vec<Reference>, ScalingError> {
+pub(super) fn originals(
+    most: usize,
+    watch: &dyn ProgressObserver,
+) -> Result<Vec<Reference>, ScalingError> {
     let mut originals = Vec::new();
     for model_seed in 0..NUM_MODELS {
         for kind in PartKind::ALL {
@@ -55,7 +58,7 @@ pub(super) fn nth_reference(originals: &[Reference], place: usize, matcher: Matc
         return original.clone();
     }
     let mut random = Pcg64::seed_from_u64(place as u64);
-    let swing = Swing::new(&mut random);
+    let swing = ScaleCurve::new(&mut random);
     let mut copy = original.clone();
     copy.name = format!("{}_{place}", original.name);
     copy.views.clear();
@@ -64,7 +67,7 @@ pub(super) fn nth_reference(originals: &[Reference], place: usize, matcher: Matc
             copy.views = original
                 .views
                 .iter()
-                .map(|view| perturbed(view, &swing))
+                .map(|view| perturb(view, &swing))
                 .collect();
             copy.spectra = spectra_of(&copy.views);
         }
@@ -81,11 +84,11 @@ pub(super) fn nth_reference(originals: &[Reference], place: usize, matcher: Matc
 }
 
 /// A factor that goes up and down a few times around the outline.
-struct Swing {
+struct ScaleCurve {
     waves: [[f64; 2]; 4],
 }
 
-impl Swing {
+impl ScaleCurve {
     fn new(random: &mut Pcg64) -> Self {
         let mut wave = || {
             [
@@ -107,7 +110,7 @@ impl Swing {
     }
 }
 
-fn perturbed(view: &ReferenceView, swing: &Swing) -> ReferenceView {
+fn perturb(view: &ReferenceView, swing: &ScaleCurve) -> ReferenceView {
     let mut view = view.clone();
     let num = view.signature.rays.len();
     let rays = &mut view.signature.rays;

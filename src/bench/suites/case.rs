@@ -7,7 +7,7 @@ use super::{SuiteFrame, libraries::enrolment_pose};
 use crate::{
     geometry::rigid::pose_error,
     pipeline::{Inspection, Timings, Verdict},
-    simulate::{SurfaceLabel, Truth},
+    simulate::{FrameTruth, SurfaceLabel},
     stages::{
         confirm::{ConfirmedMatch, Evidence},
         pose::Uncertainty,
@@ -44,19 +44,19 @@ pub struct SuiteCase {
     /// union); `None` if no reading shows the part.
     pub part_iou: Option<f64>,
     /// The bounds of the pose of a part that was named rightly, if it has any.
-    pub bounds: Option<Bounds>,
+    pub bounds: Option<PoseBounds>,
     /// Time of the whole inspection, milliseconds.
     pub total_ms: f64,
     /// The same by stage.
     #[serde(skip)]
     pub timings: Timings,
     /// The first few of the ranking that were put in their place.
-    pub contenders: Vec<Contender>,
+    pub contenders: Vec<ReferenceCase>,
 }
 
 /// Bounds of a pose beside its true error, both about the middle of what was seen of the part.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize)]
-pub struct Bounds {
+pub struct PoseBounds {
     /// Degrees.
     pub turn_bound: f64,
     /// Millimetres.
@@ -67,7 +67,7 @@ pub struct Bounds {
     pub shift_off: f64,
 }
 
-impl Bounds {
+impl PoseBounds {
     /// Whether the pose is within both.
     pub fn hold(&self) -> bool {
         self.turn_off <= self.turn_bound && self.shift_off <= self.shift_bound
@@ -76,7 +76,7 @@ impl Bounds {
 
 /// One reference at the pose that was found for it.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Contender {
+pub struct ReferenceCase {
     /// Its name.
     pub part: String,
     /// Its score.
@@ -91,7 +91,7 @@ pub struct Contender {
 const NUM_CONTENDERS: usize = 3;
 
 impl SuiteCase {
-    pub(super) fn of(frame: &SuiteFrame, truth: &Truth, inspection: &Inspection) -> Self {
+    pub(super) fn of(frame: &SuiteFrame, truth: &FrameTruth, inspection: &Inspection) -> Self {
         let (found, score, margin, reason) = match &inspection.verdict {
             Verdict::Part {
                 part,
@@ -159,7 +159,7 @@ impl SuiteCase {
     }
 }
 
-fn part_iou(truth: &Truth, segmentation: &Segmentation) -> Option<f64> {
+fn part_iou(truth: &FrameTruth, segmentation: &Segmentation) -> Option<f64> {
     let (mut num_both, mut num_true, mut num_taken) = (0_usize, 0_usize, 0_usize);
     for (is, taken_for) in truth.labels.iter().zip(&segmentation.labels) {
         let is_part = *is == SurfaceLabel::Part && *taken_for != PointLabel::NoReading;
@@ -172,7 +172,7 @@ fn part_iou(truth: &Truth, segmentation: &Segmentation) -> Option<f64> {
     (num_true > 0).then(|| num_both as f64 / num_either as f64)
 }
 
-fn bounds(frame: &SuiteFrame, truth: &Truth, inspection: &Inspection) -> Option<Bounds> {
+fn bounds(frame: &SuiteFrame, truth: &FrameTruth, inspection: &Inspection) -> Option<PoseBounds> {
     let first = inspection.ranking.entries.first()?;
     let pose = inspection.pose.as_ref()?.as_ref().ok()?;
     let found = pose.uncertainty.filter(Uncertainty::is_held)?;
@@ -184,7 +184,7 @@ fn bounds(frame: &SuiteFrame, truth: &Truth, inspection: &Inspection) -> Option<
     let middle = Point3::from(sum / seen.len().max(1) as f64);
     let reference_from_camera = (truth.camera_from_part * enrolment_pose().inverse()).inverse();
     let off = pose_error(&pose.target_from_source, &reference_from_camera, &middle);
-    Some(Bounds {
+    Some(PoseBounds {
         turn_bound: found.turn.degrees(),
         shift_bound: found.shift.mm(),
         turn_off: off.rotation.degrees(),
@@ -192,7 +192,11 @@ fn bounds(frame: &SuiteFrame, truth: &Truth, inspection: &Inspection) -> Option<
     })
 }
 
-fn contender(frame: &SuiteFrame, truth: &Truth, entry: &ConfirmedMatch) -> Option<Contender> {
+fn contender(
+    frame: &SuiteFrame,
+    truth: &FrameTruth,
+    entry: &ConfirmedMatch,
+) -> Option<ReferenceCase> {
     let is_there = frame.expected.as_ref() == Some(&entry.part);
     let pose_off = entry.pose.as_ref().filter(|_| is_there).map(|pose| {
         // The reference's space is the camera's when the part was enrolled.
@@ -201,7 +205,7 @@ fn contender(frame: &SuiteFrame, truth: &Truth, entry: &ConfirmedMatch) -> Optio
         let off = pose_error(&pose.camera_from_part(), &camera_from_part, &middle);
         [off.rotation.degrees(), off.shift.mm()]
     });
-    Some(Contender {
+    Some(ReferenceCase {
         part: entry.part.clone(),
         score: entry.score,
         evidence: entry.evidence?,

@@ -6,7 +6,7 @@ use super::{Suite, SuiteCase, SuiteResult};
 
 /// A frame in which another part came near.
 #[derive(Clone, Debug, PartialEq, Serialize)]
-pub struct Closest {
+pub struct NearestMistake {
     /// The part that hung there.
     pub part: String,
     /// The other one.
@@ -25,7 +25,7 @@ pub struct Closest {
     pub accepted: bool,
 }
 
-impl Closest {
+impl NearestMistake {
     /// Of one frame; `None` if no part that is enrolled hung there, or no other one was looked for.
     pub fn of(suite: Suite, case: &SuiteCase) -> Option<Self> {
         let part = case.expected.clone()?;
@@ -89,7 +89,7 @@ impl Closest {
 mod tests {
     use super::*;
     use crate::{
-        bench::suites::{Contender, TUNING_SEED},
+        bench::suites::{ReferenceCase, TUNING_SEED},
         pipeline::Timings,
         stages::confirm::Evidence,
     };
@@ -111,7 +111,7 @@ mod tests {
             cut: 0.0,
             facing: 1.0,
         };
-        let contender = |(part, score): &(&str, f64)| Contender {
+        let contender = |(part, score): &(&str, f64)| ReferenceCase {
             part: (*part).to_owned(),
             score: *score,
             evidence,
@@ -145,7 +145,7 @@ mod tests {
         let alone = case(&[("fender", 0.9)], true);
         let worst = |cases: Vec<SuiteCase>| {
             let suite = Suite::Hard;
-            Closest::per_part(&[SuiteResult { suite, cases }])
+            NearestMistake::per_part(&[SuiteResult { suite, cases }])
         };
         let [of_near] = &worst(vec![far.clone(), near.clone(), alone.clone()])[..] else {
             panic!("one part");

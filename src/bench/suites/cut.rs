@@ -6,7 +6,7 @@ use rand_pcg::Pcg64;
 
 use crate::{
     geometry::{depth_frame::Intrinsics, mesh::TriangleMesh, rigid::RigidTransform},
-    simulate::Placed,
+    simulate::SampledPose,
 };
 
 /// Points that the share is counted on.
@@ -18,7 +18,7 @@ const STREAM: u64 = 0x0c07_0c07_0c07_0c07;
 /// seed.
 pub(in crate::bench) fn pushed_out_of_the_picture(
     mesh: &TriangleMesh,
-    placed: &Placed,
+    placed: &SampledPose,
     camera: &Intrinsics,
     shares: std::ops::Range<f64>,
     seed: u64,

@@ -3,7 +3,7 @@
 use super::{Suite, enrolled_name};
 use crate::{
     geometry::rigid::RigidTransform,
-    library::{About, EnrolError, EnrolParams, Library, PartName, enrol_captured},
+    library::{EnrolError, EnrolParams, Library, PartDescription, PartName, enrol_captured},
     simulate::{CellSetup, PartKind, PartPose, Side, frame},
     stages::{reference::Reference, scene::scene_from_frame},
 };
@@ -64,7 +64,7 @@ pub(in crate::bench) fn enrol_part(
     let mut setup = CellSetup::with_part(kind, side, model_seed, 1);
     setup.pose = PartPose::Fixed(enrolment_pose());
     let shot = frame(&setup);
-    let about = About {
+    let about = PartDescription {
         name: PartName::new(&enrolled_name(kind, side)).expect("our own names are valid"),
         title: kind.title().to_owned(),
         notes: String::new(),
@@ -73,6 +73,6 @@ pub(in crate::bench) fn enrol_part(
         simulated: true,
     };
     let enrolled = enrol_captured(&scene_from_frame(&shot.frame), &about, params)?;
-    enrolled.reference.make_ready();
+    enrolled.reference.prefetch();
     Ok(enrolled.reference)
 }

@@ -13,16 +13,16 @@ mod run;
 use serde::Serialize;
 
 pub use self::{
-    case::{Bounds, Contender, SuiteCase},
-    closest::Closest,
+    case::{PoseBounds, ReferenceCase, SuiteCase},
+    closest::NearestMistake,
     figures::SuiteFigures,
     libraries::{SuiteLibraries, enrol_standard_parts, enrolment_pose},
-    run::{Confusion, SuiteResult, run_suite},
+    run::{ConfusionEntry, SuiteResult, run_suite},
 };
 pub(super) use self::{cut::pushed_out_of_the_picture, libraries::enrol_part};
 use crate::simulate::{
-    CellSetup, Clutter, FIRST_OTHER_MAKE, ObjectKind, PartKind, PartPose, Placement, SensorNoise,
-    Side, Stand, Subject,
+    CellSetup, Clutter, FIRST_OTHER_MAKE, ObjectKind, PartKind, PartPose, PoseRange, SensorNoise,
+    Side, SimulatedObject, Stand,
 };
 
 /// Frames from this seed on are for choosing parameters.
@@ -127,8 +127,8 @@ impl Suite {
             .collect()
     }
 
-    fn subjects(self) -> Vec<Subject> {
-        let part = |kind, side| Subject::Part {
+    fn subjects(self) -> Vec<SimulatedObject> {
+        let part = |kind, side| SimulatedObject::Part {
             kind,
             side,
             model_seed: 0,
@@ -144,8 +144,8 @@ impl Suite {
             | Self::OtherMakes => PartKind::ALL.map(|kind| part(kind, Side::Left)).to_vec(),
             Self::Unknown | Self::BoothUnknown => ObjectKind::ALL
                 .into_iter()
-                .map(Subject::Object)
-                .chain([Subject::Nothing])
+                .map(SimulatedObject::Object)
+                .chain([SimulatedObject::Nothing])
                 .collect(),
             Self::Mirrored => sided().map(|kind| part(kind, Side::Right)).collect(),
             Self::BothSides => sided()
@@ -154,25 +154,25 @@ impl Suite {
         }
     }
 
-    fn frame(self, subject: Subject, pose: u64, seed: u64) -> SuiteFrame {
+    fn frame(self, subject: SimulatedObject, pose: u64, seed: u64) -> SuiteFrame {
         let mut setup = CellSetup::new(subject, seed);
         match self {
             Self::Placed | Self::Unknown | Self::Mirrored | Self::BothSides => {}
             Self::Booth | Self::BoothUnknown => setup = CellSetup::booth(subject, seed),
-            Self::Standard => setup.pose = PartPose::Drawn(Placement::facing()),
+            Self::Standard => setup.pose = PartPose::Drawn(PoseRange::facing()),
             Self::Floor => {
                 setup.stand = Stand::Floor;
                 let roll = match pose % 2 {
-                    0 => Placement::facing().roll,
-                    _ => Placement::placed().roll,
+                    0 => PoseRange::facing().roll,
+                    _ => PoseRange::placed().roll,
                 };
-                setup.pose = PartPose::Drawn(Placement {
+                setup.pose = PartPose::Drawn(PoseRange {
                     roll,
-                    ..Placement::placed()
+                    ..PoseRange::placed()
                 });
             }
             Self::OtherModels | Self::OtherMakes => {
-                if let Subject::Part { model_seed, .. } = &mut setup.subject {
+                if let SimulatedObject::Part { model_seed, .. } = &mut setup.subject {
                     // Never 0, and other models for tuning than for measuring.
                     *model_seed = seed / 10_000 + pose;
                     if self == Self::OtherMakes {
@@ -186,7 +186,7 @@ impl Suite {
                     ..SensorNoise::kinect(seed)
                 };
                 let mesh = setup.subject.mesh();
-                let placed = Placement::hard().draw(&mesh, &setup.intrinsics, seed);
+                let placed = PoseRange::hard().draw(&mesh, &setup.intrinsics, seed);
                 (setup.clutter, setup.pose) = if pose.is_multiple_of(2) {
                     (Clutter::InFront, PartPose::Fixed(placed.camera_from_part))
                 } else {
@@ -210,10 +210,12 @@ impl Suite {
         }
     }
 
-    fn expected(self, subject: Subject) -> Option<String> {
+    fn expected(self, subject: SimulatedObject) -> Option<String> {
         match (self, subject) {
-            (Self::Mirrored, _) | (_, Subject::Object(_) | Subject::Nothing) => None,
-            (_, Subject::Part { kind, side, .. }) => Some(enrolled_name(kind, side)),
+            (Self::Mirrored, _) | (_, SimulatedObject::Object(_) | SimulatedObject::Nothing) => {
+                None
+            }
+            (_, SimulatedObject::Part { kind, side, .. }) => Some(enrolled_name(kind, side)),
         }
     }
 }
@@ -239,9 +241,9 @@ impl SuiteFrame {
     /// What hangs there, for people.
     pub fn subject(&self) -> String {
         match self.setup.subject {
-            Subject::Part { kind, side, .. } => enrolled_name(kind, side),
-            Subject::Object(kind) => kind.name().to_owned(),
-            Subject::Nothing => "nothing".to_owned(),
+            SimulatedObject::Part { kind, side, .. } => enrolled_name(kind, side),
+            SimulatedObject::Object(kind) => kind.name().to_owned(),
+            SimulatedObject::Nothing => "nothing".to_owned(),
         }
     }
 }
@@ -271,7 +273,7 @@ mod tests {
             .into_iter()
             .chain(of(Suite::OtherMakes))
         {
-            let Subject::Part { model_seed, .. } = frame.setup.subject else {
+            let SimulatedObject::Part { model_seed, .. } = frame.setup.subject else {
                 panic!("a part");
             };
             assert_ne!(model_seed, 0);

@@ -6,7 +6,7 @@ use super::{Suite, SuiteCase, SuiteFrame};
 use crate::{
     bench::speed::quantile,
     library::Library,
-    pipeline::{Cancelled, Inspection, Recipe, Watch, run},
+    pipeline::{Cancelled, Inspection, ProgressObserver, Recipe, run},
     simulate::frame_of_mesh,
     stages::scene::{SceneCloud, scene_from_frame},
 };
@@ -46,8 +46,8 @@ impl SuiteResult {
     }
 
     /// What was taken for what, how often, and how often accepted, the worst first.
-    pub fn confusions(&self) -> Vec<Confusion> {
-        let mut confusions: Vec<Confusion> = Vec::new();
+    pub fn confusions(&self) -> Vec<ConfusionEntry> {
+        let mut confusions: Vec<ConfusionEntry> = Vec::new();
         let is_wrong = |case: &&SuiteCase| !case.is_right() || case.is_wrong_accepted();
         for case in self.cases.iter().filter(is_wrong) {
             let known = confusions
@@ -59,7 +59,7 @@ impl SuiteResult {
                     known.num += 1;
                     known.num_accepted += accepted;
                 }
-                None => confusions.push(Confusion {
+                None => confusions.push(ConfusionEntry {
                     subject: case.subject.clone(),
                     found: case.found.clone(),
                     num: 1,
@@ -75,7 +75,7 @@ impl SuiteResult {
 
 /// One thing taken for another.
 #[derive(Clone, Debug, PartialEq, Eq, Serialize)]
-pub struct Confusion {
+pub struct ConfusionEntry {
     /// What hung there.
     pub subject: String,
     /// What it was taken for; `None` for nothing.
@@ -94,7 +94,7 @@ pub fn run_suite(
     frames: &[SuiteFrame],
     library: &Library,
     recipe: &Recipe,
-    watch: &dyn Watch,
+    watch: &dyn ProgressObserver,
     mut after_each: impl FnMut(&SuiteCase, &SceneCloud, &Inspection),
 ) -> Result<SuiteResult, Cancelled> {
     let mut cases = Vec::with_capacity(frames.len());

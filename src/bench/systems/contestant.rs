@@ -2,7 +2,7 @@
 
 use nalgebra::Point3;
 
-use super::{Answer, Preparation, Size, System, SystemsError};
+use super::{Preparation, Size, System, SystemOutcome, SystemsError};
 use crate::{
     bench::processor_time::ProcessorWatch,
     library::Library,
@@ -14,7 +14,7 @@ use crate::{
             Descriptors,
             local::{LocalParams, describe_reference, describe_scene},
             matching::{DescriptorBank, rank_by_rows},
-            surface::{SurfaceError, SurfaceParams, take_surface},
+            surface::{SurfaceError, SurfaceParams, prepare_surface},
             vfh::{ViewHistogram, describe_vfh, describe_views, nearest_reference},
         },
         project::project,
@@ -27,7 +27,7 @@ use crate::{
 };
 
 /// A system with its references ready.
-pub(super) struct Contestant {
+pub(super) struct PreparedSystem {
     method: Method,
     pub(super) preparation: Preparation,
 }
@@ -40,7 +40,7 @@ enum Method {
     Local(LocalParams, DescriptorBank),
 }
 
-impl Contestant {
+impl PreparedSystem {
     pub(super) fn prepare(system: System, library: &Library) -> Result<Self, SystemsError> {
         let references = &library.references;
         let watch = ProcessorWatch::start();
@@ -88,7 +88,7 @@ impl Contestant {
         scene: &SceneCloud,
         library: &Library,
         recipe: &Recipe,
-    ) -> Answer {
+    ) -> SystemOutcome {
         let references = &library.references;
         let watch = ProcessorWatch::start();
         let (found, size) = match &self.method {
@@ -102,7 +102,7 @@ impl Contestant {
             Method::Local(params, bank) => by_rows(part, params, bank).unzip(),
         };
         let time = watch.elapsed();
-        Answer {
+        SystemOutcome {
             found: found.map(|reference| references[reference].name.clone()),
             time,
             size,
@@ -124,7 +124,7 @@ fn described_locally(
 fn prepare_again(references: &[Reference]) -> Result<(), ReferenceError> {
     let params = ReferenceParams::default();
     for r in references {
-        Reference::prepare(&r.name, r.cloud.clone(), Coverage::OneSide, &params)?.make_ready();
+        Reference::prepare(&r.name, r.cloud.clone(), Coverage::OneSide, &params)?.prefetch();
     }
     Ok(())
 }
@@ -159,7 +159,7 @@ fn by_views(
     views: &[Vec<ViewHistogram>],
 ) -> Option<(usize, Size)> {
     let camera = Point3::origin();
-    let surface = take_surface(&part.cloud, &camera, params).ok()?;
+    let surface = prepare_surface(&part.cloud, &camera, params).ok()?;
     let reference = nearest_reference(&describe_vfh(&surface, &camera), views)?;
     let size = Size {
         num_points: surface.points.len(),

@@ -11,7 +11,7 @@ mod paper_table;
 
 use std::time::Duration;
 
-use self::contestant::Contestant;
+use self::contestant::PreparedSystem;
 pub use self::paper_table::{
     PAPER_COLUMNS, PAPER_MEAN_OF_OTHERS, PAPER_MEAN_OF_OWN, PAPER_SECONDS, paper_means,
 };
@@ -97,7 +97,7 @@ impl System {
 
 /// What a system made of one frame.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Answer {
+pub struct SystemOutcome {
     /// The reference it names; `None` if it could not describe the part.
     pub found: Option<String>,
     /// Describing the part and matching it with all references.
@@ -127,7 +127,7 @@ pub struct SystemsCase {
     /// Points of the segmented part; `None` if segmentation found none.
     pub num_points: Option<usize>,
     /// For each of [`System::ALL`]; empty without a part.
-    pub answers: Vec<Answer>,
+    pub answers: Vec<SystemOutcome>,
 }
 
 impl SystemsCase {
@@ -170,13 +170,13 @@ impl crate::error::Advice for SystemsError {
 /// All systems with the references of one library ready.
 pub struct Systems<'a> {
     library: &'a Library,
-    contestants: Vec<Contestant>,
+    contestants: Vec<PreparedSystem>,
 }
 
 impl<'a> Systems<'a> {
     /// Prepares the references for each system.
     pub fn prepare(library: &'a Library) -> Result<Self, SystemsError> {
-        let prepared = |system: &System| Contestant::prepare(*system, library);
+        let prepared = |system: &System| PreparedSystem::prepare(*system, library);
         Ok(Self {
             library,
             contestants: System::ALL.iter().map(prepared).collect::<Result<_, _>>()?,
@@ -197,7 +197,7 @@ impl<'a> Systems<'a> {
         recipe: &Recipe,
     ) -> Option<SystemsCase> {
         let part = segment(scene, &recipe.segment).part.ok();
-        let answer = |contestant: &Contestant| {
+        let answer = |contestant: &PreparedSystem| {
             let part = part.as_ref()?;
             Some(contestant.answer(part, scene, self.library, recipe))
         };

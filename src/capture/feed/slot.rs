@@ -7,14 +7,14 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::{Delivery, FeedItem, FeedState, FeedStatus};
+use super::{BackpressurePolicy, FeedItem, FeedState, FeedStatus};
 use crate::capture::{error::CaptureError, rate::FrameRate};
 
 /// So many notes of unreadable things wait at most; the oldest go first.
 const MAX_SKIPPED: usize = 64;
 
 pub(super) struct Slot {
-    delivery: Delivery,
+    delivery: BackpressurePolicy,
     on_news: Box<dyn Fn() + Send + Sync>,
     inner: Mutex<Inner>,
     /// Something was put, taken, or changed its state.
@@ -30,7 +30,7 @@ struct Inner {
 }
 
 impl Slot {
-    pub(super) fn new(delivery: Delivery, on_news: Box<dyn Fn() + Send + Sync>) -> Self {
+    pub(super) fn new(delivery: BackpressurePolicy, on_news: Box<dyn Fn() + Send + Sync>) -> Self {
         Self {
             delivery,
             on_news,
@@ -124,7 +124,7 @@ impl Slot {
             FeedItem::Captured(captured) => {
                 inner.status.num_captured += 1;
                 inner.rate.came(captured.arrived);
-                if self.delivery == Delivery::Newest {
+                if self.delivery == BackpressurePolicy::Newest {
                     let before = inner.waiting.len();
                     inner
                         .waiting
@@ -135,11 +135,11 @@ impl Slot {
             FeedItem::Skipped(_) => inner.status.num_skipped += 1,
         }
         match self.delivery {
-            Delivery::Newest if inner.waiting.len() > MAX_SKIPPED => {
+            BackpressurePolicy::Newest if inner.waiting.len() > MAX_SKIPPED => {
                 inner.waiting.pop_front();
             }
-            Delivery::Newest => {}
-            Delivery::Every => {
+            BackpressurePolicy::Newest => {}
+            BackpressurePolicy::Every => {
                 inner = self
                     .changed
                     .wait_while(inner, |inner| {

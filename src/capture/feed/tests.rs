@@ -53,13 +53,13 @@ fn hopeless() -> CaptureError {
 
 /// Gives what it was told to give, then nothing more, or the end.
 struct Script {
-    steps: VecDeque<Result<Next, CaptureError>>,
+    steps: VecDeque<Result<NextCapture, CaptureError>>,
     open: Arc<AtomicUsize>,
 }
 
 impl Script {
     fn boxed(
-        steps: impl IntoIterator<Item = Result<Next, CaptureError>>,
+        steps: impl IntoIterator<Item = Result<NextCapture, CaptureError>>,
         open: &Arc<AtomicUsize>,
     ) -> Box<dyn DepthSource> {
         open.fetch_add(1, Ordering::SeqCst);
@@ -85,24 +85,24 @@ impl DepthSource for Script {
         false
     }
 
-    fn next(&mut self, wait: Duration) -> Result<Next, CaptureError> {
+    fn next(&mut self, wait: Duration) -> Result<NextCapture, CaptureError> {
         self.steps.pop_front().unwrap_or_else(|| {
             thread::sleep(wait);
-            Ok(Next::NotYet)
+            Ok(NextCapture::NotYet)
         })
     }
 }
 
-fn numbers(range: std::ops::RangeInclusive<u64>) -> Vec<Result<Next, CaptureError>> {
+fn numbers(range: std::ops::RangeInclusive<u64>) -> Vec<Result<NextCapture, CaptureError>> {
     range
-        .map(|number| Ok(Next::Captured(captured(number))))
+        .map(|number| Ok(NextCapture::Captured(captured(number))))
         .collect()
 }
 
 /// A feed of what `script` makes at its first, second, ... opening.
 fn feed_of(
-    delivery: Delivery,
-    mut script: impl FnMut(usize) -> Result<Vec<Result<Next, CaptureError>>, CaptureError>
+    delivery: BackpressurePolicy,
+    mut script: impl FnMut(usize) -> Result<Vec<Result<NextCapture, CaptureError>>, CaptureError>
     + Send
     + 'static,
 ) -> (Feed, Arc<AtomicUsize>) {
@@ -140,9 +140,9 @@ fn wait_until(feed: &Feed, what: impl Fn(&FeedStatus) -> bool) -> FeedStatus {
 
 #[test]
 fn where_every_capture_counts_all_come_in_order_and_then_the_end() {
-    let (feed, open) = feed_of(Delivery::Every, |_| {
+    let (feed, open) = feed_of(BackpressurePolicy::Every, |_| {
         let mut steps = numbers(1..=20);
-        steps.push(Ok(Next::End));
+        steps.push(Ok(NextCapture::End));
         Ok(steps)
     });
     for number in 1..=20 {
@@ -158,9 +158,9 @@ fn where_every_capture_counts_all_come_in_order_and_then_the_end() {
 
 #[test]
 fn of_a_live_camera_only_the_newest_is_kept_and_the_others_are_counted() {
-    let (feed, _) = feed_of(Delivery::Newest, |_| {
+    let (feed, _) = feed_of(BackpressurePolicy::Newest, |_| {
         let mut steps = numbers(1..=20);
-        steps.push(Ok(Next::End));
+        steps.push(Ok(NextCapture::End));
         Ok(steps)
     });
     wait_until(&feed, |status| status.state.is_over());
@@ -171,9 +171,9 @@ fn of_a_live_camera_only_the_newest_is_kept_and_the_others_are_counted() {
 
 #[test]
 fn what_cannot_be_read_is_named_and_never_dropped_for_a_capture() {
-    let (feed, _) = feed_of(Delivery::Newest, |_| {
+    let (feed, _) = feed_of(BackpressurePolicy::Newest, |_| {
         let bad = |name: &str| {
-            Next::Skipped(Skipped {
+            NextCapture::Skipped(SkippedCapture {
                 name: name.into(),
                 error: Arc::new(FileError::Empty { path: name.into() }.into()),
             })
@@ -182,7 +182,7 @@ fn what_cannot_be_read_is_named_and_never_dropped_for_a_capture() {
         steps.push(Ok(bad("a.pcd")));
         steps.extend(numbers(3..=3));
         steps.push(Ok(bad("b.pcd")));
-        steps.push(Ok(Next::End));
+        steps.push(Ok(NextCapture::End));
         Ok(steps)
     });
     wait_until(&feed, |status| status.state.is_over());
@@ -197,7 +197,7 @@ fn what_cannot_be_read_is_named_and_never_dropped_for_a_capture() {
 
 #[test]
 fn a_lost_source_is_asked_again_and_keeps_its_place() {
-    let (feed, _) = feed_of(Delivery::Every, |opening| {
+    let (feed, _) = feed_of(BackpressurePolicy::Every, |opening| {
         assert_eq!(opening, 1, "it must not be opened anew");
         let mut steps = numbers(1..=1);
         steps.push(Err(gone()));
@@ -215,7 +215,7 @@ fn a_lost_source_is_asked_again_and_keeps_its_place() {
 
 #[test]
 fn a_source_that_cannot_be_used_fails_with_its_reason() {
-    let (feed, _) = feed_of(Delivery::Every, |_| Err(hopeless()));
+    let (feed, _) = feed_of(BackpressurePolicy::Every, |_| Err(hopeless()));
     assert!(feed.wait(PATIENCE).is_none());
     let status = feed.status();
     assert!(
@@ -227,7 +227,7 @@ fn a_source_that_cannot_be_used_fails_with_its_reason() {
 #[test]
 fn a_fault_of_the_source_is_a_state_and_not_silence() {
     let open = || -> Result<Box<dyn DepthSource>, CaptureError> { panic!("the driver's fault") };
-    let feed = Feed::start_with(open, Delivery::Every, || ()).expect("a thread");
+    let feed = Feed::start_with(open, BackpressurePolicy::Every, || ()).expect("a thread");
     assert!(feed.wait(PATIENCE).is_none());
     let state = feed.status().state;
     assert!(matches!(&state, FeedState::Failed(error) if matches!(**error, CaptureError::Crashed)));
@@ -235,12 +235,12 @@ fn a_fault_of_the_source_is_a_state_and_not_silence() {
 
 #[test]
 fn it_stops_from_every_state_and_closes_its_source() {
-    type Steps = fn(usize) -> Result<Vec<Result<Next, CaptureError>>, CaptureError>;
+    type Steps = fn(usize) -> Result<Vec<Result<NextCapture, CaptureError>>, CaptureError>;
     let running: Steps = |_| Ok(Vec::new());
     let blocked: Steps = |_| Ok(numbers(1..=3));
     let lost: Steps = |_| Ok(vec![Err(gone())]);
     let absent: Steps = |_| Err(gone());
-    let ended: Steps = |_| Ok(vec![Ok(Next::End)]);
+    let ended: Steps = |_| Ok(vec![Ok(NextCapture::End)]);
     let failed: Steps = |_| Err(hopeless());
     for (steps, is_there) in [
         (
@@ -253,7 +253,7 @@ fn it_stops_from_every_state_and_closes_its_source() {
         (ended, |state| matches!(state, FeedState::Ended)),
         (failed, |state| matches!(state, FeedState::Failed(_))),
     ] {
-        let (feed, open) = feed_of(Delivery::Every, steps);
+        let (feed, open) = feed_of(BackpressurePolicy::Every, steps);
         wait_until(&feed, |status| is_there(&status.state));
         feed.stop();
         let over = wait_until(&feed, |status| status.state.is_over());
@@ -270,10 +270,10 @@ fn news_are_told_for_every_capture_and_the_end() {
     let open = Arc::new(AtomicUsize::new(0));
     let source = move || {
         let mut steps = numbers(1..=5);
-        steps.push(Ok(Next::End));
+        steps.push(Ok(NextCapture::End));
         Ok(Script::boxed(steps, &open))
     };
-    let feed = Feed::start_with(source, Delivery::Newest, move || {
+    let feed = Feed::start_with(source, BackpressurePolicy::Newest, move || {
         theirs.fetch_add(1, Ordering::SeqCst);
     })
     .expect("a thread");
@@ -300,7 +300,7 @@ fn a_thousand_starts_and_stops_leave_no_thread_and_no_open_source() {
     for round in 0..1000 {
         let theirs = Arc::clone(&open);
         let source = move || Ok(Script::boxed(numbers(1..=3), &theirs));
-        let feed = Feed::start_with(source, Delivery::Newest, || ()).expect("a thread");
+        let feed = Feed::start_with(source, BackpressurePolicy::Newest, || ()).expect("a thread");
         if round % 2 == 0 {
             feed.wait(PATIENCE);
         }

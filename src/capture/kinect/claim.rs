@@ -5,9 +5,9 @@ use std::sync::atomic::{AtomicBool, Ordering};
 static IS_TAKEN: AtomicBool = AtomicBool::new(false);
 
 /// The right, given back when it is dropped.
-pub(super) struct Claim(());
+pub(super) struct DeviceLock(());
 
-impl Claim {
+impl DeviceLock {
     /// The right, unless somebody has it.
     pub(super) fn take() -> Option<Self> {
         let was_free = IS_TAKEN.compare_exchange(false, true, Ordering::Acquire, Ordering::Relaxed);
@@ -15,7 +15,7 @@ impl Claim {
     }
 }
 
-impl Drop for Claim {
+impl Drop for DeviceLock {
     fn drop(&mut self) {
         IS_TAKEN.store(false, Ordering::Release);
     }

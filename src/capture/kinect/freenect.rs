@@ -26,7 +26,7 @@ use std::{
 };
 
 use super::{
-    claim::Claim,
+    claim::DeviceLock,
     failure::{Failed, NoContext},
     header::{
         Attributes, DEVICE_CAMERA, FrameMode, INTERRUPTED, LOG_ERROR, OnDepth, OnLog, TimeVal,
@@ -89,10 +89,10 @@ functions! {
 }
 
 type List = unsafe extern "C" fn(*mut c_void, *mut *mut Attributes) -> c_int;
-type Free = unsafe extern "C" fn(*mut Attributes);
+type ContextDeleter = unsafe extern "C" fn(*mut Attributes);
 
 impl Functions {
-    fn list(&self) -> Option<(List, Free)> {
+    fn list(&self) -> Option<(List, ContextDeleter)> {
         self.freenect_list_device_attributes
             .zip(self.freenect_free_device_attributes)
     }
@@ -143,14 +143,14 @@ pub(super) struct Context {
     library: &'static Library,
     functions: Functions,
     handle: NonNull<c_void>,
-    _claim: Claim,
+    _claim: DeviceLock,
 }
 
 impl Context {
     /// Starts the library, with cameras only.
     pub(super) fn new(library: &'static Library) -> Result<Self, NoContext> {
         let functions = library.functions.map_err(NoContext::MissingSymbol)?;
-        let claim = Claim::take().ok_or(NoContext::InUse)?;
+        let claim = DeviceLock::take().ok_or(NoContext::InUse)?;
         let mut context = ptr::null_mut();
         // SAFETY: `context` is a place to write a pointer to; null asks the library for a libusb context of its own.
         let code = unsafe { (functions.freenect_init)(&raw mut context, ptr::null_mut()) };
@@ -225,7 +225,7 @@ impl Context {
             code: -1,
             said: Vec::new(),
         })?;
-        let inbox = Inbox::default();
+        let inbox = FrameSlot::default();
         Ok(Device {
             context: self,
             handle: device,
@@ -246,13 +246,13 @@ impl Drop for Context {
 pub(super) struct Device {
     context: Context,
     handle: NonNull<c_void>,
-    inbox: Inbox,
+    inbox: FrameSlot,
     is_streaming: bool,
 }
 
 /// Where the callback leaves a frame.
 #[derive(Default)]
-struct Inbox {
+struct FrameSlot {
     depth: Vec<u16>,
     is_new: bool,
 }
@@ -338,7 +338,7 @@ impl Drop for Device {
 
 thread_local! {
     /// The inbox of the device that receives on this thread just now, or null.
-    static RECEIVING: Cell<*mut Inbox> = const { Cell::new(ptr::null_mut()) };
+    static RECEIVING: Cell<*mut FrameSlot> = const { Cell::new(ptr::null_mut()) };
     /// What the library said during the call that runs on this thread.
     static SAID: RefCell<Vec<String>> = const { RefCell::new(Vec::new()) };
 }

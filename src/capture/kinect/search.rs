@@ -27,7 +27,7 @@ const NAMES: &[&str] = if cfg!(target_os = "macos") {
 };
 
 /// A library and the name that it was found by.
-pub(super) struct Found {
+pub(super) struct LoadedDriver {
     pub(super) library: &'static Library,
     pub(super) name: String,
 }
@@ -35,7 +35,7 @@ pub(super) struct Found {
 /// Loads the library: at `setting`, else where the variable says, else where the system keeps libraries.
 ///
 /// A place that is set and wrong is an error: another library than the one that was asked for is not taken.
-pub(super) fn find(setting: Option<&Path>) -> Result<Found, KinectError> {
+pub(super) fn find(setting: Option<&Path>) -> Result<LoadedDriver, KinectError> {
     let variable = env::var_os(VARIABLE).filter(|value| !value.is_empty());
     match setting
         .map(Path::to_path_buf)
@@ -49,7 +49,7 @@ pub(super) fn find(setting: Option<&Path>) -> Result<Found, KinectError> {
     }
 }
 
-fn find_at(place: &Path) -> Result<Found, KinectError> {
+fn find_at(place: &Path) -> Result<LoadedDriver, KinectError> {
     // A bare name would be looked for in the system's folders.
     let path = absolute(place).unwrap_or_else(|_| place.to_path_buf());
     let not_there = || KinectError::LibraryNotAt {
@@ -69,11 +69,13 @@ fn find_at(place: &Path) -> Result<Found, KinectError> {
 }
 
 /// The first that is there; `None` if none is. One that is there and cannot be loaded is the answer, too.
-fn first_of(names: impl IntoIterator<Item = OsString>) -> Option<Result<Found, KinectError>> {
+fn first_of(
+    names: impl IntoIterator<Item = OsString>,
+) -> Option<Result<LoadedDriver, KinectError>> {
     names.into_iter().find_map(|name| {
         let text = name.to_string_lossy().into_owned();
         match Library::load(&name) {
-            Ok(library) => Some(Ok(Found {
+            Ok(library) => Some(Ok(LoadedDriver {
                 library,
                 name: text,
             })),

@@ -2,7 +2,7 @@
 
 use std::path::Path;
 
-use super::replay::{Content, Frames, Recorded};
+use super::replay::{Content, Frames, RecordedFrame};
 use crate::{
     capture::{
         error::CaptureError,
@@ -22,7 +22,7 @@ pub(super) fn frames(folder: &Path) -> Result<Frames, CaptureError> {
     })?;
     paths.retain(|path| may_be_capture(path) && path.is_file());
     paths.sort_by_cached_key(|path| in_counting_order(&file_name(path)));
-    let frames = paths.into_iter().map(|path| Recorded {
+    let frames = paths.into_iter().map(|path| RecordedFrame {
         name: file_name(&path),
         path,
         taken_at: None,

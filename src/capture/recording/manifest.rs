@@ -12,7 +12,7 @@ use crate::{
     capture::error::CaptureError,
     files::{DepthCamera, read_bytes},
     geometry::sixteen_numbers::SixteenNumbers,
-    simulate::Truth,
+    simulate::FrameTruth,
 };
 
 pub(super) const MANIFEST: &str = "recording.jsonl";
@@ -44,7 +44,7 @@ pub(super) struct FrameLine {
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) camera: Option<DepthCamera>,
     #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub(super) truth: Option<Truth>,
+    pub(super) truth: Option<FrameTruth>,
     /// Where the arm that carries the camera stood.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub(super) robot_from_flange: Option<SixteenNumbers>,

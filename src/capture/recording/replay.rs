@@ -18,19 +18,19 @@ use crate::{
     capture::{
         error::{CaptureError, CaptureWarning},
         read::{file_name, image_of, read_image, written_at},
-        source::{Captured, DepthSource, Image, Next, Skipped},
+        source::{Captured, DepthSource, Image, NextCapture, SkippedCapture},
         spec::{Pace, RecordingSpec},
     },
     files::{DepthCamera, crc32, depth_png::read_depths, open_bytes, read_bytes},
     geometry::rigid::RigidTransform,
-    simulate::Truth,
+    simulate::FrameTruth,
 };
 
 /// A folder of frames as a source: a recording, an RGB-D sequence with a list of depth images, or files in order.
 pub struct Replay {
     title: String,
     is_simulated: bool,
-    frames: Vec<Recorded>,
+    frames: Vec<RecordedFrame>,
     /// When each frame is due after the first.
     due: Vec<Duration>,
     next: usize,
@@ -43,17 +43,17 @@ pub struct Replay {
 pub(super) struct Frames {
     pub(super) title: String,
     pub(super) is_simulated: bool,
-    pub(super) in_order: Vec<Recorded>,
+    pub(super) in_order: Vec<RecordedFrame>,
     pub(super) warnings: Vec<CaptureWarning>,
 }
 
 /// A frame to be read.
-pub(super) struct Recorded {
+pub(super) struct RecordedFrame {
     pub(super) name: String,
     pub(super) path: PathBuf,
     pub(super) taken_at: Option<Timestamp>,
     pub(super) is_simulated: bool,
-    pub(super) truth: Option<Arc<Truth>>,
+    pub(super) truth: Option<Arc<FrameTruth>>,
     pub(super) robot_from_flange: Option<RigidTransform>,
     pub(super) content: Content,
 }
@@ -137,7 +137,7 @@ fn of_recording(folder: &Path) -> Result<Frames, CaptureError> {
             robot_from_flange,
             ..
         } = line;
-        Recorded {
+        RecordedFrame {
             name,
             path: folder.join(file),
             taken_at: Some(taken_at),
@@ -158,10 +158,10 @@ fn of_recording(folder: &Path) -> Result<Frames, CaptureError> {
     })
 }
 
-fn due_times(frames: &[Recorded], pace: Pace) -> Vec<Duration> {
+fn due_times(frames: &[RecordedFrame], pace: Pace) -> Vec<Duration> {
     let mut due = Duration::ZERO;
     let mut before: Option<Timestamp> = None;
-    let as_taken = |frame: &Recorded| {
+    let as_taken = |frame: &RecordedFrame| {
         let pause = match (before, frame.taken_at) {
             // A clock that was set back makes no pause.
             (Some(before), Some(taken_at)) => Duration::try_from(taken_at.duration_since(before))
@@ -192,7 +192,7 @@ fn due_times(frames: &[Recorded], pace: Pace) -> Vec<Duration> {
     }
 }
 
-impl Recorded {
+impl RecordedFrame {
     fn read(&self) -> Result<(Image, Vec<CaptureWarning>), CaptureError> {
         let depth_frame = |camera: DepthCamera, bytes: &[u8]| {
             let (size, depth) = read_depths(&self.path, bytes)?;
@@ -240,18 +240,18 @@ impl DepthSource for Replay {
         self.is_simulated
     }
 
-    fn next(&mut self, wait: Duration) -> Result<Next, CaptureError> {
+    fn next(&mut self, wait: Duration) -> Result<NextCapture, CaptureError> {
         let (Some(frame), Some(due)) = (self.frames.get(self.next), self.due.get(self.next)) else {
-            return Ok(Next::End);
+            return Ok(NextCapture::End);
         };
         let left = due.saturating_sub(self.started.get_or_insert_with(Instant::now).elapsed());
         thread::sleep(left.min(wait));
         if left > wait {
-            return Ok(Next::NotYet);
+            return Ok(NextCapture::NotYet);
         }
         self.next += 1;
         match frame.read() {
-            Ok((image, warnings)) => Ok(Next::Captured(Captured {
+            Ok((image, warnings)) => Ok(NextCapture::Captured(Captured {
                 number: self.next as u64,
                 name: frame.name.clone(),
                 taken_at: frame
@@ -274,7 +274,7 @@ impl DepthSource for Replay {
                     may_come: true,
                 })
             }
-            Err(error) => Ok(Next::Skipped(Skipped {
+            Err(error) => Ok(NextCapture::Skipped(SkippedCapture {
                 name: frame.name.clone(),
                 error: Arc::new(error),
             })),

@@ -9,13 +9,13 @@ use std::path::Path;
 
 use jiff::Timestamp;
 
-use super::replay::{Content, Frames, Recorded};
+use super::replay::{Content, Frames, RecordedFrame};
 use crate::{
     capture::{
         error::{CaptureError, CaptureWarning},
         read::file_name,
     },
-    files::{DepthCamera, Stored, Turn, depth_png::FOLDER_CAMERA, read_bytes},
+    files::{DepthCamera, StoredOrientation, Turn, depth_png::FOLDER_CAMERA, read_bytes},
     geometry::depth_frame::Intrinsics,
 };
 
@@ -25,7 +25,7 @@ const ASSUMED: DepthCamera = DepthCamera {
     intrinsics: Intrinsics::KINECT,
     metres_per_unit: 1.0 / 5000.0,
     is_simulated: false,
-    stored: Stored {
+    stored: StoredOrientation {
         is_mirrored: false,
         turn: Turn::None,
     },
@@ -59,7 +59,7 @@ pub(super) fn frames(folder: &Path, camera: Option<&Path>) -> Result<Frames, Cap
             });
         };
         let image = image.trim();
-        Ok(Recorded {
+        Ok(RecordedFrame {
             name: image.to_owned(),
             path: folder.join(image),
             taken_at: seconds_since_1970(time),

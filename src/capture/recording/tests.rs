@@ -9,11 +9,11 @@ use crate::{
     capture::{
         error::{CaptureError, CaptureWarning},
         open::open,
-        source::{Captured, DepthSource, Image, Next},
+        source::{Captured, DepthSource, Image, NextCapture},
         spec::{Pace, SourceSpec},
     },
     error::Advice as _,
-    files::Opened,
+    files::FileContent,
     geometry::{
         cloud::{Grid, PointCloud},
         depth_frame::{DepthFrame, Intrinsics},
@@ -29,13 +29,13 @@ fn all_of(source: &mut dyn DepthSource) -> (Vec<Captured>, Vec<String>) {
     let (mut captured, mut names) = (Vec::new(), Vec::new());
     loop {
         match source.next(Duration::from_secs(1)).unwrap() {
-            Next::Captured(next) => {
+            NextCapture::Captured(next) => {
                 names.push(next.name.clone());
                 captured.push(next);
             }
-            Next::Skipped(skipped) => names.push(format!("!{}", skipped.name)),
-            Next::NotYet => {}
-            Next::End => return (captured, names),
+            NextCapture::Skipped(skipped) => names.push(format!("!{}", skipped.name)),
+            NextCapture::NotYet => {}
+            NextCapture::End => return (captured, names),
         }
     }
 }
@@ -49,7 +49,7 @@ fn simulated(num: usize) -> Vec<Captured> {
     let mut cell = open(&spec).unwrap();
     let mut frames = Vec::new();
     while frames.len() < num {
-        if let Next::Captured(frame) = cell.next(Duration::from_secs(1)).unwrap() {
+        if let NextCapture::Captured(frame) = cell.next(Duration::from_secs(1)).unwrap() {
             frames.push(frame);
         }
     }
@@ -91,7 +91,7 @@ fn what_was_recorded_is_replayed_to_the_bit() {
     assert!(source.is_simulated());
     // Other programs, and inspect, read the images too.
     let path = folder.path().join("frame-000002.png");
-    let Opened::Depth(opened) = crate::files::open(&path).unwrap() else {
+    let FileContent::Depth(opened) = crate::files::open(&path).unwrap() else {
         panic!("a depth image");
     };
     assert!(Image::Depth(opened) == frames[1].image);
@@ -352,11 +352,16 @@ fn a_drive_that_is_pulled_out_is_waited_for() {
     let (here, away) = (place.path().join("stick"), place.path().join("pulled"));
     record(&here, &simulated(2));
     let mut source = open(&spec("recording,pace=step", &here)).unwrap();
-    assert!(matches!(source.next(Duration::ZERO), Ok(Next::Captured(_))));
+    assert!(matches!(
+        source.next(Duration::ZERO),
+        Ok(NextCapture::Captured(_))
+    ));
     fs::rename(&here, &away).unwrap();
     let gone = source.next(Duration::ZERO).expect_err("it is not there");
     assert_eq!(gone.recovery(), crate::capture::Recovery::AskAgain);
     fs::rename(&away, &here).unwrap();
-    assert!(matches!(source.next(Duration::ZERO), Ok(Next::Captured(frame)) if frame.number == 2));
-    assert!(matches!(source.next(Duration::ZERO), Ok(Next::End)));
+    assert!(
+        matches!(source.next(Duration::ZERO), Ok(NextCapture::Captured(frame)) if frame.number == 2)
+    );
+    assert!(matches!(source.next(Duration::ZERO), Ok(NextCapture::End)));
 }

@@ -21,7 +21,7 @@ const SWINGS_PER_SECOND: f64 = 1.1;
 
 /// A moment of the line.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub(super) struct Moment {
+pub(super) struct ConveyorState {
     /// Which part it is, from 0.
     pub(super) visit: u64,
     /// Seconds since that part began to come in.
@@ -30,7 +30,7 @@ pub(super) struct Moment {
     left: f64,
 }
 
-impl Moment {
+impl ConveyorState {
     /// What the line does `seconds` after it started, with a new part every so many seconds.
     pub(super) fn of(seconds: f64, every: f64) -> Self {
         let visit = (seconds / every).floor();
@@ -43,7 +43,7 @@ impl Moment {
     }
 
     /// Where the part is now that hangs here when at rest.
-    pub(super) fn camera_from_part(&self, at_rest: &RigidTransform) -> RigidTransform {
+    pub(super) fn camera_from_part(&self, rest_pose: &RigidTransform) -> RigidTransform {
         let coming = (1.0 - self.since / COMING).max(0.0);
         let leaving = (1.0 - self.left / LEAVING).max(0.0);
         // Slows down as it comes, gathers speed as it leaves; the line runs to the left.
@@ -52,14 +52,14 @@ impl Moment {
         let angle = SWING
             * (-settling / SWING_FADES).exp()
             * (std::f64::consts::TAU * SWINGS_PER_SECOND * settling).sin();
-        let middle = Point3::from(at_rest.translation.vector);
+        let middle = Point3::from(rest_pose.translation.vector);
         let hook = middle - Vector3::y() * HOOK_ABOVE;
         let swing = Rotation3::from_axis_angle(&Vector3::z_axis(), angle);
         Translation3::new(aside, 0.0, 0.0)
             * Translation3::from(hook.coords)
             * nalgebra::UnitQuaternion::from_rotation_matrix(&swing)
             * Translation3::from(-hook.coords)
-            * at_rest
+            * rest_pose
     }
 }
 
@@ -69,10 +69,10 @@ mod tests {
 
     #[test]
     fn a_part_comes_in_from_outside_hangs_still_and_leaves_without_a_jump() {
-        let at_rest = RigidTransform::translation(0.1, -0.05, 1.3);
+        let rest_pose = RigidTransform::translation(0.1, -0.05, 1.3);
         let every = 6.0;
-        let at = |seconds: f64| Moment::of(seconds, every).camera_from_part(&at_rest);
-        let x = |seconds: f64| at(seconds).translation.x - at_rest.translation.x;
+        let at = |seconds: f64| ConveyorState::of(seconds, every).camera_from_part(&rest_pose);
+        let x = |seconds: f64| at(seconds).translation.x - rest_pose.translation.x;
         assert!((x(0.0) - OUTSIDE).abs() < 1e-9);
         assert!((x(every - 1e-9) + OUTSIDE).abs() < 1e-6);
         let mut still = 0;
@@ -80,8 +80,8 @@ mod tests {
             let (here, next) = (at(k as f64 / 100.0), at((k + 1) as f64 / 100.0));
             let step = (next.translation.vector - here.translation.vector).norm();
             assert!(step < 0.1, "a jump of {step} m at {k}");
-            let off = (here.translation.vector - at_rest.translation.vector).norm();
-            let turned = here.rotation.angle_to(&at_rest.rotation);
+            let off = (here.translation.vector - rest_pose.translation.vector).norm();
+            let turned = here.rotation.angle_to(&rest_pose.rotation);
             still += usize::from(off < 1e-4 && turned < 1e-4);
         }
         assert!(still > 220, "still for {still} hundredths of a second");
@@ -89,9 +89,9 @@ mod tests {
 
     #[test]
     fn the_next_part_follows() {
-        assert_eq!(Moment::of(0.0, 4.0).visit, 0);
-        assert_eq!(Moment::of(3.99, 4.0).visit, 0);
-        assert_eq!(Moment::of(4.0, 4.0).visit, 1);
-        assert_eq!(Moment::of(41.0, 4.0).visit, 10);
+        assert_eq!(ConveyorState::of(0.0, 4.0).visit, 0);
+        assert_eq!(ConveyorState::of(3.99, 4.0).visit, 0);
+        assert_eq!(ConveyorState::of(4.0, 4.0).visit, 1);
+        assert_eq!(ConveyorState::of(41.0, 4.0).visit, 10);
     }
 }

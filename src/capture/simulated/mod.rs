@@ -13,14 +13,15 @@ use std::{
 
 use jiff::Timestamp;
 
-use self::conveyor::Moment;
+use self::conveyor::ConveyorState;
 use super::{
     error::CaptureError,
-    source::{Captured, DepthSource, Image, Next},
+    source::{Captured, DepthSource, Image, NextCapture},
     spec::{CellScene, SimulatedSpec},
 };
 use crate::simulate::{
-    CellSetup, PartKind, PartPose, SensorNoise, SimulatedFrame, StandingCell, Subject, Truth,
+    CellSetup, FrameTruth, PartKind, PartPose, SensorNoise, SimulatedFrame, SimulatedObject,
+    StandingCell,
 };
 
 /// The simulated cell as a camera.
@@ -46,10 +47,10 @@ impl SimulatedCell {
     }
 
     /// The frame of this number, counted from 1: the same whenever it is asked for. The truth has no labels.
-    pub fn frame(&mut self, number: u64) -> (Image, Truth) {
+    pub fn frame(&mut self, number: u64) -> (Image, FrameTruth) {
         let seconds = number.saturating_sub(1) as f64 / self.spec.frames_per_second;
         let moment = match self.spec.scene {
-            CellScene::Line { every } => Some(Moment::of(seconds, every)),
+            CellScene::Line { every } => Some(ConveyorState::of(seconds, every)),
             CellScene::Part(_) | CellScene::Object(_) | CellScene::Empty => None,
         };
         let visit = moment.map_or(0, |moment| moment.visit);
@@ -57,15 +58,15 @@ impl SimulatedCell {
             Some((arranged, cell)) if arranged == visit => cell,
             _ => arranged(&self.spec, visit),
         };
-        let at_rest = cell.at_rest();
-        let camera_from_part = moment.map_or(at_rest, |now| now.camera_from_part(&at_rest));
+        let rest_pose = cell.rest_pose();
+        let camera_from_part = moment.map_or(rest_pose, |now| now.camera_from_part(&rest_pose));
         let noise = SensorNoise {
             multiplier: self.spec.noise,
             seed: mixed(self.spec.seed, number),
         };
         let SimulatedFrame { frame, truth } = cell.frame(&camera_from_part, &noise);
         self.cell = Some((visit, cell));
-        let truth = Truth {
+        let truth = FrameTruth {
             labels: Vec::new(),
             ..truth
         };
@@ -86,7 +87,7 @@ impl SimulatedCell {
 
 /// The cell with the part of the line that comes as number `visit`.
 fn arranged(spec: &SimulatedSpec, visit: u64) -> StandingCell {
-    let part = |kind| Subject::Part {
+    let part = |kind| SimulatedObject::Part {
         kind,
         side: spec.side,
         model_seed: spec.model,
@@ -98,8 +99,8 @@ fn arranged(spec: &SimulatedSpec, visit: u64) -> StandingCell {
             part(PartKind::ALL[((first + visit) % PartKind::ALL.len() as u64) as usize])
         }
         CellScene::Part(kind) => part(kind),
-        CellScene::Object(kind) => Subject::Object(kind),
-        CellScene::Empty => Subject::Nothing,
+        CellScene::Object(kind) => SimulatedObject::Object(kind),
+        CellScene::Empty => SimulatedObject::Nothing,
     };
     let mesh = subject.mesh();
     let mut setup = CellSetup::new(subject, spec.seed);
@@ -134,15 +135,15 @@ impl DepthSource for SimulatedCell {
         true
     }
 
-    fn next(&mut self, wait: Duration) -> Result<Next, CaptureError> {
+    fn next(&mut self, wait: Duration) -> Result<NextCapture, CaptureError> {
         let (number, left) = self.due(Instant::now());
         thread::sleep(left.min(wait));
         if left > wait {
-            return Ok(Next::NotYet);
+            return Ok(NextCapture::NotYet);
         }
         self.number = number;
         let (image, truth) = self.frame(number);
-        Ok(Next::Captured(Captured {
+        Ok(NextCapture::Captured(Captured {
             number,
             name: format!("simulated frame {number}"),
             taken_at: Timestamp::now(),

@@ -8,7 +8,7 @@ fn cell(text: &str) -> SimulatedCell {
     }
 }
 
-fn kind_of(truth: &Truth) -> Option<PartKind> {
+fn kind_of(truth: &FrameTruth) -> Option<PartKind> {
     truth.part()
 }
 
@@ -52,7 +52,7 @@ fn what_was_asked_for_hangs_there() {
     let (_, right) = cell("simulated,side=right:fender").frame(1);
     assert_eq!(
         right.subject,
-        Subject::Part {
+        SimulatedObject::Part {
             kind: PartKind::Fender,
             side: crate::simulate::Side::Right,
             model_seed: 0
@@ -62,7 +62,7 @@ fn what_was_asked_for_hangs_there() {
     assert!((fixed.camera_from_part.translation.z - 1.2).abs() < 1e-12);
     assert!((fixed.camera_from_part.rotation.angle().to_degrees() - 15.0).abs() < 1e-9);
     let (_, empty) = cell("simulated:empty").frame(1);
-    assert_eq!(empty.subject, Subject::Nothing);
+    assert_eq!(empty.subject, SimulatedObject::Nothing);
     let (Image::Depth(clear), _) = cell("simulated,noise=0:hood").frame(1) else {
         panic!("a depth image")
     };

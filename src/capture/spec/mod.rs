@@ -18,7 +18,7 @@ use std::{fmt, path::PathBuf, str::FromStr};
 use serde::{Deserialize, Serialize};
 
 use self::options::{Options, escaped};
-pub use self::simulated::{CellScene, HungPose, SimulatedSpec};
+pub use self::simulated::{CellScene, SimulatedPose, SimulatedSpec};
 use crate::error::Advice;
 
 /// What can be opened.

@@ -5,7 +5,7 @@ use std::fmt;
 use super::{SIMULATED, SpecError, options::Options};
 use crate::{
     geometry::{rigid::RigidTransform, written_pose::parse_pose},
-    simulate::{Clutter, ObjectKind, PartKind, Placement, Side},
+    simulate::{Clutter, ObjectKind, PartKind, PoseRange, Side},
 };
 
 /// What the simulated cell shows.
@@ -18,7 +18,7 @@ pub struct SimulatedSpec {
     /// The car model; 0 is the standard car.
     pub model: u64,
     /// Where it hangs.
-    pub pose: HungPose,
+    pub pose: SimulatedPose,
     /// Noise of the camera: 1 is a Kinect's, 0 none; 0 to 5.
     pub noise: f64,
     /// What else is there.
@@ -35,7 +35,7 @@ impl Default for SimulatedSpec {
             scene: CellScene::Line { every: EVERY },
             side: Side::Left,
             model: 0,
-            pose: HungPose::Facing,
+            pose: SimulatedPose::Facing,
             noise: 1.0,
             clutter: Clutter::None,
             seed: 1,
@@ -67,7 +67,7 @@ const FRAMES_PER_SECOND: f64 = 30.0;
 
 /// Where a part of the simulated cell hangs.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub enum HungPose {
+pub enum SimulatedPose {
     /// Drawn: hung with care, up to 10 degrees off.
     #[default]
     Facing,
@@ -86,7 +86,7 @@ pub struct FixedPose {
     camera_from_part: RigidTransform,
 }
 
-impl HungPose {
+impl SimulatedPose {
     /// Reads six numbers, as [`parse_pose`] does.
     pub fn fixed(written: &str) -> Result<Self, String> {
         Ok(Self::Fixed(FixedPose {
@@ -96,11 +96,11 @@ impl HungPose {
     }
 
     /// What it is drawn from, or the pose itself.
-    pub fn placement(&self) -> Result<Placement, RigidTransform> {
+    pub fn placement(&self) -> Result<PoseRange, RigidTransform> {
         match self {
-            Self::Facing => Ok(Placement::facing()),
-            Self::Placed => Ok(Placement::placed()),
-            Self::Hard => Ok(Placement::hard()),
+            Self::Facing => Ok(PoseRange::facing()),
+            Self::Placed => Ok(PoseRange::placed()),
+            Self::Hard => Ok(PoseRange::hard()),
             Self::Fixed(fixed) => Err(fixed.camera_from_part),
         }
     }
@@ -196,7 +196,7 @@ impl SimulatedSpec {
         })?;
         let pose = options.value("pose", "a pose", |word| Some(word.to_owned()))?;
         let pose = pose.map(|word| {
-            HungPose::read(&word).map_err(|expected| SpecError::BadValue {
+            SimulatedPose::read(&word).map_err(|expected| SpecError::BadValue {
                 what: "pose",
                 found: word,
                 expected: format!("facing, placed, hard, or six numbers: {expected}"),

@@ -13,7 +13,7 @@ use crate::{
 
 /// A file as it is now; another time or size is another content.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) struct Seen {
+pub(super) struct FileStamp {
     pub(super) modified: SystemTime,
     bytes: u64,
     /// Of the JSON beside a depth image: an image without one may get it later.
@@ -21,8 +21,8 @@ pub(super) struct Seen {
 }
 
 /// The files that may be captures.
-pub(super) fn look(folder: &Path) -> Result<Vec<(PathBuf, Seen)>, CaptureError> {
-    let looked = || -> io::Result<Vec<(PathBuf, Seen)>> {
+pub(super) fn look(folder: &Path) -> Result<Vec<(PathBuf, FileStamp)>, CaptureError> {
+    let looked = || -> io::Result<Vec<(PathBuf, FileStamp)>> {
         let mut found = Vec::new();
         for entry in fs::read_dir(folder)? {
             let path = entry?.path();
@@ -36,7 +36,7 @@ pub(super) fn look(folder: &Path) -> Result<Vec<(PathBuf, Seen)>, CaptureError> 
                     .is_some_and(|e| e.eq_ignore_ascii_case("png"));
                 let camera = is_image.then(|| size_and_time(&intrinsics_path(&path)));
                 let camera = camera.flatten();
-                let seen = Seen {
+                let seen = FileStamp {
                     modified,
                     bytes,
                     camera,

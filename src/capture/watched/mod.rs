@@ -23,11 +23,11 @@ use std::{
 
 use jiff::Timestamp;
 
-use self::look::{Seen, look};
+use self::look::{FileStamp, look};
 use super::{
     error::CaptureError,
     read::{file_name, read_image, written_at},
-    source::{Captured, DepthSource, Next, Skipped},
+    source::{Captured, DepthSource, NextCapture, SkippedCapture},
     spec::{WatchedFrom, WatchedSpec},
 };
 use crate::files::{FileError, in_counting_order};
@@ -55,7 +55,7 @@ pub struct WatchedFolder {
 /// A file of the folder.
 #[derive(Clone, Copy, Debug)]
 struct Watched {
-    seen: Seen,
+    seen: FileStamp,
     /// Looks at which it was the same.
     same: u32,
     state: Progress,
@@ -127,7 +127,7 @@ impl WatchedFolder {
     }
 
     /// Reads a file that is complete; `None` if there is nothing to say of it, or not yet.
-    fn take(&mut self, path: &Path) -> Option<Next> {
+    fn take(&mut self, path: &Path) -> Option<NextCapture> {
         let read = read_image(path);
         let file = self.files.get_mut(path)?;
         let is_last_try = file.state == Progress::Doubtful;
@@ -135,7 +135,7 @@ impl WatchedFolder {
             Ok((image, warnings)) => {
                 file.state = Progress::Done;
                 self.number += 1;
-                return Some(Next::Captured(Captured {
+                return Some(NextCapture::Captured(Captured {
                     number: self.number,
                     name: file_name(path),
                     taken_at: written_at(path).unwrap_or_else(Timestamp::now),
@@ -157,7 +157,7 @@ impl WatchedFolder {
             }
             _ if is_last_try => {
                 file.state = Progress::Done;
-                Some(Next::Skipped(Skipped {
+                Some(NextCapture::Skipped(SkippedCapture {
                     name: file_name(path),
                     error: Arc::new(error),
                 }))
@@ -179,7 +179,7 @@ impl DepthSource for WatchedFolder {
         false
     }
 
-    fn next(&mut self, wait: Duration) -> Result<Next, CaptureError> {
+    fn next(&mut self, wait: Duration) -> Result<NextCapture, CaptureError> {
         let until = Instant::now() + wait;
         loop {
             while let Some(path) = self.ready.pop_front() {
@@ -191,7 +191,7 @@ impl DepthSource for WatchedFolder {
             let due = *self.next_look.get_or_insert(now);
             if due > until {
                 thread::sleep(until.saturating_duration_since(now));
-                return Ok(Next::NotYet);
+                return Ok(NextCapture::NotYet);
             }
             thread::sleep(due.saturating_duration_since(now));
             let begun = Instant::now();
@@ -202,7 +202,7 @@ impl DepthSource for WatchedFolder {
             }
             self.next_look = Some(Instant::now() + LOOK.max(begun.elapsed() * SHARE));
             if self.ready.is_empty() && Instant::now() >= until {
-                return Ok(Next::NotYet);
+                return Ok(NextCapture::NotYet);
             }
         }
     }

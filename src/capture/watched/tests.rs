@@ -37,8 +37,8 @@ impl Bench {
         let mut names = Vec::new();
         while let Some(path) = self.source.ready.pop_front() {
             match self.source.take(&path) {
-                Some(Next::Captured(captured)) => names.push(captured.name),
-                Some(Next::Skipped(skipped)) => names.push(format!("!{}", skipped.name)),
+                Some(NextCapture::Captured(captured)) => names.push(captured.name),
+                Some(NextCapture::Skipped(skipped)) => names.push(format!("!{}", skipped.name)),
                 _ => {}
             }
         }
@@ -240,7 +240,7 @@ fn an_image_without_a_reading_is_a_capture_of_nothing() {
     bench.source.look().unwrap();
     bench.source.look().unwrap();
     let path = bench.source.ready.pop_front().expect("complete");
-    let Some(Next::Captured(captured)) = bench.source.take(&path) else {
+    let Some(NextCapture::Captured(captured)) = bench.source.take(&path) else {
         panic!("a capture");
     };
     assert_eq!(captured.image, Image::Cloud(PointCloud::default()));
@@ -254,11 +254,11 @@ fn asked_for_a_capture_it_looks_by_itself() {
     let mut captured = None;
     for _ in 0..600 {
         match source.next(Duration::from_millis(50)).unwrap() {
-            Next::Captured(found) => {
+            NextCapture::Captured(found) => {
                 captured = Some(found.name);
                 break;
             }
-            Next::NotYet => {}
+            NextCapture::NotYet => {}
             other => panic!("{other:?}"),
         }
     }

@@ -1,16 +1,16 @@
 use super::*;
 use crate::{
-    cases::{Found, Truth, found_in},
+    cases::{FoundVerdict, Truth, found_in},
     error::Advice as _,
     geometry::depth_frame::{DepthFrame, Intrinsics},
     pipeline::{Recipe, Unwatched},
-    simulate::{CellSetup, PartKind, PartPose, Placement, Side, Subject, frame},
+    simulate::{CellSetup, PartKind, PartPose, PoseRange, Side, SimulatedObject, frame},
     stages::scene::{PictureEdge, scene_from_cloud, scene_from_frame},
 };
 
 fn door() -> SceneCloud {
     let mut setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 0, 4);
-    setup.pose = PartPose::Drawn(Placement::facing());
+    setup.pose = PartPose::Drawn(PoseRange::facing());
     scene_from_frame(&frame(&setup).frame)
 }
 
@@ -20,15 +20,15 @@ fn crumb() -> SceneCloud {
     scene_from_cloud(crate::geometry::cloud::PointCloud::from_points(points))
 }
 
-fn about(origin: &str) -> CaseAbout {
-    CaseAbout {
+fn about(origin: &str) -> CaseDescription {
+    CaseDescription {
         origin: origin.into(),
         simulated: true,
         kept_at: "2026-11-20T14:07:31Z".parse().expect("a time"),
         remark: "after lunch".into(),
         difficulty: None,
         truth: Truth::Part("front_door".into()),
-        found: Found::default(),
+        found: FoundVerdict::default(),
         pose: None,
     }
 }
@@ -71,7 +71,7 @@ fn a_kept_scene_opens_again_bit_for_bit_with_the_same_verdict() {
     let cases = CaseFolder::at(folder.path().join("cases"));
     let mut scene = door();
     scene.edge = PictureEdge::Points;
-    let empty = scene_from_frame(&frame(&CellSetup::new(Subject::Nothing, 4)).frame);
+    let empty = scene_from_frame(&frame(&CellSetup::new(SimulatedObject::Nothing, 4)).frame);
     let cell = EmptyCell::of(&empty).expect("a picture");
     scene.empty_cell = Some(Arc::new(cell));
     let library = crate::library::open_library(Some(Path::new("reference_parts")))

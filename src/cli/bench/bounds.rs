@@ -7,7 +7,7 @@ use serde::Serialize;
 use super::{BenchArgs, NUM_POSES, write_json};
 use crate::{
     bench::{
-        bounds::{BoundsCase, BoundsLibrary, FoundPose, View, bounds_cases},
+        bounds::{BoundsCase, BoundsLibrary, PoseAgainstTruth, View, bounds_cases},
         quantile,
         suites::MEASURING_SEED,
     },
@@ -15,7 +15,7 @@ use crate::{
         Outcome,
         console::{Advised as _, Console, Table, advised_error},
     },
-    files::{Opened, open},
+    files::{FileContent, open},
     geometry::mesh::TriangleMesh,
     pipeline::Unwatched,
 };
@@ -91,7 +91,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
 
 /// A mesh by the name after `#`, or by that of its file.
 fn opened(path: &Path) -> anyhow::Result<(String, TriangleMesh)> {
-    let Opened::Mesh(mesh) = open(path).advised()? else {
+    let FileContent::Mesh(mesh) = open(path).advised()? else {
         return Err(advised_error(
             format!("{} is no mesh", path.display()),
             "Name an STL, OBJ, PLY or glTF file with faces",
@@ -142,15 +142,15 @@ fn show(library: &BoundsLibrary, cases: &[BoundsCase], console: &mut Console) {
 
 fn row(name: &str, view: View, cases: &[&BoundsCase]) -> [String; 12] {
     let num = cases.len();
-    let accepted: Vec<FoundPose> = cases
+    let accepted: Vec<PoseAgainstTruth> = cases
         .iter()
         .filter(|case| case.is_accepted)
         .filter_map(|case| case.found)
         .collect();
-    let near: Vec<FoundPose> = accepted
+    let near: Vec<PoseAgainstTruth> = accepted
         .iter()
         .copied()
-        .filter(FoundPose::is_near)
+        .filter(PoseAgainstTruth::is_near)
         .collect();
     let held: Vec<_> = near
         .iter()
@@ -198,7 +198,7 @@ fn row(name: &str, view: View, cases: &[&BoundsCase]) -> [String; 12] {
 
 fn line(library: &BoundsLibrary, case: &BoundsCase) -> CaseLine {
     let found = case.found.as_ref();
-    let held = found.and_then(FoundPose::held);
+    let held = found.and_then(PoseAgainstTruth::held);
     CaseLine {
         enrolled: library.title.clone(),
         part: case.part.clone(),

@@ -4,12 +4,12 @@
 use std::path::Path;
 
 use crate::{
-    bench::suites::{Closest, Suite, SuiteCase},
+    bench::suites::{NearestMistake, Suite, SuiteCase},
     cli::console::Advised as _,
     library::Library,
     pipeline::Inspection,
     report::{
-        InspectionLine, Picture, ReportError, ReportFolder, contenders_picture, stage_pictures,
+        InspectionLine, Picture, ReportError, ReportFolder, runner_up_picture, stage_pictures,
     },
     stages::scene::SceneCloud,
 };
@@ -19,22 +19,22 @@ pub(super) struct Pictures {
     folder: ReportFolder,
     known: Vec<(Suite, String)>,
     /// Of each part the worst so far; written at the end.
-    closest: Vec<(Closest, Drawn)>,
+    closest: Vec<(NearestMistake, ConfusionPicture)>,
     failed: Option<ReportError>,
 }
 
 /// One frame, ready to be written.
-struct Drawn {
+struct ConfusionPicture {
     name: String,
     line: String,
     pictures: Vec<Picture>,
 }
 
-impl Drawn {
+impl ConfusionPicture {
     fn of(name: String, scene: &SceneCloud, inspection: &Inspection, library: &Library) -> Self {
         let line = InspectionLine::of(&name, inspection).to_json();
         let mut pictures = stage_pictures(scene, inspection);
-        pictures.extend(contenders_picture(scene, inspection, library));
+        pictures.extend(runner_up_picture(scene, inspection, library));
         Self {
             name,
             line,
@@ -68,7 +68,7 @@ impl Pictures {
         library: &Library,
     ) {
         self.keep_wrong(suite, case, scene, inspection, library);
-        let Some(closest) = Closest::of(suite, case) else {
+        let Some(closest) = NearestMistake::of(suite, case) else {
             return;
         };
         let known = self.closest.iter().position(|k| k.0.part == closest.part);
@@ -82,7 +82,7 @@ impl Pictures {
             suite.name(),
             case.seed
         );
-        let drawn = Drawn::of(name, scene, inspection, library);
+        let drawn = ConfusionPicture::of(name, scene, inspection, library);
         match known {
             Some(known) => self.closest[known] = (closest, drawn),
             None => self.closest.push((closest, drawn)),
@@ -105,7 +105,7 @@ impl Pictures {
         self.known.push(key);
         let found = case.found.as_deref().unwrap_or("nothing");
         let name = format!("{}_{}_as_{found}_{}", suite.name(), case.subject, case.seed);
-        let drawn = Drawn::of(name, scene, inspection, library);
+        let drawn = ConfusionPicture::of(name, scene, inspection, library);
         self.failed = drawn.write(&mut self.folder).err();
     }
 

@@ -6,7 +6,7 @@ use serde::Serialize;
 
 use super::{BenchArgs, write_json};
 use crate::{
-    app::headless::{LiveStretch, live_stretches},
+    app::headless::{LiveSample, live_stretches},
     cli::{
         Outcome,
         console::{Advised as _, Console, Table},
@@ -21,7 +21,7 @@ const STRETCH: Duration = Duration::from_secs(30);
 struct LiveFile {
     schema: u32,
     simulated: bool,
-    stretches: Vec<LiveStretch>,
+    stretches: Vec<LiveSample>,
 }
 
 /// Follows the simulated line for as long as asked.

@@ -10,8 +10,8 @@ use super::{
 use crate::{
     bench::{
         suites::{
-            Closest, MEASURING_SEED, Suite, SuiteCase, SuiteFigures, SuiteFrame, SuiteLibraries,
-            SuiteResult, run_suite,
+            MEASURING_SEED, NearestMistake, Suite, SuiteCase, SuiteFigures, SuiteFrame,
+            SuiteLibraries, SuiteResult, run_suite,
         },
         systems::Systems,
     },
@@ -90,7 +90,7 @@ struct RecognitionFile<'a> {
     changed: Vec<String>,
     suites: &'a [SuiteResult],
     figures: &'a [SuiteFigures],
-    closest: &'a [Closest],
+    closest: &'a [NearestMistake],
     #[serde(skip_serializing_if = "Option::is_none")]
     table1: Option<&'a SystemsTable>,
 }
@@ -123,7 +123,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     if let Some(pictures) = pictures {
         pictures.write()?;
     }
-    let closest = Closest::per_part(&results);
+    let closest = NearestMistake::per_part(&results);
     console.line(&format_args!(
         "Simulated: {}, one thread. Of what must not be accepted, right is not accepted.",
         frames.words()
@@ -346,7 +346,7 @@ fn show_figures(figures: &[SuiteFigures], console: &mut Console) {
 }
 
 /// The frame of each part in which another came nearest.
-fn show_closest(closest: &[Closest], console: &mut Console) {
+fn show_closest(closest: &[NearestMistake], console: &mut Console) {
     if closest.is_empty() {
         return;
     }

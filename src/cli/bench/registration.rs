@@ -45,17 +45,17 @@ struct AttemptLine {
 }
 
 /// What is compared: a heading, how the sources are, the methods.
-struct Study {
+struct Experiment {
     title: String,
     condition: Condition,
     methods: Vec<(String, AlignParams)>,
 }
 
-fn studies() -> Vec<Study> {
+fn studies() -> Vec<Experiment> {
     let named = |method: PoseMethod| (method.name().to_owned(), AlignParams::from(method));
-    let mut studies: Vec<Study> = Condition::ALL
+    let mut studies: Vec<Experiment> = Condition::ALL
         .into_iter()
-        .map(|condition| Study {
+        .map(|condition| Experiment {
             title: condition.title().to_owned(),
             condition,
             methods: match condition {
@@ -64,7 +64,7 @@ fn studies() -> Vec<Study> {
             },
         })
         .collect();
-    studies.push(Study {
+    studies.push(Experiment {
         title: "what ICP-GA is without each of its means, from the same starts".to_owned(),
         condition: Condition::Starts,
         methods: ablation(),
@@ -106,7 +106,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     Ok(Outcome::Accepted)
 }
 
-fn show(done: &[(Study, Registration)], console: &mut Console) {
+fn show(done: &[(Experiment, Registration)], console: &mut Console) {
     for (study, registration) in done {
         console.line(&"");
         console.line(&study.title);
@@ -180,7 +180,7 @@ fn time_ms(attempt: &Attempt) -> f64 {
     attempt.time.as_secs_f64() * 1e3
 }
 
-fn lines(study: &Study, registration: &Registration) -> Vec<AttemptLine> {
+fn lines(study: &Experiment, registration: &Registration) -> Vec<AttemptLine> {
     let line = |attempt: &Attempt| {
         let found = attempt.found.as_ref().ok();
         let failure = attempt.found.as_ref().err().map(ToString::to_string);

@@ -17,7 +17,7 @@ use crate::{
         Convention,
         hand_eye::PosePair,
         pairs::{ArmPose, read_arm_poses},
-        part_target::{SeenPart, seen_part},
+        part_target::{ObservedTarget, seen_part},
     },
 };
 
@@ -48,7 +48,7 @@ pub(super) fn pairs_of_captures(
         convention.title()
     ));
     console.start_progress(poses.len());
-    let mut seen: Vec<(PosePair, SeenPart)> = Vec::new();
+    let mut seen: Vec<(PosePair, ObservedTarget)> = Vec::new();
     for (pose, file) in poses.iter().zip(&files) {
         console.begin(&file.display());
         let (scene, warnings) = open_scene(file).advised()?;
@@ -124,7 +124,7 @@ fn file_name(path: &Path) -> String {
 }
 
 /// The pairs of the reference that most captures show: each reference has a frame of its own.
-fn of_one_part(seen: Vec<(PosePair, SeenPart)>, console: &Console) -> Vec<PosePair> {
+fn of_one_part(seen: Vec<(PosePair, ObservedTarget)>, console: &Console) -> Vec<PosePair> {
     let count = |reference: usize| {
         seen.iter()
             .filter(|(_, part)| part.reference == reference)

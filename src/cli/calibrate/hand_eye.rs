@@ -6,7 +6,7 @@ use clap::Args;
 use serde::Serialize;
 
 use super::{
-    Console, KeptAs, MountChoice, Outcome,
+    CalibrationOutput, Console, MountChoice, Outcome,
     captures::{TargetChoice, pairs_of_captures},
     keep,
     show::matrix,
@@ -21,7 +21,7 @@ use crate::{
     report::SCHEMA,
     robot::{
         Convention,
-        calibration::{CameraPlace, Fit, Origin},
+        calibration::{CalibrationFit, CameraPlace, Origin},
         hand_eye::{HandEye, Mount, PosePair, solve},
         pairs::{PairConventions, read_pairs},
     },
@@ -57,7 +57,7 @@ pub(super) struct HandEyeArgs {
     #[arg(long, value_enum)]
     mount: MountChoice,
     #[command(flatten)]
-    kept: KeptAs,
+    kept: CalibrationOutput,
     #[command(flatten)]
     targets: TargetChoice,
     /// Convention of the robot's poses, where the file does not say it
@@ -112,7 +112,7 @@ pub(super) fn run(args: &HandEyeArgs, console: &mut Console) -> anyhow::Result<O
     if is_to_be_written {
         let camera = CameraPlace::on(solved.mount, solved.mount_from_camera);
         let file = args.pairs.file_name().unwrap_or_default();
-        let fit = Fit::of(&solved, file.to_string_lossy().into_owned(), left_out);
+        let fit = CalibrationFit::of(&solved, file.to_string_lossy().into_owned(), left_out);
         if args.json {
             let path = super::path_of(args.kept.out.as_deref())?;
             let calibration = args.kept.calibration(camera, Origin::HandEye(fit));

@@ -34,7 +34,7 @@ fn written_pose(text: &str) -> Result<WrittenPose, String> {
 }
 
 /// Gives each frame the arm's pose.
-pub(super) enum Arm {
+pub(super) enum ArmPoseSource {
     /// Nobody says.
     Unknown,
     /// It stays.
@@ -46,7 +46,7 @@ pub(super) enum Arm {
 }
 
 /// What becomes of a frame.
-pub(super) enum ForFrame {
+pub(super) enum FramePoseResult {
     /// It is recorded, at this pose of the arm.
     Record(Option<RigidTransform>),
     /// It was taken before the arm stood there.
@@ -55,7 +55,7 @@ pub(super) enum ForFrame {
     End,
 }
 
-impl Arm {
+impl ArmPoseSource {
     pub(super) fn of(choice: &ArmChoice) -> anyhow::Result<Self> {
         Ok(match (&choice.robot_pose, &choice.robot_poses) {
             (Some(written), _) => Self::Still(written.pose),
@@ -83,29 +83,31 @@ impl Arm {
         captured: &Captured,
         is_live: bool,
         console: &Console,
-    ) -> anyhow::Result<ForFrame> {
+    ) -> anyhow::Result<FramePoseResult> {
         Ok(match self {
-            Self::Unknown => ForFrame::Record(None),
-            Self::Still(pose) => ForFrame::Record(Some(*pose)),
+            Self::Unknown => FramePoseResult::Record(None),
+            Self::Still(pose) => FramePoseResult::Record(Some(*pose)),
             Self::Listed(poses) => match poses.pop_front() {
-                Some(pose) => ForFrame::Record(Some(pose)),
-                None => ForFrame::End,
+                Some(pose) => FramePoseResult::Record(Some(pose)),
+                None => FramePoseResult::End,
             },
             Self::Typed(waiting) => {
                 if waiting.is_none() {
                     console.note(&"Move the arm, then write its pose; an empty line ends");
                     let Some(pose) = next_line()? else {
-                        return Ok(ForFrame::End);
+                        return Ok(FramePoseResult::End);
                     };
                     *waiting = Some((pose, Instant::now()));
                 }
                 match *waiting {
-                    Some((_, since)) if is_live && captured.arrived < since => ForFrame::TooEarly,
+                    Some((_, since)) if is_live && captured.arrived < since => {
+                        FramePoseResult::TooEarly
+                    }
                     Some((pose, _)) => {
                         *waiting = None;
-                        ForFrame::Record(Some(pose))
+                        FramePoseResult::Record(Some(pose))
                     }
-                    None => ForFrame::End,
+                    None => FramePoseResult::End,
                 }
             }
         })

@@ -3,8 +3,8 @@
 use crate::{
     bench::StageTimes,
     cases::{
-        Answered, Calibration, CaseChange, Changes, Confusion, Evaluation, Found, Judgement,
-        PoseErrors, Tally,
+        Calibration, CaseAnswer, CaseChange, CaseOutcome, Changes, Confusion, Evaluation,
+        FoundVerdict, PoseErrors, Tally,
     },
     cli::console::{Console, Table},
 };
@@ -88,7 +88,7 @@ fn show_tallies<'a>(
 
 /// Every case that is not right, the worst first.
 fn show_mistakes(evaluation: &Evaluation, console: &mut Console) {
-    for judgement in [Judgement::WrongAccepted, Judgement::Refused] {
+    for judgement in [CaseOutcome::WrongAccepted, CaseOutcome::Refused] {
         let wrong = evaluation.results.iter();
         for result in wrong.filter(|r| r.judgement() == judgement) {
             console.line(&format_args!(
@@ -106,7 +106,7 @@ fn show_mistakes(evaluation: &Evaluation, console: &mut Console) {
     }
 }
 
-fn found_words(found: &Found) -> String {
+fn found_words(found: &FoundVerdict) -> String {
     match (&found.part, found.score) {
         (Some(part), Some(score)) if found.accepted => format!("accepted as {part} at {score:.2}"),
         (Some(part), Some(score)) => format!("best guess {part} at {score:.2}"),
@@ -122,12 +122,12 @@ fn show_confusion(confusion: &Confusion, console: &mut Console) {
     console.line(&"Confusion matrix: rows what it is, columns what it was accepted as");
     let numbers =
         (1..=confusion.columns.len()).map(|number| match confusion.columns.get(number - 1) {
-            Some(Answered::Part(_)) => number.to_string(),
+            Some(CaseAnswer::Part(_)) => number.to_string(),
             _ => "none".into(),
         });
     let mut table = Table::default();
     table.row([String::new()].into_iter().chain(numbers));
-    let column_of = |answered: &Answered| confusion.columns.iter().position(|c| c == answered);
+    let column_of = |answered: &CaseAnswer| confusion.columns.iter().position(|c| c == answered);
     for row in &confusion.rows {
         let counts = confusion.columns.iter().map(|column| {
             let places = confusion.cells.get(&(row.clone(), column.clone()));
@@ -135,7 +135,7 @@ fn show_confusion(confusion: &Confusion, console: &mut Console) {
         });
         let own = row
             .part()
-            .and_then(|part| column_of(&Answered::Part(part.into())));
+            .and_then(|part| column_of(&CaseAnswer::Part(part.into())));
         let name = match own {
             Some(column) => format!("{} {}", column + 1, row.name()),
             None => format!("- {}", row.name()),
@@ -145,7 +145,7 @@ fn show_confusion(confusion: &Confusion, console: &mut Console) {
     table.show(console);
     let has_row = |name: &str| confusion.rows.iter().any(|row| row.part() == Some(name));
     for (column, answered) in confusion.columns.iter().enumerate() {
-        if let Answered::Part(name) = answered
+        if let CaseAnswer::Part(name) = answered
             && !has_row(name)
         {
             console.line(&format_args!("{} {name}: no case of it", column + 1));
@@ -216,7 +216,7 @@ pub(super) fn show_changes(changes: &Changes, console: &mut Console) {
     ));
     for (word, list) in [("worse", regressions), ("better", mends)] {
         for change in list {
-            let [was, is] = change.judgements.map(Judgement::words);
+            let [was, is] = change.judgements.map(CaseOutcome::words);
             console.line(&format_args!(
                 "  {word}: {}, it is {}: {was} before ({}), {is} now ({})",
                 change.name,
@@ -226,7 +226,7 @@ pub(super) fn show_changes(changes: &Changes, console: &mut Console) {
             ));
         }
     }
-    let score = |found: &Found| {
+    let score = |found: &FoundVerdict| {
         found
             .score
             .map_or_else(|| "-".into(), |s| format!("{s:.3}"))

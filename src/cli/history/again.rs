@@ -5,7 +5,7 @@ use serde::Serialize;
 use super::ShowArgs;
 use crate::{
     cli::console::{Advised as _, Console, Table, advised_error},
-    history::{Differences, Finding, History, Record},
+    history::{Differences, History, InspectionSummary, Record},
     pipeline::{self, Unwatched},
     units::{Metres, Radians},
 };
@@ -30,8 +30,12 @@ pub(super) fn run(
     let best = best.and_then(|entry| library.references.get(entry.reference));
     let bounds = best.and_then(|reference| reference.cloud.bounds());
     let middle = bounds.map(|(low, high)| nalgebra::center(&low, &high).cast::<f64>());
-    let now = Finding::of(&inspection, &recipe.identity(), &load.identity());
-    Ok(Differences::between(Finding::from(record), now, middle))
+    let now = InspectionSummary::of(&inspection, &recipe.identity(), &load.identity());
+    Ok(Differences::between(
+        InspectionSummary::from(record),
+        now,
+        middle,
+    ))
 }
 
 /// What changed, as `--json` writes it.
@@ -58,7 +62,7 @@ impl AgainLine {
             margin: now.score.map(|[_, margin]| margin),
             pose_shift_m: found.pose.map(|off| off.shift.0),
             pose_turn_rad: found.pose.map(|off| off.rotation.0),
-            changed: found.causes(),
+            changed: found.changed_inputs(),
         }
     }
 }
@@ -66,7 +70,7 @@ impl AgainLine {
 pub(super) fn show(found: &Differences, console: &mut Console) {
     let Differences { before, now, pose } = found;
     let mut table = Table::new(&["", "THEN", "TODAY"]);
-    let mut row = |what: &str, of: &dyn Fn(&Finding) -> String| {
+    let mut row = |what: &str, of: &dyn Fn(&InspectionSummary) -> String| {
         let (then, today) = (of(before), of(now));
         let sign = if then == today { "" } else { "changed" };
         table.row([what.to_owned(), then, today, sign.to_owned()]);

@@ -15,7 +15,7 @@ use crate::{
     pipeline::Inspection,
     robot::{
         Convention, RobotFrame,
-        spray::{SprayExport, carry, default_path, take_former_away},
+        spray::{SprayExport, carry, default_path, remove_previous_export},
     },
     stages::stand_off::StandOffParams,
 };
@@ -42,7 +42,7 @@ pub(super) struct SprayFile {
 }
 
 /// What was found.
-pub(super) struct Seen<'a> {
+pub(super) struct SprayResult<'a> {
     pub(super) scene: &'a str,
     pub(super) inspection: &'a Inspection,
     pub(super) library: &'a Library,
@@ -74,7 +74,7 @@ impl SprayChoice {
             ));
         }
         // Whatever comes of this capture, an earlier path must not be taken for its.
-        take_former_away(file).advised()?;
+        remove_previous_export(file).advised()?;
         Ok(Some(SprayFile {
             file: file.clone(),
             convention: self.spray_as,
@@ -92,11 +92,11 @@ impl SprayFile {
     /// Carries the path and writes it; a part that is not accepted has none.
     pub(super) fn write(
         &self,
-        seen: &Seen<'_>,
+        seen: &SprayResult<'_>,
         frame: &RobotFrame,
         console: &mut Console,
     ) -> anyhow::Result<Outcome> {
-        let Seen {
+        let SprayResult {
             scene,
             inspection,
             library,

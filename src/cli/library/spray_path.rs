@@ -9,7 +9,7 @@ use crate::{
     cli::console::Advised as _,
     error::Advice,
     library::{PartName, SprayPath},
-    robot::spray::{Band, against_reference},
+    robot::spray::{BandStatus, against_reference},
     stages::{
         reference::{Reference, ReferenceParams},
         stand_off::StandOffParams,
@@ -87,8 +87,12 @@ pub(super) fn run(
 fn tell(name: &PartName, path: &SprayPath, reference: &Reference, console: &mut Console) -> usize {
     let params = StandOffParams::default();
     let bands = against_reference(path, reference, &params);
-    let count = |wanted: Band| bands.iter().filter(|band| **band == wanted).count();
-    let (num, inside, missed) = (bands.len(), count(Band::Inside), count(Band::NotSeen));
+    let count = |wanted: BandStatus| bands.iter().filter(|band| **band == wanted).count();
+    let (num, inside, missed) = (
+        bands.len(),
+        count(BandStatus::Inside),
+        count(BandStatus::NotSeen),
+    );
     console.line(&format_args!(
         "  {num} points over {name} as it was enrolled: {inside} within {:.0} to {:.0} mm and square on, {} not, {missed} with no surface before them",
         params.nearest.mm(),

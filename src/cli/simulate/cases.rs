@@ -6,13 +6,13 @@ use jiff::Timestamp;
 
 use super::SimulateArgs;
 use crate::{
-    cases::{CaseAbout, CaseFolder, Found, TruePose, Truth},
+    cases::{CaseDescription, CaseFolder, FoundVerdict, TruePose, Truth},
     cli::{
         Outcome,
         console::{Advised as _, Console, advised_error},
     },
     library::shipped_enrolled_at,
-    simulate::{PartPose, Placement, Side, SimulatedFrame, Subject, frame},
+    simulate::{PartPose, PoseRange, Side, SimulatedFrame, SimulatedObject, frame},
     stages::scene::scene_from_frame,
 };
 
@@ -36,7 +36,7 @@ pub(super) fn run(
             )
         })?;
         let mut setup = args.cell(subject, seed);
-        setup.pose = PartPose::Drawn(Placement::from(placement));
+        setup.pose = PartPose::Drawn(PoseRange::from(placement));
         let shot = frame(&setup);
         let difficulty = match &args.difficulty {
             Some(words) => words.clone(),
@@ -58,45 +58,47 @@ pub(super) fn run(
     Ok(Outcome::Accepted)
 }
 
-fn name_of(subject: Subject) -> &'static str {
+fn name_of(subject: SimulatedObject) -> &'static str {
     match subject {
-        Subject::Part { kind, .. } => kind.name(),
-        Subject::Object(kind) => kind.name(),
-        Subject::Nothing => "empty",
+        SimulatedObject::Part { kind, .. } => kind.name(),
+        SimulatedObject::Object(kind) => kind.name(),
+        SimulatedObject::Nothing => "empty",
     }
 }
 
 /// What is known of a frame, held against the shipped parts: those are what a newcomer has.
-fn about(shot: &SimulatedFrame, origin: String, difficulty: String) -> CaseAbout {
+fn about(shot: &SimulatedFrame, origin: String, difficulty: String) -> CaseDescription {
     let truth = &shot.truth;
     let enrolled_at = match truth.subject {
         // Left ones are shipped where there are sides.
-        Subject::Part { kind, side, .. } if side == Side::Left || !kind.is_sided() => {
+        SimulatedObject::Part { kind, side, .. } if side == Side::Left || !kind.is_sided() => {
             shipped_enrolled_at(kind.name())
         }
         _ => None,
     };
     let is = match truth.subject {
-        Subject::Nothing => Truth::Nothing,
-        Subject::Part { kind, .. } if enrolled_at.is_some() => Truth::Part(kind.name().into()),
-        Subject::Part { .. } | Subject::Object(_) => Truth::NotEnrolled,
+        SimulatedObject::Nothing => Truth::Nothing,
+        SimulatedObject::Part { kind, .. } if enrolled_at.is_some() => {
+            Truth::Part(kind.name().into())
+        }
+        SimulatedObject::Part { .. } | SimulatedObject::Object(_) => Truth::NotEnrolled,
     };
     // What hangs of another model of the car is not where the enrolled part would be, only about there.
-    let is_same_model = matches!(truth.subject, Subject::Part { model_seed: 0, .. });
+    let is_same_model = matches!(truth.subject, SimulatedObject::Part { model_seed: 0, .. });
     let enrolled_at = enrolled_at.filter(|_| is_same_model);
-    CaseAbout {
+    CaseDescription {
         origin,
         simulated: true,
         // Not now: the same arguments give the same files.
         kept_at: Timestamp::UNIX_EPOCH,
         remark: match truth.subject {
-            Subject::Nothing => String::new(),
+            SimulatedObject::Nothing => String::new(),
             _ => format!("{:.0} % of it in sight", truth.visible_share * 100.0),
         },
         difficulty: Some(difficulty),
         truth: is,
         // Nobody has looked yet.
-        found: Found::default(),
+        found: FoundVerdict::default(),
         pose: enrolled_at.map(|at| TruePose {
             camera_from_part: truth.camera_from_part * at.part_from_model.inverse(),
             cloud_crc32: Some(at.cloud.crc32),

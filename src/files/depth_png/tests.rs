@@ -1,6 +1,6 @@
 use super::*;
 use crate::error::Advice as _;
-use crate::files::{Opened, crc32, open};
+use crate::files::{FileContent, crc32, open};
 use crate::geometry::distortion::Distortion;
 
 fn frame() -> DepthFrame {
@@ -30,7 +30,7 @@ fn a_frame_survives_being_written_and_read() {
             ..frame()
         };
         write_depth_png(&path, &frame).unwrap();
-        assert_eq!(open(&path).unwrap(), Opened::Depth(frame));
+        assert_eq!(open(&path).unwrap(), FileContent::Depth(frame));
     }
 }
 
@@ -82,11 +82,11 @@ fn the_images_of_a_folder_may_share_a_camera() {
     write_depth_png(&path, &frame()).unwrap();
     let shared = folder.path().join(FOLDER_CAMERA);
     std::fs::rename(intrinsics_path(&path), &shared).unwrap();
-    assert_eq!(open(&path).unwrap(), Opened::Depth(frame()));
+    assert_eq!(open(&path).unwrap(), FileContent::Depth(frame()));
     let mut other = DepthCamera::of(&frame());
     other.intrinsics.fx = 600.0;
     write_camera(&intrinsics_path(&path), &other).unwrap();
-    let Opened::Depth(own) = open(&path).unwrap() else {
+    let FileContent::Depth(own) = open(&path).unwrap() else {
         panic!("a depth image");
     };
     assert_eq!(DepthCamera::of(&own), other);
@@ -242,5 +242,5 @@ fn a_distorted_frame_survives_being_written_and_read() {
         ..Distortion::NONE
     };
     write_depth_png(&path, &frame).unwrap();
-    assert_eq!(open(&path).unwrap(), Opened::Depth(frame));
+    assert_eq!(open(&path).unwrap(), FileContent::Depth(frame));
 }

@@ -52,7 +52,7 @@ pub(super) fn read(source: Source<'_>, wanted: Option<&str>) -> Result<TriangleM
     let chosen = choose(source, placed, wanted)?;
     let mut buffers = Buffers::new(source, blob);
     let mut whole = TriangleMesh::default();
-    for Placed {
+    for PlacedMesh {
         mesh,
         scene_from_mesh,
         ..
@@ -146,7 +146,7 @@ fn parse(source: Source<'_>, json: &[u8]) -> Result<Document, FileError> {
 }
 
 /// A mesh where a node of the scene puts it.
-struct Placed<'a> {
+struct PlacedMesh<'a> {
     /// The node's name, else the mesh's, else `mesh_` and its number.
     name: String,
     mesh: Mesh<'a>,
@@ -157,7 +157,7 @@ struct Placed<'a> {
 fn placed_meshes<'a>(
     source: Source<'_>,
     document: &'a Document,
-) -> Result<Vec<Placed<'a>>, FileError> {
+) -> Result<Vec<PlacedMesh<'a>>, FileError> {
     let scene = document
         .default_scene()
         .or_else(|| document.scenes().next());
@@ -189,7 +189,7 @@ fn placed_meshes<'a>(
         let scene_from_mesh = scene_from_parent * parent_from_node;
         if let Some(mesh) = node.mesh() {
             let name = node.name().map_or_else(|| mesh_name(&mesh), str::to_owned);
-            placed.push(Placed {
+            placed.push(PlacedMesh {
                 name,
                 mesh,
                 scene_from_mesh,
@@ -204,7 +204,7 @@ fn placed_meshes<'a>(
         );
     }
     if placed.is_empty() {
-        let lone = document.meshes().map(|mesh| Placed {
+        let lone = document.meshes().map(|mesh| PlacedMesh {
             name: mesh_name(&mesh),
             mesh,
             scene_from_mesh: Matrix4::identity(),
@@ -222,9 +222,9 @@ fn mesh_name(mesh: &Mesh<'_>) -> String {
 
 fn choose<'a>(
     source: Source<'_>,
-    placed: Vec<Placed<'a>>,
+    placed: Vec<PlacedMesh<'a>>,
     wanted: Option<&str>,
-) -> Result<Vec<Placed<'a>>, FileError> {
+) -> Result<Vec<PlacedMesh<'a>>, FileError> {
     let mut listed = HashSet::new();
     let names = placed.iter().map(|placed| placed.name.clone());
     let available: Vec<String> = names.filter(|name| listed.insert(name.clone())).collect();

@@ -6,7 +6,7 @@ use base64::engine::general_purpose::STANDARD;
 
 use super::*;
 use crate::error::Advice as _;
-use crate::files::{Opened, open};
+use crate::files::{FileContent, open};
 
 /// Three corners and the indices 0 1 2 as bytes, both at odd strides and offsets.
 fn triangle_bytes() -> Vec<u8> {
@@ -134,7 +134,7 @@ fn a_buffer_beside_the_file_is_found_and_no_other() {
         matches!(open(&named), Err(FileError::NotFound { path }) if path.ends_with("my car.bin"))
     );
     fs::write(inner.join("my car.bin"), triangle_bytes()).unwrap();
-    assert!(matches!(open(&named), Ok(Opened::Mesh(_))));
+    assert!(matches!(open(&named), Ok(FileContent::Mesh(_))));
     fs::write(inner.join("my car.bin"), &triangle_bytes()[..53]).unwrap();
     assert!(matches!(open(&named), Err(FileError::Truncated { .. })));
 

@@ -40,14 +40,14 @@ fn a_format_is_known_by_its_content_whatever_the_name() {
             let expected = PointCloud::from_points([Point3::new(1.0, 2.0, 3.0)]);
             assert_eq!(
                 open(&path).unwrap(),
-                Opened::Cloud(expected),
+                FileContent::Cloud(expected),
                 "{name}: {text}"
             );
         }
         for bytes in [STL.as_bytes(), OBJ.as_bytes(), &binary_stl()] {
             let (_folder, path) = file(name, bytes);
             assert!(
-                matches!(open(&path), Ok(Opened::Mesh(mesh)) if mesh.triangles == [[0, 1, 2]]),
+                matches!(open(&path), Ok(FileContent::Mesh(mesh)) if mesh.triangles == [[0, 1, 2]]),
                 "{name}"
             );
         }
@@ -92,7 +92,7 @@ fn every_small_file_cut_anywhere_opens_or_fails_by_name() {
             // The last chunk holds nothing.
             Ok(opened) => assert_eq!(
                 opened,
-                Opened::Depth(frame.clone()),
+                FileContent::Depth(frame.clone()),
                 "{length} of {}",
                 bytes.len()
             ),
@@ -104,7 +104,7 @@ fn every_small_file_cut_anywhere_opens_or_fails_by_name() {
 #[test]
 fn a_hash_sign_may_belong_to_the_file_or_begin_a_mesh_name() {
     let (_folder, path) = file("scan#2.pcd", PCD.as_bytes());
-    assert!(matches!(open(&path), Ok(Opened::Cloud(_))));
+    assert!(matches!(open(&path), Ok(FileContent::Cloud(_))));
     let named = path.with_file_name("scan#2.pcd#Door#L");
     let error = open(&named).unwrap_err();
     assert!(
@@ -175,7 +175,7 @@ fn numbers_that_look_like_millimetres_are_warned_about_and_kept() {
     );
     assert!(warnings[0].to_string().contains("1100 m") && !warnings[0].advice().is_empty());
     assert!(
-        matches!(opened, Opened::Cloud(cloud) if cloud.points[1] == Point3::new(1100.0, 0.0, 650.0))
+        matches!(opened, FileContent::Cloud(cloud) if cloud.points[1] == Point3::new(1100.0, 0.0, 650.0))
     );
     let (_folder, path) = file("door.xyz", b"0 0 0.6\n1.1 0 0.65\n");
     assert_eq!(open(&path).unwrap().warnings(), []);

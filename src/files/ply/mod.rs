@@ -20,7 +20,7 @@ pub use self::write::{write_ply, write_ply_with};
 use nalgebra::Vector3;
 
 use super::error::FileError;
-use super::open::Opened;
+use super::open::FileContent;
 use super::readings::{points_from, tidy};
 use super::scalar::Column;
 use super::source::Source;
@@ -37,7 +37,7 @@ pub(super) fn is_ply(bytes: &[u8]) -> bool {
         .is_some_and(|rest| rest.first().is_none_or(u8::is_ascii_whitespace))
 }
 
-pub(super) fn read(source: Source<'_>) -> Result<Opened, FileError> {
+pub(super) fn read(source: Source<'_>) -> Result<FileContent, FileError> {
     let header = Header::parse(source)?;
     let mut body = Body::new(source, &header);
     let (mut vertices, mut faces) = (None, None);
@@ -74,9 +74,9 @@ pub(super) fn read(source: Source<'_>) -> Result<Opened, FileError> {
     match faces {
         Some(faces) => {
             let triangles = fans(source, &faces)?;
-            checked_mesh(source, cloud.points, triangles).map(Opened::Mesh)
+            checked_mesh(source, cloud.points, triangles).map(FileContent::Mesh)
         }
-        None => tidy(cloud, source).map(Opened::Cloud),
+        None => tidy(cloud, source).map(FileContent::Cloud),
     }
 }
 

@@ -13,21 +13,21 @@ fn source(bytes: &[u8]) -> Source<'_> {
     }
 }
 
-fn read_bytes(bytes: &[u8]) -> Result<Opened, FileError> {
+fn read_bytes(bytes: &[u8]) -> Result<FileContent, FileError> {
     assert!(is_ply(bytes), "not recognised");
     read(source(bytes))
 }
 
 fn cloud_in(bytes: &[u8]) -> PointCloud {
     match read_bytes(bytes) {
-        Ok(Opened::Cloud(cloud)) => cloud,
+        Ok(FileContent::Cloud(cloud)) => cloud,
         other => panic!("expected a cloud, got {other:?}"),
     }
 }
 
 fn mesh_in(bytes: &[u8]) -> TriangleMesh {
     match read_bytes(bytes) {
-        Ok(Opened::Mesh(mesh)) => mesh,
+        Ok(FileContent::Mesh(mesh)) => mesh,
         other => panic!("expected a mesh, got {other:?}"),
     }
 }
@@ -101,7 +101,7 @@ fn a_file_cut_anywhere_is_an_error_or_whole_and_never_a_panic() {
         for length in 0..bytes.len() {
             match read(source(&bytes[..length])) {
                 // Behind the faces nothing is needed.
-                Ok(Opened::Mesh(mesh)) => assert_eq!(mesh, whole),
+                Ok(FileContent::Mesh(mesh)) => assert_eq!(mesh, whole),
                 Ok(other) => panic!("{other:?}"),
                 Err(_) => {}
             }

@@ -4,7 +4,7 @@ use std::io::{Seek as _, SeekFrom, Write as _};
 
 use super::*;
 use crate::history::{
-    Filter, KeepFrames, PastVerdict, Retention,
+    Filter, KeepFrames, Retention, StoredVerdict,
     fixtures::{entry, open, opened},
 };
 
@@ -16,7 +16,7 @@ fn closed(num: i64) -> tempfile::TempDir {
         ..Retention::default()
     };
     for seconds in 0..num {
-        let entry = entry(seconds, PastVerdict::Accepted, "fender");
+        let entry = entry(seconds, StoredVerdict::Accepted, "fender");
         history.add(&entry, &retention).expect("written");
     }
     drop(history);
@@ -160,7 +160,7 @@ fn two_write_at_once_and_nothing_is_lost() {
     let write = |part: &str| {
         let mut history = open(folder.path());
         for seconds in 0..50 {
-            let entry = entry(seconds, PastVerdict::NoPart, part);
+            let entry = entry(seconds, StoredVerdict::NoPart, part);
             history.add(&entry, &Retention::default()).expect("written");
         }
     };

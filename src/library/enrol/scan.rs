@@ -1,11 +1,12 @@
 //! Enrolling the part of a scan.
 
 use super::{
-    About, EnrolError, EnrolParams, EnrolWarning, Enrolled, MIN_POINTS, Source, assemble, thinned,
+    EnrolError, EnrolParams, EnrolWarning, Enrolled, MIN_POINTS, PartDescription, ReferenceOrigin,
+    assemble, thinned,
 };
 use crate::{
     geometry::cloud::PointCloud,
-    library::part::How,
+    library::part::EnrolMethod,
     scan::{Scan, unseen::unseen_share},
     stages::reference::{Coverage, ViewCut},
 };
@@ -13,7 +14,7 @@ use crate::{
 /// Enrols the part that was scanned, in the camera's frame of the first shot that was used.
 pub fn enrol_scan(
     scan: &Scan,
-    about: &About,
+    about: &PartDescription,
     params: &EnrolParams,
 ) -> Result<Enrolled, EnrolError> {
     let part = scan.cloud.part();
@@ -40,11 +41,11 @@ pub fn enrol_scan(
         ..PointCloud::default()
     };
     let (cloud, voxel) = thinned(&in_part_space, params);
-    let source = Source {
+    let source = ReferenceOrigin {
         coverage: Coverage::SeveralSides,
         // What ends a view of one frame is seen in another.
         cut: ViewCut::default(),
-        how: How::Scan,
+        how: EnrolMethod::Scan,
         num_points,
         num_shots: Some(num_shots),
         voxel: Some(voxel),

@@ -5,8 +5,8 @@ use crate::{
     stages::scene::scene_from_frame,
 };
 
-fn about(name: &str) -> About {
-    About {
+fn about(name: &str) -> PartDescription {
+    PartDescription {
         name: PartName::new(name).expect("a name"),
         title: String::new(),
         notes: String::new(),
@@ -144,7 +144,7 @@ fn a_part_from_all_that_segmentation_found_is_the_captured_one_and_less_makes_it
 
     let half: Vec<u32> = found.indices[..found.indices.len() / 2].to_vec();
     let half = enrol_selected(&scene, &half, &about("fender"), &params).expect("a part");
-    assert_eq!(half.part.meta.enrolled.how, How::Segmented);
+    assert_eq!(half.part.meta.enrolled.how, EnrolMethod::Segmented);
     assert!(half.part.signature.area_m2 < 0.8 * whole.part.signature.area_m2);
     let few = enrol_selected(&scene, &found.indices[..20], &about("x"), &params);
     assert!(matches!(

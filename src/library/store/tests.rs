@@ -11,7 +11,7 @@ use super::{
 use crate::{
     error::Advice as _,
     geometry::cloud::PointCloud,
-    library::{About, EnrolParams, EntryError, LibraryLoad, Trouble, enrol_whole},
+    library::{EnrolParams, EntryError, EntryIssue, LibraryLoad, PartDescription, enrol_whole},
     stages::reference::ReferenceParams,
 };
 
@@ -22,7 +22,7 @@ fn part(name: &str, width: f32) -> Part {
         let (x, y) = ((i % across) as f32 * 0.005, (i / across) as f32 * 0.005);
         (x < 0.15 || y < 0.2).then(|| Point3::new(x, y, 1.2))
     });
-    let about = About {
+    let about = PartDescription {
         name: PartName::new(name).expect("a name"),
         title: "Plate".into(),
         notes: "hung by two hooks\n\"left\"".into(),
@@ -151,7 +151,7 @@ fn a_writer_killed_between_the_renames_loses_no_part() {
     fs::rename(&folder, library.path().join(".old-plate")).expect("aside");
     let loaded = load(&library);
     assert_eq!(loaded.library.references[0].cloud, part("plate", 0.4).cloud);
-    assert_eq!(loaded.warnings[0].trouble, Trouble::LeftAside);
+    assert_eq!(loaded.warnings[0].trouble, EntryIssue::LeftAside);
     library.save(&part("other", 0.5)).expect("saved");
     assert!(folder.join(META).exists());
     assert!(load(&library).warnings.is_empty());
@@ -309,8 +309,8 @@ fn signature_and_thumbnail_can_be_missed_and_a_thorough_look_finds_them_damaged(
     assert_eq!(
         troubles,
         [
-            &Trouble::Stale { file: SIGNATURE },
-            &Trouble::Stale { file: THUMBNAIL }
+            &EntryIssue::Stale { file: SIGNATURE },
+            &EntryIssue::Stale { file: THUMBNAIL }
         ]
     );
     fs::remove_file(damaged.join(SIGNATURE)).expect("removed");
@@ -373,8 +373,8 @@ fn two_writers_at_once_both_succeed() {
     assert!(load(&library).problems.is_empty());
 }
 
-fn words(name: &str, title: &str) -> PartWords {
-    PartWords {
+fn words(name: &str, title: &str) -> PartNaming {
+    PartNaming {
         name: PartName::new(name).expect("a name"),
         title: title.into(),
         notes: "seen again".into(),
@@ -450,7 +450,7 @@ fn a_writer_killed_while_it_renames_leaves_one_of_the_two_names() {
     let aside = library.path().join(".old-plate+sheet");
     fs::rename(&folder, &aside).expect("aside");
     assert_eq!(library.names().expect("listed"), ["plate"]);
-    assert_eq!(load(&library).warnings[0].trouble, Trouble::LeftAside);
+    assert_eq!(load(&library).warnings[0].trouble, EntryIssue::LeftAside);
     library.save(&part("other", 0.5)).expect("saved");
     assert_eq!(library.names().expect("listed"), ["other", "plate"]);
     fs::rename(&folder, &aside).expect("aside");

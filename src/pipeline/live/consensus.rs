@@ -46,7 +46,7 @@ impl Default for ConsensusParams {
 
 /// A verdict that rests on several frames.
 #[derive(Clone, Debug, PartialEq)]
-pub struct Agreed {
+pub struct ConsensusVerdict {
     /// The verdict; score and margin are medians.
     pub verdict: Verdict,
     /// Frames that it rests on.
@@ -59,7 +59,7 @@ pub struct Agreed {
 
 /// What one frame said.
 #[derive(Clone, Debug)]
-struct Said {
+struct FrameVerdict {
     at: Duration,
     verdict: Verdict,
     /// The reference in whose coordinates the pose is.
@@ -73,7 +73,7 @@ struct Said {
 #[derive(Debug)]
 pub struct Consensus {
     params: ConsensusParams,
-    said: VecDeque<Said>,
+    said: VecDeque<FrameVerdict>,
 }
 
 impl Consensus {
@@ -93,7 +93,7 @@ impl Consensus {
     /// Takes in what the frame taken at `at` said. `middle` is the named part's, part space, metres.
     pub fn add(&mut self, at: Duration, inspection: &Inspection, middle: Option<Point3<f64>>) {
         let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
-        self.said.push_back(Said {
+        self.said.push_back(FrameVerdict {
             at,
             verdict: inspection.verdict.clone(),
             reference: inspection.reference().map(ToOwned::to_owned),
@@ -118,8 +118,8 @@ impl Consensus {
     }
 
     /// What the frames from `since` on agree upon; `None` while they are too few.
-    pub fn agreed(&self, since: Duration, accept: &AcceptParams) -> Option<Agreed> {
-        let said: Vec<&Said> = self.said.iter().filter(|said| said.at >= since).collect();
+    pub fn agreed(&self, since: Duration, accept: &AcceptParams) -> Option<ConsensusVerdict> {
+        let said: Vec<&FrameVerdict> = self.said.iter().filter(|said| said.at >= since).collect();
         if said.len() < self.least_frames() {
             return None;
         }
@@ -128,7 +128,7 @@ impl Consensus {
         let Some(name) = most_named(&said) else {
             return nothing_named(&said);
         };
-        let naming: Vec<&Said> = said
+        let naming: Vec<&FrameVerdict> = said
             .iter()
             .copied()
             .filter(|said| named(&said.verdict).is_some_and(|(part, ..)| part == name))
@@ -201,7 +201,7 @@ impl Consensus {
             None => num_accepting.min(in_place.unwrap_or(num_accepting)),
             Some(_) => naming.len(),
         };
-        Some(Agreed {
+        Some(ConsensusVerdict {
             verdict: Verdict::Part {
                 part: name.to_owned(),
                 score,
@@ -217,10 +217,10 @@ impl Consensus {
 }
 
 /// What was found where most frames found nothing to name.
-fn nothing_named(said: &[&Said]) -> Option<Agreed> {
+fn nothing_named(said: &[&FrameVerdict]) -> Option<ConsensusVerdict> {
     let mut empty = said.iter().filter(|said| named(&said.verdict).is_none());
     let num_agreeing = empty.clone().count();
-    Some(Agreed {
+    Some(ConsensusVerdict {
         verdict: empty.next_back()?.verdict.clone(),
         num_frames: said.len(),
         num_agreeing,
@@ -248,7 +248,7 @@ fn complaint(verdict: &Verdict) -> Option<&Rejection> {
 }
 
 /// The part that most frames name; of several the one named first.
-fn most_named<'a>(said: &[&'a Said]) -> Option<&'a str> {
+fn most_named<'a>(said: &[&'a FrameVerdict]) -> Option<&'a str> {
     let names = said.iter().filter_map(|said| named(&said.verdict));
     let names: Vec<&str> = names.map(|(part, ..)| part).collect();
     let count = |name: &str| names.iter().filter(|other| **other == name).count();

@@ -19,9 +19,9 @@ use nalgebra::Point3;
 
 pub use self::{
     average::{DepthAverage, MAX_AVERAGED},
-    consensus::{Agreed, Consensus, ConsensusParams},
+    consensus::{Consensus, ConsensusParams, ConsensusVerdict},
     mean_pose::{MeanPose, PoseTolerance, mean_pose},
-    steady::{SteadyParams, SteadyWatch, Stillness},
+    steady::{MotionDetector, MotionState, SteadyParams},
 };
 use super::{AcceptParams, Inspection, Rejection, Verdict};
 use crate::stages::scene::SceneCloud;
@@ -50,7 +50,7 @@ impl Default for LiveParams {
 
 /// What is to be thought of the scene after a frame.
 #[derive(Clone, Debug, Default, PartialEq)]
-pub enum Standing {
+pub enum LiveVerdict {
     /// No verdict counts: something moves, or too little was seen to say that nothing does.
     #[default]
     Open,
@@ -62,12 +62,12 @@ pub enum Standing {
         needed: usize,
     },
     /// The verdict that counts.
-    Counted(Box<Agreed>),
+    Counted(Box<ConsensusVerdict>),
 }
 
-impl Standing {
+impl LiveVerdict {
     /// The verdict that counts.
-    pub fn counted(&self) -> Option<&Agreed> {
+    pub fn counted(&self) -> Option<&ConsensusVerdict> {
         match self {
             Self::Counted(agreed) => Some(agreed),
             Self::Open | Self::Gathering { .. } => None,
@@ -77,18 +77,18 @@ impl Standing {
 
 /// Follows one camera. The same frames at the same times always lead to the same verdicts.
 #[derive(Debug)]
-pub struct LiveWatch {
-    steady: SteadyWatch,
+pub struct LiveTracker {
+    steady: MotionDetector,
     average: DepthAverage,
     consensus: Consensus,
     last_at: Duration,
 }
 
-impl LiveWatch {
+impl LiveTracker {
     /// Before the first frame.
     pub fn new(params: &LiveParams) -> Self {
         Self {
-            steady: SteadyWatch::new(params.steady.clone()),
+            steady: MotionDetector::new(params.steady.clone()),
             average: DepthAverage::over(params.average),
             consensus: Consensus::new(params.consensus.clone()),
             last_at: Duration::ZERO,
@@ -96,7 +96,7 @@ impl LiveWatch {
     }
 
     /// What the frames so far say of the scene.
-    pub fn stillness(&self) -> Stillness {
+    pub fn stillness(&self) -> MotionState {
         self.steady.stillness()
     }
 
@@ -131,27 +131,27 @@ impl LiveWatch {
         inspection: &mut Inspection,
         middle: Option<Point3<f64>>,
         accept: &AcceptParams,
-    ) -> Standing {
+    ) -> LiveVerdict {
         self.consensus.add(self.last_at, inspection, middle);
         let standing = match self.steady.stillness() {
-            Stillness::Watching | Stillness::Moving => Standing::Open,
-            Stillness::Steady { since, .. } => {
+            MotionState::Watching | MotionState::Moving => LiveVerdict::Open,
+            MotionState::Steady { since, .. } => {
                 if let Some(agreed) = self.consensus.agreed(since, accept) {
-                    Standing::Counted(Box::new(unless_out_of_line(agreed, inspection)))
+                    LiveVerdict::Counted(Box::new(unless_out_of_line(agreed, inspection)))
                 } else {
                     let (num_frames, needed) = self.consensus.gathered(since);
-                    Standing::Gathering { num_frames, needed }
+                    LiveVerdict::Gathering { num_frames, needed }
                 }
             }
         };
-        standing.put_into(inspection);
+        standing.overwrite_verdict(inspection);
         standing
     }
 }
 
-impl Standing {
+impl LiveVerdict {
     /// Nobody who is handed the inspection must take a single frame's verdict for one that counts.
-    fn put_into(&self, inspection: &mut Inspection) {
+    fn overwrite_verdict(&self, inspection: &mut Inspection) {
         match self {
             Self::Counted(agreed) => {
                 inspection.verdict = agreed.verdict.clone();
@@ -180,7 +180,7 @@ impl Standing {
 
 /// What was agreed upon, not accepted where this frame is one of the few that take the part for another or find no
 /// pose: what the frame holds besides the verdict would be of something else.
-fn unless_out_of_line(mut agreed: Agreed, inspection: &Inspection) -> Agreed {
+fn unless_out_of_line(mut agreed: ConsensusVerdict, inspection: &Inspection) -> ConsensusVerdict {
     let best = inspection.ranking.entries.first();
     if let Verdict::Part {
         part,

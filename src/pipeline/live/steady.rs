@@ -43,7 +43,7 @@ impl Default for SteadyParams {
 
 /// What the last frames say of the scene.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum Stillness {
+pub enum MotionState {
     /// Too few frames since the first one, or since a gap, to say.
     #[default]
     Watching,
@@ -58,7 +58,7 @@ pub enum Stillness {
     },
 }
 
-impl Stillness {
+impl MotionState {
     /// True if nothing moves.
     pub fn is_steady(self) -> bool {
         matches!(self, Self::Steady { .. })
@@ -93,7 +93,7 @@ const USUAL_NOISE: Metres = Metres(0.0015);
 
 /// Follows the frames of one camera.
 #[derive(Debug)]
-pub struct SteadyWatch {
+pub struct MotionDetector {
     params: SteadyParams,
     grid: Option<Grid>,
     /// Standard deviation of 1/z, per metre.
@@ -102,18 +102,18 @@ pub struct SteadyWatch {
     /// single precision holds them. 0 before there is one.
     pivots: Vec<f32>,
     /// The first spell of all that agree: slow creeping shows against it.
-    first: Option<Spell>,
+    first: Option<SampleWindow>,
     /// Complete, the newest last.
-    spells: VecDeque<Spell>,
-    filling: Spell,
+    spells: VecDeque<SampleWindow>,
+    filling: SampleWindow,
     last_at: Duration,
-    stillness: Stillness,
+    stillness: MotionState,
     run: u64,
 }
 
 /// Sums over some frames in a row, one of each for every sample.
 #[derive(Clone, Debug, Default)]
-struct Spell {
+struct SampleWindow {
     from: Duration,
     num_frames: usize,
     counts: Vec<u16>,
@@ -121,7 +121,7 @@ struct Spell {
     squares: Vec<f32>,
 }
 
-impl SteadyWatch {
+impl MotionDetector {
     /// Before the first frame.
     pub fn new(params: SteadyParams) -> Self {
         Self {
@@ -131,9 +131,9 @@ impl SteadyWatch {
             pivots: Vec::new(),
             first: None,
             spells: VecDeque::new(),
-            filling: Spell::default(),
+            filling: SampleWindow::default(),
             last_at: Duration::ZERO,
-            stillness: Stillness::Watching,
+            stillness: MotionState::Watching,
             run: 0,
         }
     }
@@ -144,14 +144,14 @@ impl SteadyWatch {
     }
 
     /// What the frames so far say.
-    pub fn stillness(&self) -> Stillness {
+    pub fn stillness(&self) -> MotionState {
         self.stillness
     }
 
     /// Takes in a frame. `at` is its camera's time; a scene without rows and columns is never steady.
-    pub fn see(&mut self, scene: &SceneCloud, at: Duration) -> Stillness {
+    pub fn see(&mut self, scene: &SceneCloud, at: Duration) -> MotionState {
         let Some(grid) = scene.cloud.grid else {
-            self.start_anew(Stillness::Watching, at);
+            self.restart_consensus(MotionState::Watching, at);
             self.grid = None;
             return self.stillness;
         };
@@ -160,7 +160,7 @@ impl SteadyWatch {
             && gap.is_some_and(|gap| gap <= MAX_GAP && (!gap.is_zero() || self.is_empty()));
         if self.grid != Some(grid) || !is_continued {
             self.grid = Some(grid);
-            self.start_anew(Stillness::Watching, at);
+            self.restart_consensus(MotionState::Watching, at);
         }
         self.last_at = at;
         if self.is_empty() {
@@ -170,14 +170,14 @@ impl SteadyWatch {
         let samples = samples(scene, grid);
         let last = self.spells.back();
         let last = last.or((self.filling.num_frames >= FRAMES_TO_JUDGE).then_some(&self.filling));
-        if last.is_some_and(|spell| self.is_off_at_once(spell, &samples)) {
-            self.start_anew(Stillness::Moving, at);
+        if last.is_some_and(|spell| self.moved_in_one_frame(spell, &samples)) {
+            self.restart_consensus(MotionState::Moving, at);
         }
         self.gather(&samples, at);
         if self.is_full(at) {
             self.close_spell(at);
         }
-        if let Stillness::Steady { since, lasting } = &mut self.stillness {
+        if let MotionState::Steady { since, lasting } = &mut self.stillness {
             *lasting = at.saturating_sub(*since);
         }
         self.stillness
@@ -187,12 +187,12 @@ impl SteadyWatch {
         self.spells.is_empty() && self.filling.num_frames == 0
     }
 
-    fn start_anew(&mut self, stillness: Stillness, at: Duration) {
+    fn restart_consensus(&mut self, stillness: MotionState, at: Duration) {
         self.stillness = stillness;
         self.run += 1;
         self.spells.clear();
         self.first = None;
-        self.filling = Spell::default();
+        self.filling = SampleWindow::default();
         self.pivots.clear();
         self.last_at = at;
     }
@@ -205,7 +205,7 @@ impl SteadyWatch {
             filling, pivots, ..
         } = self;
         if filling.num_frames == 0 {
-            *filling = Spell::of(samples.len(), at);
+            *filling = SampleWindow::of(samples.len(), at);
         }
         filling.num_frames += 1;
         let sums = filling.sums.iter_mut().zip(&mut filling.squares);
@@ -236,11 +236,11 @@ impl SteadyWatch {
         let differs = earlier
             .into_iter()
             .any(|earlier| self.changed_share(earlier, &spell) > self.params.max_changed);
-        if differs || self.restless_share(&spell) > MAX_RESTLESS {
+        if differs || self.moving_share(&spell) > MAX_RESTLESS {
             // The newest spell may be the first of a long rest; the motion lies before it, or in it.
             let pivots = std::mem::take(&mut self.pivots);
-            self.start_anew(Stillness::Moving, at);
-            if self.restless_share(&spell) <= MAX_RESTLESS {
+            self.restart_consensus(MotionState::Moving, at);
+            if self.moving_share(&spell) <= MAX_RESTLESS {
                 self.pivots = pivots;
                 self.spells.push_back(spell);
             }
@@ -251,7 +251,7 @@ impl SteadyWatch {
             self.first = self.spells.pop_front();
             let since = self.first.as_ref().map_or(at, |first| first.from);
             let lasting = Duration::ZERO;
-            self.stillness = Stillness::Steady { since, lasting };
+            self.stillness = MotionState::Steady { since, lasting };
         }
         if self.spells.len() > NUM_SPELLS {
             self.spells.pop_front();
@@ -259,7 +259,7 @@ impl SteadyWatch {
     }
 
     /// Share of the samples that went from one value to another between two spells.
-    fn changed_share(&self, a: &Spell, b: &Spell) -> f64 {
+    fn changed_share(&self, a: &SampleWindow, b: &SampleWindow) -> f64 {
         let limit = (self.params.deviations * self.params.deviations) as f32;
         let noise_sq = self.noise * self.noise;
         let (mut num_changed, mut num_read) = (0_u32, 0_u32);
@@ -289,7 +289,7 @@ impl SteadyWatch {
     }
 
     /// Share of the samples that scatter more than noise does.
-    fn restless_share(&self, spell: &Spell) -> f64 {
+    fn moving_share(&self, spell: &SampleWindow) -> f64 {
         let limit = (RESTLESS * self.noise).powi(2);
         let (mut num_restless, mut num_read) = (0_u32, 0_u32);
         let sums = spell.sums.iter().zip(&spell.squares);
@@ -304,12 +304,12 @@ impl SteadyWatch {
     }
 
     /// True if so much of one frame is off the last spell that something moved: no need to wait for the next.
-    fn is_off_at_once(&self, spell: &Spell, samples: &[f32]) -> bool {
+    fn moved_in_one_frame(&self, spell: &SampleWindow, samples: &[f32]) -> bool {
         self.off_share(spell, samples) > MAX_OFF_AT_ONCE
     }
 
     /// Share of the samples that are off a spell in one frame.
-    fn off_share(&self, spell: &Spell, samples: &[f32]) -> f64 {
+    fn off_share(&self, spell: &SampleWindow, samples: &[f32]) -> f64 {
         let noise_sq = self.noise * self.noise;
         let (mut num_off, mut num_read) = (0_u32, 0_u32);
         for (i, &sample) in samples.iter().enumerate().take(spell.counts.len()) {
@@ -327,7 +327,7 @@ impl SteadyWatch {
     }
 }
 
-impl Spell {
+impl SampleWindow {
     fn of(num_samples: usize, from: Duration) -> Self {
         Self {
             from,

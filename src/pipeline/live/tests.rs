@@ -11,7 +11,7 @@ use crate::{
     },
     library::{Library, open_library},
     pipeline::{Recipe, Unwatched, run},
-    simulate::{CellSetup, PartKind, PartPose, Placement, SensorNoise, Side, frame_of_mesh},
+    simulate::{CellSetup, PartKind, PartPose, PoseRange, SensorNoise, Side, frame_of_mesh},
     stages::{reference::ReferenceParams, scene::scene_from_frame},
 };
 
@@ -20,26 +20,26 @@ const FRAME: Duration = Duration::from_micros(33_333);
 struct Cell {
     setup: CellSetup,
     mesh: TriangleMesh,
-    at_rest: RigidTransform,
+    rest_pose: RigidTransform,
 }
 
 impl Cell {
     fn with(kind: PartKind, seed: u64) -> Self {
         let setup = CellSetup::with_part(kind, Side::Left, 0, seed);
         let mesh = setup.subject.mesh();
-        let at_rest = Placement::facing()
+        let rest_pose = PoseRange::facing()
             .draw(&mesh, &Intrinsics::KINECT, seed)
             .camera_from_part;
         Self {
             setup,
             mesh,
-            at_rest,
+            rest_pose,
         }
     }
 
     fn depth(&self, noise: SensorNoise, moved: &RigidTransform) -> DepthFrame {
         let mut setup = self.setup;
-        setup.pose = PartPose::Fixed(moved * self.at_rest);
+        setup.pose = PartPose::Fixed(moved * self.rest_pose);
         setup.noise = noise;
         frame_of_mesh(&setup, &self.mesh).frame
     }
@@ -66,7 +66,7 @@ fn a_part_is_accepted_once_it_hangs_still_and_no_longer_when_it_moves() {
     let recipe = Recipe::default();
     let cell = Cell::with(PartKind::Fender, 3);
     let follow = || {
-        let mut watch = LiveWatch::new(&LiveParams::default());
+        let mut watch = LiveTracker::new(&LiveParams::default());
         let said = (0..52_u64).map(|number| {
             // Still, then away at 20 cm/s.
             let x = if number < 40 {

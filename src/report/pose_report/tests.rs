@@ -6,7 +6,7 @@ use crate::{
     library::{LibraryFolder, LibraryLoad},
     pipeline::{Unwatched, run},
     report::{Picture, stage_pictures},
-    simulate::{CellSetup, PartKind, Side, Subject, frame},
+    simulate::{CellSetup, PartKind, Side, SimulatedObject, frame},
     stages::{
         reference::{Reference, ReferenceParams},
         scene::{SceneCloud, scene_from_frame},
@@ -82,7 +82,7 @@ pub(super) fn refused() -> &'static Inspected {
 /// Nothing hangs there.
 pub(super) fn empty() -> &'static Inspected {
     static EMPTY: OnceLock<Inspected> = OnceLock::new();
-    EMPTY.get_or_init(|| Inspected::of(&CellSetup::new(Subject::Nothing, 5)))
+    EMPTY.get_or_init(|| Inspected::of(&CellSetup::new(SimulatedObject::Nothing, 5)))
 }
 
 pub(super) fn robot() -> RobotFrame {

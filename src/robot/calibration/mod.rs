@@ -16,12 +16,12 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     RobotFrame,
-    hand_eye::{Bounds, HandEye, Mount},
+    hand_eye::{CalibrationBounds, HandEye, Mount},
 };
 use crate::{
     error::Advice,
     files::crc32,
-    geometry::rigid::{PoseError, RigidTransform, row_major},
+    geometry::rigid::{PoseDelta, RigidTransform, row_major},
 };
 
 pub use self::{
@@ -68,12 +68,12 @@ pub enum Origin {
     /// A person entered the numbers.
     ByHand,
     /// It was calculated from pairs of robot and camera poses.
-    HandEye(Fit),
+    HandEye(CalibrationFit),
 }
 
 /// A hand-eye calibration, in the figures that a person judges it by.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Fit {
+pub struct CalibrationFit {
     /// The file of the pairs.
     pub pairs_file: String,
     /// Pairs used.
@@ -100,13 +100,13 @@ pub struct Fit {
     pub doubts: Vec<String>,
 }
 
-impl Fit {
+impl CalibrationFit {
     /// What is to be remembered of a solved calibration; figures are rounded to a micrometre and 1/10 000 of a degree.
     pub fn of(solved: &HandEye, pairs_file: String, left_out: Vec<String>) -> Self {
         let rounded = |value: f64, unit: f64| (value / unit).round() * unit;
-        let mm = |off: &PoseError| rounded(off.shift.mm(), 0.001);
+        let mm = |off: &PoseDelta| rounded(off.shift.mm(), 0.001);
         let worst = solved.residuals.worst();
-        let Bounds { shift, turn } = solved.bounds;
+        let CalibrationBounds { shift, turn } = solved.bounds;
         let finite = |value: f64, unit: f64| Some(rounded(value, unit)).filter(|x| x.is_finite());
         Self {
             pairs_file,

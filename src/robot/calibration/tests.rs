@@ -126,7 +126,11 @@ fn a_hand_eye_calibration_keeps_its_figures_until_its_numbers_are_edited() {
     let solved = solve(&pairs, Mount::EyeToHand).expect("solved");
     let written = CellCalibration {
         camera: CameraPlace::on(Mount::EyeToHand, solved.mount_from_camera),
-        origin: Origin::HandEye(Fit::of(&solved, "pairs.csv".into(), vec!["line 7".into()])),
+        origin: Origin::HandEye(CalibrationFit::of(
+            &solved,
+            "pairs.csv".into(),
+            vec!["line 7".into()],
+        )),
         ..fixed()
     };
     let Loaded {

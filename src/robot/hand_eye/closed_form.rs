@@ -6,7 +6,7 @@
 
 use nalgebra::{DMatrix, DVector, Isometry3, Matrix3, SMatrix, Translation3, Vector3};
 
-use super::{Equation, LEAST_PAIRS, Unknowns};
+use super::{Equation, HandEyeSolution, LEAST_PAIRS};
 use crate::geometry::rigid::rotation_nearest_to;
 
 /// Singular values below this share of the largest are noise of the arithmetic: the shift along them is left at 0.
@@ -14,7 +14,7 @@ const NEGLIGIBLE: f64 = 1e-9;
 
 /// X and Z in closed form.
 pub(super) struct ClosedForm {
-    pub(super) unknowns: Unknowns,
+    pub(super) unknowns: HandEyeSolution,
     /// How far the next best rotation is behind, 0..1: at 0 another one fits as well.
     pub(super) lead: f64,
 }
@@ -63,7 +63,7 @@ pub(super) fn solve(equations: &[Equation]) -> Option<ClosedForm> {
     let shifts = svd.solve(&sides, least).ok()?;
     let shift = |at: usize| -> Vector3<f64> { shifts.fixed_rows::<3>(at).into_owned() };
     Some(ClosedForm {
-        unknowns: Unknowns {
+        unknowns: HandEyeSolution {
             mount_from_camera: Isometry3::from_parts(Translation3::from(shift(0)), x),
             anchor_from_target: Isometry3::from_parts(Translation3::from(shift(3)), z),
         },

@@ -3,12 +3,12 @@
 use nalgebra::{Isometry3, Point3, Translation3};
 
 use super::{
-    Bounds, Equation, Mount, PosePair, Residuals, Span, Unknowns, closed_form, refine, rms,
-    suspects::suspects,
+    CalibrationBounds, Equation, HandEyeSolution, Mount, PosePair, Residuals, Span, closed_form,
+    refine, rms, suspects::suspects,
 };
 use crate::{
     error::Advice,
-    geometry::rigid::{PoseError, RigidTransform},
+    geometry::rigid::{PoseDelta, RigidTransform},
     units::{Metres, Radians},
 };
 
@@ -41,11 +41,11 @@ pub enum HandEyeDoubt {
     )]
     Mistaken {
         /// What was probably meant.
-        mistake: Mistake,
+        mistake: LikelyMistake,
         /// As it is.
-        rms: PoseError,
+        rms: PoseDelta,
         /// As it would be then.
-        then: PoseError,
+        then: PoseDelta,
     },
     /// What is on the flange would be farther from it than anything is.
     #[error("{what} would sit {:.0} mm from the flange", distance.mm())]
@@ -64,7 +64,7 @@ pub enum HandEyeDoubt {
     #[error("the pairs do not agree: {:.1} mm and {:.2}° rms", rms.shift.mm(), rms.rotation.degrees())]
     Disagree {
         /// As it is.
-        rms: PoseError,
+        rms: PoseDelta,
     },
     /// The arm hardly turned.
     #[error("the flange turned by {:.1}° at most", span.largest_turn.degrees())]
@@ -90,15 +90,15 @@ pub enum HandEyeDoubt {
         /// Name of the pair.
         pair: String,
         /// How far it is off.
-        off: PoseError,
+        off: PoseDelta,
         /// Root mean square of the pairs that are not suspect.
-        others: PoseError,
+        others: PoseDelta,
     },
     /// The pairs leave X too uncertain to paint by.
     #[error("the camera's place may be off by {:.1} mm and {:.2}°", bounds.shift.mm(), bounds.turn.degrees())]
     Loose {
         /// How far X may be off.
-        bounds: Bounds,
+        bounds: CalibrationBounds,
     },
     /// The camera saw the target always at the same place.
     #[error("the camera saw the target within {:.0} mm of one place", span.travel.mm())]
@@ -116,7 +116,7 @@ pub enum HandEyeDoubt {
 
 /// What a person may have meant otherwise.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
-pub enum Mistake {
+pub enum LikelyMistake {
     /// The robot's poses the other way round, or the other mount.
     #[error(
         "the robot's poses went the other way (flange_from_robot), or the camera sat on the other mount"
@@ -165,15 +165,15 @@ impl Advice for HandEyeDoubt {
                 "Check the convention of the robot's poses, and that each line holds both poses of one capture".into()
             }
             Self::Mistaken { mistake, .. } => match mistake {
-                Mistake::RobotInverted => {
+                LikelyMistake::RobotInverted => {
                     "Check the mount, and that the robot's poses are robot_from_flange: the flange as the controller shows it".into()
                 }
-                Mistake::CameraInverted => {
+                LikelyMistake::CameraInverted => {
                     "Check the mount first (--mount). Only if it is right, invert the camera's poses: camera_from_target says \
                      where the camera sees the target"
                         .into()
                 }
-                Mistake::CameraInMillimetres | Mistake::CameraInMetres => {
+                LikelyMistake::CameraInMillimetres | LikelyMistake::CameraInMetres => {
                     "Check the unit of the camera's poses: name the convention that they are written in".into()
                 }
             },
@@ -211,7 +211,7 @@ const FARTHEST: Metres = Metres(20.0);
 /// A pair's angles agree to what the camera errs by, and never by so much.
 const TURNS_AGREE: Radians = Radians(0.05);
 /// Pairs of a working cell agree better than this.
-const AGREE: PoseError = PoseError {
+const AGREE: PoseDelta = PoseDelta {
     rotation: Radians(0.026),
     shift: Metres(0.015),
 };
@@ -226,12 +226,12 @@ const LEAST_LEAD: f64 = 2e-4;
 /// Long enough for a camera on a boom, or the middle of a bumper that the flange holds by its end.
 const FARTHEST_ON_FLANGE: Metres = Metres(1.2);
 /// A tenth of the spray's band.
-const LOOSE: Bounds = Bounds {
+const LOOSE: CalibrationBounds = CalibrationBounds {
     shift: Metres(0.005),
     turn: Radians(0.0087),
 };
 /// Half of what is left of the band to either side of its middle.
-const FAR_TOO_LOOSE: Bounds = Bounds {
+const FAR_TOO_LOOSE: CalibrationBounds = CalibrationBounds {
     shift: Metres(0.025),
     turn: Radians(0.052),
 };
@@ -244,7 +244,7 @@ pub(super) fn doubts(
     equations: &[Equation],
     residuals: &Residuals,
     span: &Span,
-    bounds: Bounds,
+    bounds: CalibrationBounds,
     lead: f64,
     far: Option<HandEyeDoubt>,
 ) -> Vec<HandEyeDoubt> {
@@ -312,7 +312,7 @@ fn far_away(pairs: &[PosePair]) -> Option<HandEyeDoubt> {
 }
 
 /// What is on the flange, if it is too far from it to be true.
-pub(super) fn far_from_flange(mount: Mount, unknowns: &Unknowns) -> Option<HandEyeDoubt> {
+pub(super) fn far_from_flange(mount: Mount, unknowns: &HandEyeSolution) -> Option<HandEyeDoubt> {
     let (what, on_flange) = match mount {
         Mount::EyeInHand => ("the camera", &unknowns.mount_from_camera),
         Mount::EyeToHand => ("the target", &unknowns.anchor_from_target),
@@ -322,7 +322,7 @@ pub(super) fn far_from_flange(mount: Mount, unknowns: &Unknowns) -> Option<HandE
 }
 
 /// Why the pairs do not agree, if they do not.
-fn disagreement(equations: &[Equation], rms: PoseError) -> Option<HandEyeDoubt> {
+fn disagreement(equations: &[Equation], rms: PoseDelta) -> Option<HandEyeDoubt> {
     if rms.shift <= AGREE.shift && rms.rotation <= AGREE.rotation {
         return None;
     }
@@ -332,10 +332,10 @@ fn disagreement(equations: &[Equation], rms: PoseError) -> Option<HandEyeDoubt> 
         return Some(HandEyeDoubt::TurnsDisagree { apart });
     }
     let as_given = quality(equations, rms);
-    let tried = Mistake::ALL.iter().filter_map(|&mistake| {
+    let tried = LikelyMistake::ALL.iter().filter_map(|&mistake| {
         let equations = mistake.undone(equations);
         let fit = refine::refine(&equations, closed_form::solve(&equations)?.unknowns).unknowns;
-        let off: Vec<PoseError> = equations.iter().map(|e| e.off(&fit)).collect();
+        let off: Vec<PoseDelta> = equations.iter().map(|e| e.off(&fit)).collect();
         let then = self::rms(&off);
         Some((quality(&equations, then), mistake, then))
     });
@@ -364,7 +364,7 @@ fn turns_apart(equations: &[Equation]) -> Radians {
 }
 
 /// How badly equations agree, whatever their unit of length: beside how far apart the targets stood.
-fn quality(equations: &[Equation], rms: PoseError) -> f64 {
+fn quality(equations: &[Equation], rms: PoseDelta) -> f64 {
     let positions = || {
         equations
             .iter()
@@ -379,7 +379,7 @@ fn quality(equations: &[Equation], rms: PoseError) -> f64 {
     rms.shift.0 / spread.max(f64::MIN_POSITIVE) + rms.rotation.0
 }
 
-impl Mistake {
+impl LikelyMistake {
     const ALL: [Self; 4] = [
         Self::RobotInverted,
         Self::CameraInverted,

@@ -43,12 +43,12 @@ use serde::{Deserialize, Serialize};
 
 use crate::{
     error::Advice,
-    geometry::rigid::{PoseError, RigidTransform, pose_error},
+    geometry::rigid::{PoseDelta, RigidTransform, pose_error},
     units::{Metres, Radians},
 };
 
 pub use self::{
-    doubt::{HandEyeDoubt, Mistake},
+    doubt::{HandEyeDoubt, LikelyMistake},
     span::Span,
 };
 
@@ -159,7 +159,7 @@ pub struct PairResidual {
     /// The pair.
     pub name: String,
     /// How far the target was seen from where it should have been; the shift is that of the target's origin.
-    pub off: PoseError,
+    pub off: PoseDelta,
 }
 
 /// How well the pairs agree.
@@ -168,7 +168,7 @@ pub struct Residuals {
     /// Each pair, in the order given.
     pub pairs: Vec<PairResidual>,
     /// Root mean square of all pairs.
-    pub rms: PoseError,
+    pub rms: PoseDelta,
     /// The pair with the largest shift.
     pub worst: usize,
 }
@@ -182,7 +182,7 @@ impl Residuals {
 
 /// Bounds of X that hold in 95 of 100 cases if the pairs err independently.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
-pub struct Bounds {
+pub struct CalibrationBounds {
     /// How far a point where the targets stood may be off; infinite where the pairs leave it open.
     pub shift: Metres,
     /// How far the camera may be turned; infinite where the pairs leave it open.
@@ -201,7 +201,7 @@ pub struct HandEye {
     /// How well the pairs agree with both.
     pub residuals: Residuals,
     /// How far X may be off.
-    pub bounds: Bounds,
+    pub bounds: CalibrationBounds,
     /// What the poses span.
     pub span: Span,
     /// What is doubtful, the gravest first.
@@ -224,11 +224,11 @@ struct Equation {
 
 impl Equation {
     /// Where X and Z say that the camera sees the target.
-    fn predicted(&self, unknowns: &Unknowns) -> RigidTransform {
+    fn predicted(&self, unknowns: &HandEyeSolution) -> RigidTransform {
         (self.anchor_from_mount * unknowns.mount_from_camera).inv_mul(&unknowns.anchor_from_target)
     }
 
-    fn off(&self, unknowns: &Unknowns) -> PoseError {
+    fn off(&self, unknowns: &HandEyeSolution) -> PoseDelta {
         pose_error(
             &self.camera_from_target,
             &self.predicted(unknowns),
@@ -239,7 +239,7 @@ impl Equation {
 
 /// X and Z.
 #[derive(Clone, Copy, Debug)]
-struct Unknowns {
+struct HandEyeSolution {
     mount_from_camera: RigidTransform,
     anchor_from_target: RigidTransform,
 }
@@ -299,8 +299,8 @@ fn check(pairs: &[PosePair]) -> Result<(), HandEyeError> {
     })
 }
 
-fn residuals(pairs: &[PosePair], equations: &[Equation], unknowns: &Unknowns) -> Residuals {
-    let off: Vec<PoseError> = equations.iter().map(|e| e.off(unknowns)).collect();
+fn residuals(pairs: &[PosePair], equations: &[Equation], unknowns: &HandEyeSolution) -> Residuals {
+    let off: Vec<PoseDelta> = equations.iter().map(|e| e.off(unknowns)).collect();
     let worst = (0..off.len())
         .max_by(|&a, &b| off[a].shift.0.total_cmp(&off[b].shift.0))
         .unwrap_or(0);
@@ -319,11 +319,11 @@ fn residuals(pairs: &[PosePair], equations: &[Equation], unknowns: &Unknowns) ->
 }
 
 /// Root mean squares, each by itself.
-fn rms(off: &[PoseError]) -> PoseError {
-    let mean = |square: fn(&PoseError) -> f64| {
+fn rms(off: &[PoseDelta]) -> PoseDelta {
+    let mean = |square: fn(&PoseDelta) -> f64| {
         (off.iter().map(square).sum::<f64>() / off.len().max(1) as f64).sqrt()
     };
-    PoseError {
+    PoseDelta {
         rotation: Radians(mean(|off| off.rotation.0.powi(2))),
         shift: Metres(mean(|off| off.shift.0.powi(2))),
     }

@@ -9,11 +9,11 @@
 
 use nalgebra::{Isometry3, Matrix3, SMatrix, SVector, Translation3, UnitQuaternion, Vector3};
 
-use super::{Bounds, Equation, Unknowns, rms};
+use super::{CalibrationBounds, Equation, HandEyeSolution, rms};
 use crate::units::{Metres, Radians};
 
 /// Turn and shift of X, then of Z.
-type Step = SVector<f64, 12>;
+type NewtonStep = SVector<f64, 12>;
 type Information = SMatrix<f64, 12, 12>;
 type Jacobian = SMatrix<f64, 6, 12>;
 
@@ -34,12 +34,12 @@ const HELD: f64 = 1e-10;
 
 /// The result of a refinement.
 pub(super) struct Refined {
-    pub(super) unknowns: Unknowns,
+    pub(super) unknowns: HandEyeSolution,
     lever: f64,
 }
 
 /// Refines X and Z from where they are.
-pub(super) fn refine(equations: &[Equation], start: Unknowns) -> Refined {
+pub(super) fn refine(equations: &[Equation], start: HandEyeSolution) -> Refined {
     let mut unknowns = start;
     let mut lever = COMMON_LEVER;
     for round in 0..ROUNDS {
@@ -52,7 +52,7 @@ pub(super) fn refine(equations: &[Equation], start: Unknowns) -> Refined {
 }
 
 /// How many metres a shift scatters for each radian that a turn does.
-fn lever_of(equations: &[Equation], unknowns: &Unknowns) -> f64 {
+fn lever_of(equations: &[Equation], unknowns: &HandEyeSolution) -> f64 {
     let off: Vec<_> = equations.iter().map(|e| e.off(unknowns)).collect();
     let rms = rms(&off);
     let lever = rms.shift.0 / rms.rotation.0;
@@ -63,7 +63,7 @@ fn lever_of(equations: &[Equation], unknowns: &Unknowns) -> f64 {
     }
 }
 
-fn settle(equations: &[Equation], mut unknowns: Unknowns, lever: f64) -> Unknowns {
+fn settle(equations: &[Equation], mut unknowns: HandEyeSolution, lever: f64) -> HandEyeSolution {
     let mut damping = 1e-6;
     let mut sum_sq = sum_of_squares(equations, &unknowns, lever);
     for _ in 0..MAX_STEPS {
@@ -94,8 +94,8 @@ fn settle(equations: &[Equation], mut unknowns: Unknowns, lever: f64) -> Unknown
     unknowns
 }
 
-impl Unknowns {
-    fn changed(&self, step: &Step) -> Self {
+impl HandEyeSolution {
+    fn changed(&self, step: &NewtonStep) -> Self {
         let change = |at: usize| -> Isometry3<f64> {
             let turn: Vector3<f64> = step.fixed_rows::<3>(at).into_owned();
             let shift: Vector3<f64> = step.fixed_rows::<3>(at + 3).into_owned();
@@ -112,7 +112,7 @@ impl Unknowns {
 /// Turn, and shift divided by the lever.
 fn residual(
     equation: &Equation,
-    unknowns: &Unknowns,
+    unknowns: &HandEyeSolution,
     lever: f64,
 ) -> (Isometry3<f64>, SVector<f64, 6>) {
     let seen = unknowns.mount_from_camera * equation.camera_from_target;
@@ -128,7 +128,7 @@ fn stacked(turn: &Vector3<f64>, shift: &Vector3<f64>) -> SVector<f64, 6> {
     SVector::from_iterator(turn.iter().chain(shift.iter()).copied())
 }
 
-fn sum_of_squares(equations: &[Equation], unknowns: &Unknowns, lever: f64) -> f64 {
+fn sum_of_squares(equations: &[Equation], unknowns: &HandEyeSolution, lever: f64) -> f64 {
     let residuals = equations.iter().map(|e| residual(e, unknowns, lever).1);
     residuals.map(|r| r.norm_squared()).sum()
 }
@@ -136,11 +136,11 @@ fn sum_of_squares(equations: &[Equation], unknowns: &Unknowns, lever: f64) -> f6
 /// `JᵀJ` and `Jᵀr`.
 fn normal_equations(
     equations: &[Equation],
-    unknowns: &Unknowns,
+    unknowns: &HandEyeSolution,
     lever: f64,
-) -> (Information, Step) {
+) -> (Information, NewtonStep) {
     let mut information = Information::zeros();
-    let mut pull = Step::zeros();
+    let mut pull = NewtonStep::zeros();
     for equation in equations {
         let (error, residual) = residual(equation, unknowns, lever);
         let jacobian = jacobian(equation, &error, lever);
@@ -191,13 +191,13 @@ impl Refined {
     ///
     /// The covariance is that of least squares; its scale comes from the residuals, so that few pairs give wide bounds
     /// (the quantile of F instead of the normal distribution's).
-    pub(super) fn bounds(&self, equations: &[Equation]) -> Bounds {
+    pub(super) fn bounds(&self, equations: &[Equation]) -> CalibrationBounds {
         let Self { unknowns, lever } = self;
         let num = equations.len() as f64;
         let freedom = 6.0 * num - 12.0;
         let (information, _) = normal_equations(equations, unknowns, *lever);
         let Some(covariance) = inverse(&information) else {
-            return Bounds::FREE;
+            return CalibrationBounds::FREE;
         };
         let scatter_sq = sum_of_squares(equations, unknowns, *lever) / freedom;
         let middle = equations
@@ -221,14 +221,14 @@ impl Refined {
             let largest = covariance.symmetric_eigenvalues().max();
             (largest.max(0.0) * within_sq).sqrt()
         };
-        Bounds {
+        CalibrationBounds {
             shift: Metres(longest(shift)),
             turn: Radians(longest(turn)),
         }
     }
 }
 
-impl Bounds {
+impl CalibrationBounds {
     /// Nothing is held.
     const FREE: Self = Self {
         shift: Metres(f64::INFINITY),
@@ -285,7 +285,7 @@ mod tests {
         };
         let x = pose([1.2, 0.1, -0.4, 0.05, 0.1, 0.2]);
         let near = pose([0.02, -0.01, 0.03, 0.004, -0.002, 0.006]);
-        let unknowns = Unknowns {
+        let unknowns = HandEyeSolution {
             mount_from_camera: x,
             anchor_from_target: equation.anchor_from_mount * x * equation.camera_from_target * near,
         };
@@ -295,7 +295,7 @@ mod tests {
         let h = 1e-6;
         for column in 0..12 {
             let at = |sign: f64| {
-                let mut step = Step::zeros();
+                let mut step = NewtonStep::zeros();
                 step[column] = sign * h;
                 residual(&equation, &unknowns.changed(&step), lever).1
             };

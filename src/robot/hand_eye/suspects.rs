@@ -8,9 +8,9 @@
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
-use super::{Equation, LEAST_PAIRS, Unknowns, closed_form, refine, rms};
+use super::{Equation, HandEyeSolution, LEAST_PAIRS, closed_form, refine, rms};
 use crate::{
-    geometry::rigid::PoseError,
+    geometry::rigid::PoseDelta,
     units::{Metres, Radians},
 };
 
@@ -23,7 +23,7 @@ const IMPROVEMENTS: usize = 3;
 /// A pair so many times further off than the others are on average is suspect.
 const FACTOR: f64 = 5.0;
 /// Nobody looks for the cause of less than this.
-const LEAST: PoseError = PoseError {
+const LEAST: PoseDelta = PoseDelta {
     rotation: Radians(0.002),
     shift: Metres(0.001),
 };
@@ -36,9 +36,9 @@ pub(super) struct Suspects {
     /// Indices, in order.
     pub(super) pairs: Vec<usize>,
     /// How far each of them is off what the others say.
-    pub(super) off: Vec<PoseError>,
+    pub(super) off: Vec<PoseDelta>,
     /// Of the others.
-    pub(super) rms: PoseError,
+    pub(super) rms: PoseDelta,
 }
 
 /// The pairs that are far off what most of the others say; `None` if there is none, or if no one can tell.
@@ -49,7 +49,7 @@ pub(super) fn suspects(equations: &[Equation]) -> Option<Suspects> {
     }
     let half = num / 2 + 2;
     let mut random = Pcg64::seed_from_u64(7);
-    let mut best: Option<(f64, Unknowns)> = None;
+    let mut best: Option<(f64, HandEyeSolution)> = None;
     for _ in 0..TRIPLES {
         let mut chosen: Vec<usize> = Vec::with_capacity(LEAST_PAIRS);
         while chosen.len() < LEAST_PAIRS {
@@ -96,7 +96,7 @@ pub(super) fn suspects(equations: &[Equation]) -> Option<Suspects> {
     }
     let pairs: Vec<usize> = (0..num).filter(|i| !kept.contains(i)).collect();
     let off = |i: &usize| equations[*i].off(&fit);
-    let kept: Vec<PoseError> = kept.iter().map(off).collect();
+    let kept: Vec<PoseDelta> = kept.iter().map(off).collect();
     (!pairs.is_empty()).then(|| Suspects {
         off: pairs.iter().map(off).collect(),
         pairs,
@@ -109,11 +109,11 @@ fn picked(equations: &[Equation], indices: &[usize]) -> Vec<Equation> {
 }
 
 /// How far off, metres.
-fn far(off: &PoseError) -> f64 {
+fn far(off: &PoseDelta) -> f64 {
     off.shift.0.hypot(LEVER * off.rotation.0)
 }
 
-fn is_suspect(off: &PoseError, scale: f64) -> bool {
+fn is_suspect(off: &PoseDelta, scale: f64) -> bool {
     let counts = off.shift.0 > LEAST.shift.0 || off.rotation.0 > LEAST.rotation.0;
     counts && far(off) > FACTOR * scale
 }

@@ -41,7 +41,7 @@ fn any_rotation(random: &mut impl Rng, most: f64) -> UnitQuaternion<f64> {
     UnitQuaternion::from_axis_angle(&axis, random.random_range(-most..most))
 }
 
-fn disturbed(pose: &RigidTransform, noise: Noise, random: &mut impl Rng) -> RigidTransform {
+fn with_noise(pose: &RigidTransform, noise: Noise, random: &mut impl Rng) -> RigidTransform {
     let turn = UnitQuaternion::from_scaled_axis(normals(random, noise.turn));
     let shift = Translation3::from(pose.translation.vector + normals(random, noise.shift));
     Isometry3::from_parts(shift, turn * pose.rotation)
@@ -100,14 +100,14 @@ impl TrueCell {
                 let seen =
                     Isometry3::from_parts(Translation3::new(x, y, z), any_rotation(random, most));
                 let mut pair = self.pair(number, seen);
-                pair.camera_from_target = disturbed(&seen, noise, random);
+                pair.camera_from_target = with_noise(&seen, noise, random);
                 pair
             })
             .collect()
     }
 
     /// How far X is off, at a point 1.2 m before the camera.
-    fn off(&self, found: &HandEye) -> PoseError {
+    fn off(&self, found: &HandEye) -> PoseDelta {
         let at = Point3::new(0.0, 0.0, 1.2);
         pose_error(&found.mount_from_camera, &self.mount_from_camera, &at)
     }
@@ -153,16 +153,16 @@ fn exact_pairs_give_the_exact_calibration() {
 }
 
 /// Root mean square and worst over cells.
-fn accuracy(num_pairs: usize, noise: Noise) -> [PoseError; 2] {
-    let mut all: Vec<PoseError> = Vec::new();
+fn accuracy(num_pairs: usize, noise: Noise) -> [PoseDelta; 2] {
+    let mut all: Vec<PoseDelta> = Vec::new();
     over_cells(100, |cell, random| {
         let pairs = cell.pairs(num_pairs, 0.7, noise, random);
         let found = solve(&pairs, cell.mount).expect("solved");
         assert!(found.is_usable(), "{:?}", found.doubts);
         all.push(cell.off(&found));
     });
-    let worst = |figure: fn(&PoseError) -> f64| all.iter().map(figure).fold(0.0, f64::max);
-    let worst = PoseError {
+    let worst = |figure: fn(&PoseDelta) -> f64| all.iter().map(figure).fold(0.0, f64::max);
+    let worst = PoseDelta {
         rotation: Radians(worst(|off| off.rotation.0)),
         shift: Metres(worst(|off| off.shift.0)),
     };
@@ -256,7 +256,8 @@ fn half_turns_are_turns_like_any_other() {
         .enumerate()
         .map(|(i, numbers)| {
             let mut pair = cell.pair(i, from_euler_zyx(numbers));
-            pair.camera_from_target = disturbed(&pair.camera_from_target, noise(0.2, 0.05), random);
+            pair.camera_from_target =
+                with_noise(&pair.camera_from_target, noise(0.2, 0.05), random);
             pair
         })
         .collect();

@@ -5,7 +5,7 @@ use std::{fmt::Write as _, fs::File, io::Read as _, path::Path};
 use jiff::Timestamp;
 use serde::Serialize;
 
-use super::{Band, CarriedPath, MOST_TILT};
+use super::{BandStatus, CarriedPath, MOST_TILT};
 use crate::{
     files::{FileError, write_atomically},
     robot::{Convention, RobotFrame, RobotPose, RobotValue},
@@ -62,7 +62,7 @@ const BEGINNINGS: [&str; 2] = ["# Partsight spray path", "{\n  \"schema\": 1,\n 
 
 /// Takes an earlier export of this name away, so that nobody takes it for that of the next part; true if there was one.
 /// Anything else of that name stays.
-pub fn take_former_away(path: &Path) -> Result<bool, FileError> {
+pub fn remove_previous_export(path: &Path) -> Result<bool, FileError> {
     let mut beginning = [0; 64];
     let read = File::open(path).and_then(|mut file| file.read(&mut beginning));
     // Whatever is wrong with it shows when the next one is written.
@@ -107,7 +107,7 @@ struct JsonPoint {
     robot_from_nozzle: RobotPose,
     stand_off_mm: Option<f64>,
     tilt_deg: Option<f64>,
-    band: Band,
+    band: BandStatus,
 }
 
 const FRAME: &str = "the robot's base frame";

@@ -34,7 +34,7 @@ use crate::{
     units::{Metres, Radians},
 };
 
-pub use self::export::{SprayExport, SprayFormat, take_former_away};
+pub use self::export::{SprayExport, SprayFormat, remove_previous_export};
 
 /// Flatter than this to the nozzle, a coat is uneven.
 pub const MOST_TILT: Radians = Radians(std::f64::consts::FRAC_PI_6);
@@ -54,14 +54,14 @@ pub struct CarriedPoint {
     /// The same before the pose carried it.
     pub part_from_nozzle: RigidTransform,
     /// Where the ray meets what the camera saw, if it does.
-    pub meets: Option<Met>,
+    pub meets: Option<SurfaceHit>,
     /// What is to be thought of it.
-    pub band: Band,
+    pub band: BandStatus,
 }
 
 /// Where a ray meets the part.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Met {
+pub struct SurfaceHit {
     /// From the nozzle to the surface.
     pub distance: Metres,
     /// Between the ray and the surface's normal, 0..80°.
@@ -71,7 +71,7 @@ pub struct Met {
 /// A nozzle against its band.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, serde::Serialize)]
 #[serde(rename_all = "snake_case")]
-pub enum Band {
+pub enum BandStatus {
     /// Within the band, and square enough.
     Inside,
     /// Nearer than the band, or in the part.
@@ -84,7 +84,7 @@ pub enum Band {
     NotSeen,
 }
 
-impl Band {
+impl BandStatus {
     /// One word or two, for tables and drawings.
     pub fn name(self) -> &'static str {
         match self {
@@ -112,11 +112,11 @@ impl CarriedPoint {
 impl CarriedPath {
     /// Points within the band.
     pub fn num_inside(&self) -> usize {
-        self.count(Band::Inside)
+        self.count(BandStatus::Inside)
     }
 
     /// Points of this kind.
-    pub fn count(&self, band: Band) -> usize {
+    pub fn count(&self, band: BandStatus) -> usize {
         self.points
             .iter()
             .filter(|point| point.band == band)
@@ -160,9 +160,9 @@ pub fn against_reference(
     path: &SprayPath,
     reference: &Reference,
     params: &StandOffParams,
-) -> Vec<Band> {
+) -> Vec<BandStatus> {
     let Some(surface) = ReferenceSurface::of(reference) else {
-        return vec![Band::NotSeen; path.points().len()];
+        return vec![BandStatus::NotSeen; path.points().len()];
     };
     let bands = path.points().iter().map(|point| {
         let expected = point.stand_off.unwrap_or(params.taught);
@@ -215,7 +215,7 @@ fn meeting(
     nozzle: &RigidTransform,
     surface: &ReferenceSurface<'_>,
     expected: Metres,
-) -> Option<Met> {
+) -> Option<SurfaceHit> {
     let mouth: Point3<f64> = nozzle.translation.vector.into();
     let ray = Ray {
         // Micrometres are left of a metre in f32, far below what a nozzle notices.
@@ -224,18 +224,18 @@ fn meeting(
     };
     let (distance, normal) = ray.intersect(surface, expected.0 as f32)?;
     let cosine = f64::from(-ray.direction.dot(&normal));
-    Some(Met {
+    Some(SurfaceHit {
         distance: Metres(f64::from(distance)),
         tilt: Radians(cosine.clamp(-1.0, 1.0).acos()),
     })
 }
 
-fn band_of(meets: Option<Met>, params: &StandOffParams) -> Band {
+fn band_of(meets: Option<SurfaceHit>, params: &StandOffParams) -> BandStatus {
     match meets {
-        None => Band::NotSeen,
-        Some(met) if met.distance < params.nearest => Band::TooNear,
-        Some(met) if met.distance > params.farthest => Band::TooFar,
-        Some(met) if met.tilt > MOST_TILT => Band::TooFlat,
-        Some(_) => Band::Inside,
+        None => BandStatus::NotSeen,
+        Some(met) if met.distance < params.nearest => BandStatus::TooNear,
+        Some(met) if met.distance > params.farthest => BandStatus::TooFar,
+        Some(met) if met.tilt > MOST_TILT => BandStatus::TooFlat,
+        Some(_) => BandStatus::Inside,
     }
 }

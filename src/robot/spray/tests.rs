@@ -69,13 +69,13 @@ fn a_carried_path_keeps_its_distance_to_the_part() {
 fn a_part_that_is_elsewhere_than_its_pose_says_is_noticed() {
     let params = StandOffParams::default();
     for (z, tilt, expected) in [
-        (0.049, 0.0, Band::Inside),
-        (0.051, 0.0, Band::TooFar),
-        (-0.049, 0.0, Band::Inside),
-        (-0.051, 0.0, Band::TooNear),
-        (-0.20, 0.0, Band::TooNear),
-        (0.0, 0.51, Band::Inside),
-        (0.0, 0.56, Band::TooFlat),
+        (0.049, 0.0, BandStatus::Inside),
+        (0.051, 0.0, BandStatus::TooFar),
+        (-0.049, 0.0, BandStatus::Inside),
+        (-0.051, 0.0, BandStatus::TooNear),
+        (-0.20, 0.0, BandStatus::TooNear),
+        (0.0, 0.51, BandStatus::Inside),
+        (0.0, 0.56, BandStatus::TooFlat),
     ] {
         let middle = Translation3::new(0.0, 0.0, 1.2);
         let turn = UnitQuaternion::from_axis_angle(&Vector3::y_axis(), tilt);
@@ -91,7 +91,7 @@ fn a_part_that_is_elsewhere_than_its_pose_says_is_noticed() {
     }
     let path = SprayPath::new(vec![before(0.6, 0.0, 0.15)]).expect("a point");
     let past = carry(&path, &pose(), &seen_at(&pose()), &params);
-    assert_eq!(past.points[0].band, Band::NotSeen);
+    assert_eq!(past.points[0].band, BandStatus::NotSeen);
     assert_eq!((past.num_inside(), past.keeps_the_band()), (0, false));
 }
 
@@ -100,7 +100,10 @@ fn a_path_in_another_frame_lies_off_the_reference() {
     let params = StandOffParams::default();
     let inside = |path: &SprayPath| {
         let bands = against_reference(path, &plate(), &params);
-        bands.iter().filter(|band| **band == Band::Inside).count()
+        bands
+            .iter()
+            .filter(|band| **band == BandStatus::Inside)
+            .count()
     };
     assert_eq!(inside(&path()), 27);
     let path = path();

@@ -7,7 +7,7 @@ use rand_pcg::Pcg64;
 use super::{
     field_of_view::FieldOfView,
     flange::{Flange, seen_surface},
-    gloss::Gloss,
+    gloss::SpecularDropout,
     registered_camera::RegisteredCamera,
     trestle::trestle,
     walls::walls,
@@ -15,7 +15,7 @@ use super::{
 use crate::{
     geometry::{depth_frame::Intrinsics, distortion::Distortion, mesh::TriangleMesh},
     simulate::{
-        cell::{Cell, CellSetup, PartPose, Subject, is_in_frame},
+        cell::{Cell, CellSetup, PartPose, SimulatedObject, is_in_frame},
         part::{PartKind, PartModel, Side},
         rasteriser::SurfaceLabel,
         sensor::Sensor,
@@ -68,8 +68,8 @@ pub(in crate::simulate) fn arrange<'a>(setup: &CellSetup, part: &'a TriangleMesh
     );
     let camera_seed = random.random();
     let gloss = match setup.subject {
-        Subject::Nothing => Gloss::none(),
-        subject => Gloss::draw(subject, &seen, &camera_from_part, camera, &mut random),
+        SimulatedObject::Nothing => SpecularDropout::none(),
+        subject => SpecularDropout::draw(subject, &seen, &camera_from_part, camera, &mut random),
     };
     let mut meshes = vec![
         (stand.tubes.into_mesh(), SurfaceLabel::Stand),

@@ -7,13 +7,13 @@ use rand_pcg::Pcg64;
 use crate::{
     geometry::{depth_frame::Intrinsics, rigid::RigidTransform},
     simulate::{
-        cell::Subject,
+        cell::SimulatedObject,
         part::{PartKind, Side},
     },
 };
 
 /// Elongated patches in the picture.
-pub(super) struct Gloss(Vec<Patch>);
+pub(super) struct SpecularDropout(Vec<Patch>);
 
 /// A line with a thickness, in pixels.
 struct Patch {
@@ -25,14 +25,14 @@ struct Patch {
 /// How far the noise moves a patch's edge, as a share of its radius.
 const RAGGED: f64 = 0.45;
 
-impl Gloss {
+impl SpecularDropout {
     pub(super) fn none() -> Self {
         Self(Vec::new())
     }
 
     /// Up to three patches on what is seen of the part, and more often than not the handle of a door.
     pub(super) fn draw(
-        subject: Subject,
+        subject: SimulatedObject,
         seen: &[Point3<f64>],
         camera_from_part: &RigidTransform,
         camera: &Intrinsics,
@@ -87,8 +87,8 @@ impl Gloss {
 }
 
 /// The middle of a door's handle, in part space.
-fn handle_of(subject: Subject) -> Option<Point3<f64>> {
-    let Subject::Part { kind, side, .. } = subject else {
+fn handle_of(subject: SimulatedObject) -> Option<Point3<f64>> {
+    let SimulatedObject::Part { kind, side, .. } = subject else {
         return None;
     };
     let (x, y) = match kind {

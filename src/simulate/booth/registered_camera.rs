@@ -2,14 +2,14 @@
 //!
 //! As [`crate::simulate::sensor`] has it, with these differences: readings end inside the picture ([`FieldOfView`]); no
 //! steps of disparity are left after registering; jumps of depth lose fewer pixels and carry *flying* ones, whose depth
-//! lies between the two surfaces; glossy patches give nothing ([`Gloss`]). The noise was fitted to real frames of a
+//! lies between the two surfaces; glossy patches give nothing ([`SpecularDropout`]). The noise was fitted to real frames of a
 //! paint shop: 0.9 to 1.5 mm at 1 m, growing with z², with a correlation of 0.77, 0.50, 0.24 between columns one to
 //! three apart and of 0.77, 0.45, 0.14 between rows, which is what lets walls look rippled.
 
 use rand::{Rng as _, RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
-use super::{field_of_view::FieldOfView, gloss::Gloss};
+use super::{field_of_view::FieldOfView, gloss::SpecularDropout};
 use crate::{
     geometry::depth_frame::{DepthFrame, Intrinsics},
     simulate::{
@@ -37,13 +37,13 @@ const FLIES_ABOVE: f32 = 0.8;
 /// The camera with what it cannot see.
 pub(in crate::simulate) struct RegisteredCamera {
     field_of_view: FieldOfView,
-    gloss: Gloss,
+    gloss: SpecularDropout,
     /// Metres at 1 m.
     axial_at_1m: f64,
 }
 
 impl RegisteredCamera {
-    pub(super) fn new(field_of_view: FieldOfView, gloss: Gloss, seed: u64) -> Self {
+    pub(super) fn new(field_of_view: FieldOfView, gloss: SpecularDropout, seed: u64) -> Self {
         Self {
             field_of_view,
             gloss,
@@ -75,7 +75,7 @@ impl RegisteredCamera {
     ) -> DepthFrame {
         let mut depth = vec![0; rendering.depth.len()];
         if noise.multiplier > 0.0 {
-            self.disturb(rendering, noise, &mut depth);
+            self.apply_noise(rendering, noise, &mut depth);
         } else {
             let perfect = rendering.depth.iter().map(|&z| in_units(f64::from(z)));
             depth.iter_mut().zip(perfect).for_each(|(to, z)| *to = z);
@@ -98,7 +98,7 @@ impl RegisteredCamera {
         }
     }
 
-    fn disturb(&self, rendering: &Rendering, noise: &SensorNoise, depth: &mut [u16]) {
+    fn apply_noise(&self, rendering: &Rendering, noise: &SensorNoise, depth: &mut [u16]) {
         let camera = &rendering.intrinsics;
         let focal_baseline = camera.fx * BASELINE;
         let disparity: Vec<f32> = rendering

@@ -1,12 +1,12 @@
 use nalgebra::Point3;
 
 use crate::simulate::{
-    CellSetup, ObjectKind, PartKind, SensorNoise, Side, SimulatedFrame, Subject, SurfaceLabel,
-    frame,
+    CellSetup, ObjectKind, PartKind, SensorNoise, Side, SimulatedFrame, SimulatedObject,
+    SurfaceLabel, frame,
 };
 
 fn booth(kind: PartKind, seed: u64) -> CellSetup {
-    let subject = Subject::Part {
+    let subject = SimulatedObject::Part {
         kind,
         side: Side::Left,
         model_seed: 0,
@@ -88,7 +88,7 @@ fn the_stand_touches_the_part() {
 #[test]
 fn an_empty_booth_has_a_stand_and_no_part() {
     for seed in 0..6 {
-        let shot = frame(&CellSetup::booth(Subject::Nothing, seed));
+        let shot = frame(&CellSetup::booth(SimulatedObject::Nothing, seed));
         let has = |label| shot.truth.labels.contains(&label);
         assert!(has(SurfaceLabel::Stand) && !has(SurfaceLabel::Part));
         assert!(shot.truth.visible_share == 0.0);
@@ -98,7 +98,7 @@ fn an_empty_booth_has_a_stand_and_no_part() {
 #[test]
 fn a_thing_that_nobody_enrolled_lies_on_the_stand_too() {
     for (kind, seed) in ObjectKind::ALL.into_iter().zip(10..) {
-        let shot = frame(&CellSetup::booth(Subject::Object(kind), seed));
+        let shot = frame(&CellSetup::booth(SimulatedObject::Object(kind), seed));
         let share = shot.truth.visible_share;
         assert!(share > 0.15, "{kind:?}: {share}");
     }

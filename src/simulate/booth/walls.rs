@@ -50,7 +50,7 @@ pub(super) fn walls(
         heading,
         random.random_range(BEHIND),
     );
-    back.furnish(&mut fixtures, random);
+    back.add_fixtures(&mut fixtures, random);
     back.put_before(&mut clutter, &floor, random);
     let mut planes = vec![
         (back.plane, SurfaceLabel::Wall),
@@ -69,7 +69,7 @@ pub(super) fn walls(
         let beside = random.random_range(BESIDE);
         let side = Wall::beyond(part, camera_from_world, heading + quarter, beside);
         if random.random_bool(0.5) {
-            side.furnish(&mut fixtures, random);
+            side.add_fixtures(&mut fixtures, random);
         }
         planes.push((side.plane, SurfaceLabel::Wall));
     }
@@ -142,7 +142,7 @@ impl Wall {
     }
 
     /// Ribs, panels, frames and vents.
-    fn furnish(&self, fixtures: &mut Assembly, random: &mut Pcg64) {
+    fn add_fixtures(&self, fixtures: &mut Assembly, random: &mut Pcg64) {
         match random.random_range(0..4) {
             0 => self.add_ribs(fixtures, random),
             1 => self.add_panels(fixtures, random),

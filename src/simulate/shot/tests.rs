@@ -152,11 +152,11 @@ fn a_part_cut_off_by_the_frame_says_so() {
 
 #[test]
 fn the_truth_survives_json_but_for_its_labels() {
-    let setup = CellSetup::new(Subject::Object(ObjectKind::Hood), 8);
+    let setup = CellSetup::new(SimulatedObject::Object(ObjectKind::Hood), 8);
     let mut truth = frame(&setup).truth;
     let json = serde_json::to_value(&truth).unwrap();
     assert_eq!(json["camera_from_model"].as_array().unwrap().len(), 16);
-    let back: Truth = serde_json::from_value(json.clone()).unwrap();
+    let back: FrameTruth = serde_json::from_value(json.clone()).unwrap();
     truth.labels.clear();
     assert!(
         (back.camera_from_part.to_homogeneous() - truth.camera_from_part.to_homogeneous()).norm()
@@ -165,5 +165,5 @@ fn the_truth_survives_json_but_for_its_labels() {
     assert_eq!((back.subject, back.part()), (truth.subject, None));
     let mut skewed = json;
     skewed["camera_from_model"][0] = 7.0.into();
-    assert!(serde_json::from_value::<Truth>(skewed).is_err());
+    assert!(serde_json::from_value::<FrameTruth>(skewed).is_err());
 }

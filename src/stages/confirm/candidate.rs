@@ -12,11 +12,11 @@ use crate::{
     stages::{
         pose::{
             PoseEstimate, PoseMethod, RunnerUp, Uncertainty,
-            closest::Closest,
-            quality::Fit,
+            closest::Correspondence,
+            quality::FitQuality,
             refine::{Level, Refined, Search, cost, refine},
         },
-        rank::{MatchEntry, Placement},
+        rank::{ImagePlacement, MatchEntry},
         reference::Reference,
     },
 };
@@ -26,7 +26,7 @@ pub(super) struct ReferenceCandidate {
     pub(super) refined: Refined,
     /// The view whose edges it is refined to.
     pub(super) view: usize,
-    pub(super) fit: Fit,
+    pub(super) fit: FitQuality,
     pub(super) evidence: Evidence,
     pub(super) cost: f64,
     /// `None` as long as it is not refined to the end.
@@ -224,7 +224,7 @@ impl PreparedScene<'_> {
         let surface = &self.source.surface;
         let measured = &surface[..NUM_MEASURED.min(surface.len())];
         let target = reference.target(view)?;
-        let closest = Closest::of_each(measured, &target, pose, Search::Field);
+        let closest = Correspondence::of_each(measured, &target, pose, Search::Field);
         let (fit, evidence) = self.evaluate(reference, view, pose, &closest, NUM_LOOKED_FOR);
         Some(ReferenceCandidate {
             refined: trial.refined.clone(),
@@ -242,7 +242,7 @@ impl PreparedScene<'_> {
     fn distinct_starts(
         &self,
         reference: &Reference,
-        placements: &[Placement],
+        placements: &[ImagePlacement],
     ) -> Vec<(usize, RigidTransform)> {
         let mut starts: Vec<(usize, RigidTransform)> = Vec::new();
         for placement in placements {

@@ -3,7 +3,7 @@
 use super::Evidence;
 use crate::stages::{
     pose::PoseEstimate,
-    rank::{MatchEntry, MatchRanking, Placement},
+    rank::{ImagePlacement, MatchEntry, MatchRanking},
 };
 
 /// A ranked reference with what its pose says about it.
@@ -20,7 +20,7 @@ pub struct ConfirmedMatch {
     /// The matcher's own distance, see [`MatchEntry::distance`].
     pub distance: f64,
     /// Placements by the matcher, best first; the paper's matcher finds none.
-    pub placements: Vec<Placement>,
+    pub placements: Vec<ImagePlacement>,
     /// Its pose; `None` if it ranked too low to be tried, or has no cloud. The first's is refined to the end, the others'
     /// as far as it took to see that they are not the first.
     pub pose: Option<PoseEstimate>,

@@ -22,9 +22,9 @@ use crate::{
     geometry::rigid::RigidTransform,
     stages::{
         pose::{
-            closest::Closest,
-            quality::{Fit, look_for, measure_fit},
-            refine::{Source, Target},
+            closest::Correspondence,
+            quality::{FitQuality, look_for, measure_fit},
+            refine::{AlignmentSource, AlignmentTarget},
         },
         reference::Reference,
     },
@@ -86,9 +86,9 @@ impl PreparedScene<'_> {
         reference: &Reference,
         view: usize,
         target_from_source: &RigidTransform,
-        closest: &[Closest],
+        closest: &[Correspondence],
         num_looked_for: usize,
-    ) -> (Fit, Evidence) {
+    ) -> (FitQuality, Evidence) {
         let target = reference
             .target(view)
             .expect("what has a pose has a cloud and a view");
@@ -110,9 +110,9 @@ impl PreparedScene<'_> {
                 .zip(closest)
                 .filter(|(_, c)| !is_beyond(&c.at))
         };
-        let (shared_points, shared_closest): (Vec<Point3<f32>>, Vec<Closest>) =
+        let (shared_points, shared_closest): (Vec<Point3<f32>>, Vec<Correspondence>) =
             shared().map(|(p, c)| (*p, *c)).unzip();
-        let fit = Fit {
+        let fit = FitQuality {
             sight,
             ..measure_fit(&shared_points, &shared_closest, &target, tolerance)
         };
@@ -149,8 +149,8 @@ impl PreparedScene<'_> {
 
 /// Mean cosine between the reference's surface and the rays that see it.
 fn mean_facing(
-    closest: &[Closest],
-    target: &Target<'_>,
+    closest: &[Correspondence],
+    target: &AlignmentTarget<'_>,
     target_from_source: &RigidTransform,
 ) -> f64 {
     let camera = target_from_source * Point3::origin();
@@ -166,7 +166,7 @@ fn mean_facing(
 }
 
 /// Root mean square of the patches' mean signed distances.
-pub(super) fn relief(closest: &[Closest], target: &Target<'_>) -> f64 {
+pub(super) fn relief(closest: &[Correspondence], target: &AlignmentTarget<'_>) -> f64 {
     let mut patches: Vec<([i32; 3], f64)> = closest
         .iter()
         .filter_map(|closest| {
@@ -190,8 +190,8 @@ pub(super) fn relief(closest: &[Closest], target: &Target<'_>) -> f64 {
 
 /// Mean distance of the part's edges to the reference's, and the share of them that lies there.
 pub(super) fn outline_distance(
-    source: &Source,
-    target: &Target<'_>,
+    source: &AlignmentSource,
+    target: &AlignmentTarget<'_>,
     target_from_source: &RigidTransform,
     is_beyond: &dyn Fn(&Point3<f32>) -> bool,
 ) -> (f64, f64) {

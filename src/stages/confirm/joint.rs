@@ -15,10 +15,10 @@ use crate::{
     stages::{
         pose::{
             PoseEstimate,
-            closest::Closest,
+            closest::Correspondence,
             edge_points::EdgePoints,
-            quality::{Fit, Tolerance, measure_fit},
-            refine::{Level, Search, Source, Target, cost, refine},
+            quality::{FitQuality, Tolerance, measure_fit},
+            refine::{AlignmentSource, AlignmentTarget, Level, Search, cost, refine},
             uncertainty::uncertainty,
         },
         reference::Reference,
@@ -49,7 +49,7 @@ pub fn own_outline(scene: &Scene<'_>) -> OwnOutline {
 #[derive(Clone, Debug)]
 pub struct JointPart {
     /// Its points and edges, each in an order such that any first n are spread over it.
-    pub source: Source,
+    pub source: AlignmentSource,
     /// Where the cameras are.
     pub cameras: Vec<Point3<f64>>,
     /// Distance at which a point still lies on a reference.
@@ -123,12 +123,12 @@ fn finished(
     let target = with_edges(reference, &edges)?;
     let refined = refine(&part.source, &target, start, &THIRD);
     let pose = refined.target_from_source;
-    let closest = Closest::of_each(&part.source.surface, &target, &pose, Search::Tree);
+    let closest = Correspondence::of_each(&part.source.surface, &target, &pose, Search::Tree);
     let tolerance = Tolerance {
         base: part.tolerance,
         noise_at_1m: Metres(0.0),
     };
-    let fit: Fit = measure_fit(&part.source.surface, &closest, &target, tolerance);
+    let fit: FitQuality = measure_fit(&part.source.surface, &closest, &target, tolerance);
     let relief_sq = relief(&closest, &target).powi(2) - NOISE_OF_JOINT * NOISE_OF_JOINT;
     let bounds = uncertainty(&part.source, &closest, &target, &pose, &THIRD[2]);
     let squarest = part.cameras.iter().map(|camera| {
@@ -180,9 +180,9 @@ fn edges_of(
     EdgePoints::new(&edges, edges.len())
 }
 
-fn with_edges<'a>(reference: &'a Reference, edges: &'a EdgePoints) -> Option<Target<'a>> {
+fn with_edges<'a>(reference: &'a Reference, edges: &'a EdgePoints) -> Option<AlignmentTarget<'a>> {
     let target = reference.target(0)?;
-    Some(Target { edges, ..target })
+    Some(AlignmentTarget { edges, ..target })
 }
 
 fn middle_of(points: &[Point3<f32>]) -> Point3<f64> {

@@ -158,7 +158,7 @@ impl<'a> PartMask<'a> {
 mod tests {
     use super::*;
     use crate::{
-        simulate::{CellSetup, Clutter, PartKind, Placement, Side, frame},
+        simulate::{CellSetup, Clutter, PartKind, PoseRange, Side, frame},
         stages::{
             contour::{ContourParams, find_contour},
             project::{ProjectParams, project},
@@ -171,9 +171,9 @@ mod tests {
 
     fn cut_share(clutter: Clutter) -> f64 {
         let mut setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 0, 12);
-        setup.pose = crate::simulate::PartPose::Drawn(Placement {
+        setup.pose = crate::simulate::PartPose::Drawn(PoseRange {
             nearest: crate::units::Metres(1.5),
-            ..Placement::facing()
+            ..PoseRange::facing()
         });
         setup.clutter = clutter;
         let scene = scene_from_frame(&frame(&setup).frame);

@@ -14,7 +14,7 @@ use crate::{
     geometry::rigid::RigidTransform,
     stages::{
         contour::Contour,
-        pose::refine::{Search, Source, Target},
+        pose::refine::{AlignmentSource, AlignmentTarget, Search},
         reference::ViewCut,
     },
     units::Metres,
@@ -40,8 +40,8 @@ const LEAST_SQUARE: f64 = 0.5;
 /// Root mean square of the stretches' mean signed distances in the plane of a view, metres; `None` if too little of the
 /// outline can be compared.
 pub(super) fn outline_shift(
-    source: &Source,
-    target: &Target<'_>,
+    source: &AlignmentSource,
+    target: &AlignmentTarget<'_>,
     contour: &Contour,
     plane_from_part: &RigidTransform,
     target_from_source: &RigidTransform,
@@ -204,7 +204,7 @@ mod tests {
         cloud.normals = Some(vec![-Vector3::z(); cloud.points.len()]);
         let field = NearestField::new(&cloud.points, 0.01, 0.06);
         let edges = EdgePoints::new(&rim(1.0, 0.6), 400);
-        let target = Target {
+        let target = AlignmentTarget {
             cloud: &cloud,
             tree: &std::sync::OnceLock::new(),
             field: &field,
@@ -220,7 +220,7 @@ mod tests {
         };
         let slot = rim(0.4, 0.03).into_iter();
         let slot = slot.map(|p| p + Vector3::new(0.0, slot_aside, 0.0));
-        let source = Source {
+        let source = AlignmentSource {
             surface: Vec::new(),
             edges: rim(width, height).into_iter().chain(slot).collect(),
         };

@@ -15,7 +15,7 @@ use crate::{
     geometry::{cloud::is_finite, rigid::RigidTransform},
     stages::reference::{
         Reference,
-        border::{Border, BorderPair, BorderPoint, frame_of},
+        border::{BorderPair, BorderPoint, ReferenceBorder, frame_of},
     },
 };
 
@@ -145,7 +145,7 @@ impl PreparedScene<'_> {
     fn align_border_pair(
         piece: &PieceSample,
         reference: &Reference,
-        border: &Border,
+        border: &ReferenceBorder,
         pair: &BorderPair,
         poses: &mut Vec<(f32, Isometry3<f32>)>,
     ) {
@@ -273,7 +273,7 @@ impl PreparedScene<'_> {
 fn early_out_cost(
     piece: &PieceSample,
     reference: &Reference,
-    border: &Border,
+    border: &ReferenceBorder,
     turn: &Matrix3<f32>,
     shift: &Vector3<f32>,
 ) -> Option<f32> {

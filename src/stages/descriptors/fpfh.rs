@@ -16,7 +16,7 @@
 use super::{
     Descriptors,
     pair::{bin, pair_angles},
-    surface::Surface,
+    surface::DescribedSurface,
 };
 use crate::units::Metres;
 
@@ -51,7 +51,11 @@ struct Simplified {
 }
 
 /// A row for each of these points (indices into the surface, ascending).
-pub fn describe_fpfh(surface: &Surface, keypoints: &[u32], params: &FpfhParams) -> Descriptors {
+pub fn describe_fpfh(
+    surface: &DescribedSurface,
+    keypoints: &[u32],
+    params: &FpfhParams,
+) -> Descriptors {
     let radius = params.radius.0 as f32;
     let simplified = simplified_histograms(surface, radius);
     let mut described = Descriptors {
@@ -68,7 +72,7 @@ pub fn describe_fpfh(surface: &Surface, keypoints: &[u32], params: &FpfhParams) 
 }
 
 /// SPFH of every point; each pair is counted at both its ends.
-fn simplified_histograms(surface: &Surface, radius: f32) -> Vec<Simplified> {
+fn simplified_histograms(surface: &DescribedSurface, radius: f32) -> Vec<Simplified> {
     let empty = Simplified {
         counts: [0; WIDTH],
         num_pairs: 0,
@@ -94,7 +98,7 @@ fn simplified_histograms(surface: &Surface, radius: f32) -> Vec<Simplified> {
 }
 
 /// The bins that a pair falls into, the same for (i, j) and (j, i).
-fn pair_bins(surface: &Surface, i: usize, j: usize) -> Option<[usize; 3]> {
+fn pair_bins(surface: &DescribedSurface, i: usize, j: usize) -> Option<[usize; 3]> {
     let end = |i: usize| (&surface.points[i], &surface.normals[i]);
     let line = surface.points[j] - surface.points[i];
     let i_looks_along = surface.normals[i].dot(&line) >= -surface.normals[j].dot(&line);
@@ -111,7 +115,7 @@ fn pair_bins(surface: &Surface, i: usize, j: usize) -> Option<[usize; 3]> {
 }
 
 fn row_at(
-    surface: &Surface,
+    surface: &DescribedSurface,
     simplified: &[Simplified],
     keypoint: usize,
     radius: f32,
@@ -153,11 +157,11 @@ mod tests {
     use super::*;
     use crate::stages::descriptors::surface::{
         keypoints,
-        tests::{bent_surface, moved, plane, some_motion, sphere, surface_of},
+        tests::{bent_surface, moved, plane, sphere, surface_of, test_motion},
     };
 
     /// The formulas word for word, pair by pair.
-    fn slow_row(surface: &Surface, keypoint: usize, radius: f64) -> Vec<f64> {
+    fn slow_row(surface: &DescribedSurface, keypoint: usize, radius: f64) -> Vec<f64> {
         let n = surface.points.len();
         let point = |i: usize| surface.points[i].cast::<f64>();
         let normal = |i: usize| surface.normals[i].cast::<f64>();
@@ -238,7 +242,7 @@ mod tests {
         let chosen = keypoints(&surface, Metres(0.06));
         let before = describe_fpfh(&surface, &chosen, &FpfhParams::default());
         let after = describe_fpfh(
-            &moved(&surface, &some_motion()),
+            &moved(&surface, &test_motion()),
             &chosen,
             &FpfhParams::default(),
         );

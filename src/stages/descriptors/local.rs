@@ -7,7 +7,7 @@ use super::{
     fpfh::{FpfhParams, describe_fpfh},
     shot::{ShotParams, describe_shot},
     spin_image::{SpinImageParams, describe_spin_images},
-    surface::{SurfaceError, SurfaceParams, keypoints, take_surface},
+    surface::{SurfaceError, SurfaceParams, keypoints, prepare_surface},
 };
 use crate::{geometry::cloud::PointCloud, units::Metres};
 
@@ -100,7 +100,7 @@ fn describe_locally(
     spacing: Metres,
     params: &LocalParams,
 ) -> Result<LocalDescription, SurfaceError> {
-    let surface = take_surface(cloud, &Point3::origin(), &params.surface)?;
+    let surface = prepare_surface(cloud, &Point3::origin(), &params.surface)?;
     let keypoints = keypoints(&surface, spacing);
     let rows = match &params.descriptor {
         LocalDescriptor::Fpfh(params) => describe_fpfh(&surface, &keypoints, params),

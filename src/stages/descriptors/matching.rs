@@ -34,7 +34,7 @@ pub struct DescriptorBank {
 
 /// How near a reference is to the scene.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Nearness {
+pub struct DescriptorDistance {
     /// Index of the reference.
     pub reference: usize,
     /// Mean penalty, 1 for a reference that every row of the scene is nearest to, to [`WORST_RATIO`].
@@ -87,7 +87,7 @@ impl DescriptorBank {
 }
 
 /// All references, nearest first; none for a scene or a bank without rows.
-pub fn rank_by_rows(scene: &Descriptors, bank: &DescriptorBank) -> Vec<Nearness> {
+pub fn rank_by_rows(scene: &Descriptors, bank: &DescriptorBank) -> Vec<DescriptorDistance> {
     if scene.is_empty() || bank.is_empty() {
         return Vec::new();
     }
@@ -103,11 +103,11 @@ pub fn rank_by_rows(scene: &Descriptors, bank: &DescriptorBank) -> Vec<Nearness>
             };
         }
     });
-    let nearness = |(reference, penalty): (usize, &f32)| Nearness {
+    let nearness = |(reference, penalty): (usize, &f32)| DescriptorDistance {
         reference,
         distance: penalty / scene.len() as f32,
     };
-    let mut ranked: Vec<Nearness> = penalties.iter().enumerate().map(nearness).collect();
+    let mut ranked: Vec<DescriptorDistance> = penalties.iter().enumerate().map(nearness).collect();
     // A stable sort: equal distances keep the order of the references.
     ranked.sort_by(|a, b| a.distance.total_cmp(&b.distance));
     ranked

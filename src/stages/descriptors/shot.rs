@@ -17,7 +17,7 @@ use std::f32::consts::PI;
 
 use nalgebra::{Matrix3, Point3, SymmetricEigen, Vector3};
 
-use super::{Descriptors, surface::Surface};
+use super::{Descriptors, surface::DescribedSurface};
 use crate::units::Metres;
 
 /// Sectors around the z axis.
@@ -51,7 +51,7 @@ impl Default for ShotParams {
 
 /// A neighbour of the keypoint that is being described.
 #[derive(Clone, Copy)]
-struct Around {
+struct NeighbourInFrame {
     /// From the keypoint to it.
     offset: Vector3<f32>,
     /// Length of the offset, above zero.
@@ -60,13 +60,17 @@ struct Around {
 }
 
 /// A row for each of these points (indices into the surface, ascending).
-pub fn describe_shot(surface: &Surface, keypoints: &[u32], params: &ShotParams) -> Descriptors {
+pub fn describe_shot(
+    surface: &DescribedSurface,
+    keypoints: &[u32],
+    params: &ShotParams,
+) -> Descriptors {
     let radius = params.radius.0 as f32;
     let mut described = Descriptors {
         width: WIDTH,
         ..Descriptors::default()
     };
-    let mut around: Vec<Around> = Vec::new();
+    let mut around: Vec<NeighbourInFrame> = Vec::new();
     for &keypoint in keypoints {
         let here = &surface.points[keypoint as usize];
         gather(surface, here, radius, &mut around);
@@ -84,11 +88,16 @@ pub fn describe_shot(surface: &Surface, keypoints: &[u32], params: &ShotParams) 
     described
 }
 
-fn gather(surface: &Surface, here: &Point3<f32>, radius: f32, around: &mut Vec<Around>) {
+fn gather(
+    surface: &DescribedSurface,
+    here: &Point3<f32>,
+    radius: f32,
+    around: &mut Vec<NeighbourInFrame>,
+) {
     around.clear();
     surface.tree.within(here, radius, |neighbour| {
         if neighbour.distance_sq > 0.0 {
-            around.push(Around {
+            around.push(NeighbourInFrame {
                 offset: surface.points[neighbour.index] - here,
                 distance: neighbour.distance_sq.sqrt(),
                 normal: surface.normals[neighbour.index],
@@ -98,7 +107,7 @@ fn gather(surface: &Surface, here: &Point3<f32>, radius: f32, around: &mut Vec<A
 }
 
 /// The keypoint's own axes x, y, z: of most, middle and least spread, right-handed.
-fn local_frame(around: &[Around], radius: f32) -> [Vector3<f32>; 3] {
+fn local_frame(around: &[NeighbourInFrame], radius: f32) -> [Vector3<f32>; 3] {
     // The factor 1/Σ(R - d) of the weighted covariance moves no axis.
     let spread: Matrix3<f64> = around.iter().fold(Matrix3::zeros(), |sum, a| {
         let offset: Vector3<f64> = a.offset.cast();
@@ -107,10 +116,10 @@ fn local_frame(around: &[Around], radius: f32) -> [Vector3<f32>; 3] {
     let eigen = SymmetricEigen::new(spread);
     let axis = |column: usize| eigen.eigenvectors.column(column).into_owned().cast::<f32>();
     let (most, least) = (eigen.eigenvalues.imax(), eigen.eigenvalues.imin());
-    let x = towards_most(axis(most), around);
+    let x = sign_by_majority(axis(most), around);
     // Where all spreads are equal both would be the same column.
     let least = if least == most { (most + 1) % 3 } else { least };
-    let z = towards_most(axis(least), around);
+    let z = sign_by_majority(axis(least), around);
     [x, z.cross(&x), z]
 }
 
@@ -118,9 +127,10 @@ fn local_frame(around: &[Around], radius: f32) -> [Vector3<f32>; 3] {
 const NUM_DECIDING: usize = 5;
 
 /// The axis with the sign that puts most neighbours on its positive side.
-fn towards_most(axis: Vector3<f32>, around: &[Around]) -> Vector3<f32> {
-    let num_ahead = |some: &[&Around]| some.iter().filter(|a| a.offset.dot(&axis) >= 0.0).count();
-    let all: Vec<&Around> = around.iter().collect();
+fn sign_by_majority(axis: Vector3<f32>, around: &[NeighbourInFrame]) -> Vector3<f32> {
+    let num_ahead =
+        |some: &[&NeighbourInFrame]| some.iter().filter(|a| a.offset.dot(&axis) >= 0.0).count();
+    let all: Vec<&NeighbourInFrame> = around.iter().collect();
     let ahead = 2 * num_ahead(&all);
     let is_forward = if ahead == all.len() {
         let mut sorted = all;
@@ -135,16 +145,16 @@ fn towards_most(axis: Vector3<f32>, around: &[Around]) -> Vector3<f32> {
 }
 
 /// Shares every neighbour between the bins next to it.
-fn count(around: &[Around], frame: &[Vector3<f32>; 3], radius: f32, row: &mut [f32]) {
+fn count(around: &[NeighbourInFrame], frame: &[Vector3<f32>; 3], radius: f32, row: &mut [f32]) {
     let [x_axis, y_axis, z_axis] = frame;
     for a in around {
         let [x, y, z] = [x_axis, y_axis, z_axis].map(|axis| axis.dot(&a.offset));
         let turns = y.atan2(x) / (2.0 * PI) + 1.0;
-        let azimuth = Between::around(turns * NUM_AZIMUTHS as f32, NUM_AZIMUTHS);
+        let azimuth = BinInterpolation::around(turns * NUM_AZIMUTHS as f32, NUM_AZIMUTHS);
         let inclination = (z / a.distance).clamp(-1.0, 1.0).acos() / PI;
-        let elevation = Between::of(inclination * NUM_ELEVATIONS as f32, NUM_ELEVATIONS);
-        let shell = Between::of(a.distance / radius * NUM_SHELLS as f32, NUM_SHELLS);
-        let cosine = Between::of(
+        let elevation = BinInterpolation::of(inclination * NUM_ELEVATIONS as f32, NUM_ELEVATIONS);
+        let shell = BinInterpolation::of(a.distance / radius * NUM_SHELLS as f32, NUM_SHELLS);
+        let cosine = BinInterpolation::of(
             (z_axis.dot(&a.normal) + 1.0) * 0.5 * NUM_COSINES as f32,
             NUM_COSINES,
         );
@@ -163,11 +173,11 @@ fn count(around: &[Around], frame: &[Vector3<f32>; 3], radius: f32, row: &mut [f
 }
 
 /// A place among bins: the two bins whose middles it lies between, each with its share; the shares sum to one.
-struct Between {
+struct BinInterpolation {
     bins: [(usize, f32); 2],
 }
 
-impl Between {
+impl BinInterpolation {
     /// Bin i reaches from i to i + 1; before the first middle and behind the last all goes to that bin.
     fn of(position: f32, num: usize) -> Self {
         let x = (position - 0.5).clamp(0.0, (num - 1) as f32);
@@ -203,14 +213,14 @@ mod tests {
     use super::*;
     use crate::stages::descriptors::surface::{
         keypoints,
-        tests::{bent_surface, moved, plane, some_motion, sphere, surface_of},
+        tests::{bent_surface, moved, plane, sphere, surface_of, test_motion},
     };
 
-    fn around_of(offsets: &[[f32; 3]]) -> Vec<Around> {
+    fn around_of(offsets: &[[f32; 3]]) -> Vec<NeighbourInFrame> {
         offsets
             .iter()
             .map(|o| Vector3::from(*o))
-            .map(|offset| Around {
+            .map(|offset| NeighbourInFrame {
                 offset,
                 distance: offset.norm(),
                 normal: Vector3::z(),
@@ -219,7 +229,7 @@ mod tests {
     }
 
     /// Every neighbour against every bin: a tent in each of the four directions, one wide to either side.
-    fn slow_row(around: &[Around], frame: &[Vector3<f32>; 3], radius: f64) -> Vec<f64> {
+    fn slow_row(around: &[NeighbourInFrame], frame: &[Vector3<f32>; 3], radius: f64) -> Vec<f64> {
         let tent = |position: f64, bin: usize, num: usize| {
             let position = position.clamp(0.5, num as f64 - 0.5);
             (1.0 - (position - (bin as f64 + 0.5)).abs()).max(0.0)
@@ -277,7 +287,7 @@ mod tests {
         let chosen = keypoints(&surface, Metres(0.06));
         let before = describe_shot(&surface, &chosen, &ShotParams::default());
         let after = describe_shot(
-            &moved(&surface, &some_motion()),
+            &moved(&surface, &test_motion()),
             &chosen,
             &ShotParams::default(),
         );
@@ -305,9 +315,9 @@ mod tests {
         // Four of the six lie in the plane or above it.
         assert!(z.z.abs() > 0.9);
         // The mirrored neighbourhood has the mirrored axis: the sign follows the points, not the solver.
-        let mirrored: Vec<Around> = around
+        let mirrored: Vec<NeighbourInFrame> = around
             .iter()
-            .map(|a| Around {
+            .map(|a| NeighbourInFrame {
                 offset: -a.offset,
                 ..*a
             })
@@ -328,7 +338,7 @@ mod tests {
             [0.6, 0.0, 0.0],
         ]);
         for axis in [Vector3::x(), -Vector3::x()] {
-            let chosen = towards_most(axis, &around);
+            let chosen = sign_by_majority(axis, &around);
             // Sorted by distance, the five around the middle are -0.2, -0.3, 0.4, -0.5, 0.6.
             assert!(chosen.x < 0.0);
         }

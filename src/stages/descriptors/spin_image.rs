@@ -10,7 +10,7 @@
 //! zero and length one instead, so that |a - b|² = 2 - 2R with R the correlation over all pixels: nearest in
 //! descriptor space is best correlated, without a term for the share of pixels filled.
 
-use super::{Descriptors, surface::Surface};
+use super::{Descriptors, surface::DescribedSurface};
 use crate::units::{Metres, Radians};
 
 /// Pixels along α, and along β.
@@ -41,7 +41,7 @@ impl Default for SpinImageParams {
 
 /// A row for each of these points (indices into the surface, ascending): β grows row by row, α within each.
 pub fn describe_spin_images(
-    surface: &Surface,
+    surface: &DescribedSurface,
     keypoints: &[u32],
     params: &SpinImageParams,
 ) -> Descriptors {
@@ -65,7 +65,7 @@ pub fn describe_spin_images(
 
 /// Adds the neighbours to the image; their number.
 fn accumulate(
-    surface: &Surface,
+    surface: &DescribedSurface,
     keypoint: usize,
     params: &SpinImageParams,
     image: &mut [f32],
@@ -137,7 +137,7 @@ mod tests {
     use super::*;
     use crate::stages::descriptors::surface::{
         keypoints,
-        tests::{bent_surface, moved, plane, some_motion, sphere, surface_of},
+        tests::{bent_surface, moved, plane, sphere, surface_of, test_motion},
     };
 
     /// Pixels of one centimetre.
@@ -149,7 +149,11 @@ mod tests {
     }
 
     /// Every point against every pixel, as counts.
-    fn slow_image(surface: &Surface, keypoint: usize, params: &SpinImageParams) -> Vec<f64> {
+    fn slow_image(
+        surface: &DescribedSurface,
+        keypoint: usize,
+        params: &SpinImageParams,
+    ) -> Vec<f64> {
         let n = surface.normals[keypoint].cast::<f64>();
         let pixel = params.reach.0 / SIDE as f64;
         let middle = |i: usize| i as f64 + 0.5;
@@ -179,7 +183,7 @@ mod tests {
         image
     }
 
-    fn counts(surface: &Surface, keypoint: usize, params: &SpinImageParams) -> Vec<f32> {
+    fn counts(surface: &DescribedSurface, keypoint: usize, params: &SpinImageParams) -> Vec<f32> {
         let mut image = vec![0.0; WIDTH];
         accumulate(surface, keypoint, params, &mut image);
         image
@@ -236,7 +240,7 @@ mod tests {
         let chosen = keypoints(&surface, Metres(0.06));
         let params = small();
         let before = describe_spin_images(&surface, &chosen, &params);
-        let after = describe_spin_images(&moved(&surface, &some_motion()), &chosen, &params);
+        let after = describe_spin_images(&moved(&surface, &test_motion()), &chosen, &params);
         assert_eq!(before.keypoints, after.keypoints);
         for (a, b) in before.rows().zip(after.rows()) {
             let apart: f32 = a.iter().zip(b).map(|(a, b)| (a - b).powi(2)).sum();

@@ -12,7 +12,7 @@ use crate::{
     units::Metres,
 };
 
-/// Parameters of [`take_surface`].
+/// Parameters of [`prepare_surface`].
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct SurfaceParams {
     /// Edge of the cubes that the cloud is thinned to, 5..30 mm. Raising it loses detail; halving it costs four times
@@ -34,7 +34,7 @@ impl Default for SurfaceParams {
 
 /// An evenly sampled surface.
 #[derive(Clone, Debug)]
-pub struct Surface {
+pub struct DescribedSurface {
     /// The points, metres, all finite.
     pub points: Vec<Point3<f32>>,
     /// A unit normal per point, on the side that was seen.
@@ -71,11 +71,11 @@ pub(super) const MIN_POINTS: usize = 20;
 
 /// Thins a cloud and estimates its normals, turned to the side that the cloud's own normals look to, if it has some,
 /// and to `viewpoint` if not.
-pub fn take_surface(
+pub fn prepare_surface(
     cloud: &PointCloud,
     viewpoint: &Point3<f64>,
     params: &SurfaceParams,
-) -> Result<Surface, SurfaceError> {
+) -> Result<DescribedSurface, SurfaceError> {
     let PointCloud {
         points,
         normals: known,
@@ -96,7 +96,7 @@ pub fn take_surface(
             }
         }
     }
-    Ok(Surface {
+    Ok(DescribedSurface {
         points,
         normals,
         tree,
@@ -104,7 +104,7 @@ pub fn take_surface(
 }
 
 /// Indices of an even choice of points, ascending: those nearest to the middle of each cube of edge `spacing`.
-pub fn keypoints(surface: &Surface, spacing: Metres) -> Vec<u32> {
+pub fn keypoints(surface: &DescribedSurface, spacing: Metres) -> Vec<u32> {
     let cloud = PointCloud {
         points: surface.points.clone(),
         ..PointCloud::default()
@@ -147,8 +147,8 @@ pub(super) mod tests {
     pub(in super::super) fn surface_of(
         points: Vec<Point3<f32>>,
         normals: Vec<Vector3<f32>>,
-    ) -> Surface {
-        Surface {
+    ) -> DescribedSurface {
+        DescribedSurface {
             tree: KdTree::new(&points),
             points,
             normals,
@@ -156,21 +156,24 @@ pub(super) mod tests {
     }
 
     /// The bent sheet, its normals estimated.
-    pub(in super::super) fn bent_surface() -> Surface {
+    pub(in super::super) fn bent_surface() -> DescribedSurface {
         let points = bent_sheet();
         let tree = KdTree::new(&points);
         let normals = estimate_normals(&points, &tree, Metres(0.03), &Point3::origin());
         surface_of(points, normals)
     }
 
-    pub(in super::super) fn some_motion() -> Isometry3<f32> {
+    pub(in super::super) fn test_motion() -> Isometry3<f32> {
         Isometry3::from_parts(
             Translation3::new(0.4, -0.7, 2.0),
             UnitQuaternion::from_euler_angles(0.7, -1.9, 2.4),
         )
     }
 
-    pub(in super::super) fn moved(surface: &Surface, motion: &Isometry3<f32>) -> Surface {
+    pub(in super::super) fn moved(
+        surface: &DescribedSurface,
+        motion: &Isometry3<f32>,
+    ) -> DescribedSurface {
         surface_of(
             surface.points.iter().map(|p| motion * p).collect(),
             surface.normals.iter().map(|n| motion * n).collect(),
@@ -178,7 +181,7 @@ pub(super) mod tests {
     }
 
     /// Points of the sphere's face towards the origin, with outward normals; even.
-    pub(in super::super) fn sphere(centre: Point3<f64>, radius: f64, num: i32) -> Surface {
+    pub(in super::super) fn sphere(centre: Point3<f64>, radius: f64, num: i32) -> DescribedSurface {
         let directions = (0..num)
             .map(|i| {
                 let z = -1.0 + (f64::from(i) + 0.5) / f64::from(num);
@@ -197,7 +200,7 @@ pub(super) mod tests {
     }
 
     /// An upright plane of 41 × 41 points, 10 mm apart, facing the origin; the middle one is number 840.
-    pub(in super::super) fn plane() -> Surface {
+    pub(in super::super) fn plane() -> DescribedSurface {
         let points: Vec<Point3<f32>> = (0..41 * 41)
             .map(|i| ((i % 41 - 20) as f32 * 0.01, (i / 41 - 20) as f32 * 0.01))
             .map(|(x, y)| Point3::new(x, y, 1.0))
@@ -209,10 +212,10 @@ pub(super) mod tests {
     #[test]
     fn readings_that_are_none_leave_no_trace() {
         let mut cloud = PointCloud::from_points(bent_sheet());
-        let clean = take_surface(&cloud, &Point3::origin(), &SurfaceParams::default());
+        let clean = prepare_surface(&cloud, &Point3::origin(), &SurfaceParams::default());
         cloud.points.insert(7, Point3::new(f32::NAN, 0.0, 1.0));
         cloud.points.push(Point3::new(0.0, f32::INFINITY, 1.0));
-        let poisoned = take_surface(&cloud, &Point3::origin(), &SurfaceParams::default());
+        let poisoned = prepare_surface(&cloud, &Point3::origin(), &SurfaceParams::default());
         let (clean, poisoned) = (clean.expect("a surface"), poisoned.expect("a surface"));
         assert_eq!(clean.points, poisoned.points);
         assert_eq!(clean.normals, poisoned.normals);
@@ -225,7 +228,8 @@ pub(super) mod tests {
         let spot = vec![Point3::new(0.0, 0.0, 1.0); 500];
         for points in [Vec::new(), spot, vec![Point3::new(f32::NAN, 0.0, 0.0); 99]] {
             let cloud = PointCloud::from_points(points);
-            let error = take_surface(&cloud, &Point3::origin(), &params).expect_err("no surface");
+            let error =
+                prepare_surface(&cloud, &Point3::origin(), &params).expect_err("no surface");
             assert!(matches!(
                 error,
                 SurfaceError::TooFewPoints { found: 0..=1, .. }
@@ -237,7 +241,7 @@ pub(super) mod tests {
     fn the_cloud_s_own_normals_say_which_side_is_out() {
         let mut cloud = PointCloud::from_points(bent_sheet());
         cloud.normals = Some(vec![Vector3::z(); cloud.points.len()]);
-        let surface = take_surface(&cloud, &Point3::origin(), &SurfaceParams::default());
+        let surface = prepare_surface(&cloud, &Point3::origin(), &SurfaceParams::default());
         assert!(
             surface
                 .expect("a surface")

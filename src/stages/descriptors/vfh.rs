@@ -16,7 +16,7 @@ use nalgebra::{Point3, Vector3};
 
 use super::{
     pair::{bin, pair_angles},
-    surface::{MIN_POINTS, Surface, SurfaceError, SurfaceParams, take_surface},
+    surface::{DescribedSurface, MIN_POINTS, SurfaceError, SurfaceParams, prepare_surface},
 };
 use crate::{
     geometry::cloud::PointCloud,
@@ -40,7 +40,7 @@ pub struct ViewHistogram {
 }
 
 /// The row of a surface as seen from `viewpoint`.
-pub fn describe_vfh(surface: &Surface, viewpoint: &Point3<f64>) -> ViewHistogram {
+pub fn describe_vfh(surface: &DescribedSurface, viewpoint: &Point3<f64>) -> ViewHistogram {
     let mut row = vec![0.0; WIDTH];
     let num = surface.points.len();
     let sum = |all: &mut dyn Iterator<Item = Vector3<f32>>| -> Vector3<f64> {
@@ -95,7 +95,7 @@ pub fn describe_views(
 ) -> Result<Vec<ViewHistogram>, SurfaceError> {
     let views = seen_around(cloud, coverage);
     let describe = |(viewpoint, seen): &(Point3<f64>, PointCloud)| {
-        take_surface(seen, viewpoint, params).map(|surface| describe_vfh(&surface, viewpoint))
+        prepare_surface(seen, viewpoint, params).map(|surface| describe_vfh(&surface, viewpoint))
     };
     let mut refused = SurfaceError::TooFewPoints {
         found: 0,
@@ -143,7 +143,7 @@ pub fn distance(a: &ViewHistogram, b: &ViewHistogram) -> f32 {
 mod tests {
     use super::*;
     use crate::stages::descriptors::surface::tests::{
-        bent_sheet, bent_surface, moved, plane, some_motion, sphere, surface_of,
+        bent_sheet, bent_surface, moved, plane, sphere, surface_of, test_motion,
     };
 
     fn apart(a: &ViewHistogram, b: &ViewHistogram) -> f32 {
@@ -151,7 +151,7 @@ mod tests {
     }
 
     /// The formulas word for word, in double precision.
-    fn slow_row(surface: &Surface, viewpoint: &Point3<f64>) -> ViewHistogram {
+    fn slow_row(surface: &DescribedSurface, viewpoint: &Point3<f64>) -> ViewHistogram {
         let num = surface.points.len() as f64;
         let points: Vec<Point3<f64>> = surface.points.iter().map(|p| p.cast()).collect();
         let normals: Vec<Vector3<f64>> = surface.normals.iter().map(|n| n.cast()).collect();
@@ -194,7 +194,7 @@ mod tests {
     #[test]
     fn moving_camera_and_part_together_changes_next_to_nothing() {
         let surface = bent_surface();
-        let motion = some_motion();
+        let motion = test_motion();
         let before = describe_vfh(&surface, &Point3::origin());
         let camera = motion.cast::<f64>() * Point3::origin();
         let after = describe_vfh(&moved(&surface, &motion), &camera);
@@ -237,7 +237,7 @@ mod tests {
 
     #[test]
     fn the_nearest_view_speaks_for_its_reference() {
-        let views = |surface: &Surface| {
+        let views = |surface: &DescribedSurface| {
             [0.0, 0.4]
                 .map(|x| describe_vfh(surface, &Point3::new(x, 0.0, 0.0)))
                 .to_vec()

@@ -3,23 +3,23 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::refine::{Search, Target};
+use super::refine::{AlignmentTarget, Search};
 use crate::geometry::{nearest::Neighbour, rigid::RigidTransform};
 
 /// A source point at a pose, and the target point closest to it.
 #[derive(Clone, Copy, Debug)]
-pub struct Closest {
+pub struct Correspondence {
     /// Where the source point is, target space.
     pub at: Point3<f32>,
     /// `None` without one: the target is empty, or, by the field, the point is beyond its band.
     pub target: Option<Neighbour>,
 }
 
-impl Closest {
+impl Correspondence {
     /// The closest target point of each source point, in order.
     pub fn of_each(
         source: &[Point3<f32>],
-        target: &Target<'_>,
+        target: &AlignmentTarget<'_>,
         target_from_source: &RigidTransform,
         search: Search,
     ) -> Vec<Self> {
@@ -35,7 +35,11 @@ impl Closest {
     }
 
     /// Squared distance, normal and signed distance along it, if there is a target point with a normal within reach.
-    pub(crate) fn on_surface(&self, target: &Target<'_>, reach_sq: f64) -> Option<OnSurface> {
+    pub(crate) fn on_surface(
+        &self,
+        target: &AlignmentTarget<'_>,
+        reach_sq: f64,
+    ) -> Option<OnSurface> {
         let near = self
             .target
             .filter(|n| f64::from(n.distance_sq) < reach_sq)?;
@@ -64,7 +68,7 @@ pub(crate) struct OnSurface {
 /// Each search also says how far away the second closest point is. As long as a source point has moved by less than
 /// the lead of its closest point, no other can have overtaken it.
 #[derive(Debug, Default)]
-pub(super) struct Followed {
+pub(super) struct ClosestTracker {
     known: Vec<Option<Known>>,
 }
 
@@ -77,13 +81,13 @@ struct Known {
     others: f32,
 }
 
-impl Followed {
-    /// The target point closest to the source point of this number, as [`Target::nearest`] finds it.
+impl ClosestTracker {
+    /// The target point closest to the source point of this number, as [`AlignmentTarget::nearest`] finds it.
     pub(super) fn nearest(
         &mut self,
         number: usize,
         at: &Point3<f32>,
-        target: &Target<'_>,
+        target: &AlignmentTarget<'_>,
         search: Search,
         reach_sq: f32,
     ) -> Option<Neighbour> {
@@ -136,14 +140,14 @@ mod tests {
             reach in 0.1_f32..2.0,
         ) {
             let cloud = PointCloud::from_points(points);
-            let target = Target {
+            let target = AlignmentTarget {
                 cloud: &cloud,
                 tree: &std::sync::OnceLock::new(),
                 field: &NearestField::new(&cloud.points, 0.1, 0.1),
                 edges: &EdgePoints::default(),
                 spacing: 0.1,
             };
-            let mut followed = Followed::default();
+            let mut followed = ClosestTracker::default();
             let mut at = start;
             for step in steps {
                 at += step.coords * 0.05;

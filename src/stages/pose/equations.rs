@@ -3,8 +3,8 @@
 use nalgebra::{Matrix3, Matrix6, Point3, Vector3, Vector6};
 
 use super::{
-    closest::Followed,
-    refine::{Level, Source, Target},
+    closest::ClosestTracker,
+    refine::{AlignmentSource, AlignmentTarget, Level},
 };
 use crate::geometry::rigid::RigidTransform;
 
@@ -46,11 +46,11 @@ struct PointSums {
 
 impl Equations {
     pub(super) fn at(
-        source: &Source,
-        target: &Target<'_>,
+        source: &AlignmentSource,
+        target: &AlignmentTarget<'_>,
         pose: &RigidTransform,
         level: &Level,
-        followed: &mut Followed,
+        followed: &mut ClosestTracker,
     ) -> Self {
         let mut sums = Self::default();
         let moved = pose.cast::<f32>();

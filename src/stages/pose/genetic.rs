@@ -90,7 +90,7 @@ pub fn minimise(
     mut cost: impl FnMut(&Genes, f64) -> f64,
     mut after_generation: impl FnMut(&Individual) -> ControlFlow<()>,
 ) -> Individual {
-    let mut breeder = Breeder { rng, range, params };
+    let mut breeder = Reproduction { rng, range, params };
     let mut population: Vec<Individual> = (0..params.population.clamp(4, MOST))
         .map(|i| {
             let genes = first.get(i).copied().unwrap_or_else(|| breeder.anywhere());
@@ -124,13 +124,13 @@ fn best(population: &[Individual]) -> &Individual {
 }
 
 /// Draws individuals, parents and children.
-struct Breeder<'a> {
+struct Reproduction<'a> {
     rng: &'a mut Pcg64,
     range: &'a Genes,
     params: &'a GeneticParams,
 }
 
-impl Breeder<'_> {
+impl Reproduction<'_> {
     /// Evenly within the range.
     fn anywhere(&mut self) -> Genes {
         self.range.map(|range| range * self.either_way())

@@ -10,7 +10,7 @@
 //! Known limits: a shift between clouds that share less than about half of their surface is only found if it is small
 //! against their size, since starts put centre on centre.
 
-mod aside;
+mod translations;
 
 use nalgebra::Point3;
 use rand::{SeedableRng as _, seq::SliceRandom as _};
@@ -19,10 +19,10 @@ use rand_pcg::Pcg64;
 use super::{
     MIN_POINTS, PoseError, PoseEstimate, PoseMethod, RunnerUp,
     centred::Centred,
-    closest::Closest,
+    closest::Correspondence,
     prepared::PreparedTarget,
     quality::{Tolerance, measure_fit},
-    refine::{Level, Refined, SETTLED, Search, Source, Target, cost, refine},
+    refine::{AlignmentSource, AlignmentTarget, Level, Refined, SETTLED, Search, cost, refine},
     starts::{all_round, along_axes},
 };
 use crate::{
@@ -86,7 +86,7 @@ const RACE: [Round; 4] = [
 ];
 
 /// A pose on its way, with what it costs.
-struct Trial {
+struct PoseTrial {
     cost: f64,
     refined: Refined,
 }
@@ -103,30 +103,30 @@ pub(super) fn search(
     let axes = (&search.axes, &prepared.axes);
     let mut finished = Vec::new();
     if let Some(start) = start {
-        finished = search.finish(search.race([start])?)?;
+        finished = search.finish(search.successive_halving([start])?)?;
     } else {
         let near_at_hand = || std::iter::once(no_turn).chain(along_axes(axes.0, axes.1));
-        if are_alike(axes.0, axes.1) {
-            finished = search.finish(search.race(near_at_hand())?)?;
+        if have_same_shape(axes.0, axes.1) {
+            finished = search.finish(search.successive_halving(near_at_hand())?)?;
             let best = finished.first();
             let overlap = best.map_or(0.0, |best| search.overlap(best));
             if overlap < CONVINCING {
                 finished.clear();
             } else if overlap < COMPLETE {
-                search.put_aside(&mut finished)?;
+                search.try_translations(&mut finished)?;
             }
         }
         if finished.is_empty() {
             let starts = near_at_hand().chain(all_round(axes.0, axes.1));
-            finished = search.finish(search.race(starts)?)?;
-            search.put_aside(&mut finished)?;
+            finished = search.finish(search.successive_halving(starts)?)?;
+            search.try_translations(&mut finished)?;
         }
     }
-    search.conclude(finished)
+    search.refine_best(finished)
 }
 
 /// True for clouds of the same whole thing, whose axes cannot turn into each other.
-fn are_alike(a: &PrincipalAxes, b: &PrincipalAxes) -> bool {
+fn have_same_shape(a: &PrincipalAxes, b: &PrincipalAxes) -> bool {
     let close = |a: f64, b: f64, share: f64| (a - b).abs() <= share * a.max(b);
     let (a, b) = (&a.variances, &b.variances);
     (0..3).all(|i| close(a[i], b[i], ALIKE)) && (0..2).all(|i| !close(a[i], a[i + 1], TURNABLE))
@@ -136,8 +136,8 @@ struct GlobalSearch<'a> {
     prepared: &'a PreparedTarget,
     all_points: &'a [Point3<f32>],
     /// Evenly dense, as the target's coarse likeness: a camera sees what is near it in more points.
-    coarse: Source,
-    source: Source,
+    coarse: AlignmentSource,
+    source: AlignmentSource,
     axes: PrincipalAxes,
     is_cancelled: &'a dyn Fn() -> bool,
 }
@@ -165,13 +165,13 @@ impl<'a> GlobalSearch<'a> {
     }
 
     /// Refines all starts on the coarse likeness, fewer and fewer of them; the cheapest of different poses first.
-    fn race(
+    fn successive_halving(
         &self,
         starts: impl IntoIterator<Item = RigidTransform>,
-    ) -> Result<Vec<Trial>, PoseError> {
+    ) -> Result<Vec<PoseTrial>, PoseError> {
         let extent = self.prepared.extent();
         let target = self.prepared.coarse_target();
-        let mut trials: Vec<Trial> = starts.into_iter().map(Trial::unrefined).collect();
+        let mut trials: Vec<PoseTrial> = starts.into_iter().map(PoseTrial::unrefined).collect();
         for round in &RACE {
             let level = Level {
                 num_surface: round.num_points,
@@ -190,7 +190,7 @@ impl<'a> GlobalSearch<'a> {
     }
 
     /// Refines the best few on the fine likeness, down to its spacing.
-    fn finish(&self, mut trials: Vec<Trial>) -> Result<Vec<Trial>, PoseError> {
+    fn finish(&self, mut trials: Vec<PoseTrial>) -> Result<Vec<PoseTrial>, PoseError> {
         trials.truncate(NUM_FINISHED);
         let (extent, target) = (self.prepared.extent(), self.prepared.target());
         let finest = self.prepared.finest().scale;
@@ -215,12 +215,12 @@ impl<'a> GlobalSearch<'a> {
     /// Takes every trial through the levels and sorts them by what they then cost, each distance cut off at `limit`.
     fn further(
         &self,
-        mut trials: Vec<Trial>,
-        source: &Source,
-        target: &Target<'_>,
+        mut trials: Vec<PoseTrial>,
+        source: &AlignmentSource,
+        target: &AlignmentTarget<'_>,
         levels: &[Level],
         limit: f64,
-    ) -> Result<Vec<Trial>, PoseError> {
+    ) -> Result<Vec<PoseTrial>, PoseError> {
         for trial in &mut trials {
             if (self.is_cancelled)() {
                 return Err(PoseError::Cancelled);
@@ -238,8 +238,8 @@ impl<'a> GlobalSearch<'a> {
     }
 
     /// Of poses that a refinement would close, the cheapest.
-    fn distinct(&self, sorted: Vec<Trial>) -> Vec<Trial> {
-        let mut kept: Vec<Trial> = Vec::new();
+    fn distinct(&self, sorted: Vec<PoseTrial>) -> Vec<PoseTrial> {
+        let mut kept: Vec<PoseTrial> = Vec::new();
         for trial in sorted {
             let is_new = kept.iter().all(|k| {
                 let (a, b) = (
@@ -257,7 +257,7 @@ impl<'a> GlobalSearch<'a> {
     }
 
     /// Share of the source that lies on the target.
-    fn overlap(&self, trial: &Trial) -> f64 {
+    fn overlap(&self, trial: &PoseTrial) -> f64 {
         let some = &self.source.surface[..self.source.surface.len().min(500)];
         let tolerance = Tolerance {
             base: Metres(3.0 * self.prepared.spacing()),
@@ -265,12 +265,12 @@ impl<'a> GlobalSearch<'a> {
         };
         let pose = &trial.refined.target_from_source;
         let target = self.prepared.target();
-        let closest = Closest::of_each(some, &target, pose, Search::Field);
+        let closest = Correspondence::of_each(some, &target, pose, Search::Field);
         measure_fit(some, &closest, &target, tolerance).overlap
     }
 
     /// The best, refined to the end.
-    fn conclude(&self, finished: Vec<Trial>) -> Result<PoseEstimate, PoseError> {
+    fn refine_best(&self, finished: Vec<PoseTrial>) -> Result<PoseEstimate, PoseError> {
         let mut finished = finished.into_iter();
         let best = finished.next().ok_or_else(|| self.no_overlap(0))?;
         let runner_up = finished.next().map(|t| RunnerUp {
@@ -314,15 +314,15 @@ impl<'a> GlobalSearch<'a> {
 }
 
 /// Any first n of the points are spread over the source.
-fn shuffled(mut surface: Vec<Point3<f32>>) -> Source {
+fn shuffled(mut surface: Vec<Point3<f32>>) -> AlignmentSource {
     surface.shuffle(&mut Pcg64::seed_from_u64(1));
-    Source {
+    AlignmentSource {
         surface,
         edges: Vec::new(),
     }
 }
 
-impl Trial {
+impl PoseTrial {
     fn unrefined(target_from_source: RigidTransform) -> Self {
         Self {
             cost: f64::INFINITY,

@@ -29,7 +29,7 @@ use super::{
     genetic::{Genes, minimise},
     icp::icp,
     prepared::PreparedTarget,
-    refine::Target,
+    refine::AlignmentTarget,
     spanned::spanned_axes,
 };
 use crate::geometry::rigid::{RigidTransform, from_euler_zyx, pose_error};
@@ -73,7 +73,7 @@ pub(super) fn icp_ga(
 ) -> Result<IcpGaRun, PoseError> {
     let mut search = Search::new(source, target, params)?;
     let mut pose = *start;
-    let mut best = Valley {
+    let mut best = LocalMinimum {
         target_from_source: pose,
         e_m2: f64::INFINITY,
     };
@@ -101,8 +101,8 @@ pub(super) fn icp_ga(
             break;
         }
         // Lines 9 to 11; line 12 is left to line 5, after the next ICP.
-        let whereabouts = search.whereabouts(&best, num_idle);
-        pose = search.evolve(&best, whereabouts, is_cancelled)?;
+        let search_region = search.search_region(&best, num_idle);
+        pose = search.evolve(&best, search_region, is_cancelled)?;
     }
     Ok(IcpGaRun {
         target_from_source: best.target_from_source,
@@ -114,7 +114,7 @@ pub(super) fn icp_ga(
 
 /// Where ICP ended.
 #[derive(Clone, Copy, Debug)]
-struct Valley {
+struct LocalMinimum {
     target_from_source: RigidTransform,
     /// E over the points that rounds are compared on.
     e_m2: f64,
@@ -122,7 +122,7 @@ struct Valley {
 
 /// Where the genetic algorithm searches.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-enum Whereabouts {
+enum SearchRegion {
     /// Around the best pose, told by the tree: its closest points are mostly the right ones.
     NearFine,
     /// Around the best pose, told by the field.
@@ -134,9 +134,9 @@ enum Whereabouts {
 struct Search<'a> {
     params: &'a IcpGaParams,
     source: &'a [Point3<f32>],
-    target: Target<'a>,
+    target: AlignmentTarget<'a>,
     /// In few points, for poses that are far off.
-    coarse: Target<'a>,
+    coarse: AlignmentTarget<'a>,
     /// The source in an order of which any first n are spread over it.
     shuffled: Vec<Point3<f32>>,
     /// Takes the space of the principal axes of the source into source space.
@@ -145,7 +145,7 @@ struct Search<'a> {
     /// Standard deviation of the target along its longest axis, metres.
     extent: f64,
     rng: Pcg64,
-    valleys: Vec<Valley>,
+    valleys: Vec<LocalMinimum>,
     iterations: Vec<Iteration>,
 }
 
@@ -183,7 +183,7 @@ impl<'a> Search<'a> {
         &mut self,
         start: &RigidTransform,
         is_cancelled: &dyn Fn() -> bool,
-    ) -> Result<Valley, PoseError> {
+    ) -> Result<LocalMinimum, PoseError> {
         let Self { params, target, .. } = *self;
         let points = self.first_points(params.icp.max_source_points);
         let cloud = &target.cloud.points;
@@ -208,7 +208,7 @@ impl<'a> Search<'a> {
             }
             Err(error) => return Err(error),
         };
-        let valley = Valley {
+        let valley = LocalMinimum {
             target_from_source,
             e_m2: self.e_m2(self.first_points(NUM_CHECKED), &target_from_source),
         };
@@ -227,27 +227,27 @@ impl<'a> Search<'a> {
         sum_sq / points.len() as f64
     }
 
-    fn is_below_target(&self, valley: &Valley) -> bool {
+    fn is_below_target(&self, valley: &LocalMinimum) -> bool {
         let target = self.params.target_e_m2;
         valley.e_m2 < target && self.e_m2(self.source, &valley.target_from_source) < target
     }
 
-    fn whereabouts(&self, best: &Valley, num_idle: usize) -> Whereabouts {
+    fn search_region(&self, best: &LocalMinimum, num_idle: usize) -> SearchRegion {
         let rms = best.e_m2.sqrt();
         if num_idle > 0 || rms > LOST_ABOVE * self.extent {
-            Whereabouts::Elsewhere
+            SearchRegion::Elsewhere
         } else if rms < self.target.spacing {
-            Whereabouts::NearFine
+            SearchRegion::NearFine
         } else {
-            Whereabouts::NearCoarse
+            SearchRegion::NearCoarse
         }
     }
 
     /// The genetic algorithm's best pose.
     fn evolve(
         &mut self,
-        best: &Valley,
-        whereabouts: Whereabouts,
+        best: &LocalMinimum,
+        search_region: SearchRegion,
         is_cancelled: &dyn Fn() -> bool,
     ) -> Result<RigidTransform, PoseError> {
         let Self {
@@ -258,12 +258,12 @@ impl<'a> Search<'a> {
             source_from_axes,
             ..
         } = *self;
-        let (genetic, range, first) = match whereabouts {
-            Whereabouts::Elsewhere => {
+        let (genetic, range, first) = match search_region {
+            SearchRegion::Elsewhere => {
                 let (turn, shift) = (params.turn_range.0, params.shift_range * extent);
                 (&params.elsewhere, ranges(turn, shift), half_turns(turn))
             }
-            Whereabouts::NearFine | Whereabouts::NearCoarse => {
+            SearchRegion::NearFine | SearchRegion::NearCoarse => {
                 let shift =
                     (params.vicinity_range * best.e_m2.sqrt()).max(LEAST_SPACINGS * target.spacing);
                 (
@@ -273,9 +273,9 @@ impl<'a> Search<'a> {
                 )
             }
         };
-        let num_points = match whereabouts {
-            Whereabouts::NearFine => params.num_fine_points,
-            Whereabouts::NearCoarse | Whereabouts::Elsewhere => params.num_coarse_points,
+        let num_points = match search_region {
+            SearchRegion::NearFine => params.num_fine_points,
+            SearchRegion::NearCoarse | SearchRegion::Elsewhere => params.num_coarse_points,
         };
         let mut rng = self.rng.clone();
         let points = self.first_points(num_points);
@@ -284,15 +284,15 @@ impl<'a> Search<'a> {
         let posed = |genes: &Genes| target_from_axes * from_euler_zyx(*genes) * axes_from_source;
         let far_off_sq = (FAR_OFF * extent).powi(2) as f32;
         let distance_sq = |at: &Point3<f32>| {
-            let nearest = match whereabouts {
-                Whereabouts::NearFine => target.tree().nearest(at, f32::INFINITY),
-                Whereabouts::NearCoarse => target.field.nearest(at),
-                Whereabouts::Elsewhere => coarse.field.nearest(at),
+            let nearest = match search_region {
+                SearchRegion::NearFine => target.tree().nearest(at, f32::INFINITY),
+                SearchRegion::NearCoarse => target.field.nearest(at),
+                SearchRegion::Elsewhere => coarse.field.nearest(at),
             };
             nearest.map_or(far_off_sq, |n| n.distance_sq)
         };
         let is_closed = |pose: &RigidTransform| {
-            whereabouts == Whereabouts::Elsewhere
+            search_region == SearchRegion::Elsewhere
                 && self.valleys.iter().any(|valley| {
                     valley.target_from_source.rotation.angle_to(&pose.rotation) < CLOSED_TURN
                 })
@@ -340,9 +340,9 @@ impl<'a> Search<'a> {
     }
 
     /// The best valley that is a different pose.
-    fn runner_up(&self, best: &Valley) -> Option<RunnerUp> {
+    fn runner_up(&self, best: &LocalMinimum) -> Option<RunnerUp> {
         let middle = self.source_from_axes * Point3::origin();
-        let is_other = |valley: &&Valley| {
+        let is_other = |valley: &&LocalMinimum| {
             let (a, b) = (&valley.target_from_source, &best.target_from_source);
             let apart = pose_error(a, b, &middle);
             apart.rotation.degrees() > SAME_TURN_DEGREES || apart.shift.0 > SAME_SHIFT * self.extent

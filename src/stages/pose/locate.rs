@@ -4,8 +4,8 @@ use nalgebra::Point3;
 
 use super::{
     AlignParams, PoseError, PoseEstimate, align_to,
-    closest::Closest,
-    quality::{Fit, NUM_LOOKED_FOR, Tolerance, look_for, measure_fit},
+    closest::Correspondence,
+    quality::{FitQuality, NUM_LOOKED_FOR, Tolerance, look_for, measure_fit},
     refine::Search,
 };
 use crate::{
@@ -34,8 +34,8 @@ pub fn locate(
         noise_at_1m: part.noise_at_1m,
     };
     let pose = &estimate.target_from_source;
-    let closest = Closest::of_each(&measured, &target, pose, Search::Tree);
-    estimate.fit = Fit {
+    let closest = Correspondence::of_each(&measured, &target, pose, Search::Tree);
+    estimate.fit = FitQuality {
         sight: look_for(&target, &pose.inverse(), scene, tolerance, NUM_LOOKED_FOR),
         ..measure_fit(&measured, &closest, &target, tolerance)
     };

@@ -28,8 +28,8 @@ pub use self::{
     align::{AlignParams, align, align_to, align_with},
     locate::locate,
     prepared::PreparedTarget,
-    quality::{Fit, Sight},
-    uncertainty::{Axis, Freedom, Uncertainty},
+    quality::{FitQuality, VisibilityShares},
+    uncertainty::{Axis, FreeMotion, Uncertainty},
 };
 
 /// Fewer points than this do not fix a pose.
@@ -126,7 +126,7 @@ pub struct PoseEstimate {
     /// Every step of the run that led to this pose.
     pub iterations: Vec<Iteration>,
     /// How well it fits.
-    pub fit: Fit,
+    pub fit: FitQuality,
     /// How far off it may be; `None` of a pose that was not refined to the end.
     pub uncertainty: Option<Uncertainty>,
     /// The best pose that is a different one, if another was tried.
@@ -164,22 +164,22 @@ impl PoseEstimate {
     }
 
     /// Why the pose should not be relied upon, if there is a reason.
-    pub fn doubt(&self) -> Option<Doubt> {
+    pub fn doubt(&self) -> Option<PoseWarning> {
         let overlap = self.fit.overlap;
         let ambiguous = self.runner_up.filter(|r| r.ratio < AMBIGUOUS_BELOW);
         if overlap < LEAST_OVERLAP {
-            Some(Doubt::LittleOverlap {
+            Some(PoseWarning::LittleOverlap {
                 overlap,
                 needed: LEAST_OVERLAP,
             })
         } else if let Some(runner_up) = ambiguous {
-            Some(Doubt::Ambiguous {
+            Some(PoseWarning::Ambiguous {
                 ratio: runner_up.ratio,
             })
         } else if let Some(freedom) = self.uncertainty.and_then(|u| u.freedom) {
-            Some(Doubt::Loose { freedom })
+            Some(PoseWarning::Loose { freedom })
         } else if self.stopped == Stopped::IterationLimit {
-            Some(Doubt::Unsettled {
+            Some(PoseWarning::Unsettled {
                 num_iterations: self.iterations.len(),
             })
         } else {
@@ -198,7 +198,7 @@ const LEAST_OVERLAP: f64 = 0.25;
 
 /// Why a pose should not be relied upon.
 #[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
-pub enum Doubt {
+pub enum PoseWarning {
     /// The source hardly lies on the target.
     #[error("only {:.0} % of the source lies on the target, at least {:.0} % are needed", overlap * 100.0, needed * 100.0)]
     LittleOverlap {
@@ -217,7 +217,7 @@ pub enum Doubt {
     #[error("the pose is unconstrained: {freedom}")]
     Loose {
         /// How it could move most easily.
-        freedom: Freedom,
+        freedom: FreeMotion,
     },
     /// The search was still moving when its iterations were used up.
     #[error("the pose was still moving after {num_iterations} iterations")]
@@ -227,7 +227,7 @@ pub enum Doubt {
     },
 }
 
-impl crate::error::Advice for Doubt {
+impl crate::error::Advice for PoseWarning {
     fn advice(&self) -> String {
         match self {
             Self::LittleOverlap { .. } => {

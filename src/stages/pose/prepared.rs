@@ -7,10 +7,10 @@ use nalgebra::Point3;
 use super::{
     PoseError, PoseEstimate, PoseMethod, RunnerUp,
     centred::Centred,
-    closest::Closest,
+    closest::Correspondence,
     edge_points::EdgePoints,
     quality::{Tolerance, measure_fit},
-    refine::{Level, Refined, SETTLED, Search, Source, Target},
+    refine::{AlignmentSource, AlignmentTarget, Level, Refined, SETTLED, Search},
     uncertainty::uncertainty,
 };
 use crate::{
@@ -42,13 +42,13 @@ pub struct PreparedTarget {
     pub(super) centred: Centred,
     /// Of the coarse likeness, which is evenly dense.
     pub(super) axes: PrincipalAxes,
-    fine: Likeness,
-    coarse: Likeness,
+    fine: CorrespondenceCache,
+    coarse: CorrespondenceCache,
 }
 
 /// Points with normals and the ways to find the nearest of them.
 #[derive(Clone, Debug)]
-struct Likeness {
+struct CorrespondenceCache {
     cloud: PointCloud,
     tree: OnceLock<KdTree>,
     field: NearestField,
@@ -76,13 +76,15 @@ impl PreparedTarget {
         let coarse = downsample(&thinned, Metres(per_point.max(spacing)));
         let tree = tree.unwrap_or_else(|| KdTree::new(&thinned.points));
         let cell = (2.0 * spacing).max(extent / 60.0);
-        let fine = Likeness::new(thinned, tree, spacing, cell, FINE_BAND * extent, &centred);
+        let fine =
+            CorrespondenceCache::new(thinned, tree, spacing, cell, FINE_BAND * extent, &centred);
         let axes = principal_axes(coarse.points.iter().map(|p| (p.cast(), 1.0)));
         let axes = axes.unwrap_or(centred.axes);
         let tree = KdTree::new(&coarse.points);
         let spacing = spacing_of(&coarse.points, &tree);
         let cell = extent / 16.0;
-        let coarse = Likeness::new(coarse, tree, spacing, cell, COARSE_BAND * extent, &centred);
+        let coarse =
+            CorrespondenceCache::new(coarse, tree, spacing, cell, COARSE_BAND * extent, &centred);
         Ok(Self {
             centred,
             axes,
@@ -91,12 +93,12 @@ impl PreparedTarget {
         })
     }
 
-    pub(super) fn target(&self) -> Target<'_> {
+    pub(super) fn target(&self) -> AlignmentTarget<'_> {
         self.fine.target()
     }
 
     /// The same in few points, for what is still far off.
-    pub(super) fn coarse_target(&self) -> Target<'_> {
+    pub(super) fn coarse_target(&self) -> AlignmentTarget<'_> {
         self.coarse.target()
     }
 
@@ -119,7 +121,7 @@ impl PreparedTarget {
         runner_up: Option<RunnerUp>,
     ) -> PoseEstimate {
         let step = source.len().div_ceil(NUM_MEASURED).max(1);
-        let measured = Source {
+        let measured = AlignmentSource {
             surface: source.iter().step_by(step).copied().collect(),
             edges: Vec::new(),
         };
@@ -128,7 +130,7 @@ impl PreparedTarget {
             noise_at_1m: Metres(0.0),
         };
         let (target, pose) = (self.target(), &refined.target_from_source);
-        let closest = Closest::of_each(&measured.surface, &target, pose, Search::Tree);
+        let closest = Correspondence::of_each(&measured.surface, &target, pose, Search::Tree);
         let fit = measure_fit(&measured.surface, &closest, &target, tolerance);
         let uncertainty = uncertainty(&measured, &closest, &target, pose, &self.finest());
         PoseEstimate {
@@ -155,7 +157,7 @@ impl PreparedTarget {
     }
 }
 
-impl Likeness {
+impl CorrespondenceCache {
     fn new(
         mut cloud: PointCloud,
         tree: KdTree,
@@ -180,7 +182,7 @@ impl Likeness {
         }
     }
 
-    fn target(&self) -> Target<'_> {
+    fn target(&self) -> AlignmentTarget<'_> {
         let Self {
             cloud,
             tree,
@@ -188,7 +190,7 @@ impl Likeness {
             edges,
             spacing,
         } = self;
-        Target {
+        AlignmentTarget {
             cloud,
             tree,
             field,

@@ -6,7 +6,7 @@
 
 use nalgebra::Point3;
 
-use super::{closest::Closest, refine::Target};
+use super::{closest::Correspondence, refine::AlignmentTarget};
 use crate::{
     geometry::{cloud::is_finite, rigid::RigidTransform},
     stages::scene::SceneCloud,
@@ -15,7 +15,7 @@ use crate::{
 
 /// Figures of a fit.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Fit {
+pub struct FitQuality {
     /// Mean squared distance of the source points to their closest target points (eq. 12), square metres.
     pub e_m2: f64,
     /// Root mean square distance of the inliers to the target's surface, metres.
@@ -23,10 +23,10 @@ pub struct Fit {
     /// Share of the source points that lie on the target within tolerance, 0..1.
     pub overlap: f64,
     /// What the camera says of the target at this pose; `None` without a camera.
-    pub sight: Option<Sight>,
+    pub sight: Option<VisibilityShares>,
 }
 
-impl Fit {
+impl FitQuality {
     /// 0..1: both the source on the target and, where a camera looks, the target in the scene.
     ///
     /// What is hidden counts half as missing: something may well stand before the part, but then less is known.
@@ -40,7 +40,7 @@ impl Fit {
 
 /// What a camera sees of the target where it should be, as shares of the points that face the camera in the picture.
 #[derive(Clone, Copy, Debug, PartialEq, serde::Serialize, serde::Deserialize)]
-pub struct Sight {
+pub struct VisibilityShares {
     /// The surface is where it should be.
     pub confirmed: f64,
     /// The camera sees through it to something behind: the surface is not there.
@@ -73,10 +73,10 @@ impl Tolerance {
 /// the field, points beyond its band count as being at its edge, so E is a lower bound.
 pub fn measure_fit(
     source: &[Point3<f32>],
-    closest: &[Closest],
-    target: &Target<'_>,
+    closest: &[Correspondence],
+    target: &AlignmentTarget<'_>,
     tolerance: Tolerance,
-) -> Fit {
+) -> FitQuality {
     let normals = target.cloud.normals.as_deref().unwrap_or_default();
     let (mut sum_sq, mut inlier_sum_sq, mut num_inliers) = (0.0, 0.0, 0.0_f64);
     for (p, closest) in source.iter().zip(closest) {
@@ -96,7 +96,7 @@ pub fn measure_fit(
         }
     }
     let num = source.len().min(closest.len()).max(1) as f64;
-    Fit {
+    FitQuality {
         e_m2: sum_sq / num,
         rms_m: (inlier_sum_sq / num_inliers.max(1.0)).sqrt(),
         overlap: num_inliers / num,
@@ -116,12 +116,12 @@ const PIXEL_REACH: i64 = 2;
 
 /// Looks for some of the target's points in the scene's depth image; `None` when the scene has none.
 pub fn look_for(
-    target: &Target<'_>,
+    target: &AlignmentTarget<'_>,
     camera_from_target: &RigidTransform,
     scene: &SceneCloud,
     tolerance: Tolerance,
     num_looked_for: usize,
-) -> Option<Sight> {
+) -> Option<VisibilityShares> {
     let camera = scene.intrinsics?;
     let normals = target.cloud.normals.as_deref()?;
     let points = &scene.cloud.points;
@@ -180,7 +180,7 @@ pub fn look_for(
     if total < 1.0 {
         return None;
     }
-    Some(Sight {
+    Some(VisibilityShares {
         confirmed: confirmed / total,
         missing: missing / total,
         hidden: hidden / total,

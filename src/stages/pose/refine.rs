@@ -12,7 +12,8 @@ use std::sync::OnceLock;
 use nalgebra::{Isometry3, Point3, Translation3, UnitQuaternion, Vector3, Vector6};
 
 use super::{
-    Iteration, Phase, Stopped, closest::Followed, edge_points::EdgePoints, equations::Equations,
+    Iteration, Phase, Stopped, closest::ClosestTracker, edge_points::EdgePoints,
+    equations::Equations,
 };
 use crate::geometry::{
     cloud::PointCloud,
@@ -23,7 +24,7 @@ use crate::geometry::{
 
 /// What is aligned: a thinned surface and its edges, in source space.
 #[derive(Clone, Debug, Default)]
-pub struct Source {
+pub struct AlignmentSource {
     /// Points of the surface, in an order such that any first n are spread over it.
     pub surface: Vec<Point3<f32>>,
     /// Points of outline and openings, likewise; may be empty.
@@ -32,7 +33,7 @@ pub struct Source {
 
 /// What it is aligned to, in target space.
 #[derive(Clone, Copy, Debug)]
-pub struct Target<'a> {
+pub struct AlignmentTarget<'a> {
     /// The target's points with unit normals.
     pub cloud: &'a PointCloud,
     /// Search tree over them, made when [`Self::tree`] is first asked for it.
@@ -45,7 +46,7 @@ pub struct Target<'a> {
     pub spacing: f64,
 }
 
-impl<'a> Target<'a> {
+impl<'a> AlignmentTarget<'a> {
     /// The search tree over the target's points.
     pub fn tree(&self) -> &'a KdTree {
         self.tree.get_or_init(|| KdTree::new(&self.cloud.points))
@@ -107,18 +108,18 @@ pub struct Refined {
 
 /// Refines one start through all levels.
 pub fn refine(
-    source: &Source,
-    target: &Target<'_>,
+    source: &AlignmentSource,
+    target: &AlignmentTarget<'_>,
     start: &RigidTransform,
     levels: &[Level],
 ) -> Refined {
     let mut pose = *start;
     let mut iterations = Vec::new();
     let mut stopped = Stopped::IterationLimit;
-    let mut followed = Followed::default();
+    let mut followed = ClosestTracker::default();
     for level in levels {
         stopped = Stopped::IterationLimit;
-        let mut before: Option<Step> = None;
+        let mut before: Option<RefinementStep> = None;
         for _ in 0..level.max_steps {
             let equations = Equations::at(source, target, &pose, level, &mut followed);
             iterations.push(Iteration {
@@ -132,7 +133,7 @@ pub fn refine(
             {
                 // Stretched too far: from where it began, only as far as the equations say.
                 pose = applied(&step.twist, &step.from);
-                before = Some(Step {
+                before = Some(RefinementStep {
                     stretch: 1.0,
                     support: f64::INFINITY,
                     ..step
@@ -143,7 +144,7 @@ pub fn refine(
                 break;
             };
             let stretch = before.map_or(1.0, |b| b.next_stretch(&twist));
-            before = Some(Step {
+            before = Some(RefinementStep {
                 from: pose,
                 twist,
                 stretch,
@@ -172,7 +173,7 @@ pub fn refine(
 /// way stays the same, each is therefore stretched to twice the length of the one before, and taken back if less of
 /// the source is on the target then.
 #[derive(Clone, Copy)]
-struct Step {
+struct RefinementStep {
     from: RigidTransform,
     /// What the equations said: turn in radians, shift in metres.
     twist: Vector6<f64>,
@@ -181,7 +182,7 @@ struct Step {
     support: f64,
 }
 
-impl Step {
+impl RefinementStep {
     fn next_stretch(&self, twist: &Vector6<f64>) -> f64 {
         let along =
             self.twist.dot(twist) / (self.twist.norm() * twist.norm()).max(f64::MIN_POSITIVE);
@@ -210,8 +211,8 @@ fn applied(step: &Vector6<f64>, pose: &RigidTransform) -> RigidTransform {
 /// How badly a pose fits, square metres: mean squared distance to the target's surface and edges, and of the
 /// target's edges to the source's, each cut off at `limit` metres.
 pub fn cost(
-    source: &Source,
-    target: &Target<'_>,
+    source: &AlignmentSource,
+    target: &AlignmentTarget<'_>,
     pose: &RigidTransform,
     level: &Level,
     limit: f64,
@@ -255,7 +256,7 @@ pub fn cost(
 
 /// Squared distance of a point to the target's surface near its closest point: along the normal, and beside it what
 /// goes beyond the target's spacing.
-fn surface_distance_sq(target: &Target<'_>, index: usize, at: &Point3<f32>) -> f64 {
+fn surface_distance_sq(target: &AlignmentTarget<'_>, index: usize, at: &Point3<f32>) -> f64 {
     let away: Vector3<f64> = (target.cloud.points[index] - at).cast();
     match target
         .cloud

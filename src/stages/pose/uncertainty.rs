@@ -28,12 +28,12 @@ mod regions;
 
 use nalgebra::{Matrix3, Matrix6, Point3, Vector3, Vector6};
 
-pub use self::freedom::{Axis, Freedom};
-use self::{freedom::Frame, normals::tilt_sq, regions::Regions};
+pub use self::freedom::{Axis, FreeMotion};
+use self::{freedom::LocalFrame, normals::tilt_sq, regions::Regions};
 use super::{
-    closest::Closest,
+    closest::Correspondence,
     equations::edge_share,
-    refine::{Level, Search, Source, Target},
+    refine::{AlignmentSource, AlignmentTarget, Level, Search},
 };
 use crate::{
     geometry::rigid::RigidTransform,
@@ -48,11 +48,11 @@ pub struct Uncertainty {
     /// How far the source may be turned; infinite where nothing holds it.
     pub turn: Radians,
     /// How the source can move most easily, if the pose is unconstrained.
-    pub freedom: Option<Freedom>,
+    pub freedom: Option<FreeMotion>,
 }
 
 impl Uncertainty {
-    fn free(freedom: Freedom) -> Self {
+    fn free(freedom: FreeMotion) -> Self {
         Self {
             shift: Metres(f64::INFINITY),
             turn: Radians(f64::INFINITY),
@@ -89,9 +89,9 @@ const SHIFT_FACTOR: f64 = 1.2;
 
 /// The bounds of a pose that a refinement at this level ended at, from the closest points of the source's surface.
 pub fn uncertainty(
-    source: &Source,
-    closest: &[Closest],
-    target: &Target<'_>,
+    source: &AlignmentSource,
+    closest: &[Correspondence],
+    target: &AlignmentTarget<'_>,
     pose: &RigidTransform,
     level: &Level,
 ) -> Uncertainty {
@@ -104,7 +104,7 @@ pub fn uncertainty(
         .collect();
     let weight_sum: f64 = pairs.iter().map(|p| p.weight).sum();
     if pairs.len() < 12 || weight_sum <= 0.0 {
-        return Uncertainty::free(Freedom::Anyhow);
+        return Uncertainty::free(FreeMotion::Anyhow);
     }
     let sum = pairs.iter().map(|p| p.at.coords * p.weight);
     let middle = sum.sum::<Vector3<f64>>() / weight_sum;
@@ -112,7 +112,7 @@ pub fn uncertainty(
         let out = p.at.coords - middle;
         out * out.transpose()
     });
-    let frame = Frame::of(&(squares.sum::<Matrix3<f64>>() / pairs.len() as f64));
+    let frame = LocalFrame::of(&(squares.sum::<Matrix3<f64>>() / pairs.len() as f64));
 
     let mut sums = Sums::new(middle, per_scale_sq);
     let mut patches = Regions::new(middle, PATCH * frame.radius);
@@ -122,7 +122,7 @@ pub fn uncertainty(
         patches.add(&pair.at, None, &lever, pair.off, pair.weight);
         surface.add(&pair.at, None, &lever, pair.off, pair.weight);
     }
-    let feigned = feigned(&pairs, &middle, tilt_sq(&pairs, target));
+    let spurious_stiffness = spurious_stiffness(&pairs, &middle, tilt_sq(&pairs, target));
     let edges = &source.edges[..level.num_edges.min(source.edges.len())];
     let mut outline = Regions::new(middle, OUTLINE_REGION * frame.radius);
     let share = edge_share(closest.len(), edges.len().max(1));
@@ -146,7 +146,7 @@ pub fn uncertainty(
         LOOSE
     };
     let limits = (loose, Metres(3.0 * level.scale));
-    sums.bounds(&feigned, &spread, &frame, limits)
+    sums.bounds(&spurious_stiffness, &spread, &frame, limits)
 }
 
 /// A source point and the surface of the target.
@@ -164,8 +164,8 @@ struct Pair {
 
 impl Pair {
     fn of(
-        closest: &Closest,
-        target: &Target<'_>,
+        closest: &Correspondence,
+        target: &AlignmentTarget<'_>,
         reach_sq: f64,
         per_scale_sq: f64,
     ) -> Option<Self> {
@@ -195,7 +195,7 @@ impl EdgePair {
     fn of(
         at: &Point3<f32>,
         middle: &Vector3<f64>,
-        target: &Target<'_>,
+        target: &AlignmentTarget<'_>,
         reach_sq: f32,
     ) -> Option<Self> {
         let (number, _) = target.edges.closest_number(at, reach_sq)?;
@@ -236,7 +236,7 @@ fn change(from_middle: &Vector3<f64>, direction: &Vector3<f64>) -> Vector6<f64> 
 }
 
 /// The hold that normals feign which are off by this angle, squared, anyhow.
-fn feigned(pairs: &[Pair], middle: &Vector3<f64>, tilt_sq: f64) -> Matrix6<f64> {
+fn spurious_stiffness(pairs: &[Pair], middle: &Vector3<f64>, tilt_sq: f64) -> Matrix6<f64> {
     let mut hold = Matrix6::zeros();
     for pair in pairs.iter().step_by(FEIGNED_EVERY) {
         for along in tangents(&pair.normal) {
@@ -285,16 +285,16 @@ impl Sums {
 
     fn bounds(
         &self,
-        feigned: &Matrix6<f64>,
+        spurious_stiffness: &Matrix6<f64>,
         spread: &Matrix6<f64>,
-        frame: &Frame,
+        frame: &LocalFrame,
         (most_turn, most_shift): (Radians, Metres),
     ) -> Uncertainty {
-        if let Some(motion) = self.free_motion(feigned, frame) {
+        if let Some(motion) = self.free_motion(spurious_stiffness, frame) {
             return Uncertainty::free(frame.freedom(&motion));
         }
-        let Some(hold) = (self.hold - feigned).cholesky() else {
-            return Uncertainty::free(Freedom::Anyhow);
+        let Some(hold) = (self.hold - spurious_stiffness).cholesky() else {
+            return Uncertainty::free(FreeMotion::Anyhow);
         };
         let inverse = hold.inverse();
         let covariance = inverse * spread * inverse;
@@ -315,10 +315,21 @@ impl Sums {
     }
 
     /// The motion that most of the hold against is feigned, if there is one: turn, then shift.
-    fn free_motion(&self, feigned: &Matrix6<f64>, frame: &Frame) -> Option<Vector6<f64>> {
+    fn free_motion(
+        &self,
+        spurious_stiffness: &Matrix6<f64>,
+        frame: &LocalFrame,
+    ) -> Option<Vector6<f64>> {
         let units = frame.units();
-        let (hold, feigned) = (units * self.hold * units, units * feigned * units);
-        if !hold.iter().chain(&feigned).all(|x| x.is_finite()) {
+        let (hold, spurious_stiffness) = (
+            units * self.hold * units,
+            units * spurious_stiffness * units,
+        );
+        if !hold
+            .iter()
+            .chain(&spurious_stiffness)
+            .all(|x| x.is_finite())
+        {
             return Some(Vector6::zeros());
         }
         let Some(root) = hold.cholesky().map(|c| c.l()) else {
@@ -327,7 +338,7 @@ impl Sums {
             return Some(units * softest);
         };
         // The largest feigned/hold: with hold = L Lᵀ an eigenvalue of L⁻¹ feigned L⁻ᵀ.
-        let half = root.solve_lower_triangular(&feigned)?;
+        let half = root.solve_lower_triangular(&spurious_stiffness)?;
         let whole = root.solve_lower_triangular(&half.transpose())?;
         let eigen = whole.symmetric_eigen();
         let most = eigen.eigenvalues.imax();

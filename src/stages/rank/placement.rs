@@ -17,7 +17,7 @@ use crate::{
 
 /// One way of laying a reference view over the scene's image.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub struct Placement {
+pub struct ImagePlacement {
     /// Index of the view within its reference.
     pub view: usize,
     /// Ray of the scene that the view's first ray falls on.
@@ -30,7 +30,7 @@ pub struct Placement {
     pub overlap: Option<f64>,
 }
 
-impl Placement {
+impl ImagePlacement {
     /// At one lag of a view with `num_rays` rays, where the correlation is `value`; `power` is that of both outlines.
     fn at(view: usize, lag: usize, value: Complex<f64>, power: f64, num_rays: usize) -> Self {
         // The turn that maximises Re(e^{-iφ} c) is the argument of c, and |c| is what it reaches.
@@ -61,26 +61,30 @@ impl Placement {
 }
 
 /// Single precision leaves some tenths of a millimetre of a part that is compared with itself; further off it tells.
-pub(super) fn refine_first(placements: &mut [Placement], query: &Query<'_>, reference: &Reference) {
+pub(super) fn refine_first(
+    placements: &mut [ImagePlacement],
+    query: &Query<'_>,
+    reference: &Reference,
+) {
     if let Some(first) = placements.first_mut() {
         let seen = &reference.views[first.view].signature;
-        *first = Placement {
+        *first = ImagePlacement {
             overlap: first.overlap,
-            ..Placement::exactly_at(first.view, first.lag, [&query.signature.rays, &seen.rays])
+            ..ImagePlacement::exactly_at(first.view, first.lag, [&query.signature.rays, &seen.rays])
         };
     }
 }
 
 /// The scene's side of all comparisons, prepared once.
-pub(super) struct Placer<'a> {
+pub(super) struct PlacementSearch<'a> {
     query: &'a Query<'a>,
     params: &'a RankParams,
     correlator: CircularCorrelator,
     strengths: Vec<i32>,
-    sample: Thinned,
+    sample: SparsePixels,
 }
 
-impl<'a> Placer<'a> {
+impl<'a> PlacementSearch<'a> {
     pub(super) fn new(query: &'a Query<'a>, params: &'a RankParams) -> Self {
         let spectrum = RaySpectra::of([&query.signature.rays[..]]);
         Self {
@@ -92,14 +96,14 @@ impl<'a> Placer<'a> {
         }
     }
 
-    pub(super) fn place(&mut self, enrolled: &Reference) -> Vec<Placement> {
+    pub(super) fn place(&mut self, enrolled: &Reference) -> Vec<ImagePlacement> {
         let mut placements = Vec::with_capacity(2 * enrolled.views.len());
         let correlations = self.correlator.correlate(&enrolled.spectra).enumerate();
         for (view, (values, power)) in correlations {
             let lags = highest_apart(values, &mut self.strengths);
             placements.extend(lags.into_iter().flatten().map(|lag| {
                 let value = Complex::new(values[lag].re.into(), values[lag].im.into());
-                Placement::at(view, lag, value, power, values.len())
+                ImagePlacement::at(view, lag, value, power, values.len())
             }));
         }
         placements.sort_by(|a, b| a.outline_distance.0.total_cmp(&b.outline_distance.0));
@@ -117,9 +121,13 @@ impl<'a> Placer<'a> {
 
 /// Half of the places for the best placement and its like, half for the best that is turned far from it: sorted by
 /// distance alone, the views of a near-symmetric part would fill the list with the same mistake.
-fn both_ways_round(enrolled: &Reference, sorted: &[Placement], num: usize) -> Vec<Placement> {
+fn both_ways_round(
+    enrolled: &Reference,
+    sorted: &[ImagePlacement],
+    num: usize,
+) -> Vec<ImagePlacement> {
     const FAR_TURN: f64 = std::f64::consts::FRAC_PI_3;
-    let attitude = |p: &Placement| {
+    let attitude = |p: &ImagePlacement| {
         let turn = UnitQuaternion::from_axis_angle(&Vector3::z_axis(), p.turn.0);
         turn * enrolled.views[p.view].plane_from_part.rotation
     };
@@ -128,7 +136,7 @@ fn both_ways_round(enrolled: &Reference, sorted: &[Placement], num: usize) -> Ve
     };
     // Of unit quaternions the scalar product is the cosine of half the angle between them.
     let least_near = (FAR_TURN / 2.0).cos();
-    let (near, far): (Vec<Placement>, Vec<Placement>) = sorted
+    let (near, far): (Vec<ImagePlacement>, Vec<ImagePlacement>) = sorted
         .iter()
         .partition(|p| attitude(p).coords.dot(&best.coords).abs() > least_near);
     let num_far = far.len().min(num / 2);
@@ -167,12 +175,12 @@ fn highest_apart(correlation: &[Complex<f32>], twice_around: &mut Vec<i32>) -> [
 const OVERLAP_SPACING: f64 = 0.03;
 
 /// Set places of an image on a coarse grid, with the area that each stands for.
-struct Thinned {
+struct SparsePixels {
     points: PointBlocks,
     area_each: f64,
 }
 
-fn thinned(plane: &PlaneImage) -> Thinned {
+fn thinned(plane: &PlaneImage) -> SparsePixels {
     let step = ((OVERLAP_SPACING / plane.pixel.0).round() as usize).max(1);
     let image = &plane.image;
     let rows = (0..image.height).step_by(step);
@@ -183,7 +191,7 @@ fn thinned(plane: &PlaneImage) -> Thinned {
     });
     let set = places.filter(|(row, column)| image.pixels[row * image.width + column] != 0);
     let point = |(row, column)| plane.plane_point(column as f64, row as f64).cast();
-    Thinned {
+    SparsePixels {
         points: set.map(point).collect(),
         area_each: (step as f64 * plane.pixel.0).powi(2),
     }
@@ -191,7 +199,7 @@ fn thinned(plane: &PlaneImage) -> Thinned {
 
 /// Shared area over joint area of the scene's image and a view laid over it.
 fn overlap(
-    scene: &Thinned,
+    scene: &SparsePixels,
     seen: &ReferenceView,
     scene_plane_from_view_plane: &Isometry2<f64>,
 ) -> f64 {

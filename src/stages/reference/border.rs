@@ -34,7 +34,7 @@ pub struct BorderPair {
 
 /// The border of a reference from one side.
 #[derive(Clone, Debug)]
-pub struct Border {
+pub struct ReferenceBorder {
     /// Evenly spread points.
     pub points: Vec<BorderPoint>,
     /// All pairs that can be used, bin by bin.
@@ -57,7 +57,7 @@ const NUM_ANGLES: usize = 24;
 const FIELD_CELL: f32 = 0.02;
 const FIELD_BAND: f32 = 0.06;
 
-impl Border {
+impl ReferenceBorder {
     /// Of oriented points, part space.
     pub fn new(all: &[BorderPoint]) -> Self {
         let step = all.len().div_ceil(NUM_POINTS).max(1);
@@ -183,7 +183,7 @@ mod tests {
     #[test]
     fn the_pairs_like_one_are_those_of_a_plain_search() {
         let points = disc(60);
-        let border = Border::new(&points);
+        let border = ReferenceBorder::new(&points);
         let pairs = || (0..60).flat_map(|i| (0..60).map(move |j| [i, j]));
         let of = |[i, j]: [u16; 2]| {
             BorderPair::of([&points[usize::from(i)], &points[usize::from(j)]], [i, j])

@@ -98,11 +98,11 @@ impl Link {
 }
 
 /// Union-find over runs of pixels.
-struct Forest {
+struct UnionFind {
     parents: Vec<u32>,
 }
 
-impl Forest {
+impl UnionFind {
     fn add(&mut self) -> u32 {
         let id = self.parents.len() as u32;
         self.parents.push(id);
@@ -139,7 +139,7 @@ fn connect_pixels(
     // A row comes again ROWS rows later: that little stays in the processor's nearest memory.
     let mut run_of = vec![NO_RUN; ROWS * width];
     let at = |row: usize, column: usize| row % ROWS * width + column;
-    let mut forest = Forest {
+    let mut forest = UnionFind {
         parents: Vec::new(),
     };
     let (mut rest, mut runs): (Vec<u32>, Vec<u32>) = (Vec::new(), Vec::new());
@@ -195,7 +195,7 @@ const VOXEL: f32 = 0.04;
 
 fn connect_voxels(points: &[Point3<f32>], labels: &[PointLabel]) -> Vec<Vec<u32>> {
     let voxel_of = |p: &Point3<f32>| [p.x, p.y, p.z].map(|x| (x / VOXEL).floor() as i64);
-    let mut forest = Forest {
+    let mut forest = UnionFind {
         parents: Vec::new(),
     };
     let mut id_of: HashMap<[i64; 3], u32> = HashMap::new();

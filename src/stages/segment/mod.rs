@@ -27,7 +27,7 @@ pub use self::{
     clusters::Cluster,
     empty_cell::{EmptyCell, EmptyCellError},
     noise::noise_of_picture,
-    part::{BackgroundSign, SegmentedPart, other_parts, pieces, surfaces, without_bars},
+    part::{BackgroundSign, SegmentedPart, other_segments, pieces, surfaces, without_bars},
     planes::BackgroundPlane,
 };
 use crate::{error::Advice, stages::scene::SceneCloud, units::Metres};
@@ -189,7 +189,7 @@ pub fn segment(scene: &SceneCloud, params: &SegmentParams) -> Segmentation {
         cell.mark(points, &mut labels, label, noise_at_1m, params);
     }
     let clusters = clusters::connect(scene, &labels, noise_at_1m, params);
-    let part = part::take_part(scene, &clusters, &mut labels, &planes, noise_at_1m, params)
+    let part = part::select_part(scene, &clusters, &mut labels, &planes, noise_at_1m, params)
         .map_err(|no_part| too_wide(scene).unwrap_or(no_part));
     Segmentation {
         labels,

@@ -3,7 +3,7 @@
 use super::{
     BackgroundPlane, Cluster, MIN_POINTS, NoPart, PointLabel, SegmentParams, Segmentation,
     clusters, label_readings, noise_of_picture,
-    stand::{Bars, take_stand_off},
+    stand::{Bars, remove_stand},
 };
 use crate::{
     geometry::{
@@ -165,7 +165,7 @@ impl SegmentedPart {
         noise_at_1m: Metres,
         bars: Bars,
     ) -> Self {
-        let (indices, stand) = take_stand_off(scene, members, bars);
+        let (indices, stand) = remove_stand(scene, members, bars);
         let touches_edge = clusters::touches_edge(scene, &indices);
         Self {
             stand,
@@ -209,7 +209,7 @@ pub fn pieces(scene: &SceneCloud, params: &SegmentParams) -> Vec<Vec<u32>> {
 const LEAST_SHARE: f64 = 0.1;
 
 /// The surfaces beside the one that was taken for the part, the likeliest first, at most `limit`.
-pub fn other_parts(
+pub fn other_segments(
     scene: &SceneCloud,
     segmentation: &Segmentation,
     params: &SegmentParams,
@@ -236,7 +236,7 @@ pub fn other_parts(
         .filter(|(indices, cluster)| is_candidate(cluster) && indices.first() != taken)
         .map(|(indices, cluster)| (*cluster, indices))
         .collect();
-    others.sort_by(|a, b| likelihood(&b.0).total_cmp(&likelihood(&a.0)));
+    others.sort_by(|a, b| part_prior(&b.0).total_cmp(&part_prior(&a.0)));
     others
         .into_iter()
         .take(limit)
@@ -272,12 +272,12 @@ pub fn without_bars(scene: &SceneCloud, part: &SegmentedPart) -> Option<Segmente
 
 /// How likely a surface is the part: the more of the view it fills, the more, since the camera looks at the part. But what
 /// runs out of the view is more often a strip of floor or a neighbour, and what lies behind others is a wall.
-fn likelihood(cluster: &Cluster) -> f64 {
+fn part_prior(cluster: &Cluster) -> f64 {
     let in_front = (cluster.in_front / IN_FRONT).min(1.0).powi(2);
     cluster.num_points as f64 * in_front * if cluster.touches_edge { 0.4 } else { 1.0 }
 }
 
-pub(super) fn take_part(
+pub(super) fn select_part(
     scene: &SceneCloud,
     clusters: &[clusters::Members],
     labels: &mut [PointLabel],
@@ -287,7 +287,7 @@ pub(super) fn take_part(
 ) -> Result<SegmentedPart, NoPart> {
     let largest = clusters
         .iter()
-        .max_by(|a, b| likelihood(&a.cluster).total_cmp(&likelihood(&b.cluster)));
+        .max_by(|a, b| part_prior(&a.cluster).total_cmp(&part_prior(&b.cluster)));
     match largest {
         Some(largest)
             if largest.cluster.area >= params.min_part_area

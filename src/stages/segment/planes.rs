@@ -161,7 +161,7 @@ fn best_plane(
             _ => Neighbourhood::Round,
         };
         let first = unclaimed[rng.random_range(0..unclaimed.len())];
-        let Some([second, third]) = subset.companions(first, shape, unclaimed, rng) else {
+        let Some([second, third]) = subset.sample_neighbours(first, shape, unclaimed, rng) else {
             continue;
         };
         let Some(plane) = Plane::through(

@@ -47,7 +47,7 @@ pub(super) enum Bars {
 
 /// Divides a connected surface, by its points' places in the scene in ascending order, into the part and what belongs to
 /// a stand.
-pub(super) fn take_stand_off(
+pub(super) fn remove_stand(
     scene: &SceneCloud,
     surface: Vec<u32>,
     bars: Bars,
@@ -365,7 +365,7 @@ mod tests {
 
     fn taken_off(scene: &SceneCloud) -> (Vec<u32>, Vec<u32>) {
         let surface = scene.cloud.finite().map(|(i, _)| i as u32).collect();
-        take_stand_off(scene, surface, Bars::OffSurface)
+        remove_stand(scene, surface, Bars::OffSurface)
     }
 
     #[test]

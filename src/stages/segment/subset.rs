@@ -116,7 +116,7 @@ impl Subset {
     /// Two more points for a sample that begins with `first`: on a grid from its neighbourhood, where they most
     /// likely lie on the same surface, otherwise from anywhere. Every second neighbourhood is wide and low: a floor is
     /// often seen as a strip along the lower edge.
-    pub(super) fn companions(
+    pub(super) fn sample_neighbours(
         &self,
         first: u32,
         shape: Neighbourhood,

@@ -4,8 +4,8 @@ use super::*;
 use crate::{
     geometry::{cloud::PointCloud, voxel::downsample},
     simulate::{
-        CellSetup, ObjectKind, PartKind, PartPose, Placement, Side, SimulatedFrame, Subject,
-        SurfaceLabel, frame,
+        CellSetup, ObjectKind, PartKind, PartPose, PoseRange, Side, SimulatedFrame,
+        SimulatedObject, SurfaceLabel, frame,
     },
     stages::scene::{scene_from_cloud, scene_from_frame},
 };
@@ -49,7 +49,7 @@ fn every_part_is_kept_whole_and_nothing_else() {
 #[test]
 fn an_empty_cell_holds_no_part() {
     for seed in 0..10 {
-        let mut setup = CellSetup::new(Subject::Nothing, seed);
+        let mut setup = CellSetup::new(SimulatedObject::Nothing, seed);
         setup.floor = Metres(0.6 + 0.05 * seed as f64);
         let found = segmented(&frame(&setup));
         assert!(
@@ -63,7 +63,10 @@ fn an_empty_cell_holds_no_part() {
 #[test]
 fn a_flat_board_before_the_wall_is_not_taken_for_another_wall() {
     for seed in 0..5 {
-        let frame = frame(&CellSetup::new(Subject::Object(ObjectKind::Board), seed));
+        let frame = frame(&CellSetup::new(
+            SimulatedObject::Object(ObjectKind::Board),
+            seed,
+        ));
         let (recall, _) = recall_and_precision(&frame, &segmented(&frame));
         assert!(recall > 0.9, "seed {seed}: {recall:.3} of the board kept");
     }
@@ -86,7 +89,7 @@ fn a_part_alone_in_space_is_kept() {
 #[test]
 fn an_unorganised_cloud_is_segmented_too() {
     let mut setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 0, 9);
-    setup.pose = PartPose::Drawn(Placement::facing());
+    setup.pose = PartPose::Drawn(PoseRange::facing());
     let frame = frame(&setup);
     let thinned = downsample(&scene_from_frame(&frame.frame).cloud, Metres::from_mm(10.0));
     let found = segment(&scene_from_cloud(thinned), &SegmentParams::default());

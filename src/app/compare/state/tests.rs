@@ -3,18 +3,18 @@ use jiff::Timestamp;
 use super::*;
 use crate::{
     app::shell::context::TestShell,
-    cases::{CaseAbout, CaseMeta, Edge, Found, SCHEMA_VERSION, SceneRecord},
+    cases::{CaseDescription, CaseMeta, Edge, FoundVerdict, SCHEMA_VERSION, SceneRecord},
 };
 
 fn kept(name: &str) -> KeptCase {
-    let about = CaseAbout {
+    let about = CaseDescription {
         origin: name.into(),
         simulated: true,
         kept_at: Timestamp::UNIX_EPOCH,
         remark: String::new(),
         difficulty: None,
         truth: Truth::Part("fender".into()),
-        found: Found::default(),
+        found: FoundVerdict::default(),
         pose: None,
     };
     let scene = SceneRecord {

@@ -7,35 +7,35 @@ use crate::{
     app::{
         action::{self, Action},
         camera::Camera,
-        enrol::{selection::PixelBox, subject::Fate},
-        job::{Outcome, answer},
-        shelf::Shelf,
+        enrol::{selection::PixelBox, subject::PointAction},
+        job::{TaskOutcome, answer},
+        shelf::LibraryCache,
         source::Origin,
         state::{Session, Workspace},
-        worker::{Desk, News},
+        worker::{TaskContext, TaskEvent},
     },
     geometry::cloud::PointCloud,
-    pipeline::Watch,
+    pipeline::ProgressObserver,
     stages::scene::SceneCloud,
 };
 
 /// Keeps what is handed over on the way.
 #[derive(Default)]
-struct Tray(Mutex<Vec<Outcome>>);
+struct Tray(Mutex<Vec<TaskOutcome>>);
 
-impl Watch for Tray {}
+impl ProgressObserver for Tray {}
 
-impl Desk<Outcome> for Tray {
-    fn stands(&self, outcome: Outcome) {
-        self.partly(outcome);
+impl TaskContext<TaskOutcome> for Tray {
+    fn stands(&self, outcome: TaskOutcome) {
+        self.publish_partial(outcome);
     }
 
-    fn is_followed(&self) -> bool {
+    fn wants_more(&self) -> bool {
         true
     }
 
     fn progress(&self, _done: usize, _total: usize) {}
-    fn partly(&self, outcome: Outcome) {
+    fn publish_partial(&self, outcome: TaskOutcome) {
         self.0.lock().expect("whole").push(outcome);
     }
 }
@@ -43,7 +43,7 @@ impl Desk<Outcome> for Tray {
 /// A window without its threads: what is posted is done at once.
 struct Bench {
     state: State,
-    shelf: Shelf,
+    shelf: LibraryCache,
     folder: tempfile::TempDir,
 }
 
@@ -60,7 +60,7 @@ impl Bench {
         };
         Self {
             state,
-            shelf: Shelf::new(Some(folder.path().to_owned()), Camera::default()),
+            shelf: LibraryCache::new(Some(folder.path().to_owned()), Camera::default()),
             folder,
         }
     }
@@ -88,7 +88,7 @@ impl Bench {
                 for outcome in tray.0.into_inner().expect("whole") {
                     self.hear(
                         lane,
-                        News::Partly {
+                        TaskEvent::Partly {
                             generation,
                             outcome,
                         },
@@ -96,7 +96,7 @@ impl Bench {
                 }
                 self.hear(
                     lane,
-                    News::Done {
+                    TaskEvent::Done {
                         generation,
                         outcome,
                     },
@@ -106,7 +106,7 @@ impl Bench {
         }
     }
 
-    fn hear(&mut self, lane: Lane, news: News<Outcome>) {
+    fn hear(&mut self, lane: TaskQueue, news: TaskEvent<TaskOutcome>) {
         let effect = action::apply(&mut self.state, Action::Hear(lane, news));
         self.make(effect);
     }
@@ -128,7 +128,7 @@ impl Bench {
         let source = SceneSource::AtHand(Arc::new(scene), origin);
         let effect = take(&mut self.state, source, "Taking".into());
         self.make(Some(effect));
-        self.act(EnrolAction::TakeAs(Taking::Whole));
+        self.act(EnrolAction::TakeAs(InitialSelection::Whole));
     }
 
     fn named(&mut self, title: &str) {
@@ -167,7 +167,7 @@ fn every_correction_is_taken_back_and_done_again_in_its_order() {
     let mut kept = vec![bench.num_kept()];
     for edit in [
         Edit::Box(BoxMode::Keep, CORNER),
-        Edit::Segment(0, Fate::Kept),
+        Edit::Segment(0, PointAction::Kept),
         Edit::Box(BoxMode::Drop, CORNER),
     ] {
         bench.act(EnrolAction::Correct(edit));
@@ -183,7 +183,7 @@ fn every_correction_is_taken_back_and_done_again_in_its_order() {
         assert_eq!(bench.num_kept(), *num);
     }
     bench.act(EnrolAction::Undo);
-    bench.act(EnrolAction::Correct(Edit::Segment(0, Fate::Dropped)));
+    bench.act(EnrolAction::Correct(Edit::Segment(0, PointAction::Dropped)));
     bench.act(EnrolAction::Redo);
     assert_eq!(bench.num_kept(), 0, "what was done since counts");
     let draft = bench.state.enrol.draft.as_ref().expect("a draft");
@@ -315,8 +315,8 @@ fn without_a_name_nothing_is_saved_and_it_is_said() {
 fn captures_are_enrolled_while_the_workspace_is_in_front_and_inspected_otherwise() {
     let mut state = State::default();
     for (workspace, lane) in [
-        (Workspace::Inspect, Lane::Inspect),
-        (Workspace::Enrol, Lane::Enrol),
+        (Workspace::Inspect, TaskQueue::Inspect),
+        (Workspace::Enrol, TaskQueue::Enrol),
     ] {
         state.workspace = workspace;
         for action in [Action::Capture, Action::Open("door.pcd".into())] {
@@ -339,7 +339,7 @@ fn what_is_checked_names_the_part_that_is_hardest_to_tell_from() {
     let draft = bench.state.enrol.draft.as_ref().expect("a draft");
     let hardest = draft.hardest().expect("one is enrolled");
     assert!(
-        hardest.other == "plate" && !hardest.can_be_told_apart(),
+        hardest.other == "plate" && !hardest.is_distinguishable(),
         "{hardest}"
     );
     bench.act(EnrolAction::Replace(

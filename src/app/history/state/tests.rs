@@ -5,15 +5,15 @@ use crate::{
     app::{
         history::Direction,
         inspect::work::{InspectRequest, inspect},
-        shelf::Shelf,
+        shelf::LibraryCache,
         shell::{
             context::TestShell,
-            message::{Event, Message, Purpose},
+            message::{Event, Message, ReinspectionPurpose},
             session::UserRole,
         },
         source::{CellChoice, SceneSource},
     },
-    history::{HistoryNews, PastVerdict},
+    history::{HistoryEvent, StoredVerdict},
     pipeline::{PoseChoice, Recipe, Unwatched},
 };
 
@@ -30,7 +30,7 @@ fn inspected(number: u64) -> Arc<Inspected> {
         },
         recipe: Arc::new(recipe),
     };
-    let inspected = inspect(&request, &Shelf::default(), &Unwatched).expect("inspected");
+    let inspected = inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected");
     Arc::new(inspected.expect("not cancelled"))
 }
 
@@ -59,7 +59,7 @@ impl Bench {
     fn listing(inspected: &Inspected, numbers: &[i64]) -> Self {
         let mut bench = Self::new();
         let rows: Vec<Summary> = numbers.iter().map(|n| row(inspected, *n)).collect();
-        let looked = Looked {
+        let looked = HistoryResult {
             asked: bench.history.wanted(),
             page: Page {
                 num_matching: rows.len(),
@@ -81,11 +81,11 @@ impl Bench {
         self.history.apply(action, &mut self.shell.context());
     }
 
-    fn take_news(&mut self, news: HistoryNews) {
+    fn take_news(&mut self, news: HistoryEvent) {
         self.history.take_news(news, &mut self.shell.context());
     }
 
-    fn inspected(&mut self, inspected: &Arc<Inspected>, purpose: Purpose) {
+    fn inspected(&mut self, inspected: &Arc<Inspected>, purpose: ReinspectionPurpose) {
         let inspected = Arc::clone(inspected);
         let event = Event::Inspected { inspected, purpose };
         self.history.on_event(&event, &mut self.shell.context());
@@ -97,20 +97,20 @@ fn a_new_result_is_handed_over_and_the_newest_few_stay_whole() {
     let found = inspected(1);
     let mut bench = Bench::new();
     for number in 1..=7_i64 {
-        bench.inspected(&found, Purpose::New);
+        bench.inspected(&found, ReinspectionPurpose::New);
         let job = bench.history.jobs.pop();
         let Some(HistoryJob::Add(ticket, entry)) = job else {
             panic!("not handed over: {job:?}");
         };
-        assert_eq!(entry.record.summary.verdict, PastVerdict::NoPart);
+        assert_eq!(entry.record.summary.verdict, StoredVerdict::NoPart);
         assert!(!bench.history.is_settled());
         assert_eq!(bench.history.num_rows(), number as usize);
-        bench.take_news(HistoryNews::Added { ticket, number });
+        bench.take_news(HistoryEvent::Added { ticket, number });
     }
     let whole = |number| bench.history.whole(number).is_some();
     assert!(whole(7) && whole(4) && !whole(3) && !whole(1));
     // A scene in front with something else changed is no inspection of its own.
-    bench.inspected(&found, Purpose::Repeated);
+    bench.inspected(&found, ReinspectionPurpose::Repeated);
     assert!(bench.history.jobs.is_empty());
 }
 
@@ -121,7 +121,7 @@ fn who_looks_at_the_newest_goes_on_looking_at_the_newest() {
     assert_eq!(bench.history.selected, Some(3));
     let add = |bench: &mut Bench, number| {
         let ticket = bench.history.ticket(&found);
-        bench.take_news(HistoryNews::Added { ticket, number });
+        bench.take_news(HistoryEvent::Added { ticket, number });
     };
     add(&mut bench, 4);
     assert_eq!(bench.history.selected, Some(4));
@@ -151,15 +151,15 @@ fn what_waited_keeps_its_place_under_its_new_number() {
     let found = inspected(1);
     let mut bench = Bench::new();
     let ticket = bench.history.ticket(&found);
-    let trouble = HistoryNews::Failed {
+    let trouble = HistoryEvent::Failed {
         what: "the disk is full".into(),
         advice: "Make room".into(),
     };
     bench.take_news(trouble);
-    bench.take_news(HistoryNews::Added { ticket, number: -1 });
+    bench.take_news(HistoryEvent::Added { ticket, number: -1 });
     assert_eq!(bench.history.selected, Some(-1));
     assert_eq!(bench.shell.notices().len(), 1);
-    let works = HistoryNews::Works {
+    let works = HistoryEvent::Works {
         numbers: vec![(-1, 58)],
         num_lost: 0,
     };

@@ -97,7 +97,7 @@ fn panning_moves_the_target_plane_with_the_pointer() {
 
 #[test]
 fn a_fit_contains_the_bounds_and_fills_the_view() {
-    let bounds = Bounds {
+    let bounds = PointBounds {
         low: Vec3::new(-0.6, -0.4, 1.0),
         high: Vec3::new(0.5, 0.7, 1.3),
     };

@@ -2,7 +2,7 @@
 
 use super::*;
 use crate::files::{
-    DepthCamera, Stored,
+    DepthCamera, StoredOrientation,
     depth_png::{FOLDER_CAMERA, write_camera, write_depths},
     save_cloud,
 };
@@ -19,7 +19,7 @@ fn a_sequence_of_depth_images_is_read_with_its_times_and_its_camera() {
         },
         metres_per_unit: 0.0002,
         is_simulated: false,
-        stored: Stored::default(),
+        stored: StoredOrientation::default(),
     };
     let mut list = vec!["# depth maps".to_owned(), "# timestamp filename".into()];
     for k in 0..3_u16 {

@@ -23,7 +23,7 @@ fn unlike(name: &str) -> Rejection {
 fn consensus(frames: impl IntoIterator<Item = (Verdict, f64)>) -> Consensus {
     let mut all = Consensus::new(ConsensusParams::default());
     for (number, (verdict, x)) in frames.into_iter().enumerate() {
-        all.said.push_back(Said {
+        all.said.push_back(FrameVerdict {
             at: Duration::from_millis(33 * number as u64),
             verdict,
             reference: Some("door".into()),
@@ -34,7 +34,7 @@ fn consensus(frames: impl IntoIterator<Item = (Verdict, f64)>) -> Consensus {
     all
 }
 
-fn agreed(frames: impl IntoIterator<Item = (Verdict, f64)>) -> Option<Agreed> {
+fn agreed(frames: impl IntoIterator<Item = (Verdict, f64)>) -> Option<ConsensusVerdict> {
     consensus(frames).agreed(Duration::ZERO, &AcceptParams::default())
 }
 

@@ -8,7 +8,7 @@ use super::*;
 use crate::{
     geometry::{depth_frame::Intrinsics, mesh::TriangleMesh, rigid::RigidTransform},
     simulate::{
-        CellSetup, Clutter, PartKind, PartPose, Placement, SensorNoise, Side, frame_of_mesh,
+        CellSetup, Clutter, PartKind, PartPose, PoseRange, SensorNoise, Side, frame_of_mesh,
     },
     stages::scene::scene_from_frame,
 };
@@ -19,7 +19,7 @@ const FRAME: Duration = Duration::from_micros(33_333);
 struct Hanging {
     setup: CellSetup,
     mesh: TriangleMesh,
-    at_rest: RigidTransform,
+    rest_pose: RigidTransform,
 }
 
 impl Hanging {
@@ -27,20 +27,20 @@ impl Hanging {
         let mut setup = CellSetup::with_part(kind, Side::Left, 0, seed);
         setup.noise.multiplier = noise;
         let mesh = setup.subject.mesh();
-        let at_rest = Placement::facing()
+        let rest_pose = PoseRange::facing()
             .draw(&mesh, &Intrinsics::KINECT, seed)
             .camera_from_part;
         Self {
             setup,
             mesh,
-            at_rest,
+            rest_pose,
         }
     }
 
     /// The frame of this number, the part moved by this from its rest.
     fn frame(&self, number: u64, moved: &RigidTransform) -> SceneCloud {
         let mut setup = self.setup;
-        setup.pose = PartPose::Fixed(moved * self.at_rest);
+        setup.pose = PartPose::Fixed(moved * self.rest_pose);
         setup.noise = SensorNoise {
             seed: setup.seed * 10_000 + number,
             ..setup.noise
@@ -49,7 +49,7 @@ impl Hanging {
     }
 
     /// What is said of every frame.
-    fn watched(&self, num_frames: u64, moved: impl Fn(f64) -> RigidTransform) -> Vec<Stillness> {
+    fn watched(&self, num_frames: u64, moved: impl Fn(f64) -> RigidTransform) -> Vec<MotionState> {
         self.watched_every(FRAME, num_frames, moved)
     }
 
@@ -59,8 +59,8 @@ impl Hanging {
         apart: Duration,
         num_frames: u64,
         moved: impl Fn(f64) -> RigidTransform,
-    ) -> Vec<Stillness> {
-        let mut watch = SteadyWatch::new(SteadyParams::default());
+    ) -> Vec<MotionState> {
+        let mut watch = MotionDetector::new(SteadyParams::default());
         (0..num_frames)
             .map(|number| {
                 let at = apart * number as u32;
@@ -88,14 +88,14 @@ fn noise_alone_is_steady_from_the_first_frame_on() {
         hanging.setup.clutter = clutter;
         let said = hanging.watched(45, |_| RigidTransform::identity());
         assert!(
-            said[..20].iter().all(|s| *s == Stillness::Watching),
+            said[..20].iter().all(|s| *s == MotionState::Watching),
             "{said:?}"
         );
         assert!(
             said[32..].iter().all(|s| s.is_steady()),
             "{kind} at {noise}: {said:?}"
         );
-        let Some(Stillness::Steady { since, lasting }) = said.last() else {
+        let Some(MotionState::Steady { since, lasting }) = said.last() else {
             panic!("{said:?}");
         };
         assert_eq!((*since, *lasting), (Duration::ZERO, FRAME * 44));
@@ -166,36 +166,36 @@ fn motion_after_a_rest_is_said_at_once_and_creeping_within_seconds() {
     let pushed = |t: f64| shifted(0.3 * (t - 36.0 / 30.0).max(0.0), 0.0, 0.0);
     let said = hanging.watched(40, pushed);
     assert!(said[35].is_steady());
-    assert_eq!(said[38], Stillness::Moving, "{said:?}");
+    assert_eq!(said[38], MotionState::Moving, "{said:?}");
     let creeping = |t: f64| shifted(0.001 * t, 0.0, 0.0);
     let said = hanging.watched_every(Duration::from_millis(100), 70, creeping);
-    assert!(said.contains(&Stillness::Moving), "{said:?}");
+    assert!(said.contains(&MotionState::Moving), "{said:?}");
 }
 
 #[test]
 fn a_gap_in_time_and_another_picture_begin_anew_and_a_cloud_without_rows_is_never_steady() {
     let hanging = Hanging::new(PartKind::Fender, 1.0, 7);
     let scene = hanging.frame(0, &RigidTransform::identity());
-    let mut watch = SteadyWatch::new(SteadyParams::default());
+    let mut watch = MotionDetector::new(SteadyParams::default());
     let seconds = Duration::from_secs_f64;
     for number in 0..40 {
         watch.see(&scene, seconds(0.04 * f64::from(number)));
     }
     assert!(watch.stillness().is_steady());
     let run = watch.run();
-    assert_eq!(watch.see(&scene, seconds(60.0)), Stillness::Watching);
+    assert_eq!(watch.see(&scene, seconds(60.0)), MotionState::Watching);
     assert!(watch.run() > run);
     // A clock that was set back.
     for number in 0..40 {
         watch.see(&scene, seconds(61.0 + 0.04 * f64::from(number)));
     }
     assert!(watch.stillness().is_steady());
-    assert_eq!(watch.see(&scene, seconds(1.0)), Stillness::Watching);
+    assert_eq!(watch.see(&scene, seconds(1.0)), MotionState::Watching);
     let mut bare = scene;
     bare.cloud.grid = None;
     for number in 0..40 {
         let said = watch.see(&bare, seconds(1.0 + 0.04 * f64::from(number)));
-        assert_eq!(said, Stillness::Watching);
+        assert_eq!(said, MotionState::Watching);
     }
 }
 
@@ -227,7 +227,7 @@ fn table() {
         for noise in [0.0, 1.0, 3.0] {
             let hanging = Hanging::new(kind, noise, 5);
             for (name, moved) in &cases {
-                let mut watch = SteadyWatch::new(SteadyParams {
+                let mut watch = MotionDetector::new(SteadyParams {
                     max_changed: 1.0,
                     ..SteadyParams::default()
                 });
@@ -247,7 +247,7 @@ fn table() {
                             shares.push(1.0);
                             continue;
                         };
-                        restless = restless.max(watch.restless_share(new));
+                        restless = restless.max(watch.moving_share(new));
                         for old in watch.spells.iter().rev().skip(1) {
                             shares.push((watch.changed_share(old, new) * 1e5).round() / 1e5);
                         }

@@ -12,7 +12,7 @@ fn half_turns_about_axes_at_right_angles_alone_have_several_answers() {
                 let [rx, ry] = turns[i % 4];
                 let seen = from_euler_zyx([rx, ry, 0.0, 0.03 * i as f64, 0.1, 1.2]);
                 let mut pair = cell.pair(i, seen);
-                pair.camera_from_target = disturbed(&seen, noise(0.2, 0.05), random);
+                pair.camera_from_target = with_noise(&seen, noise(0.2, 0.05), random);
                 pair
             })
             .collect();
@@ -163,8 +163,8 @@ fn poses_the_wrong_way_round_are_told() {
             Err(error) => panic!("{error}"),
         };
         for (wrong, expected) in [
-            ([true, false], Mistake::RobotInverted),
-            ([false, true], Mistake::CameraInverted),
+            ([true, false], LikelyMistake::RobotInverted),
+            ([false, true], LikelyMistake::CameraInverted),
         ] {
             let mut pairs = sound.clone();
             for pair in &mut pairs {
@@ -228,7 +228,7 @@ fn lengths_in_another_unit_are_told() {
             matches!(
                 doubt,
                 HandEyeDoubt::Mistaken {
-                    mistake: Mistake::CameraInMetres,
+                    mistake: LikelyMistake::CameraInMetres,
                     ..
                 }
             ),

@@ -4,7 +4,7 @@ use rand_pcg::Pcg64;
 use super::*;
 use crate::{
     geometry::rigid::{from_euler_zyx, pose_error},
-    stages::pose::Doubt,
+    stages::pose::PoseWarning,
 };
 
 /// A bent sheet with a notch: nothing about it is symmetric, and its points lie on no lattice that could slide
@@ -152,7 +152,10 @@ fn what_fits_in_many_places_is_doubted_and_never_sure() {
             let doubt = pose.doubt();
             assert!(doubt.is_some(), "{name} by {method:?}: {pose:?}");
             if method == PoseMethod::Global {
-                let fits = matches!(doubt, Some(Doubt::Ambiguous { .. } | Doubt::Loose { .. }));
+                let fits = matches!(
+                    doubt,
+                    Some(PoseWarning::Ambiguous { .. } | PoseWarning::Loose { .. })
+                );
                 assert!(fits, "{name}: {doubt:?}");
             }
         }

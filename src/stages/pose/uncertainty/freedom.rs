@@ -6,7 +6,7 @@ use nalgebra::{Matrix3, Matrix6, Vector3, Vector6};
 
 /// How a part could move and still lie on the reference.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum Freedom {
+pub enum FreeMotion {
     /// Along an axis.
     Slide(Axis),
     /// About an axis.
@@ -30,7 +30,7 @@ impl Axis {
     const ALL: [Self; 3] = [Self::Long, Self::Short, Self::Normal];
 }
 
-impl fmt::Display for Freedom {
+impl fmt::Display for FreeMotion {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
         f.write_str(match self {
             Self::Slide(Axis::Long) => "it can slide along its long side",
@@ -45,14 +45,14 @@ impl fmt::Display for Freedom {
 }
 
 /// The principal axes of what was seen, and its size.
-pub(super) struct Frame {
+pub(super) struct LocalFrame {
     /// Unit vectors as columns, in the order of [`Axis::ALL`].
     axes: Matrix3<f64>,
     /// Root mean square distance from the middle, metres: what a turn by one radian moves a point by.
     pub(super) radius: f64,
 }
 
-impl Frame {
+impl LocalFrame {
     /// From the covariance of the points.
     pub(super) fn of(covariance: &Matrix3<f64>) -> Self {
         let eigen = covariance.symmetric_eigen();
@@ -65,22 +65,22 @@ impl Frame {
     }
 
     /// The freedom that a motion stands for: turn in radians, then shift in metres, about the middle.
-    pub(super) fn freedom(&self, motion: &Vector6<f64>) -> Freedom {
+    pub(super) fn freedom(&self, motion: &Vector6<f64>) -> FreeMotion {
         let (turn, shift) = (motion.fixed_rows::<3>(0), motion.fixed_rows::<3>(3));
         if turn.norm() * self.radius > shift.norm() {
-            Freedom::Turn(self.nearest(&turn.into_owned()))
+            FreeMotion::Turn(self.nearest(&turn.into_owned()))
         } else {
-            Freedom::Slide(self.nearest(&shift.into_owned()))
+            FreeMotion::Slide(self.nearest(&shift.into_owned()))
         }
     }
 
     /// The motion that a covariance allows most of.
-    pub(super) fn widest(&self, covariance: &Matrix6<f64>) -> Freedom {
+    pub(super) fn widest(&self, covariance: &Matrix6<f64>) -> FreeMotion {
         let units = self.units();
         let per_unit = Matrix6::from_diagonal(&units.diagonal().map(f64::recip));
         let in_units = per_unit * covariance * per_unit;
         if !in_units.iter().all(|x| x.is_finite()) {
-            return Freedom::Anyhow;
+            return FreeMotion::Anyhow;
         }
         let eigen = in_units.symmetric_eigen();
         let widest = eigen.eigenvectors.column(eigen.eigenvalues.imax());

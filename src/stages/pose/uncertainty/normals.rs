@@ -3,7 +3,7 @@
 use nalgebra::Vector3;
 
 use super::{Pair, tangents};
-use crate::stages::pose::refine::{Search, Target};
+use crate::stages::pose::refine::{AlignmentTarget, Search};
 
 /// Neighbours that a normal is the mean of, about, and the radius they lie within, in spacings.
 const NORMAL_NEIGHBOURS: f64 = 28.0;
@@ -20,7 +20,7 @@ const MEDIAN_SQ: f64 = 0.455;
 /// The noise of the target's own points tilts its normals; and a pair has the normal of the closest point, which on a
 /// curved surface is not that at its own place. Both follow from neighbouring target points. Medians, because at a
 /// crease neighbours differ, and a crease does hold.
-pub(super) fn tilt_sq(pairs: &[Pair], target: &Target<'_>) -> f64 {
+pub(super) fn tilt_sq(pairs: &[Pair], target: &AlignmentTarget<'_>) -> f64 {
     let normals = target.cloud.normals.as_deref().unwrap_or_default();
     let step = (pairs.len() / NUM_ASKED).max(1);
     let (mut offs_sq, mut bends_sq) = (Vec::new(), Vec::new());

@@ -88,7 +88,7 @@ fn bounds(shape: Shape, is_seen: impl Fn(&Point3<f32>) -> bool) -> Uncertainty {
     cloud.normals = Some(estimate_normals(&cloud.points, &tree, radius, &towards));
     let field = NearestField::new(&cloud.points, 0.02, 0.06);
     let edges = EdgePoints::new(&rim(shape), 256);
-    let target = Target {
+    let target = AlignmentTarget {
         cloud: &cloud,
         tree: &OnceLock::from(tree),
         field: &field,
@@ -98,12 +98,12 @@ fn bounds(shape: Shape, is_seen: impl Fn(&Point3<f32>) -> bool) -> Uncertainty {
     let mut surface: Vec<Point3<f32>> = grid(0.02, 0.003).map(&mut noisy).collect();
     surface.truncate(LEVEL.num_surface);
     let edges = rim(shape).into_iter().filter(is_seen).map(&mut noisy);
-    let source = Source {
+    let source = AlignmentSource {
         edges: edges.collect(),
         surface,
     };
     let pose = RigidTransform::identity();
-    let closest = Closest::of_each(&source.surface, &target, &pose, Search::Tree);
+    let closest = Correspondence::of_each(&source.surface, &target, &pose, Search::Tree);
     uncertainty(&source, &closest, &target, &pose, &LEVEL)
 }
 
@@ -126,7 +126,7 @@ fn a_shape_that_fits_on_itself_elsewhere_is_unconstrained_without_its_rim() {
     assert!(
         matches!(
             flat,
-            Some(Freedom::Slide(Axis::Long | Axis::Short) | Freedom::Turn(Axis::Normal))
+            Some(FreeMotion::Slide(Axis::Long | Axis::Short) | FreeMotion::Turn(Axis::Normal))
         ),
         "{flat:?}"
     );
@@ -134,7 +134,7 @@ fn a_shape_that_fits_on_itself_elsewhere_is_unconstrained_without_its_rim() {
     assert!(
         matches!(
             tube,
-            Some(Freedom::Slide(Axis::Long | Axis::Short) | Freedom::Turn(Axis::Long))
+            Some(FreeMotion::Slide(Axis::Long | Axis::Short) | FreeMotion::Turn(Axis::Long))
         ),
         "{tube:?}"
     );
@@ -145,11 +145,15 @@ fn a_shape_that_fits_on_itself_elsewhere_is_unconstrained_without_its_rim() {
 #[test]
 fn a_cut_sheet_slides_along_the_only_edge_in_view() {
     let long = bounds(FLAT, |p| p.y < -0.29 && p.x.abs() < 0.45);
-    assert_eq!(long.freedom, Some(Freedom::Slide(Axis::Long)), "{long:?}");
+    assert_eq!(
+        long.freedom,
+        Some(FreeMotion::Slide(Axis::Long)),
+        "{long:?}"
+    );
     let short = bounds(FLAT, |p| p.x < -0.49 && p.y.abs() < 0.25);
     assert_eq!(
         short.freedom,
-        Some(Freedom::Slide(Axis::Short)),
+        Some(FreeMotion::Slide(Axis::Short)),
         "{short:?}"
     );
     // A corner holds it.

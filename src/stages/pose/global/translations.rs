@@ -5,7 +5,7 @@
 
 use nalgebra::{Translation3, Unit, UnitQuaternion};
 
-use super::{COMPLETE, GlobalSearch, NUM_FINISHED, Trial};
+use super::{COMPLETE, GlobalSearch, NUM_FINISHED, PoseTrial};
 use crate::{
     geometry::rigid::RigidTransform,
     stages::pose::{
@@ -22,7 +22,7 @@ const MOST_ROUNDS: usize = 4;
 
 impl GlobalSearch<'_> {
     /// Tries the best elsewhere, as long as something better is found and there is something to be found.
-    pub(super) fn put_aside(&self, finished: &mut Vec<Trial>) -> Result<(), PoseError> {
+    pub(super) fn try_translations(&self, finished: &mut Vec<PoseTrial>) -> Result<(), PoseError> {
         for round in 0..MOST_ROUNDS {
             let Some(best) = finished.first() else {
                 return Ok(());
@@ -56,7 +56,7 @@ impl GlobalSearch<'_> {
     }
 
     /// A pose put aside along the target's two longest axes: the cheapest places.
-    fn slid(&self, pose: &RigidTransform) -> Vec<Trial> {
+    fn slid(&self, pose: &RigidTransform) -> Vec<PoseTrial> {
         let (extent, target) = (self.prepared.extent(), self.prepared.target());
         let level = Level {
             num_surface: 120,
@@ -68,12 +68,12 @@ impl GlobalSearch<'_> {
         };
         let axes = &self.prepared.axes.axes;
         let steps = || (-SLIDES..=SLIDES).map(|i| f64::from(i) * SLIDE * extent);
-        let mut slid: Vec<Trial> = steps()
+        let mut slid: Vec<PoseTrial> = steps()
             .flat_map(|a| steps().map(move |b| (a, b)))
             .map(|(a, b)| {
                 let shift = axes.column(0) * a + axes.column(1) * b;
                 let aside = Translation3::from(shift) * pose;
-                let mut trial = Trial::unrefined(aside);
+                let mut trial = PoseTrial::unrefined(aside);
                 trial.cost = cost(&self.source, &target, &aside, &level, 0.04 * extent);
                 trial
             })
@@ -84,7 +84,7 @@ impl GlobalSearch<'_> {
     }
 
     /// The source turned by half a turn about one of the target's axes, its middle where it was.
-    fn half_turned(&self, trial: &Trial, axis: usize) -> RigidTransform {
+    fn half_turned(&self, trial: &PoseTrial, axis: usize) -> RigidTransform {
         let pose = trial.refined.target_from_source;
         let middle = pose * self.axes.mean;
         let about = Unit::new_normalize(self.prepared.axes.axes.column(axis).into_owned());

@@ -2,11 +2,11 @@
 
 use nalgebra::{Point3, Vector3};
 
-use super::surface::{Surface, Use};
+use super::surface::{ShotSurface, Use};
 
 /// What a camera sees at a place of the robot's base frame.
 #[derive(Clone, Copy, Debug, PartialEq)]
-pub enum Look {
+pub enum Visibility {
     /// The surface is there: the index of the reading.
     Here(usize),
     /// The camera looks through the place to something behind it.
@@ -26,13 +26,18 @@ const REACH: i64 = 1;
 /// along the normal.
 ///
 /// Through is only what all pixels around look through: beside an edge the next pixel shows the background.
-pub fn look(surface: &Surface, at: &Point3<f64>, normal: &Vector3<f64>, tolerance: f64) -> Look {
+pub fn visibility_at(
+    surface: &ShotSurface,
+    at: &Point3<f64>,
+    normal: &Vector3<f64>,
+    tolerance: f64,
+) -> Visibility {
     let Some((column, row)) = surface.pixel(at) else {
-        return Look::Outside;
+        return Visibility::Outside;
     };
     let seen = surface.field_of_view.as_ref();
     if seen.is_some_and(|seen| !seen.contains(column, row)) {
-        return Look::Outside;
+        return Visibility::Outside;
     }
     // Along the ray a tilted surface is further off by as much as it is off along its normal.
     let facing = -normal.dot(&at.coords) / at.coords.norm();
@@ -68,10 +73,10 @@ pub fn look(surface: &Surface, at: &Point3<f64>, normal: &Vector3<f64>, toleranc
         }
     }
     match best {
-        Some((_, i)) => Look::Here(i),
-        None if num_nearer > 0 => Look::Hidden,
-        None if num_through >= LEAST_THROUGH => Look::Through,
-        None => Look::NoReading,
+        Some((_, i)) => Visibility::Here(i),
+        None if num_nearer > 0 => Visibility::Hidden,
+        None if num_through >= LEAST_THROUGH => Visibility::Through,
+        None => Visibility::NoReading,
     }
 }
 

@@ -36,7 +36,7 @@ const ON: Rgb<u8> = Rgb([84, 92, 104]);
 
 /// Draws the two likeliest parts of different names side by side, as the camera sees them: where the scene is off the
 /// reference, and where the reference is missing in the scene. `None` without a camera, or if nothing was placed.
-pub fn contenders_picture(
+pub fn runner_up_picture(
     scene: &SceneCloud,
     inspection: &Inspection,
     library: &Library,
@@ -217,7 +217,7 @@ mod tests {
         let scene = scene_from_frame(&frame(&setup).frame);
         let inspection =
             run(&scene, &library, &Recipe::default(), &Unwatched).expect("nobody cancels");
-        let picture = contenders_picture(&scene, &inspection, &library).expect("two contenders");
+        let picture = runner_up_picture(&scene, &inspection, &library).expect("two contenders");
         let half = picture.image.width() / 2;
         let num = |is_left: bool| {
             let marks = picture.image.enumerate_pixels();
@@ -227,10 +227,15 @@ mod tests {
                 .count()
         };
         assert!(num(true) * 4 < num(false), "{} {}", num(true), num(false));
-        let empty =
-            scene_from_frame(&frame(&CellSetup::new(crate::simulate::Subject::Nothing, 3)).frame);
+        let empty = scene_from_frame(
+            &frame(&CellSetup::new(
+                crate::simulate::SimulatedObject::Nothing,
+                3,
+            ))
+            .frame,
+        );
         let inspection =
             run(&empty, &library, &Recipe::default(), &Unwatched).expect("nobody cancels");
-        assert!(contenders_picture(&empty, &inspection, &library).is_none());
+        assert!(runner_up_picture(&empty, &inspection, &library).is_none());
     }
 }

@@ -12,13 +12,13 @@ use crate::{
 };
 
 /// How results are shown.
-pub(super) enum Telling {
+pub(super) enum OutputFormat {
     Json,
     Card,
     Rows(Columns),
 }
 
-impl Telling {
+impl OutputFormat {
     pub(super) fn head(&self, console: &mut Console) {
         if let Self::Rows(columns) = self {
             columns.head(console);

@@ -4,12 +4,12 @@ use std::fs;
 
 use super::*;
 use crate::history::{
-    PastVerdict,
+    StoredVerdict,
     fixtures::{entry, moment, scene},
     open::FILE,
 };
 
-fn numbers(keeper: &Keeper) -> Vec<i64> {
+fn numbers(keeper: &HistoryBuffer) -> Vec<i64> {
     let page = keeper.page(&Filter::default(), 0, 10_000).expect("asked");
     assert_eq!(
         (page.num_matching, page.num_all),
@@ -18,18 +18,18 @@ fn numbers(keeper: &Keeper) -> Vec<i64> {
     page.rows.iter().map(|row| row.number).collect()
 }
 
-fn failures(news: &[HistoryNews]) -> usize {
-    let is_failure = |news: &&HistoryNews| matches!(news, HistoryNews::Failed { .. });
+fn failures(news: &[HistoryEvent]) -> usize {
+    let is_failure = |news: &&HistoryEvent| matches!(news, HistoryEvent::Failed { .. });
     news.iter().filter(is_failure).count()
 }
 
 fn not_accepted(seconds: i64) -> NewEntry {
-    entry(seconds, PastVerdict::NotAccepted, "fender")
+    entry(seconds, StoredVerdict::NotAccepted, "fender")
 }
 
 #[test]
 fn without_a_folder_everything_is_kept_in_memory_and_nothing_is_wrong() {
-    let keeper = Keeper::new(None);
+    let keeper = HistoryBuffer::new(None);
     let now = Instant::now();
     keeper.open(now);
     for seconds in 1..=6 {
@@ -40,7 +40,7 @@ fn without_a_folder_everything_is_kept_in_memory_and_nothing_is_wrong() {
     assert_eq!(news.len(), 6);
     assert_eq!(
         news[2],
-        HistoryNews::Added {
+        HistoryEvent::Added {
             ticket: 3,
             number: -3
         }
@@ -74,7 +74,7 @@ fn a_folder_that_cannot_be_made_is_said_once_and_what_waited_is_written_later() 
     let home = tempfile::tempdir().expect("a folder");
     let place = home.path().join("taken").join("partsight");
     fs::write(home.path().join("taken"), "a file").expect("written");
-    let keeper = Keeper::new(Some(place.clone()));
+    let keeper = HistoryBuffer::new(Some(place.clone()));
     let begun = Instant::now();
     keeper.open(begun);
     for seconds in 1..=3 {
@@ -94,7 +94,7 @@ fn a_folder_that_cannot_be_made_is_said_once_and_what_waited_is_written_later() 
     keeper.retry(later + PAUSE);
     assert_eq!(
         keeper.take_news(),
-        [HistoryNews::Works {
+        [HistoryEvent::Works {
             numbers: vec![(-1, 1), (-2, 2), (-3, 3), (-4, 4)],
             num_lost: 0,
         }]
@@ -112,7 +112,7 @@ fn a_folder_that_cannot_be_made_is_said_once_and_what_waited_is_written_later() 
 fn more_than_can_wait_are_counted() {
     let home = tempfile::tempdir().expect("a folder");
     fs::write(home.path().join("taken"), "a file").expect("written");
-    let keeper = Keeper::new(Some(home.path().join("taken")));
+    let keeper = HistoryBuffer::new(Some(home.path().join("taken")));
     let begun = Instant::now();
     for ticket in 0..MAX_WAITING as u64 + 5 {
         let mut entry = not_accepted(ticket as i64);
@@ -122,7 +122,7 @@ fn more_than_can_wait_are_counted() {
     fs::remove_file(home.path().join("taken")).expect("removed");
     keeper.retry(begun + PAUSE);
     let news = keeper.take_news();
-    let Some(HistoryNews::Works { numbers, num_lost }) = news.last() else {
+    let Some(HistoryEvent::Works { numbers, num_lost }) = news.last() else {
         panic!("{:?}", news.last());
     };
     assert_eq!((numbers.len(), *num_lost), (MAX_WAITING, 5));
@@ -136,12 +136,12 @@ fn a_newer_history_is_left_alone_and_inspections_wait() {
     file.pragma_update(None, "user_version", 99).expect("set");
     drop(file);
     let bytes = fs::read(&path).expect("there");
-    let keeper = Keeper::new(Some(folder.path().to_owned()));
+    let keeper = HistoryBuffer::new(Some(folder.path().to_owned()));
     keeper.open(Instant::now());
     keeper.add(1, not_accepted(1), Instant::now());
     let news = keeper.take_news();
     assert!(
-        matches!(&news[0], HistoryNews::Failed { what, advice } if what.contains("newer version") && advice.contains("Update")),
+        matches!(&news[0], HistoryEvent::Failed { what, advice } if what.contains("newer version") && advice.contains("Update")),
         "{news:?}"
     );
     assert_eq!(numbers(&keeper), [-1]);
@@ -151,7 +151,7 @@ fn a_newer_history_is_left_alone_and_inspections_wait() {
 #[test]
 fn a_file_that_breaks_while_it_is_open_is_set_aside_and_writing_goes_on() {
     let folder = tempfile::tempdir().expect("a folder");
-    let keeper = Keeper::new(Some(folder.path().to_owned()));
+    let keeper = HistoryBuffer::new(Some(folder.path().to_owned()));
     let now = Instant::now();
     for seconds in 1..=5 {
         keeper.add(seconds as u64, not_accepted(seconds), now);
@@ -172,7 +172,7 @@ fn a_file_that_breaks_while_it_is_open_is_set_aside_and_writing_goes_on() {
     keeper.add(6, not_accepted(6), now);
     keeper.add(7, not_accepted(7), now);
     let news = keeper.take_news();
-    let is_aside = |news: &HistoryNews| matches!(news, HistoryNews::SetAside(_));
+    let is_aside = |news: &HistoryEvent| matches!(news, HistoryEvent::SetAside(_));
     assert!(news.iter().any(is_aside), "{news:?}");
     assert_eq!(failures(&news), 0, "{news:?}");
     assert_eq!(numbers(&keeper), [2, 1]);

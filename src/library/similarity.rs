@@ -27,7 +27,7 @@ const LEAST_OUTLINE_SCORE: f64 = 0.7;
 /// An enrolled part that looks like another one.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 #[error("{name} cannot be told from {other} ({score:.2})")]
-pub struct Likeness {
+pub struct Similarity {
     /// The name that it is enrolled under, which need not be the part's.
     pub name: String,
     /// The name that the one which it looks like is enrolled under.
@@ -36,7 +36,7 @@ pub struct Likeness {
     pub score: f64,
 }
 
-impl Advice for Likeness {
+impl Advice for Similarity {
     fn advice(&self) -> String {
         let Self { name, other, .. } = self;
         format!(
@@ -45,27 +45,27 @@ impl Advice for Likeness {
     }
 }
 
-impl Likeness {
+impl Similarity {
     /// True if inspections tell the two apart.
-    pub fn can_be_told_apart(&self) -> bool {
+    pub fn is_distinguishable(&self) -> bool {
         self.score < LEAST_SCORE
     }
 }
 
 /// The part of the library that `reference` cannot be told from; `None` if it can from all. A part of the same name, which
 /// it replaces, does not count.
-pub fn most_alike(
+pub fn most_similar(
     reference: &Reference,
     coverage: Coverage,
     library: &Library,
-) -> Option<Likeness> {
+) -> Option<Similarity> {
     let mut all = likenesses(reference, coverage, library).into_iter();
-    all.next().filter(|first| !first.can_be_told_apart())
+    all.next().filter(|first| !first.is_distinguishable())
 }
 
 /// How like every part of the library `reference` is, the one that it is hardest to tell from first. A part of the same
 /// name, which it replaces, does not count.
-pub fn likenesses(reference: &Reference, coverage: Coverage, library: &Library) -> Vec<Likeness> {
+pub fn likenesses(reference: &Reference, coverage: Coverage, library: &Library) -> Vec<Similarity> {
     let name = reference.name.as_str();
     let others = library.references.iter().filter(|r| r.name != name);
     let others: Vec<Reference> = others.cloned().collect();
@@ -101,10 +101,10 @@ pub fn likenesses(reference: &Reference, coverage: Coverage, library: &Library) 
         outline if outline < LEAST_OUTLINE_SCORE => score.min(outline),
         _ => score,
     };
-    let mut all: Vec<Likeness> = confirmed
+    let mut all: Vec<Similarity> = confirmed
         .entries
         .iter()
-        .map(|entry| Likeness {
+        .map(|entry| Similarity {
             // Only what is enrolled under a name can be removed or replaced.
             name: reference.enrolled_as.clone(),
             other: entry.enrolled_as.clone(),

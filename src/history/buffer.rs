@@ -16,9 +16,9 @@ use super::{
     entry::{NewEntry, Record, png_of},
     error::HistoryError,
     filter::Filter,
-    news::HistoryNews,
+    news::HistoryEvent,
     open::OpenedHistory,
-    retention::{Retention, Swept, Usage},
+    retention::{PruneResult, Retention, Usage},
     store::{History, Page},
 };
 use crate::{error::Advice as _, library::Truth, stages::scene::SceneCloud};
@@ -34,11 +34,11 @@ const SWEEP_EVERY: u32 = 25;
 
 /// The history of one program; shared by whoever writes and whoever reads. The default has no folder.
 #[derive(Debug, Default)]
-pub struct Keeper {
+pub struct HistoryBuffer {
     place: Option<PathBuf>,
     inner: Mutex<Inner>,
     /// Apart from the rest: who looks for news never waits for the disk.
-    news: Mutex<Vec<HistoryNews>>,
+    news: Mutex<Vec<HistoryEvent>>,
 }
 
 #[derive(Debug, Default)]
@@ -55,7 +55,7 @@ struct Inner {
     num_unswept: u32,
 }
 
-impl Keeper {
+impl HistoryBuffer {
     /// Keeps the history in this folder; without one in memory alone. Opens nothing yet.
     pub fn new(place: Option<PathBuf>) -> Self {
         Self {
@@ -76,12 +76,12 @@ impl Keeper {
     }
 
     /// What happened since this was asked last. Never waits for the disk.
-    pub fn take_news(&self) -> Vec<HistoryNews> {
+    pub fn take_news(&self) -> Vec<HistoryEvent> {
         let mut news = self.news.lock().unwrap_or_else(PoisonError::into_inner);
         std::mem::take(&mut *news)
     }
 
-    fn tell(&self, news: HistoryNews) {
+    fn tell(&self, news: HistoryEvent) {
         let mut all = self.news.lock().unwrap_or_else(PoisonError::into_inner);
         all.push(news);
     }
@@ -122,11 +122,11 @@ impl Keeper {
             let numbers = self.write_waiting(&mut inner, now);
             if let Some((_, written)) = numbers.iter().find(|(waited, _)| *waited == number) {
                 let number = *written;
-                self.tell(HistoryNews::Added { ticket, number });
+                self.tell(HistoryEvent::Added { ticket, number });
                 return;
             }
         }
-        self.tell(HistoryNews::Added { ticket, number });
+        self.tell(HistoryEvent::Added { ticket, number });
     }
 
     /// Writes down what a person remarks.
@@ -134,10 +134,10 @@ impl Keeper {
         let mut inner = self.lock();
         if let Some(row) = inner.waiting_mut(number) {
             remark.trim().clone_into(&mut row.record.summary.remark);
-            return self.tell(HistoryNews::Changed { number });
+            return self.tell(HistoryEvent::Changed { number });
         }
         let changed = inner.change(number, |history| history.set_remark(number, remark));
-        self.tell_changed(number, changed);
+        self.queue_change_event(number, changed);
     }
 
     /// Writes down what it truly is, or that nobody knows.
@@ -145,16 +145,16 @@ impl Keeper {
         let mut inner = self.lock();
         if let Some(row) = inner.waiting_mut(number) {
             row.record.summary.label = label.cloned();
-            return self.tell(HistoryNews::Changed { number });
+            return self.tell(HistoryEvent::Changed { number });
         }
         let changed = inner.change(number, |history| history.set_label(number, label));
-        self.tell_changed(number, changed);
+        self.queue_change_event(number, changed);
     }
 
-    fn tell_changed(&self, number: i64, changed: Result<(), HistoryError>) {
+    fn queue_change_event(&self, number: i64, changed: Result<(), HistoryError>) {
         self.tell(match changed {
-            Ok(()) => HistoryNews::Changed { number },
-            Err(error) => HistoryNews::NotChanged {
+            Ok(()) => HistoryEvent::Changed { number },
+            Err(error) => HistoryEvent::NotChanged {
                 what: error.to_string(),
                 advice: error.advice(),
             },
@@ -164,17 +164,17 @@ impl Keeper {
     /// Keeps frames by this rule from now on, and takes away at once what it does not keep.
     pub fn set_retention(&self, retention: Retention) {
         let mut inner = self.lock();
-        inner.retention = retention.sensible();
+        inner.retention = retention.clamped();
         if let Some(history) = &mut inner.history
             && let Err(error) = history.set_retention(&retention)
         {
-            return self.tell(HistoryNews::NotChanged {
+            return self.tell(HistoryEvent::NotChanged {
                 what: error.to_string(),
                 advice: error.advice(),
             });
         }
         self.sweep(&mut inner);
-        self.tell(HistoryNews::RuleChanged);
+        self.tell(HistoryEvent::RuleChanged);
     }
 
     /// The rule by which frames are kept, and how much is.
@@ -278,7 +278,7 @@ impl Keeper {
         };
         let OpenedHistory { history, set_aside } = History::open(place)?;
         if let Some(set_aside) = set_aside {
-            self.tell(HistoryNews::SetAside(set_aside));
+            self.tell(HistoryEvent::SetAside(set_aside));
         }
         inner.retention = history.retention()?;
         inner.history = Some(history);
@@ -294,9 +294,9 @@ impl Keeper {
         };
         // What cannot be swept away now is tried again; what can be written matters more.
         if let Ok(swept) = history.sweep(&retention, Timestamp::now())
-            && swept != Swept::default()
+            && swept != PruneResult::default()
         {
-            self.tell(HistoryNews::Swept(swept));
+            self.tell(HistoryEvent::Swept(swept));
         }
     }
 
@@ -319,7 +319,7 @@ impl Keeper {
         }
         if has_failed && inner.waiting.is_empty() {
             inner.next_try = None;
-            self.tell(HistoryNews::Works {
+            self.tell(HistoryEvent::Works {
                 numbers: numbers.clone(),
                 num_lost: std::mem::take(&mut inner.num_lost),
             });
@@ -352,7 +352,7 @@ impl Keeper {
     /// Says so once, until it works again.
     fn failed(&self, inner: &mut Inner, error: &HistoryError, now: Instant) {
         if inner.next_try.is_none() {
-            self.tell(HistoryNews::Failed {
+            self.tell(HistoryEvent::Failed {
                 what: error.to_string(),
                 advice: error.advice(),
             });
