@@ -573,7 +573,7 @@ mod tests {
             ("segment.plane_distance", "no ="),
             ("plane_distance=8", "nearest is segment.plane_distance"),
             (
-                "segment.plane_distnce=8",
+                "segment.plane_distances=8",
                 "nearest is segment.plane_distance",
             ),
             ("icp_ga.sed=8", "nearest is icp_ga.seed"),

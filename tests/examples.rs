@@ -1,0 +1,56 @@
+//! The examples run and find what they say.
+
+use std::{path::PathBuf, process::Command};
+
+/// The output of an example, which `cargo test` builds beside the tests.
+fn output_of(example: &str) -> String {
+    let own = std::env::current_exe().expect("the path of this test");
+    let built = own.ancestors().nth(2).expect("target/PROFILE/deps/TEST");
+    let program: PathBuf = built.join("examples").join(example);
+    let program = program.with_extension(std::env::consts::EXE_EXTENSION);
+    let output = Command::new(&program)
+        .current_dir(env!("CARGO_MANIFEST_DIR"))
+        .output()
+        .unwrap_or_else(|error| panic!("{}: {error}; cargo build --examples", program.display()));
+    let errors = String::from_utf8_lossy(&output.stderr);
+    assert!(output.status.success(), "{example}: {errors}");
+    String::from_utf8(output.stdout).expect("text")
+}
+
+#[test]
+fn a_frame_is_inspected() {
+    let said = output_of("inspect");
+    assert!(
+        said.contains("fender") && said.contains("accepted"),
+        "{said}"
+    );
+    assert!(!said.contains("not accepted"), "{said}");
+    assert!(said.contains("camera_from_part"), "{said}");
+}
+
+#[test]
+fn an_enrolled_part_is_recognised_in_another_capture() {
+    let said = output_of("enrol");
+    assert!(
+        said.contains("part: \"door_right\"") && said.contains("rejected: None"),
+        "{said}"
+    );
+}
+
+#[test]
+fn clouds_that_share_no_point_are_aligned() {
+    let said = output_of("align");
+    let rms: f64 = said
+        .split_whitespace()
+        .next()
+        .and_then(|number| number.parse().ok())
+        .expect("millimetres first");
+    assert!(rms < 5.0, "{said}");
+    assert!(!said.contains("warning"), "{said}");
+}
+
+#[test]
+fn a_source_is_followed() {
+    let said = output_of("follow");
+    assert_eq!(said.matches("rejected: None").count(), 3, "{said}");
+}
