@@ -6,12 +6,12 @@ use std::{path::PathBuf, sync::Arc};
 pub use super::user_error::UserError as Trouble;
 use super::{
     enrol::{EnrolAnswer, EnrolRequest},
-    inspect::work::{InspectRequest, Inspected, inspect, inspect_scan},
+    inspect::work::{InspectRequest, InspectScanError, Inspected, inspect, inspect_scan},
     lane::TaskQueue,
     live::{LiveAnswer, LiveRequest},
     robot::{RobotAnswer, RobotRequest},
     shelf::{LibraryCache, LibraryView},
-    shots::{ScanOrder, ScanRequest},
+    shots::{FuseError, ScanOrder, ScanRequest, Steps},
     worker::TaskContext,
     writing::{WriteRequest, WriteResult},
 };
@@ -81,7 +81,15 @@ pub fn answer(
             Ok(inspected) => inspected.map(|found| Ok(TaskResult::Inspected(Arc::new(found)))),
             Err(error) => Some(Err(Trouble::of(&error))),
         },
-        Request::InspectScan(request) => inspect_scan(&request, shelf, desk),
+        Request::InspectScan(request) => {
+            let report = |done, total| desk.progress(done, total);
+            let steps = Steps::new(desk, &report);
+            Some(match inspect_scan(&request, shelf, desk, &steps)? {
+                Ok(inspected) => Ok(TaskResult::Inspected(Arc::new(inspected))),
+                Err(InspectScanError::Library(error)) => Err(Trouble::of(&error)),
+                Err(InspectScanError::Fuse(error)) => not_fused(&error, &request),
+            })
+        }
         Request::Live(request) => super::live::answer(&request, shelf, desk),
         Request::Library(given) => Some(match shelf.choose(given) {
             Ok(shelved) => Ok(TaskResult::Library(Arc::clone(&shelved.shown))),
@@ -90,5 +98,18 @@ pub fn answer(
         Request::Enrol(request) => super::enrol::answer(request, shelf, desk),
         Request::Write(request) => Some(super::writing::answer(&request).map(TaskResult::Written)),
         Request::Robot(request) => Some(super::robot::work::answer(request)),
+    }
+}
+
+/// A scan whose poses are not found asks for their file.
+pub(super) fn not_fused(error: &FuseError, request: &ScanRequest) -> TaskOutcome {
+    let trouble = Trouble::of(error);
+    if error.wants_poses() {
+        Ok(TaskResult::PosesWanted(
+            Box::new(request.order.clone()),
+            trouble,
+        ))
+    } else {
+        Err(trouble)
     }
 }

@@ -12,7 +12,7 @@ use super::{
 use crate::{
     app::{
         camera::CameraError,
-        job::{TaskOutcome, TaskResult, Trouble},
+        job::{TaskOutcome, TaskResult, Trouble, not_fused},
         lane::TaskQueue,
         shelf::LibraryCache,
         shots::{ScanRequest, Steps, Then, fuse},
@@ -106,9 +106,10 @@ pub(in crate::app) fn answer(
             said(take(subject, &params, shelf, desk)?)
         }
         EnrolRequest::TakeScan(request) => {
-            let fused = match fuse(&request, Then::Enrol, &Steps::new(desk)) {
+            let report = |done, total| desk.progress(done, total);
+            let fused = match fuse(&request, Then::Enrol, &Steps::new(desk, &report)) {
                 Ok(fused) => Arc::new(fused?),
-                Err(error) => return Some(error.outcome(&request)),
+                Err(error) => return Some(not_fused(&error, &request)),
             };
             let params = params_of(&request.recipe);
             said(take(EnrolInput::of_scan(fused), &params, shelf, desk)?)

@@ -56,7 +56,7 @@ pub(super) fn ui(
         }
         ui.separator();
         let export = Button::new("Export spray path…");
-        let can_export = figure.spray.is_some() && inspected.robot(state).is_some();
+        let can_export = figure.spray.is_some() && state.robot_of(inspected).is_some();
         let export = ui.add_enabled(can_export, export);
         let export = export.on_disabled_hover_text(
             "Needs an accepted part with a stored spray path, and a calibrated cell",
@@ -114,7 +114,7 @@ fn is_there(state: &State, inspected: &Inspected, part: ViewPart) -> bool {
         ViewPart::Outline => figure.outline.is_some(),
         ViewPart::NozzleMiddle | ViewPart::NozzleWorst => figure.nozzles.is_some(),
         ViewPart::SprayPath => figure.spray.is_some(),
-        ViewPart::RobotBase => inspected.robot(state).is_some(),
+        ViewPart::RobotBase => state.robot_of(inspected).is_some(),
         ViewPart::ShotCameras | ViewPart::Unseen => inspected.scan.is_some(),
     }
 }

@@ -28,7 +28,7 @@ pub(in crate::app) struct NumberedPose {
 /// The pose in the robot's frame where the cell is calibrated, else in the camera's. `None` unless it was accepted.
 pub(in crate::app) fn numbered(state: &State, inspected: &Inspected) -> Option<NumberedPose> {
     let camera_from_part = accepted_pose(inspected)?;
-    let (name, frame, transform) = match inspected.robot(state) {
+    let (name, frame, transform) = match state.robot_of(inspected) {
         Some(robot) => (
             "robot_from_part",
             format!("The robot's base frame, by {}", robot.name),
@@ -100,7 +100,7 @@ pub(super) fn ui(
             .color(theme.text),
     );
     // Numbers in the wrong frame move a robot to the wrong place.
-    let colour = if inspected.robot(state).is_some() {
+    let colour = if state.robot_of(inspected).is_some() {
         theme.weak_text
     } else {
         theme.warning

@@ -151,7 +151,7 @@ pub(in crate::app) fn write_report(
     let inspected = Arc::clone(&state.shown.as_ref()?.inspected);
     let request = WriteRequest::Report {
         folder,
-        robot: inspected.robot(state).cloned(),
+        robot: state.robot_of(&inspected).cloned(),
         inspected,
         convention: state.convention,
         shot,
@@ -166,7 +166,7 @@ pub(in crate::app) fn write_spray_path(state: &mut State, path: PathBuf) -> Opti
     let request = WriteRequest::SprayPath {
         path,
         inspected: Arc::clone(inspected),
-        robot: inspected.robot(state)?.clone(),
+        robot: state.robot_of(inspected)?.clone(),
         convention: state.convention,
     };
     Some(state.begin("Writing the spray path", Request::Write(request)))

@@ -206,7 +206,7 @@ impl SceneView {
     /// Chooses the lines and words, if what they are chosen by is not what it was.
     fn place(&mut self, state: &State, inspected: &Inspected) {
         let figure = &inspected.view;
-        let robot = inspected.robot(state);
+        let robot = state.robot_of(inspected);
         let by = SceneAnnotation {
             parts: state.inspect.parts.clone(),
             units: state.units,

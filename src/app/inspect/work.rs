@@ -11,13 +11,10 @@ use crate::{
         camera::CameraError,
         deviation::{deviations, deviations_at},
         figures::StageFigures,
-        job::{TaskOutcome, TaskResult, Trouble},
         shelf::{LibraryCache, LibraryView},
-        shots::{FusedShots, ScanRequest, Steps, Then, fuse, marked},
+        shots::{FuseError, FusedShots, ScanRequest, Steps, Then, fuse, marked},
         source::{Captured, Origin, SceneError, SceneSource},
-        state::State,
         viewport::{PointSet, Role},
-        worker::TaskContext,
     },
     capture::CaptureWarning,
     error::Advice,
@@ -99,16 +96,6 @@ pub struct InspectedScan {
     pub unseen: Option<(PointSet, f64)>,
 }
 
-impl Inspected {
-    /// Where the camera stood in the robot's base frame: a scan says so itself, else the cell's calibration does.
-    pub fn robot<'a>(&'a self, state: &'a State) -> Option<&'a Arc<RobotFrame>> {
-        match &self.scan {
-            Some(scan) => Some(&scan.robot),
-            None => state.robot.as_ref(),
-        }
-    }
-}
-
 /// What a frame stands for that is one of many.
 #[derive(Clone, Debug)]
 pub struct LiveFrameContext {
@@ -180,29 +167,38 @@ pub fn inspect(
     Ok(Some(found.prepared(&fitted, &shelved.shown)))
 }
 
+/// Why a scan could not be inspected.
+#[derive(Debug)]
+pub(in crate::app) enum InspectScanError {
+    /// There is no library.
+    Library(LibraryError),
+    /// The shots cannot be put together.
+    Fuse(FuseError),
+}
+
 /// Puts the shots of a scan together and inspects them; `None` when cancelled.
 pub(in crate::app) fn inspect_scan(
     request: &ScanRequest,
     shelf: &LibraryCache,
-    desk: &dyn TaskContext<TaskOutcome>,
-) -> Option<TaskOutcome> {
+    watch: &dyn ProgressObserver,
+    steps: &Steps<'_>,
+) -> Option<Result<Inspected, InspectScanError>> {
     let begun = Instant::now();
     let shelved = match shelf.get() {
         Ok(shelved) => shelved,
-        Err(error) => return Some(Err(Trouble::of(&error))),
+        Err(error) => return Some(Err(InspectScanError::Library(error))),
     };
-    let steps = Steps::new(desk);
-    let fused = match fuse(request, Then::Inspect, &steps) {
+    let fused = match fuse(request, Then::Inspect, steps) {
         Ok(fused) => Arc::new(fused?),
-        Err(error) => return Some(error.outcome(request)),
+        Err(error) => return Some(Err(InspectScanError::Fuse(error))),
     };
-    let fitted = shelved.fitting(&request.recipe, desk)?;
+    let fitted = shelved.fitting(&request.recipe, watch)?;
     let ScanInspection {
         mut inspection,
         first,
         base_from_part,
         ..
-    } = run_scan(&fused.scan, &fitted, &request.recipe, &steps).ok()?;
+    } = run_scan(&fused.scan, &fitted, &request.recipe, steps).ok()?;
     inspection.timings.total = begun.elapsed();
     let shot = fused.scan.shots.get(first)?;
     let found = FinishedInspection {
@@ -222,8 +218,7 @@ pub(in crate::app) fn inspect_scan(
             fused,
         }),
     };
-    let inspected = found.prepared(&fitted, &shelved.shown);
-    Some(Ok(TaskResult::Inspected(Arc::new(inspected))))
+    Some(Ok(found.prepared(&fitted, &shelved.shown)))
 }
 
 /// An inspection, before what the panels draw of it is made.

@@ -212,7 +212,7 @@ fn enter(state: &mut State) -> Option<Effect> {
             own.asked = again(RoleQuestion::NewPin, "Four digits at least");
         }
         RoleQuestion::NewPin => {
-            own.asked = Some(OpenQuestion::about(RoleQuestion::NewPinAgain(digits)))
+            own.asked = Some(OpenQuestion::about(RoleQuestion::NewPinAgain(digits)));
         }
         RoleQuestion::NewPinAgain(first) if first != digits => {
             own.asked = again(RoleQuestion::NewPin, "The two differ: write a PIN anew");

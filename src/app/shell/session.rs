@@ -45,6 +45,16 @@ pub struct Session {
     pub workspace: WorkspaceKind,
 }
 
+impl Session {
+    /// Where the camera stood in the robot's base frame: a scan says so itself, else the cell's calibration does.
+    pub fn robot_of<'a>(&'a self, inspected: &'a Inspected) -> Option<&'a Arc<RobotFrame>> {
+        match &inspected.scan {
+            Some(scan) => Some(&scan.robot),
+            None => self.robot.as_ref(),
+        }
+    }
+}
+
 /// Where Capture takes a scene from.
 #[derive(Clone, Debug, PartialEq)]
 pub enum Source {

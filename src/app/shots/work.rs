@@ -19,9 +19,8 @@ use serde::{Deserialize, Serialize};
 use super::figure::{ScanFigure, ShotRow, rows};
 use crate::{
     app::{
-        job::{TaskOutcome, TaskResult, Trouble},
         source::{Origin, file_name},
-        worker::TaskContext,
+        user_error::UserError,
     },
     error::Advice,
     geometry::rigid::RigidTransform,
@@ -157,7 +156,7 @@ pub struct FusedShots {
     /// What the 3-D view shows.
     pub figure: ScanFigure,
     /// What was odd about the files.
-    pub warnings: Vec<Trouble>,
+    pub warnings: Vec<UserError>,
 }
 
 impl FusedShots {
@@ -214,17 +213,6 @@ impl FuseError {
         )
     }
 
-    /// As it comes back from the thread.
-    pub(in crate::app) fn outcome(&self, request: &ScanRequest) -> TaskOutcome {
-        let trouble = Trouble::of(self);
-        if self.wants_poses() {
-            let order = Box::new(request.order.clone());
-            Ok(TaskResult::PosesWanted(order, trouble))
-        } else {
-            Err(trouble)
-        }
-    }
-
     fn is_cancelled(&self) -> bool {
         matches!(
             self,
@@ -258,15 +246,21 @@ impl Advice for FuseError {
 
 /// Counts what is done of all that a request has to do.
 pub(in crate::app) struct Steps<'a> {
-    desk: &'a dyn TaskContext<TaskOutcome>,
+    watch: &'a dyn ProgressObserver,
+    /// Takes the steps done, and the steps in all.
+    report: &'a dyn Fn(usize, usize),
     done: Cell<usize>,
     total: Cell<usize>,
 }
 
 impl<'a> Steps<'a> {
-    pub(in crate::app) fn new(desk: &'a dyn TaskContext<TaskOutcome>) -> Self {
+    pub(in crate::app) fn new(
+        watch: &'a dyn ProgressObserver,
+        report: &'a dyn Fn(usize, usize),
+    ) -> Self {
         Self {
-            desk,
+            watch,
+            report,
             done: Cell::new(0),
             total: Cell::new(0),
         }
@@ -279,7 +273,7 @@ impl<'a> Steps<'a> {
     fn step(&self) {
         self.done.set(self.done.get() + 1);
         let total = self.total.get().max(self.done.get());
-        self.desk.progress(self.done.get(), total);
+        (self.report)(self.done.get(), total);
     }
 }
 
@@ -292,7 +286,7 @@ impl ProgressObserver for Steps<'_> {
     }
 
     fn is_cancelled(&self) -> bool {
-        self.desk.is_cancelled()
+        self.watch.is_cancelled()
     }
 }
 
@@ -345,7 +339,7 @@ pub(in crate::app) fn fuse(
 fn read(
     request: &ScanRequest,
     steps: &Steps<'_>,
-    warnings: &mut Vec<Trouble>,
+    warnings: &mut Vec<UserError>,
 ) -> Result<ShotChoice, FuseError> {
     let calibration = || {
         let path = request.calibration.as_deref()?;
@@ -357,14 +351,14 @@ fn read(
                 FrameNews::Total(num) => steps.expect(num),
                 FrameNews::Read(name, odd) => {
                     steps.step();
-                    warnings.extend(odd.iter().map(|warning| Trouble {
+                    warnings.extend(odd.iter().map(|warning| UserError {
                         what: format!("{name}: {warning}"),
                         advice: warning.advice(),
                     }));
                 }
                 FrameNews::Skipped(skipped) => {
                     steps.step();
-                    warnings.push(Trouble {
+                    warnings.push(UserError {
                         what: format!("{} is left out: {}", skipped.name, skipped.error),
                         advice: skipped.error.advice(),
                     });
@@ -457,7 +451,7 @@ impl ScanObserver for Relay {
 /// How often it is looked whether the fusion is still wanted.
 const LOOKS: Duration = Duration::from_millis(10);
 
-/// Puts them together on a thread of its own, since the desk belongs to this one.
+/// Puts them together on a thread of its own, since the watch belongs to this one.
 fn assembled(shots: &[Shot], params: &ScanParams, steps: &Steps<'_>) -> Result<Scan, ScanError> {
     let relay = Relay::default();
     thread::scope(|scope| {
