@@ -58,6 +58,7 @@ pub use self::pcd::write_pcd;
 pub use self::ply::{write_ply, write_ply_with};
 pub(crate) use self::source::read_bytes;
 pub(crate) use self::text::read_text;
+#[cfg(feature = "cli")]
 pub(crate) use self::write::{folder_of, sync_folder};
 pub use self::write::{save_cloud, write_atomically};
 pub use self::xyz::write_xyz;
