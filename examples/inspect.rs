@@ -23,12 +23,11 @@ fn scene_of(path: &str) -> Result<SceneCloud, Box<dyn Error>> {
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
-    let scene = match std::env::args().nth(1) {
-        Some(path) => scene_of(&path)?,
-        None => {
-            let setup = CellSetup::with_part(PartKind::Fender, Side::Left, 0, 1);
-            scene_from_frame(&simulate::frame(&setup).frame)
-        }
+    let scene = if let Some(path) = std::env::args().nth(1) {
+        scene_of(&path)?
+    } else {
+        let setup = CellSetup::with_part(PartKind::Fender, Side::Left, 0, 1);
+        scene_from_frame(&simulate::frame(&setup).frame)
     };
     let folder = LibraryFolder::open(Path::new("reference_parts"))?;
     let library = folder.load(&ReferenceParams::default())?.library;
