@@ -446,7 +446,7 @@ pub(super) fn notify(state: &mut State, notice: Notice) {
 mod tests {
     use super::*;
     use crate::{
-        app::{job::answer, shelf::LibraryCache, worker::TaskContext},
+        app::{job::answer, shelf::LibraryCache, worker::JobContext},
         pipeline::{ProgressObserver, Stage},
     };
 
@@ -464,7 +464,7 @@ mod tests {
 
     impl ProgressObserver for DetachedContext {}
 
-    impl TaskContext<TaskOutcome> for DetachedContext {
+    impl JobContext<TaskOutcome> for DetachedContext {
         fn progress(&self, _done: usize, _total: usize) {}
         fn publish_partial(&self, _outcome: TaskOutcome) {}
         fn stands(&self, _outcome: TaskOutcome) {}

@@ -12,7 +12,7 @@ use super::{
     robot::{RobotAnswer, RobotRequest},
     shelf::{LibraryCache, LibraryView},
     shots::{FuseError, ScanOrder, ScanRequest, Steps},
-    worker::TaskContext,
+    worker::JobContext,
     writing::{WriteRequest, WriteResult},
 };
 
@@ -74,7 +74,7 @@ pub type TaskOutcome = Result<TaskResult, Trouble>;
 pub fn answer(
     request: Request,
     shelf: &LibraryCache,
-    desk: &dyn TaskContext<TaskOutcome>,
+    desk: &dyn JobContext<TaskOutcome>,
 ) -> Option<TaskOutcome> {
     match request {
         Request::Inspect(request) => match inspect(&request, shelf, desk) {

@@ -17,7 +17,7 @@ use std::{
 use crate::pipeline::{ProgressObserver, Stage};
 
 /// Where the work looks whether it is still wanted, and tells how far it is.
-pub trait TaskContext<T>: ProgressObserver {
+pub trait JobContext<T>: ProgressObserver {
     /// So many of so many are done.
     fn progress(&self, done: usize, total: usize);
     /// Hands over what there is so far; the outcome still follows.
@@ -114,7 +114,7 @@ impl<R: Send + 'static, T: Send + 'static> Worker<R, T> {
     /// thread whenever there is something to fetch.
     pub fn start(
         name: &str,
-        mut work: impl FnMut(R, &dyn TaskContext<T>) -> Option<T> + Send + 'static,
+        mut work: impl FnMut(R, &dyn JobContext<T>) -> Option<T> + Send + 'static,
         on_news: impl Fn() + Send + 'static,
     ) -> std::io::Result<Self> {
         let shared = Arc::new(Shared {
@@ -257,7 +257,7 @@ impl<T> ProgressObserver for RequestContext<'_, T> {
     }
 }
 
-impl<T> TaskContext<T> for RequestContext<'_, T> {
+impl<T> JobContext<T> for RequestContext<'_, T> {
     fn progress(&self, done: usize, total: usize) {
         self.send_if_room(TaskEvent::Progress {
             generation: self.generation,
@@ -315,7 +315,7 @@ mod tests {
 
     #[test]
     fn a_newer_request_cancels_the_one_at_work() {
-        let work = |seconds: u64, desk: &dyn TaskContext<_>| {
+        let work = |seconds: u64, desk: &dyn JobContext<_>| {
             let until = Instant::now() + Duration::from_secs(seconds);
             while Instant::now() < until {
                 if desk.is_cancelled() {
@@ -341,7 +341,7 @@ mod tests {
 
     #[test]
     fn a_cancelled_request_says_nothing_and_closing_does_not_wait_for_it() {
-        let work = |(), desk: &dyn TaskContext<_>| {
+        let work = |(), desk: &dyn JobContext<_>| {
             while !desk.is_cancelled() {
                 thread::sleep(Duration::from_millis(1));
             }
@@ -361,7 +361,7 @@ mod tests {
     fn of_how_things_stand_only_the_newest_waits() {
         let (told_all, waits) = (sync_channel::<bool>(1), sync_channel::<()>(1));
         let (tell, go_on) = (told_all.0, waits.1);
-        let work = move |num: u32, desk: &dyn TaskContext<u32>| {
+        let work = move |num: u32, desk: &dyn JobContext<u32>| {
             (1..=num).for_each(|number| desk.stands(number));
             tell.send(desk.wants_more()).ok()?;
             go_on.recv().ok()?;
@@ -389,7 +389,7 @@ mod tests {
 
     #[test]
     fn a_panic_is_told_and_the_next_request_is_answered() {
-        let work = |number: u32, desk: &dyn TaskContext<_>| {
+        let work = |number: u32, desk: &dyn JobContext<_>| {
             desk.begins(Stage::Segment);
             assert!(number != 7, "seven is too much");
             Some(number)

@@ -17,7 +17,7 @@ use crate::{
         shelf::LibraryCache,
         shots::{ScanRequest, Steps, Then, fuse},
         source::{SceneError, SceneSource},
-        worker::TaskContext,
+        worker::JobContext,
     },
     library::{
         EnrolError, EnrolParams, Enrolled, PartDescription, PartName, Similarity, enrol_mesh,
@@ -90,7 +90,7 @@ pub struct Checked {
 pub(in crate::app) fn answer(
     request: EnrolRequest,
     shelf: &LibraryCache,
-    desk: &dyn TaskContext<TaskOutcome>,
+    desk: &dyn JobContext<TaskOutcome>,
 ) -> Option<TaskOutcome> {
     let said = |answer| Some(Ok(TaskResult::Enrol(answer)));
     match request {
@@ -147,7 +147,7 @@ fn take(
     subject: EnrolInput,
     params: &EnrolParams,
     shelf: &LibraryCache,
-    desk: &dyn TaskContext<TaskOutcome>,
+    desk: &dyn JobContext<TaskOutcome>,
 ) -> Option<EnrolAnswer> {
     let subject = Arc::new(subject);
     let corrections = Corrections::none(subject.usual);
@@ -175,7 +175,7 @@ fn check(
     selection: &Selection,
     params: &EnrolParams,
     shelf: &LibraryCache,
-    desk: &dyn TaskContext<TaskOutcome>,
+    desk: &dyn JobContext<TaskOutcome>,
 ) -> Option<EnrolAnswer> {
     let mut enrolled = match enrol(subject, corrections.taking, selection, params) {
         Ok(enrolled) => enrolled,

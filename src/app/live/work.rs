@@ -14,7 +14,7 @@ use crate::{
         recording::Recorded,
         shelf::LibraryCache,
         source::Captured as SceneOrigin,
-        worker::TaskContext,
+        worker::JobContext,
     },
     capture::{Captured, Feed, FeedItem, FeedState, FrameRate, SourceSpec},
     pipeline::{
@@ -117,7 +117,7 @@ const NUM_LATENCIES: usize = 15;
 pub(in crate::app) fn answer(
     request: &LiveRequest,
     shelf: &LibraryCache,
-    desk: &dyn TaskContext<TaskOutcome>,
+    desk: &dyn JobContext<TaskOutcome>,
 ) -> Option<TaskOutcome> {
     let LiveRequest::Follow(request) = request else {
         shelf.recording().end();
@@ -133,7 +133,7 @@ pub(in crate::app) fn answer(
 
 struct LiveSession<'a> {
     shelf: &'a LibraryCache,
-    desk: &'a dyn TaskContext<TaskOutcome>,
+    desk: &'a dyn JobContext<TaskOutcome>,
     spec: &'a SourceSpec,
     /// Where it is recorded; not any more after a failure.
     record: Option<&'a Path>,
@@ -156,7 +156,7 @@ struct LiveSession<'a> {
 }
 
 /// Stages are not told one by one: frames come faster than anybody reads.
-struct SilentContext<'a>(&'a dyn TaskContext<TaskOutcome>);
+struct SilentContext<'a>(&'a dyn JobContext<TaskOutcome>);
 
 impl ProgressObserver for SilentContext<'_> {
     fn is_cancelled(&self) -> bool {
@@ -168,7 +168,7 @@ impl<'a> LiveSession<'a> {
     fn new(
         request: &'a LiveStart,
         shelf: &'a LibraryCache,
-        desk: &'a dyn TaskContext<TaskOutcome>,
+        desk: &'a dyn JobContext<TaskOutcome>,
     ) -> Self {
         let stands_for_itself = matches!(request.spec, SourceSpec::Watched(_));
         let watch = (!stands_for_itself).then(|| LiveTracker::new(&request.params));

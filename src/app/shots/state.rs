@@ -362,7 +362,7 @@ mod tests {
             action::{Action, apply as apply_any},
             job::{TaskOutcome, answer},
             shelf::LibraryCache,
-            worker::{TaskContext, TaskEvent},
+            worker::{JobContext, TaskEvent},
         },
         files::write_depth_png,
         geometry::depth_frame::{DepthFrame, Intrinsics},
@@ -373,7 +373,7 @@ mod tests {
 
     impl ProgressObserver for NobodysDesk {}
 
-    impl TaskContext<TaskOutcome> for NobodysDesk {
+    impl JobContext<TaskOutcome> for NobodysDesk {
         fn progress(&self, _done: usize, _total: usize) {}
         fn publish_partial(&self, _outcome: TaskOutcome) {}
         fn stands(&self, _outcome: TaskOutcome) {}

@@ -12,7 +12,7 @@ use crate::{
         shelf::LibraryCache,
         source::Origin,
         state::{Session, Workspace},
-        worker::{TaskContext, TaskEvent},
+        worker::{JobContext, TaskEvent},
     },
     geometry::cloud::PointCloud,
     pipeline::ProgressObserver,
@@ -25,7 +25,7 @@ struct Tray(Mutex<Vec<TaskOutcome>>);
 
 impl ProgressObserver for Tray {}
 
-impl TaskContext<TaskOutcome> for Tray {
+impl JobContext<TaskOutcome> for Tray {
     fn stands(&self, outcome: TaskOutcome) {
         self.publish_partial(outcome);
     }
