@@ -2,7 +2,7 @@
 //!
 //! ```text
 //! a frame   Workspace::update (tasks, dialogs) ─► Workspace::ui ─► Message ─► Window ─► Event ─► every workspace
-//! a task    Task::start ─► a thread with its JobContext ─► Task::poll ─► the state of the workspace that started it
+//! a task    Task::start ─► a thread with its TaskContext ─► Task::poll ─► the state of the workspace that started it
 //! ```
 //!
 //! [`shell`] is what a workspace stands on: the session that all of them share, tasks, messages, file dialogs. A
