@@ -168,7 +168,7 @@ pub enum Effect {
 /// More notices than this push the oldest out.
 const MAX_NOTICES: usize = 4;
 
-/// Makes it so.
+/// Carries out an action.
 pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
     let action = roles::permitted(state, action)?;
     match action {

@@ -1,4 +1,4 @@
-//! Kept cases: captured scenes with what truly hung there, to find out why one was taken for another.
+//! Kept cases: captured scenes with the actual part, to find out why one was taken for another.
 //!
 //! A folder of cases can be copied on a stick and read by a person, one folder per case:
 //!

@@ -38,11 +38,11 @@ pub enum AlignAction {
     OpenRow(usize),
     /// Show this iteration.
     Scrub(f32),
-    /// Show another iteration, so many on or back.
+    /// Go forwards by this many iterations, or backwards if negative.
     Step(f32),
     /// Play or pause.
     TogglePlay,
-    /// So many seconds passed while playing.
+    /// Advance playback by this many seconds.
     Advance(f32),
     /// Put Table I on the clipboard.
     CopyTable,

@@ -201,7 +201,7 @@ impl AlignState {
         }
     }
 
-    /// Makes it so.
+    /// Carries out an action.
     pub fn apply(&mut self, action: AlignAction, cx: &mut ShellContext<'_>) {
         match action {
             AlignAction::Choose(pairing) => self.pairing = pairing,

@@ -152,7 +152,7 @@ impl CompareState {
         self.task.cancel();
     }
 
-    /// Makes it so.
+    /// Carries out an action.
     pub fn apply(&mut self, action: CompareAction, cx: &mut ShellContext<'_>) {
         match action {
             CompareAction::Follow => self.follow(cx),

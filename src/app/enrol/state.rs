@@ -196,7 +196,7 @@ impl State {
     }
 }
 
-/// Makes it so.
+/// Carries out an action.
 pub fn apply(state: &mut State, action: EnrolAction) -> Option<Effect> {
     match action {
         EnrolAction::TakeShown => return load_shown_part(state),

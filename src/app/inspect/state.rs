@@ -111,7 +111,7 @@ pub enum InspectAction {
     Picture(Result<Box<ViewShot>, Trouble>),
 }
 
-/// Makes it so.
+/// Carries out an action.
 pub(in crate::app) fn apply(state: &mut State, action: InspectAction) -> Option<Effect> {
     let own = &mut state.inspect;
     match action {

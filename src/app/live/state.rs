@@ -93,7 +93,7 @@ impl Source {
     }
 }
 
-/// Makes it so.
+/// Carries out an action.
 pub(in crate::app) fn apply(state: &mut State, action: LiveAction) -> Option<Effect> {
     match action {
         LiveAction::Toggle if state.is_live() => Some(stop(state)),

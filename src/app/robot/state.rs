@@ -167,7 +167,7 @@ pub enum RobotAction {
     Forget,
 }
 
-/// Makes it so.
+/// Carries out an action.
 pub(in crate::app) fn apply(state: &mut State, action: RobotAction) -> Option<Effect> {
     match action {
         RobotAction::Toggle => {

@@ -139,7 +139,7 @@ pub(super) fn ask_engineer(state: &mut State, then: Action) {
     )))));
 }
 
-/// Makes it so.
+/// Carries out an action.
 pub(super) fn apply(state: &mut State, action: RoleAction) -> Option<Effect> {
     let role = state.role;
     let own = &mut state.roles;

@@ -150,7 +150,7 @@ fn of_lane(state: &mut State, lane: TaskQueue) -> &mut ShotsState {
     }
 }
 
-/// Makes it so.
+/// Carries out an action.
 pub(in crate::app) fn apply(state: &mut State, action: ShotsAction) -> Option<Effect> {
     match action {
         ShotsAction::Toggle(place) => {
