@@ -139,8 +139,13 @@ pub fn run(
                 }
                 if should_try_alternatives(&inspection, recipe) && !inspection.verdict.is_likeness()
                 {
-                    let part = likeliest.as_ref().expect("it was inspected");
-                    look_without_bars(&mut inspection, part, scene, library, recipe, &clock)?;
+                    // They may be a stand's.
+                    let bare = |part| without_bars(scene, part);
+                    let bare =
+                        clock.time(Stage::Segment, || likeliest.as_ref().ok().and_then(bare))?;
+                    if let Some(bare) = bare {
+                        try_segment(&mut inspection, bare, scene, library, recipe, &clock)?;
+                    }
                 }
             }
         }
@@ -175,36 +180,28 @@ fn try_other_segments(
     let others = clock.time(Stage::Segment, || {
         other_segments(scene, &inspection.segmentation, &recipe.segment, MAX_OTHERS)
     })?;
-    let mut best = inspection.best_score().max(WORTH_CHANGING);
     for part in others {
-        let found = inspect_surface(&part, scene, library, recipe, clock)?;
-        if found.best_score() > best {
-            best = found.best_score();
-            inspection.segmentation.take(part);
-            found.keep(inspection);
-            if inspection.verdict.is_accepted() {
-                break;
-            }
+        try_segment(inspection, part, scene, library, recipe, clock)?;
+        if inspection.verdict.is_accepted() {
+            break;
         }
     }
     Ok(())
 }
 
-/// Looks once more at a surface without any bar: they may be a stand's.
-fn look_without_bars(
+/// Inspects a surface, and keeps it if it is more likely an enrolled part than what was taken for the part.
+fn try_segment(
     inspection: &mut Inspection,
-    part: &SegmentedPart,
+    part: SegmentedPart,
     scene: &SceneCloud,
     library: &Library,
     recipe: &Recipe,
     clock: &StageClock<'_>,
 ) -> Result<(), Cancelled> {
-    if let Some(bare) = clock.time(Stage::Segment, || without_bars(scene, part))? {
-        let found = inspect_surface(&bare, scene, library, recipe, clock)?;
-        if found.best_score() > inspection.best_score().max(WORTH_CHANGING) {
-            inspection.segmentation.take(bare);
-            found.keep(inspection);
-        }
+    let found = inspect_surface(&part, scene, library, recipe, clock)?;
+    if found.best_score() > inspection.best_score().max(WORTH_CHANGING) {
+        inspection.segmentation.take(part);
+        found.keep(inspection);
     }
     Ok(())
 }

@@ -105,7 +105,8 @@ impl Distortion {
         })
     }
 
-    pub(crate) fn is_finite(&self) -> bool {
+    /// All coefficients, in the order of [`Self::from_list`].
+    fn to_list(self) -> [f64; 8] {
         let Self {
             k1,
             k2,
@@ -116,7 +117,11 @@ impl Distortion {
             k5,
             k6,
         } = self;
-        (k1 + k2 + p1 + p2 + k3 + k4 + k5 + k6).is_finite()
+        [k1, k2, p1, p2, k3, k4, k5, k6]
+    }
+
+    pub(crate) fn is_finite(&self) -> bool {
+        self.to_list().iter().all(|k| k.is_finite())
     }
 
     /// Where the lens shows a ray; `None` beyond the field in which the model is one-to-one.
@@ -174,16 +179,7 @@ impl Distortion {
     /// Where a ray is seen, and the derivatives xx, xy = yx and yy of that; `None` beyond the field in which the model
     /// is one-to-one.
     fn at(&self, [x, y]: Ray) -> Option<(Ray, [f64; 3])> {
-        let Self {
-            k1,
-            k2,
-            p1,
-            p2,
-            k3,
-            k4,
-            k5,
-            k6,
-        } = *self;
+        let [k1, k2, p1, p2, k3, k4, k5, k6] = self.to_list();
         let r2 = x * x + y * y;
         let over = 1.0 + r2 * (k1 + r2 * (k2 + r2 * k3));
         let under = 1.0 + r2 * (k4 + r2 * (k5 + r2 * k6));

@@ -73,14 +73,18 @@ pub enum Verdict {
 }
 
 impl Verdict {
-    /// True if something hangs there that is nothing enrolled.
-    pub fn is_unknown(&self) -> bool {
-        let rejected = match self {
+    /// Why the best guess is not accepted; `None` also where there is no part.
+    fn rejected(&self) -> Option<&Rejection> {
+        match self {
             Self::Part { rejected, .. } => rejected.as_ref(),
             Self::NoPart(_) => None,
-        };
+        }
+    }
+
+    /// True if something hangs there that is nothing enrolled.
+    pub fn is_unknown(&self) -> bool {
         matches!(
-            rejected,
+            self.rejected(),
             Some(
                 Rejection::Unknown { .. }
                     | Rejection::Mirrored { .. }
@@ -91,12 +95,8 @@ impl Verdict {
 
     /// True if it is like an enrolled part without being it: of another model or make, or its mirror image.
     pub(super) fn is_likeness(&self) -> bool {
-        let rejected = match self {
-            Self::Part { rejected, .. } => rejected.as_ref(),
-            Self::NoPart(_) => None,
-        };
         matches!(
-            rejected,
+            self.rejected(),
             Some(
                 Rejection::AnotherModel { .. }
                     | Rejection::AnotherMake { .. }
