@@ -6,7 +6,7 @@ use glam::Vec3;
 use image::{Rgb, RgbImage};
 use nalgebra::Point3;
 
-use super::work::ShotChoice;
+use super::choice::ShotChoice;
 use crate::{
     app::viewport::{Colouring, LineSet, PointSet, Role, ViewColours, furniture},
     geometry::{

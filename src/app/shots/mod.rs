@@ -4,9 +4,10 @@
 //! ScanOrder ─► fuse, on the thread of Inspect or Enrol ─► FusedShots ─► list, 3-D view, verdict or draft
 //! ```
 //!
-//! [`work`] reads the shots and puts them together, [`figure`] prepares what is drawn, [`state`] holds what a person
+//! `choice` says which shots are used, [`work`] reads them and puts them together, [`figure`] prepares what is drawn, [`state`] holds what a person
 //! asked for. The list, the summary and the legend are the same in both workspaces.
 
+mod choice;
 pub mod figure;
 mod list;
 mod overlay;
@@ -15,9 +16,10 @@ mod summary;
 pub mod work;
 
 pub use self::{
+    choice::{ScanFiles, ShotChoice},
     figure::ShotFate,
     state::{ShotsAction, ShotsState, StripTab},
-    work::{FuseError, FusedShots, ScanFiles, ScanOrder, ScanRequest, ShotChoice},
+    work::{FuseError, FusedShots, ScanOrder, ScanRequest},
 };
 pub(super) use self::{
     figure::marked,

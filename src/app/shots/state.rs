@@ -2,7 +2,10 @@
 
 use std::{path::PathBuf, sync::Arc};
 
-use super::work::{FusedShots, ScanFiles, ScanOrder, ScanRequest, ShotChoice};
+use super::{
+    choice::{ScanFiles, ShotChoice},
+    work::{FusedShots, ScanOrder, ScanRequest},
+};
 use crate::app::{
     action::{DialogRequest, Effect, notify},
     enrol,

@@ -9,6 +9,7 @@ use super::{
     NOISE_OF_JOINT, POSES_APART, SECOND, Scene, THIRD,
     evidence::{facing, facing_view, outline_distance, relief},
     outline_ends::outline_of,
+    prepared_scene::centre_of,
 };
 use crate::{
     geometry::rigid::{RigidTransform, pose_error},
@@ -83,7 +84,7 @@ pub fn fit_jointly(
     part: &JointPart,
     starts: &[(RigidTransform, &PoseEstimate)],
 ) -> Vec<JointFit> {
-    let middle = middle_of(&part.source.surface);
+    let middle = centre_of(&part.source.surface);
     let mut coarse: Vec<(f64, RigidTransform, &PoseEstimate)> = Vec::new();
     for (start, estimate) in starts {
         let edges = edges_of(reference, part, start);
@@ -183,8 +184,4 @@ fn edges_of(
 fn with_edges<'a>(reference: &'a Reference, edges: &'a EdgePoints) -> Option<AlignmentTarget<'a>> {
     let target = reference.target(0)?;
     Some(AlignmentTarget { edges, ..target })
-}
-
-fn middle_of(points: &[Point3<f32>]) -> Point3<f64> {
-    super::centre_of(points)
 }

@@ -1,0 +1,198 @@
+//! The scene's side of all comparisons: what is compared with every reference is prepared once.
+
+use nalgebra::{Point3, Vector3};
+use rand::{SeedableRng as _, seq::SliceRandom as _};
+use rand_pcg::Pcg64;
+
+use super::{
+    ConfirmParams, Scene, THIRD,
+    candidate::ReferenceCandidate,
+    local_normal::LocalNormals,
+    outline_ends::{Outline, outline_of},
+    outline_shift::outline_shift,
+    piece_search::PieceSample,
+};
+use crate::stages::{
+    pose::{
+        closest::Correspondence,
+        quality::{NUM_LOOKED_FOR, Tolerance},
+        refine::{AlignmentSource, Search, refine},
+        uncertainty::uncertainty,
+    },
+    rank::MatchEntry,
+    reference::{Reference, border::BorderPoint},
+};
+
+/// The scene's side of all comparisons, prepared once.
+pub(super) struct PreparedScene<'a> {
+    pub(super) scene: &'a Scene<'a>,
+    pub(super) source: AlignmentSource,
+    pub(super) centre: Point3<f64>,
+    /// Length of the outline that is the part's own, metres.
+    pub(super) own_m: f64,
+    /// Share of the outline where only the view ends.
+    pub(super) cut_share: f64,
+    /// `None` if a whole part is in sight, and whole ones are enrolled.
+    pub(super) piece: Option<PieceSample>,
+    pub(super) tolerance: Tolerance,
+}
+
+/// References that are cut off and looked at whatever they rank.
+const MOST_CUT_REFERENCES: usize = 8;
+
+impl<'a> PreparedScene<'a> {
+    pub(super) fn new(
+        scene: &'a Scene<'a>,
+        references: &[Reference],
+        params: &ConfirmParams,
+    ) -> Self {
+        let outline = outline_of(scene);
+        let source = thinned_source(scene, &outline, params);
+        let are_whole = || {
+            references
+                .iter()
+                .all(|reference| reference.cut.is_nothing())
+        };
+        let is_whole = outline.cut_share < CUT_SHARE && are_whole();
+        let piece = (!is_whole).then(|| {
+            PieceSample::new(
+                &source.surface,
+                oriented_border(scene, &outline),
+                params.seed,
+            )
+        });
+        Self {
+            scene,
+            centre: centre_of(&source.surface),
+            source,
+            own_m: outline.own.len() as f64 * scene.query.plane.pixel.0,
+            cut_share: outline.cut_share,
+            piece,
+            tolerance: Tolerance {
+                base: params.tolerance,
+                noise_at_1m: scene.part.noise_at_1m,
+            },
+        }
+    }
+
+    /// What is laid onto a reference as a piece; `None` where both are whole.
+    pub(super) fn piece_for(&self, reference: &Reference) -> Option<&PieceSample> {
+        let is_piece = self.cut_share >= CUT_SHARE || !reference.cut.is_nothing();
+        self.piece.as_ref().filter(|_| is_piece)
+    }
+
+    /// Puts the entries that are to be looked at to the front, and counts them.
+    pub(super) fn select_entries(
+        &self,
+        entries: &mut [&MatchEntry],
+        references: &[Reference],
+        params: &ConfirmParams,
+    ) -> usize {
+        if self.cut_share >= CUT_SHARE {
+            // What a piece looks like from afar says little: all are looked at.
+            return params
+                .num_references
+                .max(NUM_FOR_A_PIECE)
+                .min(entries.len());
+        }
+        let mut num = params.num_references.min(entries.len());
+        let most = num + MOST_CUT_REFERENCES;
+        for i in params.num_references..entries.len() {
+            let is_cut = !references[entries[i].reference].cut.is_nothing();
+            if is_cut && num < most {
+                entries[num..=i].rotate_right(1);
+                num += 1;
+            }
+        }
+        num
+    }
+
+    /// Refines a candidate to the end.
+    pub(super) fn finish(&self, reference: &Reference, candidate: &mut ReferenceCandidate) {
+        let Some(target) = reference.target(candidate.view) else {
+            return;
+        };
+        let start = candidate.refined.target_from_source;
+        let last = refine(&self.source, &target, &start, &THIRD);
+        candidate.refined.iterations.extend(last.iterations);
+        candidate.refined.stopped = last.stopped;
+        candidate.refined.target_from_source = last.target_from_source;
+        let (source, pose) = (&self.source, &last.target_from_source);
+        let closest = Correspondence::of_each(&source.surface, &target, pose, Search::Tree);
+        candidate.uncertainty = Some(uncertainty(source, &closest, &target, pose, &THIRD[2]));
+        (candidate.fit, candidate.evidence) =
+            self.evaluate(reference, candidate.view, pose, &closest, NUM_LOOKED_FOR);
+        candidate.evidence.rival = candidate.rival;
+        let view = &reference.views[candidate.view];
+        let noise = self.scene.part.noise_at_1m;
+        candidate.evidence.outline_shift_m = outline_shift(
+            source,
+            &target,
+            &view.contour,
+            &view.plane_from_part,
+            pose,
+            noise,
+            &reference.cut,
+        );
+    }
+}
+
+/// Thins part and edges at random, so that any first n of them are spread over the part.
+fn thinned_source(scene: &Scene<'_>, outline: &Outline, params: &ConfirmParams) -> AlignmentSource {
+    let mut rng = Pcg64::seed_from_u64(params.seed);
+    let points = &scene.part.cloud.points;
+    let wanted = THIRD[2].num_surface;
+    let mut surface: Vec<Point3<f32>> = points
+        .iter()
+        .step_by((points.len() / wanted).max(1))
+        .copied()
+        .collect();
+    surface.shuffle(&mut rng);
+    let camera_from_plane = scene.query.plane.plane_from_camera.inverse();
+    let mut edges: Vec<Point3<f32>> = outline
+        .own
+        .iter()
+        .step_by((outline.own.len() / 300).max(1))
+        .map(|p| (camera_from_plane * p).cast())
+        .collect();
+    edges.shuffle(&mut rng);
+    AlignmentSource { surface, edges }
+}
+
+/// An outline of which more than this share is not the part's own is that of a piece.
+const CUT_SHARE: f64 = 0.04;
+/// References that a piece is laid onto.
+const NUM_FOR_A_PIECE: usize = 16;
+/// Points of the border that get a normal.
+const NUM_ORIENTED: usize = 80;
+
+/// The part's own border with the surface's normals, camera space.
+fn oriented_border(scene: &Scene<'_>, outline: &Outline) -> Vec<BorderPoint> {
+    let camera_from_plane = scene.query.plane.plane_from_camera.inverse();
+    let normals = LocalNormals::new(scene);
+    let step = outline.own.len().div_ceil(NUM_ORIENTED).max(1);
+    let points = outline.own.iter().zip(&outline.along).step_by(step);
+    points
+        .filter_map(|(at, along)| {
+            let at = camera_from_plane * at;
+            let normal = normals.at(&at)?;
+            let along = (camera_from_plane * along).cast::<f32>();
+            // Along the border, and in the surface.
+            let along = (along - normal * along.dot(&normal)).try_normalize(0.3)?;
+            Some(BorderPoint {
+                at: at.cast(),
+                along,
+                normal,
+            })
+        })
+        .collect()
+}
+
+pub(super) fn centre_of(points: &[Point3<f32>]) -> Point3<f64> {
+    let sum = points
+        .iter()
+        .fold(Vector3::zeros(), |sum: Vector3<f64>, p| {
+            sum + p.coords.cast::<f64>()
+        });
+    Point3::from(sum / points.len().max(1) as f64)
+}
