@@ -4,11 +4,7 @@
 use std::error::Error;
 
 use nalgebra::{Isometry3, Vector3};
-use partsight::{
-    geometry::rigid::pose_error,
-    simulate::{PartKind, PartModel, Side},
-    stages::pose::{PoseMethod, align},
-};
+use partsight::{PartKind, PartModel, PoseMethod, Side, align, pose_error};
 
 fn main() -> Result<(), Box<dyn Error>> {
     let model = PartModel::new(PartKind::Fender, Side::Left, 0);

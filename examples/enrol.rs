@@ -5,19 +5,15 @@ use std::error::Error;
 
 use jiff::Timestamp;
 use partsight::{
-    library::{EnrolParams, LibraryFolder, PartDescription, PartName, enrol_captured},
-    pipeline::{self, Recipe, Unwatched},
-    simulate::{self, CellSetup, PartKind, Side},
-    stages::{
-        reference::ReferenceParams,
-        scene::{SceneCloud, scene_from_frame},
-    },
+    CellSetup, EnrolParams, LibraryFolder, PartDescription, PartKind, PartName, Recipe,
+    ReferenceParams, SceneCloud, Side, Unwatched, enrol_captured, run, scene_from_frame,
+    simulated_frame,
 };
 
 /// A right front door at a pose drawn from a seed.
 fn capture(seed: u64) -> SceneCloud {
     let setup = CellSetup::with_part(PartKind::FrontDoor, Side::Right, 0, seed);
-    scene_from_frame(&simulate::frame(&setup).frame)
+    scene_from_frame(&simulated_frame(&setup).frame)
 }
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -38,7 +34,7 @@ fn main() -> Result<(), Box<dyn Error>> {
     library.save(&enrolled.part)?;
 
     let loaded = library.load(&ReferenceParams::default())?;
-    let found = pipeline::run(&capture(2), &loaded.library, &Recipe::default(), &Unwatched)?;
+    let found = run(&capture(2), &loaded.library, &Recipe::default(), &Unwatched)?;
     println!("{:?}", found.verdict);
     Ok(())
 }

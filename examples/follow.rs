@@ -4,10 +4,8 @@
 use std::{error::Error, path::Path, time::Duration};
 
 use partsight::{
-    capture::{self, NextCapture, SourceSpec},
-    library::LibraryFolder,
-    pipeline::{self, Recipe, Unwatched},
-    stages::{reference::ReferenceParams, scene::scene_from_image},
+    LibraryFolder, NextCapture, Recipe, ReferenceParams, SourceSpec, Unwatched, open_source, run,
+    scene_from_image,
 };
 
 fn main() -> Result<(), Box<dyn Error>> {
@@ -17,13 +15,13 @@ fn main() -> Result<(), Box<dyn Error>> {
         .parse()?;
     let folder = LibraryFolder::open(Path::new("reference_parts"))?;
     let library = folder.load(&ReferenceParams::default())?.library;
-    let mut source = capture::open(&spec)?;
+    let mut source = open_source(&spec)?;
     let mut num_inspected = 0;
     while num_inspected < 3 {
         match source.next(Duration::from_secs(1))? {
             NextCapture::Captured(captured) => {
                 let scene = scene_from_image(captured.image);
-                let found = pipeline::run(&scene, &library, &Recipe::default(), &Unwatched)?;
+                let found = run(&scene, &library, &Recipe::default(), &Unwatched)?;
                 println!("{}: {:?}", captured.name, found.verdict);
                 num_inspected += 1;
             }

@@ -4,18 +4,12 @@
 use std::{error::Error, path::Path};
 
 use partsight::{
-    files::{self, FileContent},
-    library::LibraryFolder,
-    pipeline::{self, Recipe, Unwatched, Verdict},
-    simulate::{self, CellSetup, PartKind, Side},
-    stages::{
-        reference::ReferenceParams,
-        scene::{SceneCloud, scene_from_cloud, scene_from_frame},
-    },
+    CellSetup, FileContent, LibraryFolder, PartKind, Recipe, ReferenceParams, SceneCloud, Side,
+    Unwatched, Verdict, open_file, run, scene_from_cloud, scene_from_frame, simulated_frame,
 };
 
 fn scene_of(path: &str) -> Result<SceneCloud, Box<dyn Error>> {
-    match files::open(Path::new(path))? {
+    match open_file(Path::new(path))? {
         FileContent::Depth(frame) => Ok(scene_from_frame(&frame)),
         FileContent::Cloud(cloud) => Ok(scene_from_cloud(cloud)),
         FileContent::Mesh(_) => Err("a mesh is not a capture".into()),
@@ -27,11 +21,11 @@ fn main() -> Result<(), Box<dyn Error>> {
         scene_of(&path)?
     } else {
         let setup = CellSetup::with_part(PartKind::Fender, Side::Left, 0, 1);
-        scene_from_frame(&simulate::frame(&setup).frame)
+        scene_from_frame(&simulated_frame(&setup).frame)
     };
     let folder = LibraryFolder::open(Path::new("reference_parts"))?;
     let library = folder.load(&ReferenceParams::default())?.library;
-    let inspection = pipeline::run(&scene, &library, &Recipe::default(), &Unwatched)?;
+    let inspection = run(&scene, &library, &Recipe::default(), &Unwatched)?;
     match &inspection.verdict {
         Verdict::Part {
             part,

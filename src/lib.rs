@@ -1,21 +1,20 @@
 //! Partsight recognises a car body part in a depth frame and estimates its pose.
 //!
-//! - A file ([`files`]) or a camera ([`capture`]) gives a [`SceneCloud`](stages::scene::SceneCloud); a
-//!   [`Library`](library::Library) holds the enrolled parts.
-//! - [`pipeline::run`] takes both through the stages (segment, project, contour, signature, rank, confirm) and returns an
-//!   [`Inspection`](pipeline::Inspection): the verdict, the pose and every intermediate result.
+//! - A file ([`open_file`]) or a camera ([`open_source`]) gives a [`SceneCloud`]; a [`Library`] holds the enrolled parts.
+//! - [`run`] takes both through the stages (segment, project, contour, signature, rank, confirm) and returns an
+//!   [`Inspection`]: the verdict, the pose and every intermediate result.
 //! - Lengths are in metres, angles in radians. In camera space x points right, y down and z forward. A transform
 //!   `b_from_a` takes points of `a` to `b`: the pose is `camera_from_part`.
-//! - The same scene, library and [`Recipe`](pipeline::Recipe) give the same result, to the bit, on any number of threads.
+//! - The same scene, library and [`Recipe`] give the same result, to the bit, on any number of threads.
 //!
 //! ```
-//! use partsight::{library::LibraryFolder, pipeline::{self, Recipe, Unwatched}, simulate, stages::scene::scene_from_frame};
+//! use partsight::{CellSetup, LibraryFolder, PartKind, Recipe, Side, Unwatched, run, scene_from_frame, simulated_frame};
 //!
 //! # fn main() -> Result<(), Box<dyn std::error::Error>> {
-//! let setup = simulate::CellSetup::with_part(simulate::PartKind::Fender, simulate::Side::Left, 0, 1);
-//! let scene = scene_from_frame(&simulate::frame(&setup).frame);
+//! let setup = CellSetup::with_part(PartKind::Fender, Side::Left, 0, 1);
+//! let scene = scene_from_frame(&simulated_frame(&setup).frame);
 //! let library = LibraryFolder::open("reference_parts".as_ref())?.load(&Default::default())?.library;
-//! let inspection = pipeline::run(&scene, &library, &Recipe::default(), &Unwatched)?;
+//! let inspection = run(&scene, &library, &Recipe::default(), &Unwatched)?;
 //! let pose = inspection.pose.ok_or("nothing to recognise")??;
 //! println!("{:?}: {}", inspection.verdict, pose.camera_from_part());
 //! # assert!(inspection.verdict.is_accepted());
@@ -23,26 +22,89 @@
 //! # }
 //! ```
 //!
+//! What this page lists is the library. The modules behind it are public for the program and its tests; they change
+//! without notice.
+//!
 //! Features, both on by default: `cli`, the command line and the reports; `window`, the window. Without them only the
 //! algorithms build.
 
 #[cfg(feature = "window")]
+#[doc(hidden)]
 pub mod app;
+#[doc(hidden)]
 pub mod bench;
+#[doc(hidden)]
 pub mod capture;
+#[doc(hidden)]
 pub mod cases;
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod cli;
+#[doc(hidden)]
 pub mod error;
+#[doc(hidden)]
 pub mod files;
+#[doc(hidden)]
 pub mod geometry;
+#[doc(hidden)]
 pub mod history;
+#[doc(hidden)]
 pub mod library;
+#[doc(hidden)]
 pub mod pipeline;
 #[cfg(feature = "cli")]
+#[doc(hidden)]
 pub mod report;
+#[doc(hidden)]
 pub mod robot;
+#[doc(hidden)]
 pub mod scan;
+#[doc(hidden)]
 pub mod simulate;
+#[doc(hidden)]
 pub mod stages;
+#[doc(hidden)]
 pub mod units;
+
+pub use self::{
+    capture::{
+        CaptureError, Captured, DepthSource, Image, NextCapture, SourceSpec, open as open_source,
+    },
+    error::Advice,
+    files::{FileContent, FileError, open as open_file, save_cloud},
+    geometry::{
+        cloud::{Grid, PointCloud},
+        depth_frame::{DepthFrame, Intrinsics},
+        distortion::Distortion,
+        mesh::{MeshError, TriangleMesh},
+        rigid::{PoseDelta, RigidTransform, pose_error},
+    },
+    library::{
+        EnrolError, EnrolParams, EnrolWarning, Enrolled, Library, LibraryError, LibraryFolder,
+        LibraryLoad, Part, PartDescription, PartName, SprayPath, enrol_captured, enrol_mesh,
+        enrol_scan,
+    },
+    pipeline::{
+        AcceptParams, Cancelled, Inspection, PoseChoice, ProgressObserver, Recipe, Rejection,
+        Stage, Timings, Unwatched, Verdict, run,
+        scan::{ScanInspection, run_scan},
+    },
+    robot::{Convention, RobotFrame, RobotPose},
+    scan::{Scan, ScanParams, Shot, assemble},
+    simulate::{CellSetup, PartKind, PartModel, Side, SimulatedFrame, frame as simulated_frame},
+    stages::{
+        confirm::{ConfirmParams, ConfirmedMatch, ConfirmedRanking, Evidence},
+        contour::{Contour, ContourParams},
+        pose::{
+            PoseError, PoseEstimate, PoseMethod, PoseWarning, align, icp::IcpParams,
+            icp_ga::IcpGaParams,
+        },
+        project::{PlaneImage, ProjectParams},
+        rank::{MatchRanking, RankParams},
+        reference::{Reference, ReferenceParams},
+        scene::{SceneCloud, scene_from_cloud, scene_from_frame, scene_from_image},
+        segment::{NoPart, SegmentParams, Segmentation, SegmentedPart},
+        signature::{FanSignature, SignatureParams},
+    },
+    units::{Metres, Radians},
+};
