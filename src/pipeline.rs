@@ -127,7 +127,7 @@ pub fn run(
         timings: Timings::default(),
     };
     let part = inspection.segmentation.part.as_ref();
-    let first = part.map(|part| inspect_surface(part, scene, library, recipe, &clock));
+    let first = part.map(|part| inspect_surface(part, scene, library, recipe, 0.0, &clock));
     match first.map_err(|no_part| *no_part) {
         Ok(first) => {
             first?.keep(&mut inspection);
@@ -198,8 +198,9 @@ fn try_segment(
     recipe: &Recipe,
     clock: &StageClock<'_>,
 ) -> Result<(), Cancelled> {
-    let found = inspect_surface(&part, scene, library, recipe, clock)?;
-    if found.best_score() > inspection.best_score().max(WORTH_CHANGING) {
+    let least = inspection.best_score().max(WORTH_CHANGING);
+    let found = inspect_surface(&part, scene, library, recipe, least, clock)?;
+    if found.best_score() > least {
         inspection.segmentation.take(part);
         found.keep(inspection);
     }
@@ -273,16 +274,25 @@ impl Inspection {
     }
 }
 
-/// The stages after segmentation, on one surface.
+/// The stages after segmentation, on one surface, of which a score below `least_score` is of no use.
 fn inspect_surface(
     part: &SegmentedPart,
     scene: &SceneCloud,
     library: &Library,
     recipe: &Recipe,
+    least_score: f64,
     clock: &StageClock<'_>,
 ) -> Result<SurfaceResult, Cancelled> {
     let mut surface = SurfaceResult::default();
-    let recognised = recognise(&mut surface, part, scene, library, recipe, clock)?;
+    let recognised = recognise(
+        &mut surface,
+        part,
+        scene,
+        library,
+        recipe,
+        least_score,
+        clock,
+    )?;
     surface.verdict = Some(match recognised {
         Ok(()) => verdict(&surface.ranking, surface.pose.as_ref(), recipe),
         Err(reason) => Verdict::NoPart(reason),
@@ -297,6 +307,7 @@ fn recognise(
     scene: &SceneCloud,
     library: &Library,
     recipe: &Recipe,
+    least_score: f64,
     clock: &StageClock<'_>,
 ) -> Result<Result<(), Unrecognisable>, Cancelled> {
     let plane = match clock.time(Stage::Project, || project(part, &recipe.project))? {
@@ -353,7 +364,7 @@ fn recognise(
             }
             let scene = Scene { scene, part, query };
             let (ranking, pose) = clock.time(Stage::Pose, || {
-                confirm(&scene, references, &ranking, &params)
+                confirm(&scene, references, &ranking, &params, least_score)
             })?;
             inspection.ranking = ranking;
             inspection.pose = Some(pose);

@@ -91,7 +91,7 @@ pub fn likenesses(reference: &Reference, coverage: Coverage, library: &Library) 
                 part: &SegmentedPart::whole(&reference.cloud),
                 query,
             };
-            confirm(&scene, &others, &ranking, &ConfirmParams::default()).0
+            confirm(&scene, &others, &ranking, &ConfirmParams::default(), 0.0).0
         }
         // Not what a camera sees at once: judged by its outline.
         Coverage::AllAround | Coverage::SeveralSides => ConfirmedRanking::untried(&ranking, 1.0),

@@ -42,11 +42,26 @@ pub(super) fn check_mirror_image(
         return Ok(());
     }
     let scene = scene.mirrored();
-    let found = inspect_surface(&part.mirrored(&scene), &scene, library, recipe, clock)?;
+    let least = if is_other_model {
+        recipe.accept.min_score
+    } else {
+        recipe
+            .accept
+            .unknown_below
+            .max(inspection.best_score() + MIRROR_LEAD)
+    };
+    let found = inspect_surface(
+        &part.mirrored(&scene),
+        &scene,
+        library,
+        recipe,
+        least,
+        clock,
+    )?;
     let seen = if is_other_model {
         closer_mirror_match(inspection, &found, recipe)
     } else {
-        mirror_only_match(inspection, &found, recipe)
+        mirror_only_match(&found, least)
     };
     if let (Some(seen), Verdict::Part { rejected, .. }) = (seen, &mut inspection.verdict) {
         *rejected = Some(seen);
@@ -55,15 +70,10 @@ pub(super) fn check_mirror_image(
 }
 
 /// The mirror image of a part that is nothing like the part itself.
-fn mirror_only_match(
-    inspection: &Inspection,
-    found: &SurfaceResult,
-    recipe: &Recipe,
-) -> Option<Rejection> {
+fn mirror_only_match(found: &SurfaceResult, least: f64) -> Option<Rejection> {
     let seen = found.ranking.entries.first()?;
-    let least = inspection.best_score() + MIRROR_LEAD;
     let (part, score) = (seen.part.clone(), seen.score);
-    (score > recipe.accept.unknown_below.max(least)).then(|| {
+    (score > least).then(|| {
         if is_central(&part) {
             Rejection::MirroredImage { part, score }
         } else {

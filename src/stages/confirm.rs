@@ -156,11 +156,14 @@ const MISSED_BELOW: f64 = 0.1;
 const NEARLY: f64 = 1.3;
 
 /// Orders the matches by their confirmed scores, and gives the pose of the first.
+///
+/// Poses that cannot reach `least_score` are not refined to the end; at 0 the best is, however badly it fits.
 pub fn confirm(
     scene: &Scene<'_>,
     references: &[Reference],
     ranking: &MatchRanking,
     params: &ConfirmParams,
+    least_score: f64,
 ) -> Confirmed {
     let score = |confirmed: &Confirmed| confirmed.0.entries.first().map_or(0.0, |e| e.score);
     let mut best: Option<Confirmed> = None;
@@ -169,7 +172,8 @@ pub fn confirm(
             seed: params.seed + draw,
             ..params.clone()
         };
-        let (confirmed, least_cost) = confirm_drawn(scene, references, ranking, &params);
+        let (confirmed, least_cost) =
+            confirm_drawn(scene, references, ranking, &params, least_score);
         let may_be_missed =
             score(&confirmed) < MISSED_BELOW && least_cost.is_some_and(|cost| cost < NEARLY);
         if best
@@ -191,6 +195,7 @@ fn confirm_drawn(
     references: &[Reference],
     ranking: &MatchRanking,
     params: &ConfirmParams,
+    least_score: f64,
 ) -> (Confirmed, Option<f64>) {
     let seen = PreparedScene::new(scene, references, params);
     if seen.source.surface.len() < 20 {
@@ -203,7 +208,7 @@ fn confirm_drawn(
     }
     let mut entries: Vec<&MatchEntry> = ranking.entries.iter().collect();
     let num_looked_at = seen.select_entries(&mut entries, references, params);
-    let trials = seen.trials(&entries[..num_looked_at], references);
+    let trials = seen.trials(&entries[..num_looked_at], references, least_score);
     let costs = trials.iter().flatten().filter(|trial| !trial.is_piece);
     let least = costs.map(|trial| trial.cost).fold(f64::INFINITY, f64::min);
     let of_pieces = trials.iter().flatten().filter(|trial| trial.is_piece);
@@ -236,12 +241,12 @@ fn confirm_drawn(
     // Those that were not looked at stay behind those that were.
     sort_by_score(&mut tried[..num_looked_at]);
     let best = tried.first().map_or(0.0, |first| first.score);
-    for tried in &mut tried[..num_looked_at] {
-        if let Some(candidate) = tried
-            .candidate
-            .as_mut()
-            .filter(|_| tried.score > (CONTENDS * best).max(HOPELESS_SCORE))
-        {
+    for (place, tried) in tried[..num_looked_at].iter_mut().enumerate() {
+        let least = match place {
+            0 => (least_score / MOST_GAINED).max(HOPELESS_SCORE),
+            _ => (CONTENDS * best).max(NO_RUNNER_UP),
+        };
+        if let Some(candidate) = tried.candidate.as_mut().filter(|_| tried.score > least) {
             seen.finish(&references[tried.entry.reference], candidate);
             tried.score = candidate.evidence.score();
         }
@@ -291,6 +296,10 @@ fn sort_by_score(tried: &mut [Tried<'_>]) {
 const CONTENDS: f64 = 0.6;
 /// What scores less will not be accepted however exactly it is placed.
 const HOPELESS_SCORE: f64 = 1e-4;
+/// And what comes second with less than this will not become the first.
+const NO_RUNNER_UP: f64 = 0.005;
+/// The last refinement makes no score grow by more than this factor: at most 22 in 657 candidates of five suites.
+const MOST_GAINED: f64 = 25.0;
 
 /// What a ranking's score is worth when the part was not looked for.
 pub const UNCONFIRMED_WEIGHT: f64 = 0.3;

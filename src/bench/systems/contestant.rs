@@ -149,7 +149,7 @@ fn by_outline(
         return ranking.entries.first().map(|entry| entry.reference);
     };
     let scene = Scene { scene, part, query };
-    let (confirmed, _) = confirm(&scene, references, &ranking, &recipe.confirm);
+    let (confirmed, _) = confirm(&scene, references, &ranking, &recipe.confirm, 0.0);
     confirmed.entries.first().map(|entry| entry.reference)
 }
 

@@ -86,26 +86,33 @@ const NUM_LOOKED_FOR: usize = 700;
 
 impl PreparedScene<'_> {
     /// Of each entry the poses that its placements lead to, the cheapest first; of a piece only those that are worth a
-    /// refinement.
+    /// refinement where a score below `least_score` is of no use.
     pub(super) fn trials(
         &self,
         entries: &[&MatchEntry],
         references: &[Reference],
+        least_score: f64,
     ) -> Vec<Vec<PoseTrial>> {
         let mut starts: Vec<(usize, Start)> = Vec::new();
+        let mut least = f64::INFINITY;
         for (number, entry) in entries.iter().enumerate() {
             let reference = &references[entry.reference];
             if let Some(piece) = self.piece_for(reference) {
                 let placed = self.distinct_starts(reference, &entry.placements);
                 let placed = placed.into_iter().map(|start| start.1);
-                let of_reference = self.coarse_starts(piece, reference, placed);
+                let limit = least + WORSE_START;
+                let of_reference = self.coarse_starts(piece, reference, placed, limit);
+                least = of_reference
+                    .first()
+                    .map_or(least, |best| least.min(best.cost));
                 starts.extend(of_reference.into_iter().map(|start| (number, start)));
             }
         }
         starts.sort_by(|a, b| a.1.cost.total_cmp(&b.1.cost));
-        let least = starts.first().map_or(0.0, |best| best.1.cost);
         starts.truncate(if least < HOPELESS_START {
             MOST_REFINED
+        } else if least_score > 0.0 {
+            0
         } else {
             FEW_REFINED
         });
@@ -271,7 +278,9 @@ impl PreparedScene<'_> {
         let level = levels.last().unwrap_or(&FIRST[1]);
         let pose = &refined.target_from_source;
         let cost = match piece {
-            Some(piece) => self.coarse_cost(piece, reference, pose),
+            Some(piece) => self
+                .coarse_cost(piece, reference, pose, f64::INFINITY)
+                .unwrap_or(f64::INFINITY),
             None => cost(&self.source, &target, pose, level, COST_LIMIT),
         };
         Some(PoseTrial {

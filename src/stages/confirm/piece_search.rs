@@ -70,7 +70,14 @@ pub(super) struct Start {
 pub(super) struct PieceSample {
     surface: Vec<Point3<f32>>,
     border: Vec<BorderPoint>,
-    pairs: Vec<BorderPair>,
+    pairs: Vec<OrientedPair>,
+}
+
+/// A pair of the piece's border, with its middle and its axes.
+struct OrientedPair {
+    pair: BorderPair,
+    middle: Point3<f32>,
+    axes: Matrix3<f32>,
 }
 
 impl PieceSample {
@@ -89,6 +96,11 @@ impl PieceSample {
             .collect();
         pairs.shuffle(&mut rng);
         pairs.truncate(NUM_PAIRS);
+        let oriented = |pair: BorderPair| {
+            let (middle, axes) = frame_of(pair.of.map(|i| &border[usize::from(i)]))?;
+            Some(OrientedPair { pair, middle, axes })
+        };
+        let pairs = pairs.into_iter().filter_map(oriented).collect();
         Self {
             surface: surface[..NUM_SURFACE.min(surface.len())].to_vec(),
             border,
@@ -98,12 +110,13 @@ impl PieceSample {
 }
 
 impl PreparedScene<'_> {
-    /// The best few poses of a reference, none of them refined; `others` are scored with them.
+    /// The best few poses of a reference that cost less than `limit`, none of them refined; `others` are scored with them.
     pub(super) fn coarse_starts(
         &self,
         piece: &PieceSample,
         reference: &Reference,
         others: impl Iterator<Item = RigidTransform>,
+        limit: f64,
     ) -> Vec<Start> {
         let mut poses: Vec<(f32, Isometry3<f32>)> = Vec::new();
         for border in reference.borders() {
@@ -119,9 +132,12 @@ impl PreparedScene<'_> {
             .iter()
             .map(|(_, pose)| pose.cast())
             .chain(others)
-            .map(|target_from_source| Start {
-                cost: self.coarse_cost(piece, reference, &target_from_source),
-                target_from_source,
+            .filter_map(|target_from_source| {
+                let cost = self.coarse_cost(piece, reference, &target_from_source, limit)?;
+                Some(Start {
+                    cost,
+                    target_from_source,
+                })
             })
             .collect();
         starts.sort_by(|a, b| a.cost.total_cmp(&b.cost));
@@ -146,13 +162,11 @@ impl PreparedScene<'_> {
         piece: &PieceSample,
         reference: &Reference,
         border: &ReferenceBorder,
-        pair: &BorderPair,
+        pair: &OrientedPair,
         poses: &mut Vec<(f32, Isometry3<f32>)>,
     ) {
+        let OrientedPair { pair, middle, axes } = pair;
         let ours = pair.of.map(|i| &piece.border[usize::from(i)]);
-        let Some((middle, axes)) = frame_of(ours) else {
-            return;
-        };
         for theirs in border.pairs_like(*pair, DISTANCE_OFF, ANGLE_OFF) {
             let points = theirs.of.map(|i| &border.points[usize::from(i)]);
             let Some((onto, their_axes)) = frame_of(points) else {
@@ -176,15 +190,18 @@ impl PreparedScene<'_> {
     }
 
     /// How badly a pose fits, 0 for a perfect fit: the part on the reference, its border on the reference's, and the
-    /// reference where the camera looks past it.
+    /// reference where the camera looks past it; `None` from `limit` on.
     pub(super) fn coarse_cost(
         &self,
         piece: &PieceSample,
         reference: &Reference,
         target_from_source: &RigidTransform,
-    ) -> f64 {
+        limit: f64,
+    ) -> Option<f64> {
         let moved = target_from_source.cast::<f32>();
-        let is_beyond = |at: &Point3<f32>| reference.cut.depth_inside(&at.cast()) < AT_CUT;
+        let is_cut = !reference.cut.is_nothing();
+        let is_beyond =
+            |at: &Point3<f32>| is_cut && reference.cut.depth_inside(&at.cast()) < AT_CUT;
         let (mut num, mut off) = (0_usize, 0.0_f32);
         for p in &piece.surface {
             let at = moved * p;
@@ -197,11 +214,13 @@ impl PreparedScene<'_> {
             }
         }
         if num < LEAST_SHARED {
-            return f64::INFINITY;
+            return None;
         }
         let num_surface = piece.surface.len().max(1);
         let beyond = 1.0 - num as f32 / num_surface as f32;
         let surface = off / num as f32;
+        let is_below = |cost: f32| (f64::from(cost) < limit).then_some(cost);
+        let mut cost = is_below(surface + UNSEEN * beyond)?;
         let (mut num, mut off) = (0.0_f32, 0.0_f32);
         for p in &piece.border {
             let at = moved * p.at;
@@ -215,9 +234,11 @@ impl PreparedScene<'_> {
                 off += clipped(least);
             }
         }
-        let border = if num > 0.0 { off / num } else { 0.0 };
-        let past = self.missing_share(reference, target_from_source);
-        f64::from(surface + border + LOOKED_PAST * past + UNSEEN * beyond)
+        if num > 0.0 {
+            cost = is_below(cost + off / num)?;
+        }
+        let missing = LOOKED_PAST * self.missing_share(reference, target_from_source);
+        is_below(cost + missing).map(f64::from)
     }
 
     /// Share of a reference that the camera looks past, of what it sees or looks past.
@@ -277,10 +298,12 @@ fn early_out_cost(
     turn: &Matrix3<f32>,
     shift: &Vector3<f32>,
 ) -> Option<f32> {
+    let is_cut = !reference.cut.is_nothing();
+    let is_beyond = |at: &Point3<f32>| is_cut && reference.cut.depth_inside(&at.cast()) < AT_CUT;
     let (mut num, mut num_off, mut sum) = (0_usize, 0_usize, 0.0_f32);
     for p in piece.surface.iter().take(NUM_TRIED) {
         let at = Point3::from(turn * p.coords + shift);
-        if reference.cut.depth_inside(&at.cast()) < AT_CUT {
+        if is_beyond(&at) {
             continue;
         }
         num += 1;
@@ -301,7 +324,7 @@ fn early_out_cost(
     let (mut num, mut num_on, mut sum) = (0.0_f32, 0.0_f32, 0.0_f32);
     for p in piece.border.iter().take(NUM_TRIED) {
         let at = Point3::from(turn * p.at.coords + shift);
-        if reference.cut.depth_inside(&at.cast()) < AT_CUT {
+        if is_beyond(&at) {
             continue;
         }
         num += 1.0;

@@ -39,7 +39,7 @@ pub struct ReferenceBorder {
     pub points: Vec<BorderPoint>,
     /// All pairs that can be used, bin by bin.
     pairs: Vec<BorderPair>,
-    /// Where each bin of distance and first angle begins among the pairs; one more than there are bins.
+    /// Where each bin of distance and angles begins among the pairs; one more than there are bins.
     bins: Vec<u32>,
     /// The nearest of all its points, not only the evenly spread ones.
     pub field: NearestField,
@@ -53,6 +53,8 @@ pub const LEAST_DISTANCE: f32 = 0.15;
 const FARTHEST: f32 = 2.4;
 const DISTANCE_BIN: f32 = 0.04;
 const NUM_ANGLES: usize = 24;
+/// Of the second angle, coarser, so that most bins hold a pair.
+const NUM_SECTORS: usize = 8;
 /// Cells of the field of nearest points and how far it answers, metres.
 const FIELD_CELL: f32 = 0.02;
 const FIELD_BAND: f32 = 0.06;
@@ -70,12 +72,19 @@ impl ReferenceBorder {
             }
         }
         let bin = |pair: &BorderPair| {
-            distance_bin(pair.distance) * NUM_ANGLES + angle_bin(pair.angles[0])
+            let first =
+                distance_bin(pair.distance) * NUM_ANGLES + angle_bin(pair.angles[0], NUM_ANGLES);
+            first * NUM_SECTORS + angle_bin(pair.angles[1], NUM_SECTORS)
         };
         pairs.sort_by_cached_key(bin);
-        let num_bins = (distance_bin(FARTHEST) + 1) * NUM_ANGLES;
-        let begins = |number: usize| pairs.partition_point(|pair| bin(pair) < number) as u32;
-        let bins = (0..=num_bins).map(begins).collect();
+        let num_bins = (distance_bin(FARTHEST) + 1) * NUM_ANGLES * NUM_SECTORS;
+        let mut bins = vec![0; num_bins + 1];
+        for pair in &pairs {
+            bins[bin(pair) + 1] += 1;
+        }
+        for number in 0..num_bins {
+            bins[number + 1] += bins[number];
+        }
         Self {
             points,
             pairs,
@@ -94,10 +103,16 @@ impl ReferenceBorder {
         let distances = distance_bin((pair.distance - distance_off).max(0.0))
             ..=distance_bin(pair.distance + distance_off);
         let reach = (angle_off / BIN_ANGLE).ceil() as usize;
-        let middle = angle_bin(pair.angles[0]) + NUM_ANGLES;
+        let middle = angle_bin(pair.angles[0], NUM_ANGLES) + NUM_ANGLES;
+        let sector = |angle| angle_bin(angle, NUM_SECTORS);
+        let [first, last] = [-angle_off, angle_off].map(|off| sector(pair.angles[1] + off));
+        let num_sectors = (last + NUM_SECTORS - first) % NUM_SECTORS + 1;
         let bins = distances.flat_map(move |distance| {
             let angles = middle - reach..=middle + reach;
-            angles.map(move |angle| distance * NUM_ANGLES + angle % NUM_ANGLES)
+            angles.flat_map(move |angle| {
+                let of_angle = (distance * NUM_ANGLES + angle % NUM_ANGLES) * NUM_SECTORS;
+                (first..first + num_sectors).map(move |sector| of_angle + sector % NUM_SECTORS)
+            })
         });
         let in_bins = bins.flat_map(|bin| {
             let ends = [bin, bin + 1].map(|end| self.bins[end] as usize);
@@ -117,9 +132,9 @@ fn distance_bin(distance: f32) -> usize {
     (distance.min(FARTHEST) / DISTANCE_BIN) as usize
 }
 
-fn angle_bin(angle: f32) -> usize {
+fn angle_bin(angle: f32, num: usize) -> usize {
     let turns = angle / std::f32::consts::TAU;
-    ((turns - turns.floor()) * NUM_ANGLES as f32) as usize % NUM_ANGLES
+    ((turns - turns.floor()) * num as f32) as usize % num
 }
 
 fn angle_between(a: f32, b: f32) -> f32 {
