@@ -14,7 +14,7 @@ mod watch;
 use crate::{
     library::Library,
     stages::{
-        confirm::{ConfirmParams, ConfirmedRanking, Scene, UNCONFIRMED_WEIGHT, confirm},
+        confirm::{ConfirmParams, ConfirmedRanking, Scene, confirm},
         contour::{Contour, ContourParams, find_contour},
         pose::{
             AlignParams, PoseError, PoseEstimate, PoseMethod, icp::IcpParams, icp_ga::IcpGaParams,
@@ -333,7 +333,7 @@ fn recognise(
         return Ok(Err(Unrecognisable::EmptyLibrary));
     };
     match recipe.pose {
-        PoseChoice::Skip => inspection.ranking = ConfirmedRanking::untried(&ranking, 1.0),
+        PoseChoice::Skip => inspection.ranking = ConfirmedRanking::unexamined(&ranking),
         PoseChoice::By(method @ (PoseMethod::Icp | PoseMethod::IcpGa)) => {
             let reference = &references[first.reference];
             let is_cancelled = || clock.is_cancelled();
@@ -349,7 +349,11 @@ fn recognise(
                 return Err(Cancelled);
             }
             // The order is the matcher's; what the first is worth shows at its pose.
-            let mut confirmed = ConfirmedRanking::untried(&ranking, UNCONFIRMED_WEIGHT);
+            let mut confirmed = ConfirmedRanking::unexamined(&ranking);
+            for entry in &mut confirmed.entries {
+                entry.score = 0.0;
+            }
+            confirmed.entries[0].is_examined = true;
             confirmed.entries[0].score = pose.as_ref().map_or(0.0, |p| p.fit.score());
             confirmed.entries[0].pose = pose.as_ref().ok().cloned();
             inspection.ranking = confirmed;

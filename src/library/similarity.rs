@@ -94,7 +94,7 @@ pub fn likenesses(reference: &Reference, coverage: Coverage, library: &Library) 
             confirm(&scene, &others, &ranking, &ConfirmParams::default(), 0.0).0
         }
         // Not what a camera sees at once: judged by its outline.
-        Coverage::AllAround | Coverage::SeveralSides => ConfirmedRanking::untried(&ranking, 1.0),
+        Coverage::AllAround | Coverage::SeveralSides => ConfirmedRanking::unexamined(&ranking),
     };
     let figure = |other: usize, score: f64| match outline_score(other) {
         // Surfaces alone are blind one way: a small part lies well on any large one.

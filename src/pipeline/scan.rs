@@ -21,7 +21,7 @@ use crate::{
     },
     stages::{
         confirm::{
-            ConfirmedMatch, ConfirmedRanking, Evidence, Scene, UNCONFIRMED_WEIGHT,
+            ConfirmedMatch, ConfirmedRanking, Evidence, Scene,
             joint::{JointFit, JointPart, fit_jointly, own_outline},
         },
         pose::{PoseError, PoseEstimate, VisibilityShares, refine::AlignmentSource},
@@ -191,6 +191,9 @@ fn joint_part(scan: &Scan, frames: &[(usize, Inspection)], recipe: &Recipe) -> O
     })
 }
 
+/// What the score of one frame is worth where no pose fits all of them.
+const NO_JOINT_FIT: f64 = 0.3;
+
 /// One reference held against all frames; `None` if no frame ranked it.
 fn entry_of(
     scan: &Scan,
@@ -244,7 +247,7 @@ fn entry_of(
         None => ConfirmedMatch {
             score: best.score
                 * if best.pose.is_some() {
-                    UNCONFIRMED_WEIGHT
+                    NO_JOINT_FIT
                 } else {
                     1.0
                 },

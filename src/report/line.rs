@@ -122,7 +122,9 @@ struct PoseLine<'a> {
 #[derive(Debug, Serialize)]
 struct RankLine<'a> {
     part: &'a str,
-    score: f64,
+    /// Null if it was not examined, and others were.
+    score: Option<f64>,
+    examined: bool,
     distance: f64,
 }
 
@@ -228,7 +230,8 @@ impl<'a> InspectionLine<'a> {
     pub fn of(scene: &'a str, inspection: &'a Inspection) -> Self {
         let ranking = inspection.ranking.by_part().map(|entry| RankLine {
             part: &entry.part,
-            score: entry.score,
+            score: inspection.ranking.score_of(entry),
+            examined: entry.is_examined,
             distance: entry.distance,
         });
         let pose = inspection

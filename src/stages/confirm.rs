@@ -204,7 +204,7 @@ fn confirm_drawn(
             found: seen.source.surface.len(),
             needed: 20,
         };
-        return ((ConfirmedRanking::untried(ranking, 1.0), Err(error)), None);
+        return ((ConfirmedRanking::unexamined(ranking), Err(error)), None);
     }
     let mut entries: Vec<&MatchEntry> = ranking.entries.iter().collect();
     let num_looked_at = seen.select_entries(&mut entries, references, params);
@@ -228,12 +228,12 @@ fn confirm_drawn(
             let score = match &candidate {
                 Some(candidate) => candidate.evidence.score(),
                 // Whatever a piece was laid onto without success is not it.
-                None if number < num_looked_at => 0.0,
-                None => entry.score * UNCONFIRMED_WEIGHT,
+                None => 0.0,
             };
             Tried {
                 entry,
                 score,
+                is_examined: number < num_looked_at,
                 candidate,
             }
         })
@@ -265,6 +265,7 @@ fn confirm_drawn(
 struct Tried<'a> {
     entry: &'a MatchEntry,
     score: f64,
+    is_examined: bool,
     /// `None` if it was not tried, or has no cloud.
     candidate: Option<ReferenceCandidate>,
 }
@@ -274,16 +275,18 @@ impl Tried<'_> {
         let Self {
             entry,
             score,
+            is_examined,
             candidate,
         } = self;
         ConfirmedMatch {
             score,
+            is_examined,
             pose: candidate.as_ref().map(ReferenceCandidate::estimate),
             evidence: candidate.map(|candidate| Evidence {
                 shape: entry.score,
                 ..candidate.evidence
             }),
-            ..ConfirmedMatch::untried(entry, 1.0)
+            ..ConfirmedMatch::unexamined(entry)
         }
     }
 }
@@ -300,6 +303,3 @@ const HOPELESS_SCORE: f64 = 1e-4;
 const NO_RUNNER_UP: f64 = 0.005;
 /// The last refinement makes no score grow by more than this factor: at most 22 in 657 candidates of five suites.
 const MOST_GAINED: f64 = 25.0;
-
-/// What a ranking's score is worth when the part was not looked for.
-pub const UNCONFIRMED_WEIGHT: f64 = 0.3;

@@ -107,13 +107,18 @@ fn show_mistakes(evaluation: &Evaluation, console: &mut Console) {
 }
 
 fn found_words(found: &FoundVerdict) -> String {
-    match (&found.part, found.score) {
-        (Some(part), Some(score)) if found.accepted => format!("accepted as {part} at {score:.2}"),
-        (Some(part), Some(score)) => format!("best guess {part} at {score:.2}"),
-        _ => found
-            .reason
-            .clone()
-            .unwrap_or_else(|| "nothing found".into()),
+    let guess = match (&found.part, found.score) {
+        (Some(part), Some(score)) if found.accepted => {
+            return format!("accepted as {part} at {score:.2}");
+        }
+        (Some(part), Some(score)) => Some(format!("best guess {part} at {score:.2}")),
+        _ => None,
+    };
+    // A high score alone does not say why it is refused.
+    let words: Vec<String> = guess.into_iter().chain(found.reason.clone()).collect();
+    match words.is_empty() {
+        true => "nothing found".into(),
+        false => words.join(": "),
     }
 }
 

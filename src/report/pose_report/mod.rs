@@ -126,7 +126,7 @@ pub struct VerdictBlock {
     pub touches_edge: bool,
 }
 
-/// An enrolled part and how likely it is.
+/// An enrolled part that was looked for, and how likely it is.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct RankBlock {
     /// Its name.
@@ -215,11 +215,13 @@ impl PoseReport {
             ranking: inspection
                 .ranking
                 .by_part()
-                .take(NUM_RANKED)
-                .map(|entry| RankBlock {
-                    part: entry.part.clone(),
-                    score: entry.score,
+                .filter_map(|entry| {
+                    Some(RankBlock {
+                        part: entry.part.clone(),
+                        score: inspection.ranking.score_of(entry)?,
+                    })
                 })
+                .take(NUM_RANKED)
                 .collect(),
             timings_ms: TimingsLine::of(&inspection.timings),
             recipe: RecipeBlock {

@@ -15,8 +15,11 @@ pub struct ConfirmedMatch {
     pub part: String,
     /// The name that the reference is enrolled under; another than the part's where it is one of several.
     pub enrolled_as: String,
-    /// 0..1, 1 for the same shape.
+    /// The probability that it is there at its pose, 0..1; 0 if it ranked too low to be examined. Of a ranking that was not
+    /// confirmed at all, the matcher's, see [`MatchEntry::score`].
     pub score: f64,
+    /// True if it was looked for in the scene.
+    pub is_examined: bool,
     /// The matcher's own distance, see [`MatchEntry::distance`].
     pub distance: f64,
     /// Placements by the matcher, best first; the paper's matcher finds none.
@@ -29,8 +32,8 @@ pub struct ConfirmedMatch {
 }
 
 impl ConfirmedMatch {
-    /// A match that was not tried, with its score times `weight`.
-    pub fn untried(entry: &MatchEntry, weight: f64) -> Self {
+    /// A match as the matcher left it.
+    pub fn unexamined(entry: &MatchEntry) -> Self {
         let MatchEntry {
             reference,
             part,
@@ -43,7 +46,8 @@ impl ConfirmedMatch {
             reference,
             part,
             enrolled_as,
-            score: score * weight,
+            score,
+            is_examined: false,
             distance,
             placements,
             pose: None,
@@ -55,19 +59,23 @@ impl ConfirmedMatch {
 /// All references, best first.
 #[derive(Clone, Debug, Default, PartialEq)]
 pub struct ConfirmedRanking {
-    /// One entry per reference, in descending order of score; those that were not tried stay behind those that were.
+    /// One entry per reference, in descending order of score; those that were not examined come last.
     pub entries: Vec<ConfirmedMatch>,
 }
 
 impl ConfirmedRanking {
-    /// The ranking as the matcher left it, every score times `weight`.
-    pub fn untried(ranking: &MatchRanking, weight: f64) -> Self {
+    /// The ranking as the matcher left it.
+    pub fn unexamined(ranking: &MatchRanking) -> Self {
         let entries = ranking.entries.iter();
         Self {
-            entries: entries
-                .map(|entry| ConfirmedMatch::untried(entry, weight))
-                .collect(),
+            entries: entries.map(ConfirmedMatch::unexamined).collect(),
         }
+    }
+
+    /// The score of one of its entries; `None` of one that was not examined where others were.
+    pub fn score_of(&self, entry: &ConfirmedMatch) -> Option<f64> {
+        let is_any_examined = self.entries.first().is_some_and(|first| first.is_examined);
+        (entry.is_examined || !is_any_examined).then_some(entry.score)
     }
 
     /// The best entry of each part, best first: a part may be enrolled by several references.

@@ -138,14 +138,16 @@ fn connect_pixels(
     let Grid { width, height } = grid;
     // A row comes again ROWS rows later: that little stays in the processor's nearest memory.
     let mut run_of = vec![NO_RUN; ROWS * width];
-    let at = |row: usize, column: usize| row % ROWS * width + column;
     let mut forest = UnionFind {
         parents: Vec::new(),
     };
     let (mut rest, mut runs): (Vec<u32>, Vec<u32>) = (Vec::new(), Vec::new());
     for row in 0..height {
         let start = row * width;
-        run_of[at(row, 0)..][..width].fill(NO_RUN);
+        // Where this row and those above it begin among the runs.
+        let begins: [usize; ROWS] = std::array::from_fn(|up| (row + ROWS - up) % ROWS * width);
+        let num_above = (BRIDGED_PIXELS + 1).min(row);
+        run_of[begins[0]..][..width].fill(NO_RUN);
         let mut previous: Option<usize> = None;
         let mut last_meeting = (NO_RUN, NO_RUN);
         let first = rest.len();
@@ -155,14 +157,14 @@ fn connect_pixels(
         for i in rest[first..].iter().map(|i| *i as usize) {
             let run = previous
                 .filter(|&p| i - p <= BRIDGED_PIXELS + 1 && link.joins(&points[p], &points[i]))
-                .map(|p| run_of[at(row, p - start)]);
+                .map(|p| run_of[begins[0] + p - start]);
             let run = run.unwrap_or_else(|| forest.add());
-            run_of[at(row, i - start)] = run;
+            run_of[begins[0] + i - start] = run;
             runs.push(run);
             previous = Some(i);
             // The nearest reading above, bridging lost rows.
-            let above = (1..=(BRIDGED_PIXELS + 1).min(row))
-                .map(|rows| (i - rows * width, run_of[at(row - rows, i - start)]))
+            let above = (1..=num_above)
+                .map(|rows| (i - rows * width, run_of[begins[rows] + i - start]))
                 .find(|(_, above)| *above != NO_RUN);
             if let Some((pixel, above)) = above {
                 // Along a surface the same two runs meet pixel after pixel: one meeting is enough.
