@@ -13,7 +13,7 @@ use super::{
     job::{Request, TaskOutcome, Trouble},
     lane::TaskQueue,
     live::{self, LiveAction},
-    robot::{self, RobotAction},
+    robot::RobotAction,
     roles::{self, RoleAction},
     shots::{self, ScanFiles, ShotsAction},
     source::{CellChoice, SceneSource, file_name},
@@ -125,10 +125,6 @@ pub enum DialogRequest {
     Picture,
     /// A scene, a whole cloud or a mesh to enrol.
     Part,
-    /// A calibration of the robot's cell.
-    Calibration,
-    /// A file of robot and camera poses.
-    Pairs,
     /// Where the spray path of the inspection in front goes.
     SprayPath,
     /// The spray path of the enrolled part that is looked at.
@@ -153,6 +149,8 @@ pub enum Effect {
     Press(Workspace, usize),
     /// Have a workspace cancel what it is at.
     CancelTask(Workspace),
+    /// Have this done about the robot's cell.
+    Robot(RobotAction),
     /// Put this on the clipboard.
     CopyText(String),
     /// Tell every workspace.
@@ -205,8 +203,6 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::CloseTop => {
             if state.help == HelpPage::Open {
                 state.help = HelpPage::Closed;
-            } else if state.cell.dialog.is_some() {
-                state.cell.dialog = None;
             } else {
                 state.enlarged = None;
             }
@@ -252,7 +248,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::CancelTask(workspace) => return Some(Effect::CancelTask(workspace)),
         Action::EngineerIn(workspace) => return Some(Effect::EngineerIn(workspace)),
         Action::ShowPast(inspected) => return show_past(state, inspected),
-        Action::Robot(action) => return robot::apply(state, action),
+        Action::Robot(action) => return Some(Effect::Robot(action)),
         Action::Hear(lane, news) => return answers::hear(state, lane, news),
     }
     None
@@ -296,10 +292,8 @@ fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Effect
             state.inspect.picture_to = Some(path);
             None
         }
-        DialogRequest::Calibration => robot::apply(state, RobotAction::Load(path)),
         DialogRequest::PartPath => enrol::apply(state, EnrolAction::StorePath(path)),
         DialogRequest::SprayPath => inspect::state::write_spray_path(state, path),
-        DialogRequest::Pairs => robot::apply(state, RobotAction::Pairs(path)),
     }
 }
 

@@ -11,7 +11,7 @@ use super::{
     inspect::work::Inspected,
     job::{TaskOutcome, TaskResult, Trouble},
     lane::TaskQueue,
-    live, robot,
+    live,
     shelf::LibraryView,
     shots,
     source::Origin,
@@ -67,9 +67,7 @@ fn take_in(
             use_library(state, &library);
             return inspect_again(state);
         }
-        Ok(TaskResult::Robot(answer)) => return robot::hear(state, Ok(answer)),
         Ok(TaskResult::Written(written)) => notify(state, Notice::done(written.what)),
-        Err(trouble) if lane == TaskQueue::Robot => return robot::hear(state, Err(trouble)),
         Err(trouble) => {
             notify(state, trouble.clone().into());
             match lane {
@@ -78,7 +76,7 @@ fn take_in(
                 }
                 TaskQueue::Inspect => without_scene(state),
                 TaskQueue::Live => return live::hear(state, Err(trouble)),
-                TaskQueue::Write | TaskQueue::Robot => {}
+                TaskQueue::Write => {}
             }
         }
     }

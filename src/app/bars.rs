@@ -6,7 +6,7 @@ pub(super) use super::widgets::{focus_ring, labelled, shortened};
 use super::{
     action::{Action, DialogRequest},
     live::{self, LiveAction},
-    robot::RobotAction,
+    robot::{RobotAction, RobotCell},
     shelf::LibraryView,
     shell::task::Running,
     source::file_name,
@@ -30,6 +30,7 @@ pub(super) struct Progress {
 pub(super) fn top_bar(
     ui: &mut Ui,
     state: &State,
+    robot: &RobotCell,
     work: Option<Progress>,
     theme: &Theme,
     actions: &mut Vec<Action>,
@@ -47,7 +48,7 @@ pub(super) fn top_bar(
                 ui.label(name);
                 ui.add_space(space::LARGE);
                 source_menu::ui(ui, state, actions);
-                robot_button(ui, state, theme, actions);
+                robot_button(ui, state, robot, theme, actions);
                 let capture = RichText::new("Capture").font(font::body_strong());
                 let key = RichText::new("Space").font(font::small());
                 let capture = Button::new(capture.color(theme.on_accent))
@@ -102,14 +103,20 @@ fn live_button(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Acti
 }
 
 /// The cell's calibration: whether there is one, and the dialog about it.
-fn robot_button(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+fn robot_button(
+    ui: &mut Ui,
+    state: &State,
+    robot: &RobotCell,
+    theme: &Theme,
+    actions: &mut Vec<Action>,
+) {
     let mut button = Button::new("Robot…");
     if ui.ctx().content_rect().width() > NARROW {
         let key = RichText::new("B").font(font::small());
         button = button.shortcut_text(key.color(theme.weak_text));
     }
-    let says = match (&state.robot, &state.cell.in_use) {
-        (Some(robot), _) => format!("Calibrated by {} (B)", robot.name),
+    let says = match (&state.robot, robot.in_use()) {
+        (Some(frame), _) => format!("Calibrated by {} (B)", frame.name),
         (None, Some(_)) => "Where the arm stands at a capture is not known (B)".into(),
         (None, None) => "Where the camera sits in the robot's cell: not calibrated (B)".into(),
     };

@@ -28,15 +28,11 @@ pub(super) fn request(ask: DialogRequest) -> FileRequest {
         DialogRequest::RecordTo => ("Folder to record the source in", FileChoice::FolderToWrite),
         DialogRequest::WatchedFolder => ("Folder that captures are saved to", FileChoice::Folder),
         DialogRequest::Part => ("Open a scene, a cloud or a mesh to enrol", FileChoice::File),
-        DialogRequest::Calibration => {
-            ("Load the calibration of the robot's cell", FileChoice::File)
-        }
         DialogRequest::SprayPath => (
             "Export the spray path for the robot",
             FileChoice::NewFile("spray-path.csv"),
         ),
         DialogRequest::PartPath => ("The nozzle's path over this part", FileChoice::File),
-        DialogRequest::Pairs => ("Pairs of robot and camera poses", FileChoice::File),
     };
     FileRequest {
         title,
@@ -58,10 +54,8 @@ fn filters(ask: DialogRequest) -> &'static [(&'static str, &'static [&'static st
         DialogRequest::Shot => &[("Captured scenes", &["png", "pcd", "ply"]), ALL_FILES],
         DialogRequest::Picture => &[("Pictures", &["png"])],
         DialogRequest::Part => &[POINTS, ALL_FILES],
-        DialogRequest::Calibration => &[("Calibrations", &["toml"]), ALL_FILES],
         DialogRequest::SprayPath => &[("Comma-separated values", &["csv"]), ("JSON", &["json"])],
         DialogRequest::PartPath => &[("Tables", &["csv", "txt"]), ALL_FILES],
-        DialogRequest::Pairs => &[("Tables and JSON", &["csv", "txt", "json"]), ALL_FILES],
         DialogRequest::Scan
         | DialogRequest::ReportFolder
         | DialogRequest::Library

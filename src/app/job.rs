@@ -9,7 +9,6 @@ use super::{
     inspect::work::{InspectRequest, InspectScanError, Inspected, inspect, inspect_scan},
     lane::TaskQueue,
     live::{LiveAnswer, LiveRequest},
-    robot::{RobotAnswer, RobotRequest},
     shelf::{LibraryCache, LibraryView},
     shots::{FuseError, ScanOrder, ScanRequest, Steps},
     worker::JobContext,
@@ -29,8 +28,6 @@ pub enum Request {
     Library(Option<PathBuf>),
     /// Something of the Enrol workspace.
     Enrol(EnrolRequest),
-    /// Something of the robot's cell.
-    Robot(RobotRequest),
     /// Write a file.
     Write(WriteRequest),
 }
@@ -42,7 +39,6 @@ impl Request {
             Self::Inspect(_) | Self::InspectScan(_) | Self::Library(_) => TaskQueue::Inspect,
             Self::Live(_) => TaskQueue::Live,
             Self::Enrol(request) => request.lane(),
-            Self::Robot(_) => TaskQueue::Robot,
             Self::Write(_) => TaskQueue::Write,
         }
     }
@@ -61,8 +57,6 @@ pub enum TaskResult {
     Library(Arc<LibraryView>),
     /// Something of the Enrol workspace.
     Enrol(EnrolAnswer),
-    /// Something of the robot's cell.
-    Robot(RobotAnswer),
     /// What was written.
     Written(WriteResult),
 }
@@ -97,7 +91,6 @@ pub fn answer(
         }),
         Request::Enrol(request) => super::enrol::answer(request, shelf, desk),
         Request::Write(request) => Some(super::writing::answer(&request).map(TaskResult::Written)),
-        Request::Robot(request) => Some(super::robot::work::answer(request)),
     }
 }
 

@@ -13,19 +13,16 @@ pub enum TaskQueue {
     Write,
     /// Changes the library: what it began it finishes.
     Library,
-    /// Reads, writes and calculates calibrations of the robot's cell.
-    Robot,
 }
 
 impl TaskQueue {
     /// Every lane.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 5] = [
         Self::Inspect,
         Self::Live,
         Self::Enrol,
         Self::Write,
         Self::Library,
-        Self::Robot,
     ];
 
     /// The name of its thread.
@@ -36,7 +33,6 @@ impl TaskQueue {
             Self::Enrol => "enrol",
             Self::Write => "write",
             Self::Library => "library",
-            Self::Robot => "robot",
         }
     }
 }

@@ -11,8 +11,8 @@ use serde::{Deserialize, Serialize};
 
 use super::{
     live::LiveState,
-    robot::{RememberedCell, RobotState},
     roles::{LOCK_AFTER, Pin, RoleState, is_operators},
+    shell::session::RememberedCell,
     shots::ScanFiles,
     source::CellChoice,
     state::{Session, Source, State, ThemeChoice, Workspace},
@@ -125,7 +125,7 @@ impl Settings {
             average: state.live.params.average,
             lock_after: state.roles.lock_after,
             pin: state.roles.pin.clone(),
-            cell: state.cell.remembered.clone(),
+            cell: state.cell.clone(),
         }
     }
 
@@ -153,7 +153,7 @@ impl Settings {
             && self.average == state.live.params.average
             && self.lock_after == state.roles.lock_after
             && self.pin == state.roles.pin
-            && self.cell == state.cell.remembered
+            && self.cell == state.cell
             && self.window == window
     }
 
@@ -178,16 +178,13 @@ impl Settings {
             },
             recipe: Arc::new(self.recipe.unwrap_or_default()),
             role: roles.first_role(),
+            cell: self.cell,
             ..Session::default()
         };
         State {
             session,
             live: LiveState::averaging(self.average),
             roles,
-            cell: RobotState {
-                remembered: self.cell,
-                ..RobotState::default()
-            },
             ..State::default()
         }
     }

@@ -17,7 +17,6 @@ use super::{
     job::Request,
     lane::TaskQueue,
     live::{self, LiveState},
-    robot::RobotState,
     roles::RoleState,
 };
 use crate::pipeline::Stage;
@@ -29,8 +28,6 @@ pub struct State {
     pub session: Session,
     /// What is being worked on, by whom; while a scene is, the result shown is old.
     pub works: BTreeMap<TaskQueue, Work>,
-    /// The cell's calibration, and the dialog about it.
-    pub cell: RobotState,
     /// What a person should know, oldest first.
     pub notices: Vec<Notice>,
     /// The stage that fills the middle, if one is enlarged.
@@ -81,12 +78,7 @@ impl State {
         let all = self.works.iter().map(|(lane, work)| (*lane, work));
         // Quickly done, and not to be given up half-way.
         // A source is followed until it is no longer wanted, which has a button of its own.
-        let quick = [
-            TaskQueue::Write,
-            TaskQueue::Library,
-            TaskQueue::Live,
-            TaskQueue::Robot,
-        ];
+        let quick = [TaskQueue::Write, TaskQueue::Library, TaskQueue::Live];
         let mut all = all.filter(|(lane, _)| !quick.contains(lane));
         let own = own.and_then(|own| self.works.get_key_value(&own).map(|(l, w)| (*l, w)));
         own.or_else(|| all.next())

@@ -21,7 +21,8 @@ use super::{
     lane::TaskQueue,
     live::{self, LiveAction},
     memory::Memory,
-    notices, rail, robot,
+    notices, rail,
+    robot::{RobotAction, RobotCell},
     roles::{self, RoleAction},
     settings,
     shelf::LibraryCache,
@@ -32,7 +33,7 @@ use super::{
         task::TaskRunner,
         workspace::Workspace,
     },
-    state::{Notice, Source, State, ThemeChoice, Workspace as WorkspaceKind},
+    state::{HelpPage, Notice, Source, State, ThemeChoice, Workspace as WorkspaceKind},
     theme::Theme,
     viewport::{ViewError, ViewportGpu},
     worker::Worker,
@@ -70,6 +71,7 @@ pub struct Window {
     memory: Memory,
     dialog: FileDialog<DialogRequest>,
     services: Services,
+    robot: RobotCell,
     workspaces: Vec<Box<dyn Workspace>>,
     /// What the workspaces have sent and was not done yet.
     messages: Vec<Message>,
@@ -133,6 +135,7 @@ impl Window {
                 shelf,
                 dialogs: DialogLock::default(),
             },
+            robot: RobotCell::new(&runner),
             workspaces: vec![
                 Box::new(CompareWorkspace::new(cases, &runner)),
                 Box::new(AlignWorkspace::new(&gpu, &runner)),
@@ -147,10 +150,8 @@ impl Window {
         };
         window.state.notices.extend(trouble.map(Notice::from));
         window.forget_a_vanished_file();
-        window.state.cell.usual = cell;
-        if let Some(effect) = robot::start(&mut window.state) {
-            window.make(effect, ctx);
-        }
+        window.state.session.usual_cell = cell;
+        window.with_robot(ctx, RobotCell::load_remembered);
         let first = match (scene, &window.state.source) {
             (Some(path), _) => Action::Open(path),
             (None, Source::Camera(spec)) => Action::Live(LiveAction::Use((**spec).clone())),
@@ -167,6 +168,11 @@ impl Window {
 
     /// Does what a person could cause.
     pub fn act(&mut self, action: Action, ctx: &egui::Context) {
+        let lies_on_top = self.robot.dialog().is_some() && self.state.help == HelpPage::Closed;
+        let action = match action {
+            Action::CloseTop if lies_on_top => Action::Robot(RobotAction::Close),
+            action => action,
+        };
         if let Some(effect) = apply(&mut self.state, action) {
             self.make(effect, ctx);
         }
@@ -197,6 +203,7 @@ impl Window {
             Effect::CancelTask(kind) => {
                 self.lend(kind, ctx, |workspace, _| workspace.cancel());
             }
+            Effect::Robot(action) => self.with_robot(ctx, |robot, cx| robot.apply(action, cx)),
             Effect::CopyText(text) => ctx.copy_text(text),
             Effect::Tell(event) => {
                 for kind in WorkspaceKind::ALL {
@@ -303,6 +310,9 @@ impl Window {
         for kind in WorkspaceKind::ALL {
             self.lend(kind, ctx, Workspace::update);
         }
+        if let Some(action) = self.with_robot(ctx, RobotCell::update) {
+            self.act(Action::Robot(action), ctx);
+        }
         match self.dialog.poll() {
             Some((ask, Ok(path))) => self.act(Action::Chosen(ask, path), ctx),
             Some((_, Err(notice))) => self.act(Action::Notify(notice), ctx),
@@ -324,7 +334,7 @@ impl Window {
         let theme = Theme::of(self.state.theme);
         let mut actions = Vec::new();
         let work = self.work();
-        bars::top_bar(ui, &self.state, work, theme, &mut actions);
+        bars::top_bar(ui, &self.state, &self.robot, work, theme, &mut actions);
         rail::ui(ui, &self.state, theme, &mut actions);
         let front = self.state.workspace;
         let canvas = match front {
@@ -351,7 +361,8 @@ impl Window {
         notices::ui(&ctx, &self.state, theme, &mut actions);
         live::set_up(&ctx, &self.state, theme, &mut actions);
         roles::dialog(&ctx, &self.state, theme, &mut actions);
-        robot::ui(&ctx, &self.state, theme, &mut actions);
+        let of_robot = self.robot.ui(&ctx, &self.state.session, theme);
+        actions.extend(of_robot.into_iter().map(Action::Robot));
         keys::help(&ctx, &self.state, &keys, theme, &mut actions);
         keys::shortcuts(&ctx, &self.state, &keys, view_has_focus, &mut actions);
         for action in actions {

@@ -16,12 +16,13 @@ use image::{Rgba, RgbaImage};
 use partsight::{
     app::{
         Window, WindowOptions,
-        action::{Action, DialogRequest},
+        action::Action,
         align::{AlignWorkspace, MethodRun},
         camera::Camera,
         inspect::work::{InspectRequest, Inspected, inspect},
         job::TaskResult,
         lane::TaskQueue,
+        robot::RobotAction,
         shelf::LibraryCache,
         source::{CellChoice, SceneSource},
         state::Workspace,
@@ -269,7 +270,7 @@ fn the_robots_cell_looks_as_it_did() {
     let mut harness = open_drawn(USUAL);
     act(
         &mut harness,
-        Action::Chosen(DialogRequest::Pairs, pairs.clone()),
+        Action::Robot(RobotAction::Pairs(pairs.clone())),
     );
     compare(&mut harness, "robot_pairs");
 
@@ -291,10 +292,7 @@ fn the_robots_cell_looks_as_it_did() {
         if is_light {
             act(&mut harness, Action::SwitchTheme);
         }
-        act(
-            &mut harness,
-            Action::Chosen(DialogRequest::Calibration, cell.clone()),
-        );
+        act(&mut harness, Action::Robot(RobotAction::Load(cell.clone())));
         if !is_light {
             // Where the rays can be told apart.
             press(&mut harness, "Top");
@@ -305,7 +303,7 @@ fn the_robots_cell_looks_as_it_did() {
     std::fs::write(&pairs, robot::pairs(&turns)).expect("written");
     let mut harness = open_drawn(SMALL);
     act(&mut harness, Action::SwitchTheme);
-    act(&mut harness, Action::Chosen(DialogRequest::Pairs, pairs));
+    act(&mut harness, Action::Robot(RobotAction::Pairs(pairs)));
     compare(&mut harness, "robot_doubts_small_light");
 }
 

@@ -11,7 +11,8 @@ use partsight::{
         action::{Action, DialogRequest},
         enrol::EnrolAction,
         inspect::state::ViewPart,
-        robot::{RememberedCell, RobotAction},
+        robot::RobotAction,
+        shell::session::RememberedCell,
         state::{State, Workspace},
     },
     geometry::rigid::{RigidTransform, from_euler_zyx},
@@ -111,7 +112,7 @@ fn numbers_typed_by_hand_are_used_remembered_and_forgotten() {
     );
     harness.get_by_label("entered by hand");
     press(&mut harness, "Close");
-    assert!(state(&harness).cell.dialog.is_none());
+    assert!(harness.state().robot().dialog().is_none());
     // The card tells the robot's frame now.
     harness.get_by_label_contains("by Cell 2 (");
     assert!(state(&harness).inspect.parts.contains(&ViewPart::RobotBase));
@@ -122,7 +123,7 @@ fn numbers_typed_by_hand_are_used_remembered_and_forgotten() {
     press(&mut harness, "Robot…");
     press(&mut harness, "Forget");
     assert!(state(&harness).robot.is_none());
-    assert_eq!(state(&harness).cell.remembered, RememberedCell::Forgotten);
+    assert_eq!(state(&harness).cell, RememberedCell::Forgotten);
     assert!(folder.path().join("cell.toml").exists());
 }
 
@@ -142,7 +143,7 @@ fn pairs_are_calculated_shown_corrected_and_used() {
     });
     fs::write(&file, text.collect::<String>()).expect("written");
     let mut harness = open_with(USUAL, own(folder.path()));
-    act(&mut harness, Action::Chosen(DialogRequest::Pairs, file));
+    act(&mut harness, Action::Robot(RobotAction::Pairs(file)));
     harness.get_by_label_contains("P4 (line 6) is suspect");
     press(&mut harness, "p4 (line 6)");
     assert!(harness.query_by_label_contains("is suspect").is_none());
@@ -167,7 +168,7 @@ fn pairs_that_do_not_span_are_used_only_by_insisting() {
     let mut harness = open_with(USUAL, own(folder.path()));
     act(
         &mut harness,
-        Action::Chosen(DialogRequest::Pairs, file.clone()),
+        Action::Robot(RobotAction::Pairs(file.clone())),
     );
     harness.get_by_label_contains("Nearly all turns are about one axis");
     harness.get_by_label_contains("another axis by at least 30°");
@@ -178,7 +179,7 @@ fn pairs_that_do_not_span_are_used_only_by_insisting() {
     assert!(state(&harness).robot.is_some());
     // A bad file is said where it was chosen.
     fs::write(&file, "# robot: kuka\n1 2 3\n").expect("written");
-    act(&mut harness, Action::Chosen(DialogRequest::Pairs, file));
+    act(&mut harness, Action::Robot(RobotAction::Pairs(file)));
     harness.get_by_label_contains("line 2: 3 numbers, expected 22");
 }
 
@@ -194,7 +195,7 @@ fn without_a_folder_of_its_own_a_window_says_so() {
     assert_eq!(state(&harness).notices.len(), 1);
     harness.key_press(Key::Escape);
     settle(&mut harness);
-    assert!(state(&harness).cell.dialog.is_none());
+    assert!(harness.state().robot().dialog().is_none());
 }
 
 /// Writes a calibration that a person entered.
@@ -305,10 +306,7 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
     assert!(!out.exists());
     let cell = folder.path().join("cell.toml");
     save_calibration(&cell);
-    act(
-        &mut harness,
-        Action::Chosen(DialogRequest::Calibration, cell),
-    );
+    act(&mut harness, Action::Robot(RobotAction::Load(cell)));
     act(&mut harness, Action::UseConvention(Convention::Fanuc));
     act(
         &mut harness,

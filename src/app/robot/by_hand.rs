@@ -9,15 +9,19 @@ use super::{
 };
 use crate::{
     app::{
-        action::Action,
-        job::Trouble,
         theme::{Theme, font, space},
+        user_error::UserError,
         widgets::Mark,
     },
     robot::Convention,
 };
 
-pub(super) fn ui(ui: &mut Ui, dialog: &mut RobotDialog, theme: &Theme, caused: &mut Vec<Action>) {
+pub(super) fn ui(
+    ui: &mut Ui,
+    dialog: &mut RobotDialog,
+    theme: &Theme,
+    caused: &mut Vec<RobotAction>,
+) {
     mounts(ui, dialog);
     ui.add_space(space::SMALL);
     ui.horizontal(|ui| {
@@ -49,13 +53,13 @@ pub(super) fn ui(ui: &mut Ui, dialog: &mut RobotDialog, theme: &Theme, caused: &
             pose(ui, transform, &written.pose, Convention::Matrix, theme);
         }
         Err(_) if dialog.numbers.trim().is_empty() => {}
-        Err(error) => told(ui, Mark::Bad, &Trouble::of(error), theme),
+        Err(error) => told(ui, Mark::Bad, &UserError::of(error), theme),
     }
     ui.add_space(space::SMALL);
     name(ui, dialog);
     ui.add_space(space::SMALL);
     if use_it(ui, typed.is_ok(), theme) {
-        caused.push(Action::Robot(RobotAction::UseTyped));
+        caused.push(RobotAction::UseTyped);
     }
 }
 

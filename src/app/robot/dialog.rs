@@ -4,16 +4,14 @@ use egui::{Button, Context, Frame, Id, Margin, Modal, RichText, ScrollArea, Ui, 
 
 use super::{
     by_hand, from_pairs, in_use,
-    state::{RobotAction, RobotDialog, RobotPage},
+    state::{RobotAction, RobotCell, RobotDialog, RobotPage},
 };
 use crate::{
     app::{
-        action::Action,
-        bars::labelled,
-        job::Trouble,
-        state::State,
+        shell::session::Session,
         theme::{Theme, font, space},
-        widgets::{Mark, mark},
+        user_error::UserError,
+        widgets::{Mark, labelled, mark, sentence},
     },
     robot::hand_eye::Mount,
 };
@@ -23,55 +21,74 @@ const WIDTH: f32 = 640.0;
 /// What of the window's height the pages leave free, for heading, buttons and the edges.
 const MARGIN: f32 = 220.0;
 
-/// Draws it while it is open.
-pub(in crate::app) fn ui(ctx: &Context, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
-    let Some(known) = &state.cell.dialog else {
-        return;
-    };
-    let mut dialog = known.clone();
-    let mut caused: Vec<Action> = Vec::new();
-    let modal = Modal::new(Id::unique("robot"))
-        .frame(Frame::window(&ctx.global_style()).inner_margin(Margin::same(18)))
-        .show(ctx, |ui| {
-            ui.set_width(WIDTH.min(ctx.content_rect().width() - 80.0));
-            let title = RichText::new("Robot").font(font::verdict());
-            ui.label(title.color(theme.text));
-            ui.add_space(space::SMALL);
-            ui.horizontal(|ui| {
-                for page in RobotPage::ALL {
-                    choice(ui, &mut dialog.page, page, page.title());
-                }
-            });
-            ui.separator();
-            let room = ctx.content_rect().height() - MARGIN;
-            ScrollArea::vertical()
-                .max_height(room)
-                .auto_shrink([false, true])
-                .show(ui, |ui| {
-                    match dialog.page {
-                        RobotPage::InUse => in_use::ui(ui, state, &mut dialog, theme, &mut caused),
-                        RobotPage::ByHand => by_hand::ui(ui, &mut dialog, theme, &mut caused),
-                        RobotPage::FromPairs => {
-                            from_pairs::ui(ui, &mut dialog, state, theme, &mut caused);
-                        }
-                    }
-                    if let Some(trouble) = &dialog.trouble {
-                        ui.add_space(space::SMALL);
-                        told(ui, Mark::Bad, trouble, theme);
+impl RobotCell {
+    /// Draws the dialog while it is open; says what a person caused in it.
+    pub(in crate::app) fn ui(
+        &self,
+        ctx: &Context,
+        session: &Session,
+        theme: &Theme,
+    ) -> Vec<RobotAction> {
+        let Some(known) = self.dialog() else {
+            return Vec::new();
+        };
+        let mut dialog = known.clone();
+        let mut caused = Vec::new();
+        let modal = Modal::new(Id::unique("robot"))
+            .frame(Frame::window(&ctx.global_style()).inner_margin(Margin::same(18)))
+            .show(ctx, |ui| {
+                ui.set_width(WIDTH.min(ctx.content_rect().width() - 80.0));
+                let title = RichText::new("Robot").font(font::verdict());
+                ui.label(title.color(theme.text));
+                ui.add_space(space::SMALL);
+                ui.horizontal(|ui| {
+                    for page in RobotPage::ALL {
+                        choice(ui, &mut dialog.page, page, page.title());
                     }
                 });
-            ui.separator();
-            if labelled(ui, Button::new("Close"), "Close").clicked() {
-                caused.push(Action::Robot(RobotAction::Close));
+                ui.separator();
+                let room = ctx.content_rect().height() - MARGIN;
+                ScrollArea::vertical()
+                    .max_height(room)
+                    .auto_shrink([false, true])
+                    .show(ui, |ui| {
+                        self.page(ui, session, &mut dialog, theme, &mut caused);
+                    });
+                ui.separator();
+                if labelled(ui, Button::new("Close"), "Close").clicked() {
+                    caused.push(RobotAction::Close);
+                }
+            });
+        if modal.should_close() && caused.is_empty() {
+            caused.push(RobotAction::Close);
+        }
+        if dialog != *known {
+            caused.insert(0, RobotAction::Edit(Box::new(dialog)));
+        }
+        caused
+    }
+
+    /// The page in front, and what went wrong last.
+    fn page(
+        &self,
+        ui: &mut Ui,
+        session: &Session,
+        dialog: &mut RobotDialog,
+        theme: &Theme,
+        caused: &mut Vec<RobotAction>,
+    ) {
+        match dialog.page {
+            RobotPage::InUse => in_use::ui(ui, self, session, dialog, theme, caused),
+            RobotPage::ByHand => by_hand::ui(ui, dialog, theme, caused),
+            RobotPage::FromPairs => {
+                from_pairs::ui(ui, self, session.convention, dialog, theme, caused);
             }
-        });
-    if dialog != *known {
-        actions.push(Action::Robot(RobotAction::Edit(Box::new(dialog))));
+        }
+        if let Some(trouble) = &dialog.trouble {
+            ui.add_space(space::SMALL);
+            told(ui, Mark::Bad, trouble, theme);
+        }
     }
-    if modal.should_close() && caused.is_empty() {
-        caused.push(Action::Robot(RobotAction::Close));
-    }
-    actions.append(&mut caused);
 }
 
 /// One of several, chosen by a press.
@@ -115,12 +132,12 @@ pub(super) fn use_it(ui: &mut Ui, is_there: bool, theme: &Theme) -> bool {
 }
 
 /// Trouble or doubt, its sign before it and what to do below.
-pub(super) fn told(ui: &mut Ui, sign: Mark, trouble: &Trouble, theme: &Theme) {
+pub(super) fn told(ui: &mut Ui, sign: Mark, trouble: &UserError, theme: &Theme) {
     ui.horizontal_top(|ui| {
         let (rect, _) = ui.allocate_exact_size(egui::Vec2::splat(18.0), egui::Sense::hover());
         mark(ui.painter(), rect.center(), 7.0, sign, theme);
         ui.vertical(|ui| {
-            ui.label(RichText::new(crate::app::widgets::sentence(&trouble.what)).color(theme.text));
+            ui.label(RichText::new(sentence(&trouble.what)).color(theme.text));
             ui.label(RichText::new(&trouble.advice).color(theme.weak_text));
         });
     });

@@ -5,18 +5,17 @@ use egui::{Button, Checkbox, Grid, RichText, ScrollArea, Ui, vec2};
 use super::{
     dialog::{mounts, name, told, use_it},
     in_use::pose,
-    state::{RobotAction, RobotDialog},
+    state::{RobotAction, RobotCell, RobotDialog, RobotFile},
     work::SolvedPairs,
 };
-use crate::app::{
-    action::{Action, DialogRequest},
-    bars::labelled,
-    job::Trouble,
-    lane::TaskQueue,
-    source::file_name,
-    state::State,
-    theme::{Theme, font, space},
-    widgets::{Mark, row},
+use crate::{
+    app::{
+        source::file_name,
+        theme::{Theme, font, space},
+        user_error::UserError,
+        widgets::{Mark, labelled, row},
+    },
+    robot::Convention,
 };
 
 /// Height of the table of residuals, logical pixels.
@@ -26,16 +25,17 @@ const ROW: f32 = 20.0;
 
 pub(super) fn ui(
     ui: &mut Ui,
+    robot: &RobotCell,
+    shown: Convention,
     dialog: &mut RobotDialog,
-    state: &State,
     theme: &Theme,
-    caused: &mut Vec<Action>,
+    caused: &mut Vec<RobotAction>,
 ) {
     mounts(ui, dialog);
     ui.add_space(space::SMALL);
     ui.horizontal(|ui| {
         if labelled(ui, Button::new("Choose pairs…"), "Choose pairs…").clicked() {
-            caused.push(Action::Ask(DialogRequest::Pairs));
+            caused.push(RobotAction::Ask(RobotFile::Pairs));
         }
         match &dialog.pairs {
             Some(path) => ui.label(RichText::new(file_name(path)).color(theme.text)),
@@ -44,7 +44,7 @@ pub(super) fn ui(
                     .color(theme.weak_text),
             ),
         };
-        if state.works.contains_key(&TaskQueue::Robot) {
+        if !robot.is_idle() {
             ui.add(egui::Spinner::new().size(18.0).color(theme.accent));
         }
     });
@@ -74,14 +74,14 @@ pub(super) fn ui(
         } else {
             Mark::Look
         };
-        told(ui, sign, &Trouble::of(doubt), theme);
+        told(ui, sign, &UserError::of(doubt), theme);
     }
     let solved = &found.solved;
     pose(
         ui,
         solved.mount.camera_transform(),
         &solved.mount_from_camera,
-        state.convention,
+        shown,
         theme,
     );
     ui.add_space(space::SMALL);
@@ -91,8 +91,8 @@ pub(super) fn ui(
         ui.add(Checkbox::new(&mut dialog.insists, text));
     }
     ui.add_space(space::SMALL);
-    if use_it(ui, dialog.may_use_solved(), theme) {
-        caused.push(Action::Robot(RobotAction::UseSolved));
+    if use_it(ui, dialog.usable().is_some(), theme) {
+        caused.push(RobotAction::UseSolved);
     }
 }
 

@@ -4,16 +4,14 @@ use egui::{Button, RichText, Ui};
 
 use super::{
     dialog::told,
-    state::{RobotAction, RobotDialog},
+    state::{RobotAction, RobotCell, RobotDialog, RobotFile},
 };
 use crate::{
     app::{
-        action::{Action, DialogRequest},
-        bars::labelled,
-        job::Trouble,
-        state::State,
+        shell::session::Session,
         theme::{Theme, font, space},
-        widgets::{Mark, heading, row, sentence},
+        user_error::UserError,
+        widgets::{Mark, heading, labelled, row, sentence},
     },
     geometry::rigid::RigidTransform,
     robot::{
@@ -24,12 +22,13 @@ use crate::{
 
 pub(super) fn ui(
     ui: &mut Ui,
-    state: &State,
+    robot: &RobotCell,
+    session: &Session,
     dialog: &mut RobotDialog,
     theme: &Theme,
-    caused: &mut Vec<Action>,
+    caused: &mut Vec<RobotAction>,
 ) {
-    let in_use = state.cell.in_use.as_ref();
+    let in_use = robot.in_use();
     match in_use {
         None => {
             let text = "The cell is not calibrated: poses are shown in the camera's frame, and there is nothing to move a robot by";
@@ -39,7 +38,7 @@ pub(super) fn ui(
             figures(ui, &in_use.calibration, theme);
             row(ui, theme, "file", &in_use.path.display().to_string());
             if in_use.is_edited {
-                let edited = Trouble {
+                let edited = UserError {
                     what: "the file was edited: its numbers count as entered by hand".into(),
                     advice: "Calibrate again to have residuals beside them".into(),
                 };
@@ -51,14 +50,14 @@ pub(super) fn ui(
                 ui,
                 name,
                 calibration.camera.mount_from_camera(),
-                state.convention,
+                session.convention,
                 theme,
             );
             if let CameraPlace::OnFlange { capture_pose, .. } = &calibration.camera {
                 arm(
                     ui,
                     capture_pose.as_ref(),
-                    state.convention,
+                    session.convention,
                     dialog,
                     theme,
                     caused,
@@ -69,10 +68,10 @@ pub(super) fn ui(
     ui.add_space(space::MEDIUM);
     ui.horizontal(|ui| {
         if labelled(ui, Button::new("Load…"), "Load…").clicked() {
-            caused.push(Action::Ask(DialogRequest::Calibration));
+            caused.push(RobotAction::Ask(RobotFile::Calibration));
         }
         if in_use.is_some() && labelled(ui, Button::new("Forget"), "Forget").clicked() {
-            caused.push(Action::Robot(RobotAction::Forget));
+            caused.push(RobotAction::Forget);
         }
     });
 }
@@ -147,13 +146,13 @@ fn arm(
     convention: Convention,
     dialog: &mut RobotDialog,
     theme: &Theme,
-    caused: &mut Vec<Action>,
+    caused: &mut Vec<RobotAction>,
 ) {
     if let Some(stored) = stored {
         let name = "robot_from_flange at every capture";
         pose(ui, name, stored, convention, theme);
     } else {
-        let unknown = Trouble {
+        let unknown = UserError {
             what: "where the arm stands at a capture is not known: there is no pose for the robot"
                 .into(),
             advice: "Type the flange's pose as the controller shows it, and store it".into(),
@@ -172,7 +171,7 @@ fn arm(
         let is_pose = dialog.typed_arm().is_ok();
         ui.add_enabled_ui(is_pose, |ui| {
             if labelled(ui, Button::new("Store"), "Store").clicked() {
-                caused.push(Action::Robot(RobotAction::StoreArm));
+                caused.push(RobotAction::StoreArm);
             }
         });
     });

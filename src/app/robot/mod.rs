@@ -7,11 +7,7 @@ mod in_use;
 pub mod state;
 pub mod work;
 
-pub(super) use self::{
-    dialog::ui,
-    state::{apply, calibration_path, hear, start},
-};
 pub use self::{
-    state::{RememberedCell, RobotAction, RobotDialog, RobotPage, RobotState},
-    work::{CellInUse, RobotAnswer, RobotRequest, SolvedPairs},
+    state::{RobotAction, RobotCell, RobotDialog, RobotFile, RobotPage},
+    work::{CellInUse, RobotResult, SolvedPairs},
 };

@@ -3,15 +3,20 @@
 use std::{path::PathBuf, sync::Arc};
 
 use jiff::Timestamp;
-use serde::{Deserialize, Serialize};
 
-use super::work::{CellInUse, RobotAnswer, RobotRequest, SolvedPairs};
+use super::work::{self, CellInUse, RobotResult, SolvedPairs};
 use crate::{
     app::{
-        action::{Effect, notify},
-        job::{Request, Trouble},
+        shell::{
+            context::ShellContext,
+            file_dialog::{ALL_FILES, FileChoice, FileDialog, FileRequest},
+            message::Message,
+            notice::Notice,
+            session::RememberedCell,
+            task::{Task, TaskEvent, TaskRunner},
+        },
         source::file_name,
-        state::{Notice, State},
+        user_error::UserError,
     },
     robot::{
         Convention, WrittenPose, WrittenPoseError,
@@ -21,30 +26,13 @@ use crate::{
     },
 };
 
-/// The robot's part of the state.
-#[derive(Clone, Debug, Default)]
-pub struct RobotState {
-    /// The calibration in use, if there is one.
-    pub in_use: Option<Arc<CellInUse>>,
-    /// Where the user's own calibration is; none: nowhere, and nothing is written.
-    pub usual: Option<PathBuf>,
-    /// Which calibration the window starts with.
-    pub remembered: RememberedCell,
-    /// The dialog, while it is open.
-    pub dialog: Option<RobotDialog>,
-}
-
-/// Which calibration a window starts with.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum RememberedCell {
-    /// The user's own, if there is one.
-    #[default]
-    Usual,
-    /// None: a person had it forgotten.
-    Forgotten,
-    /// The one in this file.
-    File(PathBuf),
+/// The calibration of the robot's cell, and the dialog about it.
+#[derive(Debug)]
+pub struct RobotCell {
+    in_use: Option<Arc<CellInUse>>,
+    dialog: Option<RobotDialog>,
+    task: Task<RobotResult>,
+    files: FileDialog<RobotFile>,
 }
 
 /// A page of the dialog.
@@ -97,7 +85,7 @@ pub struct RobotDialog {
     /// True if a person wants it used although it must not be.
     pub insists: bool,
     /// What went wrong last.
-    pub trouble: Option<Trouble>,
+    pub trouble: Option<UserError>,
 }
 
 impl RobotDialog {
@@ -137,10 +125,10 @@ impl RobotDialog {
         }
     }
 
-    /// True if what was calculated may be used.
-    pub fn may_use_solved(&self) -> bool {
-        let solved = self.solved.as_ref();
-        solved.is_some_and(|found| found.solved.is_usable() || self.insists)
+    /// What was calculated, if it may be used.
+    pub fn usable(&self) -> Option<Arc<SolvedPairs>> {
+        let may_be = |found: &&Arc<SolvedPairs>| found.solved.is_usable() || self.insists;
+        self.solved.as_ref().filter(may_be).cloned()
     }
 }
 
@@ -159,6 +147,8 @@ pub enum RobotAction {
     UseSolved,
     /// Store the typed pose of the arm as the one that captures are taken from.
     StoreArm,
+    /// Have a person choose a file.
+    Ask(RobotFile),
     /// Use the calibration in this file.
     Load(PathBuf),
     /// Calculate from this file of pairs.
@@ -167,310 +157,394 @@ pub enum RobotAction {
     Forget,
 }
 
-/// Carries out an action.
-pub(in crate::app) fn apply(state: &mut State, action: RobotAction) -> Option<Effect> {
-    match action {
-        RobotAction::Toggle => {
-            let open = RobotDialog::new(state.convention);
-            state.cell.dialog = state.cell.dialog.is_none().then_some(open);
-        }
-        RobotAction::Close => state.cell.dialog = None,
-        RobotAction::Edit(edited) => return edit(state, *edited),
-        RobotAction::UseTyped => {
-            let dialog = state.cell.dialog.as_ref()?;
-            let pose = dialog.typed().ok()?.pose;
-            let camera = CameraPlace::on(dialog.mount, pose);
-            return save(state, camera, Origin::ByHand);
-        }
-        RobotAction::UseSolved => {
-            let dialog = state.cell.dialog.as_ref()?;
-            let found = dialog.solved.clone().filter(|_| dialog.may_use_solved())?;
-            let camera = CameraPlace::on(found.solved.mount, found.solved.mount_from_camera);
-            let file = file_name(&found.path);
-            let fit = CalibrationFit::of(&found.solved, file, found.left_out.clone());
-            return save(state, camera, Origin::HandEye(fit));
-        }
-        RobotAction::StoreArm => {
-            let pose = state.cell.dialog.as_ref()?.typed_arm().ok()?.pose;
-            let in_use = state.cell.in_use.as_ref()?;
-            let mut calibration = Box::new(in_use.calibration.clone());
-            let CameraPlace::OnFlange { capture_pose, .. } = &mut calibration.camera else {
-                return None;
-            };
-            *capture_pose = Some(pose);
-            let path = in_use.path.clone();
-            return Some(ask(
-                state,
-                "Saving the calibration",
-                RobotRequest::Save { path, calibration },
-            ));
-        }
-        RobotAction::Load(path) => {
-            return Some(ask(
-                state,
-                "Opening the calibration",
-                RobotRequest::Load(path),
-            ));
-        }
-        RobotAction::Pairs(path) => {
-            let mut dialog = state.cell.dialog.clone();
-            let edited = dialog.get_or_insert_with(|| RobotDialog::new(state.convention));
-            edited.page = RobotPage::FromPairs;
-            edited.pairs = Some(path);
-            edited.left_out.clear();
-            state.cell.dialog = dialog;
-            return solve(state);
-        }
-        RobotAction::Forget => {
-            state.cell.in_use = None;
-            state.robot = None;
-            state.cell.remembered = RememberedCell::Forgotten;
-            let what = "The calibration is not used any more; its file stays where it is";
-            notify(state, Notice::done(what));
-        }
-    }
-    None
+/// What a person is asked to choose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RobotFile {
+    /// A calibration of the robot's cell.
+    Calibration,
+    /// A file of robot and camera poses.
+    Pairs,
 }
 
-/// What a window asks for that has just been opened.
-pub(in crate::app) fn start(state: &mut State) -> Option<Effect> {
-    let path = calibration_path(state)?;
-    Some(ask(
-        state,
-        "Opening the calibration",
-        RobotRequest::Load(path),
-    ))
-}
-
-/// The file of the calibration in use, also while it is being loaded.
-pub(in crate::app) fn calibration_path(state: &State) -> Option<PathBuf> {
-    match &state.cell.remembered {
-        RememberedCell::Usual => state.cell.usual.clone().filter(|path| path.exists()),
-        RememberedCell::Forgotten => None,
-        RememberedCell::File(path) => Some(path.clone()),
+impl RobotFile {
+    fn request(self) -> FileRequest {
+        match self {
+            Self::Calibration => FileRequest {
+                title: "Load the calibration of the robot's cell",
+                filters: &[("Calibrations", &["toml"]), ALL_FILES],
+                choice: FileChoice::File,
+            },
+            Self::Pairs => FileRequest {
+                title: "Pairs of robot and camera poses",
+                filters: &[("Tables and JSON", &["csv", "txt", "json"]), ALL_FILES],
+                choice: FileChoice::File,
+            },
+        }
     }
 }
 
-fn ask(state: &mut State, what: &str, request: RobotRequest) -> Effect {
-    state.begin(what, Request::Robot(request))
-}
-
-/// Takes the dialog over as it is now; pairs are calculated anew where something about them changed.
-fn edit(state: &mut State, mut edited: RobotDialog) -> Option<Effect> {
-    let known = state.cell.dialog.as_ref()?;
-    let is_other = known.mount != edited.mount || known.left_out != edited.left_out;
-    if is_other {
-        edited.insists = false;
+impl RobotCell {
+    /// Without a calibration.
+    pub fn new(runner: &TaskRunner) -> Self {
+        Self {
+            in_use: None,
+            dialog: None,
+            task: Task::new("robot", runner),
+            files: FileDialog::default(),
+        }
     }
-    let solves = is_other && edited.pairs.is_some();
-    state.cell.dialog = Some(edited);
-    if solves { solve(state) } else { None }
-}
 
-fn solve(state: &mut State) -> Option<Effect> {
-    let dialog = state.cell.dialog.as_mut()?;
-    dialog.trouble = None;
-    dialog.solved = None;
-    let request = RobotRequest::Solve {
-        pairs: dialog.pairs.clone()?,
-        mount: dialog.mount,
-        left_out: dialog.left_out.clone(),
-    };
-    Some(ask(state, "Calculating where the camera sits", request))
-}
+    /// The calibration in use, if there is one.
+    pub fn in_use(&self) -> Option<&Arc<CellInUse>> {
+        self.in_use.as_ref()
+    }
 
-/// Writes a new calibration to where the user's own is.
-fn save(state: &mut State, camera: CameraPlace, origin: Origin) -> Option<Effect> {
-    let Some(path) = state.cell.usual.clone() else {
-        let trouble = Trouble {
-            what: "There is no folder for your own calibration".into(),
-            advice: "Write it with partsight calibrate --out FILE, and load that file here".into(),
+    /// The dialog, while it is open.
+    pub fn dialog(&self) -> Option<&RobotDialog> {
+        self.dialog.as_ref()
+    }
+
+    /// True while nothing is read, written or calculated.
+    pub fn is_idle(&self) -> bool {
+        self.task.running().is_none()
+    }
+
+    /// Reads the calibration that the window starts with.
+    pub fn load_remembered(&mut self, cx: &mut ShellContext<'_>) {
+        if let Some(path) = cx.session.calibration_path() {
+            self.load(path);
+        }
+    }
+
+    /// Carries out an action.
+    pub fn apply(&mut self, action: RobotAction, cx: &mut ShellContext<'_>) {
+        match action {
+            RobotAction::Toggle => {
+                let open = RobotDialog::new(cx.session.convention);
+                self.dialog = self.dialog.is_none().then_some(open);
+            }
+            RobotAction::Close => self.dialog = None,
+            RobotAction::Edit(edited) => self.edit(*edited),
+            RobotAction::UseTyped => {
+                if let Some(dialog) = &self.dialog
+                    && let Ok(written) = dialog.typed()
+                {
+                    let camera = CameraPlace::on(dialog.mount, written.pose);
+                    self.save_new(camera, Origin::ByHand, cx);
+                }
+            }
+            RobotAction::UseSolved => {
+                if let Some(found) = self.dialog.as_ref().and_then(RobotDialog::usable) {
+                    let solved = &found.solved;
+                    let camera = CameraPlace::on(solved.mount, solved.mount_from_camera);
+                    let file = file_name(&found.path);
+                    let fit = CalibrationFit::of(solved, file, found.left_out.clone());
+                    self.save_new(camera, Origin::HandEye(fit), cx);
+                }
+            }
+            RobotAction::StoreArm => self.store_arm(),
+            RobotAction::Ask(file) => {
+                let lock = &cx.services.dialogs;
+                self.files.open(file, &file.request(), lock, cx.egui);
+            }
+            RobotAction::Load(path) => self.load(path),
+            RobotAction::Pairs(path) => {
+                let open = || RobotDialog::new(cx.session.convention);
+                let dialog = self.dialog.get_or_insert_with(open);
+                dialog.page = RobotPage::FromPairs;
+                dialog.pairs = Some(path);
+                dialog.left_out.clear();
+                self.solve();
+            }
+            RobotAction::Forget => {
+                self.in_use = None;
+                cx.send(Message::UseCalibration(RememberedCell::Forgotten, None));
+                let what = "The calibration is not used any more; its file stays where it is";
+                cx.notify(Notice::done(what));
+            }
+        }
+    }
+
+    fn load(&mut self, path: PathBuf) {
+        let job = |_: &_| Ok(work::load(path)?);
+        self.task.start("Opening the calibration", job);
+    }
+
+    fn save(&mut self, path: PathBuf, calibration: CellCalibration) {
+        let job = move |_: &_| Ok(work::save(path, &calibration)?);
+        self.task.start("Saving the calibration", job);
+    }
+
+    fn store_arm(&mut self) {
+        if let (Some(dialog), Some(in_use)) = (&self.dialog, &self.in_use)
+            && let Ok(written) = dialog.typed_arm()
+        {
+            let mut calibration = in_use.calibration.clone();
+            if let CameraPlace::OnFlange { capture_pose, .. } = &mut calibration.camera {
+                *capture_pose = Some(written.pose);
+                self.save(in_use.path.clone(), calibration);
+            }
+        }
+    }
+
+    /// Takes the dialog over as it is now; pairs are calculated anew where something about them changed.
+    fn edit(&mut self, mut edited: RobotDialog) {
+        let Some(known) = &mut self.dialog else {
+            return;
         };
-        notify(state, trouble.into());
-        return None;
-    };
-    let dialog = state.cell.dialog.as_ref()?;
-    let calibration = Box::new(CellCalibration {
-        name: dialog.name.trim().to_owned(),
-        notes: String::new(),
-        camera,
-        origin,
-        made_at: Timestamp::now(),
-    });
-    Some(ask(
-        state,
-        "Saving the calibration",
-        RobotRequest::Save { path, calibration },
-    ))
-}
+        let is_other = known.mount != edited.mount || known.left_out != edited.left_out;
+        if is_other {
+            edited.insists = false;
+        }
+        *known = edited;
+        if is_other {
+            self.solve();
+        }
+    }
 
-/// Takes in what the thread tells.
-pub(in crate::app) fn hear(
-    state: &mut State,
-    outcome: Result<RobotAnswer, Trouble>,
-) -> Option<Effect> {
-    match outcome {
-        Ok(RobotAnswer::InUse(in_use, former)) => {
-            if let Some(former) = former {
-                let what = format!(
-                    "Saved; the former calibration is kept in {}",
-                    former.display()
-                );
-                notify(state, Notice::done(what));
-            }
-            state.cell.remembered = if Some(&in_use.path) == state.cell.usual.as_ref() {
-                RememberedCell::Usual
-            } else {
-                RememberedCell::File(in_use.path.clone())
-            };
-            state.robot = in_use.frame();
-            state.cell.in_use = Some(in_use);
-            if let Some(dialog) = &mut state.cell.dialog {
-                dialog.page = RobotPage::InUse;
-                dialog.trouble = None;
-            }
-        }
-        Ok(RobotAnswer::Solved(solved)) => {
-            let dialog = state.cell.dialog.as_mut()?;
-            dialog.solved = Some(solved);
+    /// Calculates from the file of pairs, if one was chosen.
+    fn solve(&mut self) {
+        if let Some(dialog) = &mut self.dialog
+            && let Some(pairs) = dialog.pairs.clone()
+        {
             dialog.trouble = None;
+            dialog.solved = None;
+            let (mount, left_out) = (dialog.mount, dialog.left_out.clone());
+            let job = move |_: &_| Ok(work::solve_pairs(pairs, mount, left_out)?);
+            self.task.start("Calculating where the camera sits", job);
         }
-        Err(trouble) => {
+    }
+
+    /// Writes a new calibration to where the user's own is.
+    fn save_new(&mut self, camera: CameraPlace, origin: Origin, cx: &mut ShellContext<'_>) {
+        let Some(path) = cx.session.usual_cell.clone() else {
+            cx.notify(Notice::look(
+                "There is no folder for your own calibration",
+                "Write it with partsight calibrate --out FILE, and load that file here",
+            ));
+            return;
+        };
+        let name = self.dialog.as_ref().map(|dialog| dialog.name.trim());
+        let calibration = CellCalibration {
+            name: name.unwrap_or_default().to_owned(),
+            notes: String::new(),
+            camera,
+            origin,
+            made_at: Timestamp::now(),
+        };
+        self.save(path, calibration);
+    }
+
+    /// Takes in what the task reports; says what follows from the file that a person chose.
+    pub fn update(&mut self, cx: &mut ShellContext<'_>) -> Option<RobotAction> {
+        match self.task.poll() {
+            Some(TaskEvent::Partial(result) | TaskEvent::Done(result)) => self.take_in(result, cx),
             // Where the dialog is open, it says so itself.
-            if let Some(dialog) = &mut state.cell.dialog {
-                dialog.trouble = Some(trouble);
-            } else {
-                notify(state, trouble.into());
+            Some(TaskEvent::Failed(error)) => match &mut self.dialog {
+                Some(dialog) => dialog.trouble = Some(error),
+                None => cx.notify(error),
+            },
+            None => {}
+        }
+        match self.files.poll()? {
+            (RobotFile::Calibration, Ok(path)) => Some(RobotAction::Load(path)),
+            (RobotFile::Pairs, Ok(path)) => Some(RobotAction::Pairs(path)),
+            (_, Err(notice)) => {
+                cx.notify(notice);
+                None
             }
         }
     }
-    None
+
+    fn take_in(&mut self, result: RobotResult, cx: &mut ShellContext<'_>) {
+        match result {
+            RobotResult::InUse(in_use, former) => {
+                if let Some(former) = former {
+                    let former = former.display();
+                    let what = format!("Saved; the former calibration is kept in {former}");
+                    cx.notify(Notice::done(what));
+                }
+                let cell = if Some(&in_use.path) == cx.session.usual_cell.as_ref() {
+                    RememberedCell::Usual
+                } else {
+                    RememberedCell::File(in_use.path.clone())
+                };
+                cx.send(Message::UseCalibration(cell, in_use.frame()));
+                self.in_use = Some(in_use);
+                if let Some(dialog) = &mut self.dialog {
+                    dialog.page = RobotPage::InUse;
+                    dialog.trouble = None;
+                }
+            }
+            RobotResult::Solved(solved) => {
+                if let Some(dialog) = &mut self.dialog {
+                    dialog.solved = Some(solved);
+                    dialog.trouble = None;
+                }
+            }
+        }
+    }
 }
 
 #[cfg(test)]
 mod tests {
+    use std::{fmt::Write as _, fs, path::Path};
+
     use super::*;
-    use crate::app::action::{Action, apply as apply_any};
+    use crate::{
+        app::shell::context::TestShell,
+        geometry::rigid::{RigidTransform, from_euler_zyx},
+    };
 
-    fn open() -> State {
-        let mut state = State::default();
-        apply(&mut state, RobotAction::Toggle);
-        state
+    /// The robot's cell without a window or threads.
+    struct Bench {
+        robot: RobotCell,
+        shell: TestShell,
+        folder: tempfile::TempDir,
     }
 
-    fn edited(state: &mut State, change: impl FnOnce(&mut RobotDialog)) -> Option<Effect> {
-        let mut dialog = state.cell.dialog.clone().expect("open");
-        change(&mut dialog);
-        apply(state, RobotAction::Edit(Box::new(dialog)))
-    }
+    impl Bench {
+        fn new() -> Self {
+            Self {
+                robot: RobotCell::new(&TaskRunner::without_threads()),
+                shell: TestShell::default(),
+                folder: tempfile::tempdir().expect("a folder"),
+            }
+        }
 
-    fn request(effect: Option<Effect>) -> RobotRequest {
-        match effect {
-            Some(Effect::Post {
-                request: Request::Robot(request),
-                ..
-            }) => request,
-            other => panic!("expected a request, found {other:?}"),
+        fn apply(&mut self, action: RobotAction) {
+            self.robot.apply(action, &mut self.shell.context());
+            self.deliver();
+        }
+
+        fn edit(&mut self, change: impl FnOnce(&mut RobotDialog)) {
+            let mut dialog = self.robot.dialog.clone().expect("open");
+            change(&mut dialog);
+            self.apply(RobotAction::Edit(Box::new(dialog)));
+        }
+
+        /// Does the work that was asked for; false if none was.
+        fn work(&mut self) -> bool {
+            let has_worked = self.robot.task.run_waiting();
+            self.robot.update(&mut self.shell.context());
+            self.deliver();
+            has_worked
+        }
+
+        /// Uses the calibration that was sent last.
+        fn deliver(&mut self) {
+            for message in std::mem::take(&mut self.shell.messages) {
+                if let Message::UseCalibration(cell, robot) = message {
+                    self.shell.session.cell = cell;
+                    self.shell.session.robot = robot;
+                }
+            }
+        }
+
+        fn dialog(&self) -> &RobotDialog {
+            self.robot.dialog.as_ref().expect("open")
         }
     }
 
     #[test]
     fn typed_numbers_become_the_calibration_in_use() {
-        let folder = tempfile::tempdir().expect("a folder");
-        let mut state = open();
-        state.cell.usual = Some(folder.path().join("cell.toml"));
-        edited(&mut state, |dialog| {
+        let mut bench = Bench::new();
+        let own = bench.folder.path().join("cell.toml");
+        bench.shell.session.usual_cell = Some(own.clone());
+        bench.apply(RobotAction::Toggle);
+        bench.edit(|dialog| {
             dialog.name = " Cell 2 ".into();
             dialog.convention = Convention::Kuka;
             dialog.numbers = "1200 -400 1900 10 20 three".into();
         });
-        assert!(
-            apply(&mut state, RobotAction::UseTyped).is_none(),
-            "no pose"
-        );
-        edited(&mut state, |dialog| {
-            dialog.numbers = "1200 -400 1900 10 20 30".into();
-        });
-        let saved = super::super::work::answer(request(apply(&mut state, RobotAction::UseTyped)));
-        let Ok(crate::app::job::TaskResult::Robot(answer)) = saved else {
-            panic!("{saved:?}");
-        };
-        hear(&mut state, Ok(answer));
-        let frame = state.robot.clone().expect("a frame");
+        bench.apply(RobotAction::UseTyped);
+        assert!(!bench.work(), "no pose");
+        bench.edit(|dialog| dialog.numbers = "1200 -400 1900 10 20 30".into());
+        bench.apply(RobotAction::UseTyped);
+        assert!(bench.work());
+        let frame = bench.shell.session.robot.clone().expect("a frame");
         assert!(frame.name.starts_with("Cell 2 ("), "{}", frame.name);
         assert!((frame.robot_from_camera.translation.vector.x - 1.2).abs() < 1e-9);
-        assert_eq!(state.cell.remembered, RememberedCell::Usual);
+        assert_eq!(bench.shell.session.cell, RememberedCell::Usual);
 
-        apply(&mut state, RobotAction::Forget);
-        assert!(state.robot.is_none() && state.cell.in_use.is_none());
-        assert!(folder.path().join("cell.toml").exists());
-        assert!(start(&mut state).is_none(), "it stays forgotten");
-        state.cell.remembered = RememberedCell::Usual;
-        assert!(matches!(request(start(&mut state)), RobotRequest::Load(_)));
+        bench.apply(RobotAction::Forget);
+        assert!(bench.shell.session.robot.is_none() && bench.robot.in_use.is_none());
+        assert!(own.exists());
+        bench.robot.load_remembered(&mut bench.shell.context());
+        assert!(!bench.work(), "it stays forgotten");
+        bench.shell.session.cell = RememberedCell::Usual;
+        bench.robot.load_remembered(&mut bench.shell.context());
+        assert!(bench.work());
+        assert_eq!(bench.shell.session.robot, Some(frame));
     }
 
     #[test]
     fn a_camera_on_the_flange_has_a_frame_once_the_arm_is_known() {
-        let mut state = open();
+        let mut bench = Bench::new();
+        let path = bench.folder.path().join("other.toml");
         let calibration = CellCalibration {
             name: String::new(),
             notes: String::new(),
-            camera: CameraPlace::on(
-                Mount::EyeInHand,
-                crate::geometry::rigid::RigidTransform::identity(),
-            ),
+            camera: CameraPlace::on(Mount::EyeInHand, RigidTransform::identity()),
             origin: Origin::ByHand,
             made_at: Timestamp::UNIX_EPOCH,
         };
-        let in_use = CellInUse {
-            path: "cell.toml".into(),
-            calibration,
-            is_edited: false,
-        };
-        hear(&mut state, Ok(RobotAnswer::InUse(Arc::new(in_use), None)));
-        assert!(state.robot.is_none() && state.cell.in_use.is_some());
-        assert_eq!(
-            state.cell.remembered,
-            RememberedCell::File("cell.toml".into())
-        );
-        edited(&mut state, |dialog| {
-            dialog.arm = "fanuc 900 0 1100 0 90 0".into();
-        });
-        let RobotRequest::Save { calibration, .. } =
-            request(apply(&mut state, RobotAction::StoreArm))
-        else {
-            panic!("not saved");
-        };
-        assert!(calibration.frame(None).is_ok());
+        calibration.save(&path).expect("written");
+        bench.apply(RobotAction::Toggle);
+        bench.apply(RobotAction::Load(path.clone()));
+        assert!(bench.work());
+        assert!(bench.shell.session.robot.is_none() && bench.robot.in_use.is_some());
+        assert_eq!(bench.shell.session.cell, RememberedCell::File(path.clone()));
+        bench.edit(|dialog| dialog.arm = "fanuc 900 0 1100 0 90 0".into());
+        bench.apply(RobotAction::StoreArm);
+        assert!(bench.work());
+        assert!(bench.shell.session.robot.is_some());
+        let stored = CellCalibration::load(&path).expect("read").calibration;
+        assert!(stored.frame(None).is_ok());
+    }
+
+    /// Pairs of a camera that stands still and sees a target on the flange.
+    fn write_pairs(path: &Path) {
+        let robot_from_camera = from_euler_zyx([-2.2, 0.1, -1.6, 1.5, -0.2, 2.0]);
+        let flange_from_target = from_euler_zyx([0.3, 0.2, -0.5, 0.02, -0.03, 0.1]);
+        let mut text = String::from("# robot: kuka\n# camera: rotation-vector\n");
+        for (i, turn) in [0.0, 0.4, -0.3, 0.1, -0.2, 0.5].into_iter().enumerate() {
+            let aside = 0.06 * i as f64;
+            let seen = from_euler_zyx([turn, 0.8 * aside, -turn, aside, -aside, 1.2]);
+            let arm = robot_from_camera * seen * flange_from_target.inverse();
+            let mut numbers = Convention::Kuka.write(&arm).numbers();
+            numbers.extend(Convention::RotationVector.write(&seen).numbers());
+            let numbers: Vec<String> = numbers.iter().map(ToString::to_string).collect();
+            writeln!(text, "p{i}, {}", numbers.join(", ")).expect("memory");
+        }
+        fs::write(path, text).expect("written");
     }
 
     #[test]
     fn pairs_are_calculated_anew_when_the_mount_or_what_counts_changes() {
-        let mut state = State::default();
-        let asked = request(apply(&mut state, RobotAction::Pairs("pairs.csv".into())));
-        assert!(matches!(
-            asked,
-            RobotRequest::Solve {
-                mount: Mount::EyeToHand,
-                ..
-            }
-        ));
-        assert!(edited(&mut state, |dialog| dialog.name = "x".into()).is_none());
-        let asked = request(edited(&mut state, |dialog| dialog.mount = Mount::EyeInHand));
-        assert!(matches!(
-            asked,
-            RobotRequest::Solve {
-                mount: Mount::EyeInHand,
-                ..
-            }
-        ));
-        let asked = request(edited(&mut state, |dialog| {
-            dialog.left_out = vec!["line 3".into()];
-        }));
-        assert!(matches!(asked, RobotRequest::Solve { left_out, .. } if left_out == ["line 3"]));
+        let mut bench = Bench::new();
+        let pairs = bench.folder.path().join("pairs.csv");
+        write_pairs(&pairs);
+        bench.apply(RobotAction::Pairs(pairs));
+        assert!(bench.work());
+        let first = bench.dialog().solved.clone().expect("calculated");
+        assert_eq!(first.solved.mount, Mount::EyeToHand);
+        bench.edit(|dialog| dialog.name = "x".into());
+        assert!(!bench.work() && bench.dialog().solved.is_some());
+        bench.edit(|dialog| dialog.mount = Mount::EyeInHand);
         // What was calculated for something else is not there to be used.
-        assert!(apply(&mut state, RobotAction::UseSolved).is_none());
-        apply_any(&mut state, Action::CloseTop);
-        assert!(state.cell.dialog.is_none());
+        bench.apply(RobotAction::UseSolved);
+        assert!(bench.dialog().solved.is_none());
+        assert!(bench.work());
+        let other = bench.dialog().solved.clone().expect("calculated");
+        assert_eq!(other.solved.mount, Mount::EyeInHand);
+        let left_out = vec![first.names[2].clone()];
+        bench.edit(|dialog| dialog.left_out.clone_from(&left_out));
+        assert!(bench.work());
+        let fewer = bench.dialog().solved.clone().expect("calculated");
+        assert_eq!(fewer.left_out, left_out);
+        assert_eq!(fewer.solved.residuals.pairs.len(), first.names.len() - 1);
+        bench.apply(RobotAction::Close);
+        assert!(bench.robot.dialog.is_none());
     }
 }

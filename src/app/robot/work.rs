@@ -1,9 +1,9 @@
-//! What the robot's thread does: reads and writes calibrations, and calculates them from pairs.
+//! What the robot's task does: reads and writes calibrations, and calculates them from pairs.
 
 use std::{path::PathBuf, sync::Arc};
 
 use crate::{
-    app::job::{TaskOutcome, TaskResult, Trouble},
+    app::user_error::UserError,
     robot::{
         Convention, RobotFrame,
         calibration::{CellCalibration, Loaded},
@@ -12,32 +12,9 @@ use crate::{
     },
 };
 
-/// What is asked for.
-#[derive(Clone, Debug)]
-pub enum RobotRequest {
-    /// Use the calibration in this file.
-    Load(PathBuf),
-    /// Write a calibration into this file, and use it.
-    Save {
-        /// The file.
-        path: PathBuf,
-        /// The calibration.
-        calibration: Box<CellCalibration>,
-    },
-    /// Calculate where the camera sits.
-    Solve {
-        /// The file of the pairs.
-        pairs: PathBuf,
-        /// What the camera is fixed to.
-        mount: Mount,
-        /// Names of pairs that do not count.
-        left_out: Vec<String>,
-    },
-}
-
 /// What comes back.
 #[derive(Clone, Debug)]
-pub enum RobotAnswer {
+pub enum RobotResult {
     /// This calibration is in use now; what was there before is kept in the second.
     InUse(Arc<CellInUse>, Option<PathBuf>),
     /// Where the camera sits by the pairs.
@@ -77,48 +54,48 @@ pub struct SolvedPairs {
     pub solved: HandEye,
 }
 
-/// Does what is asked.
-pub(in crate::app) fn answer(request: RobotRequest) -> TaskOutcome {
-    match request {
-        RobotRequest::Load(path) => in_use(path, None),
-        RobotRequest::Save { path, calibration } => {
-            let former = calibration.save_keeping_former(&path);
-            let former = former.map_err(|error| Trouble::of(&error))?;
-            in_use(path, former)
-        }
-        RobotRequest::Solve {
-            pairs: path,
-            mount,
-            left_out,
-        } => {
-            let read = read_pairs(&path, PairConventions::default());
-            let read = read.map_err(|error| Trouble::of(&error))?;
-            let names = read.pairs.iter().map(|pair| pair.name.clone()).collect();
-            let mut pairs = read.pairs;
-            pairs.retain(|pair| !left_out.contains(&pair.name));
-            let solved = solve(&pairs, mount).map_err(|error| Trouble::of(&error))?;
-            Ok(TaskResult::Robot(RobotAnswer::Solved(Arc::new(
-                SolvedPairs {
-                    path,
-                    names,
-                    left_out,
-                    conventions: [read.robot, read.camera],
-                    solved,
-                },
-            ))))
-        }
-    }
+/// Reads the calibration in this file, to be used.
+pub(super) fn load(path: PathBuf) -> Result<RobotResult, UserError> {
+    in_use(path, None)
 }
 
-fn in_use(path: PathBuf, former: Option<PathBuf>) -> TaskOutcome {
+/// Writes a calibration into this file, to be used.
+pub(super) fn save(path: PathBuf, calibration: &CellCalibration) -> Result<RobotResult, UserError> {
+    let former = calibration.save_keeping_former(&path);
+    let former = former.map_err(|error| UserError::of(&error))?;
+    in_use(path, former)
+}
+
+/// Calculates where the camera sits from this file of pairs, without those of these names.
+pub(super) fn solve_pairs(
+    path: PathBuf,
+    mount: Mount,
+    left_out: Vec<String>,
+) -> Result<RobotResult, UserError> {
+    let read = read_pairs(&path, PairConventions::default());
+    let read = read.map_err(|error| UserError::of(&error))?;
+    let names = read.pairs.iter().map(|pair| pair.name.clone()).collect();
+    let mut pairs = read.pairs;
+    pairs.retain(|pair| !left_out.contains(&pair.name));
+    let solved = solve(&pairs, mount).map_err(|error| UserError::of(&error))?;
+    Ok(RobotResult::Solved(Arc::new(SolvedPairs {
+        path,
+        names,
+        left_out,
+        conventions: [read.robot, read.camera],
+        solved,
+    })))
+}
+
+fn in_use(path: PathBuf, former: Option<PathBuf>) -> Result<RobotResult, UserError> {
     let Loaded {
         calibration,
         is_edited,
-    } = CellCalibration::load(&path).map_err(|error| Trouble::of(&error))?;
+    } = CellCalibration::load(&path).map_err(|error| UserError::of(&error))?;
     let in_use = Arc::new(CellInUse {
         path,
         calibration,
         is_edited,
     });
-    Ok(TaskResult::Robot(RobotAnswer::InUse(in_use, former)))
+    Ok(RobotResult::InUse(in_use, former))
 }

@@ -57,11 +57,7 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
 
 fn asks_for_engineer(ask: DialogRequest) -> bool {
     match ask {
-        DialogRequest::Library
-        | DialogRequest::Part
-        | DialogRequest::PartPath
-        | DialogRequest::Calibration
-        | DialogRequest::Pairs => true,
+        DialogRequest::Library | DialogRequest::Part | DialogRequest::PartPath => true,
         DialogRequest::Scene
         | DialogRequest::Scan
         | DialogRequest::ScanPoses

@@ -2,10 +2,14 @@
 
 use std::sync::Arc;
 
-use super::{notice::Notice, session::WorkspaceKind};
+use super::{
+    notice::Notice,
+    session::{RememberedCell, WorkspaceKind},
+};
 use crate::{
     app::inspect::work::{InspectRequest, Inspected},
     pipeline::Recipe,
+    robot::RobotFrame,
 };
 
 /// What a workspace asks of the shell.
@@ -21,6 +25,8 @@ pub enum Message {
     GoTo(WorkspaceKind),
     /// Inspect scenes with this recipe from now on.
     UseRecipe(Arc<Recipe>),
+    /// Use this calibration of the robot's cell, with where the camera stands by it.
+    UseCalibration(RememberedCell, Option<Arc<RobotFrame>>),
     /// Inspect this, and show the result.
     Inspect {
         /// What is being done, for a person.

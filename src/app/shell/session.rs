@@ -2,6 +2,8 @@
 
 use std::{path::PathBuf, sync::Arc};
 
+use serde::{Deserialize, Serialize};
+
 pub use crate::app::theme::ThemeChoice;
 use crate::{
     app::{
@@ -35,6 +37,10 @@ pub struct Session {
     pub convention: Convention,
     /// Where the camera stands in the robot's base frame, if the cell is calibrated.
     pub robot: Option<Arc<RobotFrame>>,
+    /// Which calibration of the robot's cell is used.
+    pub cell: RememberedCell,
+    /// Where the user's own calibration is; none: nowhere, and nothing is written.
+    pub usual_cell: Option<PathBuf>,
     /// Units that lengths and angles are shown in.
     pub units: UnitSystem,
     /// Colours.
@@ -53,6 +59,28 @@ impl Session {
             None => self.robot.as_ref(),
         }
     }
+
+    /// The file of the calibration in use, also while it is being loaded.
+    pub fn calibration_path(&self) -> Option<PathBuf> {
+        match &self.cell {
+            RememberedCell::Usual => self.usual_cell.clone().filter(|path| path.exists()),
+            RememberedCell::Forgotten => None,
+            RememberedCell::File(path) => Some(path.clone()),
+        }
+    }
+}
+
+/// Which calibration a window starts with.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RememberedCell {
+    /// The user's own, if there is one.
+    #[default]
+    Usual,
+    /// None: a person had it forgotten.
+    Forgotten,
+    /// The one in this file.
+    File(PathBuf),
 }
 
 /// Where Capture takes a scene from.
@@ -88,7 +116,7 @@ pub struct Shown {
 }
 
 /// The workspaces that the rail lists.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
 #[serde(rename_all = "snake_case")]
 pub enum WorkspaceKind {
     /// The operator's: which part is it, and is it accepted?

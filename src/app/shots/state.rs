@@ -12,7 +12,6 @@ use crate::app::{
     inspect::work::{InspectRequest, Inspected},
     job::{Request, Trouble},
     lane::TaskQueue,
-    robot::calibration_path,
     source::SceneSource,
     state::{Notice, NoticeKind, Source, State, Workspace},
 };
@@ -250,7 +249,7 @@ fn begin(state: &mut State, order: ScanOrder, way: Way, choice: Option<ShotChoic
 fn request(state: &State, order: ScanOrder) -> ScanRequest {
     ScanRequest {
         order,
-        calibration: calibration_path(state),
+        calibration: state.calibration_path(),
         recipe: state.recipe.clone(),
     }
 }

@@ -7,6 +7,7 @@ use crate::app::{
     action::{Action, inspection_of_shown},
     bars::Progress,
     job::Request,
+    robot::RobotCell,
     roles,
     shell::{
         context::ShellContext,
@@ -37,6 +38,11 @@ impl Window {
         })?
     }
 
+    /// The robot's cell, and the dialog about it.
+    pub fn robot(&self) -> &RobotCell {
+        &self.robot
+    }
+
     pub(super) fn hosted(&self, kind: WorkspaceKind) -> Option<&dyn Workspace> {
         let mut all = self.workspaces.iter().map(Box::as_ref);
         all.find(|workspace| workspace.kind() == kind)
@@ -54,10 +60,27 @@ impl Window {
         let (session, services) = (&self.state.session, &self.services);
         let mut cx = ShellContext::new(ctx, session, services, &mut self.messages);
         let done = act(workspace.as_mut(), &mut cx);
-        for message in std::mem::take(&mut self.messages) {
-            self.deliver(message, kind, ctx);
-        }
+        self.deliver_all(kind, ctx);
         Some(done)
+    }
+
+    /// Lends the robot's cell the shell, and does what it sends.
+    pub(super) fn with_robot<R>(
+        &mut self,
+        ctx: &egui::Context,
+        act: impl FnOnce(&mut RobotCell, &mut ShellContext<'_>) -> R,
+    ) -> R {
+        let (session, services) = (&self.state.session, &self.services);
+        let mut cx = ShellContext::new(ctx, session, services, &mut self.messages);
+        let done = act(&mut self.robot, &mut cx);
+        self.deliver_all(self.state.workspace, ctx);
+        done
+    }
+
+    fn deliver_all(&mut self, from: WorkspaceKind, ctx: &egui::Context) {
+        for message in std::mem::take(&mut self.messages) {
+            self.deliver(message, from, ctx);
+        }
     }
 
     /// Does what a workspace asked for.
@@ -67,6 +90,10 @@ impl Window {
             Message::Retract(notice) => self.state.notices.retain(|known| *known != notice),
             Message::CopyText(text) => ctx.copy_text(text),
             Message::UseRecipe(recipe) => self.state.session.recipe = recipe,
+            Message::UseCalibration(cell, robot) => {
+                self.state.session.cell = cell;
+                self.state.session.robot = robot;
+            }
             Message::GoTo(kind) => self.act(Action::GoTo(kind), ctx),
             Message::ShowPast(inspected) => self.act(Action::ShowPast(inspected), ctx),
             Message::AskEngineer => {
@@ -118,6 +145,8 @@ impl Window {
     pub fn is_idle(&self) -> bool {
         let mut all = self.workspaces.iter();
         let session = &self.state.session;
-        self.state.works.is_empty() && all.all(|workspace| workspace.is_idle(session))
+        self.state.works.is_empty()
+            && self.robot.is_idle()
+            && all.all(|workspace| workspace.is_idle(session))
     }
 }
