@@ -4,9 +4,8 @@ use std::{path::PathBuf, sync::Arc};
 
 use super::{
     answers,
-    enrol::{self, EnrolAction},
     inspect::{
-        self,
+        self, scan,
         state::InspectAction,
         work::{InspectRequest, Inspected},
     },
@@ -15,7 +14,9 @@ use super::{
     live::{self, LiveAction},
     robot::RobotAction,
     roles::{self, RoleAction},
-    shots::{self, ScanFiles, ShotsAction},
+    shelf::LibraryView,
+    shell::message::SceneOrScan,
+    shots::{Asked, ScanFiles, ScanOrder, ScanRequest, ShotsAction, ShotsFile},
     source::{CellChoice, SceneSource, file_name},
     state::{
         Event, HelpPage, Notice, NoticeKind, ReinspectionPurpose, Shown, Source, StagePanel, State,
@@ -80,12 +81,12 @@ pub enum Action {
     Live(LiveAction),
     /// Of whose window it is.
     Role(RoleAction),
-    /// Of the shots of a scan.
+    /// Of the shots of the scan that Inspect shows.
     Shots(ShotsAction),
     /// Of the Inspect workspace.
     Inspect(InspectAction),
-    /// Of the Enrol workspace.
-    Enrol(EnrolAction),
+    /// Take back what the last notice offers to.
+    Undo,
     /// The key at this place of a workspace's own was pressed.
     Press(Workspace, usize),
     /// Cancel what a workspace is at.
@@ -127,8 +128,6 @@ pub enum DialogRequest {
     Part,
     /// Where the spray path of the inspection in front goes.
     SprayPath,
-    /// The spray path of the enrolled part that is looked at.
-    PartPath,
 }
 
 /// What is to be done outside the state.
@@ -149,6 +148,8 @@ pub enum Effect {
     Press(Workspace, usize),
     /// Have a workspace cancel what it is at.
     CancelTask(Workspace),
+    /// Have the workspace in front take this.
+    Take(SceneOrScan, String),
     /// Have this done about the robot's cell.
     Robot(RobotAction),
     /// Put this on the clipboard.
@@ -241,9 +242,9 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         }
         Action::Role(action) => return roles::apply(state, action),
         Action::Live(action) => return live::apply(state, action),
-        Action::Shots(action) => return shots::apply(state, action),
+        Action::Shots(action) => return scan::apply(state, action),
         Action::Inspect(action) => return inspect::state::apply(state, action),
-        Action::Enrol(action) => return enrol::apply(state, action),
+        Action::Undo => return Some(Effect::Tell(Event::Undo)),
         Action::Press(workspace, place) => return Some(Effect::Press(workspace, place)),
         Action::CancelTask(workspace) => return Some(Effect::CancelTask(workspace)),
         Action::EngineerIn(workspace) => return Some(Effect::EngineerIn(workspace)),
@@ -262,11 +263,11 @@ fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Effect
             Some(capture(state))
         }
         DialogRequest::Scan => {
-            let files = ScanFiles::of_folder(path);
-            shots::apply(state, ShotsAction::Open(files))
+            state.source = Source::Scan(ScanFiles::of_folder(path));
+            Some(capture(state))
         }
-        DialogRequest::ScanPoses => shots::apply(state, ShotsAction::Poses(path)),
-        DialogRequest::Shot => shots::apply(state, ShotsAction::Add(path)),
+        DialogRequest::ScanPoses => scan::apply(state, ShotsAction::Chosen(ShotsFile::Poses, path)),
+        DialogRequest::Shot => scan::apply(state, ShotsAction::Chosen(ShotsFile::Shot, path)),
         DialogRequest::Recording => {
             let spec = SourceSpec::Recording(RecordingSpec {
                 folder: path,
@@ -292,7 +293,6 @@ fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Effect
             state.inspect.picture_to = Some(path);
             None
         }
-        DialogRequest::PartPath => enrol::apply(state, EnrolAction::StorePath(path)),
         DialogRequest::SprayPath => inspect::state::write_spray_path(state, path),
     }
 }
@@ -307,27 +307,33 @@ pub(super) fn capture(state: &mut State) -> Effect {
                 choice: *choice,
                 number: state.num_captures,
             };
-            (source, "Capturing".to_owned())
+            (SceneOrScan::Scene(source), "Capturing".to_owned())
         }
         Source::File(path) => (
-            SceneSource::File(path.clone()),
+            SceneOrScan::Scene(SceneSource::File(path.clone())),
             format!("Opening {}", file_name(path)),
         ),
         Source::Scan(files) => {
-            let files = files.clone();
-            return shots::open(state, files);
+            let order = ScanOrder::Open(files.clone());
+            let what = order.title();
+            (SceneOrScan::Scan(order), what)
         }
         Source::Camera(spec) => {
             let what = match **spec {
                 SourceSpec::Watched(_) => "Waiting for a new file".to_owned(),
                 _ => "Capturing".to_owned(),
             };
-            (SceneSource::Camera(spec.clone()), what)
+            let source = SceneSource::Camera(spec.clone());
+            (SceneOrScan::Scene(source), what)
         }
     };
     if state.workspace == Workspace::Enrol {
-        return enrol::take(state, source, what);
+        return Effect::Take(source, what);
     }
+    let source = match source {
+        SceneOrScan::Scene(source) => source,
+        SceneOrScan::Scan(order) => return scan::begin(state, order, Asked::first()),
+    };
     let source = match &state.empty_cell {
         Some(cell) => SceneSource::Before(Arc::clone(cell), Box::new(source)),
         None => source,
@@ -410,7 +416,30 @@ pub(super) fn inspect_again(state: &mut State) -> Option<Effect> {
 /// The scene in front, to be inspected with what holds now.
 pub(super) fn inspection_of_shown(state: &State) -> Option<Request> {
     let shown = state.shown.as_ref()?;
-    Some(shots::inspection_again(state, &shown.inspected))
+    Some(scan::inspection_again(&state.session, &shown.inspected))
+}
+
+/// Uses the library that was changed, and inspects what was saved in it, else the scene in front.
+pub(super) fn library_changed(
+    state: &mut State,
+    library: &Arc<LibraryView>,
+    saved: Option<SceneOrScan>,
+) -> Option<Effect> {
+    answers::use_library(state, library);
+    let is_busy = state.works.contains_key(&TaskQueue::Inspect);
+    let request = match saved {
+        Some(SceneOrScan::Scene(source)) => {
+            let recipe = Arc::clone(&state.recipe);
+            Some(Request::Inspect(InspectRequest { source, recipe }))
+        }
+        Some(SceneOrScan::Scan(order)) => {
+            Some(Request::InspectScan(ScanRequest::of(order, &state.session)))
+        }
+        None if is_busy => None,
+        None => inspection_of_shown(state),
+    };
+    let purpose = ReinspectionPurpose::New;
+    Some(state.inspect("Inspecting again", request?, purpose))
 }
 
 /// Shows a past inspection that is still in memory.
@@ -527,6 +556,23 @@ mod tests {
         apply(&mut state, done(newer, Err(trouble())));
         assert_eq!(state.notices.len(), 1);
         assert!(state.works.is_empty() && state.shown.is_none());
+    }
+
+    #[test]
+    fn captures_are_enrolled_while_the_workspace_is_in_front_and_inspected_otherwise() {
+        let mut state = State::default();
+        for action in [Action::Capture, Action::Open("door.pcd".into())] {
+            let (_, request) = posted(apply(&mut state, action));
+            assert_eq!(request.lane(), TaskQueue::Inspect);
+        }
+        state.workspace = Workspace::Enrol;
+        for action in [Action::Capture, Action::Open("door.pcd".into())] {
+            let effect = apply(&mut state, action);
+            assert!(
+                matches!(effect, Some(Effect::Take(SceneOrScan::Scene(_), _))),
+                "{effect:?}"
+            );
+        }
     }
 
     #[test]

@@ -7,13 +7,11 @@ use std::{
 
 use super::{
     action::{Effect, inspect_again, notify},
-    enrol,
-    inspect::work::Inspected,
+    inspect::{scan, work::Inspected},
     job::{TaskOutcome, TaskResult, Trouble},
     lane::TaskQueue,
     live,
     shelf::LibraryView,
-    shots,
     source::Origin,
     state::{Event, Notice, NoticeKind, ReinspectionPurpose, Shown, Source, State},
     worker::TaskEvent,
@@ -59,10 +57,9 @@ fn take_in(
     match outcome {
         Ok(TaskResult::Inspected(inspected)) => return Some(show(state, generation, inspected)),
         Ok(TaskResult::PosesWanted(order, trouble)) => {
-            return Some(shots::ask_for_poses(state, lane, *order, trouble));
+            return Some(scan::ask_for_poses(state, *order, trouble));
         }
         Ok(TaskResult::Live(answer)) => return live::hear(state, Ok(answer)),
-        Ok(TaskResult::Enrol(answer)) => return enrol::hear(state, generation, Ok(answer)),
         Ok(TaskResult::Library(library)) => {
             use_library(state, &library);
             return inspect_again(state);
@@ -71,9 +68,6 @@ fn take_in(
         Err(trouble) => {
             notify(state, trouble.clone().into());
             match lane {
-                TaskQueue::Enrol | TaskQueue::Library => {
-                    return enrol::hear(state, generation, Err(trouble));
-                }
                 TaskQueue::Inspect => without_scene(state),
                 TaskQueue::Live => return live::hear(state, Err(trouble)),
                 TaskQueue::Write => {}
@@ -96,13 +90,13 @@ fn show(state: &mut State, generation: u64, inspected: Arc<Inspected>) -> Effect
         notify(state, Trouble::of(warning).into());
     }
     use_library(state, &inspected.library);
-    let scan = inspected.scan.as_ref();
+    let shots = inspected.scan.as_ref();
     if let Origin::File { path, .. } = &inspected.origin {
         remember(&mut state.recent, path);
-    } else if let Some(folder) = scan.and_then(|scan| scan.fused.choice.set.files.folder()) {
+    } else if let Some(folder) = shots.and_then(|scan| scan.fused.choice.set.files.folder()) {
         remember(&mut state.recent, folder);
     }
-    for warning in scan.map_or(&[][..], |scan| &scan.fused.warnings) {
+    for warning in shots.map_or(&[][..], |scan| &scan.fused.warnings) {
         notify(state, warning.clone().into());
     }
     let former = state.shown.as_ref();
@@ -120,7 +114,7 @@ fn show(state: &mut State, generation: u64, inspected: Arc<Inspected>) -> Effect
         is_past: purpose == ReinspectionPurpose::Past,
         session: None,
     });
-    shots::settle(state, TaskQueue::Inspect, generation, former);
+    scan::settle(state, former);
     Effect::Tell(Event::Inspected { inspected, purpose })
 }
 

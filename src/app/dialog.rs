@@ -3,6 +3,7 @@
 use super::{
     action::DialogRequest,
     shell::file_dialog::{ALL_FILES, FileChoice, FileRequest, POINTS},
+    shots::ShotsFile,
 };
 
 /// The dialog that asks this.
@@ -13,8 +14,8 @@ pub(super) fn request(ask: DialogRequest) -> FileRequest {
             "Folder of a scan: its frames and their poses",
             FileChoice::Folder,
         ),
-        DialogRequest::ScanPoses => ("File of the poses of the shots", FileChoice::File),
-        DialogRequest::Shot => ("Add a frame to the scan", FileChoice::File),
+        DialogRequest::ScanPoses => return ShotsFile::Poses.request(),
+        DialogRequest::Shot => return ShotsFile::Shot.request(),
         DialogRequest::ReportFolder => (
             "Folder for the report of this inspection",
             FileChoice::FolderToWrite,
@@ -32,7 +33,6 @@ pub(super) fn request(ask: DialogRequest) -> FileRequest {
             "Export the spray path for the robot",
             FileChoice::NewFile("spray-path.csv"),
         ),
-        DialogRequest::PartPath => ("The nozzle's path over this part", FileChoice::File),
     };
     FileRequest {
         title,
@@ -50,13 +50,12 @@ fn filters(ask: DialogRequest) -> &'static [(&'static str, &'static [&'static st
             ),
             ALL_FILES,
         ],
-        DialogRequest::ScanPoses => &[("Poses", &["json"]), ALL_FILES],
-        DialogRequest::Shot => &[("Captured scenes", &["png", "pcd", "ply"]), ALL_FILES],
         DialogRequest::Picture => &[("Pictures", &["png"])],
         DialogRequest::Part => &[POINTS, ALL_FILES],
         DialogRequest::SprayPath => &[("Comma-separated values", &["csv"]), ("JSON", &["json"])],
-        DialogRequest::PartPath => &[("Tables", &["csv", "txt"]), ALL_FILES],
         DialogRequest::Scan
+        | DialogRequest::ScanPoses
+        | DialogRequest::Shot
         | DialogRequest::ReportFolder
         | DialogRequest::Library
         | DialogRequest::Recording

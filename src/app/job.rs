@@ -5,7 +5,6 @@ use std::{path::PathBuf, sync::Arc};
 /// The name under which most of the window knows it.
 pub use super::user_error::UserError as Trouble;
 use super::{
-    enrol::{EnrolAnswer, EnrolRequest},
     inspect::work::{InspectRequest, InspectScanError, Inspected, inspect, inspect_scan},
     lane::TaskQueue,
     live::{LiveAnswer, LiveRequest},
@@ -26,8 +25,6 @@ pub enum Request {
     Live(LiveRequest),
     /// Use another library: the one of this folder, else the one that is found without.
     Library(Option<PathBuf>),
-    /// Something of the Enrol workspace.
-    Enrol(EnrolRequest),
     /// Write a file.
     Write(WriteRequest),
 }
@@ -38,7 +35,6 @@ impl Request {
         match self {
             Self::Inspect(_) | Self::InspectScan(_) | Self::Library(_) => TaskQueue::Inspect,
             Self::Live(_) => TaskQueue::Live,
-            Self::Enrol(request) => request.lane(),
             Self::Write(_) => TaskQueue::Write,
         }
     }
@@ -55,8 +51,6 @@ pub enum TaskResult {
     Live(LiveAnswer),
     /// The library that is in use now.
     Library(Arc<LibraryView>),
-    /// Something of the Enrol workspace.
-    Enrol(EnrolAnswer),
     /// What was written.
     Written(WriteResult),
 }
@@ -89,13 +83,12 @@ pub fn answer(
             Ok(shelved) => Ok(TaskResult::Library(Arc::clone(&shelved.shown))),
             Err(error) => Err(Trouble::of(&error)),
         }),
-        Request::Enrol(request) => super::enrol::answer(request, shelf, desk),
         Request::Write(request) => Some(super::writing::answer(&request).map(TaskResult::Written)),
     }
 }
 
 /// A scan whose poses are not found asks for their file.
-pub(super) fn not_fused(error: &FuseError, request: &ScanRequest) -> TaskOutcome {
+fn not_fused(error: &FuseError, request: &ScanRequest) -> TaskOutcome {
     let trouble = Trouble::of(error);
     if error.wants_poses() {
         Ok(TaskResult::PosesWanted(

@@ -7,7 +7,7 @@ use egui::{
 use super::{
     action::{Action, DialogRequest},
     bars::labelled,
-    enrol, inspect,
+    inspect,
     live::LiveAction,
     robot::RobotAction,
     roles::RoleAction,
@@ -148,8 +148,7 @@ const HELP_MARGIN: f32 = 190.0;
 fn of_workspace(workspace: Workspace) -> &'static [Shortcut] {
     match workspace {
         Workspace::Inspect => &inspect::SHORTCUTS,
-        Workspace::Enrol => &enrol::SHORTCUTS,
-        Workspace::Compare | Workspace::Align | Workspace::History => &[],
+        Workspace::Enrol | Workspace::Compare | Workspace::Align | Workspace::History => &[],
     }
 }
 

@@ -7,8 +7,8 @@
 //!
 //! [`shell`] is what a workspace stands on: the session that all of them share, tasks, messages, file dialogs. A
 //! workspace is a folder with its state, its panels and the work of its tasks; none imports another, and the window
-//! knows it as a [`shell::workspace::Workspace`]. So far these are [`align`], [`compare`] and [`history`]; the dialog of
-//! [`robot`] owns its state and task in the same way. Inspect, Enrol and Live still share one [`state`], changed by
+//! knows it as a [`shell::workspace::Workspace`]. So far these are [`enrol`], [`compare`], [`align`] and [`history`]; the
+//! dialog of [`robot`] owns its state and task in the same way. Inspect and Live still share one [`state`], changed by
 //! [`action`] alone, and ask threads by [`lane`] through [`job`] and [`worker`].
 //!
 //! [`theme`] holds every colour, distance and type size. Panels draw the last result, always, and never compute.

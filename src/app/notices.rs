@@ -8,7 +8,6 @@ use egui::{
 use super::{
     action::Action,
     bars::labelled,
-    enrol::EnrolAction,
     state::{Notice, NoticeKind, State},
     theme::{ROUNDING, Theme, space},
     widgets::{Mark, mark},
@@ -69,7 +68,7 @@ fn line(ui: &mut Ui, place: usize, notice: &Notice, theme: &Theme, actions: &mut
             }
             let is_undoable = notice.kind == NoticeKind::Undoable;
             if is_undoable && labelled(ui, Button::new("Undo"), "Undo").clicked() {
-                actions.push(Action::Enrol(EnrolAction::Undo));
+                actions.push(Action::Undo);
             }
             let words = Layout::left_to_right(Align::Center).with_main_wrap(true);
             ui.with_layout(words, |ui| {

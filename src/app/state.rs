@@ -12,7 +12,6 @@ pub use super::shell::{
 };
 use super::{
     action::Effect,
-    enrol::EnrolState,
     inspect::state::InspectState,
     job::Request,
     lane::TaskQueue,
@@ -46,8 +45,6 @@ pub struct State {
     pub live: LiveState,
     /// Of the Inspect workspace.
     pub inspect: InspectState,
-    /// Of the Enrol workspace.
-    pub enrol: EnrolState,
     /// What the newest inspection that was asked for is for: its generation, and the purpose.
     pub purpose: (u64, ReinspectionPurpose),
 }
@@ -78,7 +75,7 @@ impl State {
         let all = self.works.iter().map(|(lane, work)| (*lane, work));
         // Quickly done, and not to be given up half-way.
         // A source is followed until it is no longer wanted, which has a button of its own.
-        let quick = [TaskQueue::Write, TaskQueue::Library, TaskQueue::Live];
+        let quick = [TaskQueue::Write, TaskQueue::Live];
         let mut all = all.filter(|(lane, _)| !quick.contains(lane));
         let own = own.and_then(|own| self.works.get_key_value(&own).map(|(l, w)| (*l, w)));
         own.or_else(|| all.next())
@@ -98,6 +95,9 @@ impl State {
             progress: None,
         };
         self.works.insert(lane, work);
+        if lane == TaskQueue::Inspect {
+            self.inspect.shots.started(None);
+        }
         let post = Effect::Post {
             generation: self.generation,
             request,
@@ -141,8 +141,7 @@ impl Workspace {
     pub fn lane(self) -> Option<TaskQueue> {
         match self {
             Self::Inspect => Some(TaskQueue::Inspect),
-            Self::Enrol => Some(TaskQueue::Enrol),
-            Self::Compare | Self::Align | Self::History => None,
+            Self::Enrol | Self::Compare | Self::Align | Self::History => None,
         }
     }
 }

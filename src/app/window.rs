@@ -12,7 +12,7 @@ use super::{
     camera::Camera,
     compare::CompareWorkspace,
     dialog,
-    enrol::EnrolPanel,
+    enrol::EnrolWorkspace,
     headless::WorkCounts,
     history::HistoryWorkspace,
     inspect::InspectPanel,
@@ -78,7 +78,6 @@ pub struct Window {
     installed: Option<ThemeChoice>,
     gpu: Result<ViewportGpu, ViewError>,
     inspect: InspectPanel,
-    enrol: EnrolPanel,
     /// When a hand was last on the window, seconds on egui's clock.
     touched: f64,
 }
@@ -137,6 +136,7 @@ impl Window {
             },
             robot: RobotCell::new(&runner),
             workspaces: vec![
+                Box::new(EnrolWorkspace::new(gpu.clone(), &runner)),
                 Box::new(CompareWorkspace::new(cases, &runner)),
                 Box::new(AlignWorkspace::new(&gpu, &runner)),
                 Box::new(HistoryWorkspace::new(history_writer, kept, &runner)),
@@ -145,7 +145,6 @@ impl Window {
             installed: None,
             gpu: gpu.clone(),
             inspect: InspectPanel::new(gpu.clone()),
-            enrol: EnrolPanel::new(gpu.clone()),
             touched: ctx.input(|input| input.time),
         };
         window.state.notices.extend(trouble.map(Notice::from));
@@ -202,6 +201,12 @@ impl Window {
             }
             Effect::CancelTask(kind) => {
                 self.lend(kind, ctx, |workspace, _| workspace.cancel());
+            }
+            Effect::Take(scene, title) => {
+                let front = self.state.workspace;
+                self.lend(front, ctx, |workspace, cx| {
+                    workspace.take_scene(scene, title, cx);
+                });
             }
             Effect::Robot(action) => self.with_robot(ctx, |robot, cx| robot.apply(action, cx)),
             Effect::CopyText(text) => ctx.copy_text(text),
@@ -282,12 +287,14 @@ impl Window {
         });
         if let Some(path) = dropped {
             let is_scan = path.join(FRAME_POSES).is_file();
-            let is_json = path
-                .extension()
-                .is_some_and(|ending| ending.eq_ignore_ascii_case("json"));
+            let front = self.state.workspace;
+            let is_taken = self.lend(front, ctx, |workspace, cx| workspace.take_file(&path, cx));
+            if is_taken == Some(true) {
+                return;
+            }
             let opened = if path.is_dir() && !is_scan {
                 Action::Chosen(DialogRequest::Recording, path)
-            } else if is_json && self.state.wants_poses() {
+            } else if front != WorkspaceKind::Enrol && self.state.inspect.shots.wants(&path) {
                 Action::Chosen(DialogRequest::ScanPoses, path)
             } else {
                 Action::Open(path)
@@ -346,15 +353,13 @@ impl Window {
             .frame(canvas)
             .show(ui, |ui| match front {
                 WorkspaceKind::Inspect => self.inspect.ui(ui, &self.state, theme, &mut actions),
-                WorkspaceKind::Enrol => self.enrol.ui(ui, &self.state, theme, &mut actions),
-                WorkspaceKind::Compare | WorkspaceKind::Align | WorkspaceKind::History => {
+                _ => {
                     self.lend(front, &ctx, |workspace, cx| workspace.ui(ui, cx));
                 }
             });
         let hosted = self.hosted(front);
         let view_has_focus = match front {
             WorkspaceKind::Inspect => self.inspect.view_has_focus(),
-            WorkspaceKind::Enrol => self.enrol.view_has_focus(),
             _ => hosted.is_some_and(Workspace::has_key_focus),
         };
         let keys = hosted.map_or_else(Vec::new, Workspace::key_bindings);

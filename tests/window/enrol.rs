@@ -15,7 +15,9 @@ use partsight::{
     simulate::{PartKind, PartModel, Side},
 };
 
-use super::set_up::{SMALL, USUAL, WindowHarness, act, drop_file, open_with, press, settle};
+use super::set_up::{
+    SMALL, USUAL, WindowHarness, act, drop_file, enrol_of, open_with, press, settle,
+};
 
 fn open_at(library: &Path, size: Vec2) -> WindowHarness {
     let options = WindowOptions {
@@ -76,7 +78,7 @@ fn drag(harness: &mut WindowHarness, from: Pos2, to: Pos2) {
 }
 
 fn num_kept(harness: &WindowHarness) -> usize {
-    let draft = state(harness).enrol.draft.as_ref().expect("a draft");
+    let draft = enrol_of(harness).draft.as_ref().expect("a draft");
     draft.selection.indices.len()
 }
 
@@ -165,11 +167,11 @@ fn a_saved_part_goes_again_by_undo_and_the_draft_comes_back() {
     assert_eq!(names(library.path()), ["fender_right"]);
     press(&mut harness, "Undo");
     assert!(names(library.path()).is_empty());
-    let draft = state(&harness).enrol.draft.as_ref().expect("back");
+    let draft = enrol_of(&harness).draft.as_ref().expect("back");
     assert_eq!(draft.form.title, "Fender, right");
     press_keys(&mut harness, Modifiers::COMMAND | Modifiers::SHIFT, Key::Z);
     assert_eq!(names(library.path()), ["fender_right"]);
-    assert!(state(&harness).enrol.draft.is_none());
+    assert!(enrol_of(&harness).draft.is_none());
 }
 
 #[test]
@@ -245,7 +247,7 @@ fn what_shall_be_replaced_is_followed_when_renamed_and_forgotten_when_removed() 
     press(&mut harness, "Remove");
     harness.get_by_label("Show the part to enrol");
     harness.get_by_label("New part");
-    assert!(state(&harness).enrol.replacing.is_none());
+    assert!(enrol_of(&harness).replacing.is_none());
     press(&mut harness, "Undo");
     // The notices of all that lie over the parts.
     while !state(&harness).notices.is_empty() {
@@ -380,9 +382,9 @@ fn a_library_that_cannot_be_written_is_a_notice_and_the_window_goes_on() {
     press(&mut harness, "Save");
     assert!(notices(&harness)[0].contains("cannot write to the library"));
     assert!(!state(&harness).notices[0].advice.is_empty());
-    assert!(state(&harness).enrol.draft.is_some());
+    assert!(enrol_of(&harness).draft.is_some());
     press_keys(&mut harness, Modifiers::NONE, Key::Space);
-    assert_eq!(state(&harness).enrol.num_drafts, 2);
+    assert_eq!(enrol_of(&harness).num_drafts, 2);
 }
 
 #[test]
@@ -413,7 +415,7 @@ fn the_inspected_scene_is_taken_at_one_press_and_captures_stay_with_the_workspac
     press(&mut harness, "Take the inspected scene");
     assert!(num_kept(&harness) > 1000);
     press_keys(&mut harness, Modifiers::NONE, Key::Space);
-    assert_eq!(state(&harness).enrol.num_drafts, 2);
+    assert_eq!(enrol_of(&harness).num_drafts, 2);
     let still = state(&harness).shown.as_ref().expect("a result").generation;
     assert_eq!(
         (still, state(&harness).workspace),

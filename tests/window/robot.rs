@@ -9,7 +9,7 @@ use partsight::{
     app::{
         WindowOptions,
         action::{Action, DialogRequest},
-        enrol::EnrolAction,
+        enrol::{EnrolAction, EnrolFile, EnrolWorkspace},
         inspect::state::ViewPart,
         robot::RobotAction,
         shell::session::RememberedCell,
@@ -23,7 +23,7 @@ use partsight::{
     },
 };
 
-use super::set_up::{USUAL, WindowHarness, act, open, open_with, press, settle};
+use super::set_up::{USUAL, WindowHarness, act, act_in, open, open_with, press, settle};
 
 fn state(harness: &WindowHarness) -> &State {
     harness.state().state()
@@ -245,6 +245,12 @@ pub(crate) fn copy_library(to: &Path) {
     }
 }
 
+fn in_enrol(harness: &mut WindowHarness, action: EnrolAction) {
+    act_in(harness, |enrol: &mut EnrolWorkspace, cx| {
+        enrol.state_mut().apply(action, cx);
+    });
+}
+
 #[test]
 fn a_spray_path_is_stored_carried_shown_and_exported() {
     let folder = tempfile::tempdir().expect("a folder");
@@ -273,8 +279,11 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
     }
     fs::write(&file, text).expect("written");
     act(&mut harness, Action::GoTo(Workspace::Enrol));
-    act(&mut harness, Action::Enrol(EnrolAction::Open(door)));
-    act(&mut harness, Action::Chosen(DialogRequest::PartPath, file));
+    in_enrol(&mut harness, EnrolAction::Open(door));
+    in_enrol(
+        &mut harness,
+        EnrolAction::Chosen(EnrolFile::SprayPath, file),
+    );
     harness.get_by_label_contains("· spray path of 6 points");
     assert_eq!(
         library
@@ -326,6 +335,6 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
     );
 
     // Taken back as any change of the library.
-    act(&mut harness, Action::Enrol(EnrolAction::Undo));
+    in_enrol(&mut harness, EnrolAction::Undo);
     assert_eq!(library.spray_path("front_door").expect("read"), None);
 }

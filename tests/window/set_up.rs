@@ -12,6 +12,7 @@ use egui_kittest::{Harness, kittest::Queryable as _};
 use partsight::app::{
     Window, WindowOptions,
     action::Action,
+    enrol::{EnrolState, EnrolWorkspace},
     history::{HistoryState, HistoryWorkspace},
     shell::{context::ShellContext, workspace::Workspace},
     state::State,
@@ -100,6 +101,12 @@ pub(crate) fn act_in<W: Workspace>(
 /// What the History workspace knows.
 pub(crate) fn history_of(harness: &WindowHarness) -> &HistoryState {
     let workspace = harness.state().workspace::<HistoryWorkspace>();
+    workspace.expect("the workspace").state()
+}
+
+/// What the Enrol workspace knows.
+pub(crate) fn enrol_of(harness: &WindowHarness) -> &EnrolState {
+    let workspace = harness.state().workspace::<EnrolWorkspace>();
     workspace.expect("the workspace").state()
 }
 

@@ -23,7 +23,9 @@ use partsight::{
 };
 use serde_json::{Value, json};
 
-use super::set_up::{SMALL, USUAL, WindowHarness, act, drop_file, open_with, press, settle};
+use super::set_up::{
+    SMALL, USUAL, WindowHarness, act, drop_file, enrol_of, open_with, press, settle,
+};
 
 /// A simulated scan of a fender: `num` shots and their poses, and one more that the poses do not name.
 pub(crate) struct ScanFolder {
@@ -128,8 +130,16 @@ fn state(harness: &WindowHarness) -> &State {
     harness.state().state()
 }
 
+/// The scan in front.
 fn fused(harness: &WindowHarness) -> &FusedShots {
-    state(harness).fused().expect("a scan")
+    let fused = match state(harness).workspace {
+        Workspace::Enrol => {
+            let draft = enrol_of(harness).draft.as_ref();
+            draft.expect("a draft").subject.scan()
+        }
+        _ => state(harness).fused(),
+    };
+    fused.expect("a scan")
 }
 
 /// Which shots the result rests on, by their place.
@@ -173,7 +183,7 @@ fn a_scan_is_listed_shots_are_dropped_and_taken_back_and_it_is_inspected_as_one(
     }
     let all_three = fused(&harness).scan.cloud.cloud.points.len();
     press(&mut harness, "Mark what shot 2 alone sees");
-    assert_eq!(state(&harness).shots().looked_at, Some(1));
+    assert_eq!(state(&harness).inspect.shots.looked_at, Some(1));
 
     press(&mut harness, "Use shot-2.png");
     assert_eq!(used(&harness), [0, 2]);
@@ -237,7 +247,7 @@ fn what_is_enrolled_from_a_scan_is_what_the_command_line_stores() {
     assert_eq!(used(&harness), [0, 1, 2]);
 
     let draft = |harness: &WindowHarness| {
-        let draft = state(harness).enrol.draft.as_ref();
+        let draft = enrol_of(harness).draft.as_ref();
         draft.expect("a draft").selection.indices.len()
     };
     let kept = draft(&harness);
@@ -268,7 +278,7 @@ fn what_is_enrolled_from_a_scan_is_what_the_command_line_stores() {
     let toml = stored(&library.join("fender"));
     assert!(toml.0.contains("coverage = \"several_sides\"") && toml.0.contains("num_shots = 3"));
     assert_eq!(toml, stored(&by_command.join("fender")));
-    assert!(state(&harness).enrol.draft.is_none());
+    assert!(enrol_of(&harness).draft.is_none());
 }
 
 #[test]

@@ -3,16 +3,15 @@
 use egui::{Button, Rect, RichText, ScrollArea, Ui, pos2, vec2};
 
 use super::{
-    EnrolAction,
+    EnrolAction, EnrolFile, EnrolState,
+    draft::OpenedPart,
     fields::{self, complaint},
-    state::OpenedPart,
     thumbnails::Thumbnails,
 };
 use crate::{
     app::{
-        action::{Action, DialogRequest},
         inspect::grouped,
-        state::State,
+        shell::session::Session,
         theme::{ROUNDING, Theme, font, space},
         widgets::fitted,
     },
@@ -23,18 +22,19 @@ use crate::{
 pub(super) fn ui(
     ui: &mut Ui,
     open: &OpenedPart,
-    state: &State,
+    enrol: &EnrolState,
+    session: &Session,
     thumbnails: &Thumbnails,
     theme: &Theme,
-    actions: &mut Vec<Action>,
+    actions: &mut Vec<EnrolAction>,
 ) {
-    let library = state.library.as_deref();
+    let library = session.library.as_deref();
     let place = library.and_then(|library| library.place_of(open.name.as_str()));
     let part = library
         .zip(place)
         .and_then(|(library, place)| library.parts.get(place));
     let can_change = library.is_some_and(|library| library.is_fixed.is_none());
-    let can_change = can_change && !state.is_changing_library();
+    let can_change = can_change && !enrol.is_changing_library();
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let title = part.map_or(open.name.as_str(), PartMeta::shown_title);
         ui.label(RichText::new(title).font(font::verdict()).color(theme.text));
@@ -56,26 +56,26 @@ pub(super) fn ui(
             ui.add_space(space::SMALL);
             ui.add_enabled_ui(can_change, |ui| {
                 if let Some(field) = fields::ui(ui, &open.form, theme) {
-                    actions.push(Action::Enrol(EnrolAction::WriteOpen(field)));
+                    actions.push(EnrolAction::WriteOpen(field));
                 }
                 let words = open.form.words();
                 let has_changed = words.is_ok_and(|words| words != part.words());
                 ui.add_enabled_ui(has_changed, |ui| {
                     if button(ui, "Rename") {
-                        actions.push(Action::Enrol(EnrolAction::Rename));
+                        actions.push(EnrolAction::Rename);
                     }
                 });
                 ui.add_space(space::SMALL);
                 if button(ui, "Spray path…") {
-                    actions.push(Action::Ask(DialogRequest::PartPath));
+                    actions.push(EnrolAction::Ask(EnrolFile::SprayPath));
                 }
                 if part.spray.is_some() && button(ui, "Take the spray path away") {
                     let name = open.name.clone();
-                    actions.push(Action::Enrol(EnrolAction::RemovePath(name)));
+                    actions.push(EnrolAction::RemovePath(name));
                 }
                 if button(ui, "Enrol anew") {
                     let name = open.name.clone();
-                    actions.push(Action::Enrol(EnrolAction::Replace(name)));
+                    actions.push(EnrolAction::Replace(name));
                 }
             });
         } else {
@@ -87,13 +87,13 @@ pub(super) fn ui(
         ui.add_enabled_ui(can_change, |ui| {
             if button(ui, "Remove") {
                 let name = open.name.clone();
-                actions.push(Action::Enrol(EnrolAction::Remove(name)));
+                actions.push(EnrolAction::Remove(name));
             }
         });
         if button(ui, "Close") {
-            actions.push(Action::Enrol(EnrolAction::Close));
+            actions.push(EnrolAction::Close);
         }
-        super::form::fixed(ui, state, theme);
+        super::form::fixed(ui, session, theme);
     });
 }
 

@@ -6,15 +6,12 @@ use egui::{
     Align, Align2, Rect, Response, RichText, ScrollArea, Sense, Stroke, StrokeKind, Ui, pos2, vec2,
 };
 
-use super::{EnrolAction, thumbnails::Thumbnails};
+use super::{EnrolAction, EnrolState, thumbnails::Thumbnails};
 use crate::{
     app::{
-        action::Action,
-        bars::{focus_ring, shortened},
         shelf::LibraryView,
-        state::State,
         theme::{ROUNDING, Theme, font, space},
-        widgets::{Mark, fitted, mark},
+        widgets::{Mark, fitted, focus_ring, mark, shortened},
     },
     library::{PartMeta, PartName},
 };
@@ -59,12 +56,13 @@ impl Catalogue {
     pub(super) fn ui(
         &mut self,
         ui: &mut Ui,
-        state: &State,
+        enrol: &EnrolState,
+        library: Option<&Arc<LibraryView>>,
         thumbnails: &Thumbnails,
         theme: &Theme,
-        actions: &mut Vec<Action>,
+        actions: &mut Vec<EnrolAction>,
     ) {
-        let Some(library) = &state.library else {
+        let Some(library) = library else {
             ui.label(RichText::new("The library is being loaded…").color(theme.weak_text));
             return;
         };
@@ -81,7 +79,7 @@ impl Catalogue {
                 .color(theme.weak_text),
         );
         let order = self.sorted.as_ref().map_or(&[][..], |(_, order)| order);
-        let wants_more = self.followed == state.enrol.num_changes;
+        let wants_more = self.followed == enrol.num_changes;
         // A wheel turns it as well.
         ui.style_mut().always_scroll_the_only_direction = true;
         ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
@@ -95,13 +93,13 @@ impl Catalogue {
                         is_damaged: true,
                         latest: None,
                     };
-                    card(ui, &shown, state, theme, actions);
+                    card(ui, &shown, enrol, theme, actions);
                 }
                 let parts = order
                     .iter()
                     .filter_map(|place| Some((*place, library.parts.get(*place)?)));
                 for (place, part) in parts {
-                    let latest = state.enrol.latest.as_ref();
+                    let latest = enrol.latest.as_ref();
                     let latest = latest.filter(|latest| latest.name == part.name);
                     let shown = CardContent {
                         name: part.name.as_str(),
@@ -111,14 +109,14 @@ impl Catalogue {
                         is_damaged: false,
                         latest: latest.map(|latest| latest.what),
                     };
-                    let response = card(ui, &shown, state, theme, actions);
+                    let response = card(ui, &shown, enrol, theme, actions);
                     if latest.is_some() && !wants_more {
                         response.scroll_to_me(Some(Align::Center));
                     }
                 }
             });
         });
-        self.followed = state.enrol.num_changes;
+        self.followed = enrol.num_changes;
     }
 }
 
@@ -136,12 +134,12 @@ fn when(part: &PartMeta) -> [String; 2] {
 fn card(
     ui: &mut Ui,
     shown: &CardContent<'_>,
-    state: &State,
+    enrol: &EnrolState,
     theme: &Theme,
-    actions: &mut Vec<Action>,
+    actions: &mut Vec<EnrolAction>,
 ) -> Response {
     let (rect, response) = ui.allocate_exact_size(CARD.into(), Sense::click());
-    let open = state.enrol.open.as_ref();
+    let open = enrol.open.as_ref();
     let is_open = open.is_some_and(|open| open.name.as_str() == shown.name);
     let painter = ui.painter_at(rect);
     let fill = if response.hovered() {
@@ -192,11 +190,11 @@ fn card(
     if response.clicked()
         && let Ok(name) = PartName::new(shown.name)
     {
-        actions.push(Action::Enrol(if is_open {
+        actions.push(if is_open {
             EnrolAction::Close
         } else {
             EnrolAction::Open(name)
-        }));
+        });
     }
     response
 }

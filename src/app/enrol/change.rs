@@ -4,8 +4,8 @@ use std::{path::PathBuf, sync::Arc};
 
 use crate::{
     app::{
-        job::Trouble,
         shelf::{LibraryCache, LibraryView},
+        user_error::UserError,
     },
     library::{
         Enrolled, LibraryError, LibraryFolder, Part, PartMeta, PartName, PartNaming, Saved,
@@ -44,8 +44,8 @@ pub struct Changed {
 }
 
 /// Changes the library in use and loads it anew.
-pub(super) fn change(change: &LibraryChange, shelf: &LibraryCache) -> Result<Changed, Trouble> {
-    let shelved = shelf.get().map_err(|error| Trouble::of(&error))?;
+pub(super) fn change(change: &LibraryChange, shelf: &LibraryCache) -> Result<Changed, UserError> {
+    let shelved = shelf.get().map_err(|error| UserError::of(&error))?;
     let Some(folder) = shelved.place.folder() else {
         return Err(inside_the_program(shelved.shown.is_fixed.as_ref()));
     };
@@ -56,15 +56,15 @@ pub(super) fn change(change: &LibraryChange, shelf: &LibraryCache) -> Result<Cha
     };
     let read = match change {
         LibraryChange::ReadPath(name, file) => {
-            let path = SprayPath::read(file).map_err(|error| Trouble::of(&error))?;
+            let path = SprayPath::read(file).map_err(|error| UserError::of(&error))?;
             Some(LibraryChange::SetPath(name.clone(), Some(path)))
         }
         _ => None,
     };
     let change = read.as_ref().unwrap_or(change);
-    let done = make(change, folder, &title_of).map_err(|error| Trouble::of(&error))?;
+    let done = make(change, folder, &title_of).map_err(|error| UserError::of(&error))?;
     let (what, back, name) = done;
-    let library = shelf.reload().map_err(|error| Trouble::of(&error))?;
+    let library = shelf.reload().map_err(|error| UserError::of(&error))?;
     Ok(Changed {
         what,
         back,
@@ -159,8 +159,8 @@ fn described(part: &Part, words: &PartNaming) -> Part {
 }
 
 /// Why the shipped parts cannot be changed where they are.
-fn inside_the_program(reason: Option<&Trouble>) -> Trouble {
-    reason.cloned().unwrap_or_else(|| Trouble {
+fn inside_the_program(reason: Option<&UserError>) -> UserError {
+    reason.cloned().unwrap_or_else(|| UserError {
         what: "The library lies inside the program and cannot be changed".into(),
         advice: "Start Partsight with --library and a folder of your own".into(),
     })

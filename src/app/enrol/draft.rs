@@ -8,7 +8,7 @@ use super::{
     work::Checked,
 };
 use crate::{
-    app::{job::Trouble, shelf::LibraryView},
+    app::{shelf::LibraryView, user_error::UserError},
     library::{BadName, MAX_TITLE, PartName, PartNaming, Similarity},
 };
 
@@ -24,7 +24,7 @@ pub struct Draft {
     /// What is kept.
     pub selection: Arc<Selection>,
     /// What would be stored; `None` until it is known.
-    pub checked: Option<Result<Arc<Checked>, Trouble>>,
+    pub checked: Option<Result<Arc<Checked>, UserError>>,
     /// What it shall be called.
     pub form: Form,
 }
@@ -124,6 +124,15 @@ impl Form {
         let place = library.place_of(&self.name)?;
         Some(library.title(place))
     }
+}
+
+/// An enrolled part that is looked at.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct OpenedPart {
+    /// The part.
+    pub name: PartName,
+    /// What it is called, as a person writes it.
+    pub form: Form,
 }
 
 #[cfg(test)]

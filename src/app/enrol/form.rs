@@ -5,7 +5,7 @@ use egui::{
 };
 
 use super::{
-    EnrolAction,
+    EnrolAction, EnrolState,
     draft::Draft,
     fields::{self, complaint, said},
     thumbnails::Thumbnails,
@@ -13,14 +13,11 @@ use super::{
 };
 use crate::{
     app::{
-        action::Action,
-        bars::{labelled, shortened},
         inspect::grouped,
-        lane::TaskQueue,
+        shell::session::Session,
         shots::summary,
-        state::State,
         theme::{ROUNDING, Theme, font, space},
-        widgets::{Mark, fitted},
+        widgets::{Mark, fitted, labelled, shortened},
     },
     library::PartName,
     stages::reference::Coverage,
@@ -29,13 +26,14 @@ use crate::{
 /// Draws the card.
 pub(super) fn ui(
     ui: &mut Ui,
-    state: &State,
+    enrol: &EnrolState,
+    session: &Session,
     thumbnails: &Thumbnails,
     theme: &Theme,
-    actions: &mut Vec<Action>,
+    actions: &mut Vec<EnrolAction>,
 ) {
-    let Some(draft) = &state.enrol.draft else {
-        let title = what_save_does(state);
+    let Some(draft) = &enrol.draft else {
+        let title = what_save_does(enrol, session);
         ui.label(RichText::new(title).font(font::title()).color(theme.text));
         let steps = [
             "1  Capture the part, or open its file",
@@ -47,7 +45,7 @@ pub(super) fn ui(
         for step in steps {
             ui.label(RichText::new(step).color(theme.weak_text));
         }
-        fixed(ui, state, theme);
+        fixed(ui, session, theme);
         return;
     };
     Panel::bottom("save the draft")
@@ -57,43 +55,43 @@ pub(super) fn ui(
             top: 8,
             ..Margin::ZERO
         }))
-        .show(ui, |ui| buttons(ui, draft, state, theme, actions));
+        .show(ui, |ui| buttons(ui, draft, enrol, session, theme, actions));
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        let title = what_save_does(state);
+        let title = what_save_does(enrol, session);
         ui.label(RichText::new(title).font(font::verdict()).color(theme.text));
-        if state.is_taking_another() {
+        if enrol.is_taking_another() {
             let text = RichText::new("Old: another one is on its way");
             ui.label(text.font(font::body_strong()).color(theme.warning));
         }
-        stored(ui, draft, state, thumbnails, theme, actions);
+        stored(ui, draft, enrol, session, thumbnails, theme, actions);
         if let Some(field) = fields::ui(ui, &draft.form, theme) {
-            actions.push(Action::Enrol(EnrolAction::Write(field)));
+            actions.push(EnrolAction::Write(field));
         }
-        namesake(ui, draft, state, theme);
+        namesake(ui, draft, enrol, session, theme);
         if let Some(fused) = draft.subject.scan() {
-            summary(ui, fused, state.units, theme);
+            summary(ui, fused, session.units, theme);
         }
-        likeness(ui, draft, state, theme, actions);
+        likeness(ui, draft, session, theme, actions);
         for warning in draft.ready().map_or(&[][..], |checked| &checked.warnings) {
             complaint(ui, &warning.what, &warning.advice, theme);
         }
-        fixed(ui, state, theme);
+        fixed(ui, session, theme);
     });
 }
 
 /// The heading: a new part, or one that takes the place of another.
-fn what_save_does(state: &State) -> String {
-    state.replaced_title().map_or_else(
+fn what_save_does(enrol: &EnrolState, session: &Session) -> String {
+    enrol.replaced_title(session).map_or_else(
         || "New part".to_owned(),
         |title| format!("Replaces {title}"),
     )
 }
 
 /// The way out of replacing a part.
-pub(super) fn as_new(ui: &mut Ui, actions: &mut Vec<Action>) {
+pub(super) fn as_new(ui: &mut Ui, actions: &mut Vec<EnrolAction>) {
     let text = "Enrol as a new part instead";
     if labelled(ui, Button::new(text), text).clicked() {
-        actions.push(Action::Enrol(EnrolAction::ReplaceNone));
+        actions.push(EnrolAction::ReplaceNone);
     }
 }
 
@@ -113,16 +111,17 @@ fn unready(draft: &Draft) -> Option<&'static str> {
 fn stored(
     ui: &mut Ui,
     draft: &Draft,
-    state: &State,
+    enrol: &EnrolState,
+    session: &Session,
     thumbnails: &Thumbnails,
     theme: &Theme,
-    actions: &mut Vec<Action>,
+    actions: &mut Vec<EnrolAction>,
 ) {
     let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 116.0), egui::Sense::hover());
     let picture = Rect::from_min_size(rect.min, vec2(150.0, rect.height()));
     ui.painter().rect_filled(picture, ROUNDING, theme.canvas);
     let beside = Rect::from_min_max(pos2(picture.right() + space::MEDIUM, rect.top()), rect.max);
-    let is_working = state.works.contains_key(&TaskQueue::Enrol);
+    let is_working = enrol.running().is_some();
     if draft.ready().is_some()
         && let Some(texture) = thumbnails.of_draft()
     {
@@ -151,7 +150,7 @@ fn stored(
         small(ui, format!("{} points kept", grouped(num_kept)));
         if let Some(checked) = draft.ready() {
             let part = &checked.enrolled.part;
-            let outline = state.units.length(part.signature.perimeter_m);
+            let outline = session.units.length(part.signature.perimeter_m);
             small(ui, format!("Outline {outline}"));
             small(ui, format!("Openings {}", part.signature.openings_m.len()));
             small(ui, seen_from(part.meta.coverage).into());
@@ -164,7 +163,7 @@ fn stored(
         None if !is_working => {
             said(ui, Mark::Look, "What will be stored is not known", theme);
             if labelled(ui, Button::new("Look again"), "Look again").clicked() {
-                actions.push(Action::Enrol(EnrolAction::LookAgain));
+                actions.push(EnrolAction::LookAgain);
             }
         }
         _ => {}
@@ -180,10 +179,10 @@ fn seen_from(coverage: Coverage) -> &'static str {
 }
 
 /// Says that a part of this name is there already.
-fn namesake(ui: &mut Ui, draft: &Draft, state: &State, theme: &Theme) {
-    let library = state.library.as_deref();
+fn namesake(ui: &mut Ui, draft: &Draft, enrol: &EnrolState, session: &Session, theme: &Theme) {
+    let library = session.library.as_deref();
     let namesake = library.and_then(|library| draft.form.namesake(library));
-    let is_chosen = state.enrol.replacing.as_ref().map(PartName::as_str) == Some(&draft.form.name);
+    let is_chosen = enrol.replacing.as_ref().map(PartName::as_str) == Some(&draft.form.name);
     if let Some(title) = namesake.filter(|_| !is_chosen) {
         let what = format!("{title} has this name already");
         let advice = "Saving replaces it; the former one can be brought back";
@@ -192,11 +191,17 @@ fn namesake(ui: &mut Ui, draft: &Draft, state: &State, theme: &Theme) {
 }
 
 /// Which enrolled part it is hardest to tell from.
-fn likeness(ui: &mut Ui, draft: &Draft, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+fn likeness(
+    ui: &mut Ui,
+    draft: &Draft,
+    session: &Session,
+    theme: &Theme,
+    actions: &mut Vec<EnrolAction>,
+) {
     let Some(likeness) = draft.hardest() else {
         return;
     };
-    let title = title_of(state, &likeness.other);
+    let title = title_of(session, &likeness.other);
     let text = format!(
         "Hardest to tell from {title}: {:.2} alike (1 is the same)",
         likeness.score
@@ -212,14 +217,14 @@ fn likeness(ui: &mut Ui, draft: &Draft, state: &State, theme: &Theme, actions: &
     if let Ok(name) = PartName::new(&likeness.other) {
         let text = format!("Replace {}", shortened(title, 26));
         if labelled(ui, Button::new(&text), &text).clicked() {
-            actions.push(Action::Enrol(EnrolAction::Replace(name)));
+            actions.push(EnrolAction::Replace(name));
         }
     }
 }
 
 /// Says that nothing can be saved where the library lies.
-pub(super) fn fixed(ui: &mut Ui, state: &State, theme: &Theme) {
-    let fixed = state
+pub(super) fn fixed(ui: &mut Ui, session: &Session, theme: &Theme) {
+    let fixed = session
         .library
         .as_ref()
         .and_then(|library| library.is_fixed.as_ref());
@@ -229,24 +234,31 @@ pub(super) fn fixed(ui: &mut Ui, state: &State, theme: &Theme) {
     }
 }
 
-fn buttons(ui: &mut Ui, draft: &Draft, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+fn buttons(
+    ui: &mut Ui,
+    draft: &Draft,
+    enrol: &EnrolState,
+    session: &Session,
+    theme: &Theme,
+    actions: &mut Vec<EnrolAction>,
+) {
     let unready = unready(draft);
-    let is_replacing = state.replaced_title().is_some();
-    if is_replacing && state.enrol.replacing.is_some() {
+    let is_replacing = enrol.replaced_title(session).is_some();
+    if is_replacing && enrol.replacing.is_some() {
         as_new(ui, actions);
     }
     let size = vec2(ui.available_width(), 44.0);
     ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
         ui.set_min_height(44.0);
         if labelled(ui, Button::new("Discard"), "Discard").clicked() {
-            actions.push(Action::Enrol(EnrolAction::Discard));
+            actions.push(EnrolAction::Discard);
         }
-        let text = match (state.is_changing_library(), is_replacing) {
+        let text = match (enrol.is_changing_library(), is_replacing) {
             (true, _) => "Saving…",
             (false, true) => "Save and replace",
             (false, false) => "Save",
         };
-        ui.add_enabled_ui(unready.is_none() && !state.is_changing_library(), |ui| {
+        ui.add_enabled_ui(unready.is_none() && !enrol.is_changing_library(), |ui| {
             let key = RichText::new("Ctrl S").font(font::small());
             let save = RichText::new(text).font(font::body_strong());
             let button = Button::new(save.color(theme.on_accent))
@@ -258,7 +270,7 @@ fn buttons(ui: &mut Ui, draft: &Draft, state: &State, theme: &Theme, actions: &m
             response
                 .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, is_enabled, text));
             if response.clicked() {
-                actions.push(Action::Enrol(EnrolAction::Save));
+                actions.push(EnrolAction::Save);
             }
         });
     });

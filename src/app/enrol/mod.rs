@@ -1,5 +1,13 @@
 //! Enrol: from a capture or a file to a part that inspections recognise.
+//!
+//! ```text
+//! subject    what a part is enrolled from        segments, picture_plane, scanned
+//! selection  what of it is kept, as corrected     picture, tools, view
+//! draft      the part as it would be stored       taking, fields, form
+//! change     a change of the library              undo, catalogue, card
+//! ```
 
+mod action;
 mod card;
 mod catalogue;
 pub mod change;
@@ -7,66 +15,71 @@ pub mod draft;
 mod fields;
 mod form;
 mod picture;
+pub mod picture_plane;
 pub mod scanned;
+pub mod segments;
 pub mod selection;
 pub mod state;
 pub mod subject;
+mod taking;
 mod thumbnails;
 mod tools;
 pub mod undo;
 mod view;
 pub mod work;
 
+use std::path::Path;
+
 use egui::{
     Align, Button, Frame, Key, Layout, Margin, Modifiers, Panel, Rect, RichText, Ui, UiBuilder,
     vec2,
 };
 
-use self::{
-    catalogue::Catalogue, draft::Draft, picture::PicturePane, state::DraftPanes,
-    thumbnails::Thumbnails, view::DraftView,
-};
 pub use self::{
-    state::{EnrolAction, EnrolState, apply, hear},
-    work::{EnrolAnswer, EnrolRequest},
+    action::{DraftPanes, EnrolAction, EnrolFile},
+    state::EnrolState,
 };
-pub(super) use self::{
-    state::{take, take_scan},
-    work::answer,
+use self::{
+    catalogue::Catalogue, draft::Draft, picture::PicturePane, thumbnails::Thumbnails,
+    view::DraftView,
 };
 use super::{
-    action::{Action, DialogRequest},
-    bars::labelled,
-    keys::Shortcut,
-    lane::TaskQueue,
-    shots::{ShotList, StripTab},
-    state::State,
+    shell::{
+        context::ShellContext,
+        key_binding::{KeyBinding, Shortcut},
+        message::{Event, SceneOrScan},
+        session::{Session, WorkspaceKind},
+        task::{Running, TaskRunner},
+        workspace::Workspace,
+    },
+    shots::{ShotList, ShotsState, ShownShots, StripTab},
     theme::{Theme, font, space},
     viewport::{ViewError, ViewportGpu},
+    widgets::labelled,
 };
 
 /// The keys of the workspace. Those with more modifiers come first: the others would take them too.
-pub(in crate::app) const SHORTCUTS: [Shortcut; 3] = [
+const SHORTCUTS: [Shortcut<EnrolAction>; 3] = [
     Shortcut {
         modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
         key: Key::Z,
         keys: "Ctrl Shift Z",
         does: "Do again what was undone last",
-        action: || Action::Enrol(EnrolAction::Redo),
+        action: || EnrolAction::Redo,
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::Z,
         keys: "Ctrl Z",
         does: "Undo the last correction or change of the library",
-        action: || Action::Enrol(EnrolAction::Undo),
+        action: || EnrolAction::Undo,
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::S,
         keys: "Ctrl S",
         does: "Save the part",
-        action: || Action::Enrol(EnrolAction::Save),
+        action: || EnrolAction::Save,
     },
 ];
 
@@ -75,8 +88,14 @@ const CARD: [f32; 2] = [360.0, 320.0];
 /// Height of the strip of enrolled parts, logical pixels.
 const STRIP: f32 = 150.0;
 
-/// What the workspace keeps between frames: nothing but what was made of the state, and a box being drawn.
-pub(super) struct EnrolPanel {
+/// The workspace.
+pub struct EnrolWorkspace {
+    state: EnrolState,
+    panes: Panes,
+}
+
+/// What is drawn with: nothing but what was made of the state, and a box being drawn.
+struct Panes {
     view: DraftView,
     picture: PicturePane,
     thumbnails: Thumbnails,
@@ -84,57 +103,136 @@ pub(super) struct EnrolPanel {
     shots: ShotList,
 }
 
-impl EnrolPanel {
-    pub(super) fn new(gpu: Result<ViewportGpu, ViewError>) -> Self {
+impl EnrolWorkspace {
+    /// Without a draft.
+    pub fn new(gpu: Result<ViewportGpu, ViewError>, runner: &TaskRunner) -> Self {
         Self {
-            view: DraftView::new(gpu),
-            picture: PicturePane::default(),
-            thumbnails: Thumbnails::default(),
-            catalogue: Catalogue::default(),
-            shots: ShotList::default(),
+            state: EnrolState::new(runner),
+            panes: Panes {
+                view: DraftView::new(gpu),
+                picture: PicturePane::default(),
+                thumbnails: Thumbnails::default(),
+                catalogue: Catalogue::default(),
+                shots: ShotList::default(),
+            },
         }
     }
 
-    /// True while keys go to a 3-D view.
-    pub(super) fn view_has_focus(&self) -> bool {
-        self.view.has_focus()
+    /// What it knows.
+    pub fn state(&self) -> &EnrolState {
+        &self.state
     }
 
-    pub(super) fn ui(
+    /// The same, to be changed without a person.
+    pub fn state_mut(&mut self) -> &mut EnrolState {
+        &mut self.state
+    }
+}
+
+impl Workspace for EnrolWorkspace {
+    fn kind(&self) -> WorkspaceKind {
+        WorkspaceKind::Enrol
+    }
+
+    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
+        let mut actions = Vec::new();
+        self.panes
+            .ui(ui, &self.state, cx.session, cx.theme, &mut actions);
+        for action in actions {
+            self.state.apply(action, cx);
+        }
+    }
+
+    fn update(&mut self, cx: &mut ShellContext<'_>) {
+        self.state.update(cx);
+    }
+
+    fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
+        self.state.on_event(event, cx);
+    }
+
+    fn take_scene(&mut self, scene: SceneOrScan, title: String, cx: &mut ShellContext<'_>) {
+        self.state.take(scene, title, cx);
+    }
+
+    fn take_file(&mut self, path: &Path, cx: &mut ShellContext<'_>) -> bool {
+        self.state.take_file(path, cx)
+    }
+
+    fn key_bindings(&self) -> Vec<KeyBinding> {
+        SHORTCUTS.iter().map(Shortcut::binding).collect()
+    }
+
+    fn press(&mut self, place: usize, cx: &mut ShellContext<'_>) {
+        if let Some(shortcut) = SHORTCUTS.get(place) {
+            self.state.apply((shortcut.action)(), cx);
+        }
+    }
+
+    fn running(&self) -> Option<&Running> {
+        self.state.running()
+    }
+
+    fn cancel(&mut self) {
+        self.state.cancel();
+    }
+
+    fn has_key_focus(&self) -> bool {
+        self.panes.view.has_focus()
+    }
+
+    fn is_idle(&self, _session: &Session) -> bool {
+        self.running().is_none() && !self.state.is_changing_library()
+    }
+}
+
+impl Panes {
+    fn ui(
         &mut self,
         ui: &mut Ui,
-        state: &State,
+        enrol: &EnrolState,
+        session: &Session,
         theme: &Theme,
-        actions: &mut Vec<Action>,
+        actions: &mut Vec<EnrolAction>,
     ) {
         let size = ui.available_size();
         let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
-        self.thumbnails.make(ui.ctx(), state);
+        let library = session.library.as_ref();
+        let checked = enrol.draft.as_ref().and_then(Draft::ready);
+        self.thumbnails.make(ui.ctx(), library, checked);
         Panel::right("enrol card")
             .exact_size(if size.x > 1100.0 { CARD[0] } else { CARD[1] })
             .resizable(false)
             .frame(panel(Margin::symmetric(16, 12)))
-            .show(ui, |ui| match &state.enrol.open {
-                Some(open) => card::ui(ui, open, state, &self.thumbnails, theme, actions),
-                None => form::ui(ui, state, &self.thumbnails, theme, actions),
+            .show(ui, |ui| match &enrol.open {
+                Some(open) => {
+                    card::ui(ui, open, enrol, session, &self.thumbnails, theme, actions);
+                }
+                None => form::ui(ui, enrol, session, &self.thumbnails, theme, actions),
             });
+        let scan = shown_scan(enrol, session, theme);
         Panel::bottom("enrolled parts")
-            .exact_size(strip_height(state))
+            .exact_size(strip_height(scan.map(|scan| scan.shots)))
             .resizable(false)
             .frame(panel(Margin::symmetric(14, 6)))
             .show(ui, |ui| {
-                if state.fused().is_some()
-                    && ShotList::tabs(ui, state, "Enrolled parts", theme, actions)
-                {
-                    self.shots.ui(ui, state, theme, actions);
-                    return;
+                if let Some(scan) = scan {
+                    let mut caused = Vec::new();
+                    let is_list = ShotList::tabs(ui, scan, "Enrolled parts", &mut caused);
+                    if is_list {
+                        self.shots.ui(ui, scan, &mut caused);
+                    }
+                    actions.extend(caused.into_iter().map(EnrolAction::Shots));
+                    if is_list {
+                        return;
+                    }
                 }
                 self.catalogue
-                    .ui(ui, state, &self.thumbnails, theme, actions);
+                    .ui(ui, enrol, library, &self.thumbnails, theme, actions);
             });
-        match &state.enrol.draft {
-            Some(draft) => self.draft(ui, draft, state, theme, actions),
-            None => empty(ui, state, theme, actions),
+        match &enrol.draft {
+            Some(draft) => self.draft(ui, draft, enrol, session, theme, actions),
+            None => empty(ui, enrol, session, theme, actions),
         }
     }
 
@@ -143,9 +241,10 @@ impl EnrolPanel {
         &mut self,
         ui: &mut Ui,
         draft: &Draft,
-        state: &State,
+        enrol: &EnrolState,
+        session: &Session,
         theme: &Theme,
-        actions: &mut Vec<Action>,
+        actions: &mut Vec<EnrolAction>,
     ) {
         Panel::top("enrol tools")
             .resizable(false)
@@ -155,10 +254,10 @@ impl EnrolPanel {
                     .inner_margin(Margin::same(10)),
             )
             .show(ui, |ui| {
-                tools::ui(ui, draft, state, theme, actions);
+                tools::ui(ui, draft, enrol, theme, actions);
                 tools::segments(ui, draft, actions);
             });
-        if state.is_taking_another() {
+        if enrol.is_taking_another() {
             ui.multiply_opacity(0.55);
         }
         let all = ui.available_rect_before_wrap();
@@ -166,7 +265,7 @@ impl EnrolPanel {
         let wanted = all.height() * width as f32 / height.max(1) as f32;
         let share = (wanted / all.width().max(1.0)).clamp(0.5, 0.58);
         let (left, right) = all.split_left_right_at_fraction(share);
-        let (picture, view) = match state.enrol.panes() {
+        let (picture, view) = match enrol.panes() {
             DraftPanes::Both => (Some(left), Some(right)),
             DraftPanes::Picture => (Some(all), None),
             DraftPanes::View => (None, Some(all)),
@@ -176,38 +275,63 @@ impl EnrolPanel {
         };
         if let Some(rect) = picture {
             inside(rect.shrink(space::SMALL), &mut |ui| {
-                self.picture.ui(ui, draft, state, theme, actions);
+                self.picture.ui(ui, draft, enrol.box_mode, theme, actions);
             });
         }
         if let Some(rect) = view {
-            inside(rect, &mut |ui| self.view.ui(ui, draft, state, actions));
+            let looked_at = enrol.shots.looked_at;
+            inside(rect, &mut |ui| {
+                self.view.ui(ui, draft, looked_at, session.theme, actions);
+            });
         } else {
             self.view.rest();
         }
     }
 }
 
-fn strip_height(state: &State) -> f32 {
-    match state.enrol.shots.strip {
-        _ if state.fused().is_none() => STRIP,
-        StripTab::Shots => ShotList::HEIGHT,
-        StripTab::Usual => STRIP + space::TARGET + space::SMALL,
+/// The scan that the draft is, if it is one.
+fn shown_scan<'a>(
+    enrol: &'a EnrolState,
+    session: &'a Session,
+    theme: &'a Theme,
+) -> Option<ShownShots<'a>> {
+    let fused = enrol.draft.as_ref()?.subject.scan()?;
+    Some(ShownShots {
+        fused,
+        choice: enrol.shot_choice()?,
+        shots: &enrol.shots,
+        session,
+        theme,
+    })
+}
+
+fn strip_height(shots: Option<&ShotsState>) -> f32 {
+    match shots.map(|shots| shots.strip) {
+        None => STRIP,
+        Some(StripTab::Shots) => ShotList::HEIGHT,
+        Some(StripTab::Usual) => STRIP + space::TARGET + space::SMALL,
     }
 }
 
 /// Without a draft: where one comes from.
-fn empty(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+fn empty(
+    ui: &mut Ui,
+    enrol: &EnrolState,
+    session: &Session,
+    theme: &Theme,
+    actions: &mut Vec<EnrolAction>,
+) {
     let height = ui.available_height();
     let layout = Layout::top_down(Align::Center);
     ui.with_layout(layout, |ui| {
         ui.add_space((height / 2.0 - 110.0).max(space::LARGE));
-        if let Some(work) = state.works.get(&TaskQueue::Enrol) {
+        if let Some(running) = enrol.running() {
             ui.add(egui::Spinner::new().size(28.0).color(theme.accent));
-            let text = RichText::new(format!("{}…", work.what));
+            let text = RichText::new(format!("{}…", running.title));
             ui.label(text.font(font::verdict()).color(theme.weak_text));
             return;
         }
-        let replaced = state.replaced_title();
+        let replaced = enrol.replaced_title(session);
         let title = match replaced {
             Some(title) => format!("Show what shall replace {title}"),
             None => "Show the part to enrol".to_owned(),
@@ -220,7 +344,7 @@ fn empty(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
             ui.label(how);
         });
         ui.add_space(space::LARGE);
-        if let Some(shown) = &state.shown {
+        if let Some(shown) = &session.shown {
             let origin = shown.inspected.origin.title();
             let text = format!("Take {origin}, which Inspect shows");
             let label = "Take the inspected scene";
@@ -228,7 +352,7 @@ fn empty(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
             let button = ui.add(button.fill(theme.accent).min_size(vec2(260.0, 48.0)));
             button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, label));
             if button.clicked() {
-                actions.push(Action::Enrol(EnrolAction::TakeShown));
+                actions.push(EnrolAction::TakeShown);
             }
         }
         let open = "Open a scan…";
@@ -236,7 +360,7 @@ fn empty(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
             .on_hover_text("Several shots from several sides, each with the pose of its camera (Ctrl Shift O)")
             .clicked()
         {
-            actions.push(Action::Ask(DialogRequest::Scan));
+            actions.push(EnrolAction::OpenScan);
         }
         if replaced.is_some() {
             form::as_new(ui, actions);
@@ -245,9 +369,8 @@ fn empty(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
 }
 
 /// The name for people of an enrolled part.
-fn title_of<'a>(state: &'a State, name: &'a str) -> &'a str {
-    let place = |library: &'a super::shelf::LibraryView| {
-        library.place_of(name).map(|place| library.title(place))
-    };
-    state.library.as_deref().and_then(place).unwrap_or(name)
+fn title_of<'a>(session: &'a Session, name: &'a str) -> &'a str {
+    let library = session.library.as_deref();
+    let title = library.and_then(|library| Some(library.title(library.place_of(name)?)));
+    title.unwrap_or(name)
 }

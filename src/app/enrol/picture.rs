@@ -10,16 +10,13 @@ use egui::{
 use super::{
     EnrolAction,
     draft::Draft,
-    selection::{Edit, PixelBox, Selection},
-    subject::PointAction,
+    segments::PointAction,
+    selection::{BoxMode, Edit, PixelBox, Selection},
 };
 use crate::app::{
-    action::Action,
-    bars::focus_ring,
-    state::State,
     theme::{Theme, font},
     viewport::{Role, ViewColours},
-    widgets::fitted,
+    widgets::{fitted, focus_ring},
 };
 
 /// The texture of the picture, and the box.
@@ -44,9 +41,9 @@ impl PicturePane {
         &mut self,
         ui: &mut Ui,
         draft: &Draft,
-        state: &State,
+        box_mode: BoxMode,
         theme: &Theme,
-        actions: &mut Vec<Action>,
+        actions: &mut Vec<EnrolAction>,
     ) {
         self.make(ui.ctx(), &draft.selection);
         let Some((_, texture)) = &self.made else {
@@ -70,12 +67,12 @@ impl PicturePane {
         painter.image(texture.id(), place, whole, egui::Color32::WHITE);
         let mut mended = None;
         if draft.subject.can_be_corrected() {
-            mended = self.by_pointer(ui, &response, place, draft, state);
-            mended = mended.or_else(|| self.by_keys(ui, &response, draft, state));
+            mended = self.by_pointer(ui, &response, place, draft, box_mode);
+            mended = mended.or_else(|| self.by_keys(ui, &response, draft, box_mode));
             if response.hovered() {
                 ui.set_cursor_icon(CursorIcon::Crosshair);
             }
-            let explanation = state.enrol.box_mode.explanation();
+            let explanation = box_mode.explanation();
             let text = format!("{explanation}; click to take or drop a segment");
             let (font, colour) = (font::small(), theme.weak_text);
             let galley = ui.painter().layout(text, font, colour, place.width());
@@ -94,7 +91,7 @@ impl PicturePane {
                 let stroke = Stroke::new(width, colour);
                 painter.rect_stroke(on_screen, 0.0, stroke, StrokeKind::Middle);
             }
-            let text = state.enrol.box_mode.title().to_owned();
+            let text = box_mode.title().to_owned();
             let galley = painter.layout_no_wrap(text, font::small(), bright);
             let plate = Rect::from_min_size(on_screen.min + vec2(2.0, 2.0), galley.size());
             painter.rect_filled(plate.expand(3.0), 0.0, colours.background);
@@ -102,7 +99,7 @@ impl PicturePane {
         }
         focus_ring(ui, place, &response, theme);
         if let Some(edit) = mended {
-            actions.push(Action::Enrol(EnrolAction::Correct(edit)));
+            actions.push(EnrolAction::Correct(edit));
         }
     }
 
@@ -133,7 +130,7 @@ impl PicturePane {
         response: &Response,
         place: Rect,
         draft: &Draft,
-        state: &State,
+        box_mode: BoxMode,
     ) -> Option<Edit> {
         let at = response
             .interact_pointer_pos()
@@ -146,7 +143,7 @@ impl PicturePane {
         }
         if response.drag_stopped() {
             let drawn = Rect::from_two_pos(self.begun.take()?, at?);
-            return boxed(drawn, draft, state);
+            return boxed(drawn, draft, box_mode);
         }
         let at = at.filter(|_| response.clicked())?;
         let [width, height] = draft.subject.picture.size();
@@ -164,7 +161,7 @@ impl PicturePane {
         ui: &Ui,
         response: &Response,
         draft: &Draft,
-        state: &State,
+        box_mode: BoxMode,
     ) -> Option<Edit> {
         if !response.has_focus() {
             self.keyed = None;
@@ -200,7 +197,7 @@ impl PicturePane {
         let is_entered = response.clicked() && response.interact_pointer_pos().is_none();
         let drawn = self.keyed.filter(|_| is_entered)?;
         self.keyed = None;
-        boxed(drawn, draft, state)
+        boxed(drawn, draft, box_mode)
     }
 }
 
@@ -210,7 +207,7 @@ fn share_of(at: Pos2, place: Rect) -> Pos2 {
     pos2(share.x.clamp(0.0, 1.0), share.y.clamp(0.0, 1.0))
 }
 
-fn boxed(drawn: Rect, draft: &Draft, state: &State) -> Option<Edit> {
+fn boxed(drawn: Rect, draft: &Draft, box_mode: BoxMode) -> Option<Edit> {
     let size = draft.subject.picture.size();
     let pixel = |at: Pos2| {
         [at.x, at.y]
@@ -226,7 +223,7 @@ fn boxed(drawn: Rect, draft: &Draft, state: &State) -> Option<Edit> {
         to: [to.next()?, to.next()?],
     };
     let is_meant = (0..2).all(|axis| drawn.from[axis] + LEAST_SIDE <= drawn.to[axis]);
-    is_meant.then_some(Edit::Box(state.enrol.box_mode, drawn))
+    is_meant.then_some(Edit::Box(box_mode, drawn))
 }
 
 /// Takes the segment if all of it is dropped, else drops it.

@@ -2,7 +2,10 @@
 
 use image::{Rgb, RgbImage};
 
-use super::subject::{EnrolInput, InitialSelection, PointAction, SegmentKind, Segments};
+use super::{
+    segments::{PointAction, SegmentKind, Segments},
+    subject::{EnrolInput, InitialSelection},
+};
 use crate::{
     app::viewport::{PointSet, Role, ViewColours},
     geometry::cloud::is_finite,

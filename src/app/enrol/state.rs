@@ -1,32 +1,34 @@
 //! What the workspace knows, and what changes it.
 
-use std::{path::PathBuf, sync::Arc};
+use std::sync::Arc;
 
 use super::{
-    change::LibraryChange,
-    draft::{Draft, Field, Form},
-    selection::{BoxMode, Corrections, Edit, Selection},
-    subject::{EnrolInput, InitialSelection},
-    undo::{
-        DraftEffect, LibraryStep, UndoDirection, UndoStack, UndoStep, apply_step, change,
-        changed_library, did,
-    },
-    work::{EnrolAnswer, EnrolRequest},
+    action::{DraftPanes, EnrolAction, EnrolFile},
+    change::{Changed, LibraryChange},
+    draft::{Draft, Form, OpenedPart},
+    selection::{BoxMode, Corrections},
+    undo::{DraftEffect, LastChangedPart, LibraryStep, UndoDirection, UndoStack, UndoStep},
+    work::{self, DraftEvent},
 };
 use crate::{
     app::{
-        action::{Effect, notify},
-        job::{Request, Trouble},
-        lane::TaskQueue,
-        shots::{self, ScanRequest, ShotsState},
-        source::SceneSource,
-        state::{Notice, NoticeKind, State},
+        shelf::LibraryView,
+        shell::{
+            context::ShellContext,
+            file_dialog::FileDialog,
+            message::{Event, Message},
+            notice::Notice,
+            session::{Session, UserRole},
+            task::{Running, Task, TaskContext, TaskError, TaskEvent, TaskRunner},
+        },
+        shots::{Asked, ShotChoice, ShotsAction, ShotsFile, ShotsState},
+        user_error::UserError,
     },
     library::{PartName, PartNaming},
 };
 
 /// What the workspace knows.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct EnrolState {
     /// The part that is about to be enrolled.
     pub draft: Option<Draft>,
@@ -45,76 +47,61 @@ pub struct EnrolState {
     /// What is shown of the draft.
     panes: DraftPanes,
     /// What is shown of a draft that is a scan, which has no picture of its own.
-    scan_panes: ScanPanes,
+    scan_panes: DraftPanes,
     /// Of the scan that the draft is, if it is one.
     pub shots: ShotsState,
     /// What can be taken back and done again.
     pub steps: UndoStack,
-    /// The generation of the request for another draft, until that is there.
-    taking: Option<u64>,
+    /// Prepares the draft; a newer correction replaces an older one.
+    pub(super) draft_task: Task<DraftEvent>,
+    /// What the draft's task does, or did last.
+    pub(super) job: DraftJob,
+    /// Changes the library: what it began it finishes.
+    pub(super) change_task: Task<Box<Changed>>,
     /// The change of the library that is being made.
     pub(super) pending: Option<(UndoDirection, LibraryStep)>,
+    /// What waits for the engineer's view.
+    held: Option<EnrolAction>,
+    files: FileDialog<EnrolFile>,
 }
 
-/// An enrolled part that is looked at.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct OpenedPart {
-    /// The part.
-    pub name: PartName,
-    /// What it is called, as a person writes it.
-    pub form: Form,
-}
-
-/// The part that the last change of the library left there.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct LastChangedPart {
-    /// The part.
-    pub name: PartName,
-    /// What became of it, in words.
-    pub what: &'static str,
-}
-
-/// What is shown of the draft.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum DraftPanes {
-    /// The picture and the 3-D view.
-    #[default]
-    Both,
-    /// The picture alone.
-    Picture,
-    /// The 3-D view alone.
-    View,
-}
-
-impl DraftPanes {
-    /// Every choice.
-    pub const ALL: [Self; 3] = [Self::Both, Self::Picture, Self::View];
-
-    /// What a person calls it.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::Both => "Both",
-            Self::Picture => "Picture",
-            Self::View => "3-D",
-        }
-    }
-}
-
-/// The panes of a scan: at first the 3-D view alone.
+/// What the draft's task does.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-struct ScanPanes(DraftPanes);
-
-impl Default for ScanPanes {
-    fn default() -> Self {
-        Self(DraftPanes::View)
-    }
+pub(super) enum DraftJob {
+    /// It gets another draft.
+    Take,
+    /// It looks at the draft that is there.
+    Look,
 }
 
 impl EnrolState {
+    /// Without a draft.
+    pub fn new(runner: &TaskRunner) -> Self {
+        Self {
+            draft: None,
+            num_drafts: 0,
+            replacing: None,
+            latest: None,
+            num_changes: 0,
+            open: None,
+            box_mode: BoxMode::default(),
+            panes: DraftPanes::default(),
+            scan_panes: DraftPanes::View,
+            shots: ShotsState::default(),
+            steps: UndoStack::default(),
+            draft_task: Task::new("enrol", runner),
+            job: DraftJob::Look,
+            change_task: Task::new("library", runner),
+            pending: None,
+            held: None,
+            files: FileDialog::default(),
+        }
+    }
+
     /// What is shown of the draft.
     pub fn panes(&self) -> DraftPanes {
         if self.has_scan() {
-            self.scan_panes.0
+            self.scan_panes
         } else {
             self.panes
         }
@@ -124,321 +111,275 @@ impl EnrolState {
         let draft = self.draft.as_ref();
         draft.is_some_and(|draft| draft.subject.scan().is_some())
     }
-}
 
-/// Something that happened in the workspace.
-#[derive(Debug)]
-pub enum EnrolAction {
-    /// Take the scene in front as the draft.
-    TakeShown,
-    /// Correct what is kept.
-    Correct(Edit),
-    /// Start from other points.
-    TakeAs(InitialSelection),
-    /// Take all corrections away.
-    Reset,
-    /// Have a box do something else.
-    BoxMode(BoxMode),
-    /// Show other panes.
-    Panes(DraftPanes),
-    /// Write a line about the draft.
-    Write(Field),
-    /// Look at the draft again, after it was cancelled.
-    LookAgain,
-    /// Save the draft.
-    Save,
-    /// Put the draft away.
-    Discard,
-    /// Take the last step back.
-    Undo,
-    /// Do again what was taken back last.
-    Redo,
-    /// Look at an enrolled part.
-    Open(PartName),
-    /// Look at the draft again.
-    Close,
-    /// Write a line about the enrolled part that is looked at.
-    WriteOpen(Field),
-    /// Call it so.
-    Rename,
-    /// Move a part to the trash.
-    Remove(PartName),
-    /// Enrol this part anew: the draft, or the next one, replaces it.
-    Replace(PartName),
-    /// Replace none: the draft becomes a new part.
-    ReplaceNone,
-    /// Store the spray path in this file with the enrolled part that is looked at.
-    StorePath(PathBuf),
-    /// Take the spray path of a part away.
-    RemovePath(PartName),
-}
+    /// The run that prepares a draft, if any.
+    pub fn running(&self) -> Option<&Running> {
+        self.draft_task.running()
+    }
 
-impl State {
+    /// Stops that run.
+    pub fn cancel(&mut self) {
+        self.draft_task.cancel();
+    }
+
     /// The name for people of the enrolled part that the draft, or the next one, replaces.
-    pub fn replaced_title(&self) -> Option<&str> {
-        let library = self.library.as_ref()?;
-        let name = match &self.enrol.draft {
+    pub fn replaced_title<'a>(&self, session: &'a Session) -> Option<&'a str> {
+        let library = session.library.as_ref()?;
+        let name = match &self.draft {
             Some(draft) => &draft.form.name,
-            None => self.enrol.replacing.as_ref()?.as_str(),
+            None => self.replacing.as_ref()?.as_str(),
         };
         library.place_of(name).map(|place| library.title(place))
     }
 
     /// True while the draft is not the one that was asked for last.
     pub fn is_taking_another(&self) -> bool {
-        let work = self.works.get(&TaskQueue::Enrol);
-        work.is_some_and(|work| self.enrol.taking == Some(work.generation))
+        self.running().is_some() && self.job == DraftJob::Take
     }
 
     /// True while the library is being changed.
     pub fn is_changing_library(&self) -> bool {
-        self.works.contains_key(&TaskQueue::Library)
+        self.change_task.running().is_some()
     }
-}
 
-/// Carries out an action.
-pub fn apply(state: &mut State, action: EnrolAction) -> Option<Effect> {
-    match action {
-        EnrolAction::TakeShown => return load_shown_part(state),
-        EnrolAction::Correct(edit) => {
-            return correct(state, |corrections| corrections.edits.push(edit));
+    /// Of a draft that is a scan, which shots shall be used: what was asked for last, while that is on its way.
+    pub fn shot_choice(&self) -> Option<&ShotChoice> {
+        let fused = self.draft.as_ref()?.subject.scan()?;
+        let asked = self.shots.asked_choice();
+        let asked = asked.filter(|_| self.is_taking_another());
+        Some(asked.unwrap_or(&fused.choice))
+    }
+
+    /// Carries out an action, once the engineer is in.
+    pub fn apply(&mut self, action: EnrolAction, cx: &mut ShellContext<'_>) {
+        if cx.session.role == UserRole::Operator {
+            self.held = Some(action);
+            cx.send(Message::AskEngineer);
+            return;
         }
-        EnrolAction::TakeAs(taking) => {
-            let subject = &state.enrol.draft.as_ref()?.subject;
-            if subject.allows(taking) {
-                return correct(state, |corrections| {
-                    *corrections = Corrections::none(taking);
-                });
+        let library = cx.session.library.as_deref();
+        match action {
+            EnrolAction::TakeShown => self.take_shown(cx),
+            EnrolAction::Correct(edit) => self.correct(cx, |all| all.edits.push(edit)),
+            EnrolAction::TakeAs(taking) => {
+                let draft = self.draft.as_ref();
+                if draft.is_some_and(|draft| draft.subject.allows(taking)) {
+                    self.correct(cx, |all| *all = Corrections::none(taking));
+                }
+            }
+            EnrolAction::Reset => self.correct(cx, |all| all.edits.clear()),
+            EnrolAction::BoxMode(mode) => self.box_mode = mode,
+            EnrolAction::Panes(panes) if self.has_scan() => self.scan_panes = panes,
+            EnrolAction::Panes(panes) => self.panes = panes,
+            EnrolAction::Write(field) => {
+                if let Some(Draft { form, .. }) = &mut self.draft {
+                    form.write(field);
+                    // Under another name it is another part.
+                    self.replacing.take_if(|name| name.as_str() != form.name);
+                }
+            }
+            EnrolAction::LookAgain => self.look(cx),
+            EnrolAction::Save => self.save(cx),
+            EnrolAction::Discard => {
+                if let Some(former) = self.draft.take() {
+                    self.did(UndoStep::Draft(Some(Box::new(former))), cx);
+                }
+            }
+            EnrolAction::Undo => self.apply_step(UndoDirection::Back, cx),
+            EnrolAction::Redo => self.apply_step(UndoDirection::Again, cx),
+            EnrolAction::Open(name) => self.look_at(name, library),
+            EnrolAction::Close => self.open = None,
+            EnrolAction::WriteOpen(field) => {
+                if let Some(open) = &mut self.open {
+                    open.form.write(field);
+                }
+            }
+            EnrolAction::Rename => self.rename(cx),
+            EnrolAction::Remove(name) => {
+                self.change(LibraryChange::Remove(name), DraftEffect::Stays, cx);
+            }
+            EnrolAction::Replace(name) => {
+                if let Some(words) = words_of(&name, library) {
+                    if let Some(draft) = &mut self.draft {
+                        draft.form = Form::of(words);
+                    }
+                    self.replacing = Some(name);
+                    self.open = None;
+                }
+            }
+            EnrolAction::ReplaceNone => {
+                self.replacing = None;
+                if let Some(draft) = &mut self.draft {
+                    draft.form = Form::default();
+                }
+            }
+            EnrolAction::RemovePath(name) => {
+                self.change(LibraryChange::SetPath(name, None), DraftEffect::Stays, cx);
+            }
+            EnrolAction::OpenScan => cx.send(Message::OpenScan),
+            EnrolAction::Ask(file) => self.ask(file, cx),
+            EnrolAction::Shots(ShotsAction::Ask(file)) => self.ask(EnrolFile::Scan(file), cx),
+            EnrolAction::Chosen(EnrolFile::SprayPath, path) => {
+                if let Some(open) = &self.open {
+                    let change = LibraryChange::ReadPath(open.name.clone(), path);
+                    self.change(change, DraftEffect::Stays, cx);
+                }
+            }
+            EnrolAction::Chosen(EnrolFile::Scan(file), path) => {
+                self.choose_shots(ShotsAction::Chosen(file, path), cx);
+            }
+            EnrolAction::Shots(action) => self.choose_shots(action, cx),
+        }
+    }
+
+    /// Takes in what the tasks and the dialog report.
+    pub fn update(&mut self, cx: &mut ShellContext<'_>) {
+        while let Some(event) = self.draft_task.poll() {
+            match event {
+                TaskEvent::Partial(event) | TaskEvent::Done(event) => self.take_in(event, cx),
+                TaskEvent::Failed(error) => cx.notify(error),
             }
         }
-        EnrolAction::Reset => return correct(state, |corrections| corrections.edits.clear()),
-        EnrolAction::BoxMode(mode) => state.enrol.box_mode = mode,
-        EnrolAction::Panes(panes) => {
-            let own = &mut state.enrol;
-            if own.has_scan() {
-                own.scan_panes = ScanPanes(panes);
-            } else {
-                own.panes = panes;
+        match self.change_task.poll() {
+            Some(TaskEvent::Partial(changed) | TaskEvent::Done(changed)) => {
+                self.changed(*changed, cx);
             }
-        }
-        EnrolAction::Write(field) => {
-            let form = &mut state.enrol.draft.as_mut()?.form;
-            form.write(field);
-            // Under another name it is another part.
-            state
-                .enrol
-                .replacing
-                .take_if(|name| name.as_str() != form.name);
-        }
-        EnrolAction::LookAgain => return select(state),
-        EnrolAction::Save => return save(state),
-        EnrolAction::Discard => {
-            let former = state.enrol.draft.take()?;
-            did(state, UndoStep::Draft(Some(Box::new(former))));
-        }
-        EnrolAction::Undo => return apply_step(state, UndoDirection::Back),
-        EnrolAction::Redo => return apply_step(state, UndoDirection::Again),
-        EnrolAction::Open(name) => open(state, name),
-        EnrolAction::Close => state.enrol.open = None,
-        EnrolAction::WriteOpen(field) => state.enrol.open.as_mut()?.form.write(field),
-        EnrolAction::Rename => return rename(state),
-        EnrolAction::Remove(name) => {
-            return change(state, LibraryChange::Remove(name), DraftEffect::Stays);
-        }
-        EnrolAction::Replace(name) => {
-            let words = words_of(state, &name)?;
-            if let Some(draft) = &mut state.enrol.draft {
-                draft.form = Form::of(words);
+            Some(TaskEvent::Failed(error)) => {
+                cx.notify(error);
+                self.not_changed();
             }
-            state.enrol.replacing = Some(name);
-            state.enrol.open = None;
+            None => {}
         }
-        EnrolAction::StorePath(file) => {
-            let name = state.enrol.open.as_ref()?.name.clone();
-            return change(
-                state,
-                LibraryChange::ReadPath(name, file),
-                DraftEffect::Stays,
-            );
+        match self.files.poll() {
+            Some((file, Ok(path))) => self.apply(EnrolAction::Chosen(file, path), cx),
+            Some((_, Err(notice))) => cx.notify(notice),
+            None => {}
         }
-        EnrolAction::RemovePath(name) => {
-            return change(
-                state,
-                LibraryChange::SetPath(name, None),
-                DraftEffect::Stays,
-            );
+    }
+
+    /// Takes in what the shell tells.
+    pub fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
+        match event {
+            Event::Undo => self.apply(EnrolAction::Undo, cx),
+            Event::EngineerIn => {
+                if let Some(action) = self.held.take() {
+                    self.apply(action, cx);
+                }
+            }
+            Event::Inspected { .. } => {}
         }
-        EnrolAction::ReplaceNone => {
-            state.enrol.replacing = None;
-            if let Some(draft) = &mut state.enrol.draft {
-                draft.form = Form::default();
+    }
+
+    fn take_in(&mut self, event: DraftEvent, cx: &mut ShellContext<'_>) {
+        match event {
+            DraftEvent::Taken(subject, selection) => self.taken(subject, selection, cx),
+            DraftEvent::Selected(selection) => {
+                if let Some(draft) = &mut self.draft {
+                    draft.selection = selection;
+                }
+            }
+            DraftEvent::Checked(checked) => {
+                if let Some(draft) = &mut self.draft {
+                    draft.checked = Some(checked);
+                }
+            }
+            DraftEvent::PosesWanted(order, error) => {
+                cx.notify(error);
+                self.shots.ask_for_poses(*order);
+                self.ask(EnrolFile::Scan(ShotsFile::Poses), cx);
             }
         }
     }
-    None
-}
 
-/// Takes in what the threads answer.
-pub fn hear(
-    state: &mut State,
-    generation: u64,
-    outcome: Result<EnrolAnswer, Trouble>,
-) -> Option<Effect> {
-    match outcome {
-        Ok(EnrolAnswer::Taken(subject, selection)) => {
-            taken(state, subject, selection);
-            shots::settle(state, TaskQueue::Enrol, generation, None);
-        }
-        Ok(EnrolAnswer::Selected(selection)) => {
-            state.enrol.draft.as_mut()?.selection = selection;
-        }
-        Ok(EnrolAnswer::Checked(checked)) => {
-            state.enrol.draft.as_mut()?.checked = Some(checked);
-        }
-        Ok(EnrolAnswer::Changed(changed)) => return changed_library(state, *changed),
-        Err(_) => {
-            if !state.is_changing_library()
-                && let Some((way, step)) = state.enrol.pending.take()
-                && way != UndoDirection::First
-            {
-                // It still can be taken back or done again.
-                state.enrol.steps.from(way).push(UndoStep::Library(step));
-            }
-        }
+    fn ask(&mut self, file: EnrolFile, cx: &ShellContext<'_>) {
+        let lock = &cx.services.dialogs;
+        self.files.open(file, &file.request(), lock, cx.egui);
     }
-    None
-}
 
-/// Gets something to enrol.
-pub(in crate::app) fn take(state: &mut State, source: SceneSource, what: String) -> Effect {
-    state.enrol.open = None;
-    let recipe = Arc::clone(&state.recipe);
-    let effect = state.begin(what, Request::Enrol(EnrolRequest::Take { source, recipe }));
-    state.enrol.taking = Some(state.generation);
-    effect
-}
-
-/// Puts the shots of a scan together to enrol what they show.
-pub(in crate::app) fn take_scan(state: &mut State, request: ScanRequest, what: String) -> Effect {
-    state.enrol.open = None;
-    let effect = state.begin(what, Request::Enrol(EnrolRequest::TakeScan(request)));
-    state.enrol.taking = Some(state.generation);
-    effect
-}
-
-fn load_shown_part(state: &mut State) -> Option<Effect> {
-    if let Some(effect) = shots::enrol_shown(state) {
-        return Some(effect);
+    /// Has the draft's task do something else.
+    pub(super) fn start(
+        &mut self,
+        title: impl Into<String>,
+        job: DraftJob,
+        asked: Option<Asked>,
+        work: impl FnOnce(&TaskContext<DraftEvent>) -> Result<DraftEvent, TaskError> + Send + 'static,
+    ) {
+        self.job = job;
+        self.shots.started(asked);
+        self.draft_task.start(title, work);
     }
-    let inspected = &state.shown.as_ref()?.inspected;
-    let source = SceneSource::AtHand(Arc::clone(&inspected.scene), inspected.origin.clone());
-    Some(take(state, source, "Taking the scene in front".into()))
-}
 
-/// The former draft can be brought back; what was written about it is kept, for it may be the same part again.
-fn taken(state: &mut State, subject: Arc<EnrolInput>, selection: Arc<Selection>) {
-    for warning in &subject.warnings {
-        notify(state, Trouble::of(warning).into());
-    }
-    for warning in subject.scan().map_or(&[][..], |fused| &fused.warnings) {
-        notify(state, warning.clone().into());
-    }
-    let former = state.enrol.draft.take();
-    let replaced = state.enrol.replacing.clone();
-    let replaced = replaced.and_then(|name| words_of(state, &name));
-    let form = match (replaced, &former) {
-        (Some(words), _) => Form::of(words),
-        (None, Some(former)) => former.form.clone(),
-        (None, None) => Form::default(),
-    };
-    if let Some(former) = former {
-        did(state, UndoStep::Draft(Some(Box::new(former))));
-    }
-    state.enrol.taking = None;
-    state.enrol.num_drafts += 1;
-    state.enrol.draft = Some(Draft {
-        number: state.enrol.num_drafts,
-        corrections: Corrections::none(subject.usual),
-        subject,
-        selection,
-        checked: None,
-        form,
-    });
-}
-
-/// Changes the corrections, if that changes anything, and has them gone through.
-fn correct(state: &mut State, change: impl FnOnce(&mut Corrections)) -> Option<Effect> {
-    let draft = state.enrol.draft.as_mut()?;
-    if !draft.subject.can_be_corrected() {
-        return None;
-    }
-    let before = draft.corrections.clone();
-    change(&mut draft.corrections);
-    if draft.corrections == before {
-        return None;
-    }
-    let step = UndoStep::Corrections(draft.number, before);
-    did(state, step);
-    select(state)
-}
-
-/// Has the corrections gone through.
-pub(super) fn select(state: &mut State) -> Option<Effect> {
-    let draft = state.enrol.draft.as_mut()?;
-    draft.checked = None;
-    let request = EnrolRequest::Select {
-        subject: Arc::clone(&draft.subject),
-        corrections: draft.corrections.clone(),
-        recipe: Arc::clone(&state.recipe),
-    };
-    Some(state.begin("Looking at the part", Request::Enrol(request)))
-}
-
-fn save(state: &mut State) -> Option<Effect> {
-    let draft = state.enrol.draft.as_ref()?;
-    let words = match draft.form.words() {
-        Ok(words) => words,
-        Err(error) => {
-            notify(state, Trouble::of(&error).into());
-            return None;
-        }
-    };
-    let Some(checked) = draft.ready() else {
-        let notice = Notice {
-            kind: NoticeKind::Look,
-            what: "There is nothing to save yet".into(),
-            advice: "Save once the picture of what will be stored is there".into(),
+    /// Changes the corrections, if that changes anything, and has them gone through.
+    fn correct(&mut self, cx: &mut ShellContext<'_>, change: impl FnOnce(&mut Corrections)) {
+        let draft = self.draft.as_mut();
+        let Some(draft) = draft.filter(|draft| draft.subject.can_be_corrected()) else {
+            return;
         };
-        notify(state, notice);
-        return None;
-    };
-    let save = LibraryChange::Save(Arc::clone(&checked.enrolled), words);
-    change(state, save, DraftEffect::MakesWay(None))
-}
+        let before = draft.corrections.clone();
+        change(&mut draft.corrections);
+        if draft.corrections != before {
+            let step = UndoStep::Corrections(draft.number, before);
+            self.did(step, cx);
+            self.look(cx);
+        }
+    }
 
-fn rename(state: &mut State) -> Option<Effect> {
-    let open = state.enrol.open.as_ref()?;
-    match open.form.words() {
-        Ok(words) => {
-            let rename = LibraryChange::Rename(open.name.clone(), words);
-            change(state, rename, DraftEffect::Stays)
+    /// Has the corrections gone through.
+    pub(super) fn look(&mut self, cx: &ShellContext<'_>) {
+        let Some(draft) = &mut self.draft else {
+            return;
+        };
+        draft.checked = None;
+        let (subject, corrections) = (Arc::clone(&draft.subject), draft.corrections.clone());
+        let (recipe, shelf) = (Arc::clone(&cx.session.recipe), cx.services.shelf.clone());
+        self.start(
+            "Looking at the part",
+            DraftJob::Look,
+            None,
+            move |context| work::look(&subject, &corrections, &recipe, &shelf, context),
+        );
+    }
+
+    fn save(&mut self, cx: &mut ShellContext<'_>) {
+        let Some(draft) = &self.draft else {
+            return;
+        };
+        match (draft.form.words(), draft.ready()) {
+            (Err(error), _) => cx.notify(UserError::of(&error)),
+            (Ok(_), None) => cx.notify(Notice::look(
+                "There is nothing to save yet",
+                "Save once the picture of what will be stored is there",
+            )),
+            (Ok(words), Some(checked)) => {
+                let save = LibraryChange::Save(Arc::clone(&checked.enrolled), words);
+                self.change(save, DraftEffect::MakesWay(None), cx);
+            }
         }
-        Err(error) => {
-            notify(state, Trouble::of(&error).into());
-            None
+    }
+
+    fn rename(&mut self, cx: &mut ShellContext<'_>) {
+        let Some(open) = &self.open else {
+            return;
+        };
+        match open.form.words() {
+            Ok(words) => {
+                let rename = LibraryChange::Rename(open.name.clone(), words);
+                self.change(rename, DraftEffect::Stays, cx);
+            }
+            Err(error) => cx.notify(UserError::of(&error)),
         }
+    }
+
+    pub(super) fn look_at(&mut self, name: PartName, library: Option<&LibraryView>) {
+        let words = words_of(&name, library);
+        // A damaged one cannot be described; it can be removed.
+        let form = words.map_or_else(Form::default, Form::of);
+        self.open = Some(OpenedPart { name, form });
     }
 }
 
-pub(super) fn open(state: &mut State, name: PartName) {
-    let words = words_of(state, &name);
-    // A damaged one cannot be described; it can be removed.
-    let form = words.map_or_else(Form::default, Form::of);
-    state.enrol.open = Some(OpenedPart { name, form });
-}
-
-pub(super) fn words_of(state: &State, name: &PartName) -> Option<PartNaming> {
-    let library = state.library.as_ref()?;
+pub(super) fn words_of(name: &PartName, library: Option<&LibraryView>) -> Option<PartNaming> {
+    let library = library?;
     let part = library.parts.get(library.place_of(name.as_str())?)?;
     Some(part.words())
 }

@@ -3,10 +3,11 @@
 
 use std::sync::Arc;
 
-use nalgebra::Point3;
-
-use super::scanned::ScannedMatter;
-
+use super::{
+    picture_plane::PicturePlane,
+    scanned::ScannedMatter,
+    segments::{PointAction, SegmentKind, Segments},
+};
 use crate::{
     app::{
         camera::Camera,
@@ -14,15 +15,9 @@ use crate::{
         source::{Origin, SceneError, SceneSource},
     },
     files::{self, FileContent, FileWarning},
-    geometry::{
-        cloud::{Grid, PointCloud, is_finite},
-        mesh::TriangleMesh,
-    },
+    geometry::{cloud::PointCloud, mesh::TriangleMesh},
     library::{EnrolError, EnrolParams},
-    stages::{
-        scene::{SceneCloud, scene_from_cloud, scene_from_frame},
-        segment::{PointLabel, SegmentParams, pieces, segment, surfaces},
-    },
+    stages::scene::{SceneCloud, scene_from_cloud, scene_from_frame},
 };
 
 /// Which of the points are the part before anything is corrected.
@@ -79,207 +74,6 @@ pub enum EnrolInputKind {
     Scan(Box<ScannedMatter>),
 }
 
-/// How the points are cut into segments.
-#[derive(Debug)]
-pub struct Segments {
-    /// The segments; what is likely to be wanted first.
-    pub list: Vec<Segment>,
-    /// For each point the place of its segment in the list, or [`Segments::NONE`].
-    pub of_point: Vec<u16>,
-}
-
-/// Points that are taken or dropped together.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct Segment {
-    /// What they are.
-    pub kind: SegmentKind,
-    /// What a person calls it.
-    pub title: String,
-    /// Its points.
-    pub num_points: usize,
-    /// What becomes of it unless a person says otherwise.
-    pub usual: PointAction,
-}
-
-/// What a segment is.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum SegmentKind {
-    /// A connected surface.
-    Surface,
-    /// A background plane, by its number.
-    Plane(u8),
-    /// Points too few to be a surface.
-    Specks,
-}
-
-/// What becomes of points.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub enum PointAction {
-    /// They are of the part.
-    Kept,
-    /// They are not.
-    Dropped,
-}
-
-impl Segments {
-    /// Of a point of no segment: the camera had no reading there.
-    pub const NONE: u16 = u16::MAX;
-    /// More surfaces than this are counted among the specks.
-    const MAX_SURFACES: usize = 24;
-
-    /// Of what stands before the background, the part first.
-    fn before_background(scene: &SceneCloud, params: &SegmentParams) -> Self {
-        let found = segment(scene, params);
-        let mut all = Self::of_num(found.labels.len());
-        let part = found.part.as_ref().map(|part| part.indices.clone());
-        let part = part.unwrap_or_default();
-        all.add(SegmentKind::Surface, "Part", PointAction::Kept, &part);
-        let stand = found.part.as_ref().map(|part| part.stand.clone());
-        let stand = stand.unwrap_or_default();
-        all.add(SegmentKind::Surface, "Stand", PointAction::Dropped, &stand);
-        let others = surfaces(scene, &found, params);
-        let is_other = |indices: &&Vec<u32>| {
-            let first = indices.first();
-            first.is_some() && first != part.first().into_iter().chain(stand.first()).min()
-        };
-        let others = others.iter().filter(is_other);
-        for (number, indices) in others.take(Self::MAX_SURFACES).enumerate() {
-            let title = format!("Surface {}", number + 1);
-            all.add(SegmentKind::Surface, &title, PointAction::Dropped, indices);
-        }
-        for plane in 0..found.planes.len() as u8 {
-            let is_on = |label: &PointLabel| *label == PointLabel::Background(plane);
-            let indices = places(found.labels.iter().map(is_on));
-            let title = format!("Background {}", plane + 1);
-            let kind = SegmentKind::Plane(plane);
-            all.add(kind, &title, PointAction::Dropped, &indices);
-        }
-        all.add_specks(scene, PointAction::Dropped);
-        all
-    }
-
-    /// Of everything, the largest piece first.
-    fn all_of(scene: &SceneCloud, params: &SegmentParams) -> Self {
-        let mut all = Self::of_num(scene.cloud.points.len());
-        let found = pieces(scene, params);
-        for (number, indices) in found.iter().take(Self::MAX_SURFACES).enumerate() {
-            let title = format!("Piece {}", number + 1);
-            all.add(SegmentKind::Surface, &title, PointAction::Kept, indices);
-        }
-        all.add_specks(scene, PointAction::Kept);
-        all
-    }
-
-    fn of_num(num_points: usize) -> Self {
-        Self {
-            list: Vec::new(),
-            of_point: vec![Self::NONE; num_points],
-        }
-    }
-
-    fn add(&mut self, kind: SegmentKind, title: &str, usual: PointAction, indices: &[u32]) {
-        if indices.is_empty() {
-            return;
-        }
-        let place = self.list.len() as u16;
-        for index in indices {
-            self.of_point[*index as usize] = place;
-        }
-        self.list.push(Segment {
-            kind,
-            title: title.to_owned(),
-            num_points: indices.len(),
-            usual,
-        });
-    }
-
-    /// The readings that are in no segment yet.
-    fn add_specks(&mut self, scene: &SceneCloud, usual: PointAction) {
-        let points = scene.cloud.points.iter().zip(&self.of_point);
-        let indices = places(points.map(|(p, of)| *of == Self::NONE && is_finite(p)));
-        self.add(SegmentKind::Specks, "Specks", usual, &indices);
-    }
-}
-
-/// The places at which it is true.
-fn places(all: impl Iterator<Item = bool>) -> Vec<u32> {
-    let there = all.enumerate().filter(|(_, is_there)| *is_there);
-    there.map(|(place, _)| place as u32).collect()
-}
-
-/// Where points lie in a picture of so many pixels.
-#[derive(Clone, Copy, Debug, PartialEq)]
-pub enum PicturePlane {
-    /// As the camera read them, a pixel each.
-    Camera(Grid),
-    /// Seen from the front, the z axis away from the viewer, without perspective.
-    Front {
-        /// Pixels.
-        size: [usize; 2],
-        /// Smallest x and y, metres.
-        low: [f32; 2],
-        /// Pixels per metre.
-        per_metre: f32,
-    },
-}
-
-impl PicturePlane {
-    /// The longer side of a picture from the front, pixels: points of a reference cloud then lie about side by side.
-    const LONGER: f32 = 320.0;
-
-    /// Empty pixels around what is seen from the front.
-    const MARGIN: f32 = 8.0;
-
-    fn of(cloud: &PointCloud) -> Self {
-        if let Some(grid) = cloud.grid {
-            return Self::Camera(grid);
-        }
-        let (low, high) = cloud
-            .bounds()
-            .unwrap_or((Point3::origin(), Point3::origin()));
-        let extent = [0, 1].map(|axis| high[axis] - low[axis]);
-        let room = Self::LONGER - 2.0 * Self::MARGIN - 1.0;
-        let per_metre = room / extent[0].max(extent[1]).max(1e-6);
-        let margin = Self::MARGIN / per_metre;
-        Self::Front {
-            size: extent.map(|length| ((length + 2.0 * margin) * per_metre).round() as usize + 1),
-            low: [low.x - margin, low.y - margin],
-            per_metre,
-        }
-    }
-
-    /// Width and height, pixels.
-    pub fn size(&self) -> [usize; 2] {
-        match self {
-            Self::Camera(grid) => [grid.width, grid.height],
-            Self::Front { size, .. } => *size,
-        }
-    }
-
-    /// How far a point spreads, pixels: what no camera read side by side has gaps otherwise.
-    pub fn spread(&self) -> usize {
-        match self {
-            Self::Camera(_) => 0,
-            Self::Front { .. } => 1,
-        }
-    }
-
-    /// Column and row of a point, by its place and its coordinates.
-    pub fn pixel(&self, place: usize, point: &Point3<f32>) -> [usize; 2] {
-        match self {
-            Self::Camera(grid) => [place % grid.width, place / grid.width],
-            Self::Front {
-                size,
-                low,
-                per_metre,
-            } => [0, 1].map(|axis| {
-                let at = ((point[axis] - low[axis]) * per_metre).round() as usize;
-                at.min(size[axis] - 1)
-            }),
-        }
-    }
-}
-
 impl EnrolInput {
     /// Gets it and cuts it into segments.
     pub(super) fn read(
@@ -315,7 +109,8 @@ impl EnrolInput {
                 // As on the command line: only what the camera read as a picture is taken for a scene.
                 let (usual, scene) = match cloud.grid {
                     Some(_) => (InitialSelection::Segmented, scene_from_cloud(cloud)),
-                    None => (InitialSelection::Whole, scene_of_whole(cloud)),
+                    // Every point of it: putting it back onto a picture would drop some.
+                    None => (InitialSelection::Whole, SceneCloud::new(cloud, None)),
                 };
                 Ok(Self::of_scene(Arc::new(scene), origin, usual, params))
             }
@@ -442,11 +237,6 @@ impl EnrolInput {
     }
 }
 
-/// A cloud as it came, every point of it: putting it back onto a picture would drop some.
-fn scene_of_whole(cloud: PointCloud) -> SceneCloud {
-    SceneCloud::new(cloud, None)
-}
-
 #[cfg(test)]
 mod tests {
     use super::*;
@@ -491,15 +281,5 @@ mod tests {
                 .iter()
                 .any(|s| s.kind == SegmentKind::Plane(0))
         );
-    }
-
-    #[test]
-    fn points_of_a_picture_from_the_front_lie_where_they_are_seen() {
-        let points = [[0.0, 0.0], [3.0, 0.0], [0.0, 1.0], [3.0, 1.0]];
-        let points = points.map(|[x, y]| Point3::new(x, y, 3.0));
-        let plane = PicturePlane::of(&PointCloud::from_points(points));
-        assert_eq!(plane.size(), [320, 118]);
-        let pixels = [0, 1, 2, 3].map(|i| plane.pixel(i, &points[i]));
-        assert_eq!(pixels, [[8, 8], [311, 8], [8, 109], [311, 109]]);
     }
 }

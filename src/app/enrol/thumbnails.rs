@@ -6,7 +6,7 @@ use egui::{ColorImage, Context, TextureHandle, TextureOptions};
 use image::RgbaImage;
 
 use super::work::Checked;
-use crate::app::{shelf::LibraryView, state::State};
+use crate::app::shelf::LibraryView;
 
 /// The textures, and what they were made of.
 #[derive(Default)]
@@ -17,8 +17,13 @@ pub(super) struct Thumbnails {
 
 impl Thumbnails {
     /// Uploads what is new.
-    pub(super) fn make(&mut self, ctx: &Context, state: &State) {
-        if let Some(library) = &state.library
+    pub(super) fn make(
+        &mut self,
+        ctx: &Context,
+        library: Option<&Arc<LibraryView>>,
+        checked: Option<&Arc<Checked>>,
+    ) {
+        if let Some(library) = library
             && self
                 .library
                 .as_ref()
@@ -30,7 +35,6 @@ impl Thumbnails {
             });
             self.library = Some((Arc::clone(library), all.collect()));
         }
-        let checked = state.enrol.draft.as_ref().and_then(|draft| draft.ready());
         if let Some(checked) = checked
             && self
                 .draft

@@ -3,16 +3,15 @@
 use egui::{Button, RichText, ScrollArea, Ui, Vec2};
 
 use super::{
-    EnrolAction,
+    EnrolAction, EnrolState,
+    action::DraftPanes,
     draft::Draft,
+    segments::PointAction,
     selection::{BoxMode, Edit},
-    state::DraftPanes,
-    subject::{InitialSelection, PointAction},
+    subject::InitialSelection,
 };
 use crate::app::{
-    action::Action,
     inspect::grouped,
-    state::State,
     theme::{Theme, font, space},
 };
 
@@ -40,22 +39,22 @@ fn choice(
 pub(super) fn ui(
     ui: &mut Ui,
     draft: &Draft,
-    state: &State,
+    enrol: &EnrolState,
     theme: &Theme,
-    actions: &mut Vec<Action>,
+    actions: &mut Vec<EnrolAction>,
 ) {
     let can_correct = draft.subject.can_be_corrected();
     ui.spacing_mut().button_padding.x = 9.0;
     let is_wide = ui.available_width() > ONE_ROW;
     ui.horizontal(|ui| {
-        boxes(ui, draft, state, actions);
+        boxes(ui, draft, enrol, actions);
         if is_wide {
             ui.add_space(space::MEDIUM);
-            steps(ui, draft, state, actions);
+            steps(ui, draft, enrol, actions);
         }
     });
     if !is_wide {
-        ui.horizontal(|ui| steps(ui, draft, state, actions));
+        ui.horizontal(|ui| steps(ui, draft, enrol, actions));
     }
     if !can_correct {
         let text = "A mesh is enrolled whole: cut it where it was made";
@@ -68,7 +67,7 @@ pub(super) fn ui(
 }
 
 /// How it is taken, and what a box does.
-fn boxes(ui: &mut Ui, draft: &Draft, state: &State, actions: &mut Vec<Action>) {
+fn boxes(ui: &mut Ui, draft: &Draft, enrol: &EnrolState, actions: &mut Vec<EnrolAction>) {
     let can_correct = draft.subject.can_be_corrected();
     // The shots have voted what of a scan is the part.
     let is_scan = draft.subject.scan().is_some();
@@ -77,24 +76,24 @@ fn boxes(ui: &mut Ui, draft: &Draft, state: &State, actions: &mut Vec<Action>) {
         let is_allowed = draft.subject.allows(taking);
         let title = taking.title();
         if choice(ui, title, title, is_chosen, is_allowed).clicked() {
-            actions.push(Action::Enrol(EnrolAction::TakeAs(taking)));
+            actions.push(EnrolAction::TakeAs(taking));
         }
     }
     if !is_scan {
         ui.add_space(space::MEDIUM);
     }
     for mode in BoxMode::ALL {
-        let is_chosen = state.enrol.box_mode == mode && can_correct;
+        let is_chosen = enrol.box_mode == mode && can_correct;
         let response = choice(ui, mode.title(), mode.title(), is_chosen, can_correct);
         if response.on_hover_text(mode.explanation()).clicked() {
-            actions.push(Action::Enrol(EnrolAction::BoxMode(mode)));
+            actions.push(EnrolAction::BoxMode(mode));
         }
     }
 }
 
 /// Back and forth, and what is shown.
-fn steps(ui: &mut Ui, draft: &Draft, state: &State, actions: &mut Vec<Action>) {
-    let steps = &state.enrol.steps;
+fn steps(ui: &mut Ui, draft: &Draft, enrol: &EnrolState, actions: &mut Vec<EnrolAction>) {
+    let steps = &enrol.steps;
     let has_edits = !draft.corrections.edits.is_empty();
     for (text, label, is_enabled, action) in [
         (
@@ -117,21 +116,21 @@ fn steps(ui: &mut Ui, draft: &Draft, state: &State, actions: &mut Vec<Action>) {
         ),
     ] {
         if choice(ui, text, label, false, is_enabled).clicked() {
-            actions.push(Action::Enrol(action));
+            actions.push(action);
         }
     }
     ui.add_space(space::MEDIUM);
     for panes in DraftPanes::ALL {
-        let is_chosen = state.enrol.panes() == panes;
+        let is_chosen = enrol.panes() == panes;
         let label = format!("Show {}", panes.title().to_lowercase());
         if choice(ui, panes.title(), &label, is_chosen, true).clicked() {
-            actions.push(Action::Enrol(EnrolAction::Panes(panes)));
+            actions.push(EnrolAction::Panes(panes));
         }
     }
 }
 
 /// The segments, each with its size and what becomes of it; a press takes or drops it.
-pub(super) fn segments(ui: &mut Ui, draft: &Draft, actions: &mut Vec<Action>) {
+pub(super) fn segments(ui: &mut Ui, draft: &Draft, actions: &mut Vec<EnrolAction>) {
     if !draft.subject.can_be_corrected() {
         return;
     }
@@ -168,7 +167,7 @@ pub(super) fn segments(ui: &mut Ui, draft: &Draft, actions: &mut Vec<Action>) {
                     };
                     if response.on_hover_text(hint).clicked() {
                         let edit = Edit::Segment(place, fate);
-                        actions.push(Action::Enrol(EnrolAction::Correct(edit)));
+                        actions.push(EnrolAction::Correct(edit));
                     }
                 }
             });

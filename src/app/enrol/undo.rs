@@ -3,21 +3,23 @@
 use std::{mem, sync::Arc};
 
 use super::{
-    change::{Changed, LibraryChange},
+    change::{self, Changed, LibraryChange},
     draft::Draft,
     selection::Corrections,
-    state::{LastChangedPart, open, select, words_of},
-    work::EnrolRequest,
+    state::{EnrolState, words_of},
 };
-use crate::app::{
-    action::{Effect, notify},
-    answers::use_library,
-    inspect::work::InspectRequest,
-    job::Request,
-    lane::TaskQueue,
-    shots::{inspection_again, inspection_of},
-    source::SceneSource,
-    state::{Notice, NoticeKind, State},
+use crate::{
+    app::{
+        shelf::LibraryView,
+        shell::{
+            context::ShellContext,
+            message::{Message, SceneOrScan},
+            notice::Notice,
+        },
+        shots::ScanOrder,
+        source::SceneSource,
+    },
+    library::PartName,
 };
 
 /// What can be taken back, and what was taken back and can be done again; the latest last.
@@ -69,6 +71,15 @@ pub enum DraftEffect {
     MakesWay(Option<Box<Draft>>),
 }
 
+/// The part that the last change of the library left there.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct LastChangedPart {
+    /// The part.
+    pub name: PartName,
+    /// What became of it, in words.
+    pub what: &'static str,
+}
+
 /// Which way a step is made.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
 pub enum UndoDirection {
@@ -117,163 +128,159 @@ impl UndoStack {
     }
 }
 
-/// Has the library changed for the first time; one change at a time.
-pub(super) fn change(
-    state: &mut State,
-    change: LibraryChange,
-    draft: DraftEffect,
-) -> Option<Effect> {
-    let step = LibraryStep {
-        change,
-        what: String::new(),
-        draft,
-    };
-    start_change(state, UndoDirection::First, step)
-}
-
-fn start_change(state: &mut State, way: UndoDirection, step: LibraryStep) -> Option<Effect> {
-    if state.is_changing_library() {
-        return None;
+impl EnrolState {
+    /// Has the library changed for the first time; one change at a time.
+    pub(super) fn change(
+        &mut self,
+        change: LibraryChange,
+        draft: DraftEffect,
+        cx: &ShellContext<'_>,
+    ) {
+        let step = LibraryStep {
+            change,
+            what: String::new(),
+            draft,
+        };
+        self.start_change(UndoDirection::First, step, cx);
     }
-    let request = EnrolRequest::Change(step.change.clone());
-    state.enrol.pending = Some((way, step));
-    Some(state.begin("Changing the library", Request::Enrol(request)))
-}
 
-/// The library is another one now: what was made by it shows it.
-pub(super) fn changed_library(state: &mut State, changed: Changed) -> Option<Effect> {
-    let Changed {
-        what,
-        back,
-        name,
-        library,
-    } = changed;
-    let (way, mut step) = state.enrol.pending.take()?;
-    use_library(state, &library);
-    dismiss_undo_notices(state);
-    track_replaced_part(state, &step.change);
-    state.enrol.num_changes += 1;
-    state.enrol.latest = name.clone().map(|name| LastChangedPart {
-        name,
-        what: match &step.change {
-            LibraryChange::Rename(..) => "Just renamed",
-            LibraryChange::Restore(_) => "Just brought back",
-            LibraryChange::Save(..) | LibraryChange::Remove(_) => "Just saved",
-            LibraryChange::ReadPath(..) | LibraryChange::SetPath(..) => "Path changed",
-        },
-    });
-    step.change = back;
-    let notice = match way {
-        UndoDirection::First => {
-            step.what.clone_from(&what);
-            state.enrol.steps.undone.clear();
-            Notice::undoable(what)
+    fn start_change(&mut self, way: UndoDirection, step: LibraryStep, cx: &ShellContext<'_>) {
+        if self.is_changing_library() {
+            return;
         }
-        UndoDirection::Back => Notice::done(format!("Undone: {}", lower_first(&step.what))),
-        UndoDirection::Again => Notice::undoable(step.what.clone()),
-    };
-    notify(state, notice);
-    let mut saved = None;
-    if let DraftEffect::MakesWay(other) = &mut step.draft {
-        let coming = other.take();
-        let going = state.enrol.draft.take().map(Box::new);
-        if way != UndoDirection::Back {
-            saved.clone_from(&going);
-        }
-        state.enrol.draft = coming.map(|draft| *draft);
-        *other = going;
-        state.enrol.replacing = None;
+        let (change, shelf) = (step.change.clone(), cx.services.shelf.clone());
+        self.pending = Some((way, step));
+        self.change_task.start("Changing the library", move |_| {
+            Ok(Box::new(change::change(&change, &shelf)?))
+        });
     }
-    state.enrol.steps.to(way).push(UndoStep::Library(step));
-    match (&state.enrol.open, name) {
-        (Some(_), Some(name)) => open(state, name),
-        (Some(_), None) => state.enrol.open = None,
-        (None, _) => {}
-    }
-    let again = inspect_again(state, saved.as_deref());
-    let select = select(state);
-    Some(Effect::Several(again.into_iter().chain(select).collect()))
-}
 
-/// The part to be replaced may be called otherwise now, or be gone.
-fn track_replaced_part(state: &mut State, made: &LibraryChange) {
-    let Some(replaced) = state.enrol.replacing.clone() else {
-        return;
-    };
-    if let LibraryChange::Rename(before, words) = made
-        && *before == replaced
-    {
-        state.enrol.replacing = Some(words.name.clone());
-        if let Some(draft) = &mut state.enrol.draft {
-            draft.form.name = words.name.to_string();
-            draft.form.title.clone_from(&words.title);
-        }
-    } else if words_of(state, &replaced).is_none() {
-        state.enrol.replacing = None;
-    }
-}
-
-/// Inspects what was saved, else the scene in front, by the library as it is now.
-fn inspect_again(state: &mut State, saved: Option<&Draft>) -> Option<Effect> {
-    let of_saved = saved.and_then(|draft| {
-        if let Some(fused) = draft.subject.scan() {
-            return Some(inspection_of(state, fused));
-        }
-        let scene = Arc::clone(draft.subject.scene()?);
-        let source = SceneSource::AtHand(scene, draft.subject.origin.clone());
-        let recipe = Arc::clone(&state.recipe);
-        Some(Request::Inspect(InspectRequest { source, recipe }))
-    });
-    let is_busy = state.works.contains_key(&TaskQueue::Inspect);
-    let shown = state.shown.as_ref().filter(|_| !is_busy);
-    let of_shown = shown.map(|shown| inspection_again(state, &shown.inspected));
-    let request = of_saved.or(of_shown)?;
-    Some(state.begin("Inspecting again", request))
-}
-
-/// Takes the last step back, or does it again.
-pub(super) fn apply_step(state: &mut State, way: UndoDirection) -> Option<Effect> {
-    if state.is_changing_library() {
-        return None;
-    }
-    loop {
-        let step = state.enrol.steps.from(way).pop()?;
-        dismiss_undo_notices(state);
-        match step {
-            UndoStep::Library(step) => return start_change(state, way, step),
-            UndoStep::Draft(other) => {
-                let current = state.enrol.draft.take().map(Box::new);
-                state.enrol.draft = other.map(|draft| *draft);
-                state.enrol.steps.to(way).push(UndoStep::Draft(current));
-                return select(state);
+    /// The library is another one now: what was made by it shows it.
+    pub(super) fn changed(&mut self, changed: Changed, cx: &mut ShellContext<'_>) {
+        let Changed {
+            what,
+            back,
+            name,
+            library,
+        } = changed;
+        let Some((way, mut step)) = self.pending.take() else {
+            return;
+        };
+        self.track_replaced_part(&step.change, &library);
+        self.num_changes += 1;
+        self.latest = name.clone().map(|name| LastChangedPart {
+            name,
+            what: match &step.change {
+                LibraryChange::Rename(..) => "Just renamed",
+                LibraryChange::Restore(_) => "Just brought back",
+                LibraryChange::Save(..) | LibraryChange::Remove(_) => "Just saved",
+                LibraryChange::ReadPath(..) | LibraryChange::SetPath(..) => "Path changed",
+            },
+        });
+        step.change = back;
+        let notice = match way {
+            UndoDirection::First => {
+                step.what.clone_from(&what);
+                self.steps.undone.clear();
+                Notice::undoable(what)
             }
-            UndoStep::Corrections(number, before) => {
-                let draft = state.enrol.draft.as_mut();
-                // Of a draft that is no longer there: the step before it counts.
-                if let Some(draft) = draft.filter(|draft| draft.number == number) {
-                    let now = mem::replace(&mut draft.corrections, before);
-                    let back = UndoStep::Corrections(number, now);
-                    state.enrol.steps.to(way).push(back);
-                    return select(state);
+            UndoDirection::Back => Notice::done(format!("Undone: {}", lower_first(&step.what))),
+            UndoDirection::Again => Notice::undoable(step.what.clone()),
+        };
+        let mut saved = None;
+        if let DraftEffect::MakesWay(other) = &mut step.draft {
+            let coming = other.take();
+            let going = self.draft.take().map(Box::new);
+            if way != UndoDirection::Back {
+                saved = going.as_deref().and_then(inspectable);
+            }
+            self.draft = coming.map(|draft| *draft);
+            *other = going;
+            self.replacing = None;
+        }
+        self.steps.to(way).push(UndoStep::Library(step));
+        match (&self.open, name) {
+            (Some(_), Some(name)) => self.look_at(name, Some(&library)),
+            (Some(_), None) => self.open = None,
+            (None, _) => {}
+        }
+        cx.send(Message::LibraryChanged { library, saved });
+        cx.send(Message::WithdrawUndo);
+        cx.notify(notice);
+        self.look(cx);
+    }
+
+    /// The library could not be changed: the step still can be taken back or done again.
+    pub(super) fn not_changed(&mut self) {
+        if let Some((way, step)) = self.pending.take()
+            && way != UndoDirection::First
+        {
+            self.steps.from(way).push(UndoStep::Library(step));
+        }
+    }
+
+    /// The part to be replaced may be called otherwise now, or be gone.
+    fn track_replaced_part(&mut self, made: &LibraryChange, library: &LibraryView) {
+        let Some(replaced) = &self.replacing else {
+            return;
+        };
+        if let LibraryChange::Rename(before, words) = made
+            && before == replaced
+        {
+            self.replacing = Some(words.name.clone());
+            if let Some(draft) = &mut self.draft {
+                draft.form.name = words.name.to_string();
+                draft.form.title.clone_from(&words.title);
+            }
+        } else if words_of(replaced, Some(library)).is_none() {
+            self.replacing = None;
+        }
+    }
+
+    /// Takes the last step back, or does it again.
+    pub(super) fn apply_step(&mut self, way: UndoDirection, cx: &mut ShellContext<'_>) {
+        if self.is_changing_library() {
+            return;
+        }
+        while let Some(step) = self.steps.from(way).pop() {
+            cx.send(Message::WithdrawUndo);
+            match step {
+                UndoStep::Library(step) => return self.start_change(way, step, cx),
+                UndoStep::Draft(other) => {
+                    let current = self.draft.take().map(Box::new);
+                    self.draft = other.map(|draft| *draft);
+                    self.steps.to(way).push(UndoStep::Draft(current));
+                    return self.look(cx);
+                }
+                UndoStep::Corrections(number, before) => {
+                    let draft = self.draft.as_mut();
+                    // Of a draft that is no longer there: the step before it counts.
+                    if let Some(draft) = draft.filter(|draft| draft.number == number) {
+                        let now = mem::replace(&mut draft.corrections, before);
+                        let back = UndoStep::Corrections(number, now);
+                        self.steps.to(way).push(back);
+                        return self.look(cx);
+                    }
                 }
             }
         }
     }
-}
 
-/// Something else was done: it is what Undo takes back now.
-pub(super) fn did(state: &mut State, back: UndoStep) {
-    state.enrol.steps.push(back);
-    dismiss_undo_notices(state);
-}
-
-/// Notices no longer offer to take back what they tell of.
-fn dismiss_undo_notices(state: &mut State) {
-    for notice in &mut state.notices {
-        if notice.kind == NoticeKind::Undoable {
-            notice.kind = NoticeKind::Done;
-        }
+    /// Something else was done: it is what Undo takes back now, and no notice offers to take back something else.
+    pub(super) fn did(&mut self, back: UndoStep, cx: &mut ShellContext<'_>) {
+        self.steps.push(back);
+        cx.send(Message::WithdrawUndo);
     }
+}
+
+/// What of a draft can be inspected: a mesh cannot.
+fn inspectable(draft: &Draft) -> Option<SceneOrScan> {
+    if let Some(fused) = draft.subject.scan() {
+        return Some(SceneOrScan::Scan(ScanOrder::Known(fused.choice.clone())));
+    }
+    let scene = Arc::clone(draft.subject.scene()?);
+    let source = SceneSource::AtHand(scene, draft.subject.origin.clone());
+    Some(SceneOrScan::Scene(source))
 }
 
 fn lower_first(text: &str) -> String {

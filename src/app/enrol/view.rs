@@ -6,10 +6,8 @@ use egui::{Button, Rect, RichText, Ui, UiBuilder, Vec2, vec2};
 
 use super::{EnrolAction, draft::Draft, picture::toggled, selection::Selection};
 use crate::app::{
-    action::Action,
     shots::{Overlay, POINT_SIZE},
-    state::{State, ThemeChoice},
-    theme::{Theme, font, space},
+    theme::{Theme, ThemeChoice, font, space},
     viewport::{
         FitRequest, PointSize, StandardView, ViewCamera, ViewColours, ViewError, ViewScene,
         ViewStyle, Viewport, ViewportGpu,
@@ -68,16 +66,17 @@ impl DraftView {
         &mut self,
         ui: &mut Ui,
         draft: &Draft,
-        state: &State,
-        actions: &mut Vec<Action>,
+        looked_at: Option<usize>,
+        theme: ThemeChoice,
+        actions: &mut Vec<EnrolAction>,
     ) {
-        self.show(draft, state.enrol.shots.looked_at);
-        if self.styled != state.theme {
-            self.style = ViewStyle::new(match state.theme {
+        self.show(draft, looked_at);
+        if self.styled != theme {
+            self.style = ViewStyle::new(match theme {
                 ThemeChoice::Dark => ViewColours::dark(),
                 ThemeChoice::Light => ViewColours::light(),
             });
-            self.styled = state.theme;
+            self.styled = theme;
         }
         self.style.point_size = match draft.subject.scan() {
             Some(_) => POINT_SIZE,
@@ -95,13 +94,12 @@ impl DraftView {
             let segments = draft.subject.segments(draft.corrections.taking);
             let segment = segments.of_point.get(picked.index).copied();
             let edit = segment.and_then(|segment| toggled(draft, segment));
-            actions.extend(edit.map(|edit| Action::Enrol(EnrolAction::Correct(edit))));
+            actions.extend(edit.map(EnrolAction::Correct));
         }
-        if let Some(overlay) = overlay(draft, state.enrol.shots.looked_at) {
+        if let Some(overlay) = overlay(draft, looked_at) {
             let painter = ui.painter_at(rect);
             let corner = rect.left_bottom() + vec2(space::MEDIUM, -space::MEDIUM);
-            let theme = Theme::of(state.theme);
-            overlay.legend(&painter, corner, &self.style.colours, theme);
+            overlay.legend(&painter, corner, &self.style.colours, Theme::of(theme));
         }
         let bar = vec2(rect.width() - 2.0 * space::SMALL, space::TARGET);
         let bar = Rect::from_min_size(rect.min + Vec2::splat(space::SMALL), bar);

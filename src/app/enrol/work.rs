@@ -1,78 +1,41 @@
-//! What the workspace's threads do: prepare a part, and change the library.
+//! What the draft's task does: it gets what is to be enrolled, and prepares the part.
 
 use std::sync::Arc;
 
 use jiff::Timestamp;
 
 use super::{
-    change::{Changed, LibraryChange, change},
     selection::{Corrections, Selection},
     subject::{EnrolInput, EnrolInputKind, InitialSelection},
 };
 use crate::{
     app::{
         camera::CameraError,
-        job::{TaskOutcome, TaskResult, Trouble, not_fused},
-        lane::TaskQueue,
         shelf::LibraryCache,
-        shots::{ScanRequest, Steps, Then, fuse},
+        shell::task::{TaskContext, TaskError},
+        shots::{ScanOrder, ScanRequest, Steps, Then, fuse},
         source::{SceneError, SceneSource},
-        worker::JobContext,
+        user_error::UserError,
     },
     library::{
         EnrolError, EnrolParams, Enrolled, PartDescription, PartName, Similarity, enrol_mesh,
         enrol_scan, enrol_selected, enrol_whole, likenesses,
     },
-    pipeline::Recipe,
+    pipeline::{ProgressObserver as _, Recipe},
     stages::segment::SegmentedPart,
 };
 
-/// What the workspace asks for.
+/// What the task hands over, part after part.
 #[derive(Clone, Debug)]
-pub enum EnrolRequest {
-    /// Get something to enrol, and see what of it is the part.
-    Take {
-        /// From where.
-        source: SceneSource,
-        /// All parameters.
-        recipe: Arc<Recipe>,
-    },
-    /// Put the shots of a scan together, and see what of it is the part.
-    TakeScan(ScanRequest),
-    /// Go through the corrections, and see what would be stored.
-    Select {
-        /// Of what.
-        subject: Arc<EnrolInput>,
-        /// All of them.
-        corrections: Corrections,
-        /// All parameters.
-        recipe: Arc<Recipe>,
-    },
-    /// Change the library.
-    Change(LibraryChange),
-}
-
-impl EnrolRequest {
-    /// Whose work it is: a change of the library is never given up for a newer correction.
-    pub fn lane(&self) -> TaskQueue {
-        match self {
-            Self::Take { .. } | Self::TakeScan(_) | Self::Select { .. } => TaskQueue::Enrol,
-            Self::Change(_) => TaskQueue::Library,
-        }
-    }
-}
-
-/// What comes back.
-#[derive(Clone, Debug)]
-pub enum EnrolAnswer {
+pub enum DraftEvent {
     /// Something to enrol, and what of it is kept. What would be stored follows.
     Taken(Arc<EnrolInput>, Arc<Selection>),
     /// What is kept after the corrections. What would be stored follows.
     Selected(Arc<Selection>),
     /// What would be stored, or why nothing can be.
-    Checked(Result<Arc<Checked>, Trouble>),
-    /// The library was changed.
-    Changed(Box<Changed>),
+    Checked(Result<Arc<Checked>, UserError>),
+    /// The poses of these shots were not found: a person has to name their file.
+    PosesWanted(Box<ScanOrder>, UserError),
 }
 
 /// What would be stored.
@@ -81,83 +44,78 @@ pub struct Checked {
     /// The part, but for its name.
     pub enrolled: Arc<Enrolled>,
     /// What is odd about it.
-    pub warnings: Vec<Trouble>,
+    pub warnings: Vec<UserError>,
     /// How like every enrolled part it is, the one that it is hardest to tell from first.
     pub likenesses: Vec<Similarity>,
 }
 
-/// Does what is asked.
-pub(in crate::app) fn answer(
-    request: EnrolRequest,
+/// Gets something to enrol, and sees what of it is the part.
+pub(super) fn take_scene(
+    source: &SceneSource,
+    recipe: &Recipe,
     shelf: &LibraryCache,
-    desk: &dyn JobContext<TaskOutcome>,
-) -> Option<TaskOutcome> {
-    let said = |answer| Some(Ok(TaskResult::Enrol(answer)));
-    match request {
-        EnrolRequest::Take { source, recipe } => {
-            let params = params_of(&recipe);
-            let subject =
-                match EnrolInput::read(&source, &params, shelf.camera(), &|| desk.is_cancelled()) {
-                    Ok(Ok(subject)) => subject,
-                    Ok(Err(error)) => return Some(Err(Trouble::of(&error))),
-                    Err(SceneError::Camera(CameraError::Cancelled)) => return None,
-                    Err(error) => return Some(Err(Trouble::of(&error))),
-                };
-            said(take(subject, &params, shelf, desk)?)
+    context: &TaskContext<DraftEvent>,
+) -> Result<DraftEvent, TaskError> {
+    let params = params_of(recipe);
+    let is_cancelled = || context.is_cancelled();
+    let subject = match EnrolInput::read(source, &params, shelf.camera(), &is_cancelled) {
+        Ok(read) => read.map_err(|error| UserError::of(&error))?,
+        Err(SceneError::Camera(CameraError::Cancelled)) => return Err(TaskError::Cancelled),
+        Err(error) => return Err(UserError::of(&error).into()),
+    };
+    take(subject, &params, shelf, context)
+}
+
+/// Puts the shots of a scan together, and sees what of it is the part.
+pub(super) fn take_scan(
+    request: &ScanRequest,
+    shelf: &LibraryCache,
+    context: &TaskContext<DraftEvent>,
+) -> Result<DraftEvent, TaskError> {
+    let report = |done, total| context.progress(done, total);
+    match fuse(request, Then::Enrol, &Steps::new(context, &report)) {
+        Ok(Some(fused)) => {
+            let subject = EnrolInput::of_scan(Arc::new(fused));
+            take(subject, &params_of(&request.recipe), shelf, context)
         }
-        EnrolRequest::TakeScan(request) => {
-            let report = |done, total| desk.progress(done, total);
-            let fused = match fuse(&request, Then::Enrol, &Steps::new(desk, &report)) {
-                Ok(fused) => Arc::new(fused?),
-                Err(error) => return Some(not_fused(&error, &request)),
-            };
-            let params = params_of(&request.recipe);
-            said(take(EnrolInput::of_scan(fused), &params, shelf, desk)?)
+        Ok(None) => Err(TaskError::Cancelled),
+        Err(error) if error.wants_poses() => {
+            let order = Box::new(request.order.clone());
+            Ok(DraftEvent::PosesWanted(order, UserError::of(&error)))
         }
-        EnrolRequest::Select {
-            subject,
-            corrections,
-            recipe,
-        } => {
-            let params = params_of(&recipe);
-            let selection = Arc::new(Selection::of(&subject, &corrections));
-            if desk.is_cancelled() {
-                return None;
-            }
-            let selected = EnrolAnswer::Selected(Arc::clone(&selection));
-            desk.publish_partial(Ok(TaskResult::Enrol(selected)));
-            said(check(
-                &subject,
-                &corrections,
-                &selection,
-                &params,
-                shelf,
-                desk,
-            )?)
-        }
-        EnrolRequest::Change(asked) => Some(
-            change(&asked, shelf)
-                .map(|done| TaskResult::Enrol(EnrolAnswer::Changed(Box::new(done)))),
-        ),
+        Err(error) => Err(UserError::of(&error).into()),
     }
 }
 
-/// Hands over what there is to enrol, then looks at what would be stored; `None` when cancelled.
+/// Goes through the corrections, and sees what would be stored.
+pub(super) fn look(
+    subject: &EnrolInput,
+    corrections: &Corrections,
+    recipe: &Recipe,
+    shelf: &LibraryCache,
+    context: &TaskContext<DraftEvent>,
+) -> Result<DraftEvent, TaskError> {
+    let selection = Arc::new(Selection::of(subject, corrections));
+    context.check()?;
+    context.partial(DraftEvent::Selected(Arc::clone(&selection)));
+    let params = params_of(recipe);
+    check(subject, corrections, &selection, &params, shelf, context)
+}
+
+/// Hands over what there is to enrol, then looks at what would be stored.
 fn take(
     subject: EnrolInput,
     params: &EnrolParams,
     shelf: &LibraryCache,
-    desk: &dyn JobContext<TaskOutcome>,
-) -> Option<EnrolAnswer> {
+    context: &TaskContext<DraftEvent>,
+) -> Result<DraftEvent, TaskError> {
     let subject = Arc::new(subject);
     let corrections = Corrections::none(subject.usual);
     let selection = Arc::new(Selection::of(&subject, &corrections));
-    if desk.is_cancelled() {
-        return None;
-    }
-    let taken = EnrolAnswer::Taken(Arc::clone(&subject), Arc::clone(&selection));
-    desk.publish_partial(Ok(TaskResult::Enrol(taken)));
-    check(&subject, &corrections, &selection, params, shelf, desk)
+    context.check()?;
+    let taken = DraftEvent::Taken(Arc::clone(&subject), Arc::clone(&selection));
+    context.partial(taken);
+    check(&subject, &corrections, &selection, params, shelf, context)
 }
 
 /// Segments as scenes are inspected; all else as usual.
@@ -168,32 +126,30 @@ fn params_of(recipe: &Recipe) -> EnrolParams {
     }
 }
 
-/// Makes the part and holds it against every enrolled one; `None` when cancelled.
+/// Makes the part and holds it against every enrolled one.
 fn check(
     subject: &EnrolInput,
     corrections: &Corrections,
     selection: &Selection,
     params: &EnrolParams,
     shelf: &LibraryCache,
-    desk: &dyn JobContext<TaskOutcome>,
-) -> Option<EnrolAnswer> {
+    context: &TaskContext<DraftEvent>,
+) -> Result<DraftEvent, TaskError> {
     let mut enrolled = match enrol(subject, corrections.taking, selection, params) {
         Ok(enrolled) => enrolled,
-        Err(error) => return Some(EnrolAnswer::Checked(Err(Trouble::of(&error)))),
+        Err(error) => return Ok(DraftEvent::Checked(Err(UserError::of(&error)))),
     };
-    if desk.is_cancelled() {
-        return None;
-    }
+    context.check()?;
     // It has no name yet: none of the enrolled ones is left out for bearing the same.
     enrolled.reference.name.clear();
     let shelved = match shelf.get() {
         Ok(shelved) => shelved,
-        Err(error) => return Some(EnrolAnswer::Checked(Err(Trouble::of(&error)))),
+        Err(error) => return Ok(DraftEvent::Checked(Err(UserError::of(&error)))),
     };
     let coverage = enrolled.part.meta.coverage;
     let likenesses = likenesses(&enrolled.reference, coverage, &shelved.library);
-    Some(EnrolAnswer::Checked(Ok(Arc::new(Checked {
-        warnings: enrolled.warnings.iter().map(Trouble::of).collect(),
+    Ok(DraftEvent::Checked(Ok(Arc::new(Checked {
+        warnings: enrolled.warnings.iter().map(UserError::of).collect(),
         enrolled: Arc::new(enrolled),
         likenesses,
     }))))

@@ -14,7 +14,7 @@ use crate::{
         WindowOptions,
         action::Action,
         align::{AlignAction, AlignWorkspace},
-        enrol::EnrolAction,
+        enrol::{EnrolAction, EnrolWorkspace},
         live::LiveAction,
         state::Workspace,
         viewport::ViewError,
@@ -138,7 +138,9 @@ type Prepare = fn(&mut HeadlessWindow);
 fn other_workspaces(window: &mut HeadlessWindow, num_frames: usize) -> Vec<FrameCost> {
     let prepared: [(&str, Workspace, Prepare); 4] = [
         ("Enrol, pointer moving", Workspace::Enrol, |window| {
-            window.act(Action::Enrol(EnrolAction::TakeShown));
+            window.with(|enrol: &mut EnrolWorkspace, cx| {
+                enrol.state_mut().apply(EnrolAction::TakeShown, cx);
+            });
         }),
         ("Compare, pointer moving", Workspace::Compare, |_| {}),
         ("Align, pointer moving", Workspace::Align, |window| {

@@ -205,6 +205,7 @@ impl HistoryState {
                     self.apply(action, cx);
                 }
             }
+            Event::Undo => {}
         }
     }
 

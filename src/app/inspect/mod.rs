@@ -5,12 +5,15 @@ mod controls;
 mod plots;
 mod ranking;
 mod robot_numbers;
+pub(super) mod scan;
 pub mod scene;
 mod stand_off;
 pub mod state;
 mod strip;
 mod view;
 pub mod work;
+
+use std::sync::Arc;
 
 use egui::{Align2, Frame, Key, Margin, Modifiers, Panel, TextureHandle, Ui};
 
@@ -28,7 +31,7 @@ use super::{
     action::{Action, DialogRequest},
     headless::WorkCounts,
     keys::Shortcut,
-    shots::{ShotList, ShotsAction, StripTab},
+    shots::{FusedShots, ShotList, ShotsAction, ShownShots, StripTab},
     state::{Shown, State},
     theme::{Theme, font, space},
     viewport::{ViewError, ViewportGpu},
@@ -161,7 +164,9 @@ impl InspectPanel {
             .resizable(false)
             .frame(panel(Margin::ZERO))
             .show(ui, |ui| {
-                if inspected.scan.is_some() && self.shots_ui(ui, state, theme, actions) {
+                if let Some(scan) = &inspected.scan
+                    && self.shots_ui(ui, state, &scan.fused, theme, actions)
+                {
                     return;
                 }
                 let pictures = self.pictures(inspected, state, theme);
@@ -183,20 +188,30 @@ impl InspectPanel {
         &mut self,
         ui: &mut Ui,
         state: &State,
+        fused: &Arc<FusedShots>,
         theme: &Theme,
         actions: &mut Vec<Action>,
     ) -> bool {
+        let scan = ShownShots {
+            fused,
+            choice: state.shot_choice().unwrap_or(&fused.choice),
+            shots: &state.inspect.shots,
+            session: &state.session,
+            theme,
+        };
+        let mut caused = Vec::new();
         let margin = Frame::new().inner_margin(Margin::symmetric(12, 6));
         let shown = margin.show(ui, |ui| {
-            let is_list = ShotList::tabs(ui, state, "Stages", theme, actions);
+            let is_list = ShotList::tabs(ui, scan, "Stages", &mut caused);
             if is_list {
                 if state.is_old() {
                     ui.multiply_opacity(0.75);
                 }
-                self.shots.ui(ui, state, theme, actions);
+                self.shots.ui(ui, scan, &mut caused);
             }
             is_list
         });
+        actions.extend(caused.into_iter().map(Action::Shots));
         shown.inner
     }
 

@@ -30,8 +30,7 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
         | Action::NextConvention
         | Action::TakeEmptyCell
         | Action::ForgetEmptyCell
-        | Action::UseFoundLibrary
-        | Action::Enrol(_) => true,
+        | Action::UseFoundLibrary => true,
         Action::Capture
         | Action::UseCell(_)
         | Action::Open(_)
@@ -50,6 +49,7 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
         | Action::Quit
         | Action::CopyPose
         | Action::Shots(_)
+        | Action::Undo
         | Action::Inspect(_)
         | Action::Hear(..) => false,
     }
@@ -57,7 +57,7 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
 
 fn asks_for_engineer(ask: DialogRequest) -> bool {
     match ask {
-        DialogRequest::Library | DialogRequest::Part | DialogRequest::PartPath => true,
+        DialogRequest::Library | DialogRequest::Part => true,
         DialogRequest::Scene
         | DialogRequest::Scan
         | DialogRequest::ScanPoses

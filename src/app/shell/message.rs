@@ -4,10 +4,15 @@ use std::sync::Arc;
 
 use super::{
     notice::Notice,
-    session::{RememberedCell, WorkspaceKind},
+    session::{RememberedCell, Source, WorkspaceKind},
 };
 use crate::{
-    app::inspect::work::{InspectRequest, Inspected},
+    app::{
+        inspect::work::{InspectRequest, Inspected},
+        shelf::LibraryView,
+        shots::ScanOrder,
+        source::SceneSource,
+    },
     pipeline::Recipe,
     robot::RobotFrame,
 };
@@ -19,14 +24,28 @@ pub enum Message {
     Notify(Notice),
     /// Take this notice away, if it is still shown.
     Retract(Notice),
+    /// No notice offers any more to take something back.
+    WithdrawUndo,
     /// Put this on the clipboard.
     CopyText(String),
     /// Bring this workspace to the front.
     GoTo(WorkspaceKind),
+    /// Take scenes from here at the next capture.
+    UseSource(Source),
+    /// Have a person choose the folder of a scan, and take it as if it were captured.
+    OpenScan,
     /// Inspect scenes with this recipe from now on.
     UseRecipe(Arc<Recipe>),
     /// Use this calibration of the robot's cell, with where the camera stands by it.
     UseCalibration(RememberedCell, Option<Arc<RobotFrame>>),
+    /// The library was changed: use it, and inspect what was saved, else the scene in front unless another one is being
+    /// inspected.
+    LibraryChanged {
+        /// The library as it is now.
+        library: Arc<LibraryView>,
+        /// What was saved in it, if it can be inspected.
+        saved: Option<SceneOrScan>,
+    },
     /// Inspect this, and show the result.
     Inspect {
         /// What is being done, for a person.
@@ -45,6 +64,15 @@ pub enum Message {
     ShowPast(Arc<Inspected>),
     /// Ask for the engineer's view; once it is there, [`Event::EngineerIn`] answers.
     AskEngineer,
+}
+
+/// What is inspected or enrolled.
+#[derive(Clone, Debug)]
+pub enum SceneOrScan {
+    /// A scene.
+    Scene(SceneSource),
+    /// Several shots, to be put together.
+    Scan(ScanOrder),
 }
 
 /// What a scene is inspected for. It comes back with the result.
@@ -71,4 +99,6 @@ pub enum Event {
     },
     /// The engineer's view, which this workspace asked for, is there.
     EngineerIn,
+    /// A person takes back what the last notice offered to.
+    Undo,
 }

@@ -1,13 +1,13 @@
 //! A workspace, as the shell sees it.
 
-use std::any::Any;
+use std::{any::Any, path::Path};
 
 use egui::Ui;
 
 use super::{
     context::ShellContext,
     key_binding::KeyBinding,
-    message::Event,
+    message::{Event, SceneOrScan},
     session::{Session, WorkspaceKind},
     task::Running,
 };
@@ -25,6 +25,14 @@ pub trait Workspace: Any {
 
     /// Takes in what the shell tells.
     fn on_event(&mut self, _event: &Event, _cx: &mut ShellContext<'_>) {}
+
+    /// Takes what is captured or opened while it is in front.
+    fn take_scene(&mut self, _scene: SceneOrScan, _title: String, _cx: &mut ShellContext<'_>) {}
+
+    /// Takes a file that is dropped while it is in front, if it waits for one like it.
+    fn take_file(&mut self, _path: &Path, _cx: &mut ShellContext<'_>) -> bool {
+        false
+    }
 
     /// The window closes: hands over what is still being written.
     fn close(&mut self) {}

@@ -8,7 +8,11 @@ use std::{
 
 use serde::{Deserialize, Serialize};
 
-use crate::{app::source::file_name, scan::Shot};
+use crate::{
+    app::{shell::session::Session, source::file_name},
+    pipeline::Recipe,
+    scan::Shot,
+};
 
 /// The files of a scan, and which of its shots are left out.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -81,5 +85,62 @@ impl ShotChoice {
     /// How many shots are not dropped.
     pub fn num_taken(&self) -> usize {
         self.set.shots.len() - self.dropped.len()
+    }
+}
+
+/// Which shots to put together.
+#[derive(Clone, Debug)]
+pub enum ScanOrder {
+    /// Read these.
+    Open(ScanFiles),
+    /// These are at hand.
+    Known(ShotChoice),
+    /// One more, with the file of its pose if a person named one.
+    Add(ShotChoice, PathBuf, Option<PathBuf>),
+}
+
+impl ScanOrder {
+    /// What is done for it, for a person.
+    pub fn title(&self) -> String {
+        match self {
+            Self::Open(files) => format!("Opening {}", files.title()),
+            Self::Known(_) => "Putting the shots together".to_owned(),
+            Self::Add(_, frame, _) => format!("Adding {}", file_name(frame)),
+        }
+    }
+
+    /// The same with the poses of this file.
+    #[must_use]
+    pub fn with_poses(self, file: PathBuf) -> Self {
+        match self {
+            Self::Open(files) => Self::Open(ScanFiles {
+                poses: Some(file),
+                ..files
+            }),
+            Self::Known(choice) => Self::Known(choice),
+            Self::Add(choice, frame, _) => Self::Add(choice, frame, Some(file)),
+        }
+    }
+}
+
+/// Put shots together.
+#[derive(Clone, Debug)]
+pub struct ScanRequest {
+    /// Which.
+    pub order: ScanOrder,
+    /// The file of the hand-eye calibration: poses of the flange need it.
+    pub calibration: Option<PathBuf>,
+    /// All parameters.
+    pub recipe: Arc<Recipe>,
+}
+
+impl ScanRequest {
+    /// By the calibration and the recipe in use.
+    pub fn of(order: ScanOrder, session: &Session) -> Self {
+        Self {
+            order,
+            calibration: session.calibration_path(),
+            recipe: Arc::clone(&session.recipe),
+        }
     }
 }

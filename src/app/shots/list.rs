@@ -9,20 +9,21 @@ use egui::{
 };
 
 use super::{
+    choice::ShotChoice,
     figure::{ShotFate, ShotRow},
-    state::{ShotsAction, StripTab},
+    state::{ShotsAction, ShotsFile, ShotsState, StripTab},
     work::FusedShots,
 };
-use crate::app::{
-    action::{Action, DialogRequest},
-    bars::{focus_ring, labelled, shortened},
-    inspect::grouped,
-    state::{State, Workspace},
-    theme::{ROUNDING, Theme, font, space},
-    unit_system::UnitSystem,
-    widgets::{Mark, mark, sentence},
+use crate::{
+    app::{
+        inspect::grouped,
+        shell::session::{Session, WorkspaceKind},
+        theme::{ROUNDING, Theme, font, space},
+        unit_system::UnitSystem,
+        widgets::{Mark, focus_ring, labelled, mark, sentence, shortened},
+    },
+    error::Advice as _,
 };
-use crate::error::Advice as _;
 
 /// Width of a shot in the list, logical pixels.
 const CARD: f32 = 240.0;
@@ -30,6 +31,17 @@ const CARD: f32 = 240.0;
 const PICTURE: Vec2 = Vec2::new(80.0, 60.0);
 /// Letters of its name.
 const LETTERS: usize = 22;
+
+/// The scan in front, and what its workspace knows of it.
+#[derive(Clone, Copy)]
+pub(in crate::app) struct ShownShots<'a> {
+    pub(in crate::app) fused: &'a Arc<FusedShots>,
+    /// Which shots shall be used.
+    pub(in crate::app) choice: &'a ShotChoice,
+    pub(in crate::app) shots: &'a ShotsState,
+    pub(in crate::app) session: &'a Session,
+    pub(in crate::app) theme: &'a Theme,
+}
 
 /// The list, and the textures of its pictures.
 #[derive(Default)]
@@ -44,19 +56,25 @@ impl ShotList {
     /// Draws the row above the strip: what the strip shows, and what changes the shots. True if it shows the list.
     pub(in crate::app) fn tabs(
         ui: &mut Ui,
-        state: &State,
+        scan: ShownShots<'_>,
         usual: &str,
-        theme: &Theme,
-        actions: &mut Vec<Action>,
+        actions: &mut Vec<ShotsAction>,
     ) -> bool {
-        let shown = state.shots().strip;
+        let ShownShots {
+            fused,
+            shots,
+            session,
+            theme,
+            ..
+        } = scan;
+        let shown = shots.strip;
         ui.horizontal(|ui| {
             ui.spacing_mut().button_padding.x = 9.0;
             for (tab, text) in [(StripTab::Shots, "Shots"), (StripTab::Usual, usual)] {
                 let is_shown = shown == tab;
                 let button = Button::selectable(is_shown, text).min_size(Vec2::splat(space::TARGET));
                 if ui.add(button).clicked() {
-                    actions.push(Action::Shots(ShotsAction::Strip(tab)));
+                    actions.push(ShotsAction::Strip(tab));
                 }
             }
             ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -65,11 +83,10 @@ impl ShotList {
                     .on_hover_text("A frame of the same part; its pose must be in the file of the poses or in poses.json beside it")
                     .clicked()
                 {
-                    actions.push(Action::Ask(DialogRequest::Shot));
+                    actions.push(ShotsAction::Ask(ShotsFile::Shot));
                 }
                 // Enrol has its own, for corrections and shots alike.
-                if state.workspace != Workspace::Enrol {
-                    let shots = state.shots();
+                if session.workspace != WorkspaceKind::Enrol {
                     for (text, label, can, action) in [
                         ("Redo", "Redo the change of the shots", shots.can_redo(), ShotsAction::Redo),
                         ("Undo", "Undo the change of the shots", shots.can_undo(), ShotsAction::Undo),
@@ -78,15 +95,13 @@ impl ShotList {
                         let response = ui.add_enabled(can, button);
                         response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, can, label));
                         if response.clicked() {
-                            actions.push(Action::Shots(action));
+                            actions.push(action);
                         }
                     }
                 }
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
-                    if let Some(fused) = state.fused() {
-                        let text = RichText::new(caption(fused, state.units)).font(font::small());
-                        ui.add(Label::new(text.color(theme.weak_text)).truncate());
-                    }
+                    let text = RichText::new(caption(fused, session.units)).font(font::small());
+                    ui.add(Label::new(text.color(theme.weak_text)).truncate());
                 });
             });
         });
@@ -97,22 +112,18 @@ impl ShotList {
     pub(in crate::app) fn ui(
         &mut self,
         ui: &mut Ui,
-        state: &State,
-        theme: &Theme,
-        actions: &mut Vec<Action>,
+        scan: ShownShots<'_>,
+        actions: &mut Vec<ShotsAction>,
     ) {
-        let Some(fused) = state.fused() else {
-            return;
-        };
-        self.make(ui.ctx(), fused);
+        self.make(ui.ctx(), scan.fused);
         let textures = self.made.as_ref().map_or(&[][..], |(_, textures)| textures);
         // A wheel turns it as well.
         ui.style_mut().always_scroll_the_only_direction = true;
         ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
             ui.horizontal_top(|ui| {
-                let rows = fused.rows.iter().zip(textures).enumerate();
+                let rows = scan.fused.rows.iter().zip(textures).enumerate();
                 for (place, (row, texture)) in rows {
-                    card(ui, place, row, texture, state, theme, actions);
+                    card(ui, place, row, texture, scan, actions);
                 }
             });
         });
@@ -152,14 +163,12 @@ fn card(
     place: usize,
     row: &ShotRow,
     texture: &TextureHandle,
-    state: &State,
-    theme: &Theme,
-    actions: &mut Vec<Action>,
+    scan: ShownShots<'_>,
+    actions: &mut Vec<ShotsAction>,
 ) {
-    let choice = state.shot_choice();
-    let is_taken = choice.is_none_or(|choice| !choice.dropped.contains(&place));
+    let is_taken = !scan.choice.dropped.contains(&place);
     Frame::new()
-        .fill(theme.control)
+        .fill(scan.theme.control)
         .corner_radius(ROUNDING)
         .inner_margin(Margin {
             left: 8,
@@ -188,11 +197,11 @@ fn card(
                     "Take this shot back"
                 };
                 if response.on_hover_text(says).clicked() {
-                    actions.push(Action::Shots(ShotsAction::Toggle(place)));
+                    actions.push(ShotsAction::Toggle(place));
                 }
                 ui.horizontal_top(|ui| {
-                    picture(ui, place, is_taken, texture, state, theme, actions);
-                    ui.vertical(|ui| words(ui, row, is_taken, state.units, theme));
+                    picture(ui, place, is_taken, texture, scan, actions);
+                    ui.vertical(|ui| words(ui, row, is_taken, scan.session.units, scan.theme));
                 });
             });
         });
@@ -204,12 +213,12 @@ fn picture(
     place: usize,
     is_taken: bool,
     texture: &TextureHandle,
-    state: &State,
-    theme: &Theme,
-    actions: &mut Vec<Action>,
+    scan: ShownShots<'_>,
+    actions: &mut Vec<ShotsAction>,
 ) {
+    let theme = scan.theme;
     let (rect, response) = ui.allocate_exact_size(PICTURE, Sense::click());
-    let is_marked = state.shots().looked_at == Some(place);
+    let is_marked = scan.shots.looked_at == Some(place);
     let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
     let shade = if is_taken { 1.0 } else { 0.45 };
     let tint = Color32::WHITE.gamma_multiply(shade);
@@ -225,7 +234,7 @@ fn picture(
     response
         .widget_info(|| WidgetInfo::selected(egui::Role::Button, true, is_marked, label.clone()));
     if response.on_hover_text(&label).clicked() {
-        actions.push(Action::Shots(ShotsAction::LookAt(place)));
+        actions.push(ShotsAction::LookAt(place));
     }
 }
 

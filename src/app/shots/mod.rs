@@ -1,13 +1,15 @@
 //! Scans in the window: several shots of one part, put together, and the list in which shots are dropped and taken back.
 //!
 //! ```text
-//! ScanOrder ─► fuse, on the thread of Inspect or Enrol ─► FusedShots ─► list, 3-D view, verdict or draft
+//! ShotsAction ─► ShotsState::apply ─► ScanOrder ─► fuse, in the task of Inspect or Enrol ─► FusedShots ─► list, 3-D view,
+//!                                                                                          verdict or draft
 //! ```
 //!
-//! `choice` says which shots are used, [`work`] reads them and puts them together, [`figure`] prepares what is drawn, [`state`] holds what a person
-//! asked for. The list, the summary and the legend are the same in both workspaces.
+//! [`choice`] says which shots are used, [`work`] reads them and puts them together, [`figure`] prepares what is drawn,
+//! [`state`] holds what a person asked for. Inspect and Enrol each own a [`ShotsState`]; the list, the summary and the
+//! legend are the same in both.
 
-mod choice;
+pub mod choice;
 pub mod figure;
 mod list;
 mod overlay;
@@ -16,16 +18,15 @@ mod summary;
 pub mod work;
 
 pub use self::{
-    choice::{ScanFiles, ShotChoice},
+    choice::{ScanFiles, ScanOrder, ScanRequest, ShotChoice},
     figure::ShotFate,
-    state::{ShotsAction, ShotsState, StripTab},
-    work::{FuseError, FusedShots, ScanOrder, ScanRequest},
+    state::{Asked, ShotsAction, ShotsFile, ShotsState, StripTab},
+    work::{FuseError, FusedShots},
 };
 pub(super) use self::{
     figure::marked,
-    list::ShotList,
+    list::{ShotList, ShownShots},
     overlay::{Overlay, POINT_SIZE},
-    state::{apply, ask_for_poses, enrol_shown, inspection_again, inspection_of, open, settle},
     summary::summary,
     work::{Steps, Then, fuse},
 };

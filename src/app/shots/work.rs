@@ -14,7 +14,7 @@ use std::{
 };
 
 use super::{
-    choice::{ScanFiles, ShotChoice, ShotSet},
+    choice::{ScanOrder, ScanRequest, ShotChoice, ShotSet},
     figure::{ScanFigure, ShotRow, rows},
 };
 use crate::{
@@ -24,7 +24,7 @@ use crate::{
     },
     error::Advice,
     geometry::rigid::RigidTransform,
-    pipeline::{ProgressObserver, Recipe, Stage},
+    pipeline::{ProgressObserver, Stage},
     robot::{
         calibration::CellCalibration,
         frame_poses::FramePosesError,
@@ -32,43 +32,6 @@ use crate::{
     },
     scan::{Scan, ScanError, ScanObserver, ScanParams, ScanStep, Shot, assemble},
 };
-
-/// Which shots to put together.
-#[derive(Clone, Debug)]
-pub enum ScanOrder {
-    /// Read these.
-    Open(ScanFiles),
-    /// These are at hand.
-    Known(ShotChoice),
-    /// One more, with the file of its pose if a person named one.
-    Add(ShotChoice, PathBuf, Option<PathBuf>),
-}
-
-impl ScanOrder {
-    /// The same with the poses of this file.
-    #[must_use]
-    pub fn with_poses(self, file: PathBuf) -> Self {
-        match self {
-            Self::Open(files) => Self::Open(ScanFiles {
-                poses: Some(file),
-                ..files
-            }),
-            Self::Known(choice) => Self::Known(choice),
-            Self::Add(choice, frame, _) => Self::Add(choice, frame, Some(file)),
-        }
-    }
-}
-
-/// Put shots together.
-#[derive(Clone, Debug)]
-pub struct ScanRequest {
-    /// Which.
-    pub order: ScanOrder,
-    /// The file of the hand-eye calibration: poses of the flange need it.
-    pub calibration: Option<PathBuf>,
-    /// All parameters.
-    pub recipe: Arc<Recipe>,
-}
 
 /// Shots put together.
 #[derive(Debug)]

@@ -4,7 +4,7 @@ use std::any::Any;
 
 use super::Window;
 use crate::app::{
-    action::{Action, inspection_of_shown},
+    action::{Action, DialogRequest, inspection_of_shown, library_changed},
     bars::Progress,
     job::Request,
     robot::RobotCell,
@@ -12,6 +12,7 @@ use crate::app::{
     shell::{
         context::ShellContext,
         message::{Message, ReinspectionPurpose},
+        notice::NoticeKind,
         session::WorkspaceKind,
         task::Running,
         workspace::Workspace,
@@ -88,7 +89,21 @@ impl Window {
         match message {
             Message::Notify(notice) => self.act(Action::Notify(notice), ctx),
             Message::Retract(notice) => self.state.notices.retain(|known| *known != notice),
+            Message::WithdrawUndo => {
+                for notice in &mut self.state.notices {
+                    if notice.kind == NoticeKind::Undoable {
+                        notice.kind = NoticeKind::Done;
+                    }
+                }
+            }
             Message::CopyText(text) => ctx.copy_text(text),
+            Message::UseSource(source) => self.state.session.source = source,
+            Message::OpenScan => self.act(Action::Ask(DialogRequest::Scan), ctx),
+            Message::LibraryChanged { library, saved } => {
+                if let Some(effect) = library_changed(&mut self.state, &library, saved) {
+                    self.make(effect, ctx);
+                }
+            }
             Message::UseRecipe(recipe) => self.state.session.recipe = recipe,
             Message::UseCalibration(cell, robot) => {
                 self.state.session.cell = cell;

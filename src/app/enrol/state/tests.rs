@@ -1,114 +1,84 @@
-use std::sync::Mutex;
-
 use nalgebra::Point3;
 
-use super::*;
+use super::{
+    super::{
+        draft::Field,
+        segments::PointAction,
+        selection::{Edit, PixelBox},
+        subject::InitialSelection,
+    },
+    *,
+};
 use crate::{
     app::{
-        action::{self, Action},
         camera::Camera,
-        enrol::{selection::PixelBox, subject::PointAction},
-        job::{TaskOutcome, answer},
         shelf::LibraryCache,
-        source::Origin,
-        state::{Session, Workspace},
-        worker::{JobContext, TaskEvent},
+        shell::{context::TestShell, message::SceneOrScan, notice::NoticeKind},
+        source::{Origin, SceneSource},
     },
     geometry::cloud::PointCloud,
-    pipeline::ProgressObserver,
     stages::scene::SceneCloud,
 };
 
-/// Keeps what is handed over on the way.
-#[derive(Default)]
-struct Tray(Mutex<Vec<TaskOutcome>>);
-
-impl ProgressObserver for Tray {}
-
-impl JobContext<TaskOutcome> for Tray {
-    fn stands(&self, outcome: TaskOutcome) {
-        self.publish_partial(outcome);
-    }
-
-    fn wants_more(&self) -> bool {
-        true
-    }
-
-    fn progress(&self, _done: usize, _total: usize) {}
-    fn publish_partial(&self, outcome: TaskOutcome) {
-        self.0.lock().expect("whole").push(outcome);
-    }
-}
-
-/// A window without its threads: what is posted is done at once.
+/// The workspace without a window or threads.
 struct Bench {
-    state: State,
-    shelf: LibraryCache,
+    enrol: EnrolState,
+    shell: TestShell,
+    notices: Vec<Notice>,
     folder: tempfile::TempDir,
 }
 
 impl Bench {
     fn new() -> Self {
         let folder = tempfile::tempdir().expect("a folder");
-        let session = Session {
-            workspace: Workspace::Enrol,
-            ..Session::default()
-        };
-        let state = State {
-            session,
-            ..State::default()
-        };
+        let mut shell = TestShell::default();
+        let library = Some(folder.path().to_owned());
+        shell.services.shelf = LibraryCache::new(library, Camera::default());
         Self {
-            state,
-            shelf: LibraryCache::new(Some(folder.path().to_owned()), Camera::default()),
+            enrol: EnrolState::new(&TaskRunner::without_threads()),
+            shell,
+            notices: Vec::new(),
             folder,
         }
     }
 
+    /// Does this, and all work that follows from it.
     fn act(&mut self, action: EnrolAction) {
-        let effect = apply(&mut self.state, action);
-        self.make(effect);
+        self.begin(action);
+        self.work();
     }
 
-    fn make(&mut self, effect: Option<Effect>) {
-        match effect {
-            // Nobody writes a history here.
-            None | Some(Effect::Tell(_)) => {}
-            Some(Effect::Several(effects)) => {
-                for effect in effects {
-                    self.make(Some(effect));
-                }
-            }
-            Some(Effect::Post {
-                generation,
-                request,
-            }) => {
-                let (lane, tray) = (request.lane(), Tray::default());
-                let outcome = answer(request, &self.shelf, &tray).expect("not cancelled");
-                for outcome in tray.0.into_inner().expect("whole") {
-                    self.hear(
-                        lane,
-                        TaskEvent::Partly {
-                            generation,
-                            outcome,
-                        },
-                    );
-                }
-                self.hear(
-                    lane,
-                    TaskEvent::Done {
-                        generation,
-                        outcome,
-                    },
-                );
-            }
-            Some(other) => panic!("{other:?}"),
+    /// Does this; the work that follows from it waits.
+    fn begin(&mut self, action: EnrolAction) {
+        self.enrol.apply(action, &mut self.shell.context());
+        self.deliver();
+    }
+
+    fn work(&mut self) {
+        while self.enrol.change_task.run_waiting() || self.enrol.draft_task.run_waiting() {
+            self.enrol.update(&mut self.shell.context());
+            self.deliver();
         }
     }
 
-    fn hear(&mut self, lane: TaskQueue, news: TaskEvent<TaskOutcome>) {
-        let effect = action::apply(&mut self.state, Action::Hear(lane, news));
-        self.make(effect);
+    /// Does what was sent as the window does.
+    fn deliver(&mut self) {
+        for message in std::mem::take(&mut self.shell.messages) {
+            match message {
+                Message::Notify(notice) => self.notices.push(notice),
+                Message::WithdrawUndo => {
+                    for notice in &mut self.notices {
+                        if notice.kind == NoticeKind::Undoable {
+                            notice.kind = NoticeKind::Done;
+                        }
+                    }
+                }
+                Message::LibraryChanged { library, .. } => {
+                    self.shell.session.library = Some(library);
+                }
+                other => panic!("{other:?}"),
+            }
+        }
     }
 
     /// Takes an L-shaped plate of this width as the draft.
@@ -126,8 +96,10 @@ impl Bench {
             is_simulated: false,
         };
         let source = SceneSource::AtHand(Arc::new(scene), origin);
-        let effect = take(&mut self.state, source, "Taking".into());
-        self.make(Some(effect));
+        let scene = SceneOrScan::Scene(source);
+        self.enrol
+            .take(scene, "Taking".into(), &self.shell.context());
+        self.work();
         self.act(EnrolAction::TakeAs(InitialSelection::Whole));
     }
 
@@ -136,17 +108,17 @@ impl Bench {
     }
 
     fn num_kept(&self) -> usize {
-        let draft = self.state.enrol.draft.as_ref().expect("a draft");
+        let draft = self.enrol.draft.as_ref().expect("a draft");
         draft.selection.indices.len()
     }
 
     fn from(&self) -> Option<String> {
-        let draft = self.state.enrol.draft.as_ref()?;
+        let draft = self.enrol.draft.as_ref()?;
         Some(draft.subject.origin.title())
     }
 
     fn names(&self) -> Vec<String> {
-        let library = self.state.library.as_ref().expect("loaded");
+        let library = self.shell.session.library.as_ref().expect("loaded");
         library
             .parts
             .iter()
@@ -186,7 +158,7 @@ fn every_correction_is_taken_back_and_done_again_in_its_order() {
     bench.act(EnrolAction::Correct(Edit::Segment(0, PointAction::Dropped)));
     bench.act(EnrolAction::Redo);
     assert_eq!(bench.num_kept(), 0, "what was done since counts");
-    let draft = bench.state.enrol.draft.as_ref().expect("a draft");
+    let draft = bench.enrol.draft.as_ref().expect("a draft");
     assert!(matches!(&draft.checked, Some(Err(trouble)) if !trouble.advice.is_empty()));
 }
 
@@ -197,7 +169,7 @@ fn another_draft_keeps_the_words_and_can_be_taken_back() {
     bench.named("Plate");
     bench.take(90);
     assert_eq!(bench.from().as_deref(), Some("90.pcd"));
-    let draft = bench.state.enrol.draft.as_ref().expect("a draft");
+    let draft = bench.enrol.draft.as_ref().expect("a draft");
     assert_eq!(draft.form.name, "plate");
     // Taken whole, then the draft itself.
     bench.act(EnrolAction::Undo);
@@ -219,12 +191,12 @@ fn a_saved_part_replaced_and_taken_back_twice_is_the_first_one_again() {
         assert_eq!(bench.from(), None);
     }
     let enrolled_from = |bench: &Bench| {
-        let library = bench.state.library.as_ref().expect("loaded");
+        let library = bench.shell.session.library.as_ref().expect("loaded");
         library.parts.first().map(|part| part.enrolled.from.clone())
     };
     assert_eq!(enrolled_from(&bench).as_deref(), Some("90.pcd"));
     assert_eq!(
-        bench.state.notices.last().map(|n| n.kind),
+        bench.notices.last().map(|n| n.kind),
         Some(NoticeKind::Undoable)
     );
     bench.act(EnrolAction::Undo);
@@ -247,7 +219,7 @@ fn an_offer_to_undo_goes_when_something_else_was_done() {
     bench.named("Plate");
     bench.act(EnrolAction::Save);
     bench.take(90);
-    let kinds = bench.state.notices.iter().map(|notice| notice.kind);
+    let kinds = bench.notices.iter().map(|notice| notice.kind);
     assert!(kinds.into_iter().all(|kind| kind != NoticeKind::Undoable));
 }
 
@@ -262,7 +234,7 @@ fn a_change_that_fails_can_be_tried_again() {
     let hidden = bench.folder.path().join(".hidden");
     std::fs::rename(&trash, &hidden).expect("moved");
     bench.act(EnrolAction::Undo);
-    let last = bench.state.notices.last().expect("a notice");
+    let last = bench.notices.last().expect("a notice");
     assert!(
         last.kind == NoticeKind::Look && !last.advice.is_empty(),
         "{last:?}"
@@ -278,10 +250,17 @@ fn one_change_of_the_library_at_a_time() {
     let mut bench = Bench::new();
     bench.take(80);
     bench.named("Plate");
-    let first = apply(&mut bench.state, EnrolAction::Save);
-    assert!(apply(&mut bench.state, EnrolAction::Save).is_none());
-    assert!(apply(&mut bench.state, EnrolAction::Undo).is_none());
-    bench.make(first);
+    let num_steps = bench.enrol.steps.done.len();
+    bench.begin(EnrolAction::Save);
+    bench.begin(EnrolAction::Write(Field::Title("Sheet".into())));
+    bench.begin(EnrolAction::Save);
+    bench.begin(EnrolAction::Undo);
+    assert_eq!(
+        bench.enrol.steps.done.len(),
+        num_steps,
+        "nothing is taken back"
+    );
+    bench.work();
     assert_eq!(bench.names(), ["plate"]);
 }
 
@@ -298,7 +277,7 @@ fn a_part_is_renamed_while_it_is_looked_at() {
     bench.act(EnrolAction::WriteOpen(Field::Name("sheet".into())));
     bench.act(EnrolAction::Rename);
     assert_eq!(bench.names(), ["sheet"]);
-    let open = bench.state.enrol.open.as_ref().expect("still open");
+    let open = bench.enrol.open.as_ref().expect("still open");
     assert_eq!(open.name.as_str(), "sheet");
 }
 
@@ -307,25 +286,8 @@ fn without_a_name_nothing_is_saved_and_it_is_said() {
     let mut bench = Bench::new();
     bench.take(80);
     bench.act(EnrolAction::Save);
-    assert!(!bench.state.is_changing_library());
-    assert!(bench.state.notices[0].what.contains("name is empty"));
-}
-
-#[test]
-fn captures_are_enrolled_while_the_workspace_is_in_front_and_inspected_otherwise() {
-    let mut state = State::default();
-    for (workspace, lane) in [
-        (Workspace::Inspect, TaskQueue::Inspect),
-        (Workspace::Enrol, TaskQueue::Enrol),
-    ] {
-        state.workspace = workspace;
-        for action in [Action::Capture, Action::Open("door.pcd".into())] {
-            let Some(Effect::Post { request, .. }) = action::apply(&mut state, action) else {
-                panic!("nothing was posted");
-            };
-            assert_eq!(request.lane(), lane);
-        }
-    }
+    assert!(!bench.enrol.is_changing_library());
+    assert!(bench.notices[0].what.contains("name is empty"));
 }
 
 #[test]
@@ -336,7 +298,7 @@ fn what_is_checked_names_the_part_that_is_hardest_to_tell_from() {
     bench.act(EnrolAction::Save);
     bench.take(80);
     bench.named("Twin");
-    let draft = bench.state.enrol.draft.as_ref().expect("a draft");
+    let draft = bench.enrol.draft.as_ref().expect("a draft");
     let hardest = draft.hardest().expect("one is enrolled");
     assert!(
         hardest.other == "plate" && !hardest.is_distinguishable(),
@@ -345,17 +307,33 @@ fn what_is_checked_names_the_part_that_is_hardest_to_tell_from() {
     bench.act(EnrolAction::Replace(
         PartName::new("plate").expect("a name"),
     ));
-    let draft = bench.state.enrol.draft.as_ref().expect("a draft");
+    let draft = bench.enrol.draft.as_ref().expect("a draft");
     assert!(draft.hardest().is_none(), "it replaces the only one");
 }
 
 #[test]
-fn an_answer_that_comes_when_nothing_is_there_any_more_changes_nothing() {
+fn a_result_that_comes_when_the_draft_is_gone_changes_nothing() {
     let mut bench = Bench::new();
-    let answer = EnrolAnswer::Checked(Err(Trouble {
-        what: "late".into(),
-        advice: String::new(),
-    }));
-    assert!(hear(&mut bench.state, 1, Ok(answer)).is_none());
-    assert!(bench.state.enrol.draft.is_none());
+    bench.take(80);
+    bench.begin(EnrolAction::LookAgain);
+    assert!(bench.enrol.draft_task.run_waiting());
+    bench.begin(EnrolAction::Discard);
+    bench.enrol.update(&mut bench.shell.context());
+    assert!(bench.enrol.draft.is_none() && bench.enrol.running().is_none());
+}
+
+#[test]
+fn an_operator_is_asked_for_the_engineer_before_anything_changes() {
+    let mut bench = Bench::new();
+    bench.take(80);
+    bench.shell.session.role = UserRole::Operator;
+    let discard = EnrolAction::Discard;
+    bench.enrol.apply(discard, &mut bench.shell.context());
+    assert!(matches!(bench.shell.messages[..], [Message::AskEngineer]));
+    bench.shell.messages.clear();
+    assert!(bench.enrol.draft.is_some());
+    bench.shell.session.role = UserRole::Engineer;
+    let event = Event::EngineerIn;
+    bench.enrol.on_event(&event, &mut bench.shell.context());
+    assert!(bench.enrol.draft.is_none());
 }

@@ -1,0 +1,143 @@
+//! The points of what is enrolled, cut into segments that are taken or dropped whole.
+
+use crate::{
+    geometry::cloud::is_finite,
+    stages::{
+        scene::SceneCloud,
+        segment::{PointLabel, SegmentParams, pieces, segment, surfaces},
+    },
+};
+
+/// How the points are cut into segments.
+#[derive(Debug)]
+pub struct Segments {
+    /// The segments; what is likely to be wanted first.
+    pub list: Vec<Segment>,
+    /// For each point the place of its segment in the list, or [`Segments::NONE`].
+    pub of_point: Vec<u16>,
+}
+
+/// Points that are taken or dropped together.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Segment {
+    /// What they are.
+    pub kind: SegmentKind,
+    /// What a person calls it.
+    pub title: String,
+    /// Its points.
+    pub num_points: usize,
+    /// What becomes of it unless a person says otherwise.
+    pub usual: PointAction,
+}
+
+/// What a segment is.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum SegmentKind {
+    /// A connected surface.
+    Surface,
+    /// A background plane, by its number.
+    Plane(u8),
+    /// Points too few to be a surface.
+    Specks,
+}
+
+/// What becomes of points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum PointAction {
+    /// They are of the part.
+    Kept,
+    /// They are not.
+    Dropped,
+}
+
+impl Segments {
+    /// Of a point of no segment: the camera had no reading there.
+    pub const NONE: u16 = u16::MAX;
+    /// More surfaces than this are counted among the specks.
+    const MAX_SURFACES: usize = 24;
+
+    /// Of what stands before the background, the part first.
+    pub(super) fn before_background(scene: &SceneCloud, params: &SegmentParams) -> Self {
+        let found = segment(scene, params);
+        let mut all = Self::of_num(found.labels.len());
+        let part = found.part.as_ref().map(|part| part.indices.clone());
+        let part = part.unwrap_or_default();
+        all.add(SegmentKind::Surface, "Part", PointAction::Kept, &part);
+        let stand = found.part.as_ref().map(|part| part.stand.clone());
+        let stand = stand.unwrap_or_default();
+        all.add(SegmentKind::Surface, "Stand", PointAction::Dropped, &stand);
+        let others = surfaces(scene, &found, params);
+        let is_other = |indices: &&Vec<u32>| {
+            let first = indices.first();
+            first.is_some() && first != part.first().into_iter().chain(stand.first()).min()
+        };
+        let others = others.iter().filter(is_other);
+        for (number, indices) in others.take(Self::MAX_SURFACES).enumerate() {
+            let title = format!("Surface {}", number + 1);
+            all.add(SegmentKind::Surface, &title, PointAction::Dropped, indices);
+        }
+        for plane in 0..found.planes.len() as u8 {
+            let is_on = |label: &PointLabel| *label == PointLabel::Background(plane);
+            let indices = places(found.labels.iter().map(is_on));
+            let title = format!("Background {}", plane + 1);
+            let kind = SegmentKind::Plane(plane);
+            all.add(kind, &title, PointAction::Dropped, &indices);
+        }
+        all.add_specks(scene, PointAction::Dropped);
+        all
+    }
+
+    /// Of everything, the largest piece first.
+    pub(super) fn all_of(scene: &SceneCloud, params: &SegmentParams) -> Self {
+        let mut all = Self::of_num(scene.cloud.points.len());
+        let found = pieces(scene, params);
+        for (number, indices) in found.iter().take(Self::MAX_SURFACES).enumerate() {
+            let title = format!("Piece {}", number + 1);
+            all.add(SegmentKind::Surface, &title, PointAction::Kept, indices);
+        }
+        all.add_specks(scene, PointAction::Kept);
+        all
+    }
+
+    pub(super) fn of_num(num_points: usize) -> Self {
+        Self {
+            list: Vec::new(),
+            of_point: vec![Self::NONE; num_points],
+        }
+    }
+
+    pub(super) fn add(
+        &mut self,
+        kind: SegmentKind,
+        title: &str,
+        usual: PointAction,
+        indices: &[u32],
+    ) {
+        if indices.is_empty() {
+            return;
+        }
+        let place = self.list.len() as u16;
+        for index in indices {
+            self.of_point[*index as usize] = place;
+        }
+        self.list.push(Segment {
+            kind,
+            title: title.to_owned(),
+            num_points: indices.len(),
+            usual,
+        });
+    }
+
+    /// The readings that are in no segment yet.
+    fn add_specks(&mut self, scene: &SceneCloud, usual: PointAction) {
+        let points = scene.cloud.points.iter().zip(&self.of_point);
+        let indices = places(points.map(|(p, of)| *of == Self::NONE && is_finite(p)));
+        self.add(SegmentKind::Specks, "Specks", usual, &indices);
+    }
+}
+
+/// The places at which it is true.
+fn places(all: impl Iterator<Item = bool>) -> Vec<u32> {
+    let there = all.enumerate().filter(|(_, is_there)| *is_there);
+    there.map(|(place, _)| place as u32).collect()
+}
