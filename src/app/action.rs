@@ -4,30 +4,21 @@ use std::{path::PathBuf, sync::Arc};
 
 use super::{
     answers,
-    inspect::{
-        self, scan,
-        state::InspectAction,
-        work::{InspectRequest, Inspected},
-    },
-    job::{Request, TaskOutcome, Trouble},
+    inspect::{self, scan, state::InspectAction, work::Inspected},
+    job::{Request, TaskOutcome},
     lane::TaskQueue,
     live::{self, LiveAction},
     robot::RobotAction,
     roles::{self, RoleAction},
-    shelf::LibraryView,
     shell::message::SceneOrScan,
-    shots::{Asked, ScanFiles, ScanOrder, ScanRequest, ShotsAction, ShotsFile},
-    source::{CellChoice, SceneSource, file_name},
-    state::{
-        Event, HelpPage, Notice, NoticeKind, ReinspectionPurpose, Shown, Source, StagePanel, State,
-        Workspace,
-    },
+    shots::{ScanFiles, ShotsAction, ShotsFile},
+    source::CellChoice,
+    state::{Event, HelpPage, Notice, NoticeKind, Source, StagePanel, State, Workspace},
     worker::TaskEvent,
 };
 use crate::{
     capture::{Pace, RecordingSpec, SourceSpec, WatchedFrom, WatchedSpec},
     robot::Convention,
-    stages::segment::EmptyCell,
 };
 
 /// Something that happened.
@@ -49,6 +40,8 @@ pub enum Action {
     Open(PathBuf),
     /// Use the library that is found without choosing one.
     UseFoundLibrary,
+    /// Cancel what the inspector is at.
+    CancelInspection,
     /// Give up what this lane is at.
     Cancel(TaskQueue),
     /// Bring a workspace to the front.
@@ -171,16 +164,16 @@ const MAX_NOTICES: usize = 4;
 pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
     let action = roles::permitted(state, action)?;
     match action {
-        Action::Capture => return Some(capture(state)),
+        Action::Capture => return state.capture(),
         Action::UseCell(choice) => {
             state.source = Source::Cell(choice);
             return live::source_changed(state);
         }
-        Action::TakeEmptyCell => return take_empty_cell(state),
+        Action::TakeEmptyCell => state.take_empty_cell(),
         Action::ForgetEmptyCell => {
             state.empty_cell = None;
             notify(state, Notice::done("The empty cell is forgotten"));
-            return live::restart_consensus(state);
+            live::restart_consensus(state);
         }
         Action::Ask(DialogRequest::Scene) if state.workspace == Workspace::Enrol => {
             return Some(Effect::ShowDialog(DialogRequest::Part));
@@ -191,9 +184,9 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::Open(path) => return chosen(state, DialogRequest::Scene, path),
         Action::UseFoundLibrary => {
             state.chosen_library = None;
-            return Some(open_library(state));
+            state.open_library();
         }
-        Action::Cancel(TaskQueue::Live) => return None,
+        Action::CancelInspection => state.inspector.cancel(),
         Action::Cancel(lane) => {
             state.works.remove(&lane);
             return Some(Effect::CancelWork(lane));
@@ -248,7 +241,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::Press(workspace, place) => return Some(Effect::Press(workspace, place)),
         Action::CancelTask(workspace) => return Some(Effect::CancelTask(workspace)),
         Action::EngineerIn(workspace) => return Some(Effect::EngineerIn(workspace)),
-        Action::ShowPast(inspected) => return show_past(state, inspected),
+        Action::ShowPast(inspected) => state.show_past(inspected),
         Action::Robot(action) => return Some(Effect::Robot(action)),
         Action::Hear(lane, news) => return answers::hear(state, lane, news),
     }
@@ -260,11 +253,11 @@ fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Effect
     match ask {
         DialogRequest::Scene | DialogRequest::Part => {
             state.source = Source::File(path);
-            Some(capture(state))
+            state.capture()
         }
         DialogRequest::Scan => {
             state.source = Source::Scan(ScanFiles::of_folder(path));
-            Some(capture(state))
+            state.capture()
         }
         DialogRequest::ScanPoses => scan::apply(state, ShotsAction::Chosen(ShotsFile::Poses, path)),
         DialogRequest::Shot => scan::apply(state, ShotsAction::Chosen(ShotsFile::Shot, path)),
@@ -286,7 +279,8 @@ fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Effect
         DialogRequest::RecordTo => live::apply(state, LiveAction::Record(path)),
         DialogRequest::Library => {
             state.chosen_library = Some(path);
-            Some(open_library(state))
+            state.open_library();
+            None
         }
         DialogRequest::ReportFolder => export(state, path),
         DialogRequest::Picture => {
@@ -295,95 +289,6 @@ fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Effect
         }
         DialogRequest::SprayPath => inspect::state::write_spray_path(state, path),
     }
-}
-
-/// Asks for a scene from the source: to be inspected, or to be enrolled while that is in front. To be inspected it is a
-/// single one, and ends following the source.
-pub(super) fn capture(state: &mut State) -> Effect {
-    let (source, what) = match &state.session.source {
-        Source::Cell(choice) => {
-            state.num_captures += 1;
-            let source = SceneSource::Cell {
-                choice: *choice,
-                number: state.num_captures,
-            };
-            (SceneOrScan::Scene(source), "Capturing".to_owned())
-        }
-        Source::File(path) => (
-            SceneOrScan::Scene(SceneSource::File(path.clone())),
-            format!("Opening {}", file_name(path)),
-        ),
-        Source::Scan(files) => {
-            let order = ScanOrder::Open(files.clone());
-            let what = order.title();
-            (SceneOrScan::Scan(order), what)
-        }
-        Source::Camera(spec) => {
-            let what = match **spec {
-                SourceSpec::Watched(_) => "Waiting for a new file".to_owned(),
-                _ => "Capturing".to_owned(),
-            };
-            let source = SceneSource::Camera(spec.clone());
-            (SceneOrScan::Scene(source), what)
-        }
-    };
-    if state.workspace == Workspace::Enrol {
-        return Effect::Take(source, what);
-    }
-    let source = match source {
-        SceneOrScan::Scene(source) => source,
-        SceneOrScan::Scan(order) => return scan::begin(state, order, Asked::first()),
-    };
-    let source = match &state.empty_cell {
-        Some(cell) => SceneSource::Before(Arc::clone(cell), Box::new(source)),
-        None => source,
-    };
-    let recipe = Arc::clone(&state.recipe);
-    state.begin(what, Request::Inspect(InspectRequest { source, recipe }))
-}
-
-/// The scene in front becomes the empty cell.
-fn take_empty_cell(state: &mut State) -> Option<Effect> {
-    let shown = state.shown.as_ref()?;
-    let inspection = &shown.inspected.inspection;
-    if inspection.verdict.is_accepted() {
-        let hangs_there = Notice {
-            kind: NoticeKind::Look,
-            what: "This is no empty cell: a part hangs in it, and would not be found any more"
-                .into(),
-            advice: "Take the part away, capture, and take the empty cell then".into(),
-        };
-        notify(state, hangs_there);
-        return None;
-    }
-    let stands_there = inspection.segmentation.part.is_ok();
-    match EmptyCell::of(&shown.inspected.scene) {
-        Ok(cell) => {
-            state.empty_cell = Some(Arc::new(cell));
-            let what = "The empty cell is taken: from the next capture on, what stands in it is not taken for a part";
-            let taken = if stands_there {
-                Notice {
-                    kind: NoticeKind::Look,
-                    what: "The empty cell is taken, with something as large as a part in it".into(),
-                    advice: "If that is a part: Source, Forget the empty cell; then take it away and capture first".into(),
-                }
-            } else {
-                Notice::done(what)
-            };
-            notify(state, taken);
-            live::restart_consensus(state)
-        }
-        Err(error) => {
-            notify(state, Trouble::of(&error).into());
-            None
-        }
-    }
-}
-
-/// Asks for the library that was chosen.
-fn open_library(state: &mut State) -> Effect {
-    let chosen = state.chosen_library.clone();
-    state.begin("Opening the library", Request::Library(chosen))
 }
 
 /// Writes the report of the inspection in front, with a picture of its view where that is in sight.
@@ -404,58 +309,6 @@ fn no_pose() -> Notice {
     }
 }
 
-/// Inspects the scene in front again: something that its result rests on has changed.
-pub(super) fn inspect_again(state: &mut State) -> Option<Effect> {
-    if state.is_live() {
-        return live::restart_consensus(state);
-    }
-    let request = inspection_of_shown(state)?;
-    Some(state.inspect("Inspecting again", request, ReinspectionPurpose::Repeated))
-}
-
-/// The scene in front, to be inspected with what holds now.
-pub(super) fn inspection_of_shown(state: &State) -> Option<Request> {
-    let shown = state.shown.as_ref()?;
-    Some(scan::inspection_again(&state.session, &shown.inspected))
-}
-
-/// Uses the library that was changed, and inspects what was saved in it, else the scene in front.
-pub(super) fn library_changed(
-    state: &mut State,
-    library: &Arc<LibraryView>,
-    saved: Option<SceneOrScan>,
-) -> Option<Effect> {
-    answers::use_library(state, library);
-    let is_busy = state.works.contains_key(&TaskQueue::Inspect);
-    let request = match saved {
-        Some(SceneOrScan::Scene(source)) => {
-            let recipe = Arc::clone(&state.recipe);
-            Some(Request::Inspect(InspectRequest { source, recipe }))
-        }
-        Some(SceneOrScan::Scan(order)) => {
-            Some(Request::InspectScan(ScanRequest::of(order, &state.session)))
-        }
-        None if is_busy => None,
-        None => inspection_of_shown(state),
-    };
-    let purpose = ReinspectionPurpose::New;
-    Some(state.inspect("Inspecting again", request?, purpose))
-}
-
-/// Shows a past inspection that is still in memory.
-fn show_past(state: &mut State, inspected: Arc<Inspected>) -> Option<Effect> {
-    state.generation += 1;
-    state.candidate = 0;
-    state.shown = Some(Shown {
-        generation: state.generation,
-        inspected,
-        is_past: true,
-        session: None,
-    });
-    state.workspace = Workspace::Inspect;
-    live::stop_live(state)
-}
-
 /// Shows a notice.
 pub(super) fn notify(state: &mut State, notice: Notice) {
     // The same again says nothing new.
@@ -468,102 +321,13 @@ pub(super) fn notify(state: &mut State, notice: Notice) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::{
-        app::{job::answer, shelf::LibraryCache, worker::JobContext},
-        pipeline::{ProgressObserver, Stage},
-    };
-
-    fn posted(effect: Option<Effect>) -> (u64, Request) {
-        match effect {
-            Some(Effect::Post {
-                generation,
-                request,
-            }) => (generation, request),
-            other => panic!("expected a request, found {other:?}"),
-        }
-    }
-
-    struct DetachedContext;
-
-    impl ProgressObserver for DetachedContext {}
-
-    impl JobContext<TaskOutcome> for DetachedContext {
-        fn progress(&self, _done: usize, _total: usize) {}
-        fn publish_partial(&self, _outcome: TaskOutcome) {}
-        fn stands(&self, _outcome: TaskOutcome) {}
-        fn wants_more(&self) -> bool {
-            true
-        }
-    }
-
-    fn done(generation: u64, outcome: TaskOutcome) -> Action {
-        let news = TaskEvent::Done {
-            generation,
-            outcome,
-        };
-        Action::Hear(TaskQueue::Inspect, news)
-    }
-
-    fn trouble() -> Trouble {
-        Trouble {
-            what: "broken".into(),
-            advice: "mend it".into(),
-        }
-    }
-
-    #[test]
-    fn a_result_stays_and_is_old_until_the_next_is_there() {
-        let mut state = State::default();
-        let (generation, request) = posted(apply(&mut state, Action::Capture));
-        assert!(!state.is_old() && state.works.contains_key(&TaskQueue::Inspect));
-        let first = answer(request, &LibraryCache::default(), &DetachedContext).expect("answered");
-        apply(&mut state, done(generation, first));
-        assert!(state.shown.is_some() && state.works.is_empty());
-        assert!(matches!(
-            apply(&mut state, Action::CopyPose),
-            Some(Effect::CopyText(_))
-        ));
-        apply(&mut state, Action::TakeEmptyCell);
-        assert!(state.empty_cell.is_none(), "a part hangs there");
-        let said = state.notices.last().map(|notice| notice.what.clone());
-        assert!(said.is_some_and(|said| said.contains("no empty cell")));
-
-        apply(&mut state, Action::Capture);
-        assert!(state.is_old());
-        assert!(matches!(
-            apply(&mut state, Action::Cancel(TaskQueue::Inspect)),
-            Some(Effect::CancelWork(TaskQueue::Inspect))
-        ));
-        assert!(!state.is_old() && state.shown.is_some());
-    }
-
-    #[test]
-    fn news_of_an_older_request_are_thrown_away() {
-        let mut state = State::default();
-        let (older, _) = posted(apply(&mut state, Action::Capture));
-        let (newer, _) = posted(apply(&mut state, Action::Open("b.pcd".into())));
-        apply(&mut state, done(older, Err(trouble())));
-        assert!(state.notices.is_empty() && state.works.contains_key(&TaskQueue::Inspect));
-        let begins = TaskEvent::Begins {
-            generation: newer,
-            stage: Stage::Contour,
-        };
-        apply(&mut state, Action::Hear(TaskQueue::Inspect, begins));
-        assert_eq!(
-            state.work().and_then(|(_, work)| work.stage),
-            Some(Stage::Contour)
-        );
-        apply(&mut state, done(newer, Err(trouble())));
-        assert_eq!(state.notices.len(), 1);
-        assert!(state.works.is_empty() && state.shown.is_none());
-    }
 
     #[test]
     fn captures_are_enrolled_while_the_workspace_is_in_front_and_inspected_otherwise() {
         let mut state = State::default();
         for action in [Action::Capture, Action::Open("door.pcd".into())] {
-            let (_, request) = posted(apply(&mut state, action));
-            assert_eq!(request.lane(), TaskQueue::Inspect);
+            assert!(apply(&mut state, action).is_none());
+            assert!(state.inspector.running().is_some());
         }
         state.workspace = Workspace::Enrol;
         for action in [Action::Capture, Action::Open("door.pcd".into())] {

@@ -280,7 +280,6 @@ mod tests {
             recipe: std::sync::Arc::default(),
         };
         let inspected = inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected");
-        let inspected = inspected.expect("not cancelled");
         let figures = &inspected.figures;
         let (contour, scene) = (
             figures.contour.as_ref().expect("a contour"),
@@ -322,7 +321,6 @@ mod tests {
             recipe: std::sync::Arc::new(recipe),
         };
         let inspected = inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected");
-        let inspected = inspected.expect("not cancelled");
         let candidates = &inspected.figures.candidates;
         let curves: Vec<&Vec<f32>> = candidates
             .iter()

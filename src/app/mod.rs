@@ -7,9 +7,10 @@
 //!
 //! [`shell`] is what a workspace stands on: the session that all of them share, tasks, messages, file dialogs. A
 //! workspace is a folder with its state, its panels and the work of its tasks; none imports another, and the window
-//! knows it as a [`shell::workspace::Workspace`]. So far these are [`enrol`], [`compare`], [`align`] and [`history`]; the
-//! dialog of [`robot`] owns its state and task in the same way. Inspect and Live still share one [`state`], changed by
-//! [`action`] alone, and ask threads by [`lane`] through [`job`] and [`worker`].
+//! knows it as a [`shell::workspace::Workspace`]. So far these are [`align`], [`compare`], [`history`] and [`enrol`]; the
+//! dialog of [`robot`] owns its state and task in the same way. Above them stand the [`shell::inspector`], which captures
+//! and inspects, and [`live`], which follows a source. Inspect still shares one [`state`] with them, changed by [`action`]
+//! alone, and has files written by [`lane`], [`job`] and [`worker`].
 //!
 //! [`theme`] holds every colour, distance and type size. Panels draw the last result, always, and never compute.
 

@@ -12,7 +12,8 @@ use serde::{Deserialize, Serialize};
 use super::{
     live::LiveState,
     roles::{LOCK_AFTER, Pin, RoleState, is_operators},
-    shell::session::RememberedCell,
+    shelf::LibraryCache,
+    shell::{session::RememberedCell, task::TaskRunner},
     shots::ScanFiles,
     source::CellChoice,
     state::{Session, Source, State, ThemeChoice, Workspace},
@@ -157,8 +158,8 @@ impl Settings {
             && self.window == window
     }
 
-    /// The state to start in.
-    pub fn into_state(self) -> State {
+    /// The state to start in; its tasks are run by `runner` and share `shelf`.
+    pub fn into_state(self, runner: &TaskRunner, shelf: &LibraryCache) -> State {
         let roles = RoleState::starting(self.pin.clone(), self.lock_after);
         let session = Session {
             theme: self.theme,
@@ -179,13 +180,13 @@ impl Settings {
             recipe: Arc::new(self.recipe.unwrap_or_default()),
             role: roles.first_role(),
             cell: self.cell,
+            live: LiveState::averaging(self.average),
             ..Session::default()
         };
         State {
             session,
-            live: LiveState::averaging(self.average),
             roles,
-            ..State::default()
+            ..State::new(runner, shelf)
         }
     }
 }
@@ -334,7 +335,10 @@ mod tests {
         for settings in [Settings::default(), unusual(), scan] {
             save(&path, &settings).expect("saved");
             assert_eq!(load(&path), (settings.clone(), None));
-            let state = settings.clone().into_state();
+            let runner = TaskRunner::without_threads();
+            let state = settings
+                .clone()
+                .into_state(&runner, &LibraryCache::default());
             assert_eq!(Settings::of(&state, settings.window), settings);
         }
     }

@@ -15,17 +15,23 @@ use super::{
     inspect::state::InspectState,
     job::Request,
     lane::TaskQueue,
-    live::{self, LiveState},
+    live::Follower,
     roles::RoleState,
+    shelf::LibraryCache,
+    shell::{inspector::Inspector, task::TaskRunner},
 };
 use crate::pipeline::Stage;
 
 /// Everything that the panels read. Only [`apply`](super::action::apply) changes it.
-#[derive(Debug, Default)]
+#[derive(Debug)]
 pub struct State {
     /// What the workspaces share.
     pub session: Session,
-    /// What is being worked on, by whom; while a scene is, the result shown is old.
+    /// Captures, opens and inspects; meanwhile the result shown is old.
+    pub inspector: Inspector,
+    /// Follows the source.
+    pub follower: Follower,
+    /// What else is being worked on, by whom.
     pub works: BTreeMap<TaskQueue, Work>,
     /// What a person should know, oldest first.
     pub notices: Vec<Notice>,
@@ -35,18 +41,12 @@ pub struct State {
     pub candidate: usize,
     /// Whether the list of shortcuts is open.
     pub help: HelpPage,
-    /// How many frames of the simulated cell were asked for.
-    pub num_captures: u64,
     /// The generation of the newest request.
     pub generation: u64,
     /// Whose window it is.
     pub roles: RoleState,
-    /// Of the source that is followed.
-    pub live: LiveState,
     /// Of the Inspect workspace.
     pub inspect: InspectState,
-    /// What the newest inspection that was asked for is for: its generation, and the purpose.
-    pub purpose: (u64, ReinspectionPurpose),
 }
 
 impl Deref for State {
@@ -63,30 +63,33 @@ impl DerefMut for State {
     }
 }
 
-impl State {
-    /// True while the result shown is not what was asked for last.
-    pub fn is_old(&self) -> bool {
-        self.works.contains_key(&TaskQueue::Inspect) && self.shown.is_some()
+#[cfg(test)]
+impl Default for State {
+    fn default() -> Self {
+        Self::new(&TaskRunner::without_threads(), &LibraryCache::default())
     }
+}
 
-    /// The work that the window tells of: the front workspace's own, else any.
-    pub fn work(&self) -> Option<(TaskQueue, &Work)> {
-        let own = self.workspace.lane();
-        let all = self.works.iter().map(|(lane, work)| (*lane, work));
-        // Quickly done, and not to be given up half-way.
-        // A source is followed until it is no longer wanted, which has a button of its own.
-        let quick = [TaskQueue::Write, TaskQueue::Live];
-        let mut all = all.filter(|(lane, _)| !quick.contains(lane));
-        let own = own.and_then(|own| self.works.get_key_value(&own).map(|(l, w)| (*l, w)));
-        own.or_else(|| all.next())
+impl State {
+    /// Before the first capture.
+    pub fn new(runner: &TaskRunner, shelf: &LibraryCache) -> Self {
+        Self {
+            session: Session::default(),
+            inspector: Inspector::new(runner, shelf),
+            follower: Follower::new(runner, shelf),
+            works: BTreeMap::new(),
+            notices: Vec::new(),
+            enlarged: None,
+            candidate: 0,
+            help: HelpPage::default(),
+            generation: 0,
+            roles: RoleState::default(),
+            inspect: InspectState::default(),
+        }
     }
 
     /// Writes down that the work has begun, and has it done; whatever its lane was at is given up.
     pub(super) fn begin(&mut self, what: impl Into<String>, request: Request) -> Effect {
-        let lane = request.lane();
-        // First: this request's generation is the newest behind this.
-        let stop = matches!(request, Request::Inspect(_) | Request::InspectScan(_))
-            .then(|| live::stop_live(self));
         self.generation += 1;
         let work = Work {
             generation: self.generation,
@@ -94,32 +97,11 @@ impl State {
             stage: None,
             progress: None,
         };
-        self.works.insert(lane, work);
-        if lane == TaskQueue::Inspect {
-            self.inspect.shots.started(None);
-        }
-        let post = Effect::Post {
+        self.works.insert(request.lane(), work);
+        Effect::Post {
             generation: self.generation,
             request,
-        };
-        match stop.flatten() {
-            Some(stop) => Effect::Several(vec![stop, post]),
-            None => post,
         }
-    }
-}
-
-impl State {
-    /// Has a scene or a scan inspected for this.
-    pub(super) fn inspect(
-        &mut self,
-        what: impl Into<String>,
-        request: Request,
-        purpose: ReinspectionPurpose,
-    ) -> Effect {
-        let effect = self.begin(what, request);
-        self.purpose = (self.generation, purpose);
-        effect
     }
 }
 
@@ -134,16 +116,6 @@ pub struct Work {
     pub stage: Option<Stage>,
     /// How many of how many are done.
     pub progress: Option<(usize, usize)>,
-}
-
-impl Workspace {
-    /// Who works for it.
-    pub fn lane(self) -> Option<TaskQueue> {
-        match self {
-            Self::Inspect => Some(TaskQueue::Inspect),
-            Self::Enrol | Self::Compare | Self::Align | Self::History => None,
-        }
-    }
 }
 
 /// Whether the list of shortcuts is open.

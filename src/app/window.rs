@@ -15,7 +15,7 @@ use super::{
     enrol::EnrolWorkspace,
     headless::WorkCounts,
     history::HistoryWorkspace,
-    inspect::InspectPanel,
+    inspect::{InspectPanel, work::Inspected},
     job::{Request, TaskOutcome, Trouble, answer},
     keys,
     lane::TaskQueue,
@@ -29,6 +29,7 @@ use super::{
     shell::{
         context::Services,
         file_dialog::{DialogLock, FileDialog},
+        inspector,
         message::{Event, Message},
         task::TaskRunner,
         workspace::Workspace,
@@ -108,10 +109,10 @@ impl Window {
         let shelf = LibraryCache::new(library.or_else(|| remembered.library.clone()), camera)
             .with_history(Arc::clone(&kept));
         let start = |lane: TaskQueue| {
-            let (shelf, repaint) = (shelf.clone(), ctx.clone());
+            let repaint = ctx.clone();
             let worker = Worker::start(
                 lane.name(),
-                move |request, desk| answer(request, &shelf, desk),
+                |request, _| Some(answer(&request)),
                 move || repaint.request_repaint(),
             );
             worker.map(|worker| (lane, worker))
@@ -127,7 +128,7 @@ impl Window {
             });
         let mut window = Self {
             memory: Memory::new(settings, remembered.clone(), &runner),
-            state: remembered.into_state(),
+            state: remembered.into_state(&runner, &shelf),
             workers,
             dialog: FileDialog::default(),
             services: Services {
@@ -175,6 +176,12 @@ impl Window {
         if let Some(effect) = apply(&mut self.state, action) {
             self.make(effect, ctx);
         }
+    }
+
+    /// Shows a result made elsewhere as an inspection of its own; what is being inspected is cancelled.
+    pub fn show_result(&mut self, inspected: Arc<Inspected>, ctx: &egui::Context) {
+        let effect = inspector::show_made(&mut self.state, inspected);
+        self.make(effect, ctx);
     }
 
     fn make(&mut self, effect: Effect, ctx: &egui::Context) {
@@ -309,6 +316,11 @@ impl Window {
         if self.is_lost() {
             ctx.send_viewport_cmd(egui::ViewportCommand::Close);
         }
+        if let Some(effect) = inspector::update(&mut self.state) {
+            self.make(effect, ctx);
+        }
+        let counted = live::update(&mut self.state);
+        self.make(counted, ctx);
         for lane in TaskQueue::ALL {
             while let Some(news) = self.workers.get(&lane).and_then(Worker::try_next) {
                 self.act(Action::Hear(lane, news), ctx);

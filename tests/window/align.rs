@@ -80,7 +80,7 @@ fn a_part_from_t4_is_aligned_by_every_method_and_scrubbed() {
     // The key that is named plays wherever the focus is; Space would capture elsewhere than on the plot.
     harness.get_by_label_contains("drag to scrub, P to play");
     // Space plays while the plot has the focus; it does not capture.
-    let num_captures = harness.state().state().num_captures;
+    let num_captures = harness.state().state().inspector.num_captures;
     harness.key_press(Key::Space);
     harness.run_steps(3);
     assert_eq!(own(&harness).playback, Playback::Playing);
@@ -92,7 +92,7 @@ fn a_part_from_t4_is_aligned_by_every_method_and_scrubbed() {
     harness.key_press(Key::Period);
     harness.run_steps(2);
     assert_eq!(place(&harness), paused + 1);
-    assert_eq!(harness.state().state().num_captures, num_captures);
+    assert_eq!(harness.state().state().inspector.num_captures, num_captures);
 }
 
 #[test]

@@ -41,7 +41,7 @@ fn capture_inspects_the_next_part() {
     harness.key_press(Key::Space);
     settle(&mut harness);
     // Whether or not the button has the focus now: one capture, not two.
-    assert_eq!(harness.state().state().num_captures, 3);
+    assert_eq!(harness.state().state().inspector.num_captures, 3);
 }
 
 #[test]
@@ -93,7 +93,7 @@ fn cancel_gives_up_at_once_and_keeps_the_last_result() {
         harness.run_steps(2);
         assert_eq!(generation(&harness), before);
     }
-    assert!(harness.state().state().works.is_empty());
+    assert!(harness.state().state().inspector.running().is_none());
     thread::sleep(Duration::from_millis(300));
     harness.run_steps(2);
     assert!(!harness.state().state().is_old());

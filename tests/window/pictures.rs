@@ -20,13 +20,10 @@ use partsight::{
         align::{AlignWorkspace, MethodRun},
         camera::Camera,
         inspect::work::{InspectRequest, Inspected, inspect},
-        job::TaskResult,
-        lane::TaskQueue,
         robot::RobotAction,
         shelf::LibraryCache,
         source::{CellChoice, SceneSource},
         state::Workspace,
-        worker::TaskEvent,
     },
     library::{LibraryFolder, PartName},
     pipeline::{Timings, Unwatched},
@@ -70,8 +67,7 @@ fn inspected_by(shelf: &LibraryCache) -> Inspected {
         source: SceneSource::Cell { choice, number: 1 },
         recipe: Arc::default(),
     };
-    let found = inspect(&request, shelf, &Unwatched).expect("inspected");
-    let mut found = found.expect("not cancelled");
+    let mut found = inspect(&request, shelf, &Unwatched).expect("inspected");
     let ms = Duration::from_millis;
     found.inspection.timings = Timings {
         segment: ms(3),
@@ -109,13 +105,7 @@ fn open_with(size: Vec2, inspected: Inspected) -> WindowHarness {
             let mut window =
                 Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), options).expect("threads");
             // Before the thread's own answer, which nobody waits for any more.
-            let generation = window.state().generation;
-            let outcome = Ok(TaskResult::Inspected(Arc::clone(&inspected)));
-            let done = TaskEvent::Done {
-                generation,
-                outcome,
-            };
-            window.act(Action::Hear(TaskQueue::Inspect, done), &cc.egui_ctx);
+            window.show_result(Arc::clone(&inspected), &cc.egui_ctx);
             window
         });
     settle(&mut harness);

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     app::{
-        inspect::work::{InspectRequest, Inspected},
+        inspect::work::{InspectJob, InspectRequest, Inspected},
         shell::{
             context::ShellContext,
             message::{Message, ReinspectionPurpose},
@@ -78,7 +78,7 @@ impl HistoryState {
         }
         cx.send(Message::Inspect {
             title,
-            request: InspectRequest { source, recipe },
+            job: InspectJob::Scene(InspectRequest { source, recipe }),
             purpose: ReinspectionPurpose::Past,
         });
         self.remaking = Some(ReinspectionJob { past, purpose });

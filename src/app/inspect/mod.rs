@@ -266,8 +266,8 @@ fn strip_height(state: &State, height: f32) -> f32 {
 
 /// Before the first result.
 fn empty(ui: &Ui, state: &State, theme: &Theme) {
-    let text = match state.work() {
-        Some((_, work)) => format!("{}…", work.what),
+    let text = match state.inspector.running() {
+        Some(running) => format!("{}…", running.title),
         None => "Nothing inspected yet\nPress Capture for a frame of the simulated cell, or drop a captured scene here"
             .into(),
     };

@@ -178,8 +178,7 @@ mod tests {
             },
             recipe: Arc::default(),
         };
-        let found = inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected");
-        found.expect("not cancelled")
+        inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected")
     }
 
     #[test]

@@ -4,15 +4,13 @@ use std::sync::Arc;
 
 use crate::app::{
     action::{DialogRequest, Effect, notify},
-    inspect::work::{InspectRequest, Inspected},
-    job::{Request, Trouble},
-    lane::TaskQueue,
+    inspect::work::InspectJob,
     shots::{
         Asked, FusedShots, ScanOrder, ScanRequest, ShotChoice, ShotsAction, ShotsFile,
         state::source_of,
     },
-    source::SceneSource,
-    state::{Session, Source, State},
+    state::{ReinspectionPurpose, Source, State},
+    user_error::UserError,
 };
 
 impl State {
@@ -24,7 +22,7 @@ impl State {
 
     /// Which of its shots shall be used: what was asked for last, while that is on its way.
     pub fn shot_choice(&self) -> Option<&ShotChoice> {
-        let is_inspecting = self.works.contains_key(&TaskQueue::Inspect);
+        let is_inspecting = self.inspector.running().is_some();
         let asked = self.inspect.shots.asked_choice();
         let asked = asked.filter(|_| is_inspecting);
         Some(asked.unwrap_or(&self.fused()?.choice))
@@ -46,43 +44,27 @@ pub(in crate::app) fn apply(state: &mut State, action: ShotsAction) -> Option<Ef
             if let ScanOrder::Open(files) = &order {
                 state.source = Source::Scan(files.clone());
             }
-            Some(begin(state, order, asked))
+            begin(state, order, asked);
         }
-        Err(notice) => {
-            notify(state, notice);
-            None
-        }
+        Err(notice) => notify(state, notice),
     }
+    None
 }
 
 /// Has shots put together and inspected.
-pub(in crate::app) fn begin(state: &mut State, order: ScanOrder, asked: Asked) -> Effect {
+pub(in crate::app) fn begin(state: &mut State, order: ScanOrder, asked: Asked) {
     let title = order.title();
     let request = ScanRequest::of(order, &state.session);
-    let effect = state.begin(title, Request::InspectScan(request));
+    let job = InspectJob::Scan(request);
+    state.inspect(title, job, ReinspectionPurpose::New);
     state.inspect.shots.started(Some(asked));
-    effect
-}
-
-/// The request that inspects what is shown once more: all shots of a scan, else the scene.
-pub(in crate::app) fn inspection_again(session: &Session, inspected: &Inspected) -> Request {
-    match &inspected.scan {
-        Some(scan) => {
-            let order = ScanOrder::Known(scan.fused.choice.clone());
-            Request::InspectScan(ScanRequest::of(order, session))
-        }
-        None => Request::Inspect(InspectRequest {
-            source: SceneSource::AtHand(inspected.scene.clone(), inspected.origin.clone()),
-            recipe: session.recipe.clone(),
-        }),
-    }
 }
 
 /// Asks for the file of the poses that were not found.
 pub(in crate::app) fn ask_for_poses(
     state: &mut State,
     order: ScanOrder,
-    trouble: Trouble,
+    trouble: UserError,
 ) -> Effect {
     notify(state, trouble.into());
     state.inspect.shots.ask_for_poses(order);
@@ -107,37 +89,11 @@ mod tests {
     use crate::{
         app::{
             action::{Action, apply as apply_any},
-            job::{TaskOutcome, answer},
-            shelf::LibraryCache,
-            worker::{JobContext, TaskEvent},
+            shell::inspector,
         },
         files::write_depth_png,
         geometry::depth_frame::{DepthFrame, Intrinsics},
-        pipeline::ProgressObserver,
     };
-
-    struct NobodysDesk;
-
-    impl ProgressObserver for NobodysDesk {}
-
-    impl JobContext<TaskOutcome> for NobodysDesk {
-        fn progress(&self, _done: usize, _total: usize) {}
-        fn publish_partial(&self, _outcome: TaskOutcome) {}
-        fn stands(&self, _outcome: TaskOutcome) {}
-        fn wants_more(&self) -> bool {
-            true
-        }
-    }
-
-    fn posted(effect: Option<Effect>) -> (u64, ScanRequest) {
-        match effect {
-            Some(Effect::Post {
-                generation,
-                request: Request::InspectScan(request),
-            }) => (generation, request),
-            other => panic!("expected a scan, found {other:?}"),
-        }
-    }
 
     #[test]
     fn poses_that_are_not_found_are_asked_for_and_the_scan_is_opened_with_them() {
@@ -156,32 +112,25 @@ mod tests {
             write_depth_png(&folder.path().join(name), &frame).expect("written");
         }
         let mut state = State::default();
-        let opened = apply_any(&mut state, Action::Open(folder.path().to_owned()));
-        let (generation, request) = posted(opened);
-        let request = Request::InspectScan(request);
-        let outcome = answer(request, &LibraryCache::default(), &NobodysDesk).expect("answered");
-        let done = TaskEvent::Done {
-            generation,
-            outcome,
-        };
-        let effect = apply_any(&mut state, Action::Hear(TaskQueue::Inspect, done));
+        apply_any(&mut state, Action::Open(folder.path().to_owned()));
+        assert!(state.inspector.run_waiting());
+        let effect = inspector::update(&mut state);
         assert!(
             matches!(effect, Some(Effect::ShowDialog(DialogRequest::ScanPoses))),
             "{effect:?}"
         );
         let file = folder.path().join("elsewhere.json");
-        assert!(state.inspect.shots.wants(&file) && state.works.is_empty());
+        assert!(state.inspect.shots.wants(&file) && state.inspector.running().is_none());
         let said = state.notices.last().expect("said");
         assert!(said.what.contains("no poses"), "{said:?}");
         assert!(said.advice.contains("Choose the file"), "{said:?}");
 
         let chosen = Action::Chosen(DialogRequest::ScanPoses, file.clone());
-        let (_, request) = posted(apply_any(&mut state, chosen));
-        let ScanOrder::Open(files) = request.order else {
-            panic!("{:?}", request.order);
+        apply_any(&mut state, chosen);
+        let Source::Scan(files) = &state.source else {
+            panic!("{:?}", state.source);
         };
         assert_eq!(files.poses, Some(file.clone()));
-        assert_eq!(state.source, Source::Scan(files));
-        assert!(!state.inspect.shots.wants(&file));
+        assert!(!state.inspect.shots.wants(&file) && state.inspector.running().is_some());
     }
 }

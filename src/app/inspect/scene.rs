@@ -246,7 +246,6 @@ mod tests {
             recipe: std::sync::Arc::default(),
         };
         let inspected = inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected");
-        let inspected = inspected.expect("not cancelled");
         let part = &inspected.inspection.segmentation.part;
         let part = &part.as_ref().expect("a part").cloud.points;
         let tree = KdTree::new(part);

@@ -12,15 +12,16 @@ use crate::{
         deviation::{deviations, deviations_at},
         figures::StageFigures,
         shelf::{LibraryCache, LibraryView},
-        shots::{FuseError, FusedShots, ScanRequest, Steps, Then, fuse, marked},
+        shell::{message::SceneOrScan, session::Session, task::TaskError},
+        shots::{FuseError, FusedShots, ScanOrder, ScanRequest, Steps, Then, fuse, marked},
         source::{Captured, Origin, SceneError, SceneSource},
+        user_error::UserError,
         viewport::{PointSet, Role},
     },
     capture::CaptureWarning,
-    error::Advice,
     geometry::{cloud::PointCloud, rigid::RigidTransform},
     history::{InspectionContext, NewEntry},
-    library::{Library, LibraryError},
+    library::Library,
     pipeline::{
         self, Inspection, ProgressObserver, Recipe,
         live::{LiveVerdict, MotionState},
@@ -37,6 +38,40 @@ use crate::{
         stand_off::{StandOff, StandOffError, stand_off},
     },
 };
+
+/// What to inspect.
+#[derive(Clone, Debug)]
+pub enum InspectJob {
+    /// A scene.
+    Scene(InspectRequest),
+    /// The shots of a scan together.
+    Scan(ScanRequest),
+}
+
+impl InspectJob {
+    /// By the recipe and the calibration in use.
+    pub fn of(source: SceneOrScan, session: &Session) -> Self {
+        match source {
+            SceneOrScan::Scene(source) => Self::Scene(InspectRequest {
+                source,
+                recipe: Arc::clone(&session.recipe),
+            }),
+            SceneOrScan::Scan(order) => Self::Scan(ScanRequest::of(order, session)),
+        }
+    }
+
+    /// What was inspected, once more with what holds now: all shots of a scan, else the scene.
+    pub fn again(inspected: &Inspected, session: &Session) -> Self {
+        let source = match &inspected.scan {
+            Some(scan) => SceneOrScan::Scan(ScanOrder::Known(scan.fused.choice.clone())),
+            None => SceneOrScan::Scene(SceneSource::AtHand(
+                Arc::clone(&inspected.scene),
+                inspected.origin.clone(),
+            )),
+        };
+        Self::of(source, session)
+    }
+}
 
 /// Get a scene and inspect it.
 #[derive(Clone, Debug)]
@@ -107,35 +142,15 @@ pub struct LiveFrameContext {
     pub num_averaged: usize,
 }
 
-/// Why a scene could not be inspected.
-#[derive(Debug, thiserror::Error)]
-pub enum InspectError {
-    /// There is no scene.
-    #[error(transparent)]
-    Scene(#[from] SceneError),
-    /// There is no library.
-    #[error(transparent)]
-    Library(#[from] LibraryError),
-}
-
-impl Advice for InspectError {
-    fn advice(&self) -> String {
-        match self {
-            Self::Scene(error) => error.advice(),
-            Self::Library(error) => error.advice(),
-        }
-    }
-}
-
-/// Gets the scene and inspects it; `None` when cancelled.
+/// Gets the scene and inspects it.
 pub fn inspect(
     request: &InspectRequest,
     shelf: &LibraryCache,
     watch: &dyn ProgressObserver,
-) -> Result<Option<Inspected>, InspectError> {
-    let shelved = shelf.get()?;
+) -> Result<Inspected, TaskError> {
+    let shelved = shelf.get().map_err(|error| UserError::of(&error))?;
     if watch.is_cancelled() {
-        return Ok(None);
+        return Err(TaskError::Cancelled);
     }
     let taken = request
         .source
@@ -144,63 +159,47 @@ pub fn inspect(
         scene,
         origin,
         warnings,
-    } = match taken {
-        Err(SceneError::Camera(CameraError::Cancelled)) => return Ok(None),
-        taken => taken?,
-    };
-    let Some(fitted) = shelved.fitting(&request.recipe, watch) else {
-        return Ok(None);
-    };
-    let Ok(inspection) = pipeline::run(&scene, &fitted, &request.recipe, watch) else {
-        return Ok(None);
-    };
+    } = taken.map_err(|error| match error {
+        SceneError::Camera(CameraError::Cancelled) => TaskError::Cancelled,
+        error => UserError::of(&error).into(),
+    })?;
+    let fitted = shelved.fitting(&request.recipe, watch);
+    let fitted = fitted.ok_or(TaskError::Cancelled)?;
     let found = FinishedInspection {
+        inspection: pipeline::run(&scene, &fitted, &request.recipe, watch)?,
         scene,
         origin,
         warnings,
         recipe: Arc::clone(&request.recipe),
-        inspection,
         followed: None,
         scan: None,
         source: request.source.in_words(),
     };
-    Ok(Some(found.prepared(&fitted, &shelved.shown)))
+    Ok(found.prepared(&fitted, &shelved.shown))
 }
 
-/// Why a scan could not be inspected.
-#[derive(Debug)]
-pub(in crate::app) enum InspectScanError {
-    /// There is no library.
-    Library(LibraryError),
-    /// The shots cannot be put together.
-    Fuse(FuseError),
-}
-
-/// Puts the shots of a scan together and inspects them; `None` when cancelled.
+/// Puts the shots of a scan together and inspects them, or says why they cannot be put together.
 pub(in crate::app) fn inspect_scan(
     request: &ScanRequest,
     shelf: &LibraryCache,
-    watch: &dyn ProgressObserver,
     steps: &Steps<'_>,
-) -> Option<Result<Inspected, InspectScanError>> {
+) -> Result<Result<Inspected, FuseError>, TaskError> {
     let begun = Instant::now();
-    let shelved = match shelf.get() {
-        Ok(shelved) => shelved,
-        Err(error) => return Some(Err(InspectScanError::Library(error))),
-    };
+    let shelved = shelf.get().map_err(|error| UserError::of(&error))?;
     let fused = match fuse(request, Then::Inspect, steps) {
-        Ok(fused) => Arc::new(fused?),
-        Err(error) => return Some(Err(InspectScanError::Fuse(error))),
+        Ok(fused) => Arc::new(fused.ok_or(TaskError::Cancelled)?),
+        Err(error) => return Ok(Err(error)),
     };
-    let fitted = shelved.fitting(&request.recipe, watch)?;
+    let fitted = shelved.fitting(&request.recipe, steps);
+    let fitted = fitted.ok_or(TaskError::Cancelled)?;
     let ScanInspection {
         mut inspection,
         first,
         base_from_part,
         ..
-    } = run_scan(&fused.scan, &fitted, &request.recipe, steps).ok()?;
+    } = run_scan(&fused.scan, &fitted, &request.recipe, steps)?;
     inspection.timings.total = begun.elapsed();
-    let shot = fused.scan.shots.get(first)?;
+    let shot = fused.scan.shots.get(first).ok_or(TaskError::Cancelled)?;
     let found = FinishedInspection {
         scene: Arc::clone(&shot.scene),
         origin: fused.origin(),
@@ -218,7 +217,7 @@ pub(in crate::app) fn inspect_scan(
             fused,
         }),
     };
-    Some(Ok(found.prepared(&fitted, &shelved.shown)))
+    Ok(Ok(found.prepared(&fitted, &shelved.shown)))
 }
 
 /// An inspection, before what the panels draw of it is made.
@@ -402,7 +401,6 @@ mod tests {
             recipe: Arc::default(),
         };
         let inspected = inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected");
-        let inspected = inspected.expect("not cancelled");
         let Verdict::Part { part, rejected, .. } = &inspected.inspection.verdict else {
             panic!("no part");
         };

@@ -1,6 +1,6 @@
 //! Live: a camera is followed, every frame that can be is inspected, and a verdict counts once the part hangs still.
 //!
-//! The camera's own thread hands over its newest frame, the lane's thread inspects it, and the window shows what stands
+//! The camera's own thread hands over its newest frame, the task's thread inspects it, and the window shows what stands
 //! then: nobody waits for anybody, and what nobody has time for is dropped.
 
 mod set_up;
@@ -10,11 +10,10 @@ mod work;
 
 pub(super) use self::{
     set_up::set_up,
-    state::{apply, hear, restart_consensus, source_changed, stop_live},
+    state::{apply, give_way, restart_consensus, source_changed, update},
     status::{card, chip},
-    work::answer,
 };
 pub use self::{
-    state::{LiveAction, LiveState},
-    work::{LiveAnswer, LiveRequest, LiveStart, LiveStatus, LiveStatusUpdate, SourceState},
+    state::{Follower, LiveAction, LiveState},
+    work::{LiveAnswer, LiveStatus, LiveStatusUpdate, SourceState},
 };

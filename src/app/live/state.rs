@@ -4,15 +4,19 @@ use std::{path::PathBuf, sync::Arc};
 
 use super::{
     status::frames_word,
-    work::{LiveAnswer, LiveRequest, LiveStart, LiveStatus, SourceState},
+    work::{LiveAnswer, LiveStart, LiveStatus, SourceState, follow, rest},
 };
 use crate::{
     app::{
-        action::{self, DialogRequest, Effect, notify},
-        answers,
-        job::{Request, Trouble},
-        lane::TaskQueue,
-        state::{Event, Notice, NoticeKind, ReinspectionPurpose, Shown, Source, State, Workspace},
+        action::{DialogRequest, Effect, notify},
+        inspect::work::Inspected,
+        shelf::LibraryCache,
+        shell::task::{Task, TaskEvent, TaskRunner},
+        state::{
+            Event, Notice, NoticeKind, ReinspectionPurpose, Session, Shown, Source, State,
+            Workspace,
+        },
+        user_error::UserError,
     },
     capture::{SourceSpec, WatchedSpec},
     pipeline::live::{LiveParams, MAX_AVERAGED},
@@ -21,8 +25,8 @@ use crate::{
 /// What is known of the source that is followed.
 #[derive(Debug, Default)]
 pub struct LiveState {
-    /// Whether a source is followed.
-    pub switch: LiveSwitch,
+    /// True while a source is followed; else frames are taken one by one, when a person asks.
+    pub is_on: bool,
     /// How things stand, once something was told.
     pub status: Option<LiveStatus>,
     /// When a verdict counts, and over how many frames depth is averaged.
@@ -31,20 +35,34 @@ pub struct LiveState {
     pub recording: Option<PathBuf>,
     /// The simulated cell as it is being set up, while its window is open.
     pub setup: Option<crate::capture::SimulatedSpec>,
+}
+
+/// Follows the source.
+#[derive(Debug)]
+pub struct Follower {
+    task: Task<LiveAnswer>,
+    shelf: LibraryCache,
     /// Counts how often following began with another view: within one the 3-D view keeps its camera.
     session: u64,
     /// The notice that stands while the source is lost.
     lost: Option<Notice>,
 }
 
-/// Whether a source is followed.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub enum LiveSwitch {
-    /// Frames are taken one by one, when a person asks.
-    #[default]
-    Off,
-    /// Frames are taken as they come.
-    On,
+impl Follower {
+    /// Before anything is followed.
+    pub fn new(runner: &TaskRunner, shelf: &LibraryCache) -> Self {
+        Self {
+            task: Task::new("live", runner),
+            shelf: shelf.clone(),
+            session: 0,
+            lost: None,
+        }
+    }
+
+    /// True while nothing is followed and the camera rests.
+    pub fn is_idle(&self) -> bool {
+        self.task.running().is_none()
+    }
 }
 
 /// Something that can happen.
@@ -75,10 +93,10 @@ impl LiveState {
     }
 }
 
-impl State {
+impl Session {
     /// True while a source is followed.
     pub fn is_live(&self) -> bool {
-        self.live.switch == LiveSwitch::On
+        self.live.is_on
     }
 }
 
@@ -96,50 +114,49 @@ impl Source {
 /// Carries out an action.
 pub(in crate::app) fn apply(state: &mut State, action: LiveAction) -> Option<Effect> {
     match action {
-        LiveAction::Toggle if state.is_live() => Some(stop(state)),
+        LiveAction::Toggle if state.is_live() => give_way(state),
         LiveAction::Toggle => start(state),
         LiveAction::Use(spec) => {
             state.live.setup = None;
             state.source = Source::Camera(Box::new(spec));
-            source_changed(state)
+            return source_changed(state);
         }
         LiveAction::Average(num) => {
             state.live.params.average = num.clamp(1, MAX_AVERAGED);
-            restart_consensus(state)
+            restart_consensus(state);
         }
         LiveAction::Record(folder) => {
             state.live.recording = Some(folder);
             if state.is_live() {
-                restart_consensus(state)
+                follow_source(state);
             } else {
-                start(state)
+                start(state);
             }
         }
         LiveAction::ToggleRecording if state.live.recording.is_none() => {
-            Some(Effect::ShowDialog(DialogRequest::RecordTo))
+            return Some(Effect::ShowDialog(DialogRequest::RecordTo));
         }
         LiveAction::StopRecording | LiveAction::ToggleRecording => {
             end_recording(state);
-            restart_consensus(state)
+            restart_consensus(state);
         }
-        LiveAction::SetUp(spec) => {
-            state.live.setup = spec;
-            None
-        }
+        LiveAction::SetUp(spec) => state.live.setup = spec,
     }
+    None
 }
 
 /// Another source: it is followed if the one before was, else one frame is captured. A watched folder has none yet.
 pub(in crate::app) fn source_changed(state: &mut State) -> Option<Effect> {
     let waits = matches!(&state.source, Source::Camera(spec) if matches!(**spec, SourceSpec::Watched(WatchedSpec { .. })));
     if (state.is_live() || waits) && state.source.followed().is_some() {
-        return start(state);
+        start(state);
+        return None;
     }
-    Some(action::capture(state))
+    state.capture()
 }
 
 /// Follows the source; whatever was being inspected is given up.
-fn start(state: &mut State) -> Option<Effect> {
+fn start(state: &mut State) {
     if state.source.followed().is_none() {
         let what = match state.source {
             Source::Scan(_) => "A scan cannot be followed: nothing in it changes",
@@ -151,42 +168,48 @@ fn start(state: &mut State) -> Option<Effect> {
             advice: "Choose a camera, a recording or a folder in the source menu".into(),
         };
         notify(state, notice);
-        return None;
+        return;
     }
-    state.live.session += 1;
+    state.follower.session += 1;
     dismiss_lost_notice(state);
-    state.works.remove(&TaskQueue::Inspect);
-    let follow = follow(state)?;
-    Some(Effect::Several(vec![
-        Effect::CancelWork(TaskQueue::Inspect),
-        follow,
-    ]))
+    state.inspector.cancel();
+    follow_source(state);
 }
 
-/// Has the lane's thread follow the source with what holds now.
-fn follow(state: &mut State) -> Option<Effect> {
+/// Follows the source with what holds now, in place of whatever was followed.
+fn follow_source(state: &mut State) {
+    let Some(spec) = state.source.followed() else {
+        return;
+    };
     let request = LiveStart {
-        spec: state.source.followed()?,
+        spec,
         recipe: Arc::clone(&state.recipe),
         params: state.live.params.clone(),
         empty_cell: state.empty_cell.clone(),
         record: state.live.recording.clone(),
     };
-    state.live.switch = LiveSwitch::On;
+    state.live.is_on = true;
     state.live.status = None;
-    let request = LiveRequest::Follow(Box::new(request));
-    Some(state.begin("Live", Request::Live(request)))
+    let shelf = state.follower.shelf.clone();
+    let job = move |context: &_| follow(&request, &shelf, context);
+    state.follower.task.start("Live", job);
 }
 
 /// Something that verdicts rest on has changed: none of those before counts. Does nothing while nothing is followed.
-pub(in crate::app) fn restart_consensus(state: &mut State) -> Option<Effect> {
-    if state.is_live() { follow(state) } else { None }
+pub(in crate::app) fn restart_consensus(state: &mut State) {
+    if state.is_live() {
+        follow_source(state);
+    }
 }
 
-/// Ends following, and lets the camera rest.
-fn stop(state: &mut State) -> Effect {
-    ended(state);
-    state.begin("Closing the camera", Request::Live(LiveRequest::Rest))
+/// Ends following, if anything is followed, and lets the camera rest: something else comes to the front.
+pub(in crate::app) fn give_way(state: &mut State) {
+    if state.is_live() {
+        ended(state);
+        let shelf = state.follower.shelf.clone();
+        let task = &mut state.follower.task;
+        task.start("Closing the camera", move |_| Ok(rest(&shelf)));
+    }
 }
 
 /// Says what was recorded.
@@ -212,59 +235,63 @@ pub(super) fn megabytes(bytes: u64) -> String {
 
 fn ended(state: &mut State) {
     end_recording(state);
-    state.live.switch = LiveSwitch::Off;
+    state.live.is_on = false;
     state.live.status = None;
     dismiss_lost_notice(state);
 }
 
-/// Ends following, if anything is followed: something else comes to the front.
-pub(in crate::app) fn stop_live(state: &mut State) -> Option<Effect> {
-    state.is_live().then(|| stop(state))
+/// Takes in what the task reports.
+pub(in crate::app) fn update(state: &mut State) -> Effect {
+    let mut counted = Vec::new();
+    while let Some(event) = state.follower.task.poll() {
+        match event {
+            TaskEvent::Partial(answer) | TaskEvent::Done(answer) => {
+                counted.extend(take_in(state, answer));
+            }
+            TaskEvent::Failed(error) => {
+                notify(state, error.into());
+                ended(state);
+            }
+        }
+    }
+    Effect::Several(counted)
 }
 
-/// Takes in what the thread tells.
-pub(in crate::app) fn hear(
-    state: &mut State,
-    answer: Result<LiveAnswer, Trouble>,
-) -> Option<Effect> {
+fn take_in(state: &mut State, answer: LiveAnswer) -> Option<Effect> {
     match answer {
-        Ok(LiveAnswer::Stands(told)) if state.is_live() => {
+        LiveAnswer::Stands(told) if state.is_live() => {
             watch_source(state, &told.status.source);
             state.live.status = Some(told.status);
             if let Some(inspected) = told.inspected {
                 show(state, inspected);
             }
         }
-        Ok(LiveAnswer::Counts(inspected)) => {
+        LiveAnswer::Counts(inspected) => {
             for warning in &inspected.warnings {
-                notify(state, Trouble::of(warning).into());
+                notify(state, UserError::of(warning).into());
             }
             show(state, Arc::clone(&inspected));
             let purpose = ReinspectionPurpose::New;
             return Some(Effect::Tell(Event::Inspected { inspected, purpose }));
         }
-        Ok(LiveAnswer::NotRecorded(trouble)) => {
+        LiveAnswer::NotRecorded(error) => {
             state.live.recording = None;
-            notify(state, trouble.into());
+            notify(state, error.into());
         }
-        Ok(LiveAnswer::Skipped(trouble)) => notify(state, trouble.into()),
-        Ok(LiveAnswer::AtItsEnd) => {
+        LiveAnswer::Skipped(error) => notify(state, error.into()),
+        LiveAnswer::AtItsEnd => {
             ended(state);
-            let title = state
-                .source
-                .followed()
-                .map_or_else(String::new, |s| s.title());
+            let spec = state.source.followed();
+            let title = spec.map_or_else(String::new, |spec| spec.title());
             notify(state, Notice::done(format!("{title} has no more frames")));
         }
-        // It was said as a notice already.
-        Err(_) => ended(state),
-        Ok(LiveAnswer::Stands(_) | LiveAnswer::Rests) => {}
+        LiveAnswer::Stands(_) | LiveAnswer::Rests => {}
     }
     None
 }
 
 /// What was told last, where it is looked at; other workspaces keep what they have in hand.
-fn show(state: &mut State, inspected: Arc<crate::app::inspect::work::Inspected>) {
+fn show(state: &mut State, inspected: Arc<Inspected>) {
     let is_shown = state
         .shown
         .as_ref()
@@ -272,16 +299,15 @@ fn show(state: &mut State, inspected: Arc<crate::app::inspect::work::Inspected>)
     if is_shown || state.workspace != Workspace::Inspect || !state.is_live() {
         return;
     }
-    answers::use_library(state, &inspected.library);
+    state.use_library(&inspected.library);
     state.generation += 1;
-    let (generation, session) = (state.generation, Some(state.live.session));
     let num_candidates = inspected.figures.candidates.len();
     state.candidate = state.candidate.min(num_candidates.saturating_sub(1));
     state.shown = Some(Shown {
-        generation,
+        generation: state.generation,
         inspected,
         is_past: false,
-        session,
+        session: Some(state.follower.session),
     });
 }
 
@@ -290,10 +316,10 @@ fn watch_source(state: &mut State, source: &SourceState) {
     match source {
         SourceState::Lost(trouble) => {
             let notice = Notice::from(trouble.clone());
-            if state.live.lost.as_ref() != Some(&notice) {
+            if state.follower.lost.as_ref() != Some(&notice) {
                 dismiss_lost_notice(state);
                 notify(state, notice.clone());
-                state.live.lost = Some(notice);
+                state.follower.lost = Some(notice);
             }
         }
         SourceState::Opening => {}
@@ -307,7 +333,7 @@ fn watch_source(state: &mut State, source: &SourceState) {
 
 /// Takes the notice away; true if there was one.
 fn dismiss_lost_notice(state: &mut State) -> bool {
-    let Some(lost) = state.live.lost.take() else {
+    let Some(lost) = state.follower.lost.take() else {
         return false;
     };
     state.notices.retain(|notice| *notice != lost);
@@ -318,95 +344,101 @@ fn dismiss_lost_notice(state: &mut State) -> bool {
 mod tests {
     use super::*;
     use crate::{
-        app::{action::Action, source::CellChoice},
+        app::{
+            action::{Action, apply as apply_any},
+            source::CellChoice,
+        },
+        pipeline::live::LiveVerdict,
         simulate::{PartKind, Side},
     };
 
-    fn posted(effect: Option<Effect>) -> Vec<Request> {
-        match effect {
-            Some(Effect::Post { request, .. }) => vec![request],
-            Some(Effect::Several(effects)) => {
-                effects.into_iter().flat_map(|e| posted(Some(e))).collect()
-            }
-            _ => Vec::new(),
-        }
+    /// What the task is at, or will be.
+    fn at_work(state: &State) -> Option<&str> {
+        let running = state.follower.task.running();
+        running.map(|running| running.title.as_str())
     }
 
-    fn followed(requests: &[Request]) -> Option<String> {
-        requests.iter().find_map(|request| match request {
-            Request::Live(LiveRequest::Follow(request)) => Some(request.spec.to_string()),
-            _ => None,
-        })
-    }
-
-    fn rests(requests: &[Request]) -> bool {
-        let rests = |request: &Request| matches!(request, Request::Live(LiveRequest::Rest));
-        requests.iter().any(rests)
-    }
-
-    fn toggled(state: &mut State) -> Vec<Request> {
-        posted(action::apply(state, Action::Live(LiveAction::Toggle)))
+    fn toggle(state: &mut State) {
+        apply_any(state, Action::Live(LiveAction::Toggle));
     }
 
     #[test]
     fn the_cell_is_followed_as_it_was_chosen_and_rests_afterwards() {
         let mut state = State::default();
-        assert_eq!(followed(&toggled(&mut state)).as_deref(), Some("simulated"));
+        toggle(&mut state);
+        let followed = |state: &State| state.source.followed().map(|spec| spec.to_string());
+        assert_eq!(followed(&state).as_deref(), Some("simulated"));
+        assert_eq!(at_work(&state), Some("Live"));
         let choice = CellChoice::Part(PartKind::Fender, Side::Right);
-        let other = posted(action::apply(&mut state, Action::UseCell(choice)));
-        assert_eq!(
-            followed(&other).as_deref(),
-            Some("simulated,side=right:fender")
-        );
-        assert!(rests(&toggled(&mut state)) && !state.is_live());
+        apply_any(&mut state, Action::UseCell(choice));
+        let other = followed(&state);
+        assert_eq!(other.as_deref(), Some("simulated,side=right:fender"));
+        assert_eq!(at_work(&state), Some("Live"));
+        toggle(&mut state);
+        assert_eq!(at_work(&state), Some("Closing the camera"));
+        assert!(!state.is_live() && state.follower.task.run_waiting());
+        update(&mut state);
+        assert!(state.follower.is_idle());
     }
 
     #[test]
     fn a_single_capture_ends_following_and_a_library_does_not() {
         let mut state = State::default();
-        toggled(&mut state);
-        let library = posted(action::apply(&mut state, Action::UseFoundLibrary));
-        assert!(state.is_live() && !rests(&library));
-        let captured = posted(action::apply(&mut state, Action::Capture));
-        assert!(!state.is_live() && rests(&captured));
-        assert!(captured.iter().any(|r| matches!(r, Request::Inspect(_))));
-        // The capture is the newest request of its lane, whatever was posted along with it.
-        assert!(state.works.contains_key(&TaskQueue::Inspect));
+        toggle(&mut state);
+        apply_any(&mut state, Action::UseFoundLibrary);
+        assert!(state.is_live() && at_work(&state) == Some("Live"));
+        apply_any(&mut state, Action::Capture);
+        assert!(!state.is_live() && at_work(&state) == Some("Closing the camera"));
+        let running = state.inspector.running().expect("at work");
+        assert_eq!(running.title, "Capturing");
     }
 
     #[test]
     fn a_watched_folder_is_followed_as_soon_as_it_is_chosen() {
         let mut state = State::default();
         let watched = "watch:captures".parse().expect("a source");
-        let requests = posted(action::apply(
-            &mut state,
-            Action::Live(LiveAction::Use(watched)),
-        ));
-        assert_eq!(followed(&requests).as_deref(), Some("watch:captures"));
+        apply_any(&mut state, Action::Live(LiveAction::Use(watched)));
+        assert!(state.is_live() && at_work(&state) == Some("Live"));
         let recording = "recording:monday".parse().expect("a source");
-        toggled(&mut state);
-        let requests = posted(action::apply(
-            &mut state,
-            Action::Live(LiveAction::Use(recording)),
-        ));
-        assert_eq!(followed(&requests), None, "its first frame is captured");
+        toggle(&mut state);
+        apply_any(&mut state, Action::Live(LiveAction::Use(recording)));
+        assert!(
+            !state.is_live() && state.inspector.running().is_some(),
+            "its first frame is captured"
+        );
     }
 
     #[test]
     fn changed_parameters_follow_anew_and_nothing_is_followed_for_them_alone() {
         let mut state = State::default();
-        assert!(restart_consensus(&mut state).is_none());
-        toggled(&mut state);
-        let before = state.live.session;
-        let requests = posted(action::apply(
-            &mut state,
-            Action::Live(LiveAction::Average(99)),
-        ));
-        assert!(followed(&requests).is_some());
+        restart_consensus(&mut state);
+        assert!(state.follower.is_idle());
+        toggle(&mut state);
+        let before = state.follower.session;
+        state.live.status = Some(told());
+        apply_any(&mut state, Action::Live(LiveAction::Average(99)));
+        assert!(
+            state.live.status.is_none() && at_work(&state) == Some("Live"),
+            "anew"
+        );
         // The view keeps its camera.
         assert_eq!(
-            (state.live.session, state.live.params.average),
+            (state.follower.session, state.live.params.average),
             (before, MAX_AVERAGED)
         );
+    }
+
+    fn told() -> LiveStatus {
+        LiveStatus {
+            source: SourceState::Running,
+            stillness: None,
+            standing: LiveVerdict::Open,
+            rates: [None; 2],
+            latency: None,
+            num_inspected: 1,
+            num_dropped: 0,
+            num_averaged: 1,
+            recorded: None,
+        }
     }
 }

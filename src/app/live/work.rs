@@ -1,4 +1,4 @@
-//! What the lane's thread does: takes the newest frame, inspects it, tells how things stand.
+//! What the task does: takes the newest frame, inspects it, tells how things stand.
 
 use std::{
     collections::VecDeque,
@@ -10,11 +10,11 @@ use std::{
 use crate::{
     app::{
         inspect::work::{FinishedInspection, Inspected, LiveFrameContext},
-        job::{TaskOutcome, TaskResult, Trouble},
         recording::Recorded,
         shelf::LibraryCache,
+        shell::task::{TaskContext, TaskError},
         source::Captured as SceneOrigin,
-        worker::JobContext,
+        user_error::UserError,
     },
     capture::{Captured, Feed, FeedItem, FeedState, FrameRate, SourceSpec},
     pipeline::{
@@ -24,31 +24,22 @@ use crate::{
     stages::segment::EmptyCell,
 };
 
-/// What the lane is asked for.
-#[derive(Clone, Debug)]
-pub enum LiveRequest {
-    /// Follow a source until something else is asked for.
-    Follow(Box<LiveStart>),
-    /// Let the camera rest.
-    Rest,
-}
-
 /// Which source to follow, and how.
 #[derive(Clone, Debug)]
-pub struct LiveStart {
+pub(super) struct LiveStart {
     /// The source.
-    pub spec: SourceSpec,
+    pub(super) spec: SourceSpec,
     /// All parameters.
-    pub recipe: Arc<Recipe>,
+    pub(super) recipe: Arc<Recipe>,
     /// When a verdict counts.
-    pub params: LiveParams,
+    pub(super) params: LiveParams,
     /// What its camera saw without a part.
-    pub empty_cell: Option<Arc<EmptyCell>>,
+    pub(super) empty_cell: Option<Arc<EmptyCell>>,
     /// The folder that it is recorded in, if it is.
-    pub record: Option<PathBuf>,
+    pub(super) record: Option<PathBuf>,
 }
 
-/// What the lane tells.
+/// What the task hands over.
 #[derive(Clone, Debug)]
 pub enum LiveAnswer {
     /// How things stand.
@@ -56,9 +47,9 @@ pub enum LiveAnswer {
     /// A verdict that counts, and was not told before.
     Counts(Arc<Inspected>),
     /// It is not recorded any more.
-    NotRecorded(Trouble),
+    NotRecorded(UserError),
     /// Something of the source that cannot be read.
-    Skipped(Trouble),
+    Skipped(UserError),
     /// The source has no more frames.
     AtItsEnd,
     /// The camera rests.
@@ -105,7 +96,7 @@ pub enum SourceState {
     /// They come, or are waited for.
     Running,
     /// Not now; it is looked for again by itself.
-    Lost(Trouble),
+    Lost(UserError),
 }
 
 /// How long one look for a frame takes, before it is looked whether it is still wanted.
@@ -113,27 +104,28 @@ const TURN: Duration = Duration::from_millis(50);
 /// Times that the latency is the median of.
 const NUM_LATENCIES: usize = 15;
 
-/// Does what is asked; `None` when something else was asked for.
-pub(in crate::app) fn answer(
-    request: &LiveRequest,
+/// Follows a source until it ends, or something else is asked for.
+pub(super) fn follow(
+    request: &LiveStart,
     shelf: &LibraryCache,
-    desk: &dyn JobContext<TaskOutcome>,
-) -> Option<TaskOutcome> {
-    let LiveRequest::Follow(request) = request else {
-        shelf.recording().end();
-        shelf.camera().rest();
-        return Some(Ok(TaskResult::Live(LiveAnswer::Rests)));
-    };
+    context: &TaskContext<LiveAnswer>,
+) -> Result<LiveAnswer, TaskError> {
     // It stays open behind this: whoever asks next may follow the same one.
-    match shelf.camera().feed(&request.spec) {
-        Ok(feed) => LiveSession::new(request, shelf, desk).follow(&feed),
-        Err(error) => Some(Err(Trouble::of(&error))),
-    }
+    let feed = shelf.camera().feed(&request.spec);
+    let feed = feed.map_err(|error| UserError::of(&error))?;
+    LiveSession::new(request, shelf, context).follow(&feed)
+}
+
+/// Lets the camera rest.
+pub(super) fn rest(shelf: &LibraryCache) -> LiveAnswer {
+    shelf.recording().end();
+    shelf.camera().rest();
+    LiveAnswer::Rests
 }
 
 struct LiveSession<'a> {
     shelf: &'a LibraryCache,
-    desk: &'a dyn JobContext<TaskOutcome>,
+    context: &'a TaskContext<LiveAnswer>,
     spec: &'a SourceSpec,
     /// Where it is recorded; not any more after a failure.
     record: Option<&'a Path>,
@@ -156,7 +148,7 @@ struct LiveSession<'a> {
 }
 
 /// Stages are not told one by one: frames come faster than anybody reads.
-struct SilentContext<'a>(&'a dyn JobContext<TaskOutcome>);
+struct SilentContext<'a>(&'a TaskContext<LiveAnswer>);
 
 impl ProgressObserver for SilentContext<'_> {
     fn is_cancelled(&self) -> bool {
@@ -168,13 +160,13 @@ impl<'a> LiveSession<'a> {
     fn new(
         request: &'a LiveStart,
         shelf: &'a LibraryCache,
-        desk: &'a dyn JobContext<TaskOutcome>,
+        context: &'a TaskContext<LiveAnswer>,
     ) -> Self {
         let stands_for_itself = matches!(request.spec, SourceSpec::Watched(_));
         let watch = (!stands_for_itself).then(|| LiveTracker::new(&request.params));
         Self {
             shelf,
-            desk,
+            context,
             spec: &request.spec,
             record: request.record.as_deref(),
             recorded: None,
@@ -193,28 +185,22 @@ impl<'a> LiveSession<'a> {
         }
     }
 
-    fn follow(mut self, feed: &Feed) -> Option<TaskOutcome> {
+    fn follow(mut self, feed: &Feed) -> Result<LiveAnswer, TaskError> {
         self.dropped_before = feed.status().num_dropped;
         loop {
-            if self.desk.is_cancelled() {
-                return None;
-            }
+            self.context.check()?;
             match feed.wait(TURN) {
                 Some(FeedItem::Captured(captured)) => {
                     self.write(&captured, feed);
-                    if let Err(trouble) = self.take(captured)? {
-                        return Some(Err(trouble));
-                    }
+                    self.take(captured)?;
                 }
                 Some(FeedItem::Skipped(skipped)) => {
-                    let trouble = Trouble::of(&*skipped.error);
-                    self.tell(LiveAnswer::Skipped(trouble));
+                    let error = UserError::of(&*skipped.error);
+                    self.context.partial(LiveAnswer::Skipped(error));
                 }
                 None => match feed.status().state {
-                    FeedState::Ended | FeedState::Stopped => {
-                        return Some(Ok(TaskResult::Live(LiveAnswer::AtItsEnd)));
-                    }
-                    FeedState::Failed(error) => return Some(Err(Trouble::of(&*error))),
+                    FeedState::Ended | FeedState::Stopped => return Ok(LiveAnswer::AtItsEnd),
+                    FeedState::Failed(error) => return Err(UserError::of(&*error).into()),
                     FeedState::Opening | FeedState::Running | FeedState::Lost { .. } => {}
                 },
             }
@@ -230,19 +216,18 @@ impl<'a> LiveSession<'a> {
             Err(error) => {
                 self.record = None;
                 self.recorded = None;
-                self.tell(LiveAnswer::NotRecorded(Trouble::of(&error)));
+                let error = UserError::of(&error);
+                self.context.partial(LiveAnswer::NotRecorded(error));
             }
         }
     }
 
-    /// Inspects a frame; `None` when that was broken off.
-    fn take(&mut self, captured: Captured) -> Option<Result<(), Trouble>> {
-        let shelved = match self.shelf.get() {
-            Ok(shelved) => shelved,
-            Err(error) => return Some(Err(Trouble::of(&error))),
-        };
-        let watching = SilentContext(self.desk);
-        let fitted = shelved.fitting(self.recipe, &watching)?;
+    /// Inspects a frame.
+    fn take(&mut self, captured: Captured) -> Result<(), TaskError> {
+        let shelved = self.shelf.get().map_err(|error| UserError::of(&error))?;
+        let watching = SilentContext(self.context);
+        let fitted = shelved.fitting(self.recipe, &watching);
+        let fitted = fitted.ok_or(TaskError::Cancelled)?;
         let (arrived, at) = (captured.arrived, seconds(&captured));
         let SceneOrigin {
             mut scene,
@@ -255,7 +240,7 @@ impl<'a> LiveSession<'a> {
         if let Some(watch) = &mut self.watch {
             scene = watch.look(&scene, at);
         }
-        let mut inspection = pipeline::run(&scene, &fitted, self.recipe, &watching).ok()?;
+        let mut inspection = pipeline::run(&scene, &fitted, self.recipe, &watching)?;
         let mut followed = None;
         if let Some(watch) = &mut self.watch {
             let middle = FinishedInspection::middle(&inspection, &fitted);
@@ -273,9 +258,9 @@ impl<'a> LiveSession<'a> {
         self.latencies.truncate(NUM_LATENCIES);
 
         let is_new_verdict = self.is_new_verdict(&inspection.verdict);
-        if !is_new_verdict && !self.desk.wants_more() {
+        if !is_new_verdict && !self.context.is_latest_read() {
             // The window has not even shown the one before.
-            return Some(Ok(()));
+            return Ok(());
         }
         let found = FinishedInspection {
             scan: None,
@@ -290,9 +275,9 @@ impl<'a> LiveSession<'a> {
         let inspected = Arc::new(found.prepared(&fitted, &shelved.shown));
         self.inspected = Some(Arc::clone(&inspected));
         if is_new_verdict {
-            self.tell(LiveAnswer::Counts(inspected));
+            self.context.partial(LiveAnswer::Counts(inspected));
         }
-        Some(Ok(()))
+        Ok(())
     }
 
     /// True if the verdict counts and says something else than the last one that did.
@@ -316,16 +301,12 @@ impl<'a> LiveSession<'a> {
         !is_same && !matches!(verdict, Verdict::NoPart(_))
     }
 
-    fn tell(&self, answer: LiveAnswer) {
-        self.desk.publish_partial(Ok(TaskResult::Live(answer)));
-    }
-
     /// Says how things stand, unless nothing has changed.
     fn publish_status(&mut self, feed: &Feed) {
         let feed = feed.status();
         let source = match feed.state {
             FeedState::Opening => SourceState::Opening,
-            FeedState::Lost { error, .. } => SourceState::Lost(Trouble::of(&*error)),
+            FeedState::Lost { error, .. } => SourceState::Lost(UserError::of(&*error)),
             _ => SourceState::Running,
         };
         if matches!(source, SourceState::Lost(_)) {
@@ -355,8 +336,7 @@ impl<'a> LiveSession<'a> {
                 status,
                 inspected: self.inspected.clone(),
             };
-            let told = LiveAnswer::Stands(Box::new(told));
-            self.desk.stands(Ok(TaskResult::Live(told)));
+            self.context.latest(LiveAnswer::Stands(Box::new(told)));
         }
     }
 }

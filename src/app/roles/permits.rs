@@ -34,6 +34,7 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
         Action::Capture
         | Action::UseCell(_)
         | Action::Open(_)
+        | Action::CancelInspection
         | Action::Cancel(_)
         | Action::CancelTask(_)
         | Action::EngineerIn(_)

@@ -8,7 +8,7 @@ use super::{
 };
 use crate::{
     app::{
-        inspect::work::{InspectRequest, Inspected},
+        inspect::work::{InspectJob, Inspected},
         shelf::LibraryView,
         shots::ScanOrder,
         source::SceneSource,
@@ -51,7 +51,7 @@ pub enum Message {
         /// What is being done, for a person.
         title: String,
         /// What to inspect.
-        request: InspectRequest,
+        job: InspectJob,
         /// What for.
         purpose: ReinspectionPurpose,
     },

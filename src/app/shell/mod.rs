@@ -2,6 +2,7 @@
 
 pub mod context;
 pub mod file_dialog;
+pub mod inspector;
 pub mod key_binding;
 pub mod message;
 pub mod notice;

@@ -7,8 +7,8 @@ use serde::{Deserialize, Serialize};
 pub use crate::app::theme::ThemeChoice;
 use crate::{
     app::{
-        inspect::work::Inspected, shelf::LibraryView, shots::ScanFiles, source::CellChoice,
-        unit_system::UnitSystem,
+        inspect::work::Inspected, live::LiveState, shelf::LibraryView, shots::ScanFiles,
+        source::CellChoice, unit_system::UnitSystem,
     },
     capture::SourceSpec,
     pipeline::Recipe,
@@ -27,6 +27,8 @@ pub struct Session {
     pub recent: Vec<PathBuf>,
     /// The last result.
     pub shown: Option<Shown>,
+    /// Of the source that is followed.
+    pub live: LiveState,
     /// The library in use, once loaded.
     pub library: Option<Arc<LibraryView>>,
     /// The library's folder that a person chose in the window.
@@ -105,7 +107,7 @@ impl Default for Source {
 /// A result, and the number by which what was made for it is known.
 #[derive(Clone, Debug)]
 pub struct Shown {
-    /// The generation of the request that it answers.
+    /// Another one for each result.
     pub generation: u64,
     /// The result.
     pub inspected: Arc<Inspected>,

@@ -4,9 +4,8 @@ use std::any::Any;
 
 use super::Window;
 use crate::app::{
-    action::{Action, DialogRequest, inspection_of_shown, library_changed},
+    action::{Action, DialogRequest},
     bars::Progress,
-    job::Request,
     robot::RobotCell,
     roles,
     shell::{
@@ -14,7 +13,6 @@ use crate::app::{
         message::{Message, ReinspectionPurpose},
         notice::NoticeKind,
         session::WorkspaceKind,
-        task::Running,
         workspace::Workspace,
     },
 };
@@ -100,9 +98,7 @@ impl Window {
             Message::UseSource(source) => self.state.session.source = source,
             Message::OpenScan => self.act(Action::Ask(DialogRequest::Scan), ctx),
             Message::LibraryChanged { library, saved } => {
-                if let Some(effect) = library_changed(&mut self.state, &library, saved) {
-                    self.make(effect, ctx);
-                }
+                self.state.library_changed(&library, saved);
             }
             Message::UseRecipe(recipe) => self.state.session.recipe = recipe,
             Message::UseCalibration(cell, robot) => {
@@ -115,20 +111,13 @@ impl Window {
                 roles::ask_engineer(&mut self.state, Action::EngineerIn(from));
             }
             Message::InspectShown { title } => {
-                if let Some(request) = inspection_of_shown(&self.state) {
-                    let effect = self.state.inspect(title, request, ReinspectionPurpose::New);
-                    self.make(effect, ctx);
-                }
+                self.state.inspect_shown(title, ReinspectionPurpose::New);
             }
             Message::Inspect {
                 title,
-                request,
+                job,
                 purpose,
-            } => {
-                let request = Request::Inspect(request);
-                let effect = self.state.inspect(title, request, purpose);
-                self.make(effect, ctx);
-            }
+            } => self.state.inspect(title, job, purpose),
         }
     }
 
@@ -140,17 +129,12 @@ impl Window {
             Some(Progress { running, cancel })
         };
         let own = self.hosted(self.state.workspace).and_then(of_hosted);
-        let named = || {
-            let (lane, work) = self.state.work()?;
-            let running = Running {
-                title: work.what.clone(),
-                stage: work.stage,
-                progress: work.progress,
-            };
-            let cancel = Action::Cancel(lane);
+        let inspector = || {
+            let running = self.state.inspector.running()?.clone();
+            let cancel = Action::CancelInspection;
             Some(Progress { running, cancel })
         };
-        own.or_else(named).or_else(|| {
+        own.or_else(inspector).or_else(|| {
             let mut all = self.workspaces.iter().map(Box::as_ref);
             all.find_map(of_hosted)
         })
@@ -160,8 +144,10 @@ impl Window {
     pub fn is_idle(&self) -> bool {
         let mut all = self.workspaces.iter();
         let session = &self.state.session;
-        self.state.works.is_empty()
-            && self.robot.is_idle()
-            && all.all(|workspace| workspace.is_idle(session))
+        let is_shell_idle = self.state.works.is_empty()
+            && self.state.inspector.running().is_none()
+            && self.state.follower.is_idle()
+            && self.robot.is_idle();
+        is_shell_idle && all.all(|workspace| workspace.is_idle(session))
     }
 }

@@ -30,8 +30,7 @@ fn inspected(number: u64) -> Arc<Inspected> {
         },
         recipe: Arc::new(recipe),
     };
-    let inspected = inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected");
-    Arc::new(inspected.expect("not cancelled"))
+    Arc::new(inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected"))
 }
 
 fn row(inspected: &Inspected, number: i64) -> Summary {

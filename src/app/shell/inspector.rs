@@ -1,0 +1,418 @@
+//! The inspector: takes scenes from the source and inspects them, and loads the library that they are compared with.
+
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use super::{
+    message::{Event, ReinspectionPurpose, SceneOrScan},
+    notice::Notice,
+    session::{Shown, Source, WorkspaceKind},
+    task::{Running, Task, TaskContext, TaskError, TaskEvent, TaskRunner},
+};
+use crate::{
+    app::{
+        action::{Effect, notify},
+        inspect::{
+            scan,
+            work::{InspectJob, Inspected, inspect, inspect_scan},
+        },
+        live,
+        shelf::{LibraryCache, LibraryView},
+        shots::{Asked, ScanOrder, Steps},
+        source::{Origin, SceneSource, file_name},
+        state::State,
+        user_error::UserError,
+    },
+    capture::SourceSpec,
+    stages::segment::EmptyCell,
+};
+
+/// Captures, opens and inspects scenes, and loads the library.
+#[derive(Debug)]
+pub struct Inspector {
+    task: Task<InspectorResult>,
+    shelf: LibraryCache,
+    /// The number of the newest run, which is that of its result.
+    generation: u64,
+    /// What the newest run is for.
+    purpose: ReinspectionPurpose,
+    /// How many frames of the simulated cell were asked for.
+    pub num_captures: u64,
+}
+
+/// What a run comes to.
+#[derive(Debug)]
+enum InspectorResult {
+    /// A scene with everything that was found in it.
+    Inspected(Arc<Inspected>),
+    /// The poses of these shots were not found: a person has to name their file.
+    PosesWanted(Box<ScanOrder>, UserError),
+    /// The library that is in use now.
+    Library(Arc<LibraryView>),
+}
+
+impl Inspector {
+    /// Before the first capture.
+    pub fn new(runner: &TaskRunner, shelf: &LibraryCache) -> Self {
+        Self {
+            task: Task::new("inspect", runner),
+            shelf: shelf.clone(),
+            generation: 0,
+            purpose: ReinspectionPurpose::New,
+            num_captures: 0,
+        }
+    }
+
+    /// What is at work, if anything.
+    pub fn running(&self) -> Option<&Running> {
+        self.task.running()
+    }
+
+    /// Cancels what is at work.
+    pub(in crate::app) fn cancel(&mut self) {
+        self.task.cancel();
+    }
+
+    #[cfg(test)]
+    pub(in crate::app) fn run_waiting(&self) -> bool {
+        self.task.run_waiting()
+    }
+}
+
+impl State {
+    /// True while the result shown is not what was asked for last.
+    pub fn is_old(&self) -> bool {
+        self.inspector.running().is_some() && self.shown.is_some()
+    }
+
+    /// Takes a scene from the source: to be inspected, or to be enrolled while that is in front. To be inspected it is a
+    /// single one, and ends following the source.
+    pub(in crate::app) fn capture(&mut self) -> Option<Effect> {
+        let (source, title) = match &self.session.source {
+            Source::Cell(choice) => {
+                self.inspector.num_captures += 1;
+                let source = SceneSource::Cell {
+                    choice: *choice,
+                    number: self.inspector.num_captures,
+                };
+                (SceneOrScan::Scene(source), "Capturing".to_owned())
+            }
+            Source::File(path) => (
+                SceneOrScan::Scene(SceneSource::File(path.clone())),
+                format!("Opening {}", file_name(path)),
+            ),
+            Source::Scan(files) => {
+                let order = ScanOrder::Open(files.clone());
+                let title = order.title();
+                (SceneOrScan::Scan(order), title)
+            }
+            Source::Camera(spec) => {
+                let title = match **spec {
+                    SourceSpec::Watched(_) => "Waiting for a new file".to_owned(),
+                    _ => "Capturing".to_owned(),
+                };
+                let source = SceneSource::Camera(spec.clone());
+                (SceneOrScan::Scene(source), title)
+            }
+        };
+        if self.workspace == WorkspaceKind::Enrol {
+            return Some(Effect::Take(source, title));
+        }
+        let source = match (source, &self.empty_cell) {
+            (SceneOrScan::Scan(order), _) => {
+                scan::begin(self, order, Asked::first());
+                return None;
+            }
+            (SceneOrScan::Scene(source), Some(cell)) => {
+                let source = SceneSource::Before(Arc::clone(cell), Box::new(source));
+                SceneOrScan::Scene(source)
+            }
+            (source, None) => source,
+        };
+        let job = InspectJob::of(source, self);
+        self.inspect(title, job, ReinspectionPurpose::New);
+        None
+    }
+
+    /// Inspects a scene or a scan; ends following the source.
+    pub(in crate::app) fn inspect(
+        &mut self,
+        title: impl Into<String>,
+        job: InspectJob,
+        purpose: ReinspectionPurpose,
+    ) {
+        live::give_way(self);
+        self.inspect.shots.started(None);
+        self.inspector.purpose = purpose;
+        self.start(title, move |shelf, context| run(&job, shelf, context));
+    }
+
+    /// Inspects the scene in front again: something that its result rests on has changed.
+    pub(in crate::app) fn inspect_again(&mut self) {
+        if self.is_live() {
+            live::restart_consensus(self);
+        } else {
+            self.inspect_shown("Inspecting again", ReinspectionPurpose::Repeated);
+        }
+    }
+
+    /// Inspects the scene in front once more, with what holds now.
+    pub(in crate::app) fn inspect_shown(&mut self, title: &str, purpose: ReinspectionPurpose) {
+        if let Some(shown) = &self.shown {
+            let job = InspectJob::again(&shown.inspected, self);
+            self.inspect(title, job, purpose);
+        }
+    }
+
+    /// Uses the library that was changed, and inspects what was saved in it, else the scene in front.
+    pub(in crate::app) fn library_changed(
+        &mut self,
+        library: &Arc<LibraryView>,
+        saved: Option<SceneOrScan>,
+    ) {
+        self.use_library(library);
+        let (title, purpose) = ("Inspecting again", ReinspectionPurpose::New);
+        if let Some(saved) = saved {
+            let job = InspectJob::of(saved, self);
+            self.inspect(title, job, purpose);
+        } else if self.inspector.running().is_none() {
+            self.inspect_shown(title, purpose);
+        }
+    }
+
+    /// Loads the library that was chosen.
+    pub(in crate::app) fn open_library(&mut self) {
+        self.inspect.shots.started(None);
+        let chosen = self.chosen_library.clone();
+        self.start("Opening the library", move |shelf, _| {
+            let loaded = shelf
+                .choose(chosen)
+                .map_err(|error| UserError::of(&error))?;
+            Ok(InspectorResult::Library(Arc::clone(&loaded.shown)))
+        });
+    }
+
+    fn start(
+        &mut self,
+        title: impl Into<String>,
+        job: impl FnOnce(
+            &LibraryCache,
+            &TaskContext<InspectorResult>,
+        ) -> Result<InspectorResult, TaskError>
+        + Send
+        + 'static,
+    ) {
+        self.generation += 1;
+        let inspector = &mut self.inspector;
+        inspector.generation = self.generation;
+        let shelf = inspector.shelf.clone();
+        inspector
+            .task
+            .start(title, move |context| job(&shelf, context));
+    }
+
+    /// Shows a past inspection that is still in memory.
+    pub(in crate::app) fn show_past(&mut self, inspected: Arc<Inspected>) {
+        self.generation += 1;
+        self.candidate = 0;
+        self.shown = Some(Shown {
+            generation: self.generation,
+            inspected,
+            is_past: true,
+            session: None,
+        });
+        self.workspace = WorkspaceKind::Inspect;
+        live::give_way(self);
+    }
+
+    /// From now on this library is shown; what had to be set aside in it is said once.
+    pub(in crate::app) fn use_library(&mut self, library: &Arc<LibraryView>) {
+        let is_other = |known: &Arc<_>| !Arc::ptr_eq(known, library);
+        if self.library.as_ref().is_none_or(is_other) {
+            for trouble in library.troubles.clone() {
+                notify(self, trouble.into());
+            }
+            self.library = Some(Arc::clone(library));
+        }
+    }
+
+    /// The scene in front becomes the empty cell.
+    pub(in crate::app) fn take_empty_cell(&mut self) {
+        let Some(shown) = &self.shown else {
+            return;
+        };
+        let inspection = &shown.inspected.inspection;
+        let stands_there = inspection.segmentation.part.is_ok();
+        let cell = match EmptyCell::of(&shown.inspected.scene) {
+            _ if inspection.verdict.is_accepted() => {
+                let hangs_there = Notice::look(
+                    "This is no empty cell: a part hangs in it, and would not be found any more",
+                    "Take the part away, capture, and take the empty cell then",
+                );
+                return notify(self, hangs_there);
+            }
+            Err(error) => return notify(self, UserError::of(&error).into()),
+            Ok(cell) => cell,
+        };
+        self.empty_cell = Some(Arc::new(cell));
+        let taken = if stands_there {
+            Notice::look(
+                "The empty cell is taken, with something as large as a part in it",
+                "If that is a part: Source, Forget the empty cell; then take it away and capture first",
+            )
+        } else {
+            Notice::done(
+                "The empty cell is taken: from the next capture on, what stands in it is not taken for a part",
+            )
+        };
+        notify(self, taken);
+        live::restart_consensus(self);
+    }
+}
+
+/// What the task does.
+fn run(
+    job: &InspectJob,
+    shelf: &LibraryCache,
+    context: &TaskContext<InspectorResult>,
+) -> Result<InspectorResult, TaskError> {
+    let inspected = match job {
+        InspectJob::Scene(request) => inspect(request, shelf, context)?,
+        InspectJob::Scan(request) => {
+            let report = |done, total| context.progress(done, total);
+            match inspect_scan(request, shelf, &Steps::new(context, &report))? {
+                Ok(inspected) => inspected,
+                Err(error) if error.wants_poses() => {
+                    let order = Box::new(request.order.clone());
+                    return Ok(InspectorResult::PosesWanted(order, UserError::of(&error)));
+                }
+                Err(error) => return Err(UserError::of(&error).into()),
+            }
+        }
+    };
+    Ok(InspectorResult::Inspected(Arc::new(inspected)))
+}
+
+/// Takes in what the task reports.
+pub(in crate::app) fn update(state: &mut State) -> Option<Effect> {
+    match state.inspector.task.poll()? {
+        TaskEvent::Partial(result) | TaskEvent::Done(result) => match result {
+            InspectorResult::Inspected(inspected) => return Some(show(state, inspected)),
+            InspectorResult::PosesWanted(order, trouble) => {
+                return Some(scan::ask_for_poses(state, *order, trouble));
+            }
+            InspectorResult::Library(library) => {
+                state.use_library(&library);
+                state.inspect_again();
+            }
+        },
+        TaskEvent::Failed(error) => {
+            notify(state, error.into());
+            // A file that could not be inspected is no recent one.
+            let session = &mut state.session;
+            if let Source::File(path) = &session.source {
+                session.recent.retain(|known| known != path);
+            }
+        }
+    }
+    None
+}
+
+/// Shows a result made elsewhere as an inspection of its own; what is at work is cancelled.
+pub(in crate::app) fn show_made(state: &mut State, inspected: Arc<Inspected>) -> Effect {
+    state.generation += 1;
+    let inspector = &mut state.inspector;
+    inspector.cancel();
+    inspector.generation = state.generation;
+    inspector.purpose = ReinspectionPurpose::New;
+    show(state, inspected)
+}
+
+fn show(state: &mut State, inspected: Arc<Inspected>) -> Effect {
+    for warning in &inspected.warnings {
+        notify(state, UserError::of(warning).into());
+    }
+    state.use_library(&inspected.library);
+    let shots = inspected.scan.as_ref();
+    if let Origin::File { path, .. } = &inspected.origin {
+        remember(&mut state.recent, path);
+    } else if let Some(folder) = shots.and_then(|scan| scan.fused.choice.set.files.folder()) {
+        remember(&mut state.recent, folder);
+    }
+    for warning in shots.map_or(&[][..], |scan| &scan.fused.warnings) {
+        notify(state, warning.clone().into());
+    }
+    let former = state.shown.as_ref();
+    let former = former.and_then(|shown| Some(shown.inspected.scan.as_ref()?.fused.choice.clone()));
+    let Inspector {
+        generation,
+        purpose,
+        ..
+    } = state.inspector;
+    state.candidate = 0;
+    state.shown = Some(Shown {
+        generation,
+        inspected: Arc::clone(&inspected),
+        is_past: purpose == ReinspectionPurpose::Past,
+        session: None,
+    });
+    scan::settle(state, former);
+    Effect::Tell(Event::Inspected { inspected, purpose })
+}
+
+/// More files than this nobody looks through.
+const MAX_RECENT: usize = 8;
+
+/// Puts a file first among the recent ones.
+fn remember(recent: &mut Vec<PathBuf>, path: &Path) {
+    recent.retain(|known| known != path);
+    recent.insert(0, path.to_owned());
+    recent.truncate(MAX_RECENT);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::app::action::{Action, apply};
+
+    #[test]
+    fn a_result_stays_and_is_old_until_the_next_is_there() {
+        let mut state = State::default();
+        apply(&mut state, Action::Capture);
+        assert!(!state.is_old() && state.inspector.running().is_some());
+        assert!(state.inspector.run_waiting());
+        assert!(matches!(update(&mut state), Some(Effect::Tell(_))));
+        assert!(state.shown.is_some() && state.inspector.running().is_none());
+        assert!(matches!(
+            apply(&mut state, Action::CopyPose),
+            Some(Effect::CopyText(_))
+        ));
+        apply(&mut state, Action::TakeEmptyCell);
+        assert!(state.empty_cell.is_none(), "a part hangs there");
+        let said = state.notices.last().map(|notice| notice.what.clone());
+        assert!(said.is_some_and(|said| said.contains("no empty cell")));
+
+        apply(&mut state, Action::Capture);
+        assert!(state.is_old());
+        apply(&mut state, Action::CancelInspection);
+        assert!(!state.is_old() && state.shown.is_some());
+    }
+
+    #[test]
+    fn of_two_requests_the_newer_is_answered() {
+        let mut state = State::default();
+        apply(&mut state, Action::Open("a.pcd".into()));
+        apply(&mut state, Action::Open("b.pcd".into()));
+        assert!(state.inspector.run_waiting() && !state.inspector.run_waiting());
+        update(&mut state);
+        assert_eq!(state.notices.len(), 1);
+        assert!(
+            state.notices[0].what.contains("b.pcd"),
+            "{:?}",
+            state.notices
+        );
+        assert!(state.inspector.running().is_none() && state.shown.is_none());
+    }
+}
