@@ -1,20 +1,15 @@
-//! Everything a person or a thread can cause, and the one function that makes it so.
+//! What can be pressed above the workspaces, and the one function that makes it so.
 
-use std::{path::PathBuf, sync::Arc};
+use std::path::PathBuf;
 
 use super::{
-    answers,
-    inspect::{self, scan, state::InspectAction, work::Inspected},
-    job::{Request, TaskOutcome},
-    lane::TaskQueue,
     live::{self, LiveAction},
     robot::RobotAction,
     roles::{self, RoleAction},
     shell::message::SceneOrScan,
-    shots::{ScanFiles, ShotsAction, ShotsFile},
+    shots::ScanFiles,
     source::CellChoice,
-    state::{Event, HelpPage, Notice, NoticeKind, Source, StagePanel, State, Workspace},
-    worker::TaskEvent,
+    state::{Event, HelpPage, Notice, Source, State, Workspace},
 };
 use crate::{
     capture::{Pace, RecordingSpec, SourceSpec, WatchedFrom, WatchedSpec},
@@ -42,14 +37,10 @@ pub enum Action {
     UseFoundLibrary,
     /// Cancel what the inspector is at.
     CancelInspection,
-    /// Give up what this lane is at.
-    Cancel(TaskQueue),
     /// Bring a workspace to the front.
     GoTo(Workspace),
-    /// Fill the middle with a stage.
-    Enlarge(StagePanel),
-    /// Compare contour and signature with the part at this place of the ranking.
-    Candidate(usize),
+    /// Ask where the report of the inspection in front goes.
+    Export,
     /// Close what lies on top: the shortcuts, then an enlarged stage.
     CloseTop,
     /// Change the units.
@@ -66,18 +57,10 @@ pub enum Action {
     Quit,
     /// Tell the robot poses in these numbers.
     UseConvention(Convention),
-    /// The next of the conventions.
-    NextConvention,
-    /// Put the pose on the clipboard, in the convention that was chosen.
-    CopyPose,
     /// Of the source and of following it.
     Live(LiveAction),
     /// Of whose window it is.
     Role(RoleAction),
-    /// Of the shots of the scan that Inspect shows.
-    Shots(ShotsAction),
-    /// Of the Inspect workspace.
-    Inspect(InspectAction),
     /// Take back what the last notice offers to.
     Undo,
     /// The key at this place of a workspace's own was pressed.
@@ -86,12 +69,8 @@ pub enum Action {
     CancelTask(Workspace),
     /// The engineer's view, which a workspace asked for, is there.
     EngineerIn(Workspace),
-    /// Show a past inspection that is still in memory.
-    ShowPast(Arc<Inspected>),
     /// Of the robot's cell.
     Robot(RobotAction),
-    /// A thread has news.
-    Hear(TaskQueue, TaskEvent<TaskOutcome>),
 }
 
 /// What a person is asked to choose.
@@ -101,10 +80,6 @@ pub enum DialogRequest {
     Scene,
     /// The folder of a scan to open.
     Scan,
-    /// The file of the poses of a scan.
-    ScanPoses,
-    /// A frame to add to the scan in front.
-    Shot,
     /// The folder of a recording to play.
     Recording,
     /// A folder to watch for captures.
@@ -113,28 +88,13 @@ pub enum DialogRequest {
     RecordTo,
     /// The folder of another library.
     Library,
-    /// The folder that the report of the inspection in front goes to.
-    ReportFolder,
-    /// Where a picture of the 3-D view is to go.
-    Picture,
     /// A scene, a whole cloud or a mesh to enrol.
     Part,
-    /// Where the spray path of the inspection in front goes.
-    SprayPath,
 }
 
 /// What is to be done outside the state.
 #[derive(Clone, Debug)]
 pub enum Effect {
-    /// Have this done, on the lane of the request.
-    Post {
-        /// Its generation.
-        generation: u64,
-        /// The request.
-        request: Request,
-    },
-    /// Have this lane give up.
-    CancelWork(TaskQueue),
     /// Show the system's dialog.
     ShowDialog(DialogRequest),
     /// Have a workspace do what its key at this place does.
@@ -145,16 +105,12 @@ pub enum Effect {
     Take(SceneOrScan, String),
     /// Have this done about the robot's cell.
     Robot(RobotAction),
-    /// Put this on the clipboard.
-    CopyText(String),
     /// Tell every workspace.
     Tell(Event),
     /// Tell this workspace that the engineer's view is there.
     EngineerIn(Workspace),
     /// Close the window.
     Close,
-    /// All of this.
-    Several(Vec<Effect>),
 }
 
 /// More notices than this push the oldest out.
@@ -186,28 +142,18 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
             state.chosen_library = None;
             state.open_library();
         }
-        Action::CancelInspection => state.inspector.cancel(),
-        Action::Cancel(lane) => {
-            state.works.remove(&lane);
-            return Some(Effect::CancelWork(lane));
-        }
+        Action::CancelInspection => state.cancel_inspection(),
         Action::GoTo(workspace) => state.workspace = workspace,
-        Action::Enlarge(panel) => state.enlarged = Some(panel),
-        Action::Candidate(place) => state.candidate = place,
+        Action::Export => return Some(Effect::Tell(Event::Export)),
         Action::CloseTop => {
             if state.help == HelpPage::Open {
                 state.help = HelpPage::Closed;
             } else {
-                state.enlarged = None;
+                return Some(Effect::Tell(Event::Escape));
             }
         }
         Action::SwitchUnits => state.units = state.units.other(),
         Action::UseConvention(convention) => state.convention = convention,
-        Action::NextConvention => {
-            let all = Convention::ALL;
-            let place = all.iter().position(|known| *known == state.convention);
-            state.convention = all[place.map_or(0, |place| (place + 1) % all.len())];
-        }
         Action::SwitchTheme => state.theme = state.theme.other(),
         Action::ToggleHelp => {
             state.help = match state.help {
@@ -222,28 +168,13 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         }
         Action::Notify(notice) => notify(state, notice),
         Action::Quit => return Some(Effect::Close),
-        Action::CopyPose => {
-            let shown = state.shown.as_ref()?;
-            let Some(numbered) = inspect::numbered(state, &shown.inspected) else {
-                notify(state, no_pose());
-                return None;
-            };
-            let title = numbered.pose.convention.title();
-            let what = format!("Copied {} in the numbers of {title}", numbered.name);
-            notify(state, Notice::done(what));
-            return Some(Effect::CopyText(inspect::clipboard_text(&numbered)));
-        }
         Action::Role(action) => return roles::apply(state, action),
         Action::Live(action) => return live::apply(state, action),
-        Action::Shots(action) => return scan::apply(state, action),
-        Action::Inspect(action) => return inspect::state::apply(state, action),
         Action::Undo => return Some(Effect::Tell(Event::Undo)),
         Action::Press(workspace, place) => return Some(Effect::Press(workspace, place)),
         Action::CancelTask(workspace) => return Some(Effect::CancelTask(workspace)),
         Action::EngineerIn(workspace) => return Some(Effect::EngineerIn(workspace)),
-        Action::ShowPast(inspected) => state.show_past(inspected),
         Action::Robot(action) => return Some(Effect::Robot(action)),
-        Action::Hear(lane, news) => return answers::hear(state, lane, news),
     }
     None
 }
@@ -259,8 +190,6 @@ fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Effect
             state.source = Source::Scan(ScanFiles::of_folder(path));
             state.capture()
         }
-        DialogRequest::ScanPoses => scan::apply(state, ShotsAction::Chosen(ShotsFile::Poses, path)),
-        DialogRequest::Shot => scan::apply(state, ShotsAction::Chosen(ShotsFile::Shot, path)),
         DialogRequest::Recording => {
             let spec = SourceSpec::Recording(RecordingSpec {
                 folder: path,
@@ -282,30 +211,6 @@ fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Effect
             state.open_library();
             None
         }
-        DialogRequest::ReportFolder => export(state, path),
-        DialogRequest::Picture => {
-            state.inspect.picture_to = Some(path);
-            None
-        }
-        DialogRequest::SprayPath => inspect::state::write_spray_path(state, path),
-    }
-}
-
-/// Writes the report of the inspection in front, with a picture of its view where that is in sight.
-fn export(state: &mut State, folder: PathBuf) -> Option<Effect> {
-    if state.workspace == Workspace::Inspect && state.shown.is_some() {
-        // The view hands its picture over with the next frame.
-        state.inspect.report_to = Some(folder);
-        return None;
-    }
-    inspect::state::write_report(state, folder, None)
-}
-
-fn no_pose() -> Notice {
-    Notice {
-        kind: NoticeKind::Look,
-        what: "There is no pose to copy: the part was not accepted".into(),
-        advice: "Do as the card says, and capture again".into(),
     }
 }
 
@@ -342,15 +247,11 @@ mod tests {
     #[test]
     fn escape_closes_the_shortcuts_before_the_enlarged_stage() {
         let mut state = State::default();
-        apply(&mut state, Action::Enlarge(StagePanel::Contour));
         apply(&mut state, Action::ToggleHelp);
-        apply(&mut state, Action::CloseTop);
-        assert_eq!(
-            (state.help, state.enlarged),
-            (HelpPage::Closed, Some(StagePanel::Contour))
-        );
-        apply(&mut state, Action::CloseTop);
-        assert_eq!(state.enlarged, None);
+        assert!(apply(&mut state, Action::CloseTop).is_none());
+        assert_eq!(state.help, HelpPage::Closed);
+        let effect = apply(&mut state, Action::CloseTop);
+        assert!(matches!(effect, Some(Effect::Tell(Event::Escape))));
     }
 
     #[test]

@@ -5,13 +5,14 @@ use egui::{Align, Button, Frame, Layout, Margin, Panel, RichText, Ui, Vec2};
 pub(super) use super::widgets::{focus_ring, labelled, shortened};
 use super::{
     action::{Action, DialogRequest},
+    figures::StagePanel,
     live::{self, LiveAction},
     robot::{RobotAction, RobotCell},
     shelf::LibraryView,
     shell::task::Running,
     source::file_name,
     source_menu,
-    state::{StagePanel, State, Workspace},
+    state::{State, Workspace},
     theme::{Theme, font, space},
 };
 

@@ -3,7 +3,6 @@
 use super::{
     action::DialogRequest,
     shell::file_dialog::{ALL_FILES, FileChoice, FileRequest, POINTS},
-    shots::ShotsFile,
 };
 
 /// The dialog that asks this.
@@ -14,25 +13,11 @@ pub(super) fn request(ask: DialogRequest) -> FileRequest {
             "Folder of a scan: its frames and their poses",
             FileChoice::Folder,
         ),
-        DialogRequest::ScanPoses => return ShotsFile::Poses.request(),
-        DialogRequest::Shot => return ShotsFile::Shot.request(),
-        DialogRequest::ReportFolder => (
-            "Folder for the report of this inspection",
-            FileChoice::FolderToWrite,
-        ),
         DialogRequest::Library => ("Use another library", FileChoice::Folder),
-        DialogRequest::Picture => (
-            "Save a picture of the view",
-            FileChoice::NewFile("view.png"),
-        ),
         DialogRequest::Recording => ("Play a recording", FileChoice::Folder),
         DialogRequest::RecordTo => ("Folder to record the source in", FileChoice::FolderToWrite),
         DialogRequest::WatchedFolder => ("Folder that captures are saved to", FileChoice::Folder),
         DialogRequest::Part => ("Open a scene, a cloud or a mesh to enrol", FileChoice::File),
-        DialogRequest::SprayPath => (
-            "Export the spray path for the robot",
-            FileChoice::NewFile("spray-path.csv"),
-        ),
     };
     FileRequest {
         title,
@@ -50,13 +35,8 @@ fn filters(ask: DialogRequest) -> &'static [(&'static str, &'static [&'static st
             ),
             ALL_FILES,
         ],
-        DialogRequest::Picture => &[("Pictures", &["png"])],
         DialogRequest::Part => &[POINTS, ALL_FILES],
-        DialogRequest::SprayPath => &[("Comma-separated values", &["csv"]), ("JSON", &["json"])],
         DialogRequest::Scan
-        | DialogRequest::ScanPoses
-        | DialogRequest::Shot
-        | DialogRequest::ReportFolder
         | DialogRequest::Library
         | DialogRequest::Recording
         | DialogRequest::RecordTo

@@ -1,4 +1,4 @@
-//! What the stage pictures draw, prepared once per inspection on the worker: plain numbers, ready to be scaled.
+//! What the stage pictures draw, prepared once per inspection in its task: plain numbers, ready to be scaled.
 
 use image::RgbImage;
 use nalgebra::{Isometry2, Point2};
@@ -6,13 +6,66 @@ use nalgebra::{Isometry2, Point2};
 use super::shelf::LibraryView;
 use crate::{
     library::Library,
-    pipeline::Inspection,
+    pipeline::{Inspection, Stage},
     report::stage_pictures,
     stages::{
         confirm::ConfirmedMatch, contour::Contour, rank::ImagePlacement, reference::ReferenceView,
         scene::SceneCloud, signature::FanSignature,
     },
 };
+
+/// The pictures of the stage strip, in order.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum StagePanel {
+    /// What every point was taken for.
+    Segmentation,
+    /// The part in its own plane.
+    BinaryImage,
+    /// Outline, openings, centroid and rays.
+    Contour,
+    /// Lengths and angles of the rays.
+    Signature,
+    /// The enrolled parts, best first.
+    Ranking,
+    /// E per iteration.
+    Alignment,
+}
+
+impl StagePanel {
+    /// Every picture, in order.
+    pub const ALL: [Self; 6] = [
+        Self::Segmentation,
+        Self::BinaryImage,
+        Self::Contour,
+        Self::Signature,
+        Self::Ranking,
+        Self::Alignment,
+    ];
+
+    /// What a person calls it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Segmentation => "Segmentation",
+            Self::BinaryImage => "Binary image",
+            Self::Contour => "Contour",
+            Self::Signature => "Signatures",
+            Self::Ranking => "Ranking",
+            Self::Alignment => "Alignment",
+        }
+    }
+
+    /// The panel that shows what a stage of the pipeline does.
+    pub fn of(stage: Stage) -> Self {
+        match stage {
+            Stage::Segment => Self::Segmentation,
+            Stage::Project => Self::BinaryImage,
+            Stage::Contour => Self::Contour,
+            Stage::Signature => Self::Signature,
+            Stage::Rank => Self::Ranking,
+            Stage::Pose => Self::Alignment,
+        }
+    }
+}
 
 /// A closed or open line in plane space, metres, y up.
 pub type PlaneLine = Vec<[f32; 2]>;

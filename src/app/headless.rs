@@ -52,7 +52,7 @@ pub struct FrameTime {
 }
 
 /// Counts since the window was opened: what stands still in a frame cost nothing in it.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
 pub struct WorkCounts {
     /// Point and line sets copied to the device.
     pub uploads: u64,

@@ -7,20 +7,16 @@ use egui::{
 use super::{
     action::{Action, DialogRequest},
     bars::labelled,
-    inspect,
     live::LiveAction,
     robot::RobotAction,
     roles::RoleAction,
-    shell::key_binding::{self, KeyBinding},
+    shell::key_binding::{KeyBinding, Shortcut},
     state::{HelpPage, State, Workspace},
     theme::{Theme, font, space},
 };
 
-/// A shortcut of the window, or of a workspace that the window knows by name.
-pub(in crate::app) type Shortcut = key_binding::Shortcut<Action>;
-
 /// The shortcuts of the whole window.
-const SHORTCUTS: [Shortcut; 13] = [
+const SHORTCUTS: [Shortcut<Action>; 13] = [
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::Space,
@@ -62,7 +58,7 @@ const SHORTCUTS: [Shortcut; 13] = [
         key: Key::E,
         keys: "Ctrl E",
         does: "Export the inspection in front",
-        action: || Action::Ask(DialogRequest::ReportFolder),
+        action: || Action::Export,
     },
     Shortcut {
         modifiers: Modifiers::NONE,
@@ -144,14 +140,6 @@ const RAIL_KEYS: [(Key, &str); 5] = [
 /// What of the window's height the list leaves free, for its heading, its button and the edges.
 const HELP_MARGIN: f32 = 190.0;
 
-/// The shortcuts of a workspace alone; they come before the window's.
-fn of_workspace(workspace: Workspace) -> &'static [Shortcut] {
-    match workspace {
-        Workspace::Inspect => &inspect::SHORTCUTS,
-        Workspace::Enrol | Workspace::Compare | Workspace::Align | Workspace::History => &[],
-    }
-}
-
 /// What a key causes.
 #[derive(Clone, Copy)]
 enum Pressed {
@@ -182,8 +170,9 @@ pub(super) fn shortcuts(
     let workspace = state.workspace;
     let own = own.iter().copied().enumerate();
     let own = own.map(|(place, binding)| (binding, Pressed::Own(place)));
-    let named = of_workspace(workspace).iter().chain(&SHORTCUTS);
-    let named = named.map(|shortcut| (shortcut.binding(), Pressed::Named(shortcut.action)));
+    let named = SHORTCUTS
+        .iter()
+        .map(|shortcut| (shortcut.binding(), Pressed::Named(shortcut.action)));
     for (binding, pressed) in own.chain(named) {
         let is_plain = binding.modifiers.is_none();
         // In a text that is being written, Ctrl Z takes back what was written.
@@ -254,8 +243,7 @@ pub(super) fn help(
             ScrollArea::vertical().max_height(room).show(ui, |ui| {
                 list.show(ui, |ui| {
                     let own = own.iter().map(|binding| (binding.keys, binding.does));
-                    let named = of_workspace(state.workspace).iter();
-                    let named = SHORTCUTS.iter().chain(named).map(|s| (s.keys, s.does));
+                    let named = SHORTCUTS.iter().map(|s| (s.keys, s.does));
                     let of_rail = RAIL_KEYS.into_iter().zip(Workspace::ALL);
                     let of_rail = of_rail.map(|((_, keys), workspace)| (keys, workspace.title()));
                     let of_picture = match state.workspace {

@@ -7,16 +7,14 @@
 //!
 //! [`shell`] is what a workspace stands on: the session that all of them share, tasks, messages, file dialogs. A
 //! workspace is a folder with its state, its panels and the work of its tasks; none imports another, and the window
-//! knows it as a [`shell::workspace::Workspace`]. So far these are [`align`], [`compare`], [`history`] and [`enrol`]; the
-//! dialog of [`robot`] owns its state and task in the same way. Above them stand the [`shell::inspector`], which captures
-//! and inspects, and [`live`], which follows a source. Inspect still shares one [`state`] with them, changed by [`action`]
-//! alone, and has files written by [`lane`], [`job`] and [`worker`].
+//! knows it as a [`shell::workspace::Workspace`]: [`inspect`], [`enrol`], [`compare`], [`align`] and [`history`]. Above them
+//! stand the [`shell::inspector`], which captures and inspects, [`live`], which follows a source, [`roles`], and the dialog
+//! of [`robot`]. What is pressed there is an [`action`], which changes the window's [`state`].
 //!
 //! [`theme`] holds every colour, distance and type size. Panels draw the last result, always, and never compute.
 
 pub mod action;
 pub mod align;
-mod answers;
 mod bars;
 pub mod camera;
 pub mod compare;
@@ -28,9 +26,7 @@ pub mod fitted;
 pub mod headless;
 pub mod history;
 pub mod inspect;
-pub mod job;
 mod keys;
-pub mod lane;
 pub mod live;
 mod memory;
 mod notices;
@@ -52,8 +48,7 @@ pub mod user_error;
 pub mod viewport;
 mod widgets;
 mod window;
-pub mod worker;
-pub mod writing;
+mod writing;
 
 pub use self::{
     start::{WindowError, run},

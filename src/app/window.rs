@@ -1,6 +1,6 @@
 //! The window as eframe drives it: fetch news, draw the last result, apply what was done.
 
-use std::{collections::BTreeMap, io, path::PathBuf, sync::Arc, time::Duration};
+use std::{io, path::PathBuf, sync::Arc, time::Duration};
 
 use eframe::egui_wgpu::RenderState;
 use egui::{CentralPanel, Frame, Ui};
@@ -15,10 +15,8 @@ use super::{
     enrol::EnrolWorkspace,
     headless::WorkCounts,
     history::HistoryWorkspace,
-    inspect::{InspectPanel, work::Inspected},
-    job::{Request, TaskOutcome, Trouble, answer},
+    inspect::{InspectWorkspace, work::Inspected},
     keys,
-    lane::TaskQueue,
     live::{self, LiveAction},
     memory::Memory,
     notices, rail,
@@ -36,8 +34,8 @@ use super::{
     },
     state::{HelpPage, Notice, Source, State, ThemeChoice, Workspace as WorkspaceKind},
     theme::Theme,
+    user_error::UserError,
     viewport::{ViewError, ViewportGpu},
-    worker::Worker,
 };
 use crate::{
     history::{HistoryBuffer, Writer},
@@ -68,7 +66,6 @@ pub struct WindowOptions {
 /// The window.
 pub struct Window {
     state: State,
-    workers: BTreeMap<TaskQueue, Worker<Request, TaskOutcome>>,
     memory: Memory,
     dialog: FileDialog<DialogRequest>,
     services: Services,
@@ -78,7 +75,6 @@ pub struct Window {
     messages: Vec<Message>,
     installed: Option<ThemeChoice>,
     gpu: Result<ViewportGpu, ViewError>,
-    inspect: InspectPanel,
     /// When a hand was last on the window, seconds on egui's clock.
     touched: f64,
 }
@@ -108,19 +104,6 @@ impl Window {
         let history_writer = Writer::start(Arc::clone(&kept), move || repaint.request_repaint())?;
         let shelf = LibraryCache::new(library.or_else(|| remembered.library.clone()), camera)
             .with_history(Arc::clone(&kept));
-        let start = |lane: TaskQueue| {
-            let repaint = ctx.clone();
-            let worker = Worker::start(
-                lane.name(),
-                |request, _| Some(answer(&request)),
-                move || repaint.request_repaint(),
-            );
-            worker.map(|worker| (lane, worker))
-        };
-        let workers = TaskQueue::ALL
-            .into_iter()
-            .map(start)
-            .collect::<io::Result<_>>()?;
         let gpu = render_state
             .map(ViewportGpu::of_window)
             .ok_or_else(|| ViewError::NoDevice {
@@ -129,7 +112,6 @@ impl Window {
         let mut window = Self {
             memory: Memory::new(settings, remembered.clone(), &runner),
             state: remembered.into_state(&runner, &shelf),
-            workers,
             dialog: FileDialog::default(),
             services: Services {
                 shelf,
@@ -137,6 +119,7 @@ impl Window {
             },
             robot: RobotCell::new(&runner),
             workspaces: vec![
+                Box::new(InspectWorkspace::new(&gpu, &runner)),
                 Box::new(EnrolWorkspace::new(gpu.clone(), &runner)),
                 Box::new(CompareWorkspace::new(cases, &runner)),
                 Box::new(AlignWorkspace::new(&gpu, &runner)),
@@ -145,7 +128,6 @@ impl Window {
             messages: Vec::new(),
             installed: None,
             gpu: gpu.clone(),
-            inspect: InspectPanel::new(gpu.clone()),
             touched: ctx.input(|input| input.time),
         };
         window.state.notices.extend(trouble.map(Notice::from));
@@ -180,25 +162,12 @@ impl Window {
 
     /// Shows a result made elsewhere as an inspection of its own; what is being inspected is cancelled.
     pub fn show_result(&mut self, inspected: Arc<Inspected>, ctx: &egui::Context) {
-        let effect = inspector::show_made(&mut self.state, inspected);
-        self.make(effect, ctx);
+        let event = inspector::show_made(&mut self.state, inspected);
+        self.tell(&event, ctx);
     }
 
     fn make(&mut self, effect: Effect, ctx: &egui::Context) {
         match effect {
-            Effect::Post {
-                generation,
-                request,
-            } => {
-                if let Some(worker) = self.workers.get(&request.lane()) {
-                    worker.request(generation, request);
-                }
-            }
-            Effect::CancelWork(lane) => {
-                if let Some(worker) = self.workers.get(&lane) {
-                    worker.cancel();
-                }
-            }
             Effect::ShowDialog(ask) => {
                 let lock = &self.services.dialogs;
                 self.dialog.open(ask, &dialog::request(ask), lock, ctx);
@@ -216,23 +185,20 @@ impl Window {
                 });
             }
             Effect::Robot(action) => self.with_robot(ctx, |robot, cx| robot.apply(action, cx)),
-            Effect::CopyText(text) => ctx.copy_text(text),
-            Effect::Tell(event) => {
-                for kind in WorkspaceKind::ALL {
-                    self.lend(kind, ctx, |workspace, cx| workspace.on_event(&event, cx));
-                }
-            }
+            Effect::Tell(event) => self.tell(&event, ctx),
             Effect::EngineerIn(kind) => {
                 self.lend(kind, ctx, |workspace, cx| {
                     workspace.on_event(&Event::EngineerIn, cx);
                 });
             }
             Effect::Close => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
-            Effect::Several(effects) => {
-                for effect in effects {
-                    self.make(effect, ctx);
-                }
-            }
+        }
+    }
+
+    /// Tells every workspace.
+    fn tell(&mut self, event: &Event, ctx: &egui::Context) {
+        for kind in WorkspaceKind::ALL {
+            self.lend(kind, ctx, |workspace, cx| workspace.on_event(event, cx));
         }
     }
 
@@ -249,12 +215,14 @@ impl Window {
 
     /// What the frames of the Inspect workspace have done so far.
     pub fn counts(&self) -> WorkCounts {
-        self.inspect.counts()
+        let inspect = self.workspace::<InspectWorkspace>();
+        inspect.map_or_else(WorkCounts::default, InspectWorkspace::counts)
     }
 
     /// Share of the points that the Inspect workspace's view drew in the last frame, 0..1.
     pub fn detail_of_view(&self) -> f32 {
-        self.inspect.detail()
+        let inspect = self.workspace::<InspectWorkspace>();
+        inspect.map_or(1.0, InspectWorkspace::detail)
     }
 
     /// A source that is not there any more gives way to the simulated cell.
@@ -268,7 +236,7 @@ impl Window {
         if let Some(path) = path
             && !path.exists()
         {
-            let gone = Trouble {
+            let gone = UserError {
                 what: format!("{} is not there any more", path.display()),
                 advice: "The simulated cell takes its place".into(),
             };
@@ -294,15 +262,17 @@ impl Window {
         });
         if let Some(path) = dropped {
             let is_scan = path.join(FRAME_POSES).is_file();
-            let front = self.state.workspace;
-            let is_taken = self.lend(front, ctx, |workspace, cx| workspace.take_file(&path, cx));
+            // What is opened elsewhere is inspected.
+            let taker = match self.state.workspace {
+                WorkspaceKind::Enrol => WorkspaceKind::Enrol,
+                _ => WorkspaceKind::Inspect,
+            };
+            let is_taken = self.lend(taker, ctx, |workspace, cx| workspace.take_file(&path, cx));
             if is_taken == Some(true) {
                 return;
             }
             let opened = if path.is_dir() && !is_scan {
                 Action::Chosen(DialogRequest::Recording, path)
-            } else if front != WorkspaceKind::Enrol && self.state.inspect.shots.wants(&path) {
-                Action::Chosen(DialogRequest::ScanPoses, path)
             } else {
                 Action::Open(path)
             };
@@ -316,15 +286,10 @@ impl Window {
         if self.is_lost() {
             ctx.send_viewport_cmd(egui::ViewportCommand::Close);
         }
-        if let Some(effect) = inspector::update(&mut self.state) {
-            self.make(effect, ctx);
-        }
+        let inspected = inspector::update(&mut self.state);
         let counted = live::update(&mut self.state);
-        self.make(counted, ctx);
-        for lane in TaskQueue::ALL {
-            while let Some(news) = self.workers.get(&lane).and_then(Worker::try_next) {
-                self.act(Action::Hear(lane, news), ctx);
-            }
+        for event in inspected.into_iter().chain(counted) {
+            self.tell(&event, ctx);
         }
         for kind in WorkspaceKind::ALL {
             self.lend(kind, ctx, Workspace::update);
@@ -361,19 +326,11 @@ impl Window {
             WorkspaceKind::Inspect => Frame::new(),
             _ => Frame::new().fill(theme.canvas),
         };
-        CentralPanel::default()
-            .frame(canvas)
-            .show(ui, |ui| match front {
-                WorkspaceKind::Inspect => self.inspect.ui(ui, &self.state, theme, &mut actions),
-                _ => {
-                    self.lend(front, &ctx, |workspace, cx| workspace.ui(ui, cx));
-                }
-            });
+        CentralPanel::default().frame(canvas).show(ui, |ui| {
+            self.lend(front, &ctx, |workspace, cx| workspace.ui(ui, cx));
+        });
         let hosted = self.hosted(front);
-        let view_has_focus = match front {
-            WorkspaceKind::Inspect => self.inspect.view_has_focus(),
-            _ => hosted.is_some_and(Workspace::has_key_focus),
-        };
+        let view_has_focus = hosted.is_some_and(Workspace::has_key_focus);
         let keys = hosted.map_or_else(Vec::new, Workspace::key_bindings);
         notices::ui(&ctx, &self.state, theme, &mut actions);
         live::set_up(&ctx, &self.state, theme, &mut actions);

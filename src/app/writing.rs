@@ -1,9 +1,8 @@
-//! Writing what a person asked to have as a file.
+//! Writing what a person asked to have as a file: whole, or not at all.
 
 use std::{
     io::{self, Cursor},
     path::{Path, PathBuf},
-    sync::Arc,
 };
 
 use image::{DynamicImage, ImageFormat};
@@ -26,94 +25,26 @@ use crate::{
     robot::{Convention, RobotFrame, spray::SprayExport},
 };
 
-/// What is to be written.
-#[derive(Clone, Debug)]
-pub enum WriteRequest {
-    /// An inspection: a line of JSON, the pictures of its stages, and the pose report as JSON, PDF and a row of CSV.
-    Report {
-        /// Where to.
-        folder: PathBuf,
-        /// The inspection.
-        inspected: Arc<Inspected>,
-        /// Where the camera stands, if the cell is calibrated.
-        robot: Option<Arc<RobotFrame>>,
-        /// In which numbers the robot is told the pose.
-        convention: Convention,
-        /// The 3-D view, if it was in sight.
-        shot: Option<Box<ViewShot>>,
-    },
-    /// A spray path for the robot, as CSV or JSON.
-    SprayPath {
-        /// Where to.
-        path: PathBuf,
-        /// The inspection with the path.
-        inspected: Arc<Inspected>,
-        /// Where the camera stands.
-        robot: Arc<RobotFrame>,
-        /// In which numbers the robot is told the nozzle's poses.
-        convention: Convention,
-    },
-    /// A picture of a 3-D view, as a PNG.
-    Picture {
-        /// Where to.
-        path: PathBuf,
-        /// What is on it.
-        shot: Box<ViewShot>,
-    },
+/// Writes a picture of a 3-D view as a PNG; says what was written.
+pub(super) fn picture(path: &Path, shot: &ViewShot) -> Result<String, UserError> {
+    let picture = shot.take().map_err(|error| UserError::of(&error))?;
+    let mut png = Cursor::new(Vec::new());
+    let encoded = picture.write_to(&mut png, ImageFormat::Png);
+    write_atomically(path, |writer| {
+        encoded.map_err(io::Error::other)?;
+        writer.write_all(png.get_ref())
+    })
+    .map_err(|error| UserError::of(&error))?;
+    Ok(format!("Saved the picture {}", path.display()))
 }
 
-/// What was written.
-#[derive(Clone, Debug, PartialEq, Eq)]
-pub struct WriteResult {
-    /// In words, for a notice.
-    pub what: String,
-    /// The file, or the folder of the files.
-    pub path: PathBuf,
-}
-
-/// Writes it: whole, or not at all.
-pub(super) fn answer(request: &WriteRequest) -> Result<WriteResult, UserError> {
-    match request {
-        WriteRequest::Report {
-            folder,
-            inspected,
-            robot,
-            convention,
-            shot,
-        } => {
-            let report = report_of(inspected, robot.as_deref(), *convention);
-            write_report(folder, inspected, &report, shot.as_deref())
-        }
-        WriteRequest::SprayPath {
-            path,
-            inspected,
-            robot,
-            convention,
-        } => write_spray_path(path, inspected, robot, *convention),
-        WriteRequest::Picture { path, shot } => {
-            let picture = shot.take().map_err(|error| UserError::of(&error))?;
-            let mut png = Cursor::new(Vec::new());
-            let encoded = picture.write_to(&mut png, ImageFormat::Png);
-            write_atomically(path, |writer| {
-                encoded.map_err(io::Error::other)?;
-                writer.write_all(png.get_ref())
-            })
-            .map_err(|error| UserError::of(&error))?;
-            Ok(WriteResult {
-                what: format!("Saved the picture {}", path.display()),
-                path: path.clone(),
-            })
-        }
-    }
-}
-
-/// As `partsight inspect --spray` does.
-fn write_spray_path(
+/// Writes a spray path for the robot, as CSV or JSON, as `partsight inspect --spray` does; says what was written.
+pub(super) fn spray_path(
     path: &Path,
     inspected: &Inspected,
     robot: &RobotFrame,
     convention: Convention,
-) -> Result<WriteResult, UserError> {
+) -> Result<String, UserError> {
     let first = inspected.inspection.ranking.entries.first();
     let part = first.and_then(|first| inspected.library.parts.get(first.reference));
     let (Some(carried), Some(part)) = (&inspected.spray, part) else {
@@ -134,20 +65,17 @@ fn write_spray_path(
         at: inspected.at,
     };
     export.save(path).map_err(|error| UserError::of(&error))?;
-    Ok(WriteResult {
-        what: format!(
-            "Wrote {}: {} of {} points within the band, as {}",
-            path.display(),
-            carried.num_inside(),
-            carried.points.len(),
-            convention.title()
-        ),
-        path: path.to_owned(),
-    })
+    Ok(format!(
+        "Wrote {}: {} of {} points within the band, as {}",
+        path.display(),
+        carried.num_inside(),
+        carried.points.len(),
+        convention.title()
+    ))
 }
 
 /// The pose report of what the window shows.
-fn report_of(
+pub(super) fn report_of(
     inspected: &Inspected,
     robot: Option<&RobotFrame>,
     convention: Convention,
@@ -185,13 +113,14 @@ fn scene_name(origin: &Origin) -> PathBuf {
     }
 }
 
-/// As `partsight inspect --report` and `partsight report` do.
-fn write_report(
+/// Writes an inspection as `partsight inspect --report` and `partsight report` do: a line of JSON, the pictures of its
+/// stages, and the pose report as JSON, PDF and a row of CSV; says what was written.
+pub(super) fn report(
     folder: &Path,
     inspected: &Inspected,
     report: &PoseReport,
     shot: Option<&ViewShot>,
-) -> Result<WriteResult, UserError> {
+) -> Result<String, UserError> {
     let trouble = |error: ReportError| UserError::of(&error);
     let name = scene_name(&inspected.origin);
     let scene = name.display().to_string();
@@ -225,10 +154,11 @@ fn write_report(
     );
     if let CsvAppended::SetAside(aside) = appended {
         let aside = file_name(&aside);
-        let what = format!("{what}; its last row had no end and was set aside in {aside}");
-        return Ok(WriteResult { what, path });
+        return Ok(format!(
+            "{what}; its last row had no end and was set aside in {aside}"
+        ));
     }
-    Ok(WriteResult { what, path })
+    Ok(what)
 }
 
 /// The same view in the colours of paper.

@@ -12,8 +12,9 @@ use egui_kittest::kittest::Queryable as _;
 use partsight::{
     app::{
         WindowOptions,
-        action::{Action, DialogRequest},
+        action::Action,
         history::{HistoryAction, HistoryFile, HistoryWorkspace, ListFilter},
+        inspect::InspectFile,
         source::CellChoice,
         state::{ThemeChoice, Workspace},
         unit_system::UnitSystem,
@@ -24,7 +25,8 @@ use partsight::{
 };
 
 use super::set_up::{
-    SMALL, USUAL, WindowHarness, act, act_in, history_of, open, open_with, press, settle,
+    SMALL, USUAL, WindowHarness, act, act_in, choose_in_inspect, history_of, open, open_with,
+    press, settle,
 };
 
 fn remembering(path: &Path) -> WindowOptions {
@@ -282,10 +284,7 @@ fn the_report_of_an_inspection_is_written_and_a_bad_folder_is_a_notice() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = open();
     let out = folder.path().join("report");
-    act(
-        &mut harness,
-        Action::Chosen(DialogRequest::ReportFolder, out.clone()),
-    );
+    choose_in_inspect(&mut harness, InspectFile::Report, out.clone());
     let text = fs::read_to_string(out.join("simulated_1.report.json")).expect("written");
     let line: serde_json::Value = serde_json::from_str(&text).expect("JSON");
     assert_eq!(line["part"], "front_door");
@@ -308,10 +307,7 @@ fn the_report_of_an_inspection_is_written_and_a_bad_folder_is_a_notice() {
 
     let taken = folder.path().join("taken");
     fs::write(&taken, "a file").expect("written");
-    act(
-        &mut harness,
-        Action::Chosen(DialogRequest::ReportFolder, taken),
-    );
+    choose_in_inspect(&mut harness, InspectFile::Report, taken);
     harness.get_by_label_contains("cannot make the report's folder");
     harness.get_by_label("Accepted");
 }

@@ -5,18 +5,14 @@ use std::{thread, time::Duration};
 use egui::{Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use partsight::{
-    app::{
-        WindowOptions,
-        state::{StagePanel, ThemeChoice},
-        unit_system::UnitSystem,
-    },
+    app::{WindowOptions, figures::StagePanel, state::ThemeChoice, unit_system::UnitSystem},
     files::save_cloud,
     robot::Convention,
     simulate::{CellSetup, PartKind, PartPose, PoseRange, Side, frame},
     stages::scene::scene_from_frame,
 };
 
-use super::set_up::{SMALL, WindowHarness, drop_file, open, open_with, settle};
+use super::set_up::{SMALL, WindowHarness, drop_file, inspect_of, open, open_with, settle};
 
 fn generation(harness: &WindowHarness) -> u64 {
     let shown = harness.state().state().shown.as_ref();
@@ -107,7 +103,7 @@ fn a_stage_fills_the_middle_until_escape() {
     harness.get_by_label("Contour, enlarged");
     harness.get_by_label("Back door, left").click();
     harness.run_steps(2);
-    assert_ne!(harness.state().state().candidate, 0);
+    assert_ne!(inspect_of(&harness).candidate, 0);
     harness.key_press(Key::Escape);
     harness.run_steps(2);
     assert!(harness.query_by_label("Contour, enlarged").is_none());

@@ -8,9 +8,9 @@ use nalgebra::{Point3, Vector3};
 use partsight::{
     app::{
         WindowOptions,
-        action::{Action, DialogRequest},
+        action::Action,
         enrol::{EnrolAction, EnrolFile, EnrolWorkspace},
-        inspect::state::ViewPart,
+        inspect::{InspectFile, ViewPart},
         robot::RobotAction,
         shell::session::RememberedCell,
         state::{State, Workspace},
@@ -23,7 +23,10 @@ use partsight::{
     },
 };
 
-use super::set_up::{USUAL, WindowHarness, act, act_in, open, open_with, press, settle};
+use super::set_up::{
+    USUAL, WindowHarness, act, act_in, choose_in_inspect, inspect_of, open, open_with, press,
+    settle,
+};
 
 fn state(harness: &WindowHarness) -> &State {
     harness.state().state()
@@ -115,7 +118,7 @@ fn numbers_typed_by_hand_are_used_remembered_and_forgotten() {
     assert!(harness.state().robot().dialog().is_none());
     // The card tells the robot's frame now.
     harness.get_by_label_contains("by Cell 2 (");
-    assert!(state(&harness).inspect.parts.contains(&ViewPart::RobotBase));
+    assert!(inspect_of(&harness).parts.contains(&ViewPart::RobotBase));
 
     drop(harness);
     let mut harness = open_with(USUAL, own(folder.path()));
@@ -308,19 +311,13 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
 
     // Without a calibrated cell there is nothing to export.
     let out = folder.path().join("out.csv");
-    act(
-        &mut harness,
-        Action::Chosen(DialogRequest::SprayPath, out.clone()),
-    );
+    choose_in_inspect(&mut harness, InspectFile::SprayPath, out.clone());
     assert!(!out.exists());
     let cell = folder.path().join("cell.toml");
     save_calibration(&cell);
     act(&mut harness, Action::Robot(RobotAction::Load(cell)));
     act(&mut harness, Action::UseConvention(Convention::Fanuc));
-    act(
-        &mut harness,
-        Action::Chosen(DialogRequest::SprayPath, out.clone()),
-    );
+    choose_in_inspect(&mut harness, InspectFile::SprayPath, out.clone());
     let text = fs::read_to_string(&out).expect("written");
     assert!(text.contains("FANUC") || text.contains("fanuc"), "{text}");
     assert!(

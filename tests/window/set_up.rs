@@ -14,6 +14,7 @@ use partsight::app::{
     action::Action,
     enrol::{EnrolState, EnrolWorkspace},
     history::{HistoryState, HistoryWorkspace},
+    inspect::{InspectAction, InspectFile, InspectState, InspectWorkspace},
     shell::{context::ShellContext, workspace::Workspace},
     state::State,
 };
@@ -102,6 +103,20 @@ pub(crate) fn act_in<W: Workspace>(
 pub(crate) fn history_of(harness: &WindowHarness) -> &HistoryState {
     let workspace = harness.state().workspace::<HistoryWorkspace>();
     workspace.expect("the workspace").state()
+}
+
+/// What the Inspect workspace knows.
+pub(crate) fn inspect_of(harness: &WindowHarness) -> &InspectState {
+    let workspace = harness.state().workspace::<InspectWorkspace>();
+    workspace.expect("the workspace").state()
+}
+
+/// A person has chosen this file in Inspect.
+pub(crate) fn choose_in_inspect(harness: &mut WindowHarness, file: InspectFile, path: PathBuf) {
+    let chosen = InspectAction::Chosen(file, path);
+    act_in(harness, |inspect: &mut InspectWorkspace, cx| {
+        inspect.apply(chosen, cx);
+    });
 }
 
 /// What the Enrol workspace knows.

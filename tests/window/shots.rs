@@ -11,8 +11,9 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use partsight::{
     app::{
         WindowOptions,
-        action::{Action, DialogRequest},
-        shots::{FusedShots, ShotFate},
+        action::Action,
+        inspect::InspectFile,
+        shots::{FusedShots, ShotFate, ShotsFile},
         state::{Source, State, Workspace},
     },
     files::write_depth_png,
@@ -24,7 +25,8 @@ use partsight::{
 use serde_json::{Value, json};
 
 use super::set_up::{
-    SMALL, USUAL, WindowHarness, act, drop_file, enrol_of, open_with, press, settle,
+    SMALL, USUAL, WindowHarness, act, choose_in_inspect, drop_file, enrol_of, inspect_of,
+    open_with, press, settle,
 };
 
 /// A simulated scan of a fender: `num` shots and their poses, and one more that the poses do not name.
@@ -132,12 +134,12 @@ fn state(harness: &WindowHarness) -> &State {
 
 /// The scan in front.
 fn fused(harness: &WindowHarness) -> &FusedShots {
-    let fused = match state(harness).workspace {
-        Workspace::Enrol => {
-            let draft = enrol_of(harness).draft.as_ref();
-            draft.expect("a draft").subject.scan()
-        }
-        _ => state(harness).fused(),
+    let fused = if state(harness).workspace == Workspace::Enrol {
+        let draft = enrol_of(harness).draft.as_ref();
+        draft.expect("a draft").subject.scan()
+    } else {
+        let shown = state(harness).shown.as_ref().expect("a result");
+        shown.inspected.scan.as_ref().map(|scan| &scan.fused)
     };
     fused.expect("a scan")
 }
@@ -183,7 +185,7 @@ fn a_scan_is_listed_shots_are_dropped_and_taken_back_and_it_is_inspected_as_one(
     }
     let all_three = fused(&harness).scan.cloud.cloud.points.len();
     press(&mut harness, "Mark what shot 2 alone sees");
-    assert_eq!(state(&harness).inspect.shots.looked_at, Some(1));
+    assert_eq!(inspect_of(&harness).shots.looked_at, Some(1));
 
     press(&mut harness, "Use shot-2.png");
     assert_eq!(used(&harness), [0, 2]);
@@ -201,7 +203,8 @@ fn a_scan_is_listed_shots_are_dropped_and_taken_back_and_it_is_inspected_as_one(
     harness.get_by_label("Use shot-3.png").click();
     harness.run_steps(2);
     let is_dropped = |harness: &WindowHarness| {
-        let choice = state(harness).shot_choice().expect("a scan");
+        let choice = inspect_of(harness).shot_choice(state(harness));
+        let choice = choice.expect("a scan");
         choice.dropped.contains(&2)
     };
     assert!(is_dropped(&harness));
@@ -218,12 +221,13 @@ fn a_scan_is_listed_shots_are_dropped_and_taken_back_and_it_is_inspected_as_one(
 
     // One more, whose pose lies beside it.
     let spare = scan.path("spare/shot-9.png");
-    act(
+    choose_in_inspect(
         &mut harness,
-        Action::Chosen(DialogRequest::Shot, spare.clone()),
+        InspectFile::Shots(ShotsFile::Shot),
+        spare.clone(),
     );
     assert_eq!(used(&harness), [0, 2, 3]);
-    act(&mut harness, Action::Chosen(DialogRequest::Shot, spare));
+    choose_in_inspect(&mut harness, InspectFile::Shots(ShotsFile::Shot), spare);
     harness.get_by_label_contains("shot-9.png is among the shots already");
     assert_eq!(used(&harness), [0, 2, 3]);
     press(&mut harness, "Stages");

@@ -8,15 +8,15 @@ use egui_kittest::{Harness, kittest::Queryable as _};
 use partsight::{
     app::{
         Window, WindowOptions,
-        action::{Action, DialogRequest},
-        inspect::state::ViewPart,
+        action::Action,
+        inspect::{InspectFile, ViewPart},
         source::CellChoice,
         viewport::{Colouring, ViewportGpu},
     },
     simulate::ObjectKind,
 };
 
-use super::set_up::{SMALL, USUAL, WindowHarness, act, settle};
+use super::set_up::{SMALL, USUAL, WindowHarness, act, choose_in_inspect, inspect_of, settle};
 
 /// Whether the window draws for real.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -100,7 +100,7 @@ fn another_candidate_shows_its_own_alignment() {
     harness.get_by_label("Alignment, enlarged");
     harness.get_by_label(&candidates[1]).click();
     harness.run_steps(2);
-    assert_eq!(harness.state().state().candidate, 1);
+    assert_eq!(inspect_of(&harness).candidate, 1);
     harness.get_by_label("Alignment, enlarged");
     harness.get_by_label(&candidates[7]).click();
     harness.run_steps(2);
@@ -110,8 +110,7 @@ fn another_candidate_shows_its_own_alignment() {
 #[test]
 fn what_the_view_shows_is_chosen_in_one_menu_and_by_keys() {
     let mut harness = open();
-    let shows =
-        |harness: &WindowHarness, part| harness.state().state().inspect.parts.contains(&part);
+    let shows = |harness: &WindowHarness, part| inspect_of(harness).parts.contains(&part);
     assert!(!shows(&harness, ViewPart::Camera));
     harness.get_by_label("Show ▼").click();
     harness.run_steps(2);
@@ -135,8 +134,8 @@ fn the_colour_menu_colours() {
     harness.get_by_label("Height").click();
     harness.run_steps(2);
     harness.get_by_label("Colour · Height ▼");
-    let state = harness.state().state();
-    assert_eq!(state.inspect.colouring, Some(Colouring::Height));
+    let state = inspect_of(&harness);
+    assert_eq!(state.colouring, Some(Colouring::Height));
 }
 
 #[test]
@@ -144,10 +143,7 @@ fn without_a_view_a_picture_of_it_is_refused_in_words() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("view.png");
     let mut harness = open();
-    act(
-        &mut harness,
-        Action::Chosen(DialogRequest::Picture, path.clone()),
-    );
+    choose_in_inspect(&mut harness, InspectFile::Picture, path.clone());
     let notices = &harness.state().state().notices;
     assert_eq!(notices.len(), 1);
     assert!(
@@ -165,8 +161,8 @@ fn a_picture_of_the_view_is_saved_on_its_own_thread() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = open_at(SMALL, Drawn::ForReal);
     // Without an ending it is a PNG all the same.
-    let chosen = Action::Chosen(DialogRequest::Picture, folder.path().join("door"));
-    act(&mut harness, chosen);
+    let path = folder.path().join("door");
+    choose_in_inspect(&mut harness, InspectFile::Picture, path);
     let notices = &harness.state().state().notices;
     assert!(notices[0].what.contains("door.png"), "{notices:?}");
     let picture = image::open(folder.path().join("door.png")).expect("a picture");

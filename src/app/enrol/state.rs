@@ -266,7 +266,7 @@ impl EnrolState {
                     self.apply(action, cx);
                 }
             }
-            Event::Inspected { .. } => {}
+            Event::Inspected { .. } | Event::PosesWanted(_) | Event::Export | Event::Escape => {}
         }
     }
 

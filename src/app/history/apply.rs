@@ -197,7 +197,7 @@ impl HistoryState {
                 // One frame, which is all that the history keeps, would not give the result of a scan again.
                 ReinspectionPurpose::New if inspected.scan.is_some() => {}
                 ReinspectionPurpose::New => self.keep(inspected),
-                ReinspectionPurpose::Repeated => {}
+                ReinspectionPurpose::Repeated | ReinspectionPurpose::Shots => {}
                 ReinspectionPurpose::Past => self.remade(inspected, cx),
             },
             Event::EngineerIn => {
@@ -205,7 +205,7 @@ impl HistoryState {
                     self.apply(action, cx);
                 }
             }
-            Event::Undo => {}
+            Event::PosesWanted(_) | Event::Export | Event::Escape | Event::Undo => {}
         }
     }
 

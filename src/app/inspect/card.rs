@@ -5,18 +5,19 @@ use egui::{
     style::ScrollStyle, vec2,
 };
 
-use super::{robot_numbers, stand_off};
+use super::{
+    action::{InspectAction, InspectFile},
+    robot_numbers, stand_off,
+    work::{Inspected, LiveFrameContext},
+};
 use crate::{
     app::{
-        action::{Action, DialogRequest},
-        bars::focus_ring,
-        inspect::work::{Inspected, LiveFrameContext},
         live,
+        shell::session::Session,
         shots::summary,
-        state::{State, Workspace},
         theme::{ROUNDING, Theme, font, space},
         unit_system::UnitSystem,
-        widgets::{Mark, heading, mark, row, sentence},
+        widgets::{Mark, focus_ring, heading, mark, row, sentence},
     },
     error::Advice as _,
     geometry::rigid::RigidTransform,
@@ -121,11 +122,11 @@ impl Headline {
 pub(super) fn ui(
     ui: &mut Ui,
     inspected: &Inspected,
-    state: &State,
+    session: &Session,
     theme: &Theme,
-    actions: &mut Vec<Action>,
+    actions: &mut Vec<InspectAction>,
 ) {
-    if state.is_old() {
+    if session.is_old() {
         ui.label(
             RichText::new("Old result: a new one is on its way")
                 .font(font::body_strong())
@@ -133,13 +134,13 @@ pub(super) fn ui(
         );
         ui.multiply_opacity(0.55);
     }
-    if state.shown.as_ref().is_some_and(|shown| shown.is_past) {
+    if session.shown.as_ref().is_some_and(|shown| shown.is_past) {
         let text = "From the history: not what hangs there now";
         let text = RichText::new(text).font(font::body_strong());
         ui.label(text.color(theme.warning));
     }
-    if state.is_live() {
-        live::card(ui, state, theme, actions);
+    if session.is_live() && live::card(ui, session, theme) {
+        actions.push(InspectAction::ToggleRecording);
     }
     let inspection = &inspected.inspection;
     let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
@@ -164,17 +165,17 @@ pub(super) fn ui(
         }
         score(ui, inspected, &headline, theme);
         if let Some(pose) = pose {
-            offset(ui, inspected, pose, state.units, theme);
-            fit(ui, pose, state.units, theme);
+            offset(ui, inspected, pose, session.units, theme);
+            fit(ui, pose, session.units, theme);
             if inspection.verdict.is_approximate() {
                 let text = "The pose is approximate: this may be another model of the part";
                 ui.label(RichText::new(text).color(theme.warning));
             }
-            stand_off::ui(ui, inspected, state.units, theme);
-            robot_numbers::ui(ui, inspected, state, theme, actions);
+            stand_off::ui(ui, inspected, session.units, theme);
+            robot_numbers::ui(ui, inspected, session, theme, actions);
         }
         if let Some(scan) = &inspected.scan {
-            summary(ui, &scan.fused, state.units, theme);
+            summary(ui, &scan.fused, session.units, theme);
         }
         footer(ui, inspected, theme);
     });
@@ -185,23 +186,23 @@ fn action_buttons(
     ui: &mut Ui,
     pose: Option<&PoseEstimate>,
     theme: &Theme,
-    actions: &mut Vec<Action>,
+    actions: &mut Vec<InspectAction>,
 ) {
     let ways = [
         (
             "Export…",
             "A report: JSON, a page of PDF, a row in a table of poses, and the pictures of all stages (Ctrl E)",
-            (|| Action::Ask(DialogRequest::ReportFolder)) as fn() -> Action,
+            InspectAction::Ask(InspectFile::Report),
         ),
         (
             "Wrong part?",
             "See in Compare why it was taken for this",
-            || Action::GoTo(Workspace::Compare),
+            InspectAction::Compare,
         ),
         (
             "Copy pose",
             "In the robot's numbers, with a line that says which (Ctrl Shift C)",
-            || Action::CopyPose,
+            InspectAction::CopyPose,
         ),
     ];
     let num = if pose.is_some() { 3 } else { 2 };
@@ -215,7 +216,7 @@ fn action_buttons(
                 let button = ui.add(Button::new(text).min_size(size));
                 focus_ring(ui, button.rect, &button, theme);
                 if button.on_hover_text(says).clicked() {
-                    actions.push(action());
+                    actions.push(action);
                 }
             }
         });

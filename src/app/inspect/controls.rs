@@ -3,13 +3,13 @@
 use egui::{Button, Response, RichText, Ui, Vec2};
 
 use super::{
-    state::{InspectAction, ViewPart},
+    action::{InspectAction, InspectFile},
+    state::{InspectState, ViewPart},
     view::SceneView,
     work::Inspected,
 };
 use crate::app::{
-    action::{Action, DialogRequest},
-    state::State,
+    shell::session::Session,
     theme::{font, space},
     viewport::{Colouring, FitRequest, StandardView, ViewTool},
 };
@@ -21,9 +21,10 @@ const NARROW: f32 = 800.0;
 pub(super) fn ui(
     ui: &mut Ui,
     view: &mut SceneView,
-    state: &State,
+    state: &InspectState,
+    session: &Session,
     inspected: &Inspected,
-    actions: &mut Vec<Action>,
+    actions: &mut Vec<InspectAction>,
 ) {
     let figure = &inspected.view;
     if ui.available_width() < NARROW {
@@ -38,31 +39,31 @@ pub(super) fn ui(
             let is_there = colouring != Colouring::Deviation || figure.has_deviations;
             let choice = Button::selectable(is_chosen, colouring.title());
             if ui.add_enabled(is_there, choice).clicked() {
-                actions.push(Action::Inspect(InspectAction::Colour(colouring)));
+                actions.push(InspectAction::Colour(colouring));
                 ui.close();
             }
         }
     });
     ui.menu_button(small("Show ▼"), |ui| {
         for part in ViewPart::ALL {
-            let mut is_shown = state.inspect.parts.contains(&part);
+            let mut is_shown = state.parts.contains(&part);
             let choice = egui::Checkbox::new(&mut is_shown, part.title());
             if ui
-                .add_enabled(is_there(state, inspected, part), choice)
+                .add_enabled(is_there(session, inspected, part), choice)
                 .clicked()
             {
-                actions.push(Action::Inspect(InspectAction::Toggle(part)));
+                actions.push(InspectAction::Toggle(part));
             }
         }
         ui.separator();
         let export = Button::new("Export spray path…");
-        let can_export = figure.spray.is_some() && state.robot_of(inspected).is_some();
+        let can_export = figure.spray.is_some() && session.robot_of(inspected).is_some();
         let export = ui.add_enabled(can_export, export);
         let export = export.on_disabled_hover_text(
             "Needs an accepted part with a stored spray path, and a calibrated cell",
         );
         if export.clicked() {
-            actions.push(Action::Ask(DialogRequest::SprayPath));
+            actions.push(InspectAction::Ask(InspectFile::SprayPath));
             ui.close();
         }
     });
@@ -82,7 +83,7 @@ pub(super) fn ui(
         .on_hover_text("Save a picture of the view (P)")
         .clicked()
     {
-        actions.push(Action::Ask(DialogRequest::Picture));
+        actions.push(InspectAction::Ask(InspectFile::Picture));
     }
 }
 
@@ -106,7 +107,7 @@ fn sides(ui: &mut Ui, view: &mut SceneView) {
 }
 
 /// True where the result, or the cell, has this to show.
-fn is_there(state: &State, inspected: &Inspected, part: ViewPart) -> bool {
+fn is_there(session: &Session, inspected: &Inspected, part: ViewPart) -> bool {
     let figure = &inspected.view;
     match part {
         ViewPart::Axes => figure.axes.is_some(),
@@ -114,7 +115,7 @@ fn is_there(state: &State, inspected: &Inspected, part: ViewPart) -> bool {
         ViewPart::Outline => figure.outline.is_some(),
         ViewPart::NozzleMiddle | ViewPart::NozzleWorst => figure.nozzles.is_some(),
         ViewPart::SprayPath => figure.spray.is_some(),
-        ViewPart::RobotBase => state.robot_of(inspected).is_some(),
+        ViewPart::RobotBase => session.robot_of(inspected).is_some(),
         ViewPart::ShotCameras | ViewPart::Unseen => inspected.scan.is_some(),
     }
 }

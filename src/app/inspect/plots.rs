@@ -6,9 +6,9 @@ use egui::{
 };
 
 use crate::app::{
-    figures::{Alignment, ContourFigure, PlaneLine, RankedPartFigure, SignatureCurves},
-    inspect::work::Inspected,
-    state::{StagePanel, State},
+    figures::{Alignment, ContourFigure, PlaneLine, RankedPartFigure, SignatureCurves, StagePanel},
+    inspect::{InspectState, work::Inspected},
+    shell::session::Session,
     theme::{ROUNDING, Theme, font},
     widgets::{Scale, caption, curve, fitted},
 };
@@ -16,7 +16,8 @@ use crate::app::{
 /// What the pictures are drawn from.
 pub(super) struct Pictures<'a> {
     pub(super) inspected: &'a Inspected,
-    pub(super) state: &'a State,
+    pub(super) state: &'a InspectState,
+    pub(super) session: &'a Session,
     pub(super) theme: &'a Theme,
     pub(super) segmentation: Option<&'a TextureHandle>,
     pub(super) binary: Option<&'a TextureHandle>,
@@ -266,7 +267,7 @@ impl Pictures<'_> {
         }
         painter.line(points, Stroke::new(1.8, self.theme.first_series));
         if detail == PlotDetail::Large {
-            let rms = self.state.units.length(rms_m);
+            let rms = self.session.units.length(rms_m);
             let text = format!("{} ended at rms {rms}", candidate.title);
             let at = rect.right_top();
             painter.text(at, Align2::RIGHT_TOP, text, font::body(), self.theme.text);

@@ -2,11 +2,10 @@
 
 use egui::{Align, ComboBox, Layout, RichText, Ui};
 
+use super::{action::InspectAction, work::Inspected};
 use crate::{
     app::{
-        action::Action,
-        inspect::work::Inspected,
-        state::State,
+        shell::session::Session,
         theme::{Theme, font, space},
         widgets::{heading, row},
     },
@@ -16,19 +15,19 @@ use crate::{
 
 /// A pose that may be moved by, in the numbers that were chosen.
 #[derive(Clone, Debug)]
-pub(in crate::app) struct NumberedPose {
+pub(super) struct NumberedPose {
     /// `camera_from_part` or `robot_from_part`.
-    pub(in crate::app) name: &'static str,
+    pub(super) name: &'static str,
     /// The frame that it is in, in words.
-    pub(in crate::app) frame: String,
+    pub(super) frame: String,
     /// The numbers.
-    pub(in crate::app) pose: RobotPose,
+    pub(super) pose: RobotPose,
 }
 
 /// The pose in the robot's frame where the cell is calibrated, else in the camera's. `None` unless it was accepted.
-pub(in crate::app) fn numbered(state: &State, inspected: &Inspected) -> Option<NumberedPose> {
+pub(super) fn numbered(session: &Session, inspected: &Inspected) -> Option<NumberedPose> {
     let camera_from_part = accepted_pose(inspected)?;
-    let (name, frame, transform) = match state.robot_of(inspected) {
+    let (name, frame, transform) = match session.robot_of(inspected) {
         Some(robot) => (
             "robot_from_part",
             format!("The robot's base frame, by {}", robot.name),
@@ -43,7 +42,7 @@ pub(in crate::app) fn numbered(state: &State, inspected: &Inspected) -> Option<N
     Some(NumberedPose {
         name,
         frame,
-        pose: state.convention.write(&transform),
+        pose: session.convention.write(&transform),
     })
 }
 
@@ -57,7 +56,7 @@ fn accepted_pose(inspected: &Inspected) -> Option<RigidTransform> {
 }
 
 /// As it goes onto the clipboard: a line that says what it is, one with names and units, then the bare numbers.
-pub(in crate::app) fn clipboard_text(numbered: &NumberedPose) -> String {
+pub(super) fn clipboard_text(numbered: &NumberedPose) -> String {
     let NumberedPose { name, frame, pose } = numbered;
     let title = pose.convention.title();
     let rounded: Vec<String> = pose.values.iter().map(RobotValue::rounded).collect();
@@ -75,18 +74,18 @@ pub(in crate::app) fn clipboard_text(numbered: &NumberedPose) -> String {
 pub(super) fn ui(
     ui: &mut Ui,
     inspected: &Inspected,
-    state: &State,
+    session: &Session,
     theme: &Theme,
-    actions: &mut Vec<Action>,
+    actions: &mut Vec<InspectAction>,
 ) {
-    let Some(numbered) = numbered(state, inspected) else {
+    let Some(numbered) = numbered(session, inspected) else {
         return;
     };
     heading(ui, theme, "Pose");
     ui.scope(|ui| {
         // Text lies closer on the card; this is pressed.
         ui.spacing_mut().interact_size.y = space::TARGET;
-        choice(ui, state.convention, actions);
+        choice(ui, session.convention, actions);
     });
     let NumberedPose { name, frame, pose } = &numbered;
     let small = |text: &str| {
@@ -100,7 +99,7 @@ pub(super) fn ui(
             .color(theme.text),
     );
     // Numbers in the wrong frame move a robot to the wrong place.
-    let colour = if state.robot_of(inspected).is_some() {
+    let colour = if session.robot_of(inspected).is_some() {
         theme.weak_text
     } else {
         theme.warning
@@ -133,7 +132,7 @@ pub(super) fn ui(
     }
 }
 
-fn choice(ui: &mut Ui, chosen: Convention, actions: &mut Vec<Action>) {
+fn choice(ui: &mut Ui, chosen: Convention, actions: &mut Vec<InspectAction>) {
     let mut convention = chosen;
     let response = ComboBox::from_id_salt("convention")
         .selected_text(chosen.title())
@@ -150,7 +149,7 @@ fn choice(ui: &mut Ui, chosen: Convention, actions: &mut Vec<Action>) {
     });
     response.on_hover_text("In which numbers the robot is told the pose (K for the next)");
     if convention != chosen {
-        actions.push(Action::UseConvention(convention));
+        actions.push(InspectAction::UseConvention(convention));
     }
 }
 
@@ -184,18 +183,20 @@ mod tests {
     #[test]
     fn what_is_copied_says_which_pose_it_is_and_reads_back() {
         let mut inspected = door();
-        let mut state = State::default();
-        state.session.convention = Convention::Fanuc;
+        let mut session = Session {
+            convention: Convention::Fanuc,
+            ..Session::default()
+        };
         let camera_from_part = accepted_pose(&inspected).expect("accepted");
         let robot = RobotFrame {
             robot_from_camera: from_euler_zyx([-2.2, 0.1, -1.6, 1.5, -0.2, 2.0]),
             name: "cell 1".into(),
         };
         for robot in [None, Some(Arc::new(robot))] {
-            state.robot = robot;
-            let text = clipboard_text(&numbered(&state, &inspected).expect("a pose"));
+            session.robot = robot;
+            let text = clipboard_text(&numbered(&session, &inspected).expect("a pose"));
             let lines: Vec<&str> = text.lines().collect();
-            let (name, expected) = match &state.robot {
+            let (name, expected) = match &session.robot {
                 Some(robot) => ("robot_from_part", robot.robot_from_part(&camera_from_part)),
                 None => ("camera_from_part", camera_from_part),
             };
@@ -218,6 +219,6 @@ mod tests {
         if let Verdict::Part { rejected, part, .. } = &mut inspected.inspection.verdict {
             *rejected = Some(crate::pipeline::Rejection::NotSteady { part: part.clone() });
         }
-        assert!(numbered(&state, &inspected).is_none());
+        assert!(numbered(&session, &inspected).is_none());
     }
 }

@@ -1,4 +1,4 @@
-//! What the 3-D view shows of a result, made once on the worker: points, and the lines that stand for things.
+//! What the 3-D view shows of a result, made once in the task: points, and the lines that stand for things.
 
 use std::sync::Arc;
 

@@ -4,13 +4,15 @@ use egui::{
     Align, Button, Frame, Label, Layout, Margin, Rect, RichText, Sense, Ui, Vec2, pos2, vec2,
 };
 
-use super::plots::{Pictures, PlotDetail};
+use super::{
+    action::InspectAction,
+    plots::{Pictures, PlotDetail},
+};
 use crate::{
     app::{
-        action::Action,
-        bars::focus_ring,
-        state::StagePanel,
+        figures::StagePanel,
         theme::{font, space},
+        widgets::focus_ring,
     },
     pipeline::Timings,
 };
@@ -32,9 +34,9 @@ fn time_of(panel: StagePanel, timings: &Timings) -> String {
 }
 
 /// Draws the strip.
-pub(super) fn ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<Action>) {
+pub(super) fn ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<InspectAction>) {
     let theme = pictures.theme;
-    if pictures.state.is_old() {
+    if pictures.session.is_old() {
         ui.multiply_opacity(0.55);
     }
     let all = ui.available_rect_before_wrap();
@@ -78,21 +80,21 @@ pub(super) fn ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<Action>
         focus_ring(ui, cell, &response, theme);
         if response.clicked() {
             actions.push(if is_enlarged {
-                Action::CloseTop
+                InspectAction::CloseEnlarged
             } else {
-                Action::Enlarge(panel)
+                InspectAction::Enlarge(panel)
             });
         }
     }
 }
 
 /// Draws the enlarged stage over the middle.
-pub(super) fn enlarged_ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<Action>) {
+pub(super) fn enlarged_ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<InspectAction>) {
     let Some(panel) = pictures.state.enlarged else {
         return;
     };
     let theme = pictures.theme;
-    if pictures.state.is_old() {
+    if pictures.session.is_old() {
         ui.multiply_opacity(0.55);
     }
     Frame::new().inner_margin(Margin::same(14)).show(ui, |ui| {
@@ -109,7 +111,7 @@ pub(super) fn enlarged_ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Ve
                 let close = ui.add(close.min_size(Vec2::splat(space::TARGET)));
                 close.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "Close"));
                 if close.clicked() {
-                    actions.push(Action::CloseTop);
+                    actions.push(InspectAction::CloseEnlarged);
                 }
                 ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
                     let text = RichText::new(explanation(panel)).color(theme.weak_text);
@@ -142,7 +144,7 @@ pub(super) fn enlarged_ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Ve
 }
 
 /// The enrolled parts to compare with, best first.
-fn candidates(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<Action>) {
+fn candidates(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<InspectAction>) {
     ui.horizontal_wrapped(|ui| {
         for (place, candidate) in pictures.inspected.figures.candidates.iter().enumerate() {
             let is_chosen = pictures.state.candidate == place;
@@ -151,7 +153,7 @@ fn candidates(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<Action>) {
                 .add(button.min_size(Vec2::splat(space::TARGET)))
                 .clicked()
             {
-                actions.push(Action::Candidate(place));
+                actions.push(InspectAction::Candidate(place));
             }
         }
     });

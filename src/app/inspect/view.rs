@@ -5,19 +5,19 @@ use std::collections::BTreeSet;
 use egui::{Painter, Rect, Ui, UiBuilder, Vec2, pos2, vec2};
 
 use super::{
+    action::InspectAction,
     controls,
-    state::{InspectAction, ViewPart},
+    state::{InspectState, ViewPart},
+    work::Inspected,
 };
 use crate::{
     app::{
-        action::Action,
         headless::WorkCounts,
-        inspect::work::Inspected,
-        job::Trouble,
+        shell::session::{Session, Shown, ThemeChoice},
         shots::{Overlay, POINT_SIZE},
-        state::{Shown, State, ThemeChoice},
         theme::{ROUNDING, Theme, font, space},
         unit_system::UnitSystem,
+        user_error::UserError,
         viewport::{
             Colouring, FitRequest, Legend, PointSize, TextLabel, ViewCamera, ViewColours,
             ViewError, ViewScene, ViewShot, ViewStyle, Viewport, ViewportGpu, furniture,
@@ -90,7 +90,7 @@ impl SceneView {
         }
     }
 
-    /// Takes in a new result: what the worker made of it, and no point of it is gone through.
+    /// Takes in a new result: what the task made of it, and no point of it is gone through.
     pub(super) fn show(&mut self, shown: &Shown) {
         let inspected = &shown.inspected;
         let figures = &inspected.figures;
@@ -125,21 +125,22 @@ impl SceneView {
     pub(super) fn ui(
         &mut self,
         ui: &mut Ui,
-        state: &State,
+        state: &InspectState,
+        session: &Session,
         inspected: &Inspected,
-        actions: &mut Vec<Action>,
+        actions: &mut Vec<InspectAction>,
     ) {
-        if self.styled != state.theme {
-            self.style = style(state.theme);
-            self.styled = state.theme;
+        if self.styled != session.theme {
+            self.style = style(session.theme);
+            self.styled = session.theme;
         }
-        self.place(state, inspected);
+        self.place(state, session, inspected);
         self.style.colouring = self.colouring(state);
         self.style.point_size = match &inspected.scan {
             Some(_) => POINT_SIZE,
             None => self.usual_size,
         };
-        let theme = Theme::of(state.theme);
+        let theme = Theme::of(session.theme);
         let rect = ui.available_rect_before_wrap();
         self.size = rect.size();
         let is_narrow = rect.width() < NARROW;
@@ -158,7 +159,7 @@ impl SceneView {
             vec2(rect.width() - 2.0 * space::MEDIUM, space::TARGET),
         );
         ui.scope_builder(UiBuilder::new().max_rect(bar), |ui| {
-            ui.horizontal(|ui| controls::ui(ui, self, state, inspected, actions));
+            ui.horizontal(|ui| controls::ui(ui, self, state, session, inspected, actions));
         });
         let painter = ui.painter_at(rect);
         let top = self.captions(&painter, rect, theme);
@@ -183,7 +184,7 @@ impl SceneView {
     }
 
     /// The view as it is now, or why there is none.
-    fn shot(&self, pixels_per_point: f32) -> Result<ViewShot, Trouble> {
+    pub(super) fn shot(&self, pixels_per_point: f32) -> Result<ViewShot, UserError> {
         self.viewport
             .shot(
                 &self.camera,
@@ -192,26 +193,18 @@ impl SceneView {
                 self.size,
                 pixels_per_point,
             )
-            .map_err(|error| Trouble::of(&error))
-    }
-
-    /// Hands over the picture that was asked for.
-    pub(super) fn picture(&self, ui: &Ui, state: &State, actions: &mut Vec<Action>) {
-        if state.inspect.picture_to.is_some() || state.inspect.report_to.is_some() {
-            let shot = self.shot(ui.pixels_per_point()).map(Box::new);
-            actions.push(Action::Inspect(InspectAction::Picture(shot)));
-        }
+            .map_err(|error| UserError::of(&error))
     }
 
     /// Chooses the lines and words, if what they are chosen by is not what it was.
-    fn place(&mut self, state: &State, inspected: &Inspected) {
+    fn place(&mut self, state: &InspectState, session: &Session, inspected: &Inspected) {
         let figure = &inspected.view;
-        let robot = state.robot_of(inspected);
+        let robot = session.robot_of(inspected);
         let by = SceneAnnotation {
-            parts: state.inspect.parts.clone(),
-            units: state.units,
+            parts: state.parts.clone(),
+            units: session.units,
             camera_from_robot: robot.map(|robot| robot.robot_from_camera.inverse()),
-            looked_at: state.inspect.shots.looked_at,
+            looked_at: state.shots.looked_at,
         };
         if self.placed.as_ref() == Some(&by) {
             return;
@@ -274,8 +267,8 @@ impl SceneView {
         self.num_placed += 1;
     }
 
-    fn colouring(&self, state: &State) -> Colouring {
-        match (state.inspect.colouring, self.has_deviations) {
+    fn colouring(&self, state: &InspectState) -> Colouring {
+        match (state.colouring, self.has_deviations) {
             (Some(Colouring::Deviation) | None, false) => Colouring::Segment,
             (Some(chosen), _) => chosen,
             (None, true) => Colouring::Deviation,
@@ -312,15 +305,15 @@ impl SceneView {
 }
 
 /// What the view shows of a scan over its points.
-fn overlay<'a>(state: &'a State, inspected: &'a Inspected) -> Option<Overlay<'a>> {
+fn overlay<'a>(state: &'a InspectState, inspected: &'a Inspected) -> Option<Overlay<'a>> {
     let scan = inspected.scan.as_ref()?;
     let unseen = scan.unseen.as_ref();
     Some(Overlay {
         fused: &scan.fused,
         unseen: unseen.map(|(points, share)| (points, *share)),
-        looked_at: state.inspect.shots.looked_at,
-        has_cameras: state.inspect.parts.contains(&ViewPart::ShotCameras),
-        has_unseen: state.inspect.parts.contains(&ViewPart::Unseen),
+        looked_at: state.shots.looked_at,
+        has_cameras: state.parts.contains(&ViewPart::ShotCameras),
+        has_unseen: state.parts.contains(&ViewPart::Unseen),
     })
 }
 

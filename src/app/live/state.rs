@@ -78,8 +78,6 @@ pub enum LiveAction {
     Record(PathBuf),
     /// Choose where to record it, or record it no longer.
     ToggleRecording,
-    /// Record it no longer.
-    StopRecording,
     /// Open the window that sets up the simulated cell, or close it.
     SetUp(Option<crate::capture::SimulatedSpec>),
 }
@@ -136,7 +134,7 @@ pub(in crate::app) fn apply(state: &mut State, action: LiveAction) -> Option<Eff
         LiveAction::ToggleRecording if state.live.recording.is_none() => {
             return Some(Effect::ShowDialog(DialogRequest::RecordTo));
         }
-        LiveAction::StopRecording | LiveAction::ToggleRecording => {
+        LiveAction::ToggleRecording => {
             end_recording(state);
             restart_consensus(state);
         }
@@ -172,7 +170,7 @@ fn start(state: &mut State) {
     }
     state.follower.session += 1;
     dismiss_lost_notice(state);
-    state.inspector.cancel();
+    state.cancel_inspection();
     follow_source(state);
 }
 
@@ -240,8 +238,8 @@ fn ended(state: &mut State) {
     dismiss_lost_notice(state);
 }
 
-/// Takes in what the task reports.
-pub(in crate::app) fn update(state: &mut State) -> Effect {
+/// Takes in what the task reports; every workspace is told of what comes back.
+pub(in crate::app) fn update(state: &mut State) -> Vec<Event> {
     let mut counted = Vec::new();
     while let Some(event) = state.follower.task.poll() {
         match event {
@@ -254,10 +252,11 @@ pub(in crate::app) fn update(state: &mut State) -> Effect {
             }
         }
     }
-    Effect::Several(counted)
+    counted
 }
 
-fn take_in(state: &mut State, answer: LiveAnswer) -> Option<Effect> {
+/// Takes in what was handed over; a verdict that counts is told every workspace.
+fn take_in(state: &mut State, answer: LiveAnswer) -> Option<Event> {
     match answer {
         LiveAnswer::Stands(told) if state.is_live() => {
             watch_source(state, &told.status.source);
@@ -272,7 +271,7 @@ fn take_in(state: &mut State, answer: LiveAnswer) -> Option<Effect> {
             }
             show(state, Arc::clone(&inspected));
             let purpose = ReinspectionPurpose::New;
-            return Some(Effect::Tell(Event::Inspected { inspected, purpose }));
+            return Some(Event::Inspected { inspected, purpose });
         }
         LiveAnswer::NotRecorded(error) => {
             state.live.recording = None;
@@ -301,8 +300,6 @@ fn show(state: &mut State, inspected: Arc<Inspected>) {
     }
     state.use_library(&inspected.library);
     state.generation += 1;
-    let num_candidates = inspected.figures.candidates.len();
-    state.candidate = state.candidate.min(num_candidates.saturating_sub(1));
     state.shown = Some(Shown {
         generation: state.generation,
         inspected,

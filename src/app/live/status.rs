@@ -3,13 +3,12 @@
 use egui::{Button, Label, RichText, Sense, Ui, Vec2};
 
 use super::{
-    state::{LiveAction, megabytes},
+    state::megabytes,
     work::{LiveStatus, SourceState},
 };
 use crate::{
     app::{
-        action::{Action, DialogRequest},
-        state::{Source, State},
+        shell::session::{Session, Source},
         theme::{Theme, font, space},
         widgets::{Mark, mark},
     },
@@ -20,9 +19,9 @@ use crate::{
 /// Height of what the card says first, logical pixels: as high whatever it says, so that nothing below moves.
 const HEIGHT: f32 = 64.0;
 
-/// The head of the verdict card while the source is followed.
-pub(in crate::app) fn card(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
-    let (sign, words) = words(state);
+/// The head of the verdict card while the source is followed. True if it shall be recorded, or no longer.
+pub(in crate::app) fn card(ui: &mut Ui, session: &Session, theme: &Theme) -> bool {
+    let (sign, words) = words(session);
     let small = |text: String| {
         RichText::new(text)
             .font(font::small())
@@ -38,31 +37,26 @@ pub(in crate::app) fn card(ui: &mut Ui, state: &State, theme: &Theme, actions: &
             let words = RichText::new(words).font(font::body_strong());
             ui.add(Label::new(words.color(theme.text)).truncate());
         });
-        let status = state.live.status.as_ref();
+        let status = session.live.status.as_ref();
         ui.label(small(status.map_or_else(String::new, evidence_text)));
         ui.label(small(status.map_or_else(String::new, figures)));
     });
-    record(ui, state, actions);
+    let is_toggled = record(ui, session);
     ui.separator();
     ui.add_space(space::SMALL);
+    is_toggled
 }
 
-/// Begins and ends a recording, and says what is recorded.
-fn record(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+/// The button that begins and ends a recording, and says what is recorded. True if it was pressed.
+fn record(ui: &mut Ui, session: &Session) -> bool {
     let size = Vec2::new(ui.available_width(), space::TARGET);
-    if state.live.recording.is_none() {
+    if session.live.recording.is_none() {
         let text = RichText::new("Record…").font(font::small());
         let says = "Keep every frame that is taken from the source, as it came (Ctrl L)";
-        if ui
-            .add(Button::new(text).min_size(size))
-            .on_hover_text(says)
-            .clicked()
-        {
-            actions.push(Action::Ask(DialogRequest::RecordTo));
-        }
-        return;
+        let button = ui.add(Button::new(text).min_size(size));
+        return button.on_hover_text(says).clicked();
     }
-    let recorded = state.live.status.as_ref();
+    let recorded = session.live.status.as_ref();
     let recorded = recorded.and_then(|status| status.recorded.as_ref());
     let so_far = recorded.map_or_else(String::new, |recorded| {
         let size = megabytes(recorded.num_bytes);
@@ -75,18 +69,16 @@ fn record(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     response.widget_info(|| {
         egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Stop recording{so_far}"))
     });
-    if response.clicked() {
-        actions.push(Action::Live(LiveAction::StopRecording));
-    }
+    response.clicked()
 }
 
 /// The same in one line.
-pub(in crate::app) fn chip(ui: &mut Ui, state: &State, theme: &Theme) {
-    let (sign, words) = words(state);
+pub(in crate::app) fn chip(ui: &mut Ui, session: &Session, theme: &Theme) {
+    let (sign, words) = words(session);
     ui.add_space(space::SMALL);
     let (rect, _) = ui.allocate_exact_size(Vec2::splat(16.0), Sense::hover());
     mark(ui.painter(), rect.center(), 7.5, sign, theme);
-    let rates = state.live.status.as_ref().map(figures);
+    let rates = session.live.status.as_ref().map(figures);
     let text = match rates {
         Some(rates) if ui.available_width() > 320.0 => format!("{words} · {rates}"),
         _ => words,
@@ -95,13 +87,13 @@ pub(in crate::app) fn chip(ui: &mut Ui, state: &State, theme: &Theme) {
 }
 
 /// What matters most, and a sign for it.
-fn words(state: &State) -> (Mark, String) {
-    let name = match &state.source {
+fn words(session: &Session) -> (Mark, String) {
+    let name = match &session.source {
         Source::Camera(spec) if matches!(**spec, SourceSpec::Recording(_)) => "Playing",
         Source::Camera(spec) if matches!(**spec, SourceSpec::Watched(_)) => "Watching the folder",
         Source::Camera(_) | Source::Cell(_) | Source::File(_) | Source::Scan(_) => "Live",
     };
-    let Some(status) = &state.live.status else {
+    let Some(status) = &session.live.status else {
         return (Mark::Look, format!("{name} · opening"));
     };
     let (sign, what) = match (&status.source, status.stillness) {

@@ -27,7 +27,6 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
         Action::Robot(action) => !matches!(action, RobotAction::Close),
         // The robot's controller expects one of them.
         Action::UseConvention(_)
-        | Action::NextConvention
         | Action::TakeEmptyCell
         | Action::ForgetEmptyCell
         | Action::UseFoundLibrary => true,
@@ -35,12 +34,9 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
         | Action::UseCell(_)
         | Action::Open(_)
         | Action::CancelInspection
-        | Action::Cancel(_)
         | Action::CancelTask(_)
         | Action::EngineerIn(_)
-        | Action::ShowPast(_)
-        | Action::Enlarge(_)
-        | Action::Candidate(_)
+        | Action::Export
         | Action::CloseTop
         | Action::SwitchUnits
         | Action::SwitchTheme
@@ -48,11 +44,7 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
         | Action::Dismiss(_)
         | Action::Notify(_)
         | Action::Quit
-        | Action::CopyPose
-        | Action::Shots(_)
-        | Action::Undo
-        | Action::Inspect(_)
-        | Action::Hear(..) => false,
+        | Action::Undo => false,
     }
 }
 
@@ -61,13 +53,8 @@ fn asks_for_engineer(ask: DialogRequest) -> bool {
         DialogRequest::Library | DialogRequest::Part => true,
         DialogRequest::Scene
         | DialogRequest::Scan
-        | DialogRequest::ScanPoses
-        | DialogRequest::Shot
         | DialogRequest::Recording
         | DialogRequest::WatchedFolder
-        | DialogRequest::RecordTo
-        | DialogRequest::ReportFolder
-        | DialogRequest::SprayPath
-        | DialogRequest::Picture => false,
+        | DialogRequest::RecordTo => false,
     }
 }

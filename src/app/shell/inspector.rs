@@ -8,19 +8,16 @@ use std::{
 use super::{
     message::{Event, ReinspectionPurpose, SceneOrScan},
     notice::Notice,
-    session::{Shown, Source, WorkspaceKind},
+    session::{Inspecting, Shown, Source, WorkspaceKind},
     task::{Running, Task, TaskContext, TaskError, TaskEvent, TaskRunner},
 };
 use crate::{
     app::{
         action::{Effect, notify},
-        inspect::{
-            scan,
-            work::{InspectJob, Inspected, inspect, inspect_scan},
-        },
+        inspect::work::{InspectJob, Inspected, inspect, inspect_scan},
         live,
         shelf::{LibraryCache, LibraryView},
-        shots::{Asked, ScanOrder, Steps},
+        shots::{ScanOrder, Steps},
         source::{Origin, SceneSource, file_name},
         state::State,
         user_error::UserError,
@@ -70,11 +67,6 @@ impl Inspector {
         self.task.running()
     }
 
-    /// Cancels what is at work.
-    pub(in crate::app) fn cancel(&mut self) {
-        self.task.cancel();
-    }
-
     #[cfg(test)]
     pub(in crate::app) fn run_waiting(&self) -> bool {
         self.task.run_waiting()
@@ -82,11 +74,6 @@ impl Inspector {
 }
 
 impl State {
-    /// True while the result shown is not what was asked for last.
-    pub fn is_old(&self) -> bool {
-        self.inspector.running().is_some() && self.shown.is_some()
-    }
-
     /// Takes a scene from the source: to be inspected, or to be enrolled while that is in front. To be inspected it is a
     /// single one, and ends following the source.
     pub(in crate::app) fn capture(&mut self) -> Option<Effect> {
@@ -121,15 +108,11 @@ impl State {
             return Some(Effect::Take(source, title));
         }
         let source = match (source, &self.empty_cell) {
-            (SceneOrScan::Scan(order), _) => {
-                scan::begin(self, order, Asked::first());
-                return None;
-            }
             (SceneOrScan::Scene(source), Some(cell)) => {
                 let source = SceneSource::Before(Arc::clone(cell), Box::new(source));
                 SceneOrScan::Scene(source)
             }
-            (source, None) => source,
+            (source, _) => source,
         };
         let job = InspectJob::of(source, self);
         self.inspect(title, job, ReinspectionPurpose::New);
@@ -144,9 +127,16 @@ impl State {
         purpose: ReinspectionPurpose,
     ) {
         live::give_way(self);
-        self.inspect.shots.started(None);
-        self.inspector.purpose = purpose;
-        self.start(title, move |shelf, context| run(&job, shelf, context));
+        let title = title.into();
+        let shelf = self.begins(&title, purpose);
+        let task = &mut self.inspector.task;
+        task.start(title, move |context| run(&job, &shelf, context));
+    }
+
+    /// Cancels what the inspector is at.
+    pub(in crate::app) fn cancel_inspection(&mut self) {
+        self.inspector.task.cancel();
+        self.session.inspecting = None;
     }
 
     /// Inspects the scene in front again: something that its result rests on has changed.
@@ -184,39 +174,32 @@ impl State {
 
     /// Loads the library that was chosen.
     pub(in crate::app) fn open_library(&mut self) {
-        self.inspect.shots.started(None);
         let chosen = self.chosen_library.clone();
-        self.start("Opening the library", move |shelf, _| {
-            let loaded = shelf
-                .choose(chosen)
-                .map_err(|error| UserError::of(&error))?;
+        let title = "Opening the library";
+        let shelf = self.begins(title, ReinspectionPurpose::Repeated);
+        self.inspector.task.start(title, move |_| {
+            let loaded = shelf.choose(chosen);
+            let loaded = loaded.map_err(|error| UserError::of(&error))?;
             Ok(InspectorResult::Library(Arc::clone(&loaded.shown)))
         });
     }
 
-    fn start(
-        &mut self,
-        title: impl Into<String>,
-        job: impl FnOnce(
-            &LibraryCache,
-            &TaskContext<InspectorResult>,
-        ) -> Result<InspectorResult, TaskError>
-        + Send
-        + 'static,
-    ) {
+    /// Writes down that a run begins, and hands over what it works with.
+    fn begins(&mut self, title: &str, purpose: ReinspectionPurpose) -> LibraryCache {
         self.generation += 1;
+        self.session.inspecting = Some(Inspecting {
+            title: title.to_owned(),
+            purpose,
+        });
         let inspector = &mut self.inspector;
         inspector.generation = self.generation;
-        let shelf = inspector.shelf.clone();
-        inspector
-            .task
-            .start(title, move |context| job(&shelf, context));
+        inspector.purpose = purpose;
+        inspector.shelf.clone()
     }
 
     /// Shows a past inspection that is still in memory.
     pub(in crate::app) fn show_past(&mut self, inspected: Arc<Inspected>) {
         self.generation += 1;
-        self.candidate = 0;
         self.shown = Some(Shown {
             generation: self.generation,
             inspected,
@@ -295,13 +278,18 @@ fn run(
     Ok(InspectorResult::Inspected(Arc::new(inspected)))
 }
 
-/// Takes in what the task reports.
-pub(in crate::app) fn update(state: &mut State) -> Option<Effect> {
-    match state.inspector.task.poll()? {
+/// Takes in what the task reports; every workspace is told of what comes back.
+pub(in crate::app) fn update(state: &mut State) -> Option<Event> {
+    let event = state.inspector.task.poll();
+    if state.inspector.running().is_none() {
+        state.session.inspecting = None;
+    }
+    match event? {
         TaskEvent::Partial(result) | TaskEvent::Done(result) => match result {
             InspectorResult::Inspected(inspected) => return Some(show(state, inspected)),
-            InspectorResult::PosesWanted(order, trouble) => {
-                return Some(scan::ask_for_poses(state, *order, trouble));
+            InspectorResult::PosesWanted(order, error) => {
+                notify(state, error.into());
+                return Some(Event::PosesWanted(*order));
             }
             InspectorResult::Library(library) => {
                 state.use_library(&library);
@@ -321,16 +309,16 @@ pub(in crate::app) fn update(state: &mut State) -> Option<Effect> {
 }
 
 /// Shows a result made elsewhere as an inspection of its own; what is at work is cancelled.
-pub(in crate::app) fn show_made(state: &mut State, inspected: Arc<Inspected>) -> Effect {
+pub(in crate::app) fn show_made(state: &mut State, inspected: Arc<Inspected>) -> Event {
     state.generation += 1;
     let inspector = &mut state.inspector;
-    inspector.cancel();
     inspector.generation = state.generation;
     inspector.purpose = ReinspectionPurpose::New;
+    state.cancel_inspection();
     show(state, inspected)
 }
 
-fn show(state: &mut State, inspected: Arc<Inspected>) -> Effect {
+fn show(state: &mut State, inspected: Arc<Inspected>) -> Event {
     for warning in &inspected.warnings {
         notify(state, UserError::of(warning).into());
     }
@@ -344,22 +332,18 @@ fn show(state: &mut State, inspected: Arc<Inspected>) -> Effect {
     for warning in shots.map_or(&[][..], |scan| &scan.fused.warnings) {
         notify(state, warning.clone().into());
     }
-    let former = state.shown.as_ref();
-    let former = former.and_then(|shown| Some(shown.inspected.scan.as_ref()?.fused.choice.clone()));
     let Inspector {
         generation,
         purpose,
         ..
     } = state.inspector;
-    state.candidate = 0;
     state.shown = Some(Shown {
         generation,
         inspected: Arc::clone(&inspected),
         is_past: purpose == ReinspectionPurpose::Past,
         session: None,
     });
-    scan::settle(state, former);
-    Effect::Tell(Event::Inspected { inspected, purpose })
+    Event::Inspected { inspected, purpose }
 }
 
 /// More files than this nobody looks through.
@@ -375,7 +359,11 @@ fn remember(recent: &mut Vec<PathBuf>, path: &Path) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::app::action::{Action, apply};
+    use crate::{
+        app::action::{Action, apply},
+        files::write_depth_png,
+        geometry::depth_frame::{DepthFrame, Intrinsics},
+    };
 
     #[test]
     fn a_result_stays_and_is_old_until_the_next_is_there() {
@@ -383,12 +371,8 @@ mod tests {
         apply(&mut state, Action::Capture);
         assert!(!state.is_old() && state.inspector.running().is_some());
         assert!(state.inspector.run_waiting());
-        assert!(matches!(update(&mut state), Some(Effect::Tell(_))));
+        assert!(update(&mut state).is_some());
         assert!(state.shown.is_some() && state.inspector.running().is_none());
-        assert!(matches!(
-            apply(&mut state, Action::CopyPose),
-            Some(Effect::CopyText(_))
-        ));
         apply(&mut state, Action::TakeEmptyCell);
         assert!(state.empty_cell.is_none(), "a part hangs there");
         let said = state.notices.last().map(|notice| notice.what.clone());
@@ -396,6 +380,8 @@ mod tests {
 
         apply(&mut state, Action::Capture);
         assert!(state.is_old());
+        update(&mut state);
+        assert!(state.is_old(), "nothing has come yet");
         apply(&mut state, Action::CancelInspection);
         assert!(!state.is_old() && state.shown.is_some());
     }
@@ -414,5 +400,35 @@ mod tests {
             state.notices
         );
         assert!(state.inspector.running().is_none() && state.shown.is_none());
+    }
+
+    #[test]
+    fn a_scan_without_poses_asks_for_their_file() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let frame = DepthFrame {
+            intrinsics: Intrinsics {
+                width: 8,
+                height: 6,
+                ..Intrinsics::KINECT
+            },
+            metres_per_unit: 0.001,
+            depth: vec![900; 48],
+            is_simulated: true,
+        };
+        for name in ["a.png", "b.png"] {
+            write_depth_png(&folder.path().join(name), &frame).expect("written");
+        }
+        let mut state = State::default();
+        apply(&mut state, Action::Open(folder.path().to_owned()));
+        assert!(state.inspector.run_waiting());
+        let event = update(&mut state);
+        let Some(Event::PosesWanted(ScanOrder::Open(files))) = event else {
+            panic!("{event:?}");
+        };
+        assert_eq!(files.frames, [folder.path()]);
+        assert!(state.inspector.running().is_none());
+        let said = state.notices.last().expect("said");
+        assert!(said.what.contains("no poses"), "{said:?}");
+        assert!(said.advice.contains("Choose the file"), "{said:?}");
     }
 }

@@ -14,7 +14,7 @@ use crate::{
         source::SceneSource,
     },
     pipeline::Recipe,
-    robot::RobotFrame,
+    robot::{Convention, RobotFrame},
 };
 
 /// What a workspace asks of the shell.
@@ -38,6 +38,10 @@ pub enum Message {
     UseRecipe(Arc<Recipe>),
     /// Use this calibration of the robot's cell, with where the camera stands by it.
     UseCalibration(RememberedCell, Option<Arc<RobotFrame>>),
+    /// Tell the robot poses in these numbers.
+    UseConvention(Convention),
+    /// Record the source that is followed, or no longer.
+    ToggleRecording,
     /// The library was changed: use it, and inspect what was saved, else the scene in front unless another one is being
     /// inspected.
     LibraryChanged {
@@ -85,6 +89,8 @@ pub enum ReinspectionPurpose {
     Repeated,
     /// A past inspection once more.
     Past,
+    /// Other shots of the scan that Inspect shows.
+    Shots,
 }
 
 /// What the shell tells a workspace.
@@ -97,6 +103,12 @@ pub enum Event {
         /// What it was inspected for.
         purpose: ReinspectionPurpose,
     },
+    /// The poses of these shots were not found: a person has to name their file.
+    PosesWanted(ScanOrder),
+    /// Ask where the report of the inspection in front goes.
+    Export,
+    /// Esc was pressed while nothing lay over the workspaces.
+    Escape,
     /// The engineer's view, which this workspace asked for, is there.
     EngineerIn,
     /// A person takes back what the last notice offered to.

@@ -4,6 +4,7 @@ use std::{path::PathBuf, sync::Arc};
 
 use serde::{Deserialize, Serialize};
 
+use super::message::ReinspectionPurpose;
 pub use crate::app::theme::ThemeChoice;
 use crate::{
     app::{
@@ -27,6 +28,8 @@ pub struct Session {
     pub recent: Vec<PathBuf>,
     /// The last result.
     pub shown: Option<Shown>,
+    /// What the inspector is at.
+    pub inspecting: Option<Inspecting>,
     /// Of the source that is followed.
     pub live: LiveState,
     /// The library in use, once loaded.
@@ -54,6 +57,11 @@ pub struct Session {
 }
 
 impl Session {
+    /// True while the result shown is not what was asked for last.
+    pub fn is_old(&self) -> bool {
+        self.inspecting.is_some() && self.shown.is_some()
+    }
+
     /// Where the camera stood in the robot's base frame: a scan says so itself, else the cell's calibration does.
     pub fn robot_of<'a>(&'a self, inspected: &'a Inspected) -> Option<&'a Arc<RobotFrame>> {
         match &inspected.scan {
@@ -83,6 +91,15 @@ pub enum RememberedCell {
     Forgotten,
     /// The one in this file.
     File(PathBuf),
+}
+
+/// What the inspector is at.
+#[derive(Clone, Debug)]
+pub struct Inspecting {
+    /// What is being done, for a person.
+    pub title: String,
+    /// What for.
+    pub purpose: ReinspectionPurpose,
 }
 
 /// Where Capture takes a scene from.

@@ -29,7 +29,7 @@ pub trait Workspace: Any {
     /// Takes what is captured or opened while it is in front.
     fn take_scene(&mut self, _scene: SceneOrScan, _title: String, _cx: &mut ShellContext<'_>) {}
 
-    /// Takes a file that is dropped while it is in front, if it waits for one like it.
+    /// Takes a file that is dropped, if it waits for one like it.
     fn take_file(&mut self, _path: &Path, _cx: &mut ShellContext<'_>) -> bool {
         false
     }

@@ -1,4 +1,4 @@
-//! What is drawn of a scan, prepared on the worker: one row per shot, and the figure of the 3-D view.
+//! What is drawn of a scan, prepared in the task: one row per shot, and the figure of the 3-D view.
 
 use std::sync::Arc;
 

@@ -6,6 +6,7 @@ use super::Window;
 use crate::app::{
     action::{Action, DialogRequest},
     bars::Progress,
+    live::LiveAction,
     robot::RobotCell,
     roles,
     shell::{
@@ -105,8 +106,14 @@ impl Window {
                 self.state.session.cell = cell;
                 self.state.session.robot = robot;
             }
+            Message::UseConvention(convention) => {
+                self.act(Action::UseConvention(convention), ctx);
+            }
+            Message::ToggleRecording => {
+                self.act(Action::Live(LiveAction::ToggleRecording), ctx);
+            }
             Message::GoTo(kind) => self.act(Action::GoTo(kind), ctx),
-            Message::ShowPast(inspected) => self.act(Action::ShowPast(inspected), ctx),
+            Message::ShowPast(inspected) => self.state.show_past(inspected),
             Message::AskEngineer => {
                 roles::ask_engineer(&mut self.state, Action::EngineerIn(from));
             }
@@ -144,8 +151,7 @@ impl Window {
     pub fn is_idle(&self) -> bool {
         let mut all = self.workspaces.iter();
         let session = &self.state.session;
-        let is_shell_idle = self.state.works.is_empty()
-            && self.state.inspector.running().is_none()
+        let is_shell_idle = self.state.inspector.running().is_none()
             && self.state.follower.is_idle()
             && self.robot.is_idle();
         is_shell_idle && all.all(|workspace| workspace.is_idle(session))
