@@ -22,7 +22,23 @@ const RESERVED: [(&str, &[&str]); 6] = [
 
 #[test]
 fn imports_run_down_the_layers_of_the_architecture() {
-    let layers = layers();
+    check_layers(&layers(0), &sources(&[]));
+}
+
+#[test]
+fn imports_of_the_window_run_down_its_layers() {
+    check_layers(&layers(1), &sources(&["app"]));
+}
+
+#[test]
+fn no_workspace_imports_another() {
+    for file in sources(&["app", "workspaces"]) {
+        let imports = file.imports();
+        assert!(imports.is_empty(), "{}: {imports:?}", file.path.display());
+    }
+}
+
+fn check_layers(layers: &[Vec<String>], sources: &[Source]) {
     let rank = |name: &str| {
         layers
             .iter()
@@ -30,9 +46,9 @@ fn imports_run_down_the_layers_of_the_architecture() {
     };
     let mut uphill = Vec::new();
     let mut named = BTreeSet::new();
-    for file in sources() {
+    for file in sources {
         let from = file.folder().to_owned();
-        if matches!(from.as_str(), "lib" | "main") {
+        if matches!(from.as_str(), "lib" | "main" | "mod") {
             continue;
         }
         let Some(own) = rank(&from) else {
@@ -54,13 +70,13 @@ fn imports_run_down_the_layers_of_the_architecture() {
         "imports that run up:\n{}",
         uphill.join("\n")
     );
-    let listed: BTreeSet<String> = layers.into_iter().flatten().collect();
+    let listed: BTreeSet<String> = layers.iter().flatten().cloned().collect();
     assert_eq!(named, listed, "folders of src and layers");
 }
 
 #[test]
 fn crates_of_the_window_and_the_command_line_stay_there() {
-    for file in sources() {
+    for file in sources(&[]) {
         for (name, folders) in RESERVED {
             let is_named = file.text.contains(&format!("{name}::"));
             assert!(
@@ -76,6 +92,7 @@ fn crates_of_the_window_and_the_command_line_stay_there() {
 fn paths_in_all_their_forms_are_found() {
     let imports = |path: &str, text: &str| {
         let source = Source {
+            module: &[],
             path: path.into(),
             text: code_of(text),
         };
@@ -93,50 +110,67 @@ fn paths_in_all_their_forms_are_found() {
         ),
         "l"
     );
+    let within = |path: &str, text: &str| {
+        let source = Source {
+            module: &["app"],
+            path: path.into(),
+            text: code_of(text),
+        };
+        source.imports().into_iter().collect::<Vec<_>>().join(" ")
+    };
+    let nested = "use crate::{a::b, app::{c::d, e::{F, g}}, h};\nuse crate::app::i::J;";
+    assert_eq!(within("k/mod.rs", nested), "c e i");
+    assert_eq!(
+        within("k/l.rs", "use super::super::m::N; use super::o;"),
+        "m"
+    );
 }
 
-/// The layers of docs/ARCHITECTURE.md from the bottom up; those of one layer stand between two arrows.
-fn layers() -> Vec<Vec<String>> {
+/// A list of layers in docs/ARCHITECTURE.md, by its number there, from the bottom up; those of one layer stand between two
+/// arrows.
+fn layers(number: usize) -> Vec<Vec<String>> {
     let path = Path::new(env!("CARGO_MANIFEST_DIR")).join("docs/ARCHITECTURE.md");
     let text = fs::read_to_string(path).expect("the architecture");
-    let line = text
-        .lines()
-        .find(|line| line.contains(" ◄ "))
-        .expect("the list");
-    let layers = line.split(" ◄ ");
-    layers
-        .map(|layer| {
-            layer
-                .split(',')
-                .map(|name| name.trim().to_owned())
-                .collect()
-        })
-        .collect()
+    let mut lists = text.lines().filter(|line| line.contains(" ◄ "));
+    let list = lists.nth(number).expect("the list");
+    let names = |layer: &str| {
+        layer
+            .split(',')
+            .map(|name| name.trim().to_owned())
+            .collect()
+    };
+    list.split(" ◄ ").map(names).collect()
 }
 
 /// A file of `src` without comments and tests.
 struct Source {
-    /// Within `src`.
+    /// The module whose parts are looked at.
+    module: &'static [&'static str],
+    /// Within the module's folder.
     path: PathBuf,
     text: String,
 }
 
 impl Source {
-    /// The folder or file at the top of `src`.
+    /// The folder or file of the module that it is or lies in.
     fn folder(&self) -> &str {
         let first = self.path.iter().next().and_then(|name| name.to_str());
         let first = first.expect("a name");
         first.strip_suffix(".rs").unwrap_or(first)
     }
 
-    /// How many `super` lead from this module to the root.
+    /// How many `super` lead from this file to the module.
     fn depth(&self) -> usize {
         let depth = self.path.iter().count();
         depth - usize::from(self.path.ends_with("mod.rs"))
     }
 
-    /// The folders at the top of `src` that it names, but its own.
+    /// The folders and files of the module that it names, but its own.
     fn imports(&self) -> BTreeSet<String> {
+        if self.depth() == 0 {
+            // The module itself names its own parts.
+            return BTreeSet::new();
+        }
         let root = "super::".repeat(self.depth());
         let after = |start: &str| {
             let found = self.text.match_indices(start);
@@ -151,32 +185,50 @@ impl Source {
                 .collect::<Vec<_>>()
         };
         let mut names = BTreeSet::new();
-        for rest in after("crate::").into_iter().chain(after(&root)) {
-            names.extend(first_names(rest));
+        for rest in after("crate::") {
+            names.extend(names_under(self.module, rest));
+        }
+        for rest in after(&root) {
+            names.extend(names_under(&[], rest));
         }
         names.remove(self.folder());
         names
     }
 }
 
-/// The first names of a path, several where it begins with a brace.
-fn first_names(rest: &str) -> Vec<String> {
-    let name = |text: &str| -> String {
-        let text = text.trim_start().chars();
-        text.take_while(|c| c.is_alphanumeric() || *c == '_')
-            .collect()
-    };
-    let Some(list) = rest.strip_prefix('{') else {
-        return vec![name(rest)];
-    };
+/// The names that follow a module in a path, several where braces list them.
+fn names_under(module: &[&str], path: &str) -> Vec<String> {
     let mut names = Vec::new();
+    for item in items(path) {
+        let is_letter = |c: char| c.is_alphanumeric() || c == '_';
+        let end = item.find(|c| !is_letter(c)).unwrap_or(item.len());
+        let (name, rest) = item.split_at(end);
+        match module {
+            [] if !name.is_empty() && name != "self" => names.push(name.to_owned()),
+            [first, module @ ..] if name == *first => {
+                if let Some(rest) = rest.strip_prefix("::") {
+                    names.extend(names_under(module, rest));
+                }
+            }
+            _ => {}
+        }
+    }
+    names
+}
+
+/// What a path begins with: the parts of its list, or the path itself.
+fn items(path: &str) -> Vec<&str> {
+    let Some(list) = path.strip_prefix('{') else {
+        return vec![path];
+    };
+    let mut items = Vec::new();
     let (mut depth, mut start) = (0, 0);
     for (at, c) in list.char_indices() {
         match c {
             '{' => depth += 1,
             '}' if depth > 0 => depth -= 1,
             ',' | '}' if depth == 0 => {
-                names.push(name(&list[start..at]));
+                items.push(list[start..at].trim());
                 start = at + 1;
                 if c == '}' {
                     break;
@@ -185,8 +237,7 @@ fn first_names(rest: &str) -> Vec<String> {
             _ => {}
         }
     }
-    names.retain(|name| !name.is_empty() && name != "self");
-    names
+    items
 }
 
 /// Without comments, and without what follows the first module of tests.
@@ -199,8 +250,9 @@ fn code_of(text: &str) -> String {
     code[..tests.unwrap_or(code.len())].to_owned()
 }
 
-fn sources() -> Vec<Source> {
+fn sources(module: &'static [&'static str]) -> Vec<Source> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR")).join("src");
+    let root = module.iter().fold(root, |folder, name| folder.join(name));
     let mut sources = Vec::new();
     let mut folders = vec![root.clone()];
     while let Some(folder) = folders.pop() {
@@ -210,17 +262,22 @@ fn sources() -> Vec<Source> {
                 folders.push(path);
                 continue;
             }
-            let within = path.strip_prefix(&root).expect("within src").to_owned();
+            let within = path.strip_prefix(&root).expect("within").to_owned();
             // Modules of tests outside their file, and what several of them share.
             let is_test = within
                 .iter()
                 .any(|name| name == "tests" || name == "tests.rs" || name == "fixtures.rs");
             if path.extension().is_some_and(|ending| ending == "rs") && !is_test {
                 let text = code_of(&fs::read_to_string(&path).expect("text"));
-                sources.push(Source { path: within, text });
+                sources.push(Source {
+                    module,
+                    path: within,
+                    text,
+                });
             }
         }
     }
-    assert!(sources.len() > 300, "only {} files", sources.len());
+    let least = if module.is_empty() { 300 } else { 50 };
+    assert!(sources.len() > least, "only {} files", sources.len());
     sources
 }

@@ -23,10 +23,10 @@ pub use self::{
     live_cost::{LiveSample, live_stretches},
 };
 use super::{
-    action::Action,
-    shell::{context::ShellContext, workspace::Workspace},
-    viewport::ViewError,
+    shell::{action::Action, context::ShellContext, workspace::Workspace},
+    ui::viewport::ViewError,
     window::{Window, WindowOptions},
+    workspaces::inspect::WorkCounts,
 };
 use crate::bench::ProcessorWatch;
 
@@ -49,17 +49,6 @@ pub struct FrameTime {
     pub busy: f64,
     /// From its beginning until the next may begin, seconds.
     pub whole: f64,
-}
-
-/// Counts since the window was opened: what stands still in a frame cost nothing in it.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
-pub struct WorkCounts {
-    /// Point and line sets copied to the device.
-    pub uploads: u64,
-    /// Times that the 3-D view was drawn anew.
-    pub pictures: u64,
-    /// Times that something was made of a result: textures, or a choice of lines.
-    pub made: u64,
 }
 
 /// A window that nobody sees.

@@ -5,50 +5,26 @@
 //! a task    Task::start ─► a thread with its TaskContext ─► Task::poll ─► the state of the workspace that started it
 //! ```
 //!
-//! [`shell`] is what a workspace stands on: the session that all of them share, tasks, messages, file dialogs. A
-//! workspace is a folder with its state, its panels and the work of its tasks; none imports another, and the window
-//! knows it as a [`shell::workspace::Workspace`]: [`inspect`], [`enrol`], [`compare`], [`align`] and [`history`]. Above them
-//! stand the [`shell::inspector`], which captures and inspects, [`live`], which follows a source, [`roles`], and the dialog
-//! of [`robot`]. What is pressed there is an [`action`], which changes the window's [`state`].
+//! Imports run down, from folder to folder:
 //!
-//! [`theme`] holds every colour, distance and type size. Panels draw the last result, always, and never compute.
+//! - [`workspaces`]: each owns its state, its panels and its tasks; the window knows it as a
+//!   [`Workspace`](shell::workspace::Workspace), and none imports another. [`shots`] is the list that Inspect and Enrol share.
+//! - [`shell`]: what they stand on, and what stands around them.
+//! - [`inspection`]: a scene, its result and what is drawn of them; no egui, no session.
+//! - [`ui`]: colours, widgets, the 3-D view. [`task`]: jobs on threads of their own.
+//!
+//! Panels draw the last result, always, and never compute.
 
-pub mod action;
-pub mod align;
-mod bars;
-pub mod camera;
-pub mod compare;
-mod deviation;
-mod dialog;
-pub mod enrol;
-pub mod figures;
-pub mod fitted;
 pub mod headless;
-pub mod history;
-pub mod inspect;
-mod keys;
-pub mod live;
-mod memory;
-mod notices;
-mod rail;
-pub mod recording;
-pub mod robot;
-pub mod roles;
-pub mod settings;
-pub mod shelf;
+pub mod inspection;
 pub mod shell;
 pub mod shots;
-pub mod source;
-mod source_menu;
 mod start;
-pub mod state;
-pub mod theme;
-pub mod unit_system;
+pub mod task;
+pub mod ui;
 pub mod user_error;
-pub mod viewport;
-mod widgets;
 mod window;
-mod writing;
+pub mod workspaces;
 
 pub use self::{
     start::{WindowError, run},

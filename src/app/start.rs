@@ -5,8 +5,8 @@ use std::{cell::OnceCell, env, rc::Rc};
 use eframe::NativeOptions;
 
 use super::{
-    settings,
-    viewport::{ViewError, ViewportGpu},
+    shell::settings,
+    ui::viewport::{ViewError, ViewportGpu},
     window::{Window, WindowOptions},
 };
 use crate::error::Advice;

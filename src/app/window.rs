@@ -6,36 +6,37 @@ use eframe::egui_wgpu::RenderState;
 use egui::{CentralPanel, Frame, Ui};
 
 use super::{
-    action::{Action, DialogRequest, Effect, apply},
-    align::AlignWorkspace,
-    bars,
-    camera::Camera,
-    compare::CompareWorkspace,
-    dialog,
-    enrol::EnrolWorkspace,
-    headless::WorkCounts,
-    history::HistoryWorkspace,
-    inspect::{InspectWorkspace, work::Inspected},
-    keys,
-    live::{self, LiveAction},
-    memory::Memory,
-    notices, rail,
-    robot::{RobotAction, RobotCell},
-    roles::{self, RoleAction},
-    settings,
-    shelf::LibraryCache,
+    inspection::{camera::Camera, inspected::Inspected, library_cache::LibraryCache},
     shell::{
+        action::{Action, DialogRequest, Effect, apply},
         context::Services,
+        dialogs,
         file_dialog::{DialogLock, FileDialog},
-        inspector,
+        inspector, keys,
+        live::{self, LiveAction},
         message::{Event, Message},
-        task::TaskRunner,
+        notices, rail,
+        robot::{RobotAction, RobotCell},
+        roles::{self, RoleAction},
+        settings,
+        settings_file::Memory,
+        state::{HelpPage, Notice, Source, State, ThemeChoice, Workspace as WorkspaceKind},
+        top_bar,
         workspace::Workspace,
     },
-    state::{HelpPage, Notice, Source, State, ThemeChoice, Workspace as WorkspaceKind},
-    theme::Theme,
+    task::TaskRunner,
+    ui::{
+        theme::Theme,
+        viewport::{ViewError, ViewportGpu},
+    },
     user_error::UserError,
-    viewport::{ViewError, ViewportGpu},
+    workspaces::{
+        align::AlignWorkspace,
+        compare::CompareWorkspace,
+        enrol::EnrolWorkspace,
+        history::HistoryWorkspace,
+        inspect::{InspectWorkspace, WorkCounts},
+    },
 };
 use crate::{
     history::{HistoryBuffer, Writer},
@@ -170,7 +171,7 @@ impl Window {
         match effect {
             Effect::ShowDialog(ask) => {
                 let lock = &self.services.dialogs;
-                self.dialog.open(ask, &dialog::request(ask), lock, ctx);
+                self.dialog.open(ask, &dialogs::request(ask), lock, ctx);
             }
             Effect::Press(kind, place) => {
                 self.lend(kind, ctx, |workspace, cx| workspace.press(place, cx));
@@ -318,7 +319,7 @@ impl Window {
         let theme = Theme::of(self.state.theme);
         let mut actions = Vec::new();
         let work = self.work();
-        bars::top_bar(ui, &self.state, &self.robot, work, theme, &mut actions);
+        top_bar::ui(ui, &self.state, &self.robot, work, theme, &mut actions);
         rail::ui(ui, &self.state, theme, &mut actions);
         let front = self.state.workspace;
         let canvas = match front {

@@ -187,7 +187,7 @@ fn window(
     let opened = scene.clone();
     let options = app::WindowOptions {
         library: library.library.clone(),
-        settings: app::settings::users_file(),
+        settings: app::shell::settings::users_file(),
         // Without such a folder the window keeps it in memory.
         history: crate::history::users_folder().ok(),
         cell: crate::robot::calibration::default_path().ok(),

@@ -14,7 +14,7 @@ use egui_kittest::wgpu::{create_render_state, default_wgpu_setup};
 use image::RgbaImage;
 use nalgebra::Point3;
 use partsight::{
-    app::viewport::{PointSet, TextLabel, ViewError, ViewScene, ViewportGpu, furniture},
+    app::ui::viewport::{PointSet, TextLabel, ViewError, ViewScene, ViewportGpu, furniture},
     geometry::{nearest::KdTree, rigid::RigidTransform},
     simulate::{self, CellSetup, PartKind, PartPose, PoseRange, Side},
     stages::{

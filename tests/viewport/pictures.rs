@@ -4,7 +4,7 @@ use std::collections::HashSet;
 
 use eframe::egui::Color32;
 use image::RgbaImage;
-use partsight::app::viewport::{
+use partsight::app::ui::viewport::{
     Colouring, PointSet, PointSize, Role, StandardView, ViewCamera, ViewColours, ViewError,
     ViewScene, ViewStyle, screenshot,
 };

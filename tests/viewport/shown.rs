@@ -3,7 +3,7 @@
 use eframe::egui::{Event, Key, Modifiers, Pos2, Theme, Vec2};
 use egui_kittest::{Harness, kittest::Queryable as _, wgpu::WgpuTestRenderer};
 use partsight::{
-    app::viewport::{
+    app::ui::viewport::{
         Colouring, ViewCamera, ViewColours, ViewError, ViewScene, ViewStyle, ViewTool, Viewport,
         ViewportGpu,
     },

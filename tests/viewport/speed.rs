@@ -7,7 +7,7 @@ use std::time::{Duration, Instant};
 
 use eframe::egui::Vec2;
 use egui_kittest::{Harness, wgpu::WgpuTestRenderer};
-use partsight::app::viewport::{
+use partsight::app::ui::viewport::{
     PointSet, Role, ViewCamera, ViewColours, ViewScene, ViewStyle, Viewport, ViewportGpu,
     screenshot,
 };

@@ -5,8 +5,10 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use partsight::{
     app::{
         WindowOptions,
-        align::{AlignAction, AlignFile, AlignState, AlignWorkspace, Pairing, Playback, Start},
-        state::{NoticeKind, Workspace},
+        shell::state::{NoticeKind, Workspace},
+        workspaces::align::{
+            AlignAction, AlignFile, AlignState, AlignWorkspace, Pairing, Playback, Start,
+        },
     },
     stages::pose::PoseMethod,
 };

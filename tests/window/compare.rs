@@ -10,9 +10,9 @@ use egui_kittest::{
 use partsight::{
     app::{
         WindowOptions,
-        action::Action,
-        compare::{CompareAction, CompareState, CompareWorkspace, Front},
-        source::CellChoice,
+        inspection::source::CellChoice,
+        shell::action::Action,
+        workspaces::compare::{CompareAction, CompareState, CompareWorkspace, Front},
     },
     cases::{CaseDescription, CaseFolder, FoundVerdict, Truth},
     pipeline::Recipe,

@@ -7,9 +7,11 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use partsight::{
     app::{
         WindowOptions,
-        action::Action,
-        source::CellChoice,
-        state::{State, Workspace},
+        inspection::source::CellChoice,
+        shell::{
+            action::Action,
+            state::{State, Workspace},
+        },
     },
     library::{LibraryFolder, PartName},
     simulate::{PartKind, PartModel, Side},

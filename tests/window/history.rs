@@ -12,12 +12,15 @@ use egui_kittest::kittest::Queryable as _;
 use partsight::{
     app::{
         WindowOptions,
-        action::Action,
-        history::{HistoryAction, HistoryFile, HistoryWorkspace, ListFilter},
-        inspect::InspectFile,
-        source::CellChoice,
-        state::{ThemeChoice, Workspace},
-        unit_system::UnitSystem,
+        inspection::{source::CellChoice, unit_system::UnitSystem},
+        shell::{
+            action::Action,
+            state::{ThemeChoice, Workspace},
+        },
+        workspaces::{
+            history::{HistoryAction, HistoryFile, HistoryWorkspace, ListFilter},
+            inspect::InspectFile,
+        },
     },
     history::{History, KeepFrames, NewEntry},
     library::Truth,

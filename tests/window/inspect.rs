@@ -5,7 +5,11 @@ use std::{thread, time::Duration};
 use egui::{Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use partsight::{
-    app::{WindowOptions, figures::StagePanel, state::ThemeChoice, unit_system::UnitSystem},
+    app::{
+        WindowOptions,
+        inspection::{figures::StagePanel, unit_system::UnitSystem},
+        shell::state::ThemeChoice,
+    },
     files::save_cloud,
     robot::Convention,
     simulate::{CellSetup, PartKind, PartPose, PoseRange, Side, frame},
@@ -79,7 +83,7 @@ fn cancel_gives_up_at_once_and_keeps_the_last_result() {
     let before = generation(&harness);
     let context = harness.ctx.clone();
     let window = harness.state_mut();
-    window.act(partsight::app::action::Action::Capture, &context);
+    window.act(partsight::app::shell::action::Action::Capture, &context);
     assert!(window.state().is_old());
     harness.step();
     // On a quick machine the result may be there already; then there is nothing to cancel.

@@ -15,11 +15,12 @@ use nalgebra::Translation3;
 use partsight::{
     app::{
         WindowOptions,
-        action::Action,
-        camera::Camera,
-        live::{LiveAction, SourceState},
-        source::CellChoice,
-        state::{Source, State, Workspace},
+        inspection::{camera::Camera, source::CellChoice},
+        shell::{
+            action::Action,
+            live::{LiveAction, SourceState},
+            state::{Source, State, Workspace},
+        },
     },
     capture::{CaptureError, Captured, DepthSource, Image, NextCapture},
     history::StoredVerdict,

@@ -16,14 +16,14 @@ use image::{Rgba, RgbaImage};
 use partsight::{
     app::{
         Window, WindowOptions,
-        action::Action,
-        align::{AlignWorkspace, MethodRun},
-        camera::Camera,
-        inspect::work::{InspectRequest, Inspected, inspect},
-        robot::RobotAction,
-        shelf::LibraryCache,
-        source::{CellChoice, SceneSource},
-        state::Workspace,
+        inspection::{
+            camera::Camera,
+            inspected::{InspectRequest, Inspected, inspect},
+            library_cache::LibraryCache,
+            source::{CellChoice, SceneSource},
+        },
+        shell::{action::Action, robot::RobotAction, state::Workspace},
+        workspaces::align::{AlignWorkspace, MethodRun},
     },
     library::{LibraryFolder, PartName},
     pipeline::{Timings, Unwatched},
@@ -42,7 +42,7 @@ const MAX_DIFFERENT: usize = 400;
 #[expect(clippy::print_stderr, reason = "a test that skips must say why")]
 fn draws_in_software() -> bool {
     let is_required = std::env::var_os("PARTSIGHT_REQUIRE_GPU").is_some();
-    if let Err(error) = partsight::app::viewport::ViewportGpu::headless() {
+    if let Err(error) = partsight::app::ui::viewport::ViewportGpu::headless() {
         assert!(!is_required, "{error}");
         eprintln!("skipped: {error}");
         return false;

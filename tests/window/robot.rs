@@ -8,12 +8,16 @@ use nalgebra::{Point3, Vector3};
 use partsight::{
     app::{
         WindowOptions,
-        action::Action,
-        enrol::{EnrolAction, EnrolFile, EnrolWorkspace},
-        inspect::{InspectFile, ViewPart},
-        robot::RobotAction,
-        shell::session::RememberedCell,
-        state::{State, Workspace},
+        shell::{
+            action::Action,
+            robot::RobotAction,
+            session::RememberedCell,
+            state::{State, Workspace},
+        },
+        workspaces::{
+            enrol::{EnrolAction, EnrolFile, EnrolWorkspace},
+            inspect::{InspectFile, ViewPart},
+        },
     },
     geometry::rigid::{RigidTransform, from_euler_zyx},
     library::{LibraryFolder, PartName, PathPoint, SprayPath},

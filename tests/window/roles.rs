@@ -4,10 +4,12 @@ use egui::{Event, Key};
 use egui_kittest::kittest::Queryable as _;
 use partsight::app::{
     WindowOptions,
-    action::Action,
-    roles::{RoleAction, UserRole},
-    settings,
-    state::Workspace,
+    shell::{
+        action::Action,
+        roles::{RoleAction, UserRole},
+        settings,
+        state::Workspace,
+    },
 };
 
 use super::set_up::{SMALL, USUAL, WindowHarness, act, open, open_with, press};

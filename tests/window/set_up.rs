@@ -11,12 +11,12 @@ use egui::Vec2;
 use egui_kittest::{Harness, kittest::Queryable as _};
 use partsight::app::{
     Window, WindowOptions,
-    action::Action,
-    enrol::{EnrolState, EnrolWorkspace},
-    history::{HistoryState, HistoryWorkspace},
-    inspect::{InspectAction, InspectFile, InspectState, InspectWorkspace},
-    shell::{context::ShellContext, workspace::Workspace},
-    state::State,
+    shell::{action::Action, context::ShellContext, state::State, workspace::Workspace},
+    workspaces::{
+        enrol::{EnrolState, EnrolWorkspace},
+        history::{HistoryState, HistoryWorkspace},
+        inspect::{InspectAction, InspectFile, InspectState, InspectWorkspace},
+    },
 };
 
 /// A window without a screen.

@@ -11,14 +11,19 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use partsight::{
     app::{
         WindowOptions,
-        action::Action,
-        inspect::InspectFile,
-        shots::{FusedShots, ShotFate, ShotsFile},
-        state::{Source, State, Workspace},
+        inspection::{fuse::FusedShots, scan_figure::ShotFate},
+        shell::{
+            action::Action,
+            state::{Source, State, Workspace},
+        },
+        shots::ShotsFile,
+        workspaces::inspect::InspectFile,
     },
     files::write_depth_png,
-    geometry::depth_frame::DepthFrame,
-    geometry::rigid::{RigidTransform, row_major},
+    geometry::{
+        depth_frame::DepthFrame,
+        rigid::{RigidTransform, row_major},
+    },
     simulate::{PartKind, ScanSetup, Side, SimulatedObject, SimulatedScan},
     units::{Metres, Radians},
 };

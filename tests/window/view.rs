@@ -8,10 +8,10 @@ use egui_kittest::{Harness, kittest::Queryable as _};
 use partsight::{
     app::{
         Window, WindowOptions,
-        action::Action,
-        inspect::{InspectFile, ViewPart},
-        source::CellChoice,
-        viewport::{Colouring, ViewportGpu},
+        inspection::source::CellChoice,
+        shell::action::Action,
+        ui::viewport::{Colouring, ViewportGpu},
+        workspaces::inspect::{InspectFile, ViewPart},
     },
     simulate::ObjectKind,
 };

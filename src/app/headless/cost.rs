@@ -11,13 +11,13 @@ use serde::Serialize;
 use super::{FrameTime, HeadlessWindow, Pace};
 use crate::{
     app::{
-        WindowOptions,
-        action::Action,
-        align::{AlignAction, AlignWorkspace},
-        enrol::{EnrolAction, EnrolWorkspace},
-        live::LiveAction,
-        state::Workspace,
-        viewport::ViewError,
+        shell::{action::Action, live::LiveAction, state::Workspace},
+        ui::viewport::ViewError,
+        window::WindowOptions,
+        workspaces::{
+            align::{AlignAction, AlignWorkspace},
+            enrol::{EnrolAction, EnrolWorkspace},
+        },
     },
     bench::{process_seconds, quantile},
 };

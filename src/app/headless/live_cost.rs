@@ -10,10 +10,12 @@ use serde::Serialize;
 use super::{HeadlessWindow, Pace};
 use crate::{
     app::{
-        WindowOptions,
-        action::Action,
-        live::{LiveAction, LiveStatus},
-        viewport::ViewError,
+        shell::{
+            action::Action,
+            live::{LiveAction, LiveStatus},
+        },
+        ui::viewport::ViewError,
+        window::WindowOptions,
     },
     bench::{cpu_wait_seconds, quantile},
 };

@@ -1,7 +1,7 @@
 //! What the shell lends a workspace while it draws or takes in a result.
 
 use super::{file_dialog::DialogLock, message::Message, notice::Notice, session::Session};
-use crate::app::{shelf::LibraryCache, theme::Theme};
+use crate::app::{inspection::library_cache::LibraryCache, ui::theme::Theme};
 
 /// What tasks share. Clones go into jobs.
 #[derive(Clone, Debug, Default)]

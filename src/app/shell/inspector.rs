@@ -6,20 +6,23 @@ use std::{
 };
 
 use super::{
-    message::{Event, ReinspectionPurpose, SceneOrScan},
+    action::{Effect, notify},
+    live,
+    message::{Event, ReinspectionPurpose},
     notice::Notice,
     session::{Inspecting, Shown, Source, WorkspaceKind},
-    task::{Running, Task, TaskContext, TaskError, TaskEvent, TaskRunner},
+    state::State,
 };
 use crate::{
     app::{
-        action::{Effect, notify},
-        inspect::work::{InspectJob, Inspected, inspect, inspect_scan},
-        live,
-        shelf::{LibraryCache, LibraryView},
-        shots::{ScanOrder, Steps},
-        source::{Origin, SceneSource, file_name},
-        state::State,
+        inspection::{
+            fuse::Steps,
+            inspected::{InspectJob, Inspected, SceneOrScan, inspect, inspect_scan},
+            library_cache::{LibraryCache, LibraryView},
+            scan_choice::ScanOrder,
+            source::{Origin, SceneSource, file_name},
+        },
+        task::{Running, Task, TaskContext, TaskError, TaskEvent, TaskRunner},
         user_error::UserError,
     },
     capture::SourceSpec,
@@ -114,7 +117,7 @@ impl State {
             }
             (source, _) => source,
         };
-        let job = InspectJob::of(source, self);
+        let job = self.inspect_job(source);
         self.inspect(title, job, ReinspectionPurpose::New);
         None
     }
@@ -151,7 +154,7 @@ impl State {
     /// Inspects the scene in front once more, with what holds now.
     pub(in crate::app) fn inspect_shown(&mut self, title: &str, purpose: ReinspectionPurpose) {
         if let Some(shown) = &self.shown {
-            let job = InspectJob::again(&shown.inspected, self);
+            let job = self.inspect_job(shown.inspected.again());
             self.inspect(title, job, purpose);
         }
     }
@@ -165,7 +168,7 @@ impl State {
         self.use_library(library);
         let (title, purpose) = ("Inspecting again", ReinspectionPurpose::New);
         if let Some(saved) = saved {
-            let job = InspectJob::of(saved, self);
+            let job = self.inspect_job(saved);
             self.inspect(title, job, purpose);
         } else if self.inspector.running().is_none() {
             self.inspect_shown(title, purpose);
@@ -360,7 +363,7 @@ fn remember(recent: &mut Vec<PathBuf>, path: &Path) {
 mod tests {
     use super::*;
     use crate::{
-        app::action::{Action, apply},
+        app::shell::action::{Action, apply},
         files::write_depth_png,
         geometry::depth_frame::{DepthFrame, Intrinsics},
     };

@@ -7,11 +7,10 @@ use super::{
     session::{RememberedCell, Source, WorkspaceKind},
 };
 use crate::{
-    app::{
-        inspect::work::{InspectJob, Inspected},
-        shelf::LibraryView,
-        shots::ScanOrder,
-        source::SceneSource,
+    app::inspection::{
+        inspected::{InspectJob, Inspected, SceneOrScan},
+        library_cache::LibraryView,
+        scan_choice::ScanOrder,
     },
     pipeline::Recipe,
     robot::{Convention, RobotFrame},
@@ -68,15 +67,6 @@ pub enum Message {
     ShowPast(Arc<Inspected>),
     /// Ask for the engineer's view; once it is there, [`Event::EngineerIn`] answers.
     AskEngineer,
-}
-
-/// What is inspected or enrolled.
-#[derive(Clone, Debug)]
-pub enum SceneOrScan {
-    /// A scene.
-    Scene(SceneSource),
-    /// Several shots, to be put together.
-    Scan(ScanOrder),
 }
 
 /// What a scene is inspected for. It comes back with the result.

@@ -1,11 +1,26 @@
-//! What every workspace stands on, and no workspace.
+//! What every workspace stands on, and what stands around them: the session that they share, messages, file dialogs,
+//! notices and keys; the bars, the inspector, the source that is followed, the robot's cell, and whose window it is.
+//!
+//! What is pressed above the workspaces is an [`action`], which changes the window's [`state`].
 
+pub mod action;
 pub mod context;
+pub(in crate::app) mod dialogs;
 pub mod file_dialog;
 pub mod inspector;
 pub mod key_binding;
+pub(in crate::app) mod keys;
+pub mod live;
 pub mod message;
 pub mod notice;
+pub(in crate::app) mod notices;
+pub(in crate::app) mod rail;
+pub mod robot;
+pub mod roles;
 pub mod session;
-pub mod task;
+pub mod settings;
+pub(in crate::app) mod settings_file;
+mod source_menu;
+pub mod state;
+pub(in crate::app) mod top_bar;
 pub mod workspace;

@@ -4,12 +4,15 @@ use std::{path::PathBuf, sync::Arc};
 
 use serde::{Deserialize, Serialize};
 
-use super::message::ReinspectionPurpose;
-pub use crate::app::theme::ThemeChoice;
+use super::{live::LiveState, message::ReinspectionPurpose};
+pub use crate::app::ui::theme::ThemeChoice;
 use crate::{
-    app::{
-        inspect::work::Inspected, live::LiveState, shelf::LibraryView, shots::ScanFiles,
-        source::CellChoice, unit_system::UnitSystem,
+    app::inspection::{
+        inspected::{InspectJob, InspectRequest, Inspected, SceneOrScan},
+        library_cache::LibraryView,
+        scan_choice::{ScanFiles, ScanOrder, ScanRequest},
+        source::CellChoice,
+        unit_system::UnitSystem,
     },
     capture::SourceSpec,
     pipeline::Recipe,
@@ -57,6 +60,26 @@ pub struct Session {
 }
 
 impl Session {
+    /// The order to inspect something by the recipe and the calibration in use.
+    pub fn inspect_job(&self, source: SceneOrScan) -> InspectJob {
+        match source {
+            SceneOrScan::Scene(source) => InspectJob::Scene(InspectRequest {
+                source,
+                recipe: Arc::clone(&self.recipe),
+            }),
+            SceneOrScan::Scan(order) => InspectJob::Scan(self.scan_request(order)),
+        }
+    }
+
+    /// The order to put shots together by the calibration and the recipe in use.
+    pub fn scan_request(&self, order: ScanOrder) -> ScanRequest {
+        ScanRequest {
+            order,
+            calibration: self.calibration_path(),
+            recipe: Arc::clone(&self.recipe),
+        }
+    }
+
     /// True while the result shown is not what was asked for last.
     pub fn is_old(&self) -> bool {
         self.inspecting.is_some() && self.shown.is_some()

@@ -7,10 +7,10 @@ use egui::Ui;
 use super::{
     context::ShellContext,
     key_binding::KeyBinding,
-    message::{Event, SceneOrScan},
+    message::Event,
     session::{Session, WorkspaceKind},
-    task::Running,
 };
+use crate::app::{inspection::inspected::SceneOrScan, task::Running};
 
 /// A workspace: it owns its state and its tasks, and draws itself.
 pub trait Workspace: Any {

@@ -8,19 +8,20 @@ use egui::{
     pos2, vec2,
 };
 
-use super::{
-    choice::ShotChoice,
-    figure::{ShotFate, ShotRow},
-    state::{ShotsAction, ShotsFile, ShotsState, StripTab},
-    work::FusedShots,
-};
+use super::state::{ShotsAction, ShotsFile, ShotsState, StripTab};
 use crate::{
     app::{
-        inspect::grouped,
+        inspection::{
+            fuse::FusedShots,
+            scan_choice::ShotChoice,
+            scan_figure::{ShotFate, ShotRow},
+            unit_system::UnitSystem,
+        },
         shell::session::{Session, WorkspaceKind},
-        theme::{ROUNDING, Theme, font, space},
-        unit_system::UnitSystem,
-        widgets::{Mark, focus_ring, labelled, mark, sentence, shortened},
+        ui::{
+            theme::{ROUNDING, Theme, font, space},
+            widgets::{Mark, focus_ring, grouped, labelled, mark, sentence, shortened},
+        },
     },
     error::Advice as _,
 };

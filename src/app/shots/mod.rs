@@ -5,28 +5,18 @@
 //!                                                                                          verdict or draft
 //! ```
 //!
-//! [`choice`] says which shots are used, [`work`] reads them and puts them together, [`figure`] prepares what is drawn,
-//! [`state`] holds what a person asked for. Inspect and Enrol each own a [`ShotsState`]; the list, the summary and the
+//! Inspect and Enrol each own a [`ShotsState`]; the list, the summary and the
 //! legend are the same in both.
 
-pub mod choice;
-pub mod figure;
 mod list;
 mod overlay;
-pub mod state;
+mod state;
 mod summary;
-pub mod work;
 
-pub use self::{
-    choice::{ScanFiles, ScanOrder, ScanRequest, ShotChoice},
-    figure::ShotFate,
-    state::{Asked, ShotsAction, ShotsFile, ShotsState, StripTab},
-    work::{FuseError, FusedShots},
-};
-pub(super) use self::{
-    figure::marked,
+pub use self::state::{Asked, ShotsAction, ShotsFile, ShotsState, StripTab};
+pub(in crate::app) use self::{
     list::{ShotList, ShownShots},
     overlay::{Overlay, POINT_SIZE},
+    state::source_of,
     summary::summary,
-    work::{Steps, Then, fuse},
 };

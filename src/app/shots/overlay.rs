@@ -2,12 +2,16 @@
 
 use egui::{Align2, Color32, Painter, Pos2, Rect, vec2};
 
-use super::{figure::ScanFigure, work::FusedShots};
-use crate::app::{
-    theme::{ROUNDING, Theme, font},
-    viewport::{PointSet, PointSize, Role, TextLabel, ViewColours, ViewScene},
+use crate::{
+    app::{
+        inspection::{fuse::FusedShots, scan_figure::ScanFigure},
+        ui::{
+            theme::{ROUNDING, Theme, font},
+            viewport::{PointSet, PointSize, Role, TextLabel, ViewColours, ViewScene},
+        },
+    },
+    units::Metres,
 };
-use crate::units::Metres;
 
 /// Diameter of the points of a scan: they are the means of voxels of 4 mm, whose diagonal is longer.
 pub(in crate::app) const POINT_SIZE: PointSize = PointSize::Metres(Metres(0.006));

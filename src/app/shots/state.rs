@@ -2,11 +2,13 @@
 
 use std::path::{Path, PathBuf};
 
-use super::choice::{ScanFiles, ScanOrder, ShotChoice};
-use crate::app::shell::{
-    file_dialog::{ALL_FILES, FileChoice, FileRequest},
-    notice::Notice,
-    session::Source,
+use crate::app::{
+    inspection::scan_choice::{ScanFiles, ScanOrder, ShotChoice},
+    shell::{
+        file_dialog::{ALL_FILES, FileChoice, FileRequest},
+        notice::Notice,
+        session::Source,
+    },
 };
 
 /// What a workspace knows of its scan beside the result.

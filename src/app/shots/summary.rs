@@ -2,13 +2,13 @@
 
 use egui::{RichText, Ui};
 
-use super::{figure::ShotFate, work::FusedShots};
 use crate::{
     app::{
-        inspect::grouped,
-        theme::{Theme, font, space},
-        unit_system::UnitSystem,
-        widgets::{heading, row, sentence},
+        inspection::{fuse::FusedShots, scan_figure::ShotFate, unit_system::UnitSystem},
+        ui::{
+            theme::{Theme, font, space},
+            widgets::{grouped, heading, row, sentence},
+        },
     },
     error::Advice as _,
 };

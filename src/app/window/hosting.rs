@@ -3,19 +3,17 @@
 use std::any::Any;
 
 use super::Window;
-use crate::app::{
+use crate::app::shell::{
     action::{Action, DialogRequest},
-    bars::Progress,
+    context::ShellContext,
     live::LiveAction,
+    message::{Message, ReinspectionPurpose},
+    notice::NoticeKind,
     robot::RobotCell,
     roles,
-    shell::{
-        context::ShellContext,
-        message::{Message, ReinspectionPurpose},
-        notice::NoticeKind,
-        session::WorkspaceKind,
-        workspace::Workspace,
-    },
+    session::WorkspaceKind,
+    top_bar::Progress,
+    workspace::Workspace,
 };
 
 impl Window {

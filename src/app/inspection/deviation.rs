@@ -1,0 +1,52 @@
+//! How far every point of the part lies off the enrolled surface, with its sign, for colouring the view.
+
+use nalgebra::{Isometry3, Point3};
+
+use crate::{
+    pipeline::Inspection,
+    stages::{reference::Reference, scene::SceneCloud},
+};
+
+/// One deviation per point of the scene, metres, above 0 on the side that the surface's normals point to; NaN where
+/// there is none. Empty without a pose.
+pub(in crate::app) fn deviations(
+    scene: &SceneCloud,
+    inspection: &Inspection,
+    reference: &Reference,
+) -> Vec<f32> {
+    let Ok(part) = &inspection.segmentation.part else {
+        return Vec::new();
+    };
+    let points = &scene.cloud.points;
+    let part = part.indices.iter().map(|index| *index as usize);
+    let of_part = part.map(|index| (index, points[index]));
+    deviations_at(points.len(), of_part, inspection, reference)
+}
+
+/// The same of any points in camera space: one deviation for each of so many, NaN for those that are not of the part.
+pub(in crate::app) fn deviations_at(
+    num_points: usize,
+    part: impl Iterator<Item = (usize, Point3<f32>)>,
+    inspection: &Inspection,
+    reference: &Reference,
+) -> Vec<f32> {
+    let Some(Ok(pose)) = &inspection.pose else {
+        return Vec::new();
+    };
+    let Some(normals) = &reference.cloud.normals else {
+        return Vec::new();
+    };
+    // Micrometres are left of a metre: enough for a colour.
+    let part_from_camera: Isometry3<f32> = pose.target_from_source.cast();
+    let deviation = |point: &Point3<f32>| {
+        let point = part_from_camera * point;
+        let nearest = reference.field.nearest(&point)?;
+        let surface = reference.cloud.points.get(nearest.index)?;
+        Some((point - surface).dot(normals.get(nearest.index)?))
+    };
+    let mut all = vec![f32::NAN; num_points];
+    for (index, point) in part {
+        all[index] = deviation(&point).unwrap_or(f32::NAN);
+    }
+    all
+}

@@ -1,0 +1,117 @@
+//! The library as a recipe wants it: a reference is compared fairly only with scenes that were projected, outlined and
+//! described with the same parameters.
+
+use std::{
+    ops::Deref,
+    sync::{Arc, Mutex, PoisonError},
+};
+
+use super::library_cache::LoadedLibrary;
+use crate::{
+    library::Library,
+    pipeline::{ProgressObserver, Recipe},
+    stages::reference::{Reference, ReferenceParams},
+};
+
+/// The references prepared last with other parameters than the library was loaded with.
+#[derive(Debug, Default)]
+pub struct PreparedLibraryCache(Mutex<Option<(ReferenceParams, Arc<Library>)>>);
+
+/// A library prepared for a recipe.
+#[derive(Debug)]
+pub enum PreparedLibrary<'a> {
+    /// As it was loaded.
+    AsLoaded(&'a Library),
+    /// Prepared anew.
+    Anew(Arc<Library>),
+}
+
+impl Deref for PreparedLibrary<'_> {
+    type Target = Library;
+
+    fn deref(&self) -> &Library {
+        match self {
+            Self::AsLoaded(library) => library,
+            Self::Anew(library) => library,
+        }
+    }
+}
+
+impl LoadedLibrary {
+    /// The references, prepared as the recipe prepares scenes. Takes as long as loading the library when the
+    /// parameters are neither the default nor those asked for last; `None` when cancelled.
+    pub fn fitting(
+        &self,
+        recipe: &Recipe,
+        watch: &dyn ProgressObserver,
+    ) -> Option<PreparedLibrary<'_>> {
+        let params = ReferenceParams {
+            project: recipe.project.clone(),
+            contour: recipe.contour.clone(),
+            signature: recipe.signature.clone(),
+        };
+        if params == ReferenceParams::default() {
+            return Some(PreparedLibrary::AsLoaded(&self.library));
+        }
+        let lock = || self.fitted.0.lock().unwrap_or_else(PoisonError::into_inner);
+        if let Some((known, library)) = &*lock()
+            && *known == params
+        {
+            return Some(PreparedLibrary::Anew(Arc::clone(library)));
+        }
+        let references = self.library.references.iter().zip(&self.shown.parts);
+        let references = references.map(|(loaded, meta)| {
+            if watch.is_cancelled() {
+                return None;
+            }
+            // One that has no outline any more keeps the one it has, and its place.
+            let cloud = loaded.cloud.clone();
+            let prepared = Reference::prepare(&loaded.name, cloud, meta.coverage, &params);
+            Some(prepared.map_or_else(|_| loaded.clone(), |prepared| prepared.with_cut(loaded.cut)))
+        });
+        let library = Arc::new(Library {
+            references: references.collect::<Option<_>>()?,
+        });
+        *lock() = Some((params, Arc::clone(&library)));
+        Some(PreparedLibrary::Anew(library))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{app::inspection::library_cache::LibraryCache, pipeline::Unwatched};
+
+    struct CancellableProgress;
+    impl ProgressObserver for CancellableProgress {
+        fn is_cancelled(&self) -> bool {
+            true
+        }
+    }
+
+    #[test]
+    fn references_have_as_many_rays_as_the_recipe_gives_scenes() {
+        let shelved = LibraryCache::default().get().expect("the shipped parts");
+        let mut recipe = Recipe::default();
+        let loaded = shelved.fitting(&recipe, &Unwatched).expect("loaded");
+        assert!(matches!(loaded, PreparedLibrary::AsLoaded(_)));
+        recipe.signature.num_rays = 128;
+        let fitted = shelved.fitting(&recipe, &Unwatched).expect("prepared");
+        let names = |library: &Library| -> Vec<String> {
+            let references = library.references.iter();
+            references.map(|r| r.name.clone()).collect()
+        };
+        assert_eq!(names(&fitted), names(&loaded));
+        for view in fitted.references.iter().flat_map(|r| &r.views) {
+            assert_eq!(view.signature.rays.len(), 128);
+        }
+        let again = shelved.fitting(&recipe, &Unwatched).expect("known");
+        let (PreparedLibrary::Anew(first), PreparedLibrary::Anew(again)) = (fitted, again) else {
+            panic!("prepared anew");
+        };
+        assert!(Arc::ptr_eq(&first, &again));
+
+        recipe.signature.num_rays = 64;
+        assert!(shelved.fitting(&recipe, &CancellableProgress).is_none());
+    }
+}

@@ -1,0 +1,363 @@
+//! What the threads do: read shots with their poses and put them together.
+
+use std::{
+    cell::Cell,
+    ops::ControlFlow,
+    panic::resume_unwind,
+    path::{Path, PathBuf},
+    sync::{
+        Arc,
+        atomic::{AtomicBool, AtomicUsize, Ordering},
+    },
+    thread,
+    time::Duration,
+};
+
+use super::{
+    scan_choice::{ScanOrder, ScanRequest, ShotChoice, ShotSet},
+    scan_figure::{ScanFigure, ShotRow, rows},
+    source::{Origin, file_name},
+};
+use crate::{
+    app::user_error::UserError,
+    error::Advice,
+    geometry::rigid::RigidTransform,
+    pipeline::{ProgressObserver, Stage},
+    robot::{
+        calibration::CellCalibration,
+        frame_poses::FramePosesError,
+        scan_frames::{FrameNews, ScanFramesError, poses_beside, read_frames, with_poses},
+    },
+    scan::{Scan, ScanError, ScanObserver, ScanParams, ScanStep, Shot, assemble},
+};
+
+/// Shots put together.
+#[derive(Debug)]
+pub struct FusedShots {
+    /// The shots, and which of them were dropped.
+    pub choice: ShotChoice,
+    /// What came of those that were not dropped.
+    pub scan: Scan,
+    /// One per shot of the choice, in its order.
+    pub rows: Vec<ShotRow>,
+    /// What the 3-D view shows.
+    pub figure: ScanFigure,
+    /// What was odd about the files.
+    pub warnings: Vec<UserError>,
+}
+
+impl FusedShots {
+    /// How many shots the result rests on.
+    pub fn num_used(&self) -> usize {
+        self.scan.used().count()
+    }
+
+    /// The pose, by the robot, of the camera in whose space the figure is.
+    pub fn space(&self) -> Option<RigidTransform> {
+        self.scan.used().next().map(|(_, shot)| shot.given)
+    }
+
+    /// Where it came from.
+    pub fn origin(&self) -> Origin {
+        Origin::Scan {
+            name: self.title(),
+            is_simulated: self.scan.cloud.cloud.is_simulated,
+        }
+    }
+
+    /// What a person calls it.
+    pub fn title(&self) -> String {
+        let title = self.choice.set.files.title();
+        format!("{title} · {} shots", self.num_used())
+    }
+}
+
+/// Why shots cannot be put together.
+#[derive(Debug, thiserror::Error)]
+pub enum FuseError {
+    /// The frames or their poses cannot be read.
+    #[error(transparent)]
+    Frames(#[from] ScanFramesError),
+    /// They do not fit together.
+    #[error(transparent)]
+    Scan(#[from] ScanError),
+    /// Two shots of one name cannot be told apart.
+    #[error("{name} is among the shots already")]
+    NameTaken {
+        /// The name.
+        name: String,
+    },
+}
+
+impl FuseError {
+    /// True if a file of poses, named by a person, would help.
+    pub fn wants_poses(&self) -> bool {
+        matches!(
+            self,
+            Self::Frames(
+                ScanFramesError::NoPoses | ScanFramesError::Poses(FramePosesError::Missing { .. })
+            )
+        )
+    }
+
+    fn is_cancelled(&self) -> bool {
+        matches!(
+            self,
+            Self::Frames(ScanFramesError::Cancelled) | Self::Scan(ScanError::Cancelled)
+        )
+    }
+}
+
+impl Advice for FuseError {
+    fn advice(&self) -> String {
+        match self {
+            Self::Frames(ScanFramesError::NoPoses) => {
+                "Choose the file of the poses; its form is described by partsight help scan".into()
+            }
+            Self::Frames(ScanFramesError::Poses(FramePosesError::Missing { .. })) => {
+                "Choose a file that has them, or add them to this one and open the scan again".into()
+            }
+            Self::Frames(ScanFramesError::Poses(
+                FramePosesError::NoCalibration { .. } | FramePosesError::CameraIsFixed { .. },
+            )) => "Load the calibration of the camera on the flange (Robot…, B), then open the scan again".into(),
+            Self::Scan(ScanError::TooFewShots { found: 1 }) => {
+                "Open a folder with frames from other sides too, or open this frame by itself (Ctrl O)".into()
+            }
+            Self::Scan(ScanError::TooFewShots { .. }) => "Open the folder that holds the frames".into(),
+            Self::Frames(error) => error.advice(),
+            Self::Scan(error) => error.advice(),
+            Self::NameTaken { .. } => "Rename the file and its entry among the poses".into(),
+        }
+    }
+}
+
+/// Counts what is done of all that a request has to do.
+pub(in crate::app) struct Steps<'a> {
+    watch: &'a dyn ProgressObserver,
+    /// Takes the steps done, and the steps in all.
+    report: &'a dyn Fn(usize, usize),
+    done: Cell<usize>,
+    total: Cell<usize>,
+}
+
+impl<'a> Steps<'a> {
+    pub(in crate::app) fn new(
+        watch: &'a dyn ProgressObserver,
+        report: &'a dyn Fn(usize, usize),
+    ) -> Self {
+        Self {
+            watch,
+            report,
+            done: Cell::new(0),
+            total: Cell::new(0),
+        }
+    }
+
+    fn expect(&self, num: usize) {
+        self.total.set(self.total.get() + num);
+    }
+
+    fn step(&self) {
+        self.done.set(self.done.get() + 1);
+        let total = self.total.get().max(self.done.get());
+        (self.report)(self.done.get(), total);
+    }
+}
+
+/// Each shot's own inspection begins with its segmentation.
+impl ProgressObserver for Steps<'_> {
+    fn begins(&self, stage: Stage) {
+        if stage == Stage::Segment {
+            self.step();
+        }
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.watch.is_cancelled()
+    }
+}
+
+/// What follows the fusion, for the progress.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::app) enum Then {
+    /// Every shot is inspected.
+    Inspect,
+    /// A part is enrolled.
+    Enrol,
+}
+
+/// Reads the shots and puts them together; `None` when cancelled.
+pub(in crate::app) fn fuse(
+    request: &ScanRequest,
+    then: Then,
+    steps: &Steps<'_>,
+) -> Result<Option<FusedShots>, FuseError> {
+    let mut warnings = Vec::new();
+    let fused = read(request, steps, &mut warnings).and_then(|choice| {
+        let num = choice.num_taken();
+        steps.expect(match then {
+            Then::Inspect => 2 * num + 2,
+            Then::Enrol => num + 2,
+        });
+        let shots = choice.set.shots.iter().enumerate();
+        let taken = shots.filter(|(place, _)| !choice.dropped.contains(place));
+        let taken: Vec<Shot> = taken.map(|(_, shot)| shot.clone()).collect();
+        let params = ScanParams {
+            segment: request.recipe.segment.clone(),
+            ..ScanParams::default()
+        };
+        let scan = assembled(&taken, &params, steps)?;
+        let rows = rows(&choice, &scan);
+        let figure = ScanFigure::of(&choice, &scan);
+        Ok(FusedShots {
+            choice,
+            scan,
+            rows,
+            figure,
+            warnings,
+        })
+    });
+    match fused {
+        Err(error) if error.is_cancelled() => Ok(None),
+        fused => fused.map(Some),
+    }
+}
+
+fn read(
+    request: &ScanRequest,
+    steps: &Steps<'_>,
+    warnings: &mut Vec<UserError>,
+) -> Result<ShotChoice, FuseError> {
+    let calibration = || {
+        let path = request.calibration.as_deref()?;
+        Some(CellCalibration::load(path).ok()?.calibration)
+    };
+    let mut frames_of = |paths: &[PathBuf], poses: Option<&Path>| {
+        let frames = read_frames(paths, &mut |news| {
+            match news {
+                FrameNews::Total(num) => steps.expect(num),
+                FrameNews::Read(name, odd) => {
+                    steps.step();
+                    warnings.extend(odd.iter().map(|warning| UserError {
+                        what: format!("{name}: {warning}"),
+                        advice: warning.advice(),
+                    }));
+                }
+                FrameNews::Skipped(skipped) => {
+                    steps.step();
+                    warnings.push(UserError {
+                        what: format!("{} is left out: {}", skipped.name, skipped.error),
+                        advice: skipped.error.advice(),
+                    });
+                }
+            }
+            if steps.is_cancelled() {
+                ControlFlow::Break(())
+            } else {
+                ControlFlow::Continue(())
+            }
+        })?;
+        let calibration = calibration();
+        with_poses(paths, poses, frames, calibration.as_ref())
+    };
+    match &request.order {
+        ScanOrder::Known(choice) => Ok(choice.clone()),
+        ScanOrder::Open(files) => {
+            let mut shots = frames_of(&files.frames, files.poses.as_deref())?;
+            for (frame, poses) in &files.added {
+                shots.extend(frames_of(std::slice::from_ref(frame), Some(poses))?);
+            }
+            let is_dropped = |shot: &Shot| files.dropped.contains(&shot.name);
+            let dropped = (0..shots.len()).filter(|place| is_dropped(&shots[*place]));
+            Ok(ShotChoice {
+                dropped: dropped.collect(),
+                set: Arc::new(ShotSet {
+                    files: files.clone(),
+                    shots,
+                }),
+            })
+        }
+        ScanOrder::Add(choice, frame, given) => {
+            let name = file_name(frame);
+            let mut shots = choice.set.shots.clone();
+            if shots.iter().any(|shot| shot.name == name) {
+                return Err(FuseError::NameTaken { name });
+            }
+            let mut files = choice.set.files.clone();
+            // Its entry may have been added to the scan's poses since they were read.
+            let of_scan = files.poses.clone().or_else(|| poses_beside(&files.frames));
+            let paths = std::slice::from_ref(frame);
+            let beside = poses_beside(paths);
+            let candidates: Vec<&Path> = match given {
+                Some(given) => vec![given],
+                None => of_scan
+                    .iter()
+                    .chain(&beside)
+                    .map(PathBuf::as_path)
+                    .collect(),
+            };
+            let mut found = Err(FuseError::Frames(ScanFramesError::NoPoses));
+            for file in candidates {
+                let read = frames_of(paths, Some(file));
+                match read {
+                    Ok(read) => {
+                        found = Ok((read, file.to_owned()));
+                        break;
+                    }
+                    Err(error) => found = Err(error.into()),
+                }
+            }
+            let (read, file) = found?;
+            shots.extend(read);
+            files.added.push((frame.clone(), file));
+            Ok(ShotChoice {
+                dropped: choice.dropped.clone(),
+                set: Arc::new(ShotSet { files, shots }),
+            })
+        }
+    }
+}
+
+/// How the fusion is followed from another thread.
+#[derive(Default)]
+struct Relay {
+    num_begun: AtomicUsize,
+    is_cancelled: AtomicBool,
+}
+
+impl ScanObserver for Relay {
+    fn begins(&self, _step: ScanStep) {
+        self.num_begun.fetch_add(1, Ordering::Relaxed);
+    }
+
+    fn is_cancelled(&self) -> bool {
+        self.is_cancelled.load(Ordering::Relaxed)
+    }
+}
+
+/// How often it is looked whether the fusion is still wanted.
+const LOOKS: Duration = Duration::from_millis(10);
+
+/// Puts them together on a thread of its own, since the watch belongs to this one.
+fn assembled(shots: &[Shot], params: &ScanParams, steps: &Steps<'_>) -> Result<Scan, ScanError> {
+    let relay = Relay::default();
+    thread::scope(|scope| {
+        let work = scope.spawn(|| assemble(shots, params, &relay));
+        let mut num_told = 0;
+        loop {
+            let is_done = work.is_finished();
+            relay
+                .is_cancelled
+                .store(steps.is_cancelled(), Ordering::Relaxed);
+            while num_told < relay.num_begun.load(Ordering::Relaxed) {
+                num_told += 1;
+                steps.step();
+            }
+            if is_done {
+                break;
+            }
+            thread::sleep(LOOKS);
+        }
+        work.join().unwrap_or_else(|panic| resume_unwind(panic))
+    })
+}

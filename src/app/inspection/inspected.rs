@@ -1,0 +1,413 @@
+//! What the workspace's thread does: gets a scene, inspects it and prepares what the panels draw.
+
+use std::{sync::Arc, time::Instant};
+
+use jiff::Timestamp;
+use nalgebra::Point3;
+
+use super::{
+    camera::CameraError,
+    deviation::{deviations, deviations_at},
+    figures::StageFigures,
+    fuse::{FuseError, FusedShots, Steps, Then, fuse},
+    library_cache::{LibraryCache, LibraryView},
+    scan_choice::{ScanOrder, ScanRequest},
+    scan_figure::marked,
+    scene_figure::{SceneFigure, SceneFigureInput},
+    source::{Captured, Origin, SceneError, SceneSource},
+};
+use crate::{
+    app::{
+        task::TaskError,
+        ui::viewport::{PointSet, Role},
+        user_error::UserError,
+    },
+    capture::CaptureWarning,
+    geometry::{cloud::PointCloud, rigid::RigidTransform},
+    history::{InspectionContext, NewEntry},
+    library::Library,
+    pipeline::{
+        self, Inspection, ProgressObserver, Recipe,
+        live::{LiveVerdict, MotionState},
+        scan::{ScanInspection, run_scan, unseen_points},
+    },
+    report::InspectionLine,
+    robot::{
+        RobotFrame,
+        spray::{CarriedPath, carry},
+    },
+    stages::{
+        reference::Reference,
+        scene::SceneCloud,
+        stand_off::{StandOff, StandOffError, stand_off},
+    },
+};
+
+/// What is inspected or enrolled.
+#[derive(Clone, Debug)]
+pub enum SceneOrScan {
+    /// A scene.
+    Scene(SceneSource),
+    /// Several shots, to be put together.
+    Scan(ScanOrder),
+}
+
+/// What to inspect.
+#[derive(Clone, Debug)]
+pub enum InspectJob {
+    /// A scene.
+    Scene(InspectRequest),
+    /// The shots of a scan together.
+    Scan(ScanRequest),
+}
+
+/// Get a scene and inspect it.
+#[derive(Clone, Debug)]
+pub struct InspectRequest {
+    /// The scene.
+    pub source: SceneSource,
+    /// All parameters.
+    pub recipe: Arc<Recipe>,
+}
+
+/// A scene with everything that was found in it.
+#[derive(Debug)]
+pub struct Inspected {
+    /// Where the scene came from.
+    pub origin: Origin,
+    /// When it was inspected.
+    pub at: Timestamp,
+    /// The scene.
+    pub scene: Arc<SceneCloud>,
+    /// With which parameters.
+    pub recipe: Arc<Recipe>,
+    /// What was found.
+    pub inspection: Inspection,
+    /// What the panels draw.
+    pub figures: StageFigures,
+    /// The library it was compared with.
+    pub library: Arc<LibraryView>,
+    /// What was odd about the file.
+    pub warnings: Vec<CaptureWarning>,
+    /// Middle of the best reference's extent, part space, metres.
+    pub middle: Option<Point3<f64>>,
+    /// Signed distance of every point of the scene to the best reference at its pose, metres; NaN where there is
+    /// none, empty without a pose.
+    pub deviations: Vec<f32>,
+    /// The nozzle's stand-off over the best reference at its pose; `None` where none is accepted.
+    pub stand_off: Option<Result<StandOff, StandOffError>>,
+    /// The part's stored spray path, carried to where it hangs now; `None` where none is stored or nothing accepted.
+    pub spray: Option<CarriedPath>,
+    /// What the 3-D view shows.
+    pub view: SceneFigure,
+    /// Of a frame among others: what they say together.
+    pub followed: Option<LiveFrameContext>,
+    /// The scan that it rests on, if it is one; the scene is then its first shot.
+    pub scan: Option<InspectedScan>,
+    /// The same for the history.
+    pub entry: NewEntry,
+}
+
+impl Inspected {
+    /// What was inspected, to be inspected once more: all shots of a scan, else the scene.
+    pub fn again(&self) -> SceneOrScan {
+        match &self.scan {
+            Some(scan) => SceneOrScan::Scan(ScanOrder::Known(scan.fused.choice.clone())),
+            None => SceneOrScan::Scene(SceneSource::AtHand(
+                Arc::clone(&self.scene),
+                self.origin.clone(),
+            )),
+        }
+    }
+}
+
+/// The scan that an inspection rests on.
+#[derive(Debug)]
+pub struct InspectedScan {
+    /// Its shots, put together.
+    pub fused: Arc<FusedShots>,
+    /// Where the camera of the first shot stood, by the poses of the scan.
+    pub robot: Arc<RobotFrame>,
+    /// Surface of the recognised part that no shot shows, camera space, and its share, 0..1.
+    pub unseen: Option<(PointSet, f64)>,
+}
+
+/// What a frame stands for that is one of many.
+#[derive(Clone, Debug)]
+pub struct LiveFrameContext {
+    /// Whether the scene moves.
+    pub stillness: MotionState,
+    /// What counts.
+    pub standing: LiveVerdict,
+    /// Frames that its depth is averaged over.
+    pub num_averaged: usize,
+}
+
+/// Gets the scene and inspects it.
+pub fn inspect(
+    request: &InspectRequest,
+    shelf: &LibraryCache,
+    watch: &dyn ProgressObserver,
+) -> Result<Inspected, TaskError> {
+    let shelved = shelf.get().map_err(|error| UserError::of(&error))?;
+    if watch.is_cancelled() {
+        return Err(TaskError::Cancelled);
+    }
+    let taken = request
+        .source
+        .take(shelf.camera(), &|| watch.is_cancelled());
+    let Captured {
+        scene,
+        origin,
+        warnings,
+    } = taken.map_err(|error| match error {
+        SceneError::Camera(CameraError::Cancelled) => TaskError::Cancelled,
+        error => UserError::of(&error).into(),
+    })?;
+    let fitted = shelved.fitting(&request.recipe, watch);
+    let fitted = fitted.ok_or(TaskError::Cancelled)?;
+    let found = FinishedInspection {
+        inspection: pipeline::run(&scene, &fitted, &request.recipe, watch)?,
+        scene,
+        origin,
+        warnings,
+        recipe: Arc::clone(&request.recipe),
+        followed: None,
+        scan: None,
+        source: request.source.in_words(),
+    };
+    Ok(found.prepared(&fitted, &shelved.shown))
+}
+
+/// Puts the shots of a scan together and inspects them, or says why they cannot be put together.
+pub(in crate::app) fn inspect_scan(
+    request: &ScanRequest,
+    shelf: &LibraryCache,
+    steps: &Steps<'_>,
+) -> Result<Result<Inspected, FuseError>, TaskError> {
+    let begun = Instant::now();
+    let shelved = shelf.get().map_err(|error| UserError::of(&error))?;
+    let fused = match fuse(request, Then::Inspect, steps) {
+        Ok(fused) => Arc::new(fused.ok_or(TaskError::Cancelled)?),
+        Err(error) => return Ok(Err(error)),
+    };
+    let fitted = shelved.fitting(&request.recipe, steps);
+    let fitted = fitted.ok_or(TaskError::Cancelled)?;
+    let ScanInspection {
+        mut inspection,
+        first,
+        base_from_part,
+        ..
+    } = run_scan(&fused.scan, &fitted, &request.recipe, steps)?;
+    inspection.timings.total = begun.elapsed();
+    let shot = fused.scan.shots.get(first).ok_or(TaskError::Cancelled)?;
+    let found = FinishedInspection {
+        scene: Arc::clone(&shot.scene),
+        origin: fused.origin(),
+        warnings: Vec::new(),
+        recipe: Arc::clone(&request.recipe),
+        inspection,
+        followed: None,
+        source: fused.title(),
+        scan: Some(FoundScan {
+            robot: Arc::new(RobotFrame {
+                robot_from_camera: shot.base_from_camera,
+                name: "the poses of the scan".into(),
+            }),
+            base_from_part,
+            fused,
+        }),
+    };
+    Ok(Ok(found.prepared(&fitted, &shelved.shown)))
+}
+
+/// An inspection, before what the panels draw of it is made.
+pub(in crate::app) struct FinishedInspection {
+    pub(in crate::app) scene: Arc<SceneCloud>,
+    pub(in crate::app) origin: Origin,
+    pub(in crate::app) warnings: Vec<CaptureWarning>,
+    pub(in crate::app) recipe: Arc<Recipe>,
+    pub(in crate::app) inspection: Inspection,
+    pub(in crate::app) followed: Option<LiveFrameContext>,
+    /// Where the scene came from, as the history has it.
+    pub(in crate::app) source: String,
+    /// The scan that the inspection rests on.
+    pub(in crate::app) scan: Option<FoundScan>,
+}
+
+/// The scan of an inspection, before what the panels draw of it is made.
+pub(in crate::app) struct FoundScan {
+    fused: Arc<FusedShots>,
+    robot: Arc<RobotFrame>,
+    base_from_part: Option<RigidTransform>,
+}
+
+impl FoundScan {
+    /// The part's points in camera space, each with its place among all.
+    fn part(&self) -> impl Iterator<Item = (usize, Point3<f32>)> {
+        let figure = &self.fused.figure;
+        let points = figure.positions.iter().zip(&self.fused.scan.cloud.is_part);
+        let of_part = points.enumerate().filter(|(_, (_, is_part))| **is_part);
+        of_part.map(|(place, (at, _))| (place, Point3::from(*at)))
+    }
+
+    /// Surface of the recognised part that no shot shows, and its share.
+    fn unseen(
+        &self,
+        inspection: &Inspection,
+        reference: &Reference,
+        recipe: &Recipe,
+    ) -> Option<(PointSet, f64)> {
+        let base_from_part = self.base_from_part?;
+        if !inspection.verdict.is_accepted() {
+            return None;
+        }
+        let scan = &self.fused.scan;
+        let places = unseen_points(scan, reference, &base_from_part, recipe.confirm.tolerance);
+        let share = places.len() as f64 / reference.cloud.points.len().max(1) as f64;
+        let view_from_part = (self.fused.figure.camera_from_base * base_from_part).cast::<f32>();
+        let points = places.iter().map(|place| {
+            let at = view_from_part * reference.cloud.points[*place];
+            [at.x, at.y, at.z]
+        });
+        Some((marked(points.collect(), Role::Unseen)?, share))
+    }
+}
+
+impl FinishedInspection {
+    /// Middle of the best reference's extent, part space, metres.
+    pub(in crate::app) fn middle(
+        inspection: &Inspection,
+        library: &Library,
+    ) -> Option<Point3<f64>> {
+        inspection.best_reference(library)?.middle()
+    }
+
+    /// Makes what the panels draw: goes through every point.
+    pub(in crate::app) fn prepared(self, library: &Library, shown: &Arc<LibraryView>) -> Inspected {
+        let Self {
+            scene,
+            origin,
+            warnings,
+            recipe,
+            inspection,
+            followed,
+            source,
+            scan,
+        } = self;
+        let best = inspection.best_reference(library);
+        let deviations = best.map_or_else(Vec::new, |reference| match &scan {
+            Some(found) => {
+                let num = found.fused.figure.positions.len();
+                deviations_at(num, found.part(), &inspection, reference)
+            }
+            None => deviations(&scene, &inspection, reference),
+        });
+        let seen_by_all = scan.as_ref().map(|found| {
+            let points = found.part().map(|(_, point)| point);
+            PointCloud::from_points(points)
+        });
+        let middle = Self::middle(&inspection, library);
+        let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+        // Nothing is sprayed at what was not recognised.
+        let sprayed = best.zip(pose).filter(|_| inspection.verdict.is_accepted());
+        let stand_off = sprayed.map(|(reference, pose)| {
+            stand_off(reference, &pose.camera_from_part(), &recipe.stand_off)
+        });
+        let spray = sprayed.and_then(|(_, pose)| {
+            let first = inspection.ranking.entries.first()?;
+            let path = shown.spray_paths.get(first.reference)?.as_ref()?;
+            let seen = match &seen_by_all {
+                Some(cloud) => cloud,
+                None => &inspection.segmentation.part.as_ref().ok()?.cloud,
+            };
+            Some(carry(
+                path,
+                &pose.camera_from_part(),
+                seen,
+                &recipe.stand_off,
+            ))
+        });
+        let view = SceneFigure::of(&SceneFigureInput {
+            scene: &scene,
+            scan: scan.as_ref().map(|found| &found.fused.figure),
+            inspection: &inspection,
+            reference: best,
+            middle,
+            deviations: &deviations,
+            stand_off: stand_off.as_ref().and_then(|found| found.as_ref().ok()),
+            spray: spray.as_ref(),
+        });
+        let mut figures = StageFigures::of(&scene, &inspection, library, shown);
+        if let (Some(found), Some(part)) = (&scan, &seen_by_all) {
+            figures.num_points = found.fused.figure.positions.len();
+            figures.num_part = part.points.len();
+        }
+        let scan = scan.map(|found| InspectedScan {
+            unseen: best.and_then(|best| found.unseen(&inspection, best, &recipe)),
+            fused: found.fused,
+            robot: found.robot,
+        });
+        let at = Timestamp::now();
+        let title = origin.title();
+        let about = InspectionContext {
+            at,
+            line: InspectionLine::of(&title, &inspection).to_json(),
+            is_simulated: origin.is_simulated(),
+            title: figures.candidates.first().map(|best| best.title.as_str()),
+            library: shown.identity.clone(),
+            // What has no JSON form cannot be had again either.
+            origin: serde_json::to_string(&origin).ok(),
+            picture: figures.segmentation.as_ref(),
+            scene: title,
+            source,
+        };
+        let entry = NewEntry::of(about, &scene, &inspection, &recipe);
+        Inspected {
+            origin,
+            at,
+            scene,
+            recipe,
+            inspection,
+            figures,
+            library: Arc::clone(shown),
+            warnings,
+            middle,
+            deviations,
+            stand_off,
+            spray,
+            view,
+            followed,
+            scan,
+            entry,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        app::inspection::source::CellChoice,
+        pipeline::{Unwatched, Verdict},
+    };
+
+    #[test]
+    fn a_captured_frame_comes_back_inspected() {
+        let request = InspectRequest {
+            source: SceneSource::Cell {
+                choice: CellChoice::InTurn,
+                number: 1,
+            },
+            recipe: Arc::default(),
+        };
+        let inspected = inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected");
+        let Verdict::Part { part, rejected, .. } = &inspected.inspection.verdict else {
+            panic!("no part");
+        };
+        assert_eq!((part.as_str(), rejected), ("front_door", &None));
+        let known = inspected.deviations.iter().filter(|d| d.is_finite());
+        let mean = known.clone().sum::<f32>() / known.clone().count() as f32;
+        assert!(known.count() > 10_000 && mean.abs() < 0.002, "{mean}");
+    }
+}

@@ -1,0 +1,16 @@
+//! A scene, what an inspection of it found, and all that is drawn of the two, prepared in a task: no egui, no session.
+
+pub mod camera;
+pub mod deviation;
+pub mod figures;
+pub mod fitted;
+pub mod fuse;
+pub mod inspected;
+pub mod library_cache;
+pub mod recording;
+pub mod report_files;
+pub mod scan_choice;
+pub mod scan_figure;
+pub mod scene_figure;
+pub mod source;
+pub mod unit_system;

@@ -1,0 +1,92 @@
+//! The recording in progress: it goes on while one source is followed after another.
+
+use std::{
+    path::{Path, PathBuf},
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
+};
+
+use jiff::{Timestamp, tz::TimeZone};
+
+use crate::capture::{CaptureError, Captured, FeedStatus, Recorder, SourceSpec};
+
+/// The recording in progress, if any; clones share it.
+#[derive(Clone, Debug, Default)]
+pub struct SharedRecording(Arc<Mutex<Option<Open>>>);
+
+#[derive(Debug)]
+struct Open {
+    /// The folder that a person chose; the recording is one in it.
+    parent: PathBuf,
+    recorder: Recorder,
+}
+
+/// What was recorded so far.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct Recorded {
+    /// Where.
+    pub folder: PathBuf,
+    /// Frames.
+    pub num_frames: u64,
+    /// Bytes of them.
+    pub num_bytes: u64,
+}
+
+impl SharedRecording {
+    /// Writes the frame into a recording in `parent`, which begins with it unless it is there; ends it without.
+    pub(in crate::app) fn write(
+        &self,
+        parent: Option<&Path>,
+        captured: &Captured,
+        spec: &SourceSpec,
+        feed: &FeedStatus,
+    ) -> Result<Option<Recorded>, CaptureError> {
+        let mut recording = self.lock();
+        let Some(parent) = parent else {
+            *recording = None;
+            return Ok(None);
+        };
+        if recording
+            .as_ref()
+            .is_none_or(|known| known.parent != parent)
+        {
+            let title = feed.title.clone().unwrap_or_else(|| spec.title());
+            let folder = parent.join(name());
+            let recorder =
+                Recorder::create(&folder, &title, &spec.to_string(), captured.is_simulated)?;
+            *recording = Some(Open {
+                parent: parent.to_owned(),
+                recorder,
+            });
+        }
+        let Some(Open { recorder, .. }) = &mut *recording else {
+            return Ok(None);
+        };
+        let written = recorder.write(captured);
+        let recorded = Recorded {
+            folder: recorder.folder().to_owned(),
+            num_frames: recorder.num_frames(),
+            num_bytes: recorder.num_bytes(),
+        };
+        if let Err(error) = written {
+            *recording = None;
+            return Err(error);
+        }
+        Ok(Some(recorded))
+    }
+
+    /// Ends it: it is whole after every frame.
+    pub(in crate::app) fn end(&self) {
+        *self.lock() = None;
+    }
+
+    fn lock(&self) -> MutexGuard<'_, Option<Open>> {
+        // What it holds is only ever replaced whole.
+        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+    }
+}
+
+/// A folder's name that sorts by time and that no other recording has.
+fn name() -> String {
+    let now = Timestamp::now().to_zoned(TimeZone::system());
+    now.strftime("recording %Y-%m-%d %H.%M.%S.%3f").to_string()
+}

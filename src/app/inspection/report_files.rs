@@ -1,0 +1,171 @@
+//! Writing what a person asked to have as a file: whole, or not at all.
+
+use std::{
+    io::{self, Cursor},
+    path::{Path, PathBuf},
+};
+
+use image::{DynamicImage, ImageFormat};
+
+use super::{
+    inspected::Inspected,
+    source::{Origin, file_name},
+};
+use crate::{
+    app::{
+        ui::viewport::{ViewColours, ViewShot},
+        user_error::UserError,
+    },
+    files::write_atomically,
+    report::{
+        InspectionLine, ReportError, ReportFolder,
+        pose_report::{
+            CsvAppended, PdfPictures, PoseReport, ReportSubject, SeenBy, append_csv, pose_pdf,
+        },
+        stage_pictures,
+    },
+    robot::{Convention, RobotFrame, spray::SprayExport},
+};
+
+/// Writes a picture of a 3-D view as a PNG; says what was written.
+pub(in crate::app) fn picture(path: &Path, shot: &ViewShot) -> Result<String, UserError> {
+    let picture = shot.take().map_err(|error| UserError::of(&error))?;
+    let mut png = Cursor::new(Vec::new());
+    let encoded = picture.write_to(&mut png, ImageFormat::Png);
+    write_atomically(path, |writer| {
+        encoded.map_err(io::Error::other)?;
+        writer.write_all(png.get_ref())
+    })
+    .map_err(|error| UserError::of(&error))?;
+    Ok(format!("Saved the picture {}", path.display()))
+}
+
+/// Writes a spray path for the robot, as CSV or JSON, as `partsight inspect --spray` does; says what was written.
+pub(in crate::app) fn spray_path(
+    path: &Path,
+    inspected: &Inspected,
+    robot: &RobotFrame,
+    convention: Convention,
+) -> Result<String, UserError> {
+    let first = inspected.inspection.ranking.entries.first();
+    let part = first.and_then(|first| inspected.library.parts.get(first.reference));
+    let (Some(carried), Some(part)) = (&inspected.spray, part) else {
+        return Err(UserError {
+            what: "There is no spray path over what is in front".into(),
+            advice: "Store one with the part, and capture a part that is accepted".into(),
+        });
+    };
+    let export = SprayExport {
+        path: carried,
+        part: part.name.as_str(),
+        scene: &scene_name(&inspected.origin).display().to_string(),
+        frame: robot,
+        convention,
+        params: &inspected.recipe.stand_off,
+        is_stored: true,
+        is_simulated: inspected.origin.is_simulated() || part.simulated,
+        at: inspected.at,
+    };
+    export.save(path).map_err(|error| UserError::of(&error))?;
+    Ok(format!(
+        "Wrote {}: {} of {} points within the band, as {}",
+        path.display(),
+        carried.num_inside(),
+        carried.points.len(),
+        convention.title()
+    ))
+}
+
+/// The pose report of what the window shows.
+pub(in crate::app) fn report_of(
+    inspected: &Inspected,
+    robot: Option<&RobotFrame>,
+    convention: Convention,
+) -> PoseReport {
+    let seen_by = match &inspected.origin {
+        origin if origin.is_simulated() => SeenBy::Simulation,
+        Origin::File { .. } => SeenBy::NotKnown,
+        Origin::Simulated { .. } | Origin::Scan { .. } | Origin::Frame { .. } => SeenBy::Camera,
+    };
+    PoseReport::of(&ReportSubject {
+        inspected_at: inspected.at,
+        scene: &scene_name(&inspected.origin).display().to_string(),
+        source: match inspected.origin {
+            Origin::Simulated { .. } => Some("the window's simulated cell"),
+            Origin::File { .. } | Origin::Scan { .. } | Origin::Frame { .. } => None,
+        },
+        seen_by,
+        inspection: &inspected.inspection,
+        middle: inspected.middle,
+        stand_off: inspected.stand_off.as_ref(),
+        recipe: &inspected.recipe,
+        library_identity: &inspected.library.identity,
+        num_references: inspected.library.parts.len(),
+        robot,
+        convention,
+    })
+}
+
+/// By what the files of a report are named.
+fn scene_name(origin: &Origin) -> PathBuf {
+    match origin {
+        Origin::File { path, .. } => path.clone(),
+        Origin::Simulated { number, .. } => format!("simulated_{number}").into(),
+        Origin::Scan { name, .. } | Origin::Frame { name, .. } => name.replace(' ', "_").into(),
+    }
+}
+
+/// Writes an inspection as `partsight inspect --report` and `partsight report` do: a line of JSON, the pictures of its
+/// stages, and the pose report as JSON, PDF and a row of CSV; says what was written.
+pub(in crate::app) fn report(
+    folder: &Path,
+    inspected: &Inspected,
+    report: &PoseReport,
+    shot: Option<&ViewShot>,
+) -> Result<String, UserError> {
+    let trouble = |error: ReportError| UserError::of(&error);
+    let name = scene_name(&inspected.origin);
+    let scene = name.display().to_string();
+    let line = InspectionLine::of(&scene, &inspected.inspection).to_json();
+    let stages = stage_pictures(&inspected.scene, &inspected.inspection);
+    let mut out = ReportFolder::make(folder).map_err(trouble)?;
+    let path = out.write(&name, &line, &stages).map_err(trouble)?;
+    let view = shot.and_then(|shot| on_paper(shot).take().ok());
+    let view = view.map(|view| DynamicImage::from(view).into_rgb8());
+    let title = inspected.figures.candidates.first();
+    let pictures = PdfPictures {
+        view: view.as_ref(),
+        stages: &stages,
+        title: title.map(|best| best.title.as_str()),
+    };
+    let pdf = pose_pdf(report, &pictures).map_err(|error| UserError::of(&error))?;
+    let files = [("json", report.to_json().into_bytes()), ("pdf", pdf)];
+    let written = out.write_pose(&name, &files).map_err(trouble)?;
+    let table = out.csv(report.robot.convention);
+    let appended = append_csv(&table, report).map_err(|error| UserError::of(&error))?;
+    let names: Vec<String> = [&path]
+        .into_iter()
+        .chain(&written)
+        .map(|path| file_name(path))
+        .collect();
+    let what = format!(
+        "Wrote {}, the pictures of its stages and a row of {} to {}",
+        names.join(", "),
+        file_name(&table),
+        folder.display()
+    );
+    if let CsvAppended::SetAside(aside) = appended {
+        let aside = file_name(&aside);
+        return Ok(format!(
+            "{what}; its last row had no end and was set aside in {aside}"
+        ));
+    }
+    Ok(what)
+}
+
+/// The same view in the colours of paper.
+fn on_paper(shot: &ViewShot) -> ViewShot {
+    let mut shot = shot.clone();
+    shot.style.colours = ViewColours::light();
+    shot
+}

@@ -1,0 +1,388 @@
+//! Where scenes come from: the simulated cell, files, and cameras.
+
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use super::camera::{Camera, CameraError};
+use crate::{
+    app::ui::widgets::sentence,
+    capture::{self, CaptureWarning, CellScene, Image, SimulatedSpec, SourceSpec},
+    error::Advice,
+    files::{self, FileContent, FileError},
+    history::{FrameRecord, HistoryError, read_frame},
+    simulate::{
+        CellSetup, ObjectKind, PartKind, PartPose, PoseRange, Side, SimulatedObject, frame,
+    },
+    stages::{
+        scene::{SceneCloud, scene_from_frame, scene_from_image},
+        segment::EmptyCell,
+    },
+};
+
+/// What hangs in the simulated cell when a frame is captured.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum CellChoice {
+    /// The eight parts one after the other.
+    #[default]
+    InTurn,
+    /// Always this part.
+    Part(PartKind, Side),
+    /// Always this thing, which is no enrolled part.
+    Foreign(ObjectKind),
+    /// Nothing.
+    Empty,
+}
+
+impl CellChoice {
+    /// Every choice, as the source menu lists them.
+    pub fn all() -> impl Iterator<Item = Self> {
+        let sides = |kind: PartKind| {
+            let sides = if kind.is_sided() {
+                &Side::ALL[..]
+            } else {
+                &[Side::Left]
+            };
+            sides.iter().map(move |side| Self::Part(kind, *side))
+        };
+        std::iter::once(Self::InTurn)
+            .chain(PartKind::ALL.into_iter().flat_map(sides))
+            .chain([
+                Self::Foreign(ObjectKind::Hood),
+                Self::Foreign(ObjectKind::Wheel),
+            ])
+            .chain([Self::Empty])
+    }
+
+    /// What a person calls it.
+    pub fn title(self) -> String {
+        match self {
+            Self::InTurn => "Every part in turn".into(),
+            Self::Part(kind, side) if kind.is_sided() => {
+                format!("{}, {}", kind.title(), side.name())
+            }
+            Self::Part(kind, _) => kind.title().into(),
+            Self::Foreign(kind) => format!("Not enrolled: {}", kind.name()),
+            Self::Empty => "Empty cell".into(),
+        }
+    }
+
+    /// The same cell as a camera that goes on by itself.
+    pub fn followed(self) -> SimulatedSpec {
+        let mut spec = SimulatedSpec::default();
+        match self {
+            Self::InTurn => {}
+            Self::Part(kind, side) => {
+                spec.scene = CellScene::Part(kind);
+                spec.side = side;
+            }
+            Self::Foreign(kind) => spec.scene = CellScene::Object(kind),
+            Self::Empty => spec.scene = CellScene::Empty,
+        }
+        spec
+    }
+
+    /// What hangs there for the frame of this number, counted from 1.
+    pub(in crate::app) fn subject(self, number: u64) -> SimulatedObject {
+        /// The first frame shows a front door, as the first look in a terminal does.
+        const FIRST: u64 = 3;
+        let part = |kind, side| SimulatedObject::Part {
+            kind,
+            side,
+            model_seed: 0,
+        };
+        match self {
+            Self::InTurn => {
+                let num_kinds = PartKind::ALL.len() as u64;
+                part(
+                    PartKind::ALL[((number + FIRST) % num_kinds) as usize],
+                    Side::Left,
+                )
+            }
+            Self::Part(kind, side) => part(kind, side),
+            Self::Foreign(kind) => SimulatedObject::Object(kind),
+            Self::Empty => SimulatedObject::Nothing,
+        }
+    }
+}
+
+/// Where a scene came from.
+#[derive(Clone, Debug, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Origin {
+    /// A frame of the simulated cell.
+    Simulated {
+        /// What hung there.
+        choice: CellChoice,
+        /// Its number, which is also its seed.
+        number: u64,
+    },
+    /// A file.
+    File {
+        /// Where it lies.
+        path: PathBuf,
+        /// True if the file says that no camera was read.
+        is_simulated: bool,
+    },
+    /// The shots of a scan together.
+    Scan {
+        /// What a person calls it.
+        name: String,
+        /// True if no camera was read.
+        is_simulated: bool,
+    },
+    /// A frame of a camera, a recording or a watched folder.
+    Frame {
+        /// What a person calls it.
+        name: String,
+        /// True if no camera was read, now or when it was recorded.
+        is_simulated: bool,
+    },
+}
+
+impl Origin {
+    /// What a person calls it.
+    pub fn title(&self) -> String {
+        match self {
+            Self::Simulated { number, .. } => format!("Simulated frame {number}"),
+            Self::File {
+                path,
+                is_simulated: true,
+            } => format!("{}, simulated", file_name(path)),
+            Self::File { path, .. } => file_name(path),
+            Self::Frame {
+                name,
+                is_simulated: true,
+            } if !name.contains("simulated") => format!("{}, simulated", sentence(name)),
+            Self::Scan {
+                name,
+                is_simulated: true,
+            } => format!("{name}, simulated"),
+            Self::Scan { name, .. } => name.clone(),
+            Self::Frame { name, .. } => sentence(name),
+        }
+    }
+
+    /// True if no camera was read.
+    pub fn is_simulated(&self) -> bool {
+        match self {
+            Self::Simulated { .. } => true,
+            Self::File { is_simulated, .. }
+            | Self::Scan { is_simulated, .. }
+            | Self::Frame { is_simulated, .. } => *is_simulated,
+        }
+    }
+}
+
+impl Origin {
+    /// The same scene again: the frame is simulated as before, the file is read once more. `None` for what a camera
+    /// saw once.
+    pub fn source(&self) -> Option<SceneSource> {
+        Some(match self {
+            Self::Simulated { choice, number } => SceneSource::Cell {
+                choice: *choice,
+                number: *number,
+            },
+            Self::File { path, .. } => SceneSource::File(path.clone()),
+            Self::Scan { .. } | Self::Frame { .. } => return None,
+        })
+    }
+}
+
+/// The last part of a path, or all of it where there is none.
+pub fn file_name(path: &Path) -> String {
+    let name = path.file_name().unwrap_or(path.as_os_str());
+    name.to_string_lossy().into_owned()
+}
+
+/// A scene to be had.
+#[derive(Clone, Debug)]
+pub enum SceneSource {
+    /// A frame of the simulated cell.
+    Cell {
+        /// What hangs there.
+        choice: CellChoice,
+        /// Number and seed of the frame.
+        number: u64,
+    },
+    /// A file.
+    File(PathBuf),
+    /// The next frame of a camera, a recording or a watched folder.
+    Camera(Box<SourceSpec>),
+    /// A scene that is at hand.
+    AtHand(Arc<SceneCloud>, Origin),
+    /// Another source, whose camera saw this empty cell before.
+    Before(Arc<EmptyCell>, Box<SceneSource>),
+    /// A frame that the history keeps.
+    Kept(Box<HistoryFrame>),
+}
+
+/// A frame that the history keeps.
+#[derive(Clone, Debug)]
+pub struct HistoryFrame {
+    /// The folder of kept frames.
+    pub folder: PathBuf,
+    /// Its file, and what the file does not tell.
+    pub frame: FrameRecord,
+    /// Where it came from.
+    pub origin: Origin,
+}
+
+/// A scene and where it came from.
+#[derive(Clone, Debug)]
+pub struct Captured {
+    /// The scene.
+    pub scene: Arc<SceneCloud>,
+    /// Where it came from.
+    pub origin: Origin,
+    /// What was odd about it.
+    pub warnings: Vec<CaptureWarning>,
+}
+
+/// Why there is no scene.
+#[derive(Debug, thiserror::Error)]
+pub enum SceneError {
+    /// The file cannot be read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The camera has no frame.
+    #[error(transparent)]
+    Camera(#[from] CameraError),
+    /// The history's frame cannot be read.
+    #[error(transparent)]
+    Kept(#[from] HistoryError),
+    /// A mesh is nothing that a camera saw.
+    #[error("{}: a mesh, expected what a depth camera saw", path.display())]
+    MeshIsNoScene {
+        /// The file.
+        path: PathBuf,
+    },
+}
+
+impl Advice for SceneError {
+    fn advice(&self) -> String {
+        match self {
+            Self::File(error) => error.advice(),
+            Self::Camera(error) => error.advice(),
+            Self::Kept(error) => error.advice(),
+            Self::MeshIsNoScene { .. } => {
+                "Open it in the Enrol workspace (2) to enrol it as a reference".into()
+            }
+        }
+    }
+}
+
+impl SceneSource {
+    /// Where its scenes come from, for the history.
+    pub fn in_words(&self) -> String {
+        match self {
+            Self::Cell { .. } => "simulated cell".into(),
+            Self::File(path) => path.display().to_string(),
+            Self::Camera(spec) => spec.to_string(),
+            Self::Before(_, source) => source.in_words(),
+            Self::AtHand(_, origin) => origin.title(),
+            Self::Kept(kept) => kept.origin.title(),
+        }
+    }
+
+    /// Captures, reads or hands over the scene; a frame is waited for until `is_cancelled`.
+    pub fn take(
+        &self,
+        camera: &Camera,
+        is_cancelled: &dyn Fn() -> bool,
+    ) -> Result<Captured, SceneError> {
+        match self {
+            Self::Cell { choice, number } => {
+                let mut setup = CellSetup::new(choice.subject(*number), *number);
+                setup.pose = PartPose::Drawn(PoseRange::facing());
+                Ok(Captured {
+                    scene: Arc::new(scene_from_frame(&frame(&setup).frame)),
+                    origin: Origin::Simulated {
+                        choice: *choice,
+                        number: *number,
+                    },
+                    warnings: Vec::new(),
+                })
+            }
+            Self::File(path) => {
+                let opened = files::open(path)?;
+                let warnings = opened.warnings().into_iter().map(Into::into).collect();
+                let scene = match opened {
+                    FileContent::Cloud(cloud) => scene_from_image(Image::Cloud(cloud)),
+                    FileContent::Depth(frame) => scene_from_image(Image::Depth(frame)),
+                    FileContent::Mesh(_) => {
+                        return Err(SceneError::MeshIsNoScene { path: path.clone() });
+                    }
+                };
+                Ok(Captured {
+                    origin: Origin::File {
+                        path: path.clone(),
+                        is_simulated: scene.cloud.is_simulated,
+                    },
+                    scene: Arc::new(scene),
+                    warnings,
+                })
+            }
+            Self::Camera(spec) => Ok(camera.next(spec, is_cancelled)?.into()),
+            Self::Before(cell, source) => {
+                let mut captured = source.take(camera, is_cancelled)?;
+                let mut scene = Arc::unwrap_or_clone(captured.scene);
+                scene.empty_cell = Some(Arc::clone(cell));
+                captured.scene = Arc::new(scene);
+                Ok(captured)
+            }
+            Self::Kept(kept) => Ok(Captured {
+                scene: Arc::new(read_frame(&kept.folder, &kept.frame)?),
+                origin: kept.origin.clone(),
+                warnings: Vec::new(),
+            }),
+            Self::AtHand(scene, origin) => Ok(Captured {
+                scene: Arc::clone(scene),
+                origin: origin.clone(),
+                warnings: Vec::new(),
+            }),
+        }
+    }
+}
+
+impl From<capture::Captured> for Captured {
+    fn from(frame: capture::Captured) -> Self {
+        Self {
+            scene: Arc::new(scene_from_image(frame.image)),
+            origin: Origin::Frame {
+                name: frame.name,
+                is_simulated: frame.is_simulated,
+            },
+            warnings: frame.warnings,
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn the_first_frame_is_a_front_door_and_all_eight_parts_come_in_turn() {
+        let kind = |number| match CellChoice::InTurn.subject(number) {
+            SimulatedObject::Part { kind, .. } => kind,
+            other => panic!("{other:?}"),
+        };
+        assert_eq!(kind(1), PartKind::FrontDoor);
+        let seen: std::collections::BTreeSet<_> = (1..=8).map(kind).collect();
+        assert_eq!(seen.len(), 8);
+    }
+
+    #[test]
+    fn a_mesh_is_refused_in_words() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("part.obj");
+        std::fs::write(&path, "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n").expect("written");
+        let refused = SceneSource::File(path)
+            .take(&Camera::default(), &|| false)
+            .expect_err("refused");
+        assert!(refused.to_string().contains("a mesh") && refused.advice().contains("Enrol"));
+    }
+}

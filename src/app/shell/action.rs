@@ -1,0 +1,267 @@
+//! What can be pressed above the workspaces, and the one function that makes it so.
+
+use std::path::PathBuf;
+
+use super::{
+    live::{self, LiveAction},
+    robot::RobotAction,
+    roles::{self, RoleAction},
+    state::{Event, HelpPage, Notice, Source, State, Workspace},
+};
+use crate::{
+    app::inspection::{inspected::SceneOrScan, scan_choice::ScanFiles, source::CellChoice},
+    capture::{Pace, RecordingSpec, SourceSpec, WatchedFrom, WatchedSpec},
+    robot::Convention,
+};
+
+/// Something that happened.
+#[derive(Debug)]
+pub enum Action {
+    /// Take a scene from the source and inspect it.
+    Capture,
+    /// Capture from the simulated cell, with this in it.
+    UseCell(CellChoice),
+    /// Take the scene in front as the empty cell: what stands in it is not taken for a part from now on.
+    TakeEmptyCell,
+    /// Forget the empty cell.
+    ForgetEmptyCell,
+    /// Have a person choose a file or folder.
+    Ask(DialogRequest),
+    /// A person chose it.
+    Chosen(DialogRequest, PathBuf),
+    /// Open this file, or the scan in this folder, and inspect or enrol it.
+    Open(PathBuf),
+    /// Use the library that is found without choosing one.
+    UseFoundLibrary,
+    /// Cancel what the inspector is at.
+    CancelInspection,
+    /// Bring a workspace to the front.
+    GoTo(Workspace),
+    /// Ask where the report of the inspection in front goes.
+    Export,
+    /// Close what lies on top: the shortcuts, then an enlarged stage.
+    CloseTop,
+    /// Change the units.
+    SwitchUnits,
+    /// Change the colours.
+    SwitchTheme,
+    /// Open or close the list of shortcuts.
+    ToggleHelp,
+    /// Take a notice away.
+    Dismiss(usize),
+    /// Show a notice.
+    Notify(Notice),
+    /// Close the window.
+    Quit,
+    /// Tell the robot poses in these numbers.
+    UseConvention(Convention),
+    /// Of the source and of following it.
+    Live(LiveAction),
+    /// Of whose window it is.
+    Role(RoleAction),
+    /// Take back what the last notice offers to.
+    Undo,
+    /// The key at this place of a workspace's own was pressed.
+    Press(Workspace, usize),
+    /// Cancel what a workspace is at.
+    CancelTask(Workspace),
+    /// The engineer's view, which a workspace asked for, is there.
+    EngineerIn(Workspace),
+    /// Of the robot's cell.
+    Robot(RobotAction),
+}
+
+/// What a person is asked to choose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum DialogRequest {
+    /// A captured scene to open.
+    Scene,
+    /// The folder of a scan to open.
+    Scan,
+    /// The folder of a recording to play.
+    Recording,
+    /// A folder to watch for captures.
+    WatchedFolder,
+    /// The folder that the source is recorded in.
+    RecordTo,
+    /// The folder of another library.
+    Library,
+    /// A scene, a whole cloud or a mesh to enrol.
+    Part,
+}
+
+/// What is to be done outside the state.
+#[derive(Clone, Debug)]
+pub enum Effect {
+    /// Show the system's dialog.
+    ShowDialog(DialogRequest),
+    /// Have a workspace do what its key at this place does.
+    Press(Workspace, usize),
+    /// Have a workspace cancel what it is at.
+    CancelTask(Workspace),
+    /// Have the workspace in front take this.
+    Take(SceneOrScan, String),
+    /// Have this done about the robot's cell.
+    Robot(RobotAction),
+    /// Tell every workspace.
+    Tell(Event),
+    /// Tell this workspace that the engineer's view is there.
+    EngineerIn(Workspace),
+    /// Close the window.
+    Close,
+}
+
+/// More notices than this push the oldest out.
+const MAX_NOTICES: usize = 4;
+
+/// Carries out an action.
+pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
+    let action = roles::permitted(state, action)?;
+    match action {
+        Action::Capture => return state.capture(),
+        Action::UseCell(choice) => {
+            state.source = Source::Cell(choice);
+            return live::source_changed(state);
+        }
+        Action::TakeEmptyCell => state.take_empty_cell(),
+        Action::ForgetEmptyCell => {
+            state.empty_cell = None;
+            notify(state, Notice::done("The empty cell is forgotten"));
+            live::restart_consensus(state);
+        }
+        Action::Ask(DialogRequest::Scene) if state.workspace == Workspace::Enrol => {
+            return Some(Effect::ShowDialog(DialogRequest::Part));
+        }
+        Action::Ask(ask) => return Some(Effect::ShowDialog(ask)),
+        Action::Chosen(ask, path) => return chosen(state, ask, path),
+        Action::Open(path) if path.is_dir() => return chosen(state, DialogRequest::Scan, path),
+        Action::Open(path) => return chosen(state, DialogRequest::Scene, path),
+        Action::UseFoundLibrary => {
+            state.chosen_library = None;
+            state.open_library();
+        }
+        Action::CancelInspection => state.cancel_inspection(),
+        Action::GoTo(workspace) => state.workspace = workspace,
+        Action::Export => return Some(Effect::Tell(Event::Export)),
+        Action::CloseTop => {
+            if state.help == HelpPage::Open {
+                state.help = HelpPage::Closed;
+            } else {
+                return Some(Effect::Tell(Event::Escape));
+            }
+        }
+        Action::SwitchUnits => state.units = state.units.other(),
+        Action::UseConvention(convention) => state.convention = convention,
+        Action::SwitchTheme => state.theme = state.theme.other(),
+        Action::ToggleHelp => {
+            state.help = match state.help {
+                HelpPage::Closed => HelpPage::Open,
+                HelpPage::Open => HelpPage::Closed,
+            }
+        }
+        Action::Dismiss(place) => {
+            if place < state.notices.len() {
+                state.notices.remove(place);
+            }
+        }
+        Action::Notify(notice) => notify(state, notice),
+        Action::Quit => return Some(Effect::Close),
+        Action::Role(action) => return roles::apply(state, action),
+        Action::Live(action) => return live::apply(state, action),
+        Action::Undo => return Some(Effect::Tell(Event::Undo)),
+        Action::Press(workspace, place) => return Some(Effect::Press(workspace, place)),
+        Action::CancelTask(workspace) => return Some(Effect::CancelTask(workspace)),
+        Action::EngineerIn(workspace) => return Some(Effect::EngineerIn(workspace)),
+        Action::Robot(action) => return Some(Effect::Robot(action)),
+    }
+    None
+}
+
+/// What follows from the file or folder that was chosen.
+fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Effect> {
+    match ask {
+        DialogRequest::Scene | DialogRequest::Part => {
+            state.source = Source::File(path);
+            state.capture()
+        }
+        DialogRequest::Scan => {
+            state.source = Source::Scan(ScanFiles::of_folder(path));
+            state.capture()
+        }
+        DialogRequest::Recording => {
+            let spec = SourceSpec::Recording(RecordingSpec {
+                folder: path,
+                pace: Some(Pace::AsTaken),
+                camera: None,
+            });
+            live::apply(state, LiveAction::Use(spec))
+        }
+        DialogRequest::WatchedFolder => {
+            let spec = SourceSpec::Watched(WatchedSpec {
+                folder: path,
+                from: WatchedFrom::default(),
+            });
+            live::apply(state, LiveAction::Use(spec))
+        }
+        DialogRequest::RecordTo => live::apply(state, LiveAction::Record(path)),
+        DialogRequest::Library => {
+            state.chosen_library = Some(path);
+            state.open_library();
+            None
+        }
+    }
+}
+
+/// Shows a notice.
+pub(in crate::app) fn notify(state: &mut State, notice: Notice) {
+    // The same again says nothing new.
+    state.notices.retain(|known| *known != notice);
+    state.notices.push(notice);
+    let num_over = state.notices.len().saturating_sub(MAX_NOTICES);
+    state.notices.drain(..num_over);
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn captures_are_enrolled_while_the_workspace_is_in_front_and_inspected_otherwise() {
+        let mut state = State::default();
+        for action in [Action::Capture, Action::Open("door.pcd".into())] {
+            assert!(apply(&mut state, action).is_none());
+            assert!(state.inspector.running().is_some());
+        }
+        state.workspace = Workspace::Enrol;
+        for action in [Action::Capture, Action::Open("door.pcd".into())] {
+            let effect = apply(&mut state, action);
+            assert!(
+                matches!(effect, Some(Effect::Take(SceneOrScan::Scene(_), _))),
+                "{effect:?}"
+            );
+        }
+    }
+
+    #[test]
+    fn escape_closes_the_shortcuts_before_the_enlarged_stage() {
+        let mut state = State::default();
+        apply(&mut state, Action::ToggleHelp);
+        assert!(apply(&mut state, Action::CloseTop).is_none());
+        assert_eq!(state.help, HelpPage::Closed);
+        let effect = apply(&mut state, Action::CloseTop);
+        assert!(matches!(effect, Some(Effect::Tell(Event::Escape))));
+    }
+
+    #[test]
+    fn only_the_latest_notices_stay_and_none_twice() {
+        let mut state = State::default();
+        for number in [0, 1, 2, 3, 4, 5, 5] {
+            apply(&mut state, Action::Notify(Notice::done(number.to_string())));
+        }
+        let what: Vec<_> = state.notices.iter().map(|n| n.what.as_str()).collect();
+        assert_eq!(what, ["2", "3", "4", "5"]);
+        apply(&mut state, Action::Dismiss(0));
+        apply(&mut state, Action::Dismiss(9));
+        assert_eq!(state.notices.len(), 3);
+    }
+}

@@ -1,0 +1,268 @@
+//! Shortcuts, and the list of them.
+
+use egui::{
+    Button, Frame, Id, Key, KeyboardShortcut, Margin, Modal, Modifiers, RichText, ScrollArea, vec2,
+};
+
+use super::{
+    action::{Action, DialogRequest},
+    key_binding::{KeyBinding, Shortcut},
+    live::LiveAction,
+    robot::RobotAction,
+    roles::RoleAction,
+    state::{HelpPage, State, Workspace},
+    top_bar::labelled,
+};
+use crate::app::ui::theme::{Theme, font, space};
+
+/// The shortcuts of the whole window.
+const SHORTCUTS: [Shortcut<Action>; 13] = [
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::Space,
+        keys: "Space",
+        does: "Capture, and inspect or enrol it",
+        action: || Action::Capture,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::L,
+        keys: "L",
+        does: "Live: follow the source, or stop",
+        action: || Action::Live(LiveAction::Toggle),
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::L,
+        keys: "Ctrl L",
+        does: "Record the source, or stop",
+        action: || Action::Live(LiveAction::ToggleRecording),
+    },
+    // Before Ctrl O, which would take it too.
+    Shortcut {
+        modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
+        key: Key::O,
+        keys: "Ctrl Shift O",
+        does: "Open a scan: several shots with their poses",
+        action: || Action::Ask(DialogRequest::Scan),
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::O,
+        keys: "Ctrl O",
+        does: "Open a captured scene",
+        action: || Action::Ask(DialogRequest::Scene),
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::E,
+        keys: "Ctrl E",
+        does: "Export the inspection in front",
+        action: || Action::Export,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::B,
+        keys: "B",
+        does: "The robot's cell: where the camera sits",
+        action: || Action::Robot(RobotAction::Toggle),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::U,
+        keys: "U",
+        does: "Millimetres and degrees, or metres and radians",
+        action: || Action::SwitchUnits,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::T,
+        keys: "T",
+        does: "Dark or light",
+        action: || Action::SwitchTheme,
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::K,
+        keys: "Ctrl K",
+        does: "Operator's or engineer's view",
+        action: || Action::Role(RoleAction::Switch),
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::Q,
+        keys: "Ctrl Q",
+        does: "Close the window",
+        action: || Action::Quit,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::F1,
+        keys: "F1",
+        does: "This list",
+        action: || Action::ToggleHelp,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::Escape,
+        keys: "Esc",
+        does: "Close the enlarged stage",
+        action: || Action::CloseTop,
+    },
+];
+
+/// Keys of the 3-D view and of the focus, for the list alone.
+const OTHER_KEYS: [(&str, &str); 7] = [
+    ("Tab, Enter", "Go to the next control, press it"),
+    ("Arrow keys, left drag", "Turn the 3-D view"),
+    ("Shift + those, right drag", "Shift it"),
+    ("+ \u{2212}, wheel", "Zoom it"),
+    ("F, Shift F", "Fit the part, fit everything"),
+    ("Z, Y, X", "Look from the front, the top, the side"),
+    ("M", "Measure between two clicked points"),
+];
+
+/// Keys of the picture in which a part is corrected, for the list alone.
+const PICTURE_KEYS: [(&str, &str); 2] = [
+    ("Arrow keys, Enter", "Move a box in the picture, apply it"),
+    ("Shift + arrow keys", "Make that box larger or smaller"),
+];
+
+/// The keys of the rail, in its order.
+const RAIL_KEYS: [(Key, &str); 5] = [
+    (Key::Num1, "1"),
+    (Key::Num2, "2"),
+    (Key::Num3, "3"),
+    (Key::Num4, "4"),
+    (Key::Num5, "5"),
+];
+
+/// What of the window's height the list leaves free, for its heading, its button and the edges.
+const HELP_MARGIN: f32 = 190.0;
+
+/// What a key causes.
+#[derive(Clone, Copy)]
+enum Pressed {
+    /// What the workspace says, by the place of the key among its own.
+    Own(usize),
+    /// This.
+    Named(fn() -> Action),
+}
+
+/// What the keys cause. Called after the panels, so that a focused control has its keys first.
+///
+/// The space bar presses a focused control; `space_is_free` says that what has the focus does not use it. While a
+/// person writes, only keys with Ctrl are shortcuts; the Enter that ends the writing is the text's, too.
+pub(in crate::app) fn shortcuts(
+    ctx: &egui::Context,
+    state: &State,
+    own: &[KeyBinding],
+    space_is_free: bool,
+    actions: &mut Vec<Action>,
+) {
+    let is_writing = ctx.text_edit_focused();
+    let was_writing = remember_writing(ctx, is_writing);
+    if state.roles.asked.is_some() {
+        // Digits are those of a PIN.
+        return;
+    }
+    let is_pressing = !space_is_free && ctx.memory(|memory| memory.focused().is_some());
+    let workspace = state.workspace;
+    let own = own.iter().copied().enumerate();
+    let own = own.map(|(place, binding)| (binding, Pressed::Own(place)));
+    let named = SHORTCUTS
+        .iter()
+        .map(|shortcut| (shortcut.binding(), Pressed::Named(shortcut.action)));
+    for (binding, pressed) in own.chain(named) {
+        let is_plain = binding.modifiers.is_none();
+        // In a text that is being written, Ctrl Z takes back what was written.
+        let is_of_text = is_plain || binding.key == Key::Z;
+        let presses = matches!(binding.key, Key::Space | Key::Enter);
+        // A text has no use for Escape but to be left: what is open closes by the same press.
+        let is_taken = is_writing || was_writing && binding.key != Key::Escape;
+        if presses && is_pressing || is_of_text && is_taken {
+            continue;
+        }
+        let keys = KeyboardShortcut::new(binding.modifiers, binding.key);
+        if ctx.input_mut(|input| input.consume_shortcut(&keys)) {
+            actions.push(match pressed {
+                Pressed::Own(place) => Action::Press(workspace, place),
+                Pressed::Named(action) => action(),
+            });
+        }
+    }
+    if is_writing || was_writing {
+        return;
+    }
+    for ((key, _), workspace) in RAIL_KEYS.into_iter().zip(Workspace::ALL) {
+        if ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key)) {
+            actions.push(Action::GoTo(workspace));
+        }
+    }
+}
+
+/// True if a text had the focus when this frame began, and remembers for the next whether one has it now.
+///
+/// A text of one line gives the focus away in the very frame in which Enter is pressed.
+fn remember_writing(ctx: &egui::Context, is_writing: bool) -> bool {
+    let id = Id::unique("a text is being written");
+    ctx.data_mut(|data| {
+        let was_writing = data.get_temp(id).unwrap_or(false);
+        data.insert_temp(id, is_writing);
+        was_writing
+    })
+}
+
+/// The list of shortcuts.
+pub(in crate::app) fn help(
+    ctx: &egui::Context,
+    state: &State,
+    own: &[KeyBinding],
+    theme: &Theme,
+    actions: &mut Vec<Action>,
+) {
+    if state.help == HelpPage::Closed {
+        return;
+    }
+    let modal = Modal::new(Id::unique("help"))
+        .frame(Frame::window(&ctx.global_style()).inner_margin(Margin::same(18)))
+        .show(ctx, |ui| {
+            ui.set_max_width(520.0);
+            let height = ui.spacing().interact_size.y;
+            ui.spacing_mut().interact_size.y = 24.0;
+            ui.label(
+                RichText::new("Shortcuts")
+                    .font(font::verdict())
+                    .color(theme.text),
+            );
+            ui.add_space(space::SMALL);
+            let room = ctx.content_rect().height() - HELP_MARGIN;
+            let list = egui::Grid::new("shortcuts")
+                .num_columns(2)
+                .spacing(vec2(24.0, 6.0));
+            ScrollArea::vertical().max_height(room).show(ui, |ui| {
+                list.show(ui, |ui| {
+                    let own = own.iter().map(|binding| (binding.keys, binding.does));
+                    let named = SHORTCUTS.iter().map(|s| (s.keys, s.does));
+                    let of_rail = RAIL_KEYS.into_iter().zip(Workspace::ALL);
+                    let of_rail = of_rail.map(|((_, keys), workspace)| (keys, workspace.title()));
+                    let of_picture = match state.workspace {
+                        Workspace::Enrol => &PICTURE_KEYS[..],
+                        _ => &[],
+                    };
+                    let others = of_picture.iter().copied().chain(OTHER_KEYS);
+                    for (keys, does) in named.chain(own).chain(of_rail).chain(others) {
+                        ui.label(RichText::new(keys).font(font::body_strong()));
+                        ui.label(RichText::new(does).color(theme.weak_text));
+                        ui.end_row();
+                    }
+                });
+            });
+            ui.spacing_mut().interact_size.y = height;
+            ui.add_space(space::MEDIUM);
+            labelled(ui, Button::new("Close"), "Close").clicked()
+        });
+    if modal.inner || modal.backdrop_response.clicked() {
+        actions.push(Action::ToggleHelp);
+    }
+}

@@ -1,0 +1,162 @@
+//! The window in which the simulated cell is set up.
+
+use egui::{Button, Context, DragValue, Frame, Grid, Id, Margin, Modal, RichText, Ui, vec2};
+
+use super::state::LiveAction;
+use crate::{
+    app::{
+        shell::{action::Action, state::State, top_bar::labelled},
+        ui::{
+            theme::{Theme, font, space},
+            widgets::sentence,
+        },
+    },
+    capture::{CellScene, SimulatedPose, SimulatedSpec, SourceSpec},
+    simulate::{Clutter, ObjectKind, PartKind, Side},
+};
+
+/// Noise that can be chosen: times a Kinect's.
+const NOISES: [(&str, f64); 3] = [("None", 0.0), ("A Kinect's", 1.0), ("Three times", 3.0)];
+/// Seconds that a part of the line takes.
+const EVERY: f64 = 8.0;
+/// More car models than these are not drawn by anybody.
+const MAX_MODEL: u64 = 999;
+
+/// Draws it while it is open.
+pub(in crate::app) fn set_up(
+    ctx: &Context,
+    state: &State,
+    theme: &Theme,
+    actions: &mut Vec<Action>,
+) {
+    let Some(known) = &state.live.setup else {
+        return;
+    };
+    let mut spec = known.clone();
+    let modal = Modal::new(Id::unique("set up the cell"))
+        .frame(Frame::window(&ctx.global_style()).inner_margin(Margin::same(18)))
+        .show(ctx, |ui| {
+            ui.set_max_width(560.0);
+            let title = RichText::new("Simulated cell").font(font::verdict());
+            ui.label(title.color(theme.text));
+            ui.add_space(space::SMALL);
+            Grid::new("cell")
+                .num_columns(2)
+                .spacing(vec2(20.0, 8.0))
+                .show(ui, |ui| rows(ui, &mut spec));
+            ui.add_space(space::MEDIUM);
+            let mut closing = None;
+            ui.horizontal(|ui| {
+                let text = RichText::new("Use it").color(theme.on_accent);
+                if labelled(ui, Button::new(text).fill(theme.accent), "Use it").clicked() {
+                    closing = Some(true);
+                }
+                if labelled(ui, Button::new("Close"), "Close").clicked() {
+                    closing = Some(false);
+                }
+            });
+            closing
+        });
+    let is_closed = modal.should_close();
+    match modal.inner {
+        Some(true) => {
+            let source = SourceSpec::Simulated(spec);
+            actions.push(Action::Live(LiveAction::Use(source)));
+        }
+        Some(false) => actions.push(Action::Live(LiveAction::SetUp(None))),
+        None if is_closed => actions.push(Action::Live(LiveAction::SetUp(None))),
+        None if spec != *known => actions.push(Action::Live(LiveAction::SetUp(Some(spec)))),
+        None => {}
+    }
+}
+
+fn rows(ui: &mut Ui, spec: &mut SimulatedSpec) {
+    row(ui, "What hangs there", |ui| {
+        egui::ComboBox::from_id_salt("scene")
+            .selected_text(scene_title(spec.scene))
+            .width(240.0)
+            .show_ui(ui, |ui| {
+                for scene in scenes(spec.scene) {
+                    ui.selectable_value(&mut spec.scene, scene, scene_title(scene));
+                }
+            })
+            .response
+            .widget_info(|| {
+                let title = scene_title(spec.scene);
+                egui::WidgetInfo::labeled(
+                    egui::Role::ComboBox,
+                    true,
+                    format!("Hangs there: {title}"),
+                )
+            });
+    });
+    row(ui, "Side", |ui| {
+        for side in Side::ALL {
+            choice(ui, &mut spec.side, side, &sentence(side.name()));
+        }
+    });
+    row(ui, "Car model", |ui| {
+        let model = DragValue::new(&mut spec.model).range(0..=MAX_MODEL);
+        ui.add_sized([80.0, space::TARGET], model)
+            .widget_info(|| egui::WidgetInfo::labeled(egui::Role::SpinButton, true, "Car model"));
+        ui.label("0 is the enrolled one");
+    });
+    row(ui, "Hung", |ui| {
+        for (text, pose) in [
+            ("With care", SimulatedPose::Facing),
+            ("Anyhow", SimulatedPose::Placed),
+            ("Turned away", SimulatedPose::Hard),
+        ] {
+            choice(ui, &mut spec.pose, pose, text);
+        }
+    });
+    row(ui, "Noise", |ui| {
+        for (text, noise) in NOISES {
+            choice(ui, &mut spec.noise, noise, text);
+        }
+    });
+    row(ui, "Clutter", |ui| {
+        for (text, clutter) in [
+            ("None", Clutter::None),
+            ("On the floor", Clutter::OnFloor),
+            ("A plank in front", Clutter::InFront),
+        ] {
+            choice(ui, &mut spec.clutter, clutter, text);
+        }
+    });
+}
+
+fn row(ui: &mut Ui, name: &str, controls: impl FnOnce(&mut Ui)) {
+    ui.label(name);
+    ui.horizontal(|ui| controls(ui));
+    ui.end_row();
+}
+
+fn choice<T: PartialEq>(ui: &mut Ui, value: &mut T, this: T, text: &str) {
+    let is_chosen = *value == this;
+    let button = Button::selectable(is_chosen, text).min_size(vec2(space::TARGET, space::TARGET));
+    if ui.add(button).clicked() {
+        *value = this;
+    }
+}
+
+/// Everything that can hang there; the line at its pace, if it runs.
+fn scenes(now: CellScene) -> impl Iterator<Item = CellScene> {
+    let line = match now {
+        CellScene::Line { .. } => now,
+        _ => CellScene::Line { every: EVERY },
+    };
+    std::iter::once(line)
+        .chain(PartKind::ALL.into_iter().map(CellScene::Part))
+        .chain(ObjectKind::ALL.into_iter().map(CellScene::Object))
+        .chain([CellScene::Empty])
+}
+
+fn scene_title(scene: CellScene) -> String {
+    match scene {
+        CellScene::Line { every } => format!("The line runs, a part every {every:.0} s"),
+        CellScene::Part(kind) => kind.title().to_owned(),
+        CellScene::Object(kind) => format!("Not enrolled: {}", kind.name()),
+        CellScene::Empty => "Nothing".into(),
+    }
+}

@@ -1,0 +1,442 @@
+//! What the window knows of the source that it follows, and what can happen to that.
+
+use std::{path::PathBuf, sync::Arc};
+
+use super::{
+    status::frames_word,
+    work::{LiveAnswer, LiveStart, LiveStatus, SourceState, follow, rest},
+};
+use crate::{
+    app::{
+        inspection::{inspected::Inspected, library_cache::LibraryCache},
+        shell::{
+            action::{DialogRequest, Effect, notify},
+            state::{
+                Event, Notice, NoticeKind, ReinspectionPurpose, Session, Shown, Source, State,
+                Workspace,
+            },
+        },
+        task::{Task, TaskEvent, TaskRunner},
+        user_error::UserError,
+    },
+    capture::{SourceSpec, WatchedSpec},
+    pipeline::live::{LiveParams, MAX_AVERAGED},
+};
+
+/// What is known of the source that is followed.
+#[derive(Debug, Default)]
+pub struct LiveState {
+    /// True while a source is followed; else frames are taken one by one, when a person asks.
+    pub is_on: bool,
+    /// How things stand, once something was told.
+    pub status: Option<LiveStatus>,
+    /// When a verdict counts, and over how many frames depth is averaged.
+    pub params: LiveParams,
+    /// The folder that the source is recorded in, while it is.
+    pub recording: Option<PathBuf>,
+    /// The simulated cell as it is being set up, while its window is open.
+    pub setup: Option<crate::capture::SimulatedSpec>,
+}
+
+/// Follows the source.
+#[derive(Debug)]
+pub struct Follower {
+    task: Task<LiveAnswer>,
+    shelf: LibraryCache,
+    /// Counts how often following began with another view: within one the 3-D view keeps its camera.
+    session: u64,
+    /// The notice that stands while the source is lost.
+    lost: Option<Notice>,
+}
+
+impl Follower {
+    /// Before anything is followed.
+    pub fn new(runner: &TaskRunner, shelf: &LibraryCache) -> Self {
+        Self {
+            task: Task::new("live", runner),
+            shelf: shelf.clone(),
+            session: 0,
+            lost: None,
+        }
+    }
+
+    /// True while nothing is followed and the camera rests.
+    pub fn is_idle(&self) -> bool {
+        self.task.running().is_none()
+    }
+}
+
+/// Something that can happen.
+#[derive(Clone, Debug)]
+pub enum LiveAction {
+    /// Follow the source, or no longer.
+    Toggle,
+    /// Take frames from this source from now on.
+    Use(SourceSpec),
+    /// Average depth over so many frames.
+    Average(usize),
+    /// Record the source into a folder in this one.
+    Record(PathBuf),
+    /// Choose where to record it, or record it no longer.
+    ToggleRecording,
+    /// Open the window that sets up the simulated cell, or close it.
+    SetUp(Option<crate::capture::SimulatedSpec>),
+}
+
+impl LiveState {
+    /// Before anything is followed; depth will be averaged over so many frames.
+    pub fn averaging(num_frames: usize) -> Self {
+        let mut own = Self::default();
+        own.params.average = num_frames.clamp(1, MAX_AVERAGED);
+        own
+    }
+}
+
+impl Session {
+    /// True while a source is followed.
+    pub fn is_live(&self) -> bool {
+        self.live.is_on
+    }
+}
+
+impl Source {
+    /// What can be followed of it; nothing of a single file or a scan.
+    pub fn followed(&self) -> Option<SourceSpec> {
+        match self {
+            Self::Cell(choice) => Some(SourceSpec::Simulated(choice.followed())),
+            Self::File(_) | Self::Scan(_) => None,
+            Self::Camera(spec) => Some((**spec).clone()),
+        }
+    }
+}
+
+/// Carries out an action.
+pub(in crate::app) fn apply(state: &mut State, action: LiveAction) -> Option<Effect> {
+    match action {
+        LiveAction::Toggle if state.is_live() => give_way(state),
+        LiveAction::Toggle => start(state),
+        LiveAction::Use(spec) => {
+            state.live.setup = None;
+            state.source = Source::Camera(Box::new(spec));
+            return source_changed(state);
+        }
+        LiveAction::Average(num) => {
+            state.live.params.average = num.clamp(1, MAX_AVERAGED);
+            restart_consensus(state);
+        }
+        LiveAction::Record(folder) => {
+            state.live.recording = Some(folder);
+            if state.is_live() {
+                follow_source(state);
+            } else {
+                start(state);
+            }
+        }
+        LiveAction::ToggleRecording if state.live.recording.is_none() => {
+            return Some(Effect::ShowDialog(DialogRequest::RecordTo));
+        }
+        LiveAction::ToggleRecording => {
+            end_recording(state);
+            restart_consensus(state);
+        }
+        LiveAction::SetUp(spec) => state.live.setup = spec,
+    }
+    None
+}
+
+/// Another source: it is followed if the one before was, else one frame is captured. A watched folder has none yet.
+pub(in crate::app) fn source_changed(state: &mut State) -> Option<Effect> {
+    let waits = matches!(&state.source, Source::Camera(spec) if matches!(**spec, SourceSpec::Watched(WatchedSpec { .. })));
+    if (state.is_live() || waits) && state.source.followed().is_some() {
+        start(state);
+        return None;
+    }
+    state.capture()
+}
+
+/// Follows the source; whatever was being inspected is given up.
+fn start(state: &mut State) {
+    if state.source.followed().is_none() {
+        let what = match state.source {
+            Source::Scan(_) => "A scan cannot be followed: nothing in it changes",
+            _ => "A single file cannot be followed: nothing in it changes",
+        };
+        let notice = Notice {
+            kind: NoticeKind::Look,
+            what: what.into(),
+            advice: "Choose a camera, a recording or a folder in the source menu".into(),
+        };
+        notify(state, notice);
+        return;
+    }
+    state.follower.session += 1;
+    dismiss_lost_notice(state);
+    state.cancel_inspection();
+    follow_source(state);
+}
+
+/// Follows the source with what holds now, in place of whatever was followed.
+fn follow_source(state: &mut State) {
+    let Some(spec) = state.source.followed() else {
+        return;
+    };
+    let request = LiveStart {
+        spec,
+        recipe: Arc::clone(&state.recipe),
+        params: state.live.params.clone(),
+        empty_cell: state.empty_cell.clone(),
+        record: state.live.recording.clone(),
+    };
+    state.live.is_on = true;
+    state.live.status = None;
+    let shelf = state.follower.shelf.clone();
+    let job = move |context: &_| follow(&request, &shelf, context);
+    state.follower.task.start("Live", job);
+}
+
+/// Something that verdicts rest on has changed: none of those before counts. Does nothing while nothing is followed.
+pub(in crate::app) fn restart_consensus(state: &mut State) {
+    if state.is_live() {
+        follow_source(state);
+    }
+}
+
+/// Ends following, if anything is followed, and lets the camera rest: something else comes to the front.
+pub(in crate::app) fn give_way(state: &mut State) {
+    if state.is_live() {
+        ended(state);
+        let shelf = state.follower.shelf.clone();
+        let task = &mut state.follower.task;
+        task.start("Closing the camera", move |_| Ok(rest(&shelf)));
+    }
+}
+
+/// Says what was recorded.
+fn end_recording(state: &mut State) {
+    state.live.recording = None;
+    let status = state.live.status.as_mut();
+    if let Some(recorded) = status.and_then(|status| status.recorded.take()) {
+        let what = format!(
+            "Recorded {} {}, {}, to {}",
+            recorded.num_frames,
+            frames_word(recorded.num_frames),
+            megabytes(recorded.num_bytes),
+            recorded.folder.display()
+        );
+        notify(state, Notice::done(what));
+    }
+}
+
+/// Bytes, for a person.
+pub(super) fn megabytes(bytes: u64) -> String {
+    format!("{:.1} MB", bytes as f64 / 1e6)
+}
+
+fn ended(state: &mut State) {
+    end_recording(state);
+    state.live.is_on = false;
+    state.live.status = None;
+    dismiss_lost_notice(state);
+}
+
+/// Takes in what the task reports; every workspace is told of what comes back.
+pub(in crate::app) fn update(state: &mut State) -> Vec<Event> {
+    let mut counted = Vec::new();
+    while let Some(event) = state.follower.task.poll() {
+        match event {
+            TaskEvent::Partial(answer) | TaskEvent::Done(answer) => {
+                counted.extend(take_in(state, answer));
+            }
+            TaskEvent::Failed(error) => {
+                notify(state, error.into());
+                ended(state);
+            }
+        }
+    }
+    counted
+}
+
+/// Takes in what was handed over; a verdict that counts is told every workspace.
+fn take_in(state: &mut State, answer: LiveAnswer) -> Option<Event> {
+    match answer {
+        LiveAnswer::Stands(told) if state.is_live() => {
+            watch_source(state, &told.status.source);
+            state.live.status = Some(told.status);
+            if let Some(inspected) = told.inspected {
+                show(state, inspected);
+            }
+        }
+        LiveAnswer::Counts(inspected) => {
+            for warning in &inspected.warnings {
+                notify(state, UserError::of(warning).into());
+            }
+            show(state, Arc::clone(&inspected));
+            let purpose = ReinspectionPurpose::New;
+            return Some(Event::Inspected { inspected, purpose });
+        }
+        LiveAnswer::NotRecorded(error) => {
+            state.live.recording = None;
+            notify(state, error.into());
+        }
+        LiveAnswer::Skipped(error) => notify(state, error.into()),
+        LiveAnswer::AtItsEnd => {
+            ended(state);
+            let spec = state.source.followed();
+            let title = spec.map_or_else(String::new, |spec| spec.title());
+            notify(state, Notice::done(format!("{title} has no more frames")));
+        }
+        LiveAnswer::Stands(_) | LiveAnswer::Rests => {}
+    }
+    None
+}
+
+/// What was told last, where it is looked at; other workspaces keep what they have in hand.
+fn show(state: &mut State, inspected: Arc<Inspected>) {
+    let is_shown = state
+        .shown
+        .as_ref()
+        .is_some_and(|shown| Arc::ptr_eq(&shown.inspected, &inspected));
+    if is_shown || state.workspace != Workspace::Inspect || !state.is_live() {
+        return;
+    }
+    state.use_library(&inspected.library);
+    state.generation += 1;
+    state.shown = Some(Shown {
+        generation: state.generation,
+        inspected,
+        is_past: false,
+        session: Some(state.follower.session),
+    });
+}
+
+/// Says that the source is lost as long as it is.
+fn watch_source(state: &mut State, source: &SourceState) {
+    match source {
+        SourceState::Lost(trouble) => {
+            let notice = Notice::from(trouble.clone());
+            if state.follower.lost.as_ref() != Some(&notice) {
+                dismiss_lost_notice(state);
+                notify(state, notice.clone());
+                state.follower.lost = Some(notice);
+            }
+        }
+        SourceState::Opening => {}
+        SourceState::Running => {
+            if dismiss_lost_notice(state) {
+                notify(state, Notice::done("The source is there again"));
+            }
+        }
+    }
+}
+
+/// Takes the notice away; true if there was one.
+fn dismiss_lost_notice(state: &mut State) -> bool {
+    let Some(lost) = state.follower.lost.take() else {
+        return false;
+    };
+    state.notices.retain(|notice| *notice != lost);
+    true
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        app::{
+            inspection::source::CellChoice,
+            shell::action::{Action, apply as apply_any},
+        },
+        pipeline::live::LiveVerdict,
+        simulate::{PartKind, Side},
+    };
+
+    /// What the task is at, or will be.
+    fn at_work(state: &State) -> Option<&str> {
+        let running = state.follower.task.running();
+        running.map(|running| running.title.as_str())
+    }
+
+    fn toggle(state: &mut State) {
+        apply_any(state, Action::Live(LiveAction::Toggle));
+    }
+
+    #[test]
+    fn the_cell_is_followed_as_it_was_chosen_and_rests_afterwards() {
+        let mut state = State::default();
+        toggle(&mut state);
+        let followed = |state: &State| state.source.followed().map(|spec| spec.to_string());
+        assert_eq!(followed(&state).as_deref(), Some("simulated"));
+        assert_eq!(at_work(&state), Some("Live"));
+        let choice = CellChoice::Part(PartKind::Fender, Side::Right);
+        apply_any(&mut state, Action::UseCell(choice));
+        let other = followed(&state);
+        assert_eq!(other.as_deref(), Some("simulated,side=right:fender"));
+        assert_eq!(at_work(&state), Some("Live"));
+        toggle(&mut state);
+        assert_eq!(at_work(&state), Some("Closing the camera"));
+        assert!(!state.is_live() && state.follower.task.run_waiting());
+        update(&mut state);
+        assert!(state.follower.is_idle());
+    }
+
+    #[test]
+    fn a_single_capture_ends_following_and_a_library_does_not() {
+        let mut state = State::default();
+        toggle(&mut state);
+        apply_any(&mut state, Action::UseFoundLibrary);
+        assert!(state.is_live() && at_work(&state) == Some("Live"));
+        apply_any(&mut state, Action::Capture);
+        assert!(!state.is_live() && at_work(&state) == Some("Closing the camera"));
+        let running = state.inspector.running().expect("at work");
+        assert_eq!(running.title, "Capturing");
+    }
+
+    #[test]
+    fn a_watched_folder_is_followed_as_soon_as_it_is_chosen() {
+        let mut state = State::default();
+        let watched = "watch:captures".parse().expect("a source");
+        apply_any(&mut state, Action::Live(LiveAction::Use(watched)));
+        assert!(state.is_live() && at_work(&state) == Some("Live"));
+        let recording = "recording:monday".parse().expect("a source");
+        toggle(&mut state);
+        apply_any(&mut state, Action::Live(LiveAction::Use(recording)));
+        assert!(
+            !state.is_live() && state.inspector.running().is_some(),
+            "its first frame is captured"
+        );
+    }
+
+    #[test]
+    fn changed_parameters_follow_anew_and_nothing_is_followed_for_them_alone() {
+        let mut state = State::default();
+        restart_consensus(&mut state);
+        assert!(state.follower.is_idle());
+        toggle(&mut state);
+        let before = state.follower.session;
+        state.live.status = Some(told());
+        apply_any(&mut state, Action::Live(LiveAction::Average(99)));
+        assert!(
+            state.live.status.is_none() && at_work(&state) == Some("Live"),
+            "anew"
+        );
+        // The view keeps its camera.
+        assert_eq!(
+            (state.follower.session, state.live.params.average),
+            (before, MAX_AVERAGED)
+        );
+    }
+
+    fn told() -> LiveStatus {
+        LiveStatus {
+            source: SourceState::Running,
+            stillness: None,
+            standing: LiveVerdict::Open,
+            rates: [None; 2],
+            latency: None,
+            num_inspected: 1,
+            num_dropped: 0,
+            num_averaged: 1,
+            recorded: None,
+        }
+    }
+}

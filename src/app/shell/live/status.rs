@@ -1,0 +1,162 @@
+//! How following the source stands, in words: on the verdict card, and in the bar where that is not in front.
+
+use egui::{Button, Label, RichText, Sense, Ui, Vec2};
+
+use super::{
+    state::megabytes,
+    work::{LiveStatus, SourceState},
+};
+use crate::{
+    app::{
+        shell::session::{Session, Source},
+        ui::{
+            theme::{Theme, font, space},
+            widgets::{Mark, mark},
+        },
+    },
+    capture::SourceSpec,
+    pipeline::live::{ConsensusVerdict, LiveVerdict, MotionState},
+};
+
+/// Height of what the card says first, logical pixels: as high whatever it says, so that nothing below moves.
+const HEIGHT: f32 = 64.0;
+
+/// The head of the verdict card while the source is followed. True if it shall be recorded, or no longer.
+pub(in crate::app) fn card(ui: &mut Ui, session: &Session, theme: &Theme) -> bool {
+    let (sign, words) = words(session);
+    let small = |text: String| {
+        RichText::new(text)
+            .font(font::small())
+            .color(theme.weak_text)
+    };
+    let size = Vec2::new(ui.available_width(), HEIGHT);
+    ui.allocate_ui(size, |ui| {
+        ui.set_min_size(size);
+        ui.spacing_mut().item_spacing.y = 3.0;
+        ui.horizontal(|ui| {
+            let (rect, _) = ui.allocate_exact_size(Vec2::splat(16.0), Sense::hover());
+            mark(ui.painter(), rect.center(), 7.5, sign, theme);
+            let words = RichText::new(words).font(font::body_strong());
+            ui.add(Label::new(words.color(theme.text)).truncate());
+        });
+        let status = session.live.status.as_ref();
+        ui.label(small(status.map_or_else(String::new, evidence_text)));
+        ui.label(small(status.map_or_else(String::new, figures)));
+    });
+    let is_toggled = record(ui, session);
+    ui.separator();
+    ui.add_space(space::SMALL);
+    is_toggled
+}
+
+/// The button that begins and ends a recording, and says what is recorded. True if it was pressed.
+fn record(ui: &mut Ui, session: &Session) -> bool {
+    let size = Vec2::new(ui.available_width(), space::TARGET);
+    if session.live.recording.is_none() {
+        let text = RichText::new("Record…").font(font::small());
+        let says = "Keep every frame that is taken from the source, as it came (Ctrl L)";
+        let button = ui.add(Button::new(text).min_size(size));
+        return button.on_hover_text(says).clicked();
+    }
+    let recorded = session.live.status.as_ref();
+    let recorded = recorded.and_then(|status| status.recorded.as_ref());
+    let so_far = recorded.map_or_else(String::new, |recorded| {
+        let size = megabytes(recorded.num_bytes);
+        let word = frames_word(recorded.num_frames);
+        format!(" · {} {word}, {size}", recorded.num_frames)
+    });
+    let text = RichText::new(format!("Stop recording{so_far}")).font(font::small());
+    let button = Button::selectable(true, text).min_size(size);
+    let response = ui.add(button);
+    response.widget_info(|| {
+        egui::WidgetInfo::labeled(egui::Role::Button, true, format!("Stop recording{so_far}"))
+    });
+    response.clicked()
+}
+
+/// The same in one line.
+pub(in crate::app) fn chip(ui: &mut Ui, session: &Session, theme: &Theme) {
+    let (sign, words) = words(session);
+    ui.add_space(space::SMALL);
+    let (rect, _) = ui.allocate_exact_size(Vec2::splat(16.0), Sense::hover());
+    mark(ui.painter(), rect.center(), 7.5, sign, theme);
+    let rates = session.live.status.as_ref().map(figures);
+    let text = match rates {
+        Some(rates) if ui.available_width() > 320.0 => format!("{words} · {rates}"),
+        _ => words,
+    };
+    ui.add(Label::new(RichText::new(text).color(theme.weak_text)).truncate());
+}
+
+/// What matters most, and a sign for it.
+fn words(session: &Session) -> (Mark, String) {
+    let name = match &session.source {
+        Source::Camera(spec) if matches!(**spec, SourceSpec::Recording(_)) => "Playing",
+        Source::Camera(spec) if matches!(**spec, SourceSpec::Watched(_)) => "Watching the folder",
+        Source::Camera(_) | Source::Cell(_) | Source::File(_) | Source::Scan(_) => "Live",
+    };
+    let Some(status) = &session.live.status else {
+        return (Mark::Look, format!("{name} · opening"));
+    };
+    let (sign, what) = match (&status.source, status.stillness) {
+        (SourceState::Lost(_), _) => (Mark::Bad, "lost, looking for it".into()),
+        (SourceState::Opening, _) => (Mark::Look, "opening".into()),
+        (SourceState::Running, None) => (Mark::Good, "each capture counts".into()),
+        (SourceState::Running, Some(MotionState::Watching)) => (Mark::Look, "looking".into()),
+        (SourceState::Running, Some(MotionState::Moving)) => (Mark::Look, "moving".into()),
+        (SourceState::Running, Some(MotionState::Steady { lasting, .. })) => (
+            Mark::Good,
+            format!("steady for {:.1} s", lasting.as_secs_f64()),
+        ),
+    };
+    (sign, format!("{name} · {what}"))
+}
+
+/// What the verdict rests on.
+fn evidence_text(status: &LiveStatus) -> String {
+    let averaged = match status.num_averaged {
+        0 | 1 => String::new(),
+        num => format!(" · depth of {num}"),
+    };
+    match (&status.standing, status.stillness) {
+        (_, None) => "Every new file is inspected by itself".into(),
+        (LiveVerdict::Open, _) => "No verdict counts until it hangs still".into(),
+        (LiveVerdict::Gathering { num_frames, needed }, _) => {
+            format!(
+                "{num_frames} of {needed} {}{averaged}",
+                frames_word(*needed)
+            )
+        }
+        (LiveVerdict::Counted(agreed), _) => {
+            let ConsensusVerdict {
+                num_frames,
+                num_agreeing,
+                ..
+            } = **agreed;
+            let agree = if num_frames == 1 { "agrees" } else { "agree" };
+            let word = frames_word(num_frames);
+            format!("{num_agreeing} of {num_frames} {word} {agree}{averaged}")
+        }
+    }
+}
+
+pub(super) fn frames_word<N: Copy + PartialEq + From<u8>>(num: N) -> &'static str {
+    if num == N::from(1) { "frame" } else { "frames" }
+}
+
+/// Rates, latency, and what was dropped.
+fn figures(status: &LiveStatus) -> String {
+    let [captured, inspected] = status
+        .rates
+        .map(|rate| rate.map_or_else(|| "–".to_owned(), |rate| format!("{rate:.0}")));
+    let latency = status
+        .latency
+        .map(|latency| format!("{:.0} ms", latency.as_secs_f64() * 1000.0));
+    let dropped = (status.num_dropped > 0).then(|| format!("{} dropped", status.num_dropped));
+    let rates = format!("{captured} fps, {inspected} inspected");
+    let all: Vec<String> = [Some(rates), latency, dropped]
+        .into_iter()
+        .flatten()
+        .collect();
+    all.join(" · ")
+}

@@ -1,0 +1,90 @@
+//! The rail on the left: the workspaces.
+
+use egui::{Frame, Painter, Panel, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
+
+use super::{
+    action::Action,
+    roles::{UserRole, chip, is_operators, lock},
+    state::{State, Workspace},
+    top_bar::focus_ring,
+};
+use crate::app::ui::theme::{Theme, font, space};
+
+/// The rail on the left.
+pub(in crate::app) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+    let frame = Frame::new().fill(theme.panel);
+    Panel::left("rail")
+        .exact_size(space::RAIL)
+        .resizable(false)
+        .frame(frame)
+        .show(ui, |ui| {
+            for workspace in Workspace::ALL {
+                let is_front = state.workspace == workspace;
+                let size = vec2(ui.available_width(), space::RAIL);
+                let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+                let painter = ui.painter();
+                if is_front {
+                    painter.rect_filled(rect, 0.0, theme.control);
+                    let bar = Rect::from_min_size(rect.min, vec2(3.0, rect.height()));
+                    painter.rect_filled(bar, 0.0, theme.accent);
+                }
+                let colour = if is_front {
+                    theme.text
+                } else {
+                    theme.weak_text
+                };
+                let icon = rect.center() - vec2(0.0, 9.0);
+                sign(painter, workspace, icon, Stroke::new(1.6, colour));
+                painter.text(
+                    rect.center() + vec2(0.0, 14.0),
+                    egui::Align2::CENTER_CENTER,
+                    workspace.title(),
+                    font::small(),
+                    colour,
+                );
+                focus_ring(ui, rect, &response, theme);
+                response.widget_info(|| {
+                    let label = workspace.title();
+                    egui::WidgetInfo::selected(egui::Role::Tab, true, is_front, label)
+                });
+                if response.clicked() {
+                    actions.push(Action::GoTo(workspace));
+                }
+                if state.role == UserRole::Operator && !is_operators(workspace) {
+                    let corner = icon + vec2(20.0, -10.0);
+                    let stroke = Stroke::new(1.2, theme.weak_text);
+                    lock(ui.painter(), corner, UserRole::Operator, stroke);
+                }
+            }
+            chip(ui, state, theme, actions);
+        });
+}
+
+/// The workspace's sign.
+fn sign(painter: &Painter, workspace: Workspace, centre: Pos2, stroke: Stroke) {
+    let at = |x: f32, y: f32| pos2(centre.x + x, centre.y + y);
+    match workspace {
+        Workspace::Inspect => {
+            painter.circle_stroke(centre, 8.0, stroke);
+            painter.circle_filled(centre, 2.4, stroke.color);
+        }
+        Workspace::Enrol => {
+            painter.line_segment([at(-7.0, 0.0), at(7.0, 0.0)], stroke);
+            painter.line_segment([at(0.0, -7.0), at(0.0, 7.0)], stroke);
+        }
+        Workspace::Compare => {
+            let frame = Rect::from_center_size(centre, vec2(16.0, 12.0));
+            painter.rect_stroke(frame, 1.0, stroke, egui::StrokeKind::Middle);
+            painter.line_segment([at(0.0, -6.0), at(0.0, 6.0)], stroke);
+        }
+        Workspace::Align => {
+            let corners = [at(-8.0, 5.0), at(-3.0, -7.0), at(8.0, -4.0), at(3.0, 7.0)];
+            painter.add(egui::Shape::closed_line(corners.to_vec(), stroke));
+        }
+        Workspace::History => {
+            for y in [-6.0, 0.0, 6.0] {
+                painter.line_segment([at(-8.0, y), at(8.0, y)], stroke);
+            }
+        }
+    }
+}

@@ -1,0 +1,83 @@
+//! The page on which a person types where the camera sits.
+
+use egui::{ComboBox, RichText, Ui};
+
+use super::{
+    dialog::{mounts, name, told, use_it},
+    in_use::pose,
+    state::{RobotAction, RobotDialog},
+};
+use crate::{
+    app::{
+        ui::{
+            theme::{Theme, font, space},
+            widgets::Mark,
+        },
+        user_error::UserError,
+    },
+    robot::Convention,
+};
+
+pub(super) fn ui(
+    ui: &mut Ui,
+    dialog: &mut RobotDialog,
+    theme: &Theme,
+    caused: &mut Vec<RobotAction>,
+) {
+    mounts(ui, dialog);
+    ui.add_space(space::SMALL);
+    ui.horizontal(|ui| {
+        ui.label("Numbers of");
+        convention(ui, &mut dialog.convention);
+    });
+    let small = |text: &str| RichText::new(text.to_owned()).font(font::small());
+    ui.label(small(dialog.convention.meaning()).color(theme.weak_text));
+    ui.add_space(space::SMALL);
+    let transform = dialog.mount.camera_transform();
+    let label = ui.label(format!("{transform}: where the camera's frame stands"));
+    let hint = dialog.convention.names().join("  ");
+    let rows = if dialog.convention == Convention::Matrix {
+        4
+    } else {
+        1
+    };
+    ui.add(
+        egui::TextEdit::multiline(&mut dialog.numbers)
+            .hint_text(hint)
+            .desired_rows(rows)
+            .desired_width(f32::INFINITY),
+    )
+    .labelled_by(label.id);
+    let typed = dialog.typed();
+    match &typed {
+        Ok(written) => {
+            // Said back as a matrix: whoever slips in order or sign sees it.
+            pose(ui, transform, &written.pose, Convention::Matrix, theme);
+        }
+        Err(_) if dialog.numbers.trim().is_empty() => {}
+        Err(error) => told(ui, Mark::Bad, &UserError::of(error), theme),
+    }
+    ui.add_space(space::SMALL);
+    name(ui, dialog);
+    ui.add_space(space::SMALL);
+    if use_it(ui, typed.is_ok(), theme) {
+        caused.push(RobotAction::UseTyped);
+    }
+}
+
+fn convention(ui: &mut Ui, convention: &mut Convention) {
+    let chosen = *convention;
+    let response = ComboBox::from_id_salt("typed convention")
+        .selected_text(chosen.title())
+        .width(240.0)
+        .show_ui(ui, |ui| {
+            for other in Convention::ALL {
+                ui.selectable_value(convention, other, other.title());
+            }
+        })
+        .response;
+    response.widget_info(|| {
+        let text = format!("Numbers of: {}", chosen.title());
+        egui::WidgetInfo::labeled(egui::Role::ComboBox, true, text)
+    });
+}

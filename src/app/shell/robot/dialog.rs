@@ -1,0 +1,146 @@
+//! The dialog itself: its pages, and what went wrong.
+
+use egui::{Button, Context, Frame, Id, Margin, Modal, RichText, ScrollArea, Ui, vec2};
+
+use super::{
+    by_hand, from_pairs, in_use,
+    state::{RobotAction, RobotCell, RobotDialog, RobotPage},
+};
+use crate::{
+    app::{
+        shell::session::Session,
+        ui::{
+            theme::{Theme, font, space},
+            widgets::{Mark, labelled, mark, sentence},
+        },
+        user_error::UserError,
+    },
+    robot::hand_eye::Mount,
+};
+
+/// Width of the dialog, logical pixels.
+const WIDTH: f32 = 640.0;
+/// What of the window's height the pages leave free, for heading, buttons and the edges.
+const MARGIN: f32 = 220.0;
+
+impl RobotCell {
+    /// Draws the dialog while it is open; says what a person caused in it.
+    pub(in crate::app) fn ui(
+        &self,
+        ctx: &Context,
+        session: &Session,
+        theme: &Theme,
+    ) -> Vec<RobotAction> {
+        let Some(known) = self.dialog() else {
+            return Vec::new();
+        };
+        let mut dialog = known.clone();
+        let mut caused = Vec::new();
+        let modal = Modal::new(Id::unique("robot"))
+            .frame(Frame::window(&ctx.global_style()).inner_margin(Margin::same(18)))
+            .show(ctx, |ui| {
+                ui.set_width(WIDTH.min(ctx.content_rect().width() - 80.0));
+                let title = RichText::new("Robot").font(font::verdict());
+                ui.label(title.color(theme.text));
+                ui.add_space(space::SMALL);
+                ui.horizontal(|ui| {
+                    for page in RobotPage::ALL {
+                        choice(ui, &mut dialog.page, page, page.title());
+                    }
+                });
+                ui.separator();
+                let room = ctx.content_rect().height() - MARGIN;
+                ScrollArea::vertical()
+                    .max_height(room)
+                    .auto_shrink([false, true])
+                    .show(ui, |ui| {
+                        self.page(ui, session, &mut dialog, theme, &mut caused);
+                    });
+                ui.separator();
+                if labelled(ui, Button::new("Close"), "Close").clicked() {
+                    caused.push(RobotAction::Close);
+                }
+            });
+        if modal.should_close() && caused.is_empty() {
+            caused.push(RobotAction::Close);
+        }
+        if dialog != *known {
+            caused.insert(0, RobotAction::Edit(Box::new(dialog)));
+        }
+        caused
+    }
+
+    /// The page in front, and what went wrong last.
+    fn page(
+        &self,
+        ui: &mut Ui,
+        session: &Session,
+        dialog: &mut RobotDialog,
+        theme: &Theme,
+        caused: &mut Vec<RobotAction>,
+    ) {
+        match dialog.page {
+            RobotPage::InUse => in_use::ui(ui, self, session, dialog, theme, caused),
+            RobotPage::ByHand => by_hand::ui(ui, dialog, theme, caused),
+            RobotPage::FromPairs => {
+                from_pairs::ui(ui, self, session.convention, dialog, theme, caused);
+            }
+        }
+        if let Some(trouble) = &dialog.trouble {
+            ui.add_space(space::SMALL);
+            told(ui, Mark::Bad, trouble, theme);
+        }
+    }
+}
+
+/// One of several, chosen by a press.
+pub(super) fn choice<T: PartialEq>(ui: &mut Ui, value: &mut T, this: T, text: &str) {
+    let is_chosen = *value == this;
+    let button = Button::selectable(is_chosen, text)
+        .frame_when_inactive(true)
+        .min_size(vec2(space::TARGET, space::TARGET));
+    if ui.add(button).clicked() {
+        *value = this;
+    }
+}
+
+/// What the camera is fixed to.
+pub(super) fn mounts(ui: &mut Ui, dialog: &mut RobotDialog) {
+    ui.horizontal(|ui| {
+        for (mount, text) in [
+            (Mount::EyeToHand, "Camera in the cell"),
+            (Mount::EyeInHand, "Camera on the flange"),
+        ] {
+            choice(ui, &mut dialog.mount, mount, text);
+        }
+    });
+}
+
+/// What a new calibration is called.
+pub(super) fn name(ui: &mut Ui, dialog: &mut RobotDialog) {
+    ui.horizontal(|ui| {
+        let label = ui.label("Name of the cell");
+        ui.add(egui::TextEdit::singleline(&mut dialog.name).desired_width(280.0))
+            .labelled_by(label.id);
+    });
+}
+
+/// The button that uses what stands there.
+pub(super) fn use_it(ui: &mut Ui, is_there: bool, theme: &Theme) -> bool {
+    let text = RichText::new("Use it").color(theme.on_accent);
+    let button = Button::new(text).fill(theme.accent);
+    ui.add_enabled_ui(is_there, |ui| labelled(ui, button, "Use it").clicked())
+        .inner
+}
+
+/// Trouble or doubt, its sign before it and what to do below.
+pub(super) fn told(ui: &mut Ui, sign: Mark, trouble: &UserError, theme: &Theme) {
+    ui.horizontal_top(|ui| {
+        let (rect, _) = ui.allocate_exact_size(egui::Vec2::splat(18.0), egui::Sense::hover());
+        mark(ui.painter(), rect.center(), 7.0, sign, theme);
+        ui.vertical(|ui| {
+            ui.label(RichText::new(sentence(&trouble.what)).color(theme.text));
+            ui.label(RichText::new(&trouble.advice).color(theme.weak_text));
+        });
+    });
+}

@@ -1,0 +1,176 @@
+//! The page on which the camera's place is calculated from pairs of robot and camera poses.
+
+use egui::{Button, Checkbox, Grid, RichText, ScrollArea, Ui, vec2};
+
+use super::{
+    dialog::{mounts, name, told, use_it},
+    in_use::pose,
+    state::{RobotAction, RobotCell, RobotDialog, RobotFile},
+    work::SolvedPairs,
+};
+use crate::{
+    app::{
+        inspection::source::file_name,
+        ui::{
+            theme::{Theme, font, space},
+            widgets::{Mark, labelled, row},
+        },
+        user_error::UserError,
+    },
+    robot::Convention,
+};
+
+/// Height of the table of residuals, logical pixels.
+const TABLE: f32 = 170.0;
+/// Height of a row of figures, logical pixels.
+const ROW: f32 = 20.0;
+
+pub(super) fn ui(
+    ui: &mut Ui,
+    robot: &RobotCell,
+    shown: Convention,
+    dialog: &mut RobotDialog,
+    theme: &Theme,
+    caused: &mut Vec<RobotAction>,
+) {
+    mounts(ui, dialog);
+    ui.add_space(space::SMALL);
+    ui.horizontal(|ui| {
+        if labelled(ui, Button::new("Choose pairs…"), "Choose pairs…").clicked() {
+            caused.push(RobotAction::Ask(RobotFile::Pairs));
+        }
+        match &dialog.pairs {
+            Some(path) => ui.label(RichText::new(file_name(path)).color(theme.text)),
+            None => ui.label(
+                RichText::new("A table or JSON of robot and camera poses, 8 to 15 pairs")
+                    .color(theme.weak_text),
+            ),
+        };
+        if !robot.is_idle() {
+            ui.add(egui::Spinner::new().size(18.0).color(theme.accent));
+        }
+    });
+    let Some(found) = dialog.solved.clone() else {
+        if dialog.pairs.is_none() {
+            let text = "A line holds the robot's pose, as the controller shows the flange, then the camera's: where it sees \
+                        the target. Lines such as \"# robot: kuka\" and \"# camera: matrix\" at the top name the conventions. \
+                        An enrolled part can be the target: partsight calibrate hand-eye --captures";
+            ui.label(
+                RichText::new(text)
+                    .font(font::small())
+                    .color(theme.weak_text),
+            );
+        }
+        return;
+    };
+    ui.add_space(space::SMALL);
+    residuals(ui, &found, dialog, theme);
+    ui.scope(|ui| {
+        // Nothing here is pressed.
+        ui.spacing_mut().interact_size.y = ROW;
+        figures(ui, &found, theme);
+    });
+    for doubt in &found.solved.doubts {
+        let sign = if doubt.is_grave() {
+            Mark::Bad
+        } else {
+            Mark::Look
+        };
+        told(ui, sign, &UserError::of(doubt), theme);
+    }
+    let solved = &found.solved;
+    pose(
+        ui,
+        solved.mount.camera_transform(),
+        &solved.mount_from_camera,
+        shown,
+        theme,
+    );
+    ui.add_space(space::SMALL);
+    name(ui, dialog);
+    if !solved.is_usable() {
+        let text = "Use it although it must not be used";
+        ui.add(Checkbox::new(&mut dialog.insists, text));
+    }
+    ui.add_space(space::SMALL);
+    if use_it(ui, dialog.usable().is_some(), theme) {
+        caused.push(RobotAction::UseSolved);
+    }
+}
+
+/// How far each pair is off; a pair whose tick is taken away does not count.
+fn residuals(ui: &mut Ui, found: &SolvedPairs, dialog: &mut RobotDialog, theme: &Theme) {
+    let solved = &found.solved;
+    let weak = |text: &str| RichText::new(text.to_owned()).color(theme.weak_text);
+    ScrollArea::vertical()
+        .id_salt("residuals")
+        .max_height(TABLE)
+        .auto_shrink([false, true])
+        .show(ui, |ui| {
+            let grid = Grid::new("pairs").num_columns(4).spacing(vec2(24.0, 2.0));
+            grid.show(ui, |ui| {
+                for title in ["counts", "off mm", "off °", ""] {
+                    ui.label(weak(title));
+                }
+                ui.end_row();
+                for name in &found.names {
+                    let mut counts = !dialog.left_out.contains(name);
+                    if ui.add(Checkbox::new(&mut counts, name)).clicked() {
+                        if counts {
+                            dialog.left_out.retain(|left_out| left_out != name);
+                        } else {
+                            dialog.left_out.push(name.clone());
+                        }
+                    }
+                    let pairs = &solved.residuals.pairs;
+                    let place = pairs.iter().position(|pair| pair.name == *name);
+                    if let Some(place) = place {
+                        let off = pairs[place].off;
+                        ui.label(format!("{:.2}", off.shift.mm()));
+                        ui.label(format!("{:.3}", off.rotation.degrees()));
+                        ui.label(weak(if place == solved.residuals.worst {
+                            "worst"
+                        } else {
+                            ""
+                        }));
+                    } else {
+                        ui.label(weak("left out"));
+                    }
+                    ui.end_row();
+                }
+            });
+        });
+}
+
+fn figures(ui: &mut Ui, found: &SolvedPairs, theme: &Theme) {
+    let solved = &found.solved;
+    let rms = &solved.residuals.rms;
+    let text = format!(
+        "{:.2} mm and {:.3}°",
+        rms.shift.mm(),
+        rms.rotation.degrees()
+    );
+    row(ui, theme, "rms of the residuals", &text);
+    let bounds = &solved.bounds;
+    let text = if bounds.shift.0.is_finite() {
+        format!(
+            "{:.2} mm and {:.3}° in 95 of 100 cases",
+            bounds.shift.mm(),
+            bounds.turn.degrees()
+        )
+    } else {
+        "the pairs leave it open".into()
+    };
+    row(ui, theme, "off by less than", &text);
+    let span = &solved.span;
+    let text = format!(
+        "{:.0}° at most, {:.0}° about other axes; target moved {:.0} mm",
+        span.largest_turn.degrees(),
+        span.other_turn.degrees(),
+        span.travel.mm()
+    );
+    row(ui, theme, "the flange turned", &text);
+    let [robot, camera] = found.conventions;
+    let text = format!("robot {}, camera {}", robot.title(), camera.title());
+    row(ui, theme, "read as", &text);
+}

@@ -1,0 +1,550 @@
+//! What the window knows of the robot's cell, and what can happen to it.
+
+use std::{path::PathBuf, sync::Arc};
+
+use jiff::Timestamp;
+
+use super::work::{self, CellInUse, RobotResult, SolvedPairs};
+use crate::{
+    app::{
+        inspection::source::file_name,
+        shell::{
+            context::ShellContext,
+            file_dialog::{ALL_FILES, FileChoice, FileDialog, FileRequest},
+            message::Message,
+            notice::Notice,
+            session::RememberedCell,
+        },
+        task::{Task, TaskEvent, TaskRunner},
+        user_error::UserError,
+    },
+    robot::{
+        Convention, WrittenPose, WrittenPoseError,
+        calibration::{CalibrationFit, CameraPlace, CellCalibration, Origin},
+        hand_eye::Mount,
+        parse_written_pose,
+    },
+};
+
+/// The calibration of the robot's cell, and the dialog about it.
+#[derive(Debug)]
+pub struct RobotCell {
+    in_use: Option<Arc<CellInUse>>,
+    dialog: Option<RobotDialog>,
+    task: Task<RobotResult>,
+    files: FileDialog<RobotFile>,
+}
+
+/// A page of the dialog.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum RobotPage {
+    /// What is in use.
+    #[default]
+    InUse,
+    /// Numbers to be typed.
+    ByHand,
+    /// Hand-eye calibration.
+    FromPairs,
+}
+
+impl RobotPage {
+    /// All of them, in their order.
+    pub const ALL: [Self; 3] = [Self::InUse, Self::ByHand, Self::FromPairs];
+
+    /// What a person calls it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::InUse => "In use",
+            Self::ByHand => "By hand",
+            Self::FromPairs => "From pairs of poses",
+        }
+    }
+}
+
+/// What stands in the dialog.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RobotDialog {
+    /// The page in front.
+    pub page: RobotPage,
+    /// What a new calibration is called.
+    pub name: String,
+    /// What its camera is fixed to.
+    pub mount: Mount,
+    /// In which convention numbers are typed.
+    pub convention: Convention,
+    /// The numbers of the camera's place.
+    pub numbers: String,
+    /// The numbers of the arm's pose at a capture.
+    pub arm: String,
+    /// The file of pairs.
+    pub pairs: Option<PathBuf>,
+    /// Pairs that do not count.
+    pub left_out: Vec<String>,
+    /// What came of the pairs.
+    pub solved: Option<Arc<SolvedPairs>>,
+    /// True if a person wants it used although it must not be.
+    pub insists: bool,
+    /// What went wrong last.
+    pub trouble: Option<UserError>,
+}
+
+impl RobotDialog {
+    fn new(convention: Convention) -> Self {
+        Self {
+            page: RobotPage::InUse,
+            name: String::new(),
+            mount: Mount::EyeToHand,
+            convention,
+            numbers: String::new(),
+            arm: String::new(),
+            pairs: None,
+            left_out: Vec::new(),
+            solved: None,
+            insists: false,
+            trouble: None,
+        }
+    }
+
+    /// The numbers typed for the camera's place as a pose.
+    pub fn typed(&self) -> Result<WrittenPose, WrittenPoseError> {
+        self.read(&self.numbers)
+    }
+
+    /// The numbers typed for the arm's pose.
+    pub fn typed_arm(&self) -> Result<WrittenPose, WrittenPoseError> {
+        self.read(&self.arm)
+    }
+
+    /// A convention's name may be typed as well, and counts then.
+    fn read(&self, numbers: &str) -> Result<WrittenPose, WrittenPoseError> {
+        let is_named = numbers.trim_start().starts_with(char::is_alphabetic);
+        if is_named {
+            parse_written_pose(numbers)
+        } else {
+            parse_written_pose(&format!("{}: {numbers}", self.convention.name()))
+        }
+    }
+
+    /// What was calculated, if it may be used.
+    pub fn usable(&self) -> Option<Arc<SolvedPairs>> {
+        let may_be = |found: &&Arc<SolvedPairs>| found.solved.is_usable() || self.insists;
+        self.solved.as_ref().filter(may_be).cloned()
+    }
+}
+
+/// What can happen.
+#[derive(Clone, Debug)]
+pub enum RobotAction {
+    /// Open or close the dialog.
+    Toggle,
+    /// Close it.
+    Close,
+    /// Something in it was changed.
+    Edit(Box<RobotDialog>),
+    /// Use the typed numbers.
+    UseTyped,
+    /// Use what was calculated.
+    UseSolved,
+    /// Store the typed pose of the arm as the one that captures are taken from.
+    StoreArm,
+    /// Have a person choose a file.
+    Ask(RobotFile),
+    /// Use the calibration in this file.
+    Load(PathBuf),
+    /// Calculate from this file of pairs.
+    Pairs(PathBuf),
+    /// Use no calibration.
+    Forget,
+}
+
+/// What a person is asked to choose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum RobotFile {
+    /// A calibration of the robot's cell.
+    Calibration,
+    /// A file of robot and camera poses.
+    Pairs,
+}
+
+impl RobotFile {
+    fn request(self) -> FileRequest {
+        match self {
+            Self::Calibration => FileRequest {
+                title: "Load the calibration of the robot's cell",
+                filters: &[("Calibrations", &["toml"]), ALL_FILES],
+                choice: FileChoice::File,
+            },
+            Self::Pairs => FileRequest {
+                title: "Pairs of robot and camera poses",
+                filters: &[("Tables and JSON", &["csv", "txt", "json"]), ALL_FILES],
+                choice: FileChoice::File,
+            },
+        }
+    }
+}
+
+impl RobotCell {
+    /// Without a calibration.
+    pub fn new(runner: &TaskRunner) -> Self {
+        Self {
+            in_use: None,
+            dialog: None,
+            task: Task::new("robot", runner),
+            files: FileDialog::default(),
+        }
+    }
+
+    /// The calibration in use, if there is one.
+    pub fn in_use(&self) -> Option<&Arc<CellInUse>> {
+        self.in_use.as_ref()
+    }
+
+    /// The dialog, while it is open.
+    pub fn dialog(&self) -> Option<&RobotDialog> {
+        self.dialog.as_ref()
+    }
+
+    /// True while nothing is read, written or calculated.
+    pub fn is_idle(&self) -> bool {
+        self.task.running().is_none()
+    }
+
+    /// Reads the calibration that the window starts with.
+    pub fn load_remembered(&mut self, cx: &mut ShellContext<'_>) {
+        if let Some(path) = cx.session.calibration_path() {
+            self.load(path);
+        }
+    }
+
+    /// Carries out an action.
+    pub fn apply(&mut self, action: RobotAction, cx: &mut ShellContext<'_>) {
+        match action {
+            RobotAction::Toggle => {
+                let open = RobotDialog::new(cx.session.convention);
+                self.dialog = self.dialog.is_none().then_some(open);
+            }
+            RobotAction::Close => self.dialog = None,
+            RobotAction::Edit(edited) => self.edit(*edited),
+            RobotAction::UseTyped => {
+                if let Some(dialog) = &self.dialog
+                    && let Ok(written) = dialog.typed()
+                {
+                    let camera = CameraPlace::on(dialog.mount, written.pose);
+                    self.save_new(camera, Origin::ByHand, cx);
+                }
+            }
+            RobotAction::UseSolved => {
+                if let Some(found) = self.dialog.as_ref().and_then(RobotDialog::usable) {
+                    let solved = &found.solved;
+                    let camera = CameraPlace::on(solved.mount, solved.mount_from_camera);
+                    let file = file_name(&found.path);
+                    let fit = CalibrationFit::of(solved, file, found.left_out.clone());
+                    self.save_new(camera, Origin::HandEye(fit), cx);
+                }
+            }
+            RobotAction::StoreArm => self.store_arm(),
+            RobotAction::Ask(file) => {
+                let lock = &cx.services.dialogs;
+                self.files.open(file, &file.request(), lock, cx.egui);
+            }
+            RobotAction::Load(path) => self.load(path),
+            RobotAction::Pairs(path) => {
+                let open = || RobotDialog::new(cx.session.convention);
+                let dialog = self.dialog.get_or_insert_with(open);
+                dialog.page = RobotPage::FromPairs;
+                dialog.pairs = Some(path);
+                dialog.left_out.clear();
+                self.solve();
+            }
+            RobotAction::Forget => {
+                self.in_use = None;
+                cx.send(Message::UseCalibration(RememberedCell::Forgotten, None));
+                let what = "The calibration is not used any more; its file stays where it is";
+                cx.notify(Notice::done(what));
+            }
+        }
+    }
+
+    fn load(&mut self, path: PathBuf) {
+        let job = |_: &_| Ok(work::load(path)?);
+        self.task.start("Opening the calibration", job);
+    }
+
+    fn save(&mut self, path: PathBuf, calibration: CellCalibration) {
+        let job = move |_: &_| Ok(work::save(path, &calibration)?);
+        self.task.start("Saving the calibration", job);
+    }
+
+    fn store_arm(&mut self) {
+        if let (Some(dialog), Some(in_use)) = (&self.dialog, &self.in_use)
+            && let Ok(written) = dialog.typed_arm()
+        {
+            let mut calibration = in_use.calibration.clone();
+            if let CameraPlace::OnFlange { capture_pose, .. } = &mut calibration.camera {
+                *capture_pose = Some(written.pose);
+                self.save(in_use.path.clone(), calibration);
+            }
+        }
+    }
+
+    /// Takes the dialog over as it is now; pairs are calculated anew where something about them changed.
+    fn edit(&mut self, mut edited: RobotDialog) {
+        let Some(known) = &mut self.dialog else {
+            return;
+        };
+        let is_other = known.mount != edited.mount || known.left_out != edited.left_out;
+        if is_other {
+            edited.insists = false;
+        }
+        *known = edited;
+        if is_other {
+            self.solve();
+        }
+    }
+
+    /// Calculates from the file of pairs, if one was chosen.
+    fn solve(&mut self) {
+        if let Some(dialog) = &mut self.dialog
+            && let Some(pairs) = dialog.pairs.clone()
+        {
+            dialog.trouble = None;
+            dialog.solved = None;
+            let (mount, left_out) = (dialog.mount, dialog.left_out.clone());
+            let job = move |_: &_| Ok(work::solve_pairs(pairs, mount, left_out)?);
+            self.task.start("Calculating where the camera sits", job);
+        }
+    }
+
+    /// Writes a new calibration to where the user's own is.
+    fn save_new(&mut self, camera: CameraPlace, origin: Origin, cx: &mut ShellContext<'_>) {
+        let Some(path) = cx.session.usual_cell.clone() else {
+            cx.notify(Notice::look(
+                "There is no folder for your own calibration",
+                "Write it with partsight calibrate --out FILE, and load that file here",
+            ));
+            return;
+        };
+        let name = self.dialog.as_ref().map(|dialog| dialog.name.trim());
+        let calibration = CellCalibration {
+            name: name.unwrap_or_default().to_owned(),
+            notes: String::new(),
+            camera,
+            origin,
+            made_at: Timestamp::now(),
+        };
+        self.save(path, calibration);
+    }
+
+    /// Takes in what the task reports; says what follows from the file that a person chose.
+    pub fn update(&mut self, cx: &mut ShellContext<'_>) -> Option<RobotAction> {
+        match self.task.poll() {
+            Some(TaskEvent::Partial(result) | TaskEvent::Done(result)) => self.take_in(result, cx),
+            // Where the dialog is open, it says so itself.
+            Some(TaskEvent::Failed(error)) => match &mut self.dialog {
+                Some(dialog) => dialog.trouble = Some(error),
+                None => cx.notify(error),
+            },
+            None => {}
+        }
+        match self.files.poll()? {
+            (RobotFile::Calibration, Ok(path)) => Some(RobotAction::Load(path)),
+            (RobotFile::Pairs, Ok(path)) => Some(RobotAction::Pairs(path)),
+            (_, Err(notice)) => {
+                cx.notify(notice);
+                None
+            }
+        }
+    }
+
+    fn take_in(&mut self, result: RobotResult, cx: &mut ShellContext<'_>) {
+        match result {
+            RobotResult::InUse(in_use, former) => {
+                if let Some(former) = former {
+                    let former = former.display();
+                    let what = format!("Saved; the former calibration is kept in {former}");
+                    cx.notify(Notice::done(what));
+                }
+                let cell = if Some(&in_use.path) == cx.session.usual_cell.as_ref() {
+                    RememberedCell::Usual
+                } else {
+                    RememberedCell::File(in_use.path.clone())
+                };
+                cx.send(Message::UseCalibration(cell, in_use.frame()));
+                self.in_use = Some(in_use);
+                if let Some(dialog) = &mut self.dialog {
+                    dialog.page = RobotPage::InUse;
+                    dialog.trouble = None;
+                }
+            }
+            RobotResult::Solved(solved) => {
+                if let Some(dialog) = &mut self.dialog {
+                    dialog.solved = Some(solved);
+                    dialog.trouble = None;
+                }
+            }
+        }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::{fmt::Write as _, fs, path::Path};
+
+    use super::*;
+    use crate::{
+        app::shell::context::TestShell,
+        geometry::rigid::{RigidTransform, from_euler_zyx},
+    };
+
+    /// The robot's cell without a window or threads.
+    struct Bench {
+        robot: RobotCell,
+        shell: TestShell,
+        folder: tempfile::TempDir,
+    }
+
+    impl Bench {
+        fn new() -> Self {
+            Self {
+                robot: RobotCell::new(&TaskRunner::without_threads()),
+                shell: TestShell::default(),
+                folder: tempfile::tempdir().expect("a folder"),
+            }
+        }
+
+        fn apply(&mut self, action: RobotAction) {
+            self.robot.apply(action, &mut self.shell.context());
+            self.deliver();
+        }
+
+        fn edit(&mut self, change: impl FnOnce(&mut RobotDialog)) {
+            let mut dialog = self.robot.dialog.clone().expect("open");
+            change(&mut dialog);
+            self.apply(RobotAction::Edit(Box::new(dialog)));
+        }
+
+        /// Does the work that was asked for; false if none was.
+        fn work(&mut self) -> bool {
+            let has_worked = self.robot.task.run_waiting();
+            self.robot.update(&mut self.shell.context());
+            self.deliver();
+            has_worked
+        }
+
+        /// Uses the calibration that was sent last.
+        fn deliver(&mut self) {
+            for message in std::mem::take(&mut self.shell.messages) {
+                if let Message::UseCalibration(cell, robot) = message {
+                    self.shell.session.cell = cell;
+                    self.shell.session.robot = robot;
+                }
+            }
+        }
+
+        fn dialog(&self) -> &RobotDialog {
+            self.robot.dialog.as_ref().expect("open")
+        }
+    }
+
+    #[test]
+    fn typed_numbers_become_the_calibration_in_use() {
+        let mut bench = Bench::new();
+        let own = bench.folder.path().join("cell.toml");
+        bench.shell.session.usual_cell = Some(own.clone());
+        bench.apply(RobotAction::Toggle);
+        bench.edit(|dialog| {
+            dialog.name = " Cell 2 ".into();
+            dialog.convention = Convention::Kuka;
+            dialog.numbers = "1200 -400 1900 10 20 three".into();
+        });
+        bench.apply(RobotAction::UseTyped);
+        assert!(!bench.work(), "no pose");
+        bench.edit(|dialog| dialog.numbers = "1200 -400 1900 10 20 30".into());
+        bench.apply(RobotAction::UseTyped);
+        assert!(bench.work());
+        let frame = bench.shell.session.robot.clone().expect("a frame");
+        assert!(frame.name.starts_with("Cell 2 ("), "{}", frame.name);
+        assert!((frame.robot_from_camera.translation.vector.x - 1.2).abs() < 1e-9);
+        assert_eq!(bench.shell.session.cell, RememberedCell::Usual);
+
+        bench.apply(RobotAction::Forget);
+        assert!(bench.shell.session.robot.is_none() && bench.robot.in_use.is_none());
+        assert!(own.exists());
+        bench.robot.load_remembered(&mut bench.shell.context());
+        assert!(!bench.work(), "it stays forgotten");
+        bench.shell.session.cell = RememberedCell::Usual;
+        bench.robot.load_remembered(&mut bench.shell.context());
+        assert!(bench.work());
+        assert_eq!(bench.shell.session.robot, Some(frame));
+    }
+
+    #[test]
+    fn a_camera_on_the_flange_has_a_frame_once_the_arm_is_known() {
+        let mut bench = Bench::new();
+        let path = bench.folder.path().join("other.toml");
+        let calibration = CellCalibration {
+            name: String::new(),
+            notes: String::new(),
+            camera: CameraPlace::on(Mount::EyeInHand, RigidTransform::identity()),
+            origin: Origin::ByHand,
+            made_at: Timestamp::UNIX_EPOCH,
+        };
+        calibration.save(&path).expect("written");
+        bench.apply(RobotAction::Toggle);
+        bench.apply(RobotAction::Load(path.clone()));
+        assert!(bench.work());
+        assert!(bench.shell.session.robot.is_none() && bench.robot.in_use.is_some());
+        assert_eq!(bench.shell.session.cell, RememberedCell::File(path.clone()));
+        bench.edit(|dialog| dialog.arm = "fanuc 900 0 1100 0 90 0".into());
+        bench.apply(RobotAction::StoreArm);
+        assert!(bench.work());
+        assert!(bench.shell.session.robot.is_some());
+        let stored = CellCalibration::load(&path).expect("read").calibration;
+        assert!(stored.frame(None).is_ok());
+    }
+
+    /// Pairs of a camera that stands still and sees a target on the flange.
+    fn write_pairs(path: &Path) {
+        let robot_from_camera = from_euler_zyx([-2.2, 0.1, -1.6, 1.5, -0.2, 2.0]);
+        let flange_from_target = from_euler_zyx([0.3, 0.2, -0.5, 0.02, -0.03, 0.1]);
+        let mut text = String::from("# robot: kuka\n# camera: rotation-vector\n");
+        for (i, turn) in [0.0, 0.4, -0.3, 0.1, -0.2, 0.5].into_iter().enumerate() {
+            let aside = 0.06 * i as f64;
+            let seen = from_euler_zyx([turn, 0.8 * aside, -turn, aside, -aside, 1.2]);
+            let arm = robot_from_camera * seen * flange_from_target.inverse();
+            let mut numbers = Convention::Kuka.write(&arm).numbers();
+            numbers.extend(Convention::RotationVector.write(&seen).numbers());
+            let numbers: Vec<String> = numbers.iter().map(ToString::to_string).collect();
+            writeln!(text, "p{i}, {}", numbers.join(", ")).expect("memory");
+        }
+        fs::write(path, text).expect("written");
+    }
+
+    #[test]
+    fn pairs_are_calculated_anew_when_the_mount_or_what_counts_changes() {
+        let mut bench = Bench::new();
+        let pairs = bench.folder.path().join("pairs.csv");
+        write_pairs(&pairs);
+        bench.apply(RobotAction::Pairs(pairs));
+        assert!(bench.work());
+        let first = bench.dialog().solved.clone().expect("calculated");
+        assert_eq!(first.solved.mount, Mount::EyeToHand);
+        bench.edit(|dialog| dialog.name = "x".into());
+        assert!(!bench.work() && bench.dialog().solved.is_some());
+        bench.edit(|dialog| dialog.mount = Mount::EyeInHand);
+        // What was calculated for something else is not there to be used.
+        bench.apply(RobotAction::UseSolved);
+        assert!(bench.dialog().solved.is_none());
+        assert!(bench.work());
+        let other = bench.dialog().solved.clone().expect("calculated");
+        assert_eq!(other.solved.mount, Mount::EyeInHand);
+        let left_out = vec![first.names[2].clone()];
+        bench.edit(|dialog| dialog.left_out.clone_from(&left_out));
+        assert!(bench.work());
+        let fewer = bench.dialog().solved.clone().expect("calculated");
+        assert_eq!(fewer.left_out, left_out);
+        assert_eq!(fewer.solved.residuals.pairs.len(), first.names.len() - 1);
+        bench.apply(RobotAction::Close);
+        assert!(bench.robot.dialog.is_none());
+    }
+}

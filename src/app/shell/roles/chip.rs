@@ -1,0 +1,104 @@
+//! Whose window it is, at the foot of the rail, and what can be done about it.
+
+use egui::{
+    Align, Layout, Painter, Popup, Pos2, Rect, RichText, Sense, Stroke, StrokeKind, Ui, pos2, vec2,
+};
+
+use super::{LOCK_AFTER, RoleAction, UserRole};
+use crate::app::{
+    shell::{action::Action, state::State, top_bar::focus_ring},
+    ui::theme::{Theme, font, space},
+};
+
+/// Draws it.
+pub(in crate::app) fn chip(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+    let role = state.role;
+    ui.with_layout(Layout::bottom_up(Align::Center), |ui| {
+        let size = vec2(ui.available_width(), space::RAIL);
+        let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+        let colour = if response.hovered() {
+            theme.text
+        } else {
+            theme.weak_text
+        };
+        let painter = ui.painter();
+        let stroke = Stroke::new(1.6, colour);
+        lock(painter, rect.center() - vec2(0.0, 9.0), role, stroke);
+        painter.text(
+            rect.center() + vec2(0.0, 14.0),
+            egui::Align2::CENTER_CENTER,
+            role.title(),
+            font::small(),
+            colour,
+        );
+        focus_ring(ui, rect, &response, theme);
+        let says = format!("{}'s view", role.title());
+        response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &says));
+        match role {
+            UserRole::Operator => {
+                if response
+                    .on_hover_text("Change to the engineer's view (Ctrl K)")
+                    .clicked()
+                {
+                    actions.push(Action::Role(RoleAction::Switch));
+                }
+            }
+            UserRole::Engineer => {
+                Popup::menu(&response).show(|ui| menu(ui, state, theme, actions));
+            }
+        }
+    });
+}
+
+fn menu(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+    ui.set_min_width(250.0);
+    let mut entry = |ui: &mut Ui, text: &str, action: RoleAction| {
+        if ui.button(text).clicked() {
+            actions.push(Action::Role(action));
+            ui.close();
+        }
+    };
+    entry(ui, "Operator's view", RoleAction::Switch);
+    ui.separator();
+    if state.roles.pin.is_none() {
+        entry(ui, "Set a PIN…", RoleAction::SetPin);
+        let says = "With one the window starts as the operator's";
+        ui.label(
+            RichText::new(says)
+                .font(font::small())
+                .color(theme.weak_text),
+        );
+        return;
+    }
+    entry(ui, "Change the PIN…", RoleAction::SetPin);
+    entry(ui, "Remove the PIN", RoleAction::RemovePin);
+    ui.separator();
+    ui.label(RichText::new("The operator's again, untouched for").font(font::heading()));
+    for minutes in LOCK_AFTER {
+        let word = if minutes == 1 { "minute" } else { "minutes" };
+        let is_so = state.roles.lock_after == minutes;
+        if ui.radio(is_so, format!("{minutes} {word}")).clicked() {
+            actions.push(Action::Role(RoleAction::LockAfter(minutes)));
+        }
+    }
+}
+
+/// A padlock: closed for the operator, open for the engineer.
+pub(in crate::app) fn lock(painter: &Painter, centre: Pos2, role: UserRole, stroke: Stroke) {
+    let at = |x: f32, y: f32| pos2(centre.x + x, centre.y + y);
+    let body = Rect::from_min_max(at(-7.0, -1.0), at(7.0, 9.0));
+    painter.rect_stroke(body, 1.5, stroke, StrokeKind::Middle);
+    let end = match role {
+        UserRole::Operator => -1.0,
+        UserRole::Engineer => -4.0,
+    };
+    let arch = [
+        at(-4.5, -1.0),
+        at(-4.5, -5.0),
+        at(-2.5, -8.0),
+        at(2.5, -8.0),
+        at(4.5, -5.0),
+        at(4.5, end),
+    ];
+    painter.line(arch.to_vec(), stroke);
+}

@@ -1,0 +1,137 @@
+//! The question on top of the window: a pad of digits, for gloves and for the keyboard.
+
+use egui::{Button, Context, Event, Frame, Id, Key, Margin, Modal, RichText, Ui, vec2};
+
+use super::{RoleAction, RoleQuestion, pin::MOST_DIGITS};
+use crate::app::{
+    shell::{action::Action, state::State, top_bar::labelled},
+    ui::theme::{Theme, font, space},
+};
+
+/// Sides of a digit's button, logical pixels.
+const DIGIT: [f32; 2] = [76.0, 52.0];
+
+/// Draws it while something is asked.
+pub(in crate::app) fn dialog(
+    ctx: &Context,
+    state: &State,
+    theme: &Theme,
+    actions: &mut Vec<Action>,
+) {
+    let Some(asked) = &state.roles.asked else {
+        return;
+    };
+    let asks_pin = state.roles.pin.is_some() || !matches!(asked.question, RoleQuestion::MayI(_));
+    let (title, says, done) = match asked.question {
+        RoleQuestion::MayI(_) if asks_pin => (
+            "Engineer's view",
+            "Write the PIN: recipe, thresholds, library and cell can be changed then",
+            "Unlock",
+        ),
+        RoleQuestion::MayI(_) => (
+            "Engineer's view",
+            "Recipe, thresholds, library and cell can be changed in it",
+            "Change to it",
+        ),
+        RoleQuestion::NewPin => (
+            "New PIN",
+            "Four to eight digits that the engineer's view asks for from now on",
+            "Next",
+        ),
+        RoleQuestion::NewPinAgain(_) => ("New PIN", "The same digits once more", "Set the PIN"),
+    };
+    let modal = Modal::new(Id::unique("role"))
+        .frame(Frame::window(&ctx.global_style()).inner_margin(Margin::same(18)))
+        .show(ctx, |ui| {
+            ui.set_max_width(3.0 * DIGIT[0] + 2.0 * ui.spacing().item_spacing.x);
+            let title = RichText::new(title).font(font::verdict());
+            ui.label(title.color(theme.text));
+            ui.label(RichText::new(says).color(theme.weak_text));
+            if asks_pin {
+                pad(ui, &asked.digits, theme, actions);
+            }
+            ui.add_space(space::SMALL);
+            if let Some(wrong) = asked.wrong {
+                let text = RichText::new(wrong).font(font::body_strong());
+                ui.label(text.color(theme.warning));
+                if state.roles.pin.is_some() {
+                    let forgotten = "Forgotten: close Partsight and take the lines below [pin] out of its settings.toml";
+                    ui.label(RichText::new(forgotten).font(font::small()).color(theme.weak_text));
+                }
+                ui.add_space(space::SMALL);
+            }
+            ui.horizontal(|ui| {
+                let text = RichText::new(done).color(theme.on_accent);
+                if labelled(ui, Button::new(text).fill(theme.accent), done).clicked() {
+                    actions.push(Action::Role(RoleAction::Enter));
+                }
+                if labelled(ui, Button::new("Not now"), "Not now").clicked() {
+                    actions.push(Action::Role(RoleAction::Close));
+                }
+            });
+        });
+    if asks_pin {
+        typed(ctx, actions);
+    }
+    if modal.should_close() {
+        actions.push(Action::Role(RoleAction::Close));
+    }
+}
+
+/// The digits written so far as dots, and the buttons to write more.
+fn pad(ui: &mut Ui, digits: &str, theme: &Theme, actions: &mut Vec<Action>) {
+    ui.add_space(space::MEDIUM);
+    let dots = "●".repeat(digits.len()) + &"·".repeat(MOST_DIGITS - digits.len());
+    let shown = ui.label(RichText::new(dots).font(font::title()).color(theme.text));
+    shown.widget_info(|| {
+        let says = format!("{} digits", digits.len());
+        egui::WidgetInfo::labeled(egui::Role::Label, true, says)
+    });
+    for row in ["123", "456", "789", " 0<"] {
+        ui.horizontal(|ui| {
+            for key in row.chars() {
+                let (text, says, action) = match key {
+                    ' ' => {
+                        ui.add_space(DIGIT[0] + ui.spacing().item_spacing.x);
+                        continue;
+                    }
+                    '<' => ("Erase".to_owned(), "Erase".to_owned(), RoleAction::Erase),
+                    digit => (
+                        digit.into(),
+                        format!("Digit {digit}"),
+                        RoleAction::Digit(digit),
+                    ),
+                };
+                let button = ui.add_sized(vec2(DIGIT[0], DIGIT[1]), Button::new(text));
+                button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &says));
+                if button.clicked() {
+                    actions.push(Action::Role(action));
+                }
+            }
+        });
+    }
+}
+
+/// What is written on a keyboard.
+fn typed(ctx: &Context, actions: &mut Vec<Action>) {
+    let has_focus = ctx.memory(|memory| memory.focused().is_some());
+    ctx.input(|input| {
+        for event in &input.events {
+            match event {
+                Event::Text(text) => {
+                    let digits = text.chars().filter(char::is_ascii_digit);
+                    actions.extend(digits.map(|d| Action::Role(RoleAction::Digit(d))));
+                }
+                Event::Key {
+                    key, pressed: true, ..
+                } => match key {
+                    Key::Backspace => actions.push(Action::Role(RoleAction::Erase)),
+                    // On a button that has the focus it presses that.
+                    Key::Enter if !has_focus => actions.push(Action::Role(RoleAction::Enter)),
+                    _ => {}
+                },
+                _ => {}
+            }
+        }
+    });
+}

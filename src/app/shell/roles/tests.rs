@@ -1,0 +1,111 @@
+use super::*;
+use crate::app::shell::{
+    action::{DialogRequest, apply as apply_any},
+    robot::RobotAction,
+};
+
+fn write(state: &mut State, digits: &str) {
+    for digit in digits.chars() {
+        apply(state, RoleAction::Digit(digit));
+    }
+    apply(state, RoleAction::Enter);
+}
+
+fn with_pin(digits: &str) -> State {
+    let mut state = State::default();
+    apply(&mut state, RoleAction::SetPin);
+    write(&mut state, digits);
+    write(&mut state, digits);
+    assert!(state.roles.pin.is_some());
+    state
+}
+
+#[test]
+fn the_operators_view_changes_nothing_that_a_verdict_rests_on() {
+    let mut state = State::default();
+    apply(&mut state, RoleAction::Switch);
+    let held_back = [
+        Action::Robot(RobotAction::Forget),
+        Action::Press(Workspace::Compare, 0),
+        Action::Ask(DialogRequest::Library),
+        Action::Chosen(DialogRequest::Library, "other".into()),
+        Action::TakeEmptyCell,
+        Action::GoTo(Workspace::Enrol),
+    ];
+    for action in held_back {
+        state.roles.asked = None;
+        let what = format!("{action:?}");
+        assert!(apply_any(&mut state, action).is_none(), "{what}");
+        assert!(state.roles.asked.is_some(), "{what}");
+    }
+    assert_eq!(
+        (&state.chosen_library, state.workspace),
+        (&None, Workspace::Inspect)
+    );
+    apply_any(&mut state, Action::Capture);
+    assert!(state.inspector.running().is_some());
+    assert!(apply_any(&mut state, Action::Export).is_some());
+}
+
+#[test]
+fn the_pin_lets_in_and_what_was_asked_for_is_done_then() {
+    let mut state = with_pin("2468");
+    apply(&mut state, RoleAction::Lock);
+    assert_eq!(state.role, UserRole::Operator);
+    apply_any(&mut state, Action::GoTo(Workspace::Compare));
+    write(&mut state, "2467");
+    assert_eq!(state.role, UserRole::Operator);
+    assert!(
+        state
+            .roles
+            .asked
+            .as_ref()
+            .is_some_and(|a| a.wrong.is_some())
+    );
+    write(&mut state, "2468");
+    assert_eq!(state.role, UserRole::Engineer);
+    assert_eq!(state.workspace, Workspace::Compare);
+    // What is in front when it locks is not for the operator.
+    apply(&mut state, RoleAction::Lock);
+    assert_eq!(state.workspace, Workspace::Inspect);
+}
+
+#[test]
+fn a_pin_is_written_twice_and_has_four_digits() {
+    let mut state = State::default();
+    apply(&mut state, RoleAction::SetPin);
+    write(&mut state, "12");
+    assert!(
+        state
+            .roles
+            .asked
+            .as_ref()
+            .is_some_and(|a| a.wrong.is_some())
+    );
+    write(&mut state, "1234");
+    write(&mut state, "1235");
+    assert!(state.roles.pin.is_none());
+    write(&mut state, "123456789");
+    assert!(matches!(
+        state.roles.asked.as_ref().map(|asked| &asked.question),
+        Some(RoleQuestion::NewPinAgain(digits)) if digits == "12345678"
+    ));
+}
+
+#[test]
+fn with_a_pin_the_window_starts_as_the_operators_and_locks_again() {
+    let state = with_pin("1357");
+    assert_eq!(state.roles.lock_timeout(state.role), Some(300.0));
+    let mut state = State {
+        roles: RoleState::starting(state.roles.pin, 15),
+        ..State::default()
+    };
+    state.role = state.roles.first_role();
+    assert_eq!(state.role, UserRole::Operator);
+    assert_eq!(state.roles.lock_timeout(state.role), None);
+    apply(&mut state, RoleAction::Switch);
+    write(&mut state, "1357");
+    assert_eq!(state.roles.lock_timeout(state.role), Some(900.0));
+    apply(&mut state, RoleAction::RemovePin);
+    assert_eq!(state.roles.lock_timeout(state.role), None);
+}

@@ -1,0 +1,393 @@
+//! What is remembered from one start of the window to the next: a text file that a person can read and mend.
+
+use std::{
+    fs,
+    io::{self, Read as _},
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use serde::{Deserialize, Serialize};
+
+use super::{
+    live::LiveState,
+    roles::{LOCK_AFTER, Pin, RoleState, is_operators},
+    session::RememberedCell,
+    state::{Session, Source, State, ThemeChoice, Workspace},
+};
+use crate::{
+    app::{
+        inspection::{
+            library_cache::LibraryCache, scan_choice::ScanFiles, source::CellChoice,
+            unit_system::UnitSystem,
+        },
+        task::TaskRunner,
+        user_error::UserError,
+    },
+    capture::SourceSpec,
+    files::write_atomically,
+    pipeline::Recipe,
+    robot::Convention,
+};
+
+/// The version of the file.
+const SCHEMA: u32 = 1;
+/// A larger file is no settings.
+const MAX_BYTES: u64 = 1 << 20;
+/// Sides of a window, logical pixels: beyond these a broken file or another desktop speaks.
+const SIDES: std::ops::RangeInclusive<f32> = 320.0..=16_384.0;
+
+/// What is remembered.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(default)]
+pub struct Settings {
+    /// Version of the file; a newer one is not read.
+    pub schema: u32,
+    /// Colours.
+    pub theme: ThemeChoice,
+    /// Units that are shown.
+    pub units: UnitSystem,
+    /// In which numbers the robot is told a pose.
+    pub convention: Convention,
+    /// The workspace in front.
+    pub workspace: Workspace,
+    /// The library chosen in the window; none: the one found as on the command line.
+    pub library: Option<PathBuf>,
+    /// Scenes opened last, the newest first.
+    pub recent: Vec<PathBuf>,
+    /// Inner width and height of the window, logical pixels.
+    pub window: Option<[f32; 2]>,
+    /// What Capture takes a scene from.
+    pub source: RememberedSource,
+    /// Parameters of the inspection; none: the program's own, whatever they are in its version.
+    pub recipe: Option<Recipe>,
+    /// Frames that depth is averaged over while a source is followed.
+    pub average: usize,
+    /// Minutes without a hand on the window until it is the operator's again.
+    pub lock_after: u32,
+    /// What the engineer's view asks for; none: nothing.
+    pub pin: Option<Pin>,
+    /// Which calibration of the robot's cell is used.
+    pub cell: RememberedCell,
+}
+
+/// A source, as the file has it.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum RememberedSource {
+    /// The simulated cell.
+    Cell(CellChoice),
+    /// A file.
+    File(PathBuf),
+    /// The shots of a scan.
+    Scan(ScanFiles),
+    /// A camera, a recording, a watched folder, or the simulated cell as somebody has set it up.
+    Camera(SourceSpec),
+}
+
+impl Default for RememberedSource {
+    fn default() -> Self {
+        Self::Cell(CellChoice::default())
+    }
+}
+
+impl Default for Settings {
+    fn default() -> Self {
+        Self {
+            schema: SCHEMA,
+            theme: ThemeChoice::default(),
+            units: UnitSystem::default(),
+            convention: Convention::default(),
+            workspace: Workspace::default(),
+            library: None,
+            recent: Vec::new(),
+            window: None,
+            source: RememberedSource::default(),
+            recipe: None,
+            average: 1,
+            lock_after: LOCK_AFTER[1],
+            pin: None,
+            cell: RememberedCell::default(),
+        }
+    }
+}
+
+impl Settings {
+    /// What of the state is remembered.
+    pub fn of(state: &State, window: Option<[f32; 2]>) -> Self {
+        Self {
+            schema: SCHEMA,
+            theme: state.theme,
+            units: state.units,
+            convention: state.convention,
+            workspace: state.workspace,
+            library: state.chosen_library.clone(),
+            recent: state.recent.clone(),
+            window,
+            source: match &state.source {
+                Source::Cell(choice) => RememberedSource::Cell(*choice),
+                Source::File(path) => RememberedSource::File(path.clone()),
+                Source::Scan(files) => RememberedSource::Scan(files.clone()),
+                Source::Camera(spec) => RememberedSource::Camera((**spec).clone()),
+            },
+            recipe: (*state.recipe != Recipe::default()).then(|| (*state.recipe).clone()),
+            average: state.live.params.average,
+            lock_after: state.roles.lock_after,
+            pin: state.roles.pin.clone(),
+            cell: state.cell.clone(),
+        }
+    }
+
+    /// True if nothing of this has changed.
+    pub fn is_of(&self, state: &State, window: Option<[f32; 2]>) -> bool {
+        let has_source = match (&self.source, &state.source) {
+            (RememberedSource::Cell(a), Source::Cell(b)) => a == b,
+            (RememberedSource::File(a), Source::File(b)) => a == b,
+            (RememberedSource::Scan(a), Source::Scan(b)) => a == b,
+            (RememberedSource::Camera(a), Source::Camera(b)) => *a == **b,
+            _ => false,
+        };
+        let has_recipe = match &self.recipe {
+            Some(recipe) => *recipe == *state.recipe,
+            None => *state.recipe == Recipe::default(),
+        };
+        has_source
+            && has_recipe
+            && self.theme == state.theme
+            && self.units == state.units
+            && self.convention == state.convention
+            && self.workspace == state.workspace
+            && self.library == state.chosen_library
+            && self.recent == state.recent
+            && self.average == state.live.params.average
+            && self.lock_after == state.roles.lock_after
+            && self.pin == state.roles.pin
+            && self.cell == state.cell
+            && self.window == window
+    }
+
+    /// The state to start in; its tasks are run by `runner` and share `shelf`.
+    pub fn into_state(self, runner: &TaskRunner, shelf: &LibraryCache) -> State {
+        let roles = RoleState::starting(self.pin.clone(), self.lock_after);
+        let session = Session {
+            theme: self.theme,
+            units: self.units,
+            workspace: match &self.pin {
+                Some(_) if !is_operators(self.workspace) => Workspace::Inspect,
+                _ => self.workspace,
+            },
+            convention: self.convention,
+            chosen_library: self.library,
+            recent: self.recent,
+            source: match self.source {
+                RememberedSource::Cell(choice) => Source::Cell(choice),
+                RememberedSource::File(path) => Source::File(path),
+                RememberedSource::Scan(files) => Source::Scan(files),
+                RememberedSource::Camera(spec) => Source::Camera(Box::new(spec)),
+            },
+            recipe: Arc::new(self.recipe.unwrap_or_default()),
+            role: roles.first_role(),
+            cell: self.cell,
+            live: LiveState::averaging(self.average),
+            ..Session::default()
+        };
+        State {
+            session,
+            roles,
+            ..State::new(runner, shelf)
+        }
+    }
+}
+
+/// The file of the user's settings, if the system has a place for it.
+pub fn users_file() -> Option<PathBuf> {
+    let folders = directories::ProjectDirs::from("", "", "partsight")?;
+    Some(folders.config_dir().join("settings.toml"))
+}
+
+/// Why a settings file was not used.
+#[derive(Debug, thiserror::Error)]
+enum BadSettings {
+    #[error("it cannot be read: {}", crate::files::words_of(.0))]
+    Unreadable(#[from] io::Error),
+    #[error("it is larger than {MAX_BYTES} bytes")]
+    TooLarge,
+    #[error("it is not what Partsight writes ({0})")]
+    Garbled(String),
+    #[error("it was written by a newer version of Partsight ({found}, this one knows {SCHEMA})")]
+    Newer { found: u32 },
+}
+
+/// All that every version of the file has.
+#[derive(Deserialize)]
+struct Versioned {
+    #[serde(default)]
+    schema: u32,
+}
+
+/// Reads the file. One that is not there is no trouble; a bad one is set aside, its place is free for the next.
+pub fn load(path: &Path) -> (Settings, Option<UserError>) {
+    match read(path) {
+        Ok(settings) => (settings, None),
+        Err(BadSettings::Unreadable(error)) if error.kind() == io::ErrorKind::NotFound => {
+            (Settings::default(), None)
+        }
+        Err(bad) => {
+            let what = format!("The settings in {} are not used: {bad}", path.display());
+            let advice = match set_aside(path) {
+                Ok(aside) => format!(
+                    "They were set aside as {}; the window starts as it comes",
+                    aside.display()
+                ),
+                Err(error) => format!(
+                    "Move the file away: it could not be set aside ({})",
+                    crate::files::words_of(&error)
+                ),
+            };
+            (Settings::default(), Some(UserError { what, advice }))
+        }
+    }
+}
+
+/// The size that the window had last, without judging the file.
+pub(in crate::app) fn window_size(path: &Path) -> Option<[f32; 2]> {
+    read(path).ok()?.window
+}
+
+fn read(path: &Path) -> Result<Settings, BadSettings> {
+    let mut text = String::new();
+    let file = fs::File::open(path)?;
+    let num_read = file.take(MAX_BYTES + 1).read_to_string(&mut text)?;
+    if num_read as u64 > MAX_BYTES {
+        return Err(BadSettings::TooLarge);
+    }
+    let garbled = |error: toml::de::Error| {
+        let message = error.message();
+        BadSettings::Garbled(message.lines().next().unwrap_or(message).to_owned())
+    };
+    let Versioned { schema: found } = toml::from_str(&text).map_err(garbled)?;
+    if found > SCHEMA {
+        return Err(BadSettings::Newer { found });
+    }
+    let mut settings: Settings = toml::from_str(&text).map_err(garbled)?;
+    let is_sensible = |size: &[f32; 2]| size.iter().all(|side| SIDES.contains(side));
+    settings.window = settings.window.filter(is_sensible);
+    Ok(settings)
+}
+
+/// Moves the file to a free name beside it.
+fn set_aside(path: &Path) -> io::Result<PathBuf> {
+    for number in 1..1000 {
+        let aside = path.with_extension(format!("broken-{number}.toml"));
+        if !aside.exists() {
+            fs::rename(path, &aside)?;
+            return Ok(aside);
+        }
+    }
+    Err(io::Error::other("a thousand were set aside before"))
+}
+
+/// Writes the file, whole or not at all.
+pub fn save(path: &Path, settings: &Settings) -> Result<(), UserError> {
+    let not_kept = |why: String| UserError {
+        what: format!("The settings are not remembered: {why}"),
+        advice: "Make its folder writable; the program goes on without".into(),
+    };
+    let text = toml::to_string(settings).map_err(|error| not_kept(error.to_string()))?;
+    let folder = path.parent().unwrap_or(Path::new("."));
+    fs::create_dir_all(folder).map_err(|error| {
+        let words = crate::files::words_of(&error);
+        not_kept(format!("{}: {words}", folder.display()))
+    })?;
+    write_atomically(path, |writer| writer.write_all(text.as_bytes()))
+        .map_err(|error| not_kept(error.to_string()))
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn unusual() -> Settings {
+        let mut recipe = Recipe::default();
+        recipe.accept.min_score = 0.91;
+        Settings {
+            theme: ThemeChoice::Light,
+            units: UnitSystem::MetresRadians,
+            convention: Convention::Staubli,
+            library: Some("/media/stick/reference_parts".into()),
+            recent: vec!["a.pcd".into(), "b c.ply".into()],
+            window: Some([1024.0, 768.0]),
+            source: RememberedSource::Camera("recording,pace=step:a b".parse().expect("a source")),
+            recipe: Some(recipe),
+            average: 4,
+            lock_after: 15,
+            pin: Some(Pin::of("4711")),
+            cell: RememberedCell::File("/media/stick/cell.toml".into()),
+            ..Settings::default()
+        }
+    }
+
+    #[test]
+    fn what_is_saved_comes_back() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("new").join("settings.toml");
+        let scan = Settings {
+            source: RememberedSource::Scan(ScanFiles {
+                frames: vec!["a b".into()],
+                poses: Some("truth.json".into()),
+                added: vec![("c.png".into(), "c.json".into())],
+                dropped: ["d.png".into()].into(),
+            }),
+            ..Settings::default()
+        };
+        for settings in [Settings::default(), unusual(), scan] {
+            save(&path, &settings).expect("saved");
+            assert_eq!(load(&path), (settings.clone(), None));
+            let runner = TaskRunner::without_threads();
+            let state = settings
+                .clone()
+                .into_state(&runner, &LibraryCache::default());
+            assert_eq!(Settings::of(&state, settings.window), settings);
+        }
+    }
+
+    #[test]
+    fn a_missing_file_is_no_trouble() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (settings, trouble) = load(&folder.path().join("settings.toml"));
+        assert_eq!((settings, trouble), (Settings::default(), None));
+    }
+
+    #[test]
+    fn a_bad_file_is_set_aside_and_never_lost() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("settings.toml");
+        let bad: [&[u8]; 5] = [
+            b"theme = [",
+            b"theme = \"Purple\"",
+            b"schema = 99\nnew = 1",
+            b"\xff\xfe\x00",
+            b"window = [\"wide\", 3]",
+        ];
+        for (number, contents) in bad.into_iter().enumerate() {
+            fs::write(&path, contents).expect("written");
+            let (settings, trouble) = load(&path);
+            assert_eq!(settings, Settings::default());
+            let trouble = trouble.expect("said");
+            let aside = folder
+                .path()
+                .join(format!("settings.broken-{}.toml", number + 1));
+            assert!(trouble.advice.contains(&aside.display().to_string()));
+            assert_eq!(fs::read(&aside).expect("kept"), contents);
+            assert!(!path.exists());
+        }
+    }
+
+    #[test]
+    fn a_window_of_no_size_opens_as_usual() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("settings.toml");
+        fs::write(&path, "window = [0.0, nan]").expect("written");
+        assert_eq!(load(&path).0.window, None);
+    }
+}

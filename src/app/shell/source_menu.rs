@@ -1,0 +1,208 @@
+//! What Capture and Live take scenes from: the menu that it is chosen in.
+
+use egui::{Button, RichText, ScrollArea, Ui, Vec2};
+
+use super::{
+    action::{Action, DialogRequest},
+    live::LiveAction,
+    state::{Source, State},
+    top_bar::{NARROW, shortened},
+};
+use crate::{
+    app::{
+        inspection::source::{CellChoice, file_name},
+        ui::theme::{font, space},
+    },
+    capture::{KinectSpec, SimulatedSpec, SourceSpec},
+};
+
+/// Width of a column, logical pixels.
+const COLUMN: f32 = 230.0;
+/// Frames that depth can be averaged over: the noise falls with the root.
+const AVERAGED: [usize; 4] = [1, 4, 8, 16];
+/// What of the window's height the menu leaves free, logical pixels.
+const MARGIN: f32 = 90.0;
+
+/// What stands on the button: in a narrow window the bar has room for so many letters and no more.
+fn title(ui: &Ui, source: &str) -> String {
+    let is_narrow = ui.ctx().content_rect().width() < NARROW;
+    if is_narrow && source.chars().count() > "Simulated cell".len() {
+        format!("{} ▼", shortened(source, 22))
+    } else {
+        format!("Source · {} ▼", shortened(source, 40))
+    }
+}
+
+/// Draws the button and, once pressed, the menu.
+pub(in crate::app) fn ui(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+    ui.menu_button(title(ui, &now(&state.source)), |ui| {
+        let height = ui.ctx().content_rect().height() - MARGIN;
+        ui.horizontal_top(|ui| {
+            column(ui, height, "cell", |ui| simulated(ui, state, actions));
+            ui.separator();
+            column(ui, height, "others", |ui| others(ui, state, actions));
+        });
+    })
+    .response
+    .on_hover_text("Where Capture and Live take scenes from");
+}
+
+fn column(ui: &mut Ui, height: f32, name: &str, content: impl FnOnce(&mut Ui)) {
+    ui.vertical(|ui| {
+        ui.set_width(COLUMN);
+        ScrollArea::vertical()
+            .id_salt(name)
+            .max_height(height)
+            .show(ui, content);
+    });
+}
+
+/// The source in use, shortly.
+fn now(source: &Source) -> String {
+    match source {
+        Source::Cell(CellChoice::InTurn) => "Simulated cell".to_owned(),
+        Source::Cell(choice) => format!("Simulated · {}", choice.title()),
+        Source::File(path) => shortened(&file_name(path), 24),
+        Source::Scan(files) => format!("Scan {}", shortened(&files.title(), 22)),
+        Source::Camera(spec) => match &**spec {
+            SourceSpec::Simulated(_) => "Simulated cell, set up".to_owned(),
+            SourceSpec::Recording(spec) => {
+                format!("Recording {}", shortened(&file_name(&spec.folder), 18))
+            }
+            SourceSpec::Watched(spec) => {
+                format!("Folder {}", shortened(&file_name(&spec.folder), 20))
+            }
+            SourceSpec::Kinect(_) => "Kinect".to_owned(),
+        },
+    }
+}
+
+fn heading(ui: &mut Ui, text: &str) {
+    ui.label(RichText::new(text).font(font::heading()));
+}
+
+fn simulated(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+    heading(ui, "Simulated cell");
+    let (is_set_up, spec) = match &state.source {
+        Source::Camera(spec) => match &**spec {
+            SourceSpec::Simulated(spec) => (true, spec.clone()),
+            _ => (false, SimulatedSpec::default()),
+        },
+        Source::Cell(choice) => (false, choice.followed()),
+        Source::File(_) | Source::Scan(_) => (false, SimulatedSpec::default()),
+    };
+    if ui.selectable_label(is_set_up, "Set up the cell…").clicked() {
+        actions.push(Action::Live(LiveAction::SetUp(Some(spec))));
+        ui.close();
+    }
+    for choice in CellChoice::all() {
+        let is_chosen = state.source == Source::Cell(choice);
+        if ui.selectable_label(is_chosen, choice.title()).clicked() {
+            actions.push(Action::UseCell(choice));
+            ui.close();
+        }
+    }
+}
+
+fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+    let camera = match &state.source {
+        Source::Camera(spec) => Some(&**spec),
+        Source::Cell(_) | Source::File(_) | Source::Scan(_) => None,
+    };
+    heading(ui, "Cameras and folders");
+    let is_kinect = matches!(camera, Some(SourceSpec::Kinect(_)));
+    if ui.selectable_label(is_kinect, "Kinect").clicked() {
+        let spec = SourceSpec::Kinect(KinectSpec::default());
+        actions.push(Action::Live(LiveAction::Use(spec)));
+        ui.close();
+    }
+    let is_recording = matches!(camera, Some(SourceSpec::Recording(_)));
+    let is_watched = matches!(camera, Some(SourceSpec::Watched(_)));
+    for (is_chosen, text, says, ask) in [
+        (
+            is_recording,
+            "Play a recording…",
+            "A folder of depth images or clouds: Live plays and pauses it, Capture takes its next frame",
+            DialogRequest::Recording,
+        ),
+        (
+            is_watched,
+            "Watch a folder…",
+            "Every capture that another program saves there is inspected",
+            DialogRequest::WatchedFolder,
+        ),
+        (
+            false,
+            "Open a file…",
+            "A single capture",
+            DialogRequest::Scene,
+        ),
+        (
+            matches!(state.source, Source::Scan(_)),
+            "Open a scan…",
+            "A folder with several shots of one part, each with the pose of its camera (Ctrl Shift O)",
+            DialogRequest::Scan,
+        ),
+    ] {
+        if ui
+            .selectable_label(is_chosen, text)
+            .on_hover_text(says)
+            .clicked()
+        {
+            actions.push(Action::Ask(ask));
+            ui.close();
+        }
+    }
+    ui.separator();
+    heading(ui, "Live averages depth over");
+    ui.horizontal(|ui| {
+        for num in AVERAGED {
+            let is_chosen = state.live.params.average == num;
+            let text = match num {
+                1 => "1 frame".to_owned(),
+                num => num.to_string(),
+            };
+            let button = Button::selectable(is_chosen, text).min_size(Vec2::splat(space::TARGET));
+            if ui.add(button).clicked() {
+                actions.push(Action::Live(LiveAction::Average(num)));
+            }
+        }
+    });
+    ui.separator();
+    empty_cell(ui, state, actions);
+    if !state.recent.is_empty() {
+        ui.separator();
+        heading(ui, "Recent files");
+    }
+    for path in &state.recent {
+        let is_chosen = match &state.source {
+            Source::File(file) => file == path,
+            Source::Scan(files) => files.folder() == Some(path),
+            Source::Cell(_) | Source::Camera(_) => false,
+        };
+        let name = shortened(&file_name(path), 28);
+        let entry = ui.selectable_label(is_chosen, name);
+        if entry.on_hover_text(path.display().to_string()).clicked() {
+            actions.push(Action::Open(path.clone()));
+            ui.close();
+        }
+    }
+}
+
+/// Taking and forgetting the empty cell.
+fn empty_cell(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
+    heading(ui, "Empty cell");
+    let take = Button::new("Take the empty cell");
+    let take = ui.add_enabled(state.shown.is_some(), take).on_hover_text(
+        "The scene in front shows the cell without a part: what stands in it is not taken for a part from now on",
+    );
+    if take.clicked() {
+        actions.push(Action::TakeEmptyCell);
+        ui.close();
+    }
+    let forget = Button::new("Forget the empty cell");
+    if ui.add_enabled(state.empty_cell.is_some(), forget).clicked() {
+        actions.push(Action::ForgetEmptyCell);
+        ui.close();
+    }
+}

@@ -1,0 +1,76 @@
+//! What stands above the workspaces: the session that they share, and who changes it.
+
+use std::ops::{Deref, DerefMut};
+
+use super::{inspector::Inspector, live::Follower, roles::RoleState};
+pub use super::{
+    message::{Event, ReinspectionPurpose},
+    notice::{Notice, NoticeKind},
+    session::{Session, Shown, Source, ThemeChoice, WorkspaceKind as Workspace},
+};
+use crate::app::{inspection::library_cache::LibraryCache, task::TaskRunner};
+
+/// What stands above the workspaces. [`apply`](super::action::apply) changes it.
+#[derive(Debug)]
+pub struct State {
+    /// What the workspaces share.
+    pub session: Session,
+    /// Captures, opens and inspects; meanwhile the result shown is old.
+    pub inspector: Inspector,
+    /// Follows the source.
+    pub follower: Follower,
+    /// What a person should know, oldest first.
+    pub notices: Vec<Notice>,
+    /// Whether the list of shortcuts is open.
+    pub help: HelpPage,
+    /// Counts runs of the inspector and results shown.
+    pub generation: u64,
+    /// Whose window it is.
+    pub roles: RoleState,
+}
+
+impl Deref for State {
+    type Target = Session;
+
+    fn deref(&self) -> &Session {
+        &self.session
+    }
+}
+
+impl DerefMut for State {
+    fn deref_mut(&mut self) -> &mut Session {
+        &mut self.session
+    }
+}
+
+#[cfg(test)]
+impl Default for State {
+    fn default() -> Self {
+        Self::new(&TaskRunner::without_threads(), &LibraryCache::default())
+    }
+}
+
+impl State {
+    /// Before the first capture.
+    pub fn new(runner: &TaskRunner, shelf: &LibraryCache) -> Self {
+        Self {
+            session: Session::default(),
+            inspector: Inspector::new(runner, shelf),
+            follower: Follower::new(runner, shelf),
+            notices: Vec::new(),
+            help: HelpPage::default(),
+            generation: 0,
+            roles: RoleState::default(),
+        }
+    }
+}
+
+/// Whether the list of shortcuts is open.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum HelpPage {
+    /// Not open.
+    #[default]
+    Closed,
+    /// Open.
+    Open,
+}

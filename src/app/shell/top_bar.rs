@@ -1,0 +1,229 @@
+//! Above the workspaces: the top bar.
+
+use egui::{Align, Button, Frame, Layout, Margin, Panel, RichText, Ui, Vec2};
+
+use super::{
+    action::{Action, DialogRequest},
+    live::{self, LiveAction},
+    robot::{RobotAction, RobotCell},
+    source_menu,
+    state::{State, Workspace},
+};
+pub(in crate::app) use crate::app::ui::widgets::{focus_ring, labelled, shortened};
+use crate::app::{
+    inspection::{figures::StagePanel, library_cache::LibraryView, source::file_name},
+    task::Running,
+    ui::theme::{Theme, font, space},
+};
+
+/// In a narrower window the bar has no room for every key.
+pub(in crate::app) const NARROW: f32 = 1100.0;
+
+/// What the bar says of the work going on.
+pub(in crate::app) struct Progress {
+    /// The work.
+    pub(in crate::app) running: Running,
+    /// What cancels it.
+    pub(in crate::app) cancel: Action,
+}
+
+/// The bar at the top.
+pub(in crate::app) fn ui(
+    ui: &mut Ui,
+    state: &State,
+    robot: &RobotCell,
+    work: Option<Progress>,
+    theme: &Theme,
+    actions: &mut Vec<Action>,
+) {
+    let frame = Frame::new()
+        .fill(theme.panel)
+        .inner_margin(Margin::symmetric(14, 0));
+    Panel::top("top bar")
+        .exact_size(space::TOP_BAR)
+        .resizable(false)
+        .frame(frame)
+        .show(ui, |ui| {
+            ui.horizontal_centered(|ui| {
+                let name = RichText::new("Partsight").font(font::body_strong());
+                ui.label(name);
+                ui.add_space(space::LARGE);
+                source_menu::ui(ui, state, actions);
+                robot_button(ui, state, robot, theme, actions);
+                let capture = RichText::new("Capture").font(font::body_strong());
+                let key = RichText::new("Space").font(font::small());
+                let capture = Button::new(capture.color(theme.on_accent))
+                    .shortcut_text(key.color(theme.on_accent))
+                    .fill(theme.accent);
+                if labelled(ui, capture, "Capture").clicked() {
+                    actions.push(Action::Capture);
+                }
+                live_button(ui, state, theme, actions);
+                let key = RichText::new("Ctrl O").font(font::small());
+                let open = Button::new("Open…").shortcut_text(key.color(theme.weak_text));
+                if labelled(ui, open, "Open…").clicked() {
+                    actions.push(Action::Ask(DialogRequest::Scene));
+                }
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    settings(ui, state, work.is_some(), theme, actions);
+                    ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                        progress(ui, state, work, theme, actions);
+                    });
+                });
+            });
+        });
+}
+
+/// Follows the source, or stops.
+fn live_button(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+    let is_live = state.is_live();
+    let colour = if is_live { theme.on_accent } else { theme.text };
+    let key = if is_live {
+        theme.on_accent
+    } else {
+        theme.weak_text
+    };
+    let text = RichText::new("Live")
+        .font(font::body_strong())
+        .color(colour);
+    let key = RichText::new("L").font(font::small()).color(key);
+    let button = Button::selectable(is_live, text)
+        .frame_when_inactive(true)
+        .shortcut_text(key)
+        .min_size(Vec2::splat(space::TARGET));
+    let response = ui.add(button);
+    response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, is_live, "Live"));
+    let says = if is_live {
+        "Stop following the source (L)"
+    } else {
+        "Follow the source: every frame that can be is inspected (L)"
+    };
+    if response.on_hover_text(says).clicked() {
+        actions.push(Action::Live(LiveAction::Toggle));
+    }
+}
+
+/// The cell's calibration: whether there is one, and the dialog about it.
+fn robot_button(
+    ui: &mut Ui,
+    state: &State,
+    robot: &RobotCell,
+    theme: &Theme,
+    actions: &mut Vec<Action>,
+) {
+    let mut button = Button::new("Robot…");
+    if ui.ctx().content_rect().width() > NARROW {
+        let key = RichText::new("B").font(font::small());
+        button = button.shortcut_text(key.color(theme.weak_text));
+    }
+    let says = match (&state.robot, robot.in_use()) {
+        (Some(frame), _) => format!("Calibrated by {} (B)", frame.name),
+        (None, Some(_)) => "Where the arm stands at a capture is not known (B)".into(),
+        (None, None) => "Where the camera sits in the robot's cell: not calibrated (B)".into(),
+    };
+    if labelled(ui, button, "Robot…").on_hover_text(says).clicked() {
+        actions.push(Action::Robot(RobotAction::Toggle));
+    }
+}
+
+/// From right to left: help, colours, units, library.
+fn settings(
+    ui: &mut Ui,
+    state: &State,
+    is_at_work: bool,
+    theme: &Theme,
+    actions: &mut Vec<Action>,
+) {
+    let key = RichText::new("F1").font(font::small());
+    let help = Button::new("Help").shortcut_text(key.color(theme.weak_text));
+    if labelled(ui, help, "Help").clicked() {
+        actions.push(Action::ToggleHelp);
+    }
+    let other = state.theme.other().title().to_lowercase();
+    let colours = labelled(ui, Button::new(state.theme.title()), state.theme.title());
+    if colours
+        .on_hover_text(format!("Change to {other} (T)"))
+        .clicked()
+    {
+        actions.push(Action::SwitchTheme);
+    }
+    let units = labelled(ui, Button::new(state.units.title()), state.units.title());
+    let other = state.units.other().title();
+    if units
+        .on_hover_text(format!("Change to {other} (U)"))
+        .clicked()
+    {
+        actions.push(Action::SwitchUnits);
+    }
+    // What is at work, and the way out of it, come first.
+    let has_room = !is_at_work || ui.available_width() > 480.0;
+    if let Some(library) = state.library.as_ref().filter(|_| has_room) {
+        library_menu(ui, state, library, actions);
+    }
+}
+
+fn parts_word(num: usize) -> &'static str {
+    if num == 1 { "part" } else { "parts" }
+}
+
+/// Which library is in use, and others to use.
+fn library_menu(ui: &mut Ui, state: &State, library: &LibraryView, actions: &mut Vec<Action>) {
+    let num = library.parts.len();
+    let text = if ui.available_width() > 300.0 {
+        let name = shortened(&file_name(&library.path), 20);
+        format!("{num} {} · {name} ▼", parts_word(num))
+    } else {
+        format!("{num} {} ▼", parts_word(num))
+    };
+    ui.menu_button(text, |ui| {
+        ui.set_min_width(260.0);
+        ui.label(RichText::new("Library in use").font(font::heading()));
+        ui.label(library.path.display().to_string());
+        ui.separator();
+        if ui.button("Use another library…").clicked() {
+            actions.push(Action::Ask(DialogRequest::Library));
+            ui.close();
+        }
+        if state.chosen_library.is_some() && ui.button("Use the usual library").clicked() {
+            actions.push(Action::UseFoundLibrary);
+            ui.close();
+        }
+    });
+}
+
+/// What is being worked on, and the way out.
+fn progress(
+    ui: &mut Ui,
+    state: &State,
+    work: Option<Progress>,
+    theme: &Theme,
+    actions: &mut Vec<Action>,
+) {
+    let Some(Progress { running, cancel }) = work else {
+        // There the verdict card says it.
+        if state.is_live() && state.workspace != Workspace::Inspect {
+            live::chip(ui, state, theme);
+        }
+        return;
+    };
+    ui.add_space(space::SMALL);
+    if labelled(ui, Button::new("Cancel"), "Cancel").clicked() {
+        actions.push(cancel);
+    }
+    ui.add(egui::Spinner::new().size(18.0).color(theme.accent));
+    let text = match (running.progress, running.stage.map(StagePanel::of)) {
+        (Some((done, total)), _) => {
+            format!("{} · {done} of {total}", shortened(&running.title, 28))
+        }
+        (None, Some(panel)) => {
+            let place = StagePanel::ALL
+                .iter()
+                .position(|p| *p == panel)
+                .unwrap_or(0)
+                + 1;
+            format!("{} · {place} of {}", panel.title(), StagePanel::ALL.len())
+        }
+        (None, None) => shortened(&running.title, 28),
+    };
+    ui.add(egui::Label::new(RichText::new(text).color(theme.weak_text)).truncate());
+}

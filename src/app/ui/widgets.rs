@@ -1,0 +1,201 @@
+//! Small things that several panels draw.
+
+use egui::{
+    Align, Align2, Button, Color32, ColorImage, Layout, Painter, Pos2, Rect, RichText, Stroke,
+    StrokeKind, TextureHandle, TextureOptions, Ui, Vec2, pos2, vec2,
+};
+use image::RgbImage;
+
+use super::theme::{ROUNDING, Theme, font, space};
+
+/// What a mark says beside its colour.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(in crate::app) enum Mark {
+    /// A tick.
+    Good,
+    /// A cross.
+    Bad,
+    /// An exclamation mark.
+    Look,
+}
+
+/// A filled disc with a sign in it.
+pub(in crate::app) fn mark(
+    painter: &Painter,
+    centre: Pos2,
+    radius: f32,
+    mark: Mark,
+    theme: &Theme,
+) {
+    let fill = match mark {
+        Mark::Good => theme.accepted,
+        Mark::Bad => theme.rejected,
+        Mark::Look => theme.warning,
+    };
+    painter.circle_filled(centre, radius, fill);
+    let at = |x: f32, y: f32| centre + vec2(x, y) * radius;
+    let stroke = Stroke::new(radius * 0.24, theme.panel);
+    match mark {
+        Mark::Good => {
+            painter.line(
+                vec![at(-0.45, 0.02), at(-0.12, 0.36), at(0.46, -0.34)],
+                stroke,
+            );
+        }
+        Mark::Bad => {
+            painter.line_segment([at(-0.36, -0.36), at(0.36, 0.36)], stroke);
+            painter.line_segment([at(-0.36, 0.36), at(0.36, -0.36)], stroke);
+        }
+        Mark::Look => {
+            painter.line_segment([at(0.0, -0.52), at(0.0, 0.14)], stroke);
+            painter.circle_filled(at(0.0, 0.44), radius * 0.14, theme.panel);
+        }
+    }
+}
+
+/// A name on the left and its value on the right.
+pub(in crate::app) fn row(ui: &mut Ui, theme: &Theme, name: &str, value: &str) {
+    ui.horizontal(|ui| {
+        // Nothing here is pressed.
+        ui.spacing_mut().interact_size.y = 0.0;
+        ui.label(RichText::new(name).color(theme.weak_text));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.label(RichText::new(value).color(theme.text));
+        });
+    });
+}
+
+/// The heading of a group.
+pub(in crate::app) fn heading(ui: &mut Ui, theme: &Theme, text: &str) {
+    ui.add_space(super::theme::space::MEDIUM);
+    ui.label(
+        RichText::new(text)
+            .font(font::heading())
+            .color(theme.weak_text),
+    );
+}
+
+/// The text with a capital letter first.
+pub(in crate::app) fn sentence(text: &str) -> String {
+    let mut letters = text.chars();
+    letters.next().map_or_else(String::new, |first| {
+        first.to_uppercase().collect::<String>() + letters.as_str()
+    })
+}
+
+/// Text on a picture.
+pub(in crate::app) fn caption(
+    painter: &Painter,
+    at: Pos2,
+    anchor: Align2,
+    text: &str,
+    colour: Color32,
+) {
+    painter.text(at, anchor, text, font::scale(), colour);
+}
+
+/// The largest rectangle of this aspect (width over height) in the middle of another.
+pub(in crate::app) fn fitted(outer: Rect, aspect: f32) -> Rect {
+    let width = outer.width().min(outer.height() * aspect);
+    Rect::from_center_size(outer.center(), vec2(width, width / aspect.max(1e-3)))
+}
+
+/// A straight map from a range of numbers to a stretch of the screen.
+#[derive(Clone, Copy, Debug)]
+pub(in crate::app) struct Scale {
+    from: [f32; 2],
+    to: [f32; 2],
+}
+
+impl Scale {
+    pub(in crate::app) fn new(from: [f32; 2], to: [f32; 2]) -> Self {
+        Self { from, to }
+    }
+
+    pub(in crate::app) fn at(&self, value: f32) -> f32 {
+        let range = self.from[1] - self.from[0];
+        let share = if range.abs() < 1e-12 {
+            0.5
+        } else {
+            (value - self.from[0]) / range
+        };
+        self.to[0] + share * (self.to[1] - self.to[0])
+    }
+}
+
+/// A curve over evenly spaced places.
+pub(in crate::app) fn curve(values: &[f32], across: &Scale, up: &Scale) -> Vec<Pos2> {
+    let place = |(i, value): (usize, &f32)| pos2(across.at(i as f32), up.at(*value));
+    values.iter().enumerate().map(place).collect()
+}
+
+/// Shows which hand-drawn control has the focus.
+pub(in crate::app) fn focus_ring(ui: &Ui, rect: Rect, response: &egui::Response, theme: &Theme) {
+    if response.has_focus() {
+        let stroke = Stroke::new(2.0, theme.accent);
+        ui.painter()
+            .rect_stroke(rect.shrink(1.0), ROUNDING, stroke, StrokeKind::Inside);
+    }
+}
+
+/// A button that is called by its text alone, whatever shortcut it shows.
+pub(in crate::app) fn labelled(ui: &mut Ui, button: Button<'_>, label: &str) -> egui::Response {
+    let response = ui.add(button.min_size(Vec2::splat(space::TARGET)));
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, label));
+    response
+}
+
+/// The text, its middle left out where it is too long.
+pub(in crate::app) fn shortened(text: &str, most: usize) -> String {
+    let letters: Vec<char> = text.chars().collect();
+    if letters.len() <= most {
+        return text.to_owned();
+    }
+    let half = most / 2;
+    let (head, tail) = (&letters[..half], &letters[letters.len() - half..]);
+    format!(
+        "{}…{}",
+        head.iter().collect::<String>(),
+        tail.iter().collect::<String>()
+    )
+}
+
+/// Uploads a picture.
+pub(in crate::app) fn texture(
+    ctx: &egui::Context,
+    name: &str,
+    image: Option<&RgbImage>,
+) -> Option<TextureHandle> {
+    let image = image?;
+    let size = [image.width() as usize, image.height() as usize];
+    let options = TextureOptions {
+        mipmap_mode: Some(egui::TextureFilter::Linear),
+        ..TextureOptions::LINEAR
+    };
+    Some(ctx.load_texture(name, ColorImage::from_rgb(size, image.as_raw()), options))
+}
+
+/// A whole number in groups of three digits.
+pub fn grouped(number: usize) -> String {
+    let digits = number.to_string();
+    let mut text = String::new();
+    for (i, digit) in digits.chars().enumerate() {
+        if i > 0 && (digits.len() - i).is_multiple_of(3) {
+            text.push('\u{202f}');
+        }
+        text.push(digit);
+    }
+    text
+}
+
+#[cfg(test)]
+mod tests {
+    use super::grouped;
+
+    #[test]
+    fn long_numbers_are_grouped() {
+        assert_eq!(grouped(7), "7");
+        assert_eq!(grouped(301_812), "301\u{202f}812");
+        assert_eq!(grouped(1_000_000), "1\u{202f}000\u{202f}000");
+    }
+}

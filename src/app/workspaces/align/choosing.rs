@@ -1,0 +1,293 @@
+//! Above the views: what is aligned to what, from where, and Run.
+
+use egui::{
+    Align, Align2, Button, DragValue, Label, Layout, Response, RichText, TextEdit, Ui, Vec2, vec2,
+};
+
+use super::{
+    action::{AlignAction, AlignFile},
+    custom::Form,
+    start::Start,
+    state::{AlignState, Pairing},
+    views::ViewDirection,
+};
+use crate::app::{
+    inspection::source::file_name,
+    shell::session::Session,
+    ui::{
+        theme::{Theme, font, space},
+        viewport::StandardView,
+        widgets::{labelled, shortened},
+    },
+};
+
+/// Longest name shown of a file.
+const NAME: usize = 22;
+
+/// Height of a remark about a custom start, logical pixels.
+const REMARK: f32 = 18.0;
+
+/// The height that everything takes.
+pub(super) fn height(align: &AlignState) -> f32 {
+    let rows = 2.0 * space::TARGET + space::SMALL;
+    if align.pairing != Pairing::MovedCopy || align.custom.form == Form::Closed {
+        return rows;
+    }
+    let num_remarks = align.custom.remarks.len().max(1) as f32;
+    rows + space::SMALL + space::TARGET + num_remarks * (space::SMALL + REMARK)
+}
+
+/// Draws it; answers from where the views are to look, if a person said so.
+pub(super) fn ui(
+    ui: &mut Ui,
+    align: &AlignState,
+    session: &Session,
+    theme: &Theme,
+    actions: &mut Vec<AlignAction>,
+) -> Option<ViewDirection> {
+    let mut look = None;
+    ui.horizontal(|ui| {
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            run(ui, align, session, theme, actions);
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                for pairing in Pairing::ALL {
+                    let is_chosen = align.pairing == pairing;
+                    if choice(ui, is_chosen, pairing.title()).clicked() {
+                        actions.push(AlignAction::Choose(pairing));
+                    }
+                }
+                if align.pairing != Pairing::Files {
+                    ui.add_space(space::SMALL);
+                    part_menu(ui, align, session, actions);
+                }
+            });
+        });
+    });
+    ui.horizontal(|ui| {
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            look = look_menu(ui);
+            ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                match align.pairing {
+                    Pairing::MovedCopy => starts(ui, align, theme, actions),
+                    Pairing::Scene => scene(ui, align, session, theme),
+                    Pairing::Files => files(ui, align, actions),
+                }
+            });
+        });
+    });
+    let is_writing = align.custom.form == Form::Open;
+    if align.pairing == Pairing::MovedCopy && is_writing {
+        custom(ui, align, theme, actions);
+    }
+    look
+}
+
+/// From where the views look, for all of them at once.
+fn look_menu(ui: &mut Ui) -> Option<ViewDirection> {
+    let menu = ui.menu_button("View ▼", |ui| {
+        let looks = [
+            ("Fit", ViewDirection::Fit),
+            ("Front", ViewDirection::From(StandardView::Front)),
+            ("Top", ViewDirection::From(StandardView::Top)),
+            ("Side", ViewDirection::From(StandardView::Side)),
+        ];
+        let chosen = looks
+            .into_iter()
+            .find(|(text, _)| ui.button(*text).clicked());
+        if chosen.is_some() {
+            ui.close();
+        }
+        chosen.map(|(_, look)| look)
+    });
+    menu.response.on_hover_text("Of all 3-D views");
+    menu.inner.flatten()
+}
+
+fn choice(ui: &mut Ui, is_chosen: bool, text: &str) -> Response {
+    let button = Button::new(text).selected(is_chosen);
+    ui.add(button.min_size(Vec2::splat(space::TARGET)))
+}
+
+fn run(
+    ui: &mut Ui,
+    align: &AlignState,
+    session: &Session,
+    theme: &Theme,
+    actions: &mut Vec<AlignAction>,
+) {
+    let missing = align.choice(session).err();
+    let text = RichText::new("Run").font(font::body_strong());
+    let key = RichText::new("R").font(font::small());
+    let button = Button::new(text.color(theme.on_accent))
+        .shortcut_text(key.color(theme.on_accent))
+        .fill(theme.accent);
+    let clicked = ui
+        .add_enabled_ui(missing.is_none(), |ui| labelled(ui, button, "Run"))
+        .inner;
+    let clicked = match missing {
+        Some(missing) => clicked.on_disabled_hover_text(missing),
+        None => clicked.on_hover_text("Align by every method (R)"),
+    };
+    if clicked.clicked() {
+        actions.push(AlignAction::Run);
+    }
+}
+
+fn part_menu(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut Vec<AlignAction>) {
+    let Some(library) = &session.library else {
+        ui.label("The library is being loaded");
+        return;
+    };
+    let chosen = align.chosen_part(session);
+    let place = chosen.and_then(|name| library.place_of(name));
+    let title = place.map_or("none", |place| library.title(place));
+    let menu = ui.menu_button(format!("Part · {} ▼", shortened(title, 24)), |ui| {
+        ui.set_min_width(200.0);
+        for part in &library.parts {
+            let name = part.name.as_str();
+            if ui
+                .selectable_label(chosen == Some(name), part.shown_title())
+                .clicked()
+            {
+                actions.push(AlignAction::ChoosePart(name.to_owned()));
+                ui.close();
+            }
+        }
+    });
+    menu.response
+        .on_hover_text("The enrolled part that is the reference");
+}
+
+/// Starts of a moved copy.
+fn starts(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut Vec<AlignAction>) {
+    let start = align.start;
+    ui.label(RichText::new("Start").color(theme.weak_text));
+    for place in 0..Start::NUM_PAPER {
+        let paper = Start::Paper(place);
+        let button = choice(ui, start == paper, &paper.title());
+        if button.on_hover_text(numbers(paper)).clicked() {
+            actions.push(AlignAction::ChooseStart(paper));
+        }
+    }
+    let is_custom = matches!(start, Start::Custom(_));
+    let button = choice(ui, is_custom, "Custom…");
+    let button = match start {
+        Start::Custom(_) => button.on_hover_text(numbers(start)),
+        Start::Paper(_) | Start::Random(_) => button,
+    };
+    if button.clicked() {
+        actions.push(AlignAction::ToggleCustom);
+    }
+    let is_random = matches!(start, Start::Random(_));
+    let button = choice(ui, is_random, "Random").on_hover_text("The next random start");
+    if button.clicked() {
+        actions.push(AlignAction::DrawStart);
+    }
+    if let Start::Random(seed) = start {
+        let mut number = seed;
+        let field = DragValue::new(&mut number).prefix("No. ").speed(0.05);
+        let field = ui.add_sized(vec2(76.0, space::TARGET), field);
+        let label = format!("Random start number {seed}");
+        ui.accesskit_node_builder(field.id, |node| node.set_label(label));
+        if field.on_hover_text(numbers(start)).changed() {
+            let start = Start::Random(number);
+            actions.push(AlignAction::ChooseStart(start));
+        }
+    }
+}
+
+/// The six numbers of a start, for a person.
+fn numbers(start: Start) -> String {
+    let transform = start.transform();
+    let (rx, ry, rz) = transform.rotation.euler_angles();
+    let [rx, ry, rz] = [rx, ry, rz].map(f64::to_degrees);
+    let [x, y, z] = transform
+        .translation
+        .vector
+        .map(|metres| metres * 1000.0)
+        .into();
+    format!(
+        "rx {rx:.1}°, ry {ry:.1}°, rz {rz:.1}°, then x {x:.0} mm, y {y:.0} mm, z {z:.0} mm\nR = Rz·Ry·Rx"
+    )
+}
+
+/// A start being written.
+fn custom(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut Vec<AlignAction>) {
+    let custom = &align.custom;
+    ui.horizontal(|ui| {
+        let mut text = custom.text.clone();
+        let field = TextEdit::singleline(&mut text)
+            .hint_text("rx ry rz x y z, for example 0 0 30deg 100mm 0 0")
+            .align(Align2::LEFT_CENTER);
+        let width = (ui.available_width() - 150.0).min(420.0);
+        let field = ui.add_sized(vec2(width, space::TARGET), field);
+        let label = "Custom start, six numbers";
+        ui.accesskit_node_builder(field.id, |node| node.set_label(label));
+        let is_entered =
+            field.lost_focus() && ui.input(|input| input.key_pressed(egui::Key::Enter));
+        if field.changed() {
+            actions.push(AlignAction::WriteCustom(text));
+        }
+        let use_it = ui
+            .add_enabled_ui(custom.is_start(), |ui| {
+                labelled(ui, Button::new("Use this start"), "Use this start")
+            })
+            .inner;
+        if use_it.clicked() || is_entered {
+            actions.push(AlignAction::UseCustom);
+        }
+    });
+    let plain = "Radians and metres, or with a unit: deg, mm, cm, m; R = Rz·Ry·Rx";
+    ui.spacing_mut().interact_size.y = REMARK;
+    let mut line = |text: &str, colour| {
+        ui.horizontal(|ui| {
+            let text = RichText::new(text).font(font::small()).color(colour);
+            ui.add(Label::new(text).truncate());
+        });
+    };
+    if custom.remarks.is_empty() {
+        line(plain, theme.weak_text);
+    }
+    for remark in &custom.remarks {
+        line(remark, theme.warning);
+    }
+}
+
+/// Which scene is aligned.
+fn scene(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme) {
+    ui.set_min_height(space::TARGET);
+    let text = match (&session.shown, align.choice(session)) {
+        (Some(shown), Ok(_)) => {
+            let inspected = &shown.inspected;
+            let num = inspected.figures.num_part;
+            format!(
+                "{}: the part found, {num} points, from where it lies",
+                inspected.origin.title()
+            )
+        }
+        (_, Err(missing)) => missing,
+        (None, Ok(_)) => String::new(),
+    };
+    ui.label(RichText::new(text).color(theme.weak_text));
+}
+
+/// Which files are aligned.
+fn files(ui: &mut Ui, align: &AlignState, actions: &mut Vec<AlignAction>) {
+    for (role, path, file) in [
+        ("Source", &align.source, AlignFile::Source),
+        ("Target", &align.target, AlignFile::Target),
+    ] {
+        let text = match path {
+            Some(path) => format!("{role} · {}", shortened(&file_name(path), NAME)),
+            None => format!("{role}…"),
+        };
+        let hover = match file {
+            AlignFile::Source => "The cloud or mesh that is moved",
+            AlignFile::Target | AlignFile::TableFile => "The cloud or mesh that stays",
+        };
+        let button = labelled(ui, Button::new(&text), &format!("{role}…"));
+        if button.on_hover_text(hover).clicked() {
+            actions.push(AlignAction::Ask(file));
+        }
+    }
+}

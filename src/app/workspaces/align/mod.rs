@@ -1,0 +1,181 @@
+//! Align, the engineer's: every method on the same two clouds, side by side, and Table I.
+//!
+//! ```text
+//! choosing  what is aligned to what, from where       start, custom, pair
+//! views     one 3-D view a method, one camera         track: the poses of a method and E at each
+//! scrubber  E per iteration, and the iteration shown   plot, playback
+//! side      Table I, the true error                   table
+//! ```
+
+mod action;
+mod choosing;
+mod custom;
+mod pair;
+mod playback;
+mod plot;
+mod scrubber;
+mod series;
+mod side;
+mod start;
+mod state;
+mod table;
+mod track;
+mod views;
+mod work;
+
+use egui::{Frame, Key, Margin, Modifiers, Panel, Ui};
+
+pub use self::{
+    action::{AlignAction, AlignFile},
+    custom::{CustomStart, Form},
+    pair::{Pair, PairSource},
+    playback::{MethodComparison, Playback},
+    start::Start,
+    state::{AlignResult, AlignState, Pairing},
+    table::{TableCell, TableFigures, TableRow, TableShown},
+    track::{MethodRun, Track},
+};
+use self::{side::SidePanel, views::LinkedViews};
+use crate::app::{
+    shell::{
+        context::ShellContext,
+        key_binding::{KeyBinding, Shortcut},
+        session::{Session, WorkspaceKind},
+        workspace::Workspace,
+    },
+    task::{Running, TaskRunner},
+    ui::viewport::{ViewError, ViewportGpu},
+};
+
+/// Width of the panel on the right, logical pixels, and in a narrow window.
+const SIDE: [f32; 2] = [340.0, 300.0];
+/// Height of the plot, logical pixels, and in a low window.
+const PLOT: [f32; 2] = [236.0, 200.0];
+
+/// The shortcuts of this workspace.
+const SHORTCUTS: [Shortcut<AlignAction>; 4] = [
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::R,
+        keys: "R",
+        does: "Run every method",
+        action: || AlignAction::Run,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::P,
+        keys: "P, or Space on the plot",
+        does: "Play or pause the iterations",
+        action: || AlignAction::TogglePlay,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::Comma,
+        keys: ", or \u{2190} on the plot",
+        does: "One iteration back",
+        action: || AlignAction::Step(-1.0),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::Period,
+        keys: ". or \u{2192} on the plot",
+        does: "One iteration on",
+        action: || AlignAction::Step(1.0),
+    },
+];
+
+/// The workspace.
+pub struct AlignWorkspace {
+    state: AlignState,
+    views: LinkedViews,
+    side: SidePanel,
+}
+
+impl AlignWorkspace {
+    /// Before anything was aligned.
+    pub fn new(gpu: &Result<ViewportGpu, ViewError>, runner: &TaskRunner) -> Self {
+        Self {
+            state: AlignState::new(runner),
+            views: LinkedViews::new(gpu),
+            side: SidePanel::default(),
+        }
+    }
+
+    /// What it knows.
+    pub fn state(&self) -> &AlignState {
+        &self.state
+    }
+
+    /// The same, to be changed without a person.
+    pub fn state_mut(&mut self) -> &mut AlignState {
+        &mut self.state
+    }
+}
+
+impl Workspace for AlignWorkspace {
+    fn kind(&self) -> WorkspaceKind {
+        WorkspaceKind::Align
+    }
+
+    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
+        let Self { state, views, side } = self;
+        let (session, theme) = (cx.session, cx.theme);
+        let mut actions = Vec::new();
+        let size = ui.available_size();
+        let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
+        Panel::right("table one")
+            .exact_size(if size.x > 1100.0 { SIDE[0] } else { SIDE[1] })
+            .resizable(false)
+            .frame(panel(Margin::symmetric(18, 14)))
+            .show(ui, |ui| side.ui(ui, state, session, theme, &mut actions));
+        let look = Panel::top("alignment")
+            .exact_size(choosing::height(state) + 16.0)
+            .resizable(false)
+            .frame(panel(Margin::symmetric(12, 8)))
+            .show(ui, |ui| {
+                choosing::ui(ui, state, session, theme, &mut actions)
+            });
+        if let Some(look) = look.inner {
+            views.look(look);
+        }
+        Panel::bottom("iterations")
+            .exact_size(if size.y > 760.0 { PLOT[0] } else { PLOT[1] })
+            .resizable(false)
+            .frame(panel(Margin::symmetric(14, 8)))
+            .show(ui, |ui| scrubber::ui(ui, state, theme, &mut actions));
+        views.ui(ui, state, session, theme);
+        for action in actions {
+            state.apply(action, cx);
+        }
+    }
+
+    fn update(&mut self, cx: &mut ShellContext<'_>) {
+        self.state.update(cx);
+    }
+
+    fn key_bindings(&self) -> Vec<KeyBinding> {
+        SHORTCUTS.iter().map(Shortcut::binding).collect()
+    }
+
+    fn press(&mut self, place: usize, cx: &mut ShellContext<'_>) {
+        if let Some(shortcut) = SHORTCUTS.get(place) {
+            self.state.apply((shortcut.action)(), cx);
+        }
+    }
+
+    fn running(&self) -> Option<&Running> {
+        self.state.running()
+    }
+
+    fn cancel(&mut self) {
+        self.state.cancel();
+    }
+
+    fn has_key_focus(&self) -> bool {
+        self.views.has_focus()
+    }
+
+    fn is_idle(&self, _session: &Session) -> bool {
+        self.running().is_none() && !self.state.is_writing()
+    }
+}

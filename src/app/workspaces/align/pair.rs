@@ -1,0 +1,232 @@
+//! Two clouds to be aligned, made ready once: what is searched, what is drawn, and the truth where it is known.
+
+use std::{
+    path::{Path, PathBuf},
+    sync::Arc,
+};
+
+use nalgebra::Point3;
+
+use super::start::Start;
+use crate::{
+    app::{
+        inspection::{
+            inspected::Inspected,
+            library_cache::{LibraryCache, LoadedLibrary},
+            source::file_name,
+        },
+        ui::viewport::{PointSet, Role},
+        user_error::UserError,
+    },
+    files,
+    geometry::{
+        cloud::PointCloud,
+        nearest::KdTree,
+        rigid::{self, RigidTransform},
+    },
+    stages::{
+        pose::{PoseError, PreparedTarget},
+        reference::Reference,
+        scene::cloud_of,
+    },
+};
+
+/// Which two clouds.
+#[derive(Clone, Debug)]
+pub enum PairSource {
+    /// An enrolled part moved by a known transform, and the same points where they were: the protocol of Table I.
+    MovedCopy {
+        /// The part's name.
+        part: String,
+        /// How it is moved.
+        start: Start,
+    },
+    /// The part found in an inspected scene, and an enrolled one.
+    Scene {
+        /// The scene.
+        inspected: Arc<Inspected>,
+        /// The enrolled part's name.
+        part: String,
+    },
+    /// Two files.
+    Files {
+        /// What is moved.
+        source: PathBuf,
+        /// What stays.
+        target: PathBuf,
+    },
+}
+
+/// Two clouds, ready to be aligned and drawn. The source starts as it lies.
+#[derive(Debug)]
+pub struct Pair {
+    /// What a person calls it.
+    pub title: String,
+    /// What is moved.
+    pub source: PointCloud,
+    /// What stays.
+    pub target: PointCloud,
+    /// The points of the source that E is measured over, thinned as for the estimate's own figures.
+    pub sample: Vec<Point3<f32>>,
+    /// The target as a method searches it, or why none can.
+    pub prepared: Result<PreparedTarget, PoseError>,
+    /// Search tree over the target's finite points.
+    pub target_tree: KdTree,
+    /// The source as it is drawn, in its own space.
+    pub source_points: PointSet,
+    /// The target as it is drawn.
+    pub target_points: PointSet,
+    /// The pose that lays the source exactly over the target, where it is known.
+    pub truth: Option<RigidTransform>,
+    /// Middle of the source's points, where shifts are compared; source space.
+    pub middle: Point3<f64>,
+    /// What is odd about the files.
+    pub warnings: Vec<UserError>,
+}
+
+/// E is measured over so many points of the source, up to twice as many.
+const SAMPLE: usize = 4_000;
+
+impl Pair {
+    /// Reads and prepares both clouds.
+    pub fn of(source: &PairSource, shelf: &LibraryCache) -> Result<Self, UserError> {
+        match source {
+            PairSource::MovedCopy { part, start } => {
+                let shelved = shelf.get().map_err(|error| UserError::of(&error))?;
+                let (reference, title) = find(&shelved, part)?;
+                Ok(Self::moved_copy(reference, title, *start))
+            }
+            PairSource::Scene { inspected, part } => {
+                let shelved = shelf.get().map_err(|error| UserError::of(&error))?;
+                let (reference, title) = find(&shelved, part)?;
+                let found = inspected.inspection.segmentation.part.as_ref();
+                let found = found.map_err(UserError::of)?;
+                let title = format!("{} onto {title}", inspected.origin.title());
+                let target = PointCloud::from_points(reference.cloud.points.iter().copied());
+                let prepared = reference.whole().cloned();
+                Ok(Self::new(
+                    title,
+                    found.cloud.clone(),
+                    target,
+                    prepared,
+                    None,
+                ))
+            }
+            PairSource::Files { source, target } => {
+                let title = format!("{} onto {}", file_name(source), file_name(target));
+                let mut warnings = Vec::new();
+                let mut source = open(source, &mut warnings)?;
+                let mut target = open(target, &mut warnings)?;
+                // Far from the origin neither drawing nor E would resolve the points.
+                if let Some((low, high)) = target.bounds() {
+                    let middle = nalgebra::center(&low.cast::<f64>(), &high.cast::<f64>()).coords;
+                    for point in source.points.iter_mut().chain(&mut target.points) {
+                        *point = (point.cast::<f64>() - middle).cast();
+                    }
+                }
+                let prepared = PreparedTarget::new(&target);
+                Ok(Self {
+                    warnings,
+                    ..Self::new(title, source, target, prepared, None)
+                })
+            }
+        }
+    }
+
+    /// The protocol of Table I: the same points, moved.
+    pub fn moved_copy(reference: &Reference, title: &str, start: Start) -> Self {
+        let moved = start.transform();
+        let points = &reference.cloud.points;
+        let source = points.iter().map(|p| (moved * p.cast::<f64>()).cast());
+        let source = PointCloud::from_points(source);
+        let target = PointCloud::from_points(points.iter().copied());
+        let title = format!("{title} from {}", start.title());
+        let prepared = reference.whole().cloned();
+        Self::new(title, source, target, prepared, Some(moved.inverse()))
+    }
+
+    fn new(
+        title: String,
+        source: PointCloud,
+        target: PointCloud,
+        prepared: Result<PreparedTarget, PoseError>,
+        truth: Option<RigidTransform>,
+    ) -> Self {
+        let finite: Vec<Point3<f32>> = source.finite().map(|(_, p)| *p).collect();
+        let step = (finite.len() / SAMPLE).max(1);
+        let sum = finite.iter().fold(nalgebra::Vector3::zeros(), |sum, p| {
+            sum + p.coords.cast::<f64>()
+        });
+        let middle = Point3::from(sum / finite.len().max(1) as f64);
+        let sample = finite.into_iter().step_by(step).collect();
+        let of_target: Vec<Point3<f32>> = target.finite().map(|(_, p)| *p).collect();
+        Self {
+            title,
+            sample,
+            prepared,
+            target_tree: KdTree::new(&of_target),
+            source_points: drawn(&source, Role::Moving),
+            target_points: drawn(&target, Role::Reference),
+            truth,
+            middle,
+            warnings: Vec::new(),
+            source,
+            target,
+        }
+    }
+
+    /// How far a pose is from the truth, where that is known.
+    pub fn true_error(&self, target_from_source: &RigidTransform) -> Option<rigid::PoseDelta> {
+        let truth = self.truth.as_ref()?;
+        Some(rigid::pose_error(target_from_source, truth, &self.middle))
+    }
+
+    /// E(R, t) of eq. 12 at a pose, square metres, over [`sample`](Self::sample): the mean squared distance to the
+    /// closest points of the target, however far they are. Infinite without points.
+    pub fn e_m2(&self, target_from_source: &RigidTransform) -> f64 {
+        self.e_m2_over(target_from_source, 1)
+    }
+
+    /// The same over every `step`-th point of the sample.
+    pub(super) fn e_m2_over(&self, target_from_source: &RigidTransform, step: usize) -> f64 {
+        let moved = target_from_source.cast::<f32>();
+        let nearest = |p| self.target_tree.nearest(&(moved * p), f32::INFINITY);
+        let (mut sum_sq, mut num) = (0.0, 0.0);
+        for neighbour in self.sample.iter().step_by(step).filter_map(nearest) {
+            sum_sq += f64::from(neighbour.distance_sq);
+            num += 1.0;
+        }
+        if num > 0.0 {
+            sum_sq / num
+        } else {
+            f64::INFINITY
+        }
+    }
+}
+
+fn drawn(cloud: &PointCloud, role: Role) -> PointSet {
+    let points: Vec<[f32; 3]> = cloud.finite().map(|(_, p)| [p.x, p.y, p.z]).collect();
+    PointSet::new(points, role)
+}
+
+/// The enrolled part of this name, and its name for people.
+fn find<'a>(shelved: &'a LoadedLibrary, part: &str) -> Result<(&'a Reference, &'a str), UserError> {
+    let place = shelved.shown.place_of(part);
+    let reference = place.and_then(|place| shelved.library.references.get(place));
+    let reference = reference.ok_or_else(|| UserError {
+        what: format!("the library has no part {part}"),
+        advice: "Choose another part".into(),
+    })?;
+    let title = place.map_or("", |place| shelved.shown.title(place));
+    Ok((reference, title))
+}
+
+fn open(path: &Path, warnings: &mut Vec<UserError>) -> Result<PointCloud, UserError> {
+    let opened = files::open(path).map_err(|error| UserError::of(&error))?;
+    warnings.extend(opened.warnings().iter().map(UserError::of));
+    let cloud = cloud_of(opened).ok_or_else(|| UserError {
+        what: format!("{}: the mesh has no area", path.display()),
+        advice: "Export the mesh again with its faces".into(),
+    })?;
+    Ok(PointCloud::from_points(cloud.points))
+}

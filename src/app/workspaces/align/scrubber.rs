@@ -1,0 +1,168 @@
+//! Below the views: the plot, which is also the scrubber, and Play.
+
+use egui::{
+    Align, Button, EventFilter, Id, Key, Layout, Modifiers, Response, RichText, Sense, Ui,
+    accesskit::Action as Asked, vec2,
+};
+
+use super::{
+    action::AlignAction,
+    playback::{MethodComparison, Playback},
+    plot::{self, Axes},
+    state::AlignState,
+};
+use crate::app::ui::{
+    theme::{Theme, font, space},
+    widgets::{focus_ring, labelled},
+};
+
+/// Page Up and Page Down go so many iterations.
+const PAGE: f32 = 10.0;
+
+/// Draws heading and plot.
+pub(super) fn ui(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut Vec<AlignAction>) {
+    let Some(shown) = align.shown.as_ref().filter(|shown| shown.last_place() > 0) else {
+        none(ui, align, theme);
+        return;
+    };
+    if align.playback == Playback::Playing {
+        let seconds = ui.input(|input| input.stable_dt).min(0.1);
+        actions.push(AlignAction::Advance(seconds));
+        ui.request_repaint();
+    }
+    heading(ui, shown, align, theme, actions);
+    if align.is_pair_at_work() && align.coming.is_some() {
+        ui.multiply_opacity(0.55);
+    }
+    let rect = ui.available_rect_before_wrap();
+    let id = Id::unique("iteration scrubber");
+    let sense = Sense::click_and_drag() | Sense::FOCUSABLE;
+    let response = ui.interact(rect, id, sense);
+    ui.allocate_rect(rect, Sense::hover());
+    let axes = Axes::of(shown, rect);
+    describe(ui, &response, align);
+    if response.clicked() || response.drag_started() {
+        response.request_focus();
+    }
+    if (response.clicked() || response.dragged())
+        && let Some(at) = response.interact_pointer_pos()
+    {
+        actions.push(AlignAction::Scrub(axes.place_at(at.x)));
+    }
+    keys(ui, &response, align, actions);
+    plot::paint(ui.painter(), &axes, shown, align.place, theme);
+    focus_ring(ui, rect, &response, theme);
+}
+
+fn heading(
+    ui: &mut Ui,
+    shown: &MethodComparison,
+    align: &AlignState,
+    theme: &Theme,
+    actions: &mut Vec<AlignAction>,
+) {
+    ui.horizontal(|ui| {
+        ui.label(
+            RichText::new("E(R, t), m²")
+                .font(font::body_strong())
+                .color(theme.text),
+        );
+        let title = RichText::new(&shown.pair.title).font(font::small());
+        ui.label(title.color(theme.weak_text));
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let text = match align.playback {
+                Playback::Paused => "Play",
+                Playback::Playing => "Pause",
+            };
+            let key = RichText::new("P").font(font::small());
+            let button = Button::new(text).shortcut_text(key.color(theme.weak_text));
+            if labelled(ui, button, text).clicked() {
+                actions.push(AlignAction::TogglePlay);
+            }
+            let place = align.place.round();
+            let text = format!("iteration {place} of {}", shown.last_place());
+            let hint = if ui.available_width() > 340.0 {
+                " · drag to scrub, P to play"
+            } else {
+                ""
+            };
+            let text = RichText::new(text + hint).font(font::small());
+            ui.label(text.color(theme.weak_text));
+        });
+    });
+}
+
+/// Names the scrubber for a screen reader.
+fn describe(ui: &Ui, response: &Response, align: &AlignState) {
+    let last = align.last_place() as f64;
+    let place = f64::from(align.place.round());
+    ui.accesskit_node_builder(response.id, |node| {
+        node.set_role(egui::accesskit::Role::Slider);
+        node.set_label("Iteration shown");
+        node.set_description(
+            "E per iteration. Left and right go one iteration, Page Up and Page Down ten, Home and End to the ends, \
+             P plays",
+        );
+        node.set_min_numeric_value(0.0);
+        node.set_max_numeric_value(last);
+        node.set_numeric_value(place);
+        node.add_action(Asked::Increment);
+        node.add_action(Asked::Decrement);
+    });
+}
+
+/// Keys of the scrubber while it has the focus; what a screen reader asks for, always.
+fn keys(ui: &Ui, response: &Response, align: &AlignState, actions: &mut Vec<AlignAction>) {
+    let id = response.id;
+    let mut steps = ui.input(|input| {
+        let times = |asked| input.num_accesskit_action_requests(id, asked) as f32;
+        times(Asked::Increment) - times(Asked::Decrement)
+    });
+    if response.has_focus() {
+        // The arrows are ours; Tab still leaves the plot.
+        let arrows = EventFilter {
+            tab: false,
+            horizontal_arrows: true,
+            vertical_arrows: false,
+            escape: false,
+        };
+        ui.memory_mut(|memory| memory.set_focus_lock_filter(id, arrows));
+        let pressed =
+            |key| ui.input_mut(|input| input.count_and_consume_key(Modifiers::NONE, key)) as f32;
+        steps += pressed(Key::ArrowRight) - pressed(Key::ArrowLeft);
+        steps += PAGE * (pressed(Key::PageUp) - pressed(Key::PageDown));
+        if pressed(Key::Home) > 0.0 {
+            actions.push(AlignAction::Scrub(0.0));
+        }
+        if pressed(Key::End) > 0.0 {
+            let last = align.last_place() as f32;
+            actions.push(AlignAction::Scrub(last));
+        }
+        if pressed(Key::Space) > 0.0 {
+            actions.push(AlignAction::TogglePlay);
+        }
+    }
+    if steps != 0.0 {
+        actions.push(AlignAction::Step(steps));
+    }
+}
+
+/// Before there is a curve.
+fn none(ui: &mut Ui, align: &AlignState, theme: &Theme) {
+    ui.label(
+        RichText::new("E(R, t), m²")
+            .font(font::body_strong())
+            .color(theme.text),
+    );
+    let text = match &align.shown {
+        Some(_) => "No method found a pose: there is no way to show",
+        None => "Run shows here how the mean squared distance E falls, iteration by iteration",
+    };
+    let middle = ui.available_height() / 2.0 - space::TARGET;
+    ui.add_space(middle.max(0.0));
+    ui.vertical_centered(|ui| {
+        ui.set_max_width(ui.available_width().min(520.0));
+        ui.label(RichText::new(text).color(theme.weak_text));
+        ui.allocate_space(vec2(0.0, 0.0));
+    });
+}

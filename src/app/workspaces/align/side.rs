@@ -1,0 +1,359 @@
+//! On the right: Table I, and how far the methods shown are from the truth.
+
+use std::{fmt::Write as _, time::Duration};
+
+use egui::{
+    Align, Align2, Button, Layout, Painter, Pos2, Rect, RichText, ScrollArea, Sense, Shape, Stroke,
+    Ui, pos2, vec2,
+};
+
+use super::{AlignAction, AlignFile, AlignState, Start, TableRow, series};
+use crate::{
+    app::{
+        shell::session::Session,
+        ui::{
+            theme::{ROUNDING, Theme, font, space},
+            widgets::{focus_ring, heading, labelled},
+        },
+    },
+    stages::pose::{PoseMethod, Uncertainty},
+};
+
+/// Width of a column of numbers at most, logical pixels.
+const COLUMN: f32 = 88.0;
+/// Room for the names on the left of them.
+const NAMES: f32 = 44.0;
+/// Height of the name above the rows of a part.
+const PART: f32 = 26.0;
+
+/// What the panel keeps between frames: how many rows were there, to follow them as they come.
+#[derive(Default)]
+pub(super) struct SidePanel {
+    num_seen: usize,
+}
+
+impl SidePanel {
+    pub(super) fn ui(
+        &mut self,
+        ui: &mut Ui,
+        align: &AlignState,
+        session: &Session,
+        theme: &Theme,
+        actions: &mut Vec<AlignAction>,
+    ) {
+        let table = &align.table;
+        ui.label(
+            RichText::new("Table I")
+                .font(font::verdict())
+                .color(theme.text),
+        );
+        let is_at_work = align.is_table_at_work();
+        progress(ui, align, session, theme, actions);
+        egui::Panel::bottom("true error")
+            .resizable(false)
+            .show_separator_line(false)
+            .frame(egui::Frame::new())
+            .show(ui, |ui| {
+                true_error(ui, align, session, theme);
+                if !table.rows.is_empty() {
+                    ui.add_space(space::MEDIUM);
+                    export(ui, theme, actions);
+                }
+            });
+        if table.rows.is_empty() {
+            let text = "Every enrolled part from T1 to T5 (eq. 15), moved and brought back by every method: \
+                        E in m², the best of a row marked";
+            ui.add_space(space::MEDIUM);
+            ui.label(RichText::new(text).color(theme.weak_text));
+            self.num_seen = 0;
+            return;
+        }
+        header(ui, theme);
+        let has_new = table.rows.len() != self.num_seen;
+        self.num_seen = table.rows.len();
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            ui.spacing_mut().item_spacing.y = 0.0;
+            rows(ui, align, session, theme, actions);
+            if is_at_work && has_new {
+                ui.scroll_to_cursor(Some(Align::BOTTOM));
+            }
+        });
+    }
+}
+
+/// How far the table is, and how to begin, go on or stop.
+fn progress(
+    ui: &mut Ui,
+    align: &AlignState,
+    session: &Session,
+    theme: &Theme,
+    actions: &mut Vec<AlignAction>,
+) {
+    let table = &align.table;
+    let num_parts = session
+        .library
+        .as_ref()
+        .map_or(0, |library| library.parts.len());
+    let total = num_parts * Start::NUM_PAPER;
+    let num = table.rows.len();
+    let is_at_work = align.is_table_at_work();
+    let said = if is_at_work {
+        going(num, total, table.remaining(total))
+    } else {
+        standing(num, total)
+    };
+    ui.horizontal(|ui| {
+        ui.label(
+            RichText::new(said)
+                .font(font::small())
+                .color(theme.weak_text),
+        );
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            if is_at_work {
+                if labelled(ui, Button::new("Cancel"), "Cancel Table I").clicked() {
+                    actions.push(AlignAction::Cancel);
+                }
+                return;
+            }
+            let (text, label, action) = if num == 0 {
+                ("Run Table I", "Run Table I", AlignAction::RunTable)
+            } else if num < total {
+                ("Go on", "Go on with Table I", AlignAction::RunTable)
+            } else {
+                ("Run again", "Run Table I again", AlignAction::RestartTable)
+            };
+            let button = ui.add_enabled_ui(total > 0, |ui| labelled(ui, Button::new(text), label));
+            if button.inner.clicked() {
+                actions.push(action);
+            }
+        });
+    });
+    if num > 0 || is_at_work {
+        let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 8.0), Sense::hover());
+        let share = num as f32 / total.max(1) as f32;
+        let done = Rect::from_min_size(rect.min, vec2(rect.width() * share.min(1.0), 8.0));
+        ui.painter().rect_filled(rect, ROUNDING, theme.track);
+        ui.painter().rect_filled(done, ROUNDING, theme.accent);
+    }
+}
+
+/// How far the table is while rows are being added.
+fn going(num: usize, total: usize, remaining: Option<Duration>) -> String {
+    match remaining {
+        Some(time) => format!("{num} of {total} done · about {} left", shortly(time)),
+        None => format!("{num} of {total} done"),
+    }
+}
+
+/// How far the table is when nobody works on it.
+fn standing(num: usize, total: usize) -> String {
+    match num {
+        0 => format!("{total} rows"),
+        num if num < total => format!("Stopped at {num} of {total}"),
+        _ => format!("All {total} done"),
+    }
+}
+
+fn shortly(time: Duration) -> String {
+    match time.as_secs() {
+        seconds @ 0..=99 => format!("{} s", seconds + 1),
+        seconds => format!("{} min", seconds.div_ceil(60)),
+    }
+}
+
+/// The right edges of the columns, from left to right.
+fn columns(rect: Rect) -> impl Iterator<Item = (usize, f32)> {
+    let num = PoseMethod::ALL.len();
+    let width = ((rect.width() - NAMES) / num as f32).min(COLUMN);
+    (0..num).map(move |place| {
+        let right = rect.right() - 8.0;
+        (place, right - width * (num - 1 - place) as f32)
+    })
+}
+
+fn header(ui: &mut Ui, theme: &Theme) {
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 22.0), Sense::hover());
+    let painter = ui.painter();
+    let write = |x: f32, anchor: Align2, text: &str| {
+        let at = pos2(x, rect.center().y);
+        painter.text(at, anchor, text, font::small(), theme.weak_text);
+    };
+    write(rect.left(), Align2::LEFT_CENTER, "part, start");
+    for (place, x) in columns(rect) {
+        write(
+            x,
+            Align2::RIGHT_CENTER,
+            series::title(PoseMethod::ALL[place]),
+        );
+    }
+}
+
+fn rows(
+    ui: &mut Ui,
+    align: &AlignState,
+    session: &Session,
+    theme: &Theme,
+    actions: &mut Vec<AlignAction>,
+) {
+    let mut part = "";
+    for (place, row) in align.table.rows.iter().enumerate() {
+        if row.part != part {
+            part = &row.part;
+            let (rect, _) =
+                ui.allocate_exact_size(vec2(ui.available_width(), PART), Sense::hover());
+            let at = rect.left_bottom() - vec2(0.0, 4.0);
+            let painter = ui.painter();
+            painter.text(
+                at,
+                Align2::LEFT_BOTTOM,
+                &row.title,
+                font::body_strong(),
+                theme.text,
+            );
+        }
+        let size = vec2(ui.available_width(), space::TARGET);
+        let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+        let is_chosen = align.chosen_part(session) == Some(row.part.as_str())
+            && align.start == Start::Paper(row.start);
+        response.widget_info(|| {
+            egui::WidgetInfo::selected(egui::Role::Button, true, is_chosen, spoken(row))
+        });
+        if response.hovered() || is_chosen {
+            ui.painter().rect_filled(rect, ROUNDING, theme.control);
+        }
+        paint_row(ui.painter(), rect, row, theme);
+        focus_ring(ui, rect, &response, theme);
+        if response.clicked() {
+            actions.push(AlignAction::OpenRow(place));
+        }
+    }
+}
+
+fn paint_row(painter: &Painter, rect: Rect, row: &TableRow, theme: &Theme) {
+    let y = rect.center().y;
+    let at = pos2(rect.left() + 8.0, y);
+    let start = Start::Paper(row.start).title();
+    painter.text(
+        at,
+        Align2::LEFT_CENTER,
+        start,
+        font::body(),
+        theme.weak_text,
+    );
+    for ((place, x), cell) in columns(rect).zip(&row.cells) {
+        let (text, font, colour) = match (&cell.figures, row.is_best(place)) {
+            (Ok(figures), true) => (short(figures.e_m2), font::body_strong(), theme.accepted),
+            (Ok(figures), false) => (short(figures.e_m2), font::body(), theme.text),
+            (Err(_), _) => ("none".into(), font::body(), theme.rejected),
+        };
+        let written = painter.text(pos2(x, y), Align2::RIGHT_CENTER, text, font, colour);
+        if row.is_best(place) {
+            tick(
+                painter,
+                written.left_center() - vec2(9.0, 0.0),
+                Stroke::new(1.8, colour),
+            );
+        }
+    }
+}
+
+/// The sign of the best: a tick.
+fn tick(painter: &Painter, centre: Pos2, stroke: Stroke) {
+    let at = |x: f32, y: f32| centre + vec2(x, y);
+    let corners = vec![at(-4.0, 0.0), at(-1.0, 3.5), at(4.5, -4.0)];
+    painter.add(Shape::line(corners, stroke));
+}
+
+/// A small number in little room: "2.0e-3".
+fn short(value: f64) -> String {
+    format!("{value:.1e}")
+}
+
+/// A row for a screen reader.
+fn spoken(row: &TableRow) -> String {
+    let mut text = format!("{}, {}", row.title, Start::Paper(row.start).title());
+    for (place, cell) in row.cells.iter().enumerate() {
+        let name = series::title(cell.method);
+        let best = if row.is_best(place) { ", best" } else { "" };
+        let _ = match &cell.figures {
+            Ok(figures) => write!(text, "; {name} {}{best}", short(figures.e_m2)),
+            Err(_) => write!(text, "; {name} no pose"),
+        };
+    }
+    text
+}
+
+/// How far the methods shown ended from the truth.
+fn true_error(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme) {
+    let Some(shown) = &align.shown else {
+        return;
+    };
+    let is_known = shown.pair.truth.is_some();
+    let title = if is_known {
+        "True error at this start"
+    } else {
+        "Off by less than, in 95 of 100 cases"
+    };
+    heading(ui, theme, title);
+    ui.spacing_mut().interact_size.y = 20.0;
+    let line = |ui: &mut Ui, name: RichText, turn: RichText, shift: RichText| {
+        ui.horizontal(|ui| {
+            ui.label(name);
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                let size = vec2(92.0, 20.0);
+                let right = Layout::right_to_left(Align::Center);
+                ui.allocate_ui_with_layout(size, right, |ui| {
+                    ui.set_min_size(size);
+                    ui.label(shift);
+                });
+                ui.label(turn);
+            });
+        });
+    };
+    let weak = |text: &str| {
+        RichText::new(text)
+            .font(font::small())
+            .color(theme.weak_text)
+    };
+    line(ui, weak("method"), weak("rotation"), weak("shift"));
+    for run in &shown.runs {
+        let colour = series::colour(run.method, theme);
+        let name = RichText::new(series::title(run.method)).color(colour);
+        let off = run.track.as_ref().map(|track| match track.true_error {
+            Some(error) => Some((error.rotation.0, error.shift.0)),
+            None => track
+                .uncertainty
+                .filter(Uncertainty::is_held)
+                .map(|bounds| (bounds.turn.0, bounds.shift.0)),
+        });
+        let (turn, shift) = match off {
+            Ok(Some((turn, shift))) => (session.units.angle(turn), session.units.length(shift)),
+            Ok(None) => ("unconstrained".into(), String::new()),
+            Err(_) => ("no pose".into(), String::new()),
+        };
+        let text = |text: String| RichText::new(text).color(theme.text);
+        line(ui, name, text(turn), text(shift));
+    }
+}
+
+fn export(ui: &mut Ui, theme: &Theme, actions: &mut Vec<AlignAction>) {
+    ui.horizontal(|ui| {
+        let width = ui.available_width() - 90.0;
+        let text = RichText::new("Export CSV…").font(font::body_strong());
+        let button = Button::new(text.color(theme.on_accent)).fill(theme.accent);
+        if ui
+            .add(button.min_size(vec2(width, space::TARGET)))
+            .clicked()
+        {
+            actions.push(AlignAction::Ask(AlignFile::TableFile));
+        }
+        let copy = Button::new("Copy").min_size(vec2(ui.available_width(), space::TARGET));
+        if ui
+            .add(copy)
+            .on_hover_text("Table I as text, cells parted by tabs")
+            .clicked()
+        {
+            actions.push(AlignAction::CopyTable);
+        }
+    });
+}

@@ -1,0 +1,361 @@
+//! What the workspace knows, and what changes it.
+
+use std::{path::PathBuf, sync::Arc, time::Duration};
+
+use super::{
+    action::{AlignAction, AlignFile},
+    custom::{CustomStart, Form},
+    pair::{Pair, PairSource},
+    playback::{MethodComparison, Playback},
+    start::Start,
+    table::{self, TableRow, TableShown},
+    track::MethodRun,
+    work,
+};
+use crate::{
+    app::{
+        inspection::source::file_name,
+        shell::{
+            context::ShellContext, file_dialog::FileDialog, message::Message, notice::Notice,
+            session::Session,
+        },
+        task::{Running, Task, TaskEvent, TaskRunner},
+    },
+    geometry::written_pose::parse_pose,
+};
+
+/// What the workspace knows.
+#[derive(Debug)]
+pub struct AlignState {
+    /// What is aligned to what.
+    pub pairing: Pairing,
+    /// Name of the enrolled part; without one the library's first.
+    pub part: Option<String>,
+    /// How far off a moved copy begins.
+    pub start: Start,
+    /// The custom start as it is being written.
+    pub custom: CustomStart,
+    /// The file that is moved.
+    pub source: Option<PathBuf>,
+    /// The file that stays.
+    pub target: Option<PathBuf>,
+    /// The last result; methods are added as they come.
+    pub shown: Option<MethodComparison>,
+    /// The pair being aligned, until its first method has run: then it is shown.
+    pub coming: Option<Arc<Pair>>,
+    /// Place on the scrubber, iterations.
+    pub place: f32,
+    /// Whether the scrubber moves by itself.
+    pub playback: Playback,
+    /// Table I as far as it is there.
+    pub table: TableShown,
+    task: Task<AlignResult>,
+    /// What the task does, or did last.
+    job: AlignJob,
+    writing: Task<PathBuf>,
+    dialog: FileDialog<AlignFile>,
+}
+
+/// What the task does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum AlignJob {
+    /// It aligns a pair.
+    Pair,
+    /// It adds rows to Table I.
+    Table,
+}
+
+/// What the task hands over, part after part.
+#[derive(Clone, Debug)]
+pub enum AlignResult {
+    /// The pair is ready; the methods follow.
+    Prepared(Arc<Pair>),
+    /// A method has run.
+    Ran(Arc<MethodRun>),
+    /// A row of Table I.
+    Row {
+        /// The row.
+        row: Arc<TableRow>,
+        /// Since the first row of this run was begun.
+        elapsed: Duration,
+    },
+    /// Everything asked for was handed over.
+    Finished,
+}
+
+/// What is aligned to what.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum Pairing {
+    /// An enrolled part, moved by a known transform, to itself.
+    #[default]
+    MovedCopy,
+    /// The part of the inspected scene to an enrolled one.
+    Scene,
+    /// A file to another.
+    Files,
+}
+
+impl Pairing {
+    /// Every pairing, in the order of the buttons.
+    pub const ALL: [Self; 3] = [Self::MovedCopy, Self::Scene, Self::Files];
+
+    /// What a person calls it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::MovedCopy => "Moved copy",
+            Self::Scene => "Scene",
+            Self::Files => "Two files",
+        }
+    }
+}
+
+impl AlignState {
+    /// Before anything was aligned.
+    pub fn new(runner: &TaskRunner) -> Self {
+        Self {
+            pairing: Pairing::default(),
+            part: None,
+            start: Start::default(),
+            custom: CustomStart::default(),
+            source: None,
+            target: None,
+            shown: None,
+            coming: None,
+            place: 0.0,
+            playback: Playback::default(),
+            table: TableShown::default(),
+            task: Task::new("align", runner),
+            job: AlignJob::Pair,
+            writing: Task::new("align-write", runner),
+            dialog: FileDialog::default(),
+        }
+    }
+
+    /// The run that is aligning, if any.
+    pub fn running(&self) -> Option<&Running> {
+        self.task.running()
+    }
+
+    /// True while a file is being written.
+    pub fn is_writing(&self) -> bool {
+        self.writing.running().is_some()
+    }
+
+    /// True while rows are being added to Table I.
+    pub fn is_table_at_work(&self) -> bool {
+        self.running().is_some() && self.job == AlignJob::Table
+    }
+
+    /// True while a pair is being aligned.
+    pub fn is_pair_at_work(&self) -> bool {
+        self.running().is_some() && self.job == AlignJob::Pair
+    }
+
+    /// The part that is chosen, if the library has any.
+    pub fn chosen_part<'a>(&'a self, session: &'a Session) -> Option<&'a str> {
+        let parts = &session.library.as_ref()?.parts;
+        let is_there = |name: &&str| parts.iter().any(|part| part.name.as_str() == *name);
+        let chosen = self.part.as_deref().filter(is_there);
+        chosen.or_else(|| parts.first().map(|part| part.name.as_str()))
+    }
+
+    /// What Run would align, or what is missing for it, in words.
+    pub fn choice(&self, session: &Session) -> Result<PairSource, String> {
+        let part = || {
+            let part = self.chosen_part(session).map(str::to_owned);
+            part.ok_or_else(|| {
+                "The library has no part: enrol one in the Enrol workspace".to_owned()
+            })
+        };
+        match self.pairing {
+            Pairing::MovedCopy => Ok(PairSource::MovedCopy {
+                part: part()?,
+                start: self.start,
+            }),
+            Pairing::Scene => {
+                let shown = session.shown.as_ref();
+                let inspected = &shown
+                    .ok_or("Nothing inspected yet: press Capture")?
+                    .inspected;
+                if inspected.inspection.segmentation.part.is_err() {
+                    return Err("No part was found in the scene: capture another".into());
+                }
+                Ok(PairSource::Scene {
+                    inspected: Arc::clone(inspected),
+                    part: part()?,
+                })
+            }
+            Pairing::Files => Ok(PairSource::Files {
+                source: self
+                    .source
+                    .clone()
+                    .ok_or("Choose the file that is moved: Source…")?,
+                target: self
+                    .target
+                    .clone()
+                    .ok_or("Choose the file that stays: Target…")?,
+            }),
+        }
+    }
+
+    /// Carries out an action.
+    pub fn apply(&mut self, action: AlignAction, cx: &mut ShellContext<'_>) {
+        match action {
+            AlignAction::Choose(pairing) => self.pairing = pairing,
+            AlignAction::ChoosePart(part) => self.part = Some(part),
+            AlignAction::ChooseStart(start) => self.start = start,
+            AlignAction::DrawStart => {
+                let seed = match self.start {
+                    Start::Random(seed) => seed + 1,
+                    Start::Paper(_) | Start::Custom(_) => 1,
+                };
+                self.start = Start::Random(seed);
+            }
+            AlignAction::ToggleCustom => {
+                self.custom.form = match self.custom.form {
+                    Form::Closed => Form::Open,
+                    Form::Open => Form::Closed,
+                }
+            }
+            AlignAction::WriteCustom(text) => self.custom.write(text),
+            AlignAction::UseCustom => {
+                if let Ok(given) = parse_pose(&self.custom.text) {
+                    self.start = Start::Custom(given.pose);
+                    self.custom.form = Form::Closed;
+                }
+            }
+            AlignAction::Ask(file) => {
+                let lock = &cx.services.dialogs;
+                self.dialog.open(file, &file.request(), lock, cx.egui);
+            }
+            AlignAction::Chosen(AlignFile::Source, path) => self.source = Some(path),
+            AlignAction::Chosen(AlignFile::Target, path) => self.target = Some(path),
+            AlignAction::Chosen(AlignFile::TableFile, path) => self.write_table(path),
+            AlignAction::Run => self.run(cx),
+            AlignAction::Cancel => self.cancel(),
+            AlignAction::RunTable => self.run_table(cx),
+            AlignAction::RestartTable => {
+                self.table.rows.clear();
+                self.run_table(cx);
+            }
+            AlignAction::OpenRow(row) => self.open_row(row, cx),
+            AlignAction::Scrub(place) => {
+                self.playback = Playback::Paused;
+                self.go_to(place);
+            }
+            AlignAction::Step(places) => {
+                self.playback = Playback::Paused;
+                self.go_to(self.place.round() + places);
+            }
+            AlignAction::TogglePlay => self.toggle_play(),
+            AlignAction::Advance(seconds) => self.advance(seconds),
+            AlignAction::CopyTable => {
+                let text = table::text(&self.table.rows, '\t');
+                cx.notify(Notice::done("Copied Table I"));
+                cx.send(Message::CopyText(text));
+            }
+        }
+    }
+
+    /// Stops what is at work.
+    pub fn cancel(&mut self) {
+        self.task.cancel();
+    }
+
+    fn run(&mut self, cx: &ShellContext<'_>) {
+        let Ok(source) = self.choice(cx.session) else {
+            return;
+        };
+        self.coming = None;
+        self.job = AlignJob::Pair;
+        let shelf = cx.services.shelf.clone();
+        self.task.start("Aligning", move |context| {
+            work::pair(&source, &shelf, context)
+        });
+    }
+
+    fn run_table(&mut self, cx: &ShellContext<'_>) {
+        let rows = self.table.rows.iter();
+        let done: Vec<_> = rows.map(|row| (row.part.clone(), row.start)).collect();
+        self.table.num_before = done.len();
+        self.table.elapsed = Duration::ZERO;
+        self.job = AlignJob::Table;
+        let shelf = cx.services.shelf.clone();
+        self.task.start("Table I", move |context| {
+            work::table(&done, &shelf, context)
+        });
+    }
+
+    /// Takes part and start of a row of Table I, and aligns them.
+    fn open_row(&mut self, row: usize, cx: &ShellContext<'_>) {
+        let Some(row) = self.table.rows.get(row).cloned() else {
+            return;
+        };
+        self.pairing = Pairing::MovedCopy;
+        self.part = Some(row.part.clone());
+        self.start = Start::Paper(row.start);
+        // Table I goes on; a second look must not end it.
+        if !self.is_table_at_work() {
+            self.run(cx);
+        }
+    }
+
+    fn write_table(&mut self, path: PathBuf) {
+        let title = format!("Writing {}", file_name(&path));
+        let text = table::text(&self.table.rows, ',');
+        self.writing
+            .start(title, move |_| Ok(work::write(path, &text)?));
+    }
+
+    /// Takes in what the tasks and the dialog report.
+    pub fn update(&mut self, cx: &mut ShellContext<'_>) {
+        while let Some(event) = self.task.poll() {
+            match event {
+                TaskEvent::Partial(result) | TaskEvent::Done(result) => self.take_in(result, cx),
+                TaskEvent::Failed(error) => {
+                    self.coming = None;
+                    cx.notify(error);
+                }
+            }
+        }
+        match self.writing.poll() {
+            Some(TaskEvent::Done(path)) => {
+                cx.notify(Notice::done(format!("Wrote {}", path.display())));
+            }
+            Some(TaskEvent::Failed(error)) => cx.notify(error),
+            Some(TaskEvent::Partial(_)) | None => {}
+        }
+        match self.dialog.poll() {
+            Some((file, Ok(path))) => self.apply(AlignAction::Chosen(file, path), cx),
+            Some((_, Err(notice))) => cx.notify(notice),
+            None => {}
+        }
+    }
+
+    fn take_in(&mut self, result: AlignResult, cx: &mut ShellContext<'_>) {
+        match result {
+            AlignResult::Prepared(pair) => {
+                for warning in &pair.warnings {
+                    cx.notify(warning.clone());
+                }
+                self.coming = Some(pair);
+            }
+            AlignResult::Ran(run) => self.add_run(run),
+            AlignResult::Row { row, elapsed } => {
+                self.table.rows.push(row);
+                self.table.elapsed = elapsed;
+            }
+            AlignResult::Finished => {}
+        }
+    }
+
+    /// Shows runs of a pair made elsewhere; what is at work is cancelled.
+    pub fn show(&mut self, pair: Arc<Pair>, runs: impl IntoIterator<Item = Arc<MethodRun>>) {
+        self.task.cancel();
+        self.coming = Some(pair);
+        runs.into_iter().for_each(|run| self.add_run(run));
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,378 @@
+//! One 3-D view for each method, all seen through one camera.
+
+use std::sync::Arc;
+
+use egui::{Align2, Rect, RichText, Ui, UiBuilder, pos2, vec2};
+
+use super::{
+    pair::Pair,
+    playback::MethodComparison,
+    series,
+    state::AlignState,
+    track::{MethodRun, Track},
+};
+use crate::{
+    app::{
+        shell::session::{Session, ThemeChoice},
+        ui::{
+            theme::{ROUNDING, Theme, font, space},
+            viewport::{
+                FitRequest, PointSize, Role, RoleColour, StandardView, ViewCamera, ViewColours,
+                ViewError, ViewScene, ViewStyle, Viewport, ViewportGpu, scene::mat4,
+            },
+        },
+    },
+    stages::pose::PoseMethod,
+    units::Metres,
+};
+
+/// Height of the words above a view, logical pixels, and where the view is narrow.
+const HEAD: [f32; 2] = [66.0, 98.0];
+/// A view narrower than this has its figures on two lines.
+const NARROW: f32 = 300.0;
+/// Reference clouds are thinned to 8 mm: closed from afar, with the other cloud still seen between.
+const POINT: Metres = Metres(0.0075);
+
+/// From where the views are to look.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum ViewDirection {
+    /// As now, but so that all is seen.
+    Fit,
+    /// From a side.
+    From(StandardView),
+}
+
+/// The source's points are smaller than the target's, so that neither hides the other where both lie alike.
+const SOURCE_WEIGHT: f32 = 0.6;
+
+/// The views, and what they are drawn with.
+pub(super) struct LinkedViews {
+    views: Vec<View>,
+    camera: ViewCamera,
+    styled: Option<ThemeChoice>,
+    has_focus: bool,
+    /// The pair that the views show.
+    shows: Option<Arc<Pair>>,
+}
+
+struct View {
+    method: PoseMethod,
+    viewport: Viewport,
+    style: ViewStyle,
+    scene: ViewScene,
+}
+
+impl LinkedViews {
+    pub(super) fn new(gpu: &Result<ViewportGpu, ViewError>) -> Self {
+        let view = |method| View {
+            method,
+            viewport: Viewport::new(gpu.clone()),
+            style: ViewStyle::new(ViewColours::dark()),
+            scene: ViewScene::default(),
+        };
+        Self {
+            views: PoseMethod::ALL.into_iter().map(view).collect(),
+            camera: ViewCamera::default(),
+            styled: None,
+            has_focus: false,
+            shows: None,
+        }
+    }
+
+    /// True while keys go to one of the views.
+    pub(super) fn has_focus(&self) -> bool {
+        self.has_focus
+    }
+
+    pub(super) fn ui(&mut self, ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme) {
+        self.has_focus = false;
+        let Some(shown) = &align.shown else {
+            empty(ui, align, session, theme);
+            return;
+        };
+        if self.styled != Some(session.theme) {
+            for view in &mut self.views {
+                view.style = style(view.method, session.theme);
+            }
+            self.styled = Some(session.theme);
+        }
+        let all = ui.available_rect_before_wrap();
+        ui.allocate_rect(all, egui::Sense::hover());
+        let width = all.width() / self.views.len() as f32;
+        self.put_in(shown, vec2(width, all.height() - head(width)));
+        for (place, view) in self.views.iter_mut().enumerate() {
+            let left = all.left() + place as f32 * width;
+            let rect = Rect::from_min_size(pos2(left, all.top()), vec2(width, all.height()));
+            let cell = rect.shrink2(vec2(1.0, 0.0));
+            let builder = UiBuilder::new().max_rect(cell).id_salt(place);
+            ui.scope_builder(builder, |ui| {
+                ui.set_clip_rect(cell.intersect(ui.clip_rect()));
+                self.has_focus |= view.ui(ui, shown, &mut self.camera, align, session, theme);
+            });
+            if place > 0 {
+                ui.painter().vline(left, all.y_range(), theme.edge_stroke());
+            }
+        }
+        if align.is_pair_at_work() && align.coming.is_some() {
+            let at = all.center_bottom() - vec2(0.0, 12.0);
+            let text = "Old result: a new one is on its way";
+            ui.painter().text(
+                at,
+                Align2::CENTER_BOTTOM,
+                text,
+                font::body_strong(),
+                theme.warning,
+            );
+        }
+    }
+
+    /// Turns all views, and fits them.
+    pub(super) fn look(&mut self, look: ViewDirection) {
+        if let ViewDirection::From(view) = look {
+            self.camera.look(view);
+        }
+        self.camera.request_fit(FitRequest::Focus);
+    }
+
+    /// Takes in a pair not seen before; its points are shared, not copied.
+    fn put_in(&mut self, shown: &MethodComparison, size: egui::Vec2) {
+        let pair = &shown.pair;
+        if self
+            .shows
+            .as_ref()
+            .is_some_and(|known| Arc::ptr_eq(known, pair))
+        {
+            return;
+        }
+        for view in &mut self.views {
+            // The smaller points first: where both lie on the same place, each is seen.
+            view.scene.points = vec![pair.source_points.clone(), pair.target_points.clone()];
+        }
+        self.shows = Some(Arc::clone(pair));
+        // On the target alone: from T1 the source begins far off.
+        let target = ViewScene {
+            points: vec![pair.target_points.clone()],
+            ..ViewScene::default()
+        };
+        if let Some(bounds) = target.bounds() {
+            self.camera.fit(&bounds, glam::vec2(size.x, size.y));
+        }
+    }
+}
+
+impl View {
+    /// True if keys go to it.
+    fn ui(
+        &mut self,
+        ui: &mut Ui,
+        shown: &MethodComparison,
+        camera: &mut ViewCamera,
+        align: &AlignState,
+        session: &Session,
+        theme: &Theme,
+    ) -> bool {
+        let run = shown.runs.iter().find(|run| run.method == self.method);
+        let all = ui.available_rect_before_wrap();
+        let split = all.top() + head(all.width());
+        let head = Rect::from_min_max(all.min, pos2(all.right(), split));
+        ui.painter().rect_filled(all, 0.0, theme.canvas);
+        let builder = UiBuilder::new().max_rect(head.shrink2(vec2(space::MEDIUM, space::SMALL)));
+        ui.scope_builder(builder, |ui| {
+            ui.spacing_mut().item_spacing.y = 2.0;
+            ui.spacing_mut().interact_size.y = 0.0;
+            let title = RichText::new(series::title(self.method)).font(font::body_strong());
+            ui.label(title.color(series::colour(self.method, theme)));
+            match run {
+                Some(run) => heading(ui, run, session, theme),
+                None if align.is_pair_at_work() => weak(ui, "At work…", theme),
+                None => weak(ui, "Not run", theme),
+            }
+        });
+        let body = Rect::from_min_max(pos2(all.left(), split), all.max);
+        match run.map(|run| &run.track) {
+            Some(Err(trouble)) => {
+                words(
+                    ui,
+                    body,
+                    &[
+                        (&trouble.what, theme.text),
+                        (&trouble.advice, theme.warning),
+                    ],
+                );
+                false
+            }
+            Some(Ok(track)) => {
+                let place = align.place.round() as usize;
+                if let Some(source) = self.scene.points.first_mut() {
+                    source.world_from_set = mat4(&track.pose_at(place));
+                }
+                let has_focus = self.view(ui, body, camera);
+                below(ui, body, track, place, theme);
+                has_focus
+            }
+            None => {
+                if let Some(source) = self.scene.points.first_mut() {
+                    source.world_from_set = glam::Mat4::IDENTITY;
+                }
+                self.view(ui, body, camera)
+            }
+        }
+    }
+
+    fn view(&mut self, ui: &mut Ui, rect: Rect, camera: &mut ViewCamera) -> bool {
+        let Self {
+            method,
+            viewport,
+            style,
+            scene,
+            ..
+        } = self;
+        let label = format!("3-D view, {}", series::title(*method));
+        let builder = UiBuilder::new().max_rect(rect);
+        ui.scope_builder(builder, |ui| {
+            let seen = viewport.ui(ui, &label, camera, scene, style);
+            seen.response.has_focus()
+        })
+        .inner
+    }
+}
+
+/// Height of the words above a view of this width.
+fn head(width: f32) -> f32 {
+    HEAD[usize::from(width < NARROW)]
+}
+
+fn style(method: PoseMethod, choice: ThemeChoice) -> ViewStyle {
+    let mut colours = match choice {
+        ThemeChoice::Dark => ViewColours::dark(),
+        ThemeChoice::Light => ViewColours::light(),
+    };
+    // The source has the colour of its curve.
+    colours.roles[Role::Moving as usize] = RoleColour {
+        colour: series::colour(method, Theme::of(choice)),
+        weight: SOURCE_WEIGHT,
+    };
+    ViewStyle {
+        point_size: PointSize::Metres(POINT),
+        ..ViewStyle::new(colours)
+    }
+}
+
+fn weak(ui: &mut Ui, text: &str, theme: &Theme) {
+    ui.label(
+        RichText::new(text)
+            .font(font::small())
+            .color(theme.weak_text),
+    );
+}
+
+/// How a method ended, and its figures.
+fn heading(ui: &mut Ui, run: &MethodRun, session: &Session, theme: &Theme) {
+    let ms = run.time.as_secs_f64() * 1000.0;
+    match &run.track {
+        Ok(track) => {
+            let ending = track.ending();
+            let ending = RichText::new(&ending).font(font::small());
+            match &track.doubt {
+                None => ui.label(ending.color(theme.text)),
+                Some(doubt) => ui
+                    .label(ending.color(theme.warning))
+                    .on_hover_text(format!("{}\n{}", doubt.what, doubt.advice)),
+            };
+            let rms = session.units.length(track.fit.rms_m);
+            let overlap = track.fit.overlap * 100.0;
+            let e = scientific(track.end_e_m2());
+            let figures = format!("E {e} m² · rms {rms} on {overlap:.0} % · {ms:.0} ms");
+            weak(ui, &figures, theme);
+        }
+        Err(_) => weak(ui, &format!("No pose · {ms:.0} ms"), theme),
+    }
+}
+
+/// On the view: which iteration is seen, and what is to be said against the end.
+fn below(ui: &Ui, rect: Rect, track: &Track, place: usize, theme: &Theme) {
+    let last = track.poses.len().saturating_sub(1);
+    let place = place.min(last);
+    let painter = ui.painter_at(rect);
+    let e = track.e_m2.get(place).copied().unwrap_or(f64::NAN);
+    let text = if place == last {
+        format!("End, after {last} iterations")
+    } else {
+        format!("Iteration {place} of {last} · E {} m²", scientific(e))
+    };
+    let at = rect.left_bottom() + vec2(space::MEDIUM, -space::MEDIUM);
+    let written = painter.text(
+        at,
+        Align2::LEFT_BOTTOM,
+        text,
+        font::small(),
+        theme.weak_text,
+    );
+    if let Some(doubt) = track.doubt.as_ref().filter(|_| place == last) {
+        let width = rect.width() - 2.0 * space::MEDIUM;
+        let text = format!("{}\n{}", doubt.what, doubt.advice);
+        let galley = painter.layout(text, font::small(), theme.warning, width);
+        let at = written.left_top() - vec2(0.0, galley.size().y + 4.0);
+        let plate = Rect::from_min_size(at, galley.size()).expand(4.0);
+        painter.rect_filled(plate, ROUNDING, theme.panel);
+        painter.galley(at, galley, theme.warning);
+    }
+}
+
+/// Before the first result.
+fn empty(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme) {
+    let rect = ui.available_rect_before_wrap();
+    ui.painter().rect_filled(rect, 0.0, theme.canvas);
+    let choice = align.choice(session);
+    let (what, advice) = if align.is_pair_at_work() {
+        ("Aligning…", String::new())
+    } else {
+        let advice = match choice {
+            Ok(_) => "Choose a part and a start above, then press Run".to_owned(),
+            Err(missing) => missing,
+        };
+        ("Nothing aligned yet", advice)
+    };
+    words(ui, rect, &[(what, theme.text), (&advice, theme.weak_text)]);
+}
+
+/// Words in the middle of where a view would be, one paragraph after the other.
+fn words(ui: &mut Ui, rect: Rect, paragraphs: &[(&str, egui::Color32)]) {
+    let inside = rect.shrink(space::LARGE);
+    let layout = egui::Layout::top_down(egui::Align::Center);
+    ui.scope_builder(UiBuilder::new().max_rect(inside).layout(layout), |ui| {
+        ui.add_space((inside.height() / 2.0 - 40.0).max(0.0));
+        for (text, colour) in paragraphs {
+            ui.label(RichText::new(*text).font(font::body()).color(*colour));
+        }
+    });
+}
+
+/// A number as "2.0 × 10⁻³".
+pub(super) fn scientific(value: f64) -> String {
+    let written = format!("{value:.1e}");
+    let Some((digits, power)) = written.split_once('e') else {
+        return written;
+    };
+    let raised = power.chars().map(|c| match c {
+        '-' => '\u{207b}',
+        '0' => '\u{2070}',
+        '1' => '\u{b9}',
+        '2' => '\u{b2}',
+        '3' => '\u{b3}',
+        other => char::from_u32(0x2070 + other.to_digit(10).unwrap_or(0)).unwrap_or(other),
+    });
+    format!("{digits} × 10{}", raised.collect::<String>())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::scientific;
+
+    #[test]
+    fn powers_of_ten_are_raised() {
+        assert_eq!(scientific(2.04e-3), "2.0 × 10⁻³");
+        assert_eq!(scientific(4.6e-17), "4.6 × 10⁻¹⁷");
+        assert_eq!(scientific(0.0), "0.0 × 10⁰");
+    }
+}

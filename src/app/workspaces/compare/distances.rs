@@ -1,0 +1,156 @@
+//! How far every enrolled part is off, by both matchers; a row compares with its part.
+
+use egui::{Align2, Rect, RichText, ScrollArea, Sense, Ui, WidgetInfo, pos2, vec2};
+
+use super::{
+    CompareAction, CompareState,
+    study::{CaseStudy, PartDistance},
+};
+use crate::{
+    app::{
+        inspection::unit_system::UnitSystem,
+        shell::session::Session,
+        ui::{
+            theme::{ROUNDING, Theme, font, space},
+            widgets::focus_ring,
+        },
+    },
+    stages::rank::Matcher,
+};
+
+/// Height of a row.
+const ROW: f32 = 40.0;
+/// Height of the line of figures below a name.
+const FIGURES: f32 = 16.0;
+/// A row wider than this has room for the figures beside the name.
+const WIDE: f32 = 270.0;
+
+/// Draws the list.
+pub(super) fn ui(
+    ui: &mut Ui,
+    compare: &CompareState,
+    session: &Session,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+) {
+    if compare.is_study_old() {
+        ui.multiply_opacity(0.55);
+    }
+    ui.spacing_mut().item_spacing.y = 2.0;
+    ui.label(
+        RichText::new("Distance per part")
+            .font(font::body_strong())
+            .color(theme.text),
+    );
+    let Some(study) = compare
+        .study
+        .as_ref()
+        .filter(|study| !study.distances.is_empty())
+    else {
+        ui.label(RichText::new("Needs an outline").color(theme.weak_text));
+        return;
+    };
+    ui.spacing_mut().interact_size.y = 0.0;
+    ui.vertical(|ui| {
+        let chosen = study.recipe.rank.matcher;
+        let small = |text: &str, colour| RichText::new(text).font(font::small()).color(colour);
+        let with_sign = |name: &str, matcher| {
+            if matcher == chosen {
+                format!("{name} (in use)")
+            } else {
+                name.to_owned()
+            }
+        };
+        let default = with_sign("default: outlines apart", Matcher::Default);
+        ui.label(small(&default, theme.first_series));
+        let paper = with_sign("paper: ‖A − C‖₁, px² + rad²", Matcher::Paper);
+        let paper = ui.label(small(&paper, theme.second_series));
+        paper.on_hover_text(
+            "The paper's own figure (eq. 11): the differences of the lengths' correlations, in squared pixels, and of the angles', in squared radians, added up",
+        );
+    });
+    ScrollArea::vertical()
+        .id_salt("distances")
+        .auto_shrink(false)
+        .show(ui, |ui| {
+            for distance in &study.distances {
+                if row(ui, study, distance, session.units, theme) {
+                    acts.push(CompareAction::Against(Some(distance.part.clone())));
+                }
+            }
+        });
+}
+
+/// True when it was pressed.
+fn row(
+    ui: &mut Ui,
+    study: &CaseStudy,
+    distance: &PartDistance,
+    units: UnitSystem,
+    theme: &Theme,
+) -> bool {
+    let is_against = study.against.as_deref() == Some(&distance.part);
+    let width = ui.available_width() - space::MEDIUM;
+    // Where there is little room the figures stand below the name.
+    let is_wide = width > WIDE;
+    let below = if is_wide { 0.0 } else { FIGURES };
+    let size = vec2(width, ROW + below);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::click());
+    let outline = distance
+        .outline
+        .map_or("–".to_owned(), |metres| units.length(metres));
+    let figures = format!("{outline} · {:.2e}", distance.paper);
+    response.widget_info(|| {
+        let label = format!("Compare with {}: {figures}", distance.title);
+        WidgetInfo::selected(egui::Role::Button, true, is_against, label)
+    });
+    let painter = ui.painter_at(rect);
+    if is_against || response.hovered() {
+        painter.rect_filled(rect, ROUNDING, theme.control);
+    }
+    if is_against {
+        let bar = Rect::from_min_size(rect.min, vec2(3.0, rect.height()));
+        painter.rect_filled(bar, 0.0, theme.accent);
+    }
+    let inner = rect.shrink2(vec2(8.0, 3.0));
+    let (at, anchor) = if is_wide {
+        (inner.right_top(), Align2::RIGHT_TOP)
+    } else {
+        (inner.left_top() + vec2(0.0, 18.0), Align2::LEFT_TOP)
+    };
+    let value = painter.text(at, anchor, &figures, font::small(), theme.text);
+    let end = if is_wide {
+        value.left() - 4.0
+    } else {
+        inner.right()
+    };
+    let name = if is_against {
+        font::body_strong()
+    } else {
+        font::body()
+    };
+    let room = Rect::from_min_max(rect.min, pos2(end, rect.bottom()));
+    painter
+        .with_clip_rect(room.intersect(painter.clip_rect()))
+        .text(
+            inner.left_top(),
+            Align2::LEFT_TOP,
+            &distance.title,
+            name,
+            theme.text,
+        );
+    let colours = [theme.first_series, theme.second_series];
+    for (place, (share, colour)) in distance.shares.iter().zip(colours).enumerate() {
+        let top = inner.top() + 20.0 + below + 7.0 * place as f32;
+        let track = Rect::from_min_size(pos2(inner.left(), top), vec2(inner.width(), 5.0));
+        painter.rect_filled(track, 2.0, theme.track);
+        let filled = vec2(inner.width() * share.clamp(0.0, 1.0), 5.0);
+        painter.rect_filled(Rect::from_min_size(track.min, filled), 2.0, colour);
+    }
+    focus_ring(ui, rect, &response, theme);
+    let hover = format!(
+        "Outlines apart {outline} (default) · ‖A − C‖₁ {:.4e} px² + rad² (paper) · score in the end {:.2}",
+        distance.paper, distance.score
+    );
+    response.on_hover_text(hover).clicked()
+}

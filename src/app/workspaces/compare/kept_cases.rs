@@ -1,0 +1,383 @@
+//! The kept cases: all of them, what they were taken for as a matrix, and the cases of one of its cells.
+
+use std::f32::consts::FRAC_PI_2;
+
+use egui::{
+    Align, Align2, Button, Layout, Rect, RichText, ScrollArea, Sense, Shape, Stroke, StrokeKind,
+    Ui, Vec2, WidgetInfo, epaint::TextShape, pos2, vec2,
+};
+
+use super::{
+    CaseRun, CompareAction, CompareFile, CompareState, changes_list,
+    matrix::{Matrix, MatrixCell, part_title, truth_title},
+    score_plots,
+};
+use crate::{
+    app::{
+        shell::session::Session,
+        ui::{
+            theme::{ROUNDING, Theme, font, space},
+            widgets::{focus_ring, labelled, shortened},
+        },
+    },
+    cases::{CaseAnswer, CaseOutcome, KeptCase},
+};
+
+/// Width of the rows' names.
+const NAMES: f32 = 118.0;
+/// Height of the columns' names where the columns are narrow.
+const UPRIGHT: f32 = 104.0;
+/// Least width of a column.
+const NARROWEST: f32 = space::TARGET + 2.0;
+/// A column wider than this has its name written across.
+const WIDE: f32 = 110.0;
+
+/// Draws what there is of them.
+pub(super) fn ui(
+    ui: &mut Ui,
+    compare: &CompareState,
+    session: &Session,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+) {
+    header(ui, compare, session, theme, acts);
+    let cases = compare.cases.as_ref().map(|cases| &*cases.list);
+    let Some(cases) = cases.filter(|cases| !cases.is_empty()) else {
+        let text = match (cases, compare.folder.as_deref()) {
+            (None, _) => "Looking for kept cases".to_owned(),
+            (Some(_), Some(folder)) => format!("No kept cases in {}", folder.display()),
+            (Some(_), None) => "No kept cases yet".into(),
+        };
+        ui.label(
+            RichText::new(text)
+                .font(font::verdict())
+                .color(theme.weak_text),
+        );
+        let what = "Capture a scene, choose what it is and press Keep case; kept cases show what another recipe gains and what it breaks";
+        ui.label(RichText::new(what).color(theme.weak_text));
+        return;
+    };
+    let cell = compare.cell.as_ref();
+    let Some(run) = &compare.run else {
+        list(ui, compare, session, cases, theme, acts);
+        return;
+    };
+    if let (Some(changes), Some(shown)) = (&compare.changes, &session.library) {
+        changes_list::ui(ui, changes, shown, theme, acts);
+        return;
+    }
+    ScrollArea::both()
+        .id_salt("cases")
+        .auto_shrink(false)
+        .show(ui, |ui| match cell.and_then(|cell| run.matrix.cell(cell)) {
+            Some(cell) => of_cell(ui, session, run, cell, theme, acts),
+            None => matrix_and_calibration(ui, run, theme, acts),
+        });
+}
+
+/// Side by side, or one under the other where there is no room.
+fn matrix_and_calibration(
+    ui: &mut Ui,
+    run: &CaseRun,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+) {
+    let num_columns = run.matrix.columns.len() as f32;
+    let beside = ui.available_width() - score_plots::WIDTH - space::LARGE;
+    if beside >= NAMES + 16.0 + NARROWEST * num_columns {
+        ui.horizontal_top(|ui| {
+            ui.vertical(|ui| {
+                ui.set_max_width(beside);
+                matrix(ui, &run.matrix, theme, acts);
+            });
+            ui.add_space(space::MEDIUM);
+            ui.vertical(|ui| plots(ui, run, theme));
+        });
+    } else {
+        matrix(ui, &run.matrix, theme, acts);
+        ui.add_space(space::MEDIUM);
+        ui.horizontal_wrapped(|ui| plots(ui, run, theme));
+    }
+}
+
+fn plots(ui: &mut Ui, run: &CaseRun, theme: &Theme) {
+    score_plots::calibration(ui, &run.calibration, theme);
+    score_plots::trade_off(ui, &run.trade_off, run.recipe.accept.min_score, theme);
+}
+
+fn header(
+    ui: &mut Ui,
+    compare: &CompareState,
+    session: &Session,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+) {
+    ui.horizontal(|ui| {
+        ui.label(
+            RichText::new("All kept cases")
+                .font(font::body_strong())
+                .color(theme.text),
+        );
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            let folder = compare.cases.as_ref().map(|cases| cases.folder.path());
+            let hover = folder.map_or_else(String::new, |path| path.display().to_string());
+            let button = labelled(ui, Button::new("Folder…"), "Folder of cases…");
+            if button.on_hover_text(hover).clicked() {
+                acts.push(CompareAction::Ask(CompareFile::Cases));
+            }
+            let is_matrix = compare.cell.is_none() && compare.changes.is_none();
+            if !is_matrix && labelled(ui, Button::new("Back to matrix"), "Back to matrix").clicked()
+            {
+                acts.push(CompareAction::ShowCell(None));
+            }
+            if let Some(run) = &compare.run
+                && let Some(ended) = run.ended
+                && is_matrix
+            {
+                let name = "Compare with an earlier run…";
+                let button = labelled(ui, Button::new("Earlier run…"), name);
+                let hover =
+                    "Compare with what partsight evaluate --json has written of an earlier run";
+                if button.on_hover_text(hover).clicked() {
+                    acts.push(CompareAction::Ask(CompareFile::EarlierRun));
+                }
+                let at = ended.to_zoned(jiff::tz::TimeZone::system());
+                let at = format!("ran at {}", at.strftime("%H:%M"));
+                ui.label(RichText::new(at).font(font::small()).color(theme.weak_text));
+            }
+        });
+    });
+    let Some(run) = &compare.run else {
+        return;
+    };
+    let height = std::mem::take(&mut ui.spacing_mut().interact_size.y);
+    ui.horizontal_wrapped(|ui| {
+        let tally = &run.matrix.tally;
+        // The worst is said first.
+        let wrong = match tally.wrong_accepted {
+            0 => RichText::new("none wrong and accepted").color(theme.accepted),
+            num => RichText::new(format!("{num} wrong and accepted")).color(theme.rejected),
+        };
+        ui.label(wrong.font(font::body_strong()));
+        let refused = match tally.refused {
+            0 => "none".to_owned(),
+            num => num.to_string(),
+        };
+        let rest = format!(
+            "· {} of {} right · {refused} wrongly refused",
+            tally.right, tally.total
+        );
+        let mut rest = vec![rest];
+        if !run.troubles.is_empty() {
+            rest.push(format!("{} damaged", run.troubles.len()));
+        }
+        let done = run.results.len() + run.troubles.len();
+        if run.ended.is_none() {
+            let verb = if compare.is_running_cases() {
+                "running"
+            } else {
+                "stopped"
+            };
+            rest.push(format!("{verb}, {done} of {} done", run.total));
+        }
+        ui.label(RichText::new(rest.join(" · ")).color(theme.text));
+        if *run.recipe != **compare.tried_recipe(session) {
+            let text = "· with another recipe";
+            ui.label(RichText::new(text).color(theme.warning));
+        }
+    });
+    ui.spacing_mut().interact_size.y = height;
+}
+
+/// All cases, before any run.
+fn list(
+    ui: &mut Ui,
+    compare: &CompareState,
+    session: &Session,
+    cases: &[KeptCase],
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+) {
+    let hint = if compare.is_running_cases() {
+        "Running"
+    } else {
+        "Run all cases (Ctrl R) shows what each is taken for now"
+    };
+    ui.label(RichText::new(hint).color(theme.weak_text));
+    let height = space::TARGET;
+    ScrollArea::vertical()
+        .id_salt("list of cases")
+        .auto_shrink(false)
+        .show_rows(ui, height, cases.len(), |ui, rows| {
+            for case in cases.get(rows).unwrap_or_default() {
+                let about = &case.meta.about;
+                let truth = session.library.as_ref();
+                let truth =
+                    truth.map_or_else(String::new, |shown| truth_title(&about.truth, shown));
+                let what = format!(
+                    "it is: {truth}{}",
+                    difficulty_words(about.difficulty.as_deref())
+                );
+                case_row(ui, &case.name, &what, theme, acts);
+            }
+        });
+}
+
+/// The cases of one cell.
+fn of_cell(
+    ui: &mut Ui,
+    session: &Session,
+    run: &CaseRun,
+    cell: &MatrixCell,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+) {
+    let Some(shown) = &session.library else {
+        return;
+    };
+    let (truth, answer) = &cell.cell;
+    let (truth, num) = (truth_title(truth, shown), cell.results.len());
+    let text = match answer {
+        CaseAnswer::Part(part) => format!("{truth} taken for {}: {num}", part_title(part, shown)),
+        CaseAnswer::NotAccepted => format!("{truth}, not accepted: {num}"),
+    };
+    ui.label(RichText::new(text).color(theme.weak_text));
+    for result in cell
+        .results
+        .iter()
+        .filter_map(|place| run.results.get(*place))
+    {
+        let found = &result.found;
+        let what = match (&found.part, found.score) {
+            (Some(part), Some(score)) => format!("{} {score:.2}", part_title(part, shown)),
+            _ => found.reason.clone().unwrap_or_default(),
+        };
+        let what = format!("{what}{}", difficulty_words(result.difficulty.as_deref()));
+        case_row(ui, &result.name, &what, theme, acts);
+    }
+}
+
+/// Behind what a case is.
+fn difficulty_words(difficulty: Option<&str>) -> String {
+    difficulty.map_or_else(String::new, |words| format!(" · {words}"))
+}
+
+pub(super) fn case_row(
+    ui: &mut Ui,
+    name: &str,
+    what: &str,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+) {
+    ui.horizontal(|ui| {
+        let text = RichText::new(shortened(name, 34)).font(font::body_strong());
+        let size = vec2(190.0, space::TARGET);
+        let open = ui.add(Button::new(text).min_size(size));
+        open.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, format!("Open {name}")));
+        if open.on_hover_text("Bring this case to the front").clicked() {
+            acts.push(CompareAction::OpenCase(name.to_owned()));
+        }
+        let remove = labelled(ui, Button::new("Remove"), &format!("Remove {name}"));
+        if remove.clicked() {
+            acts.push(CompareAction::Remove(name.to_owned()));
+        }
+        ui.label(RichText::new(shortened(what, 60)).color(theme.weak_text))
+            .on_hover_text(what);
+    });
+}
+
+/// What it truly was from top to bottom, what it was taken for from left to right.
+fn matrix(ui: &mut Ui, matrix: &Matrix, theme: &Theme, acts: &mut Vec<CompareAction>) {
+    let num_columns = matrix.columns.len().max(1);
+    let room = ui.available_width() - NAMES - 16.0;
+    let width = (room / num_columns as f32).clamp(NARROWEST, 140.0);
+    let height = space::TARGET + 2.0;
+    let head = if width > WIDE { 22.0 } else { UPRIGHT };
+    let size = vec2(
+        NAMES + width * num_columns as f32,
+        head + height * matrix.rows.len() as f32,
+    );
+    let (all, _) = ui.allocate_exact_size(size, Sense::hover());
+    let painter = ui.painter().clone();
+    let origin = all.min + vec2(NAMES, head);
+    for (column, name) in matrix.columns.iter().enumerate() {
+        let middle = origin.x + width * (column as f32 + 0.5);
+        let colour = theme.weak_text;
+        if width > WIDE {
+            let at = pos2(middle, origin.y - 6.0);
+            let name = shortened(name, (width / 6.5) as usize);
+            painter.text(at, Align2::CENTER_BOTTOM, name, font::small(), colour);
+        } else {
+            let galley = painter.layout_no_wrap(shortened(name, 18), font::small(), colour);
+            let at = pos2(middle - galley.size().y / 2.0, origin.y - 4.0);
+            let upright = TextShape::new(at, galley, colour).with_angle(-FRAC_PI_2);
+            painter.add(Shape::Text(upright));
+        }
+    }
+    for (row, name) in matrix.rows.iter().enumerate() {
+        let at = pos2(origin.x - 8.0, origin.y + height * (row as f32 + 0.5));
+        painter.text(
+            at,
+            Align2::RIGHT_CENTER,
+            shortened(name, 17),
+            font::small(),
+            theme.text,
+        );
+        for column in 0..num_columns {
+            let rect = rect_of(origin, [row, column], vec2(width, height));
+            painter.rect_filled(rect, ROUNDING, theme.canvas);
+        }
+    }
+    for cell in &matrix.cells {
+        let rect = rect_of(origin, cell.place, vec2(width, height));
+        let id = ui.scope_id().with(("cell", cell.place));
+        let response = ui.interact(rect, id, Sense::click());
+        let [row, column] = cell.place;
+        let name = |names: &[String], place: usize| names.get(place).cloned().unwrap_or_default();
+        let (truth, answer) = (name(&matrix.rows, row), name(&matrix.columns, column));
+        let num = cell.results.len();
+        let (colour, word) = match cell.judgement {
+            CaseOutcome::Right => (theme.accepted, "right"),
+            CaseOutcome::WrongAccepted => (theme.rejected, "wrong and accepted"),
+            CaseOutcome::Refused => (theme.warning, "wrongly refused"),
+        };
+        let label = match &cell.cell.1 {
+            CaseAnswer::Part(_) => format!("{truth} taken for {answer}: {num}, {word}"),
+            CaseAnswer::NotAccepted => format!("{truth}, not accepted: {num}, {word}"),
+        };
+        response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, &label));
+        painter.rect_filled(rect, ROUNDING, colour.gamma_multiply(0.28));
+        let stroke = Stroke::new(if response.hovered() { 2.0 } else { 1.0 }, colour);
+        painter.rect_stroke(rect, ROUNDING, stroke, StrokeKind::Inside);
+        let sign = match cell.judgement {
+            CaseOutcome::Right => "",
+            CaseOutcome::WrongAccepted => " ×",
+            CaseOutcome::Refused => " !",
+        };
+        let text = format!("{num}{sign}");
+        let at = rect.center();
+        painter.text(
+            at,
+            Align2::CENTER_CENTER,
+            text,
+            font::body_strong(),
+            theme.text,
+        );
+        focus_ring(ui, rect, &response, theme);
+        if response.on_hover_text(label).clicked() {
+            acts.push(CompareAction::ShowCell(Some(cell.cell.clone())));
+        }
+    }
+    let text = "Rows: what it is · columns: what it was accepted as · a cell opens its cases";
+    ui.add_space(space::SMALL);
+    ui.label(
+        RichText::new(text)
+            .font(font::small())
+            .color(theme.weak_text),
+    );
+}
+
+fn rect_of(origin: egui::Pos2, [row, column]: [usize; 2], size: Vec2) -> Rect {
+    let min = origin + vec2(size.x * column as f32, size.y * row as f32);
+    Rect::from_min_size(min, size).shrink(1.0)
+}

@@ -1,0 +1,198 @@
+//! Compare, the process engineer's workspace: why was this taken for that?
+//!
+//! A case, the scene inspected last or a kept one, is inspected with the recipe on trial and laid against one enrolled
+//! part; all kept cases can be run, and their confusion matrix leads back to each of them.
+
+mod action;
+mod case_bar;
+mod changes_list;
+pub mod comparison;
+mod distances;
+mod keeping;
+mod kept_cases;
+pub mod matrix;
+mod pictures;
+mod recipe_panel;
+mod scaling_plot;
+mod schedule;
+mod score_plots;
+mod state;
+pub mod study;
+mod trial;
+mod work;
+
+use std::path::PathBuf;
+
+use egui::{Frame, Key, Margin, Modifiers, Panel, Rect, Ui, UiBuilder, pos2, vec2};
+
+pub use self::{
+    action::{CompareAction, CompareFile},
+    state::{Cases, CompareState, Front, Undo},
+    work::{CaseChange, CaseDone, CaseRun, CompareResult, RunChanges},
+};
+use crate::app::{
+    shell::{
+        context::ShellContext,
+        key_binding::{KeyBinding, Shortcut},
+        session::{Session, WorkspaceKind},
+        workspace::Workspace,
+    },
+    task::{Running, TaskRunner},
+    ui::theme::{Theme, space},
+};
+
+/// The shortcuts of the workspace.
+const SHORTCUTS: [Shortcut<CompareAction>; 3] = [
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::K,
+        keys: "K",
+        does: "Keep the case in front",
+        action: || CompareAction::Keep,
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::R,
+        keys: "Ctrl R",
+        does: "Run all kept cases",
+        action: || CompareAction::RunAll,
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::Z,
+        keys: "Ctrl Z",
+        does: "Take back the removal of a case or the use of a recipe",
+        action: || CompareAction::Undo,
+    },
+];
+
+/// Width of the recipe, logical pixels, and in a narrow window.
+const RECIPE: [f32; 2] = [310.0, 284.0];
+
+/// The workspace. Nothing is kept between frames but its state.
+pub struct CompareWorkspace {
+    state: CompareState,
+}
+
+impl CompareWorkspace {
+    /// With this folder of cases; without one the user's own.
+    pub fn new(folder: Option<PathBuf>, runner: &TaskRunner) -> Self {
+        Self {
+            state: CompareState::new(folder, runner),
+        }
+    }
+
+    /// What it knows.
+    pub fn state(&self) -> &CompareState {
+        &self.state
+    }
+
+    /// The same, to be changed without a person.
+    pub fn state_mut(&mut self) -> &mut CompareState {
+        &mut self.state
+    }
+}
+
+impl Workspace for CompareWorkspace {
+    fn kind(&self) -> WorkspaceKind {
+        WorkspaceKind::Compare
+    }
+
+    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
+        let (session, theme) = (cx.session, cx.theme);
+        let state = &self.state;
+        let mut acts = Vec::new();
+        if state.is_behind(session) {
+            acts.push(CompareAction::Follow);
+        }
+        let width = ui.available_width();
+        let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
+        Panel::right("recipe")
+            .exact_size(if width > 1100.0 { RECIPE[0] } else { RECIPE[1] })
+            .resizable(false)
+            .frame(panel(Margin::ZERO))
+            .show(ui, |ui| {
+                recipe_panel::ui(ui, state, session, theme, &mut acts);
+            });
+        Panel::top("case")
+            .resizable(false)
+            .frame(panel(Margin::symmetric(12, 8)))
+            .show(ui, |ui| {
+                case_bar::ui(ui, state, session, theme, &mut acts);
+            });
+        body(ui, state, session, theme, &mut acts);
+        for action in acts {
+            self.state.apply(action, cx);
+        }
+    }
+
+    fn update(&mut self, cx: &mut ShellContext<'_>) {
+        self.state.update(cx);
+    }
+
+    fn key_bindings(&self) -> Vec<KeyBinding> {
+        SHORTCUTS.iter().map(Shortcut::binding).collect()
+    }
+
+    fn press(&mut self, place: usize, cx: &mut ShellContext<'_>) {
+        if let Some(shortcut) = SHORTCUTS.get(place) {
+            self.state.apply((shortcut.action)(), cx);
+        }
+    }
+
+    fn running(&self) -> Option<&Running> {
+        self.state.running()
+    }
+
+    fn cancel(&mut self) {
+        self.state.cancel();
+    }
+
+    fn is_idle(&self, session: &Session) -> bool {
+        self.state.is_idle(session)
+    }
+}
+
+/// Three pictures above; the distances and the kept cases below.
+fn body(
+    ui: &mut Ui,
+    state: &CompareState,
+    session: &Session,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+) {
+    let all = ui.available_rect_before_wrap();
+    ui.painter().rect_filled(all, 0.0, theme.panel);
+    let middle = all.top() + (all.height() * 0.46).round();
+    let third = |part: f32| (all.left() + all.width() * part).round();
+    let left = third(0.32);
+    let cell = |from: [f32; 2], to: [f32; 2]| {
+        Rect::from_min_max(pos2(from[0], from[1]), pos2(to[0], to[1])).shrink(space::MEDIUM)
+    };
+    let above = [
+        cell([all.left(), all.top()], [left, middle]),
+        cell([left, all.top()], [third(0.66), middle]),
+        cell([third(0.66), all.top()], [all.right(), middle]),
+    ];
+    pictures::ui(ui, above, state, session, theme);
+    let below = [
+        cell([all.left(), middle], [left, all.bottom()]),
+        cell([left, middle], [all.right(), all.bottom()]),
+    ];
+    let within = |ui: &mut Ui, rect: Rect, draw: &mut dyn FnMut(&mut Ui)| {
+        ui.scope_builder(UiBuilder::new().max_rect(rect), |ui| {
+            ui.set_clip_rect(rect.expand2(vec2(4.0, 4.0)));
+            draw(ui);
+        });
+    };
+    within(ui, below[0], &mut |ui| {
+        distances::ui(ui, state, session, theme, acts);
+    });
+    within(ui, below[1], &mut |ui| {
+        kept_cases::ui(ui, state, session, theme, acts);
+    });
+    let painter = ui.painter();
+    painter.hline(all.x_range(), middle, theme.edge_stroke());
+    painter.vline(left, all.y_range(), theme.edge_stroke());
+    painter.vline(third(0.66), all.top()..=middle, theme.edge_stroke());
+}

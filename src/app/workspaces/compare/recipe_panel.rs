@@ -1,0 +1,383 @@
+//! The recipe on trial: a control for every parameter, drawn from the table, and what comes of it.
+
+use std::cell::Cell;
+
+use egui::{
+    Button, CollapsingHeader, DragValue, Frame, Margin, Panel, RichText, ScrollArea, Sense, Slider,
+    Ui, Vec2, WidgetInfo, vec2,
+};
+
+use super::{CompareAction, CompareState, case_bar::judged, scaling_plot};
+use crate::{
+    app::{
+        shell::session::Session,
+        ui::{
+            theme::{Theme, font, space},
+            widgets::{Mark, labelled, mark},
+        },
+    },
+    cases::CaseOutcome,
+    pipeline::{
+        Recipe,
+        parameters::{Choice, Group, Kind, Number, PARAMETERS, Parameter, Place, num_changed},
+    },
+};
+
+/// Draws the panel.
+pub(super) fn ui(
+    ui: &mut Ui,
+    compare: &CompareState,
+    session: &Session,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+) {
+    let frame = |top, bottom| {
+        Frame::new().fill(theme.panel).inner_margin(Margin {
+            left: 16,
+            right: 14,
+            top,
+            bottom,
+        })
+    };
+    Panel::bottom("recipe verdict")
+        .resizable(false)
+        .frame(frame(8, 12))
+        .show(ui, |ui| outcome(ui, compare, session, theme, acts));
+    let (recipe, default) = (compare.tried_recipe(session), Recipe::default());
+    Panel::top("recipe head")
+        .resizable(false)
+        .frame(frame(8, 4))
+        .show(ui, |ui| head(ui, recipe, theme, acts));
+    egui::CentralPanel::default()
+        .frame(frame(0, 4))
+        .show(ui, |ui| {
+            ScrollArea::vertical()
+                .id_salt("recipe")
+                .auto_shrink(false)
+                .show(ui, |ui| {
+                    ui.set_max_width(ui.available_width() - 8.0);
+                    for group in Group::ALL {
+                        group_ui(ui, group, recipe, &default, theme, acts);
+                    }
+                    ui.add_space(space::SMALL);
+                    CollapsingHeader::new("Scaling: one core against several")
+                        .id_salt("scaling")
+                        .show(ui, |ui| scaling_plot::ui(ui, compare, theme, acts));
+                });
+        });
+}
+
+fn head(ui: &mut Ui, recipe: &Recipe, theme: &Theme, acts: &mut Vec<CompareAction>) {
+    ui.label(
+        RichText::new("Recipe")
+            .font(font::verdict())
+            .color(theme.text),
+    );
+    ui.horizontal(|ui| {
+        let num = num_changed(recipe);
+        let text = format!("{num} changed from default");
+        let colour = if num == 0 {
+            theme.weak_text
+        } else {
+            theme.accent
+        };
+        ui.label(RichText::new(text).color(colour));
+        if num > 0 {
+            let reset = labelled(ui, Button::new("Reset all"), "Reset all");
+            if reset
+                .on_hover_text("Every parameter back to its default")
+                .clicked()
+            {
+                acts.push(CompareAction::ResetAll);
+            }
+        }
+    });
+}
+
+fn group_ui(
+    ui: &mut Ui,
+    group: Group,
+    recipe: &Recipe,
+    default: &Recipe,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+) {
+    let of = |place: Place| {
+        let all = PARAMETERS.iter();
+        all.filter(move |p| p.group == group && p.place == place)
+    };
+    ui.add_space(space::SMALL);
+    ui.label(
+        RichText::new(group.title())
+            .font(font::heading())
+            .color(theme.weak_text),
+    );
+    for parameter in of(Place::Front) {
+        control(ui, parameter, recipe, default, theme, acts);
+    }
+    let num = of(Place::Fold).count();
+    if num == 0 {
+        return;
+    }
+    let num_changed = of(Place::Fold)
+        .filter(|p| p.differs(recipe, default))
+        .count();
+    let title = match num_changed {
+        0 => format!("More of {} ({num})", group.title().to_lowercase()),
+        _ => format!(
+            "More of {} ({num}, {num_changed} changed)",
+            group.title().to_lowercase()
+        ),
+    };
+    CollapsingHeader::new(RichText::new(title).color(theme.weak_text))
+        .id_salt(group.title())
+        .show_unindented(ui, |ui| {
+            for parameter in of(Place::Fold) {
+                control(ui, parameter, recipe, default, theme, acts);
+            }
+        });
+}
+
+/// Width of the number beside a slider.
+const NUMBER: f32 = 92.0;
+/// Width of the button that resets a parameter.
+const RESET: f32 = 58.0;
+
+fn control(
+    ui: &mut Ui,
+    parameter: &Parameter,
+    recipe: &Recipe,
+    default: &Recipe,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+) {
+    let is_changed = parameter.differs(recipe, default);
+    let name = if is_changed {
+        RichText::new(format!("{} · changed", parameter.name)).color(theme.accent)
+    } else {
+        RichText::new(parameter.name).color(theme.text)
+    };
+    let hover = hover_text(parameter, default);
+    ui.scope(|ui| {
+        ui.spacing_mut().interact_size.y = 0.0;
+        ui.spacing_mut().item_spacing.y = 0.0;
+        ui.label(name).on_hover_text(&hover);
+    });
+    ui.horizontal(|ui| {
+        let reset = if is_changed {
+            RESET + space::SMALL
+        } else {
+            0.0
+        };
+        let width = ui.available_width() - reset;
+        match &parameter.kind {
+            Kind::Number(number) => number_ui(ui, parameter, number, recipe, width, &hover, acts),
+            Kind::Choice(choice) => {
+                choice_ui(ui, parameter, choice, recipe, width, acts);
+            }
+        }
+        if is_changed {
+            let button = Button::new("Reset").min_size(vec2(RESET, space::TARGET));
+            let label = format!("Reset {}", parameter.name.to_lowercase());
+            if labelled(ui, button, &label)
+                .on_hover_text(format!("Back to {}", parameter.text(default)))
+                .clicked()
+            {
+                acts.push(CompareAction::Reset(parameter.key));
+            }
+        }
+    });
+}
+
+fn hover_text(parameter: &Parameter, default: &Recipe) -> String {
+    let default = parameter.text(default);
+    let valid = match &parameter.kind {
+        Kind::Number(_) => format!("Valid from {}", parameter.range_text()),
+        Kind::Choice(_) => format!("One of {}", parameter.range_text()),
+    };
+    format!("{}\n{valid}; default {default}", parameter.help)
+}
+
+/// A slider for the hand, and a number that can be dragged or written.
+fn number_ui(
+    ui: &mut Ui,
+    parameter: &Parameter,
+    number: &Number,
+    recipe: &Recipe,
+    width: f32,
+    hover: &str,
+    acts: &mut Vec<CompareAction>,
+) {
+    let [least, most] = number.range;
+    let before = parameter.value(recipe);
+    let (mut slid, mut written) = (before, before);
+    ui.spacing_mut().slider_width = (width - NUMBER - space::SMALL).max(40.0);
+    let is_wide = most > 500.0 * least.max(1.0);
+    let slider = Slider::new(&mut slid, least..=most)
+        .show_value(false)
+        .logarithmic(is_wide)
+        .trailing_fill(true);
+    let slider = ui.add(slider);
+    slider.widget_info(|| {
+        let label = format!("{}, slider", parameter.name);
+        WidgetInfo::slider(true, before, label)
+    });
+    slider.on_hover_text(hover);
+    // What is out of range is told, not bent.
+    let refused = Cell::new(None);
+    let parse = |text: &str| {
+        let digits = text.trim().trim_end_matches(number.unit.sign().trim());
+        let value: f64 = digits.trim().replace(',', ".").parse().ok()?;
+        if value >= least && value <= most {
+            return Some(value);
+        }
+        refused.set(Some(value));
+        None
+    };
+    let drag = DragValue::new(&mut written)
+        .range(least..=most)
+        .speed((most - least).min(before.abs().max(1.0)) / 100.0)
+        .fixed_decimals(number.decimals)
+        .suffix(number.unit.sign())
+        .update_while_editing(false)
+        .custom_parser(parse);
+    let response = ui.add_sized(vec2(NUMBER, space::TARGET), drag);
+    response.widget_info(|| {
+        let mut info = WidgetInfo::drag_value(true, before);
+        info.label = Some(parameter.name.into());
+        info
+    });
+    response.on_hover_text(hover);
+    let rounded = |value: f64| {
+        let scale = 10_f64.powi(number.decimals as i32);
+        (value * scale).round() / scale
+    };
+    for now in [slid, written] {
+        let now = rounded(now).clamp(least, most);
+        if (now - rounded(before)).abs() > f64::EPSILON * now.abs() {
+            acts.push(CompareAction::Set(parameter.key, now));
+        }
+    }
+    if let Some(value) = refused.get() {
+        acts.push(CompareAction::Set(parameter.key, value));
+    }
+}
+
+fn choice_ui(
+    ui: &mut Ui,
+    parameter: &Parameter,
+    choice: &Choice,
+    recipe: &Recipe,
+    width: f32,
+    acts: &mut Vec<CompareAction>,
+) {
+    let chosen = parameter.value(recipe) as usize;
+    let each = width / choice.options.len() as f32 - space::SMALL;
+    if each < 64.0 {
+        let now = choice.options.get(chosen).copied().unwrap_or_default();
+        ui.menu_button(format!("{now} ▼"), |ui| {
+            for (place, option) in choice.options.iter().enumerate() {
+                if ui.selectable_label(place == chosen, *option).clicked() {
+                    acts.push(CompareAction::Set(parameter.key, place as f64));
+                    ui.close();
+                }
+            }
+        })
+        .response
+        .widget_info(|| {
+            let label = format!("{}: {now}", parameter.name);
+            WidgetInfo::labeled(egui::Role::Button, true, label)
+        });
+        return;
+    }
+    for (place, option) in choice.options.iter().enumerate() {
+        let button = Button::selectable(place == chosen, *option);
+        let response = ui.add(button.min_size(vec2(each, space::TARGET)));
+        response.widget_info(|| {
+            let label = format!("{}: {option}", parameter.name);
+            WidgetInfo::selected(egui::Role::Button, true, place == chosen, label)
+        });
+        if response.clicked() && place != chosen {
+            acts.push(CompareAction::Set(parameter.key, place as f64));
+        }
+    }
+}
+
+/// What comes of it.
+fn outcome(
+    ui: &mut Ui,
+    compare: &CompareState,
+    session: &Session,
+    theme: &Theme,
+    acts: &mut Vec<CompareAction>,
+) {
+    ui.scope(|ui| {
+        ui.spacing_mut().interact_size.y = 0.0;
+        let head = if compare.is_study_old() {
+            "With this recipe this case is…"
+        } else {
+            "With this recipe this case is"
+        };
+        ui.label(RichText::new(head).color(theme.weak_text));
+        if compare.is_study_old() {
+            ui.multiply_opacity(0.55);
+        }
+        if let Some(study) = &compare.study {
+            let found = &study.found;
+            let title = match (&found.part, found.score) {
+                (Some(_), Some(score)) if found.accepted => {
+                    format!("{} · {score:.2}", study.found_title)
+                }
+                (Some(_), Some(score)) => {
+                    format!("Not accepted · nearest {} {score:.2}", study.found_title)
+                }
+                _ => "Not accepted · no part found".into(),
+            };
+            let judgement = judged(compare);
+            let (sign, colour) = match (judgement, found.accepted) {
+                (Some(CaseOutcome::WrongAccepted), _) | (_, false) => (Mark::Bad, theme.rejected),
+                (_, true) => (Mark::Good, theme.accepted),
+            };
+            ui.horizontal_top(|ui| {
+                let (rect, _) = ui.allocate_exact_size(Vec2::splat(20.0), Sense::hover());
+                mark(ui.painter(), rect.center(), 9.0, sign, theme);
+                let text = RichText::new(title).font(font::verdict()).color(colour);
+                ui.add(egui::Label::new(text).wrap());
+            });
+            let (word, colour) = match (judgement, found.accepted) {
+                (Some(CaseOutcome::Right), true) => ("Right and accepted", theme.accepted),
+                (Some(CaseOutcome::Right), false) => ("Rightly refused", theme.accepted),
+                (Some(CaseOutcome::WrongAccepted), _) => ("Wrong and accepted", theme.rejected),
+                (Some(CaseOutcome::Refused), _) => ("Wrongly refused", theme.warning),
+                (None, true) => ("Accepted", theme.text),
+                (None, false) => ("Whether rightly is not known", theme.text),
+            };
+            let word = format!("{word} · {:.0} ms", study.time_ms);
+            ui.label(RichText::new(word).color(colour));
+            if let Some(refusal) = study.refusal(session.units) {
+                let text = RichText::new(refusal).font(font::small()).color(theme.text);
+                ui.label(text).on_hover_text(&study.advice);
+            }
+        }
+    });
+    ui.add_space(space::SMALL);
+    let can_use = compare.tried.is_some();
+    let text = RichText::new("Use this recipe").font(font::body_strong());
+    let width = ui.available_width();
+    let button = if can_use {
+        Button::new(text.color(theme.on_accent)).fill(theme.accent)
+    } else {
+        Button::new(text)
+    };
+    let button = button.min_size(vec2(width, space::TARGET));
+    let response = ui
+        .vertical_centered(|ui| ui.add_enabled(can_use, button))
+        .inner;
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, can_use, "Use this recipe"));
+    let response = response
+        .on_hover_text("Scenes are inspected with it from now on")
+        .on_disabled_hover_text("Scenes are inspected with this recipe already");
+    if response.clicked() {
+        acts.push(CompareAction::Use);
+    }
+}

@@ -1,0 +1,370 @@
+//! What the workspace knows, and what changes it.
+
+use std::{collections::VecDeque, path::PathBuf, sync::Arc};
+
+use super::{
+    action::{CompareAction, CompareFile},
+    schedule::{Job, JobKind, StudyNeed},
+    study::CaseStudy,
+    work::{CaseChange, CaseDone, CaseRun, CompareResult, RunChanges},
+};
+use crate::{
+    app::{
+        shell::{
+            context::ShellContext, file_dialog::FileDialog, message::Message, notice::Notice,
+            session::Shown,
+        },
+        task::{Running, Task, TaskEvent, TaskRunner},
+        user_error::UserError,
+    },
+    bench::scaling::Scaling,
+    cases::{CaseFolder, Cell, KeptCase, Truth},
+    pipeline::{Recipe, parameters::Parameter},
+};
+
+/// What the workspace knows.
+#[derive(Debug)]
+pub struct CompareState {
+    /// The folder of cases that was asked for; without one the user's own.
+    pub folder: Option<PathBuf>,
+    /// The case in front.
+    pub front: Front,
+    /// What it truly is, once somebody said so.
+    pub truth: Option<Truth>,
+    /// The part to compare with, if somebody chose one.
+    pub against: Option<String>,
+    /// The remark that the case is kept with.
+    pub remark: String,
+    /// The recipe on trial; without one that in use.
+    pub tried: Option<Arc<Recipe>>,
+    /// The case under the glass; while another is prepared it is old.
+    pub study: Option<Arc<CaseStudy>>,
+    /// The kept cases, once listed.
+    pub cases: Option<Cases>,
+    /// What came out of them, the last time.
+    pub run: Option<Arc<CaseRun>>,
+    /// The cell of the matrix whose cases are listed.
+    pub cell: Option<Cell>,
+    /// What ranking takes by several workers, once measured.
+    pub scaling: Option<Arc<Scaling>>,
+    /// What changed since an earlier run, listed instead of the matrix.
+    pub changes: Option<Arc<RunChanges>>,
+    /// What can be taken back.
+    pub undo: Option<Undo>,
+    /// True while the study is of what was asked for last.
+    pub(super) is_current: bool,
+    pub(super) due: StudyNeed,
+    /// What comes next, each with its title.
+    pub(super) queue: VecDeque<(String, Job)>,
+    pub(super) task: Task<CompareResult>,
+    /// What the task does, or did last.
+    pub(super) job: Option<JobKind>,
+    dialog: FileDialog<CompareFile>,
+    /// The inspected scene that was followed last.
+    pub(super) followed: Option<Shown>,
+    pub(super) is_listed: bool,
+    /// What was said last of something done: the next takes its place.
+    said: Option<Notice>,
+}
+
+/// The case in front.
+#[derive(Clone, Debug, Default)]
+pub enum Front {
+    /// The scene that was inspected last.
+    #[default]
+    Scene,
+    /// A kept case.
+    Kept(Box<KeptCase>),
+}
+
+/// The kept cases.
+#[derive(Clone, Debug)]
+pub struct Cases {
+    /// Their folder.
+    pub folder: CaseFolder,
+    /// The cases in the order of their names.
+    pub list: Arc<[KeptCase]>,
+}
+
+/// What can be taken back.
+#[derive(Clone, Debug)]
+pub enum Undo {
+    /// The removal of a case.
+    Removal {
+        /// Its name.
+        name: String,
+        /// Where it lies.
+        trash: PathBuf,
+    },
+    /// The use of a recipe: the one before.
+    Use(Arc<Recipe>),
+}
+
+impl Undo {
+    /// What the button says.
+    pub fn title(&self) -> &'static str {
+        match self {
+            Self::Removal { .. } => "Put case back",
+            Self::Use(_) => "Undo use",
+        }
+    }
+}
+
+impl CompareState {
+    /// With this folder of cases; without one the user's own.
+    pub fn new(folder: Option<PathBuf>, runner: &TaskRunner) -> Self {
+        Self {
+            folder,
+            front: Front::default(),
+            truth: None,
+            against: None,
+            remark: String::new(),
+            tried: None,
+            study: None,
+            cases: None,
+            run: None,
+            cell: None,
+            scaling: None,
+            changes: None,
+            undo: None,
+            is_current: false,
+            due: StudyNeed::No,
+            queue: VecDeque::new(),
+            task: Task::new("compare", runner),
+            job: None,
+            dialog: FileDialog::default(),
+            followed: None,
+            is_listed: false,
+            said: None,
+        }
+    }
+
+    /// What is at work, if anything.
+    pub fn running(&self) -> Option<&Running> {
+        self.task.running()
+    }
+
+    /// Stops what is at work.
+    pub fn cancel(&mut self) {
+        self.task.cancel();
+    }
+
+    /// Carries out an action.
+    pub fn apply(&mut self, action: CompareAction, cx: &mut ShellContext<'_>) {
+        match action {
+            CompareAction::Follow => self.follow(cx),
+            CompareAction::FrontScene => {
+                self.front_scene();
+                self.due = StudyNeed::Now;
+            }
+            CompareAction::OpenCase(name) => self.open_case(&name, cx),
+            CompareAction::SetTruth(truth) => {
+                self.truth = Some(truth);
+                self.due = StudyNeed::WhenFree;
+            }
+            CompareAction::Against(part) => {
+                self.against = part;
+                self.due = StudyNeed::WhenFree;
+            }
+            CompareAction::Remark(remark) => self.remark = remark,
+            CompareAction::Keep => self.keep(cx),
+            CompareAction::RunAll => self.run_all(cx),
+            CompareAction::Ask(file) => {
+                let lock = &cx.services.dialogs;
+                self.dialog.open(file, &file.request(), lock, cx.egui);
+            }
+            CompareAction::Folder(path) => self.use_folder(path),
+            CompareAction::ShowCell(cell) => {
+                self.cell = cell;
+                self.changes = None;
+            }
+            CompareAction::MeasureScaling => self.ask("Measuring the ranking", Job::Scaling),
+            CompareAction::Earlier(path) => self.compare_with_earlier(path, cx),
+            CompareAction::Remove(name) => {
+                self.change_cases("Removing a case", CaseChange::Remove(name));
+            }
+            CompareAction::Set(key, value) => {
+                let set = |recipe: &mut Recipe| match Parameter::of_key(key) {
+                    Some(parameter) => parameter.set(recipe, value).map_err(|e| UserError::of(&e)),
+                    None => Ok(()),
+                };
+                self.change_recipe(set, cx);
+            }
+            CompareAction::Reset(key) => {
+                let reset = |recipe: &mut Recipe| {
+                    if let Some(parameter) = Parameter::of_key(key) {
+                        parameter.copy(&Recipe::default(), recipe);
+                    }
+                    Ok(())
+                };
+                self.change_recipe(reset, cx);
+            }
+            CompareAction::ResetAll => {
+                let reset = |recipe: &mut Recipe| {
+                    *recipe = Recipe::default();
+                    Ok(())
+                };
+                self.change_recipe(reset, cx);
+            }
+            // The session does not have the recipe yet that what is next would be done with.
+            CompareAction::Use => return self.use_recipe(cx),
+            CompareAction::Undo => return self.take_back(cx),
+        }
+        self.start_next(cx);
+    }
+
+    /// Takes in what the task and the dialog report.
+    pub fn update(&mut self, cx: &mut ShellContext<'_>) {
+        while let Some(event) = self.task.poll() {
+            match event {
+                TaskEvent::Partial(result) | TaskEvent::Done(result) => self.take_in(result, cx),
+                TaskEvent::Failed(error) => cx.notify(error),
+            }
+            self.start_next(cx);
+        }
+        match self.dialog.poll() {
+            Some((CompareFile::Cases, Ok(path))) => self.apply(CompareAction::Folder(path), cx),
+            Some((CompareFile::EarlierRun, Ok(path))) => {
+                self.apply(CompareAction::Earlier(path), cx);
+            }
+            Some((_, Err(notice))) => cx.notify(notice),
+            None => {}
+        }
+    }
+
+    fn take_in(&mut self, result: CompareResult, cx: &mut ShellContext<'_>) {
+        match result {
+            CompareResult::Studied(study) => {
+                self.study = Some(study);
+                self.is_current = true;
+            }
+            CompareResult::Ran(run) => {
+                if run.ended.is_some() {
+                    for trouble in run.troubles.clone() {
+                        cx.notify(trouble);
+                    }
+                }
+                self.run = Some(run);
+            }
+            CompareResult::Scaled(scaling) => self.scaling = Some(scaling),
+            CompareResult::Changed(changes) => {
+                self.cell = None;
+                self.changes = Some(changes);
+            }
+            CompareResult::Cases {
+                folder,
+                cases,
+                troubles,
+                done,
+            } => {
+                for trouble in troubles {
+                    cx.notify(trouble);
+                }
+                self.take_done(done, cx);
+                self.cases = Some(Cases {
+                    folder,
+                    list: cases,
+                });
+            }
+        }
+    }
+
+    fn take_done(&mut self, done: CaseDone, cx: &mut ShellContext<'_>) {
+        match done {
+            CaseDone::Listed => {}
+            CaseDone::Kept(case) => {
+                self.say(format!("Kept as {}", case.name), cx);
+                self.remark.clear();
+            }
+            CaseDone::Removed { name, trash } => {
+                self.say(format!("Removed {name}"), cx);
+                if matches!(&self.front, Front::Kept(case) if case.name == name) {
+                    self.front_scene();
+                    self.due = StudyNeed::WhenFree;
+                }
+                self.undo = Some(Undo::Removal { name, trash });
+            }
+            CaseDone::Restored(name) => {
+                self.say(format!("{name} is back"), cx);
+                self.undo = None;
+            }
+        }
+    }
+
+    /// Says that something was done, in place of what was said before.
+    pub(super) fn say(&mut self, what: String, cx: &mut ShellContext<'_>) {
+        let notice = Notice::done(what);
+        if let Some(before) = self.said.replace(notice.clone()) {
+            cx.send(Message::Retract(before));
+        }
+        cx.notify(notice);
+    }
+
+    /// The scene inspected last comes to the front.
+    fn front_scene(&mut self) {
+        self.front = Front::Scene;
+        self.forget();
+    }
+
+    /// Another case has another truth.
+    fn forget(&mut self) {
+        self.truth = None;
+        self.against = None;
+        self.remark.clear();
+    }
+
+    fn follow(&mut self, cx: &ShellContext<'_>) {
+        if !self.is_listed {
+            self.is_listed = true;
+            self.change_cases("Listing the kept cases", CaseChange::List);
+        }
+        if self.has_new_scene(cx.session) {
+            let scene_of = |shown: &Option<Shown>| {
+                let shown = shown.as_ref();
+                shown.map(|shown| Arc::clone(&shown.inspected.scene))
+            };
+            let (before, now) = (scene_of(&self.followed), scene_of(&cx.session.shown));
+            let is_other = before
+                .zip(now)
+                .is_none_or(|(before, now)| !Arc::ptr_eq(&before, &now));
+            self.followed.clone_from(&cx.session.shown);
+            if is_other {
+                // What was captured or opened now is what a person wants to see.
+                self.front_scene();
+            }
+            self.due = self.due.max(StudyNeed::WhenFree);
+        }
+    }
+
+    fn use_folder(&mut self, path: PathBuf) {
+        self.folder = Some(path);
+        self.cases = None;
+        self.run = None;
+        self.cell = None;
+        self.changes = None;
+        self.undo = None;
+        if matches!(self.front, Front::Kept(_)) {
+            self.front_scene();
+            self.due = StudyNeed::WhenFree;
+        }
+        self.change_cases("Listing the kept cases", CaseChange::List);
+    }
+
+    fn open_case(&mut self, name: &str, cx: &mut ShellContext<'_>) {
+        let cases = self.cases.as_ref();
+        let case = cases.and_then(|cases| cases.list.iter().find(|case| case.name == name));
+        let Some(case) = case.cloned() else {
+            return cx.notify(Notice::look(
+                format!("There is no kept case named {name} any more"),
+                "Run all cases again",
+            ));
+        };
+        self.forget();
+        self.truth = Some(case.meta.about.truth.clone());
+        self.front = Front::Kept(Box::new(case));
+        self.due = StudyNeed::Now;
+    }
+}
+
+#[cfg(test)]
+mod tests;

@@ -1,0 +1,202 @@
+//! The enrolled parts side by side; a press opens one.
+
+use std::sync::Arc;
+
+use egui::{
+    Align, Align2, Rect, Response, RichText, ScrollArea, Sense, Stroke, StrokeKind, Ui, pos2, vec2,
+};
+
+use super::{EnrolAction, EnrolState, thumbnails::Thumbnails};
+use crate::{
+    app::{
+        inspection::library_cache::LibraryView,
+        ui::{
+            theme::{ROUNDING, Theme, font, space},
+            widgets::{Mark, fitted, focus_ring, mark, shortened},
+        },
+    },
+    library::{PartMeta, PartName},
+};
+
+/// Size of a part's card, logical pixels.
+const CARD: [f32; 2] = [236.0, 84.0];
+/// Letters that fit beside the picture.
+const LETTERS: usize = 18;
+
+/// The strip, and what of the library was prepared for it.
+#[derive(Default)]
+pub(super) struct Catalogue {
+    /// The library, and the places of its parts in the order of their titles.
+    sorted: Option<(Arc<LibraryView>, Vec<usize>)>,
+    /// The change of the library that was scrolled to.
+    followed: u64,
+}
+
+/// What a card shows.
+struct CardContent<'a> {
+    name: &'a str,
+    title: &'a str,
+    below: [String; 2],
+    texture: Option<&'a egui::TextureHandle>,
+    is_damaged: bool,
+    latest: Option<&'static str>,
+}
+
+impl Catalogue {
+    /// Sorts the parts when the library is another one.
+    fn sort(&mut self, library: &Arc<LibraryView>) {
+        let sorted = self.sorted.as_ref();
+        if sorted.is_some_and(|(of, _)| Arc::ptr_eq(of, library)) {
+            return;
+        }
+        let mut order: Vec<usize> = (0..library.parts.len()).collect();
+        order.sort_by_cached_key(|place| library.title(*place).to_lowercase());
+        self.sorted = Some((Arc::clone(library), order));
+    }
+
+    /// Draws the strip.
+    pub(super) fn ui(
+        &mut self,
+        ui: &mut Ui,
+        enrol: &EnrolState,
+        library: Option<&Arc<LibraryView>>,
+        thumbnails: &Thumbnails,
+        theme: &Theme,
+        actions: &mut Vec<EnrolAction>,
+    ) {
+        let Some(library) = library else {
+            ui.label(RichText::new("The library is being loaded…").color(theme.weak_text));
+            return;
+        };
+        self.sort(library);
+        let num = library.parts.len();
+        let word = if num == 1 { "part" } else { "parts" };
+        let text = match num {
+            0 => "No part is enrolled yet: the first one that is saved appears here".to_owned(),
+            _ => format!("{num} enrolled {word}"),
+        };
+        ui.label(
+            RichText::new(text)
+                .font(font::heading())
+                .color(theme.weak_text),
+        );
+        let order = self.sorted.as_ref().map_or(&[][..], |(_, order)| order);
+        let wants_more = self.followed == enrol.num_changes;
+        // A wheel turns it as well.
+        ui.style_mut().always_scroll_the_only_direction = true;
+        ScrollArea::horizontal().auto_shrink(false).show(ui, |ui| {
+            ui.horizontal(|ui| {
+                for damaged in &library.damaged {
+                    let shown = CardContent {
+                        name: &damaged.entry,
+                        title: &damaged.entry,
+                        below: ["Damaged".into(), String::new()],
+                        texture: None,
+                        is_damaged: true,
+                        latest: None,
+                    };
+                    card(ui, &shown, enrol, theme, actions);
+                }
+                let parts = order
+                    .iter()
+                    .filter_map(|place| Some((*place, library.parts.get(*place)?)));
+                for (place, part) in parts {
+                    let latest = enrol.latest.as_ref();
+                    let latest = latest.filter(|latest| latest.name == part.name);
+                    let shown = CardContent {
+                        name: part.name.as_str(),
+                        title: part.shown_title(),
+                        below: when(part),
+                        texture: thumbnails.of_part(place),
+                        is_damaged: false,
+                        latest: latest.map(|latest| latest.what),
+                    };
+                    let response = card(ui, &shown, enrol, theme, actions);
+                    if latest.is_some() && !wants_more {
+                        response.scroll_to_me(Some(Align::Center));
+                    }
+                }
+            });
+        });
+        self.followed = enrol.num_changes;
+    }
+}
+
+/// When it was enrolled, and from what; that of a simulated one matters less than that no camera saw it.
+fn when(part: &PartMeta) -> [String; 2] {
+    let at = part.enrolled.at.to_zoned(jiff::tz::TimeZone::system());
+    let seen = if part.simulated {
+        "Simulated"
+    } else {
+        &part.enrolled.from
+    };
+    [at.strftime("%Y-%m-%d").to_string(), seen.to_owned()]
+}
+
+fn card(
+    ui: &mut Ui,
+    shown: &CardContent<'_>,
+    enrol: &EnrolState,
+    theme: &Theme,
+    actions: &mut Vec<EnrolAction>,
+) -> Response {
+    let (rect, response) = ui.allocate_exact_size(CARD.into(), Sense::click());
+    let open = enrol.open.as_ref();
+    let is_open = open.is_some_and(|open| open.name.as_str() == shown.name);
+    let painter = ui.painter_at(rect);
+    let fill = if response.hovered() {
+        theme.control_hovered
+    } else {
+        theme.control
+    };
+    let edge = match shown.latest {
+        _ if is_open => Stroke::new(1.0, theme.accent),
+        Some(_) => Stroke::new(2.0, theme.accepted),
+        None => Stroke::new(1.0, theme.edge),
+    };
+    painter.rect(rect, ROUNDING, fill, edge, StrokeKind::Inside);
+    let picture = Rect::from_min_size(rect.min + vec2(6.0, 6.0), vec2(92.0, rect.height() - 12.0));
+    if let Some(texture) = shown.texture {
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        let at = fitted(picture, texture.aspect_ratio());
+        painter.image(texture.id(), at, whole, egui::Color32::WHITE);
+    } else if shown.is_damaged {
+        mark(&painter, picture.center(), 14.0, Mark::Look, theme);
+    }
+    let mut at = pos2(picture.right() + space::SMALL, rect.top() + 9.0);
+    // What became of it stands for the day it was enrolled.
+    let (day, colour) = match shown.latest {
+        Some(what) => (what, theme.accepted),
+        None => (shown.below[0].as_str(), theme.weak_text),
+    };
+    for (text, font, colour) in [
+        (shown.title, font::body_strong(), theme.text),
+        (shown.name, font::small(), theme.weak_text),
+        (day, font::small(), colour),
+        (&shown.below[1], font::small(), theme.weak_text),
+    ] {
+        let text = shortened(text, LETTERS);
+        let drawn = painter.text(at, Align2::LEFT_TOP, text, font, colour);
+        at.y = drawn.bottom() + 2.0;
+    }
+    focus_ring(ui, rect, &response, theme);
+    response.widget_info(|| {
+        let label = format!("Enrolled: {}", shown.title);
+        let mut info = egui::WidgetInfo::selected(egui::Role::Button, true, is_open, label);
+        info.current_text_value = shown.latest.map(str::to_owned);
+        info
+    });
+    if response.gained_focus() {
+        response.scroll_to_me(None);
+    }
+    if response.clicked()
+        && let Ok(name) = PartName::new(shown.name)
+    {
+        actions.push(if is_open {
+            EnrolAction::Close
+        } else {
+            EnrolAction::Open(name)
+        });
+    }
+    response
+}

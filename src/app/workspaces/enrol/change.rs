@@ -1,0 +1,167 @@
+//! Changes of the library, each with the change that takes it back.
+
+use std::{path::PathBuf, sync::Arc};
+
+use crate::{
+    app::{
+        inspection::library_cache::{LibraryCache, LibraryView},
+        user_error::UserError,
+    },
+    library::{
+        Enrolled, LibraryError, LibraryFolder, Part, PartMeta, PartName, PartNaming, Saved,
+        SprayPath,
+    },
+};
+
+/// A change of the library.
+#[derive(Clone, Debug)]
+pub enum LibraryChange {
+    /// Save what was prepared; a part of the same name is replaced.
+    Save(Arc<Enrolled>, PartNaming),
+    /// Call a part otherwise.
+    Rename(PartName, PartNaming),
+    /// Move a part to the trash.
+    Remove(PartName),
+    /// Bring a part back from where it lies in the trash.
+    Restore(PathBuf),
+    /// Store the spray path in this file with a part.
+    ReadPath(PartName, PathBuf),
+    /// Store this spray path with a part, or none.
+    SetPath(PartName, Option<SprayPath>),
+}
+
+/// What was changed.
+#[derive(Clone, Debug)]
+pub struct Changed {
+    /// In words, for a notice.
+    pub what: String,
+    /// The change that takes it back.
+    pub back: LibraryChange,
+    /// The part, if it is in the library now.
+    pub name: Option<PartName>,
+    /// The library as it is now.
+    pub library: Arc<LibraryView>,
+}
+
+/// Changes the library in use and loads it anew.
+pub(super) fn change(change: &LibraryChange, shelf: &LibraryCache) -> Result<Changed, UserError> {
+    let shelved = shelf.get().map_err(|error| UserError::of(&error))?;
+    let Some(folder) = shelved.place.folder() else {
+        return Err(inside_the_program(shelved.shown.is_fixed.as_ref()));
+    };
+    let title_of = |name: &PartName| {
+        let place = shelved.shown.place_of(name.as_str());
+        let title = place.map(|place| shelved.shown.title(place));
+        title.map_or_else(|| name.to_string(), str::to_owned)
+    };
+    let read = match change {
+        LibraryChange::ReadPath(name, file) => {
+            let path = SprayPath::read(file).map_err(|error| UserError::of(&error))?;
+            Some(LibraryChange::SetPath(name.clone(), Some(path)))
+        }
+        _ => None,
+    };
+    let change = read.as_ref().unwrap_or(change);
+    let done = make(change, folder, &title_of).map_err(|error| UserError::of(&error))?;
+    let (what, back, name) = done;
+    let library = shelf.reload().map_err(|error| UserError::of(&error))?;
+    Ok(Changed {
+        what,
+        back,
+        name,
+        library: Arc::clone(&library.shown),
+    })
+}
+
+/// Makes the change; says what was done, what takes it back, and which part is there now.
+fn make(
+    change: &LibraryChange,
+    folder: &LibraryFolder,
+    title_of: &dyn Fn(&PartName) -> String,
+) -> Result<(String, LibraryChange, Option<PartName>), LibraryError> {
+    Ok(match change {
+        LibraryChange::Save(enrolled, words) => {
+            let part = described(&enrolled.part, words);
+            let Saved {
+                replaced,
+                left_path,
+                ..
+            } = folder.save(&part)?;
+            let title = part.meta.shown_title();
+            let what = match &replaced {
+                Some(_) if left_path => format!(
+                    "Saved {title}; the former one is kept in the library's trash, and its spray path with it: store one for the new frame"
+                ),
+                Some(_) => format!("Saved {title}; the former one is kept in the library's trash"),
+                None => format!("Saved {title}"),
+            };
+            let name = words.name.clone();
+            let back = LibraryChange::Remove(name.clone());
+            (
+                what,
+                replaced.map_or(back, LibraryChange::Restore),
+                Some(name),
+            )
+        }
+        LibraryChange::Rename(name, words) => {
+            let before = folder.rename(name, words)?.before;
+            let what = if before.name == words.name {
+                format!("Changed what {name} is called")
+            } else {
+                format!("Renamed {} to {}", before.name, words.name)
+            };
+            let back = LibraryChange::Rename(words.name.clone(), before);
+            (what, back, Some(words.name.clone()))
+        }
+        LibraryChange::Remove(name) => {
+            let kept = folder.remove(name)?;
+            let what = format!("Removed {}", title_of(name));
+            (what, LibraryChange::Restore(kept), None)
+        }
+        LibraryChange::Restore(kept) => {
+            let restored = folder.restore(kept)?;
+            let name = restored.name;
+            let what = format!("Brought back {}", title_of(&name));
+            let back = LibraryChange::Remove(name.clone());
+            let back = restored.replaced.map_or(back, LibraryChange::Restore);
+            (what, back, Some(name))
+        }
+        LibraryChange::SetPath(name, path) => {
+            // One that is damaged cannot be brought back.
+            let former = folder.spray_path(name.as_str()).ok().flatten();
+            folder.set_spray_path(name, path.as_ref())?;
+            let title = title_of(name);
+            let what = match path {
+                Some(path) => format!(
+                    "Stored a spray path of {} points with {title}",
+                    path.points().len()
+                ),
+                None => format!("Took the spray path of {title} away"),
+            };
+            let back = LibraryChange::SetPath(name.clone(), former);
+            (what, back, Some(name.clone()))
+        }
+        LibraryChange::ReadPath(..) => unreachable!("it was read before"),
+    })
+}
+
+/// The part under the words that a person found for it.
+fn described(part: &Part, words: &PartNaming) -> Part {
+    Part {
+        meta: PartMeta {
+            name: words.name.clone(),
+            title: words.title.clone(),
+            notes: words.notes.clone(),
+            ..part.meta.clone()
+        },
+        ..part.clone()
+    }
+}
+
+/// Why the shipped parts cannot be changed where they are.
+fn inside_the_program(reason: Option<&UserError>) -> UserError {
+    reason.cloned().unwrap_or_else(|| UserError {
+        what: "The library lies inside the program and cannot be changed".into(),
+        advice: "Start Partsight with --library and a folder of your own".into(),
+    })
+}

@@ -1,0 +1,281 @@
+//! The card of the draft: what will be stored, what it is called, and whether it can be told from the others.
+
+use egui::{
+    Align, Button, Frame, Layout, Margin, Panel, Rect, RichText, ScrollArea, Ui, pos2, vec2,
+};
+
+use super::{
+    EnrolAction, EnrolState,
+    draft::Draft,
+    fields::{self, complaint, said},
+    thumbnails::Thumbnails,
+    title_of,
+};
+use crate::{
+    app::{
+        shell::session::Session,
+        shots::summary,
+        ui::{
+            theme::{ROUNDING, Theme, font, space},
+            widgets::{Mark, fitted, grouped, labelled, shortened},
+        },
+    },
+    library::PartName,
+    stages::reference::Coverage,
+};
+
+/// Draws the card.
+pub(super) fn ui(
+    ui: &mut Ui,
+    enrol: &EnrolState,
+    session: &Session,
+    thumbnails: &Thumbnails,
+    theme: &Theme,
+    actions: &mut Vec<EnrolAction>,
+) {
+    let Some(draft) = &enrol.draft else {
+        let title = what_save_does(enrol, session);
+        ui.label(RichText::new(title).font(font::title()).color(theme.text));
+        let steps = [
+            "1  Capture the part, or open its file",
+            "2  See what is kept, and correct it",
+            "3  Give it a title",
+            "4  Save: inspections recognise it",
+        ];
+        ui.add_space(space::SMALL);
+        for step in steps {
+            ui.label(RichText::new(step).color(theme.weak_text));
+        }
+        fixed(ui, session, theme);
+        return;
+    };
+    Panel::bottom("save the draft")
+        .resizable(false)
+        .show_separator_line(false)
+        .frame(Frame::new().inner_margin(Margin {
+            top: 8,
+            ..Margin::ZERO
+        }))
+        .show(ui, |ui| buttons(ui, draft, enrol, session, theme, actions));
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        let title = what_save_does(enrol, session);
+        ui.label(RichText::new(title).font(font::verdict()).color(theme.text));
+        if enrol.is_taking_another() {
+            let text = RichText::new("Old: another one is on its way");
+            ui.label(text.font(font::body_strong()).color(theme.warning));
+        }
+        stored(ui, draft, enrol, session, thumbnails, theme, actions);
+        if let Some(field) = fields::ui(ui, &draft.form, theme) {
+            actions.push(EnrolAction::Write(field));
+        }
+        namesake(ui, draft, enrol, session, theme);
+        if let Some(fused) = draft.subject.scan() {
+            summary(ui, fused, session.units, theme);
+        }
+        likeness(ui, draft, session, theme, actions);
+        for warning in draft.ready().map_or(&[][..], |checked| &checked.warnings) {
+            complaint(ui, &warning.what, &warning.advice, theme);
+        }
+        fixed(ui, session, theme);
+    });
+}
+
+/// The heading: a new part, or one that takes the place of another.
+fn what_save_does(enrol: &EnrolState, session: &Session) -> String {
+    enrol.replaced_title(session).map_or_else(
+        || "New part".to_owned(),
+        |title| format!("Replaces {title}"),
+    )
+}
+
+/// The way out of replacing a part.
+pub(super) fn as_new(ui: &mut Ui, actions: &mut Vec<EnrolAction>) {
+    let text = "Enrol as a new part instead";
+    if labelled(ui, Button::new(text), text).clicked() {
+        actions.push(EnrolAction::ReplaceNone);
+    }
+}
+
+/// Why the draft cannot be saved now, and what is to be done.
+fn unready(draft: &Draft) -> Option<&'static str> {
+    let has_no_words = draft.form.title.is_empty() && draft.form.name.is_empty();
+    match &draft.checked {
+        Some(Err(_)) => Some("Nothing can be saved yet: see above"),
+        _ if has_no_words => Some("Give it a title first"),
+        _ if draft.form.words().is_err() => Some("Mend the name first"),
+        None => Some("What will be stored is not known yet"),
+        Some(Ok(_)) => None,
+    }
+}
+
+/// The picture of what will be stored, and what it is made of.
+fn stored(
+    ui: &mut Ui,
+    draft: &Draft,
+    enrol: &EnrolState,
+    session: &Session,
+    thumbnails: &Thumbnails,
+    theme: &Theme,
+    actions: &mut Vec<EnrolAction>,
+) {
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 116.0), egui::Sense::hover());
+    let picture = Rect::from_min_size(rect.min, vec2(150.0, rect.height()));
+    ui.painter().rect_filled(picture, ROUNDING, theme.canvas);
+    let beside = Rect::from_min_max(pos2(picture.right() + space::MEDIUM, rect.top()), rect.max);
+    let is_working = enrol.running().is_some();
+    if draft.ready().is_some()
+        && let Some(texture) = thumbnails.of_draft()
+    {
+        let place = fitted(picture.shrink(2.0), texture.aspect_ratio());
+        let whole = Rect::from_min_max(pos2(0.0, 0.0), pos2(1.0, 1.0));
+        let painter = ui.painter();
+        painter.image(texture.id(), place, whole, egui::Color32::WHITE);
+    } else if is_working {
+        let spinner = egui::Spinner::new().size(24.0).color(theme.accent);
+        ui.put(picture, spinner);
+    }
+    {
+        let ui = &mut ui.new_child(egui::UiBuilder::new().max_rect(beside));
+        ui.spacing_mut().item_spacing.y = 2.0;
+        let small = |ui: &mut Ui, text: String| {
+            let text = RichText::new(text)
+                .font(font::small())
+                .color(theme.weak_text);
+            ui.add(egui::Label::new(text).wrap());
+        };
+        small(ui, shortened(&draft.subject.origin.title(), 40));
+        if draft.subject.origin.is_simulated() {
+            small(ui, "Simulated: no camera saw it".into());
+        }
+        let num_kept = draft.selection.indices.len();
+        small(ui, format!("{} points kept", grouped(num_kept)));
+        if let Some(checked) = draft.ready() {
+            let part = &checked.enrolled.part;
+            let outline = session.units.length(part.signature.perimeter_m);
+            small(ui, format!("Outline {outline}"));
+            small(ui, format!("Openings {}", part.signature.openings_m.len()));
+            small(ui, seen_from(part.meta.coverage).into());
+        } else if is_working {
+            small(ui, "Looking at the part…".into());
+        }
+    }
+    match &draft.checked {
+        Some(Err(trouble)) => complaint(ui, &trouble.what, &trouble.advice, theme),
+        None if !is_working => {
+            said(ui, Mark::Look, "What will be stored is not known", theme);
+            if labelled(ui, Button::new("Look again"), "Look again").clicked() {
+                actions.push(EnrolAction::LookAgain);
+            }
+        }
+        _ => {}
+    }
+}
+
+fn seen_from(coverage: Coverage) -> &'static str {
+    match coverage {
+        Coverage::OneSide => "Seen from one side",
+        Coverage::AllAround => "Seen from all around",
+        Coverage::SeveralSides => "Seen from several sides",
+    }
+}
+
+/// Says that a part of this name is there already.
+fn namesake(ui: &mut Ui, draft: &Draft, enrol: &EnrolState, session: &Session, theme: &Theme) {
+    let library = session.library.as_deref();
+    let namesake = library.and_then(|library| draft.form.namesake(library));
+    let is_chosen = enrol.replacing.as_ref().map(PartName::as_str) == Some(&draft.form.name);
+    if let Some(title) = namesake.filter(|_| !is_chosen) {
+        let what = format!("{title} has this name already");
+        let advice = "Saving replaces it; the former one can be brought back";
+        complaint(ui, &what, advice, theme);
+    }
+}
+
+/// Which enrolled part it is hardest to tell from.
+fn likeness(
+    ui: &mut Ui,
+    draft: &Draft,
+    session: &Session,
+    theme: &Theme,
+    actions: &mut Vec<EnrolAction>,
+) {
+    let Some(likeness) = draft.hardest() else {
+        return;
+    };
+    let title = title_of(session, &likeness.other);
+    let text = format!(
+        "Hardest to tell from {title}: {:.2} alike (1 is the same)",
+        likeness.score
+    );
+    ui.add_space(space::MEDIUM);
+    ui.label(RichText::new(text).color(theme.text));
+    if likeness.is_distinguishable() {
+        said(ui, Mark::Good, "The two can be told apart", theme);
+        return;
+    }
+    let advice = "Inspections of either will be a near tie: replace the one that is enrolled, or capture a side on which they differ";
+    complaint(ui, "The two cannot be told apart", advice, theme);
+    if let Ok(name) = PartName::new(&likeness.other) {
+        let text = format!("Replace {}", shortened(title, 26));
+        if labelled(ui, Button::new(&text), &text).clicked() {
+            actions.push(EnrolAction::Replace(name));
+        }
+    }
+}
+
+/// Says that nothing can be saved where the library lies.
+pub(super) fn fixed(ui: &mut Ui, session: &Session, theme: &Theme) {
+    let fixed = session
+        .library
+        .as_ref()
+        .and_then(|library| library.is_fixed.as_ref());
+    if let Some(trouble) = fixed {
+        ui.add_space(space::MEDIUM);
+        complaint(ui, &trouble.what, &trouble.advice, theme);
+    }
+}
+
+fn buttons(
+    ui: &mut Ui,
+    draft: &Draft,
+    enrol: &EnrolState,
+    session: &Session,
+    theme: &Theme,
+    actions: &mut Vec<EnrolAction>,
+) {
+    let unready = unready(draft);
+    let is_replacing = enrol.replaced_title(session).is_some();
+    if is_replacing && enrol.replacing.is_some() {
+        as_new(ui, actions);
+    }
+    let size = vec2(ui.available_width(), 44.0);
+    ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
+        ui.set_min_height(44.0);
+        if labelled(ui, Button::new("Discard"), "Discard").clicked() {
+            actions.push(EnrolAction::Discard);
+        }
+        let text = match (enrol.is_changing_library(), is_replacing) {
+            (true, _) => "Saving…",
+            (false, true) => "Save and replace",
+            (false, false) => "Save",
+        };
+        ui.add_enabled_ui(unready.is_none() && !enrol.is_changing_library(), |ui| {
+            let key = RichText::new("Ctrl S").font(font::small());
+            let save = RichText::new(text).font(font::body_strong());
+            let button = Button::new(save.color(theme.on_accent))
+                .shortcut_text(key.color(theme.on_accent))
+                .fill(theme.accent)
+                .min_size(vec2(ui.available_width(), 44.0));
+            let response = ui.add(button);
+            let is_enabled = ui.is_enabled();
+            response
+                .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, is_enabled, text));
+            if response.clicked() {
+                actions.push(EnrolAction::Save);
+            }
+        });
+    });
+    if let Some(reason) = unready {
+        ui.label(RichText::new(reason).color(theme.warning));
+    }
+}

@@ -1,0 +1,379 @@
+//! Enrol: from a capture or a file to a part that inspections recognise.
+//!
+//! ```text
+//! subject    what a part is enrolled from        segments, picture_plane, scanned
+//! selection  what of it is kept, as corrected     picture, tools, view
+//! draft      the part as it would be stored       taking, fields, form
+//! change     a change of the library              undo, catalogue, card
+//! ```
+
+mod action;
+mod card;
+mod catalogue;
+pub mod change;
+pub mod draft;
+mod fields;
+mod form;
+mod picture;
+pub mod picture_plane;
+pub mod scanned;
+pub mod segments;
+pub mod selection;
+pub mod state;
+pub mod subject;
+mod taking;
+mod thumbnails;
+mod tools;
+pub mod undo;
+mod view;
+pub mod work;
+
+use std::path::Path;
+
+use egui::{
+    Align, Button, Frame, Key, Layout, Margin, Modifiers, Panel, Rect, RichText, Ui, UiBuilder,
+    vec2,
+};
+
+pub use self::{
+    action::{DraftPanes, EnrolAction, EnrolFile},
+    state::EnrolState,
+};
+use self::{
+    catalogue::Catalogue, draft::Draft, picture::PicturePane, thumbnails::Thumbnails,
+    view::DraftView,
+};
+use crate::app::{
+    inspection::inspected::SceneOrScan,
+    shell::{
+        context::ShellContext,
+        key_binding::{KeyBinding, Shortcut},
+        message::Event,
+        session::{Session, WorkspaceKind},
+        workspace::Workspace,
+    },
+    shots::{ShotList, ShotsState, ShownShots, StripTab},
+    task::{Running, TaskRunner},
+    ui::{
+        theme::{Theme, font, space},
+        viewport::{ViewError, ViewportGpu},
+        widgets::labelled,
+    },
+};
+
+/// The keys of the workspace. Those with more modifiers come first: the others would take them too.
+const SHORTCUTS: [Shortcut<EnrolAction>; 3] = [
+    Shortcut {
+        modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
+        key: Key::Z,
+        keys: "Ctrl Shift Z",
+        does: "Do again what was undone last",
+        action: || EnrolAction::Redo,
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::Z,
+        keys: "Ctrl Z",
+        does: "Undo the last correction or change of the library",
+        action: || EnrolAction::Undo,
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::S,
+        keys: "Ctrl S",
+        does: "Save the part",
+        action: || EnrolAction::Save,
+    },
+];
+
+/// Width of the card, logical pixels, and in a narrow window.
+const CARD: [f32; 2] = [360.0, 320.0];
+/// Height of the strip of enrolled parts, logical pixels.
+const STRIP: f32 = 150.0;
+
+/// The workspace.
+pub struct EnrolWorkspace {
+    state: EnrolState,
+    panes: Panes,
+}
+
+/// What is drawn with: nothing but what was made of the state, and a box being drawn.
+struct Panes {
+    view: DraftView,
+    picture: PicturePane,
+    thumbnails: Thumbnails,
+    catalogue: Catalogue,
+    shots: ShotList,
+}
+
+impl EnrolWorkspace {
+    /// Without a draft.
+    pub fn new(gpu: Result<ViewportGpu, ViewError>, runner: &TaskRunner) -> Self {
+        Self {
+            state: EnrolState::new(runner),
+            panes: Panes {
+                view: DraftView::new(gpu),
+                picture: PicturePane::default(),
+                thumbnails: Thumbnails::default(),
+                catalogue: Catalogue::default(),
+                shots: ShotList::default(),
+            },
+        }
+    }
+
+    /// What it knows.
+    pub fn state(&self) -> &EnrolState {
+        &self.state
+    }
+
+    /// The same, to be changed without a person.
+    pub fn state_mut(&mut self) -> &mut EnrolState {
+        &mut self.state
+    }
+}
+
+impl Workspace for EnrolWorkspace {
+    fn kind(&self) -> WorkspaceKind {
+        WorkspaceKind::Enrol
+    }
+
+    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
+        let mut actions = Vec::new();
+        self.panes
+            .ui(ui, &self.state, cx.session, cx.theme, &mut actions);
+        for action in actions {
+            self.state.apply(action, cx);
+        }
+    }
+
+    fn update(&mut self, cx: &mut ShellContext<'_>) {
+        self.state.update(cx);
+    }
+
+    fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
+        self.state.on_event(event, cx);
+    }
+
+    fn take_scene(&mut self, scene: SceneOrScan, title: String, cx: &mut ShellContext<'_>) {
+        self.state.take(scene, title, cx);
+    }
+
+    fn take_file(&mut self, path: &Path, cx: &mut ShellContext<'_>) -> bool {
+        self.state.take_file(path, cx)
+    }
+
+    fn key_bindings(&self) -> Vec<KeyBinding> {
+        SHORTCUTS.iter().map(Shortcut::binding).collect()
+    }
+
+    fn press(&mut self, place: usize, cx: &mut ShellContext<'_>) {
+        if let Some(shortcut) = SHORTCUTS.get(place) {
+            self.state.apply((shortcut.action)(), cx);
+        }
+    }
+
+    fn running(&self) -> Option<&Running> {
+        self.state.running()
+    }
+
+    fn cancel(&mut self) {
+        self.state.cancel();
+    }
+
+    fn has_key_focus(&self) -> bool {
+        self.panes.view.has_focus()
+    }
+
+    fn is_idle(&self, _session: &Session) -> bool {
+        self.running().is_none() && !self.state.is_changing_library()
+    }
+}
+
+impl Panes {
+    fn ui(
+        &mut self,
+        ui: &mut Ui,
+        enrol: &EnrolState,
+        session: &Session,
+        theme: &Theme,
+        actions: &mut Vec<EnrolAction>,
+    ) {
+        let size = ui.available_size();
+        let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
+        let library = session.library.as_ref();
+        let checked = enrol.draft.as_ref().and_then(Draft::ready);
+        self.thumbnails.make(ui.ctx(), library, checked);
+        Panel::right("enrol card")
+            .exact_size(if size.x > 1100.0 { CARD[0] } else { CARD[1] })
+            .resizable(false)
+            .frame(panel(Margin::symmetric(16, 12)))
+            .show(ui, |ui| match &enrol.open {
+                Some(open) => {
+                    card::ui(ui, open, enrol, session, &self.thumbnails, theme, actions);
+                }
+                None => form::ui(ui, enrol, session, &self.thumbnails, theme, actions),
+            });
+        let scan = shown_scan(enrol, session, theme);
+        Panel::bottom("enrolled parts")
+            .exact_size(strip_height(scan.map(|scan| scan.shots)))
+            .resizable(false)
+            .frame(panel(Margin::symmetric(14, 6)))
+            .show(ui, |ui| {
+                if let Some(scan) = scan {
+                    let mut caused = Vec::new();
+                    let is_list = ShotList::tabs(ui, scan, "Enrolled parts", &mut caused);
+                    if is_list {
+                        self.shots.ui(ui, scan, &mut caused);
+                    }
+                    actions.extend(caused.into_iter().map(EnrolAction::Shots));
+                    if is_list {
+                        return;
+                    }
+                }
+                self.catalogue
+                    .ui(ui, enrol, library, &self.thumbnails, theme, actions);
+            });
+        match &enrol.draft {
+            Some(draft) => self.draft(ui, draft, enrol, session, theme, actions),
+            None => empty(ui, enrol, session, theme, actions),
+        }
+    }
+
+    /// The draft, and the tools to correct it.
+    fn draft(
+        &mut self,
+        ui: &mut Ui,
+        draft: &Draft,
+        enrol: &EnrolState,
+        session: &Session,
+        theme: &Theme,
+        actions: &mut Vec<EnrolAction>,
+    ) {
+        Panel::top("enrol tools")
+            .resizable(false)
+            .frame(
+                Frame::new()
+                    .fill(theme.canvas)
+                    .inner_margin(Margin::same(10)),
+            )
+            .show(ui, |ui| {
+                tools::ui(ui, draft, enrol, theme, actions);
+                tools::segments(ui, draft, actions);
+            });
+        if enrol.is_taking_another() {
+            ui.multiply_opacity(0.55);
+        }
+        let all = ui.available_rect_before_wrap();
+        let [width, height] = draft.subject.picture.size();
+        let wanted = all.height() * width as f32 / height.max(1) as f32;
+        let share = (wanted / all.width().max(1.0)).clamp(0.5, 0.58);
+        let (left, right) = all.split_left_right_at_fraction(share);
+        let (picture, view) = match enrol.panes() {
+            DraftPanes::Both => (Some(left), Some(right)),
+            DraftPanes::Picture => (Some(all), None),
+            DraftPanes::View => (None, Some(all)),
+        };
+        let mut inside = |rect: Rect, draw: &mut dyn FnMut(&mut Ui)| {
+            ui.scope_builder(UiBuilder::new().max_rect(rect), |ui| draw(ui));
+        };
+        if let Some(rect) = picture {
+            inside(rect.shrink(space::SMALL), &mut |ui| {
+                self.picture.ui(ui, draft, enrol.box_mode, theme, actions);
+            });
+        }
+        if let Some(rect) = view {
+            let looked_at = enrol.shots.looked_at;
+            inside(rect, &mut |ui| {
+                self.view.ui(ui, draft, looked_at, session.theme, actions);
+            });
+        } else {
+            self.view.rest();
+        }
+    }
+}
+
+/// The scan that the draft is, if it is one.
+fn shown_scan<'a>(
+    enrol: &'a EnrolState,
+    session: &'a Session,
+    theme: &'a Theme,
+) -> Option<ShownShots<'a>> {
+    let fused = enrol.draft.as_ref()?.subject.scan()?;
+    Some(ShownShots {
+        fused,
+        choice: enrol.shot_choice()?,
+        shots: &enrol.shots,
+        session,
+        theme,
+    })
+}
+
+fn strip_height(shots: Option<&ShotsState>) -> f32 {
+    match shots.map(|shots| shots.strip) {
+        None => STRIP,
+        Some(StripTab::Shots) => ShotList::HEIGHT,
+        Some(StripTab::Usual) => STRIP + space::TARGET + space::SMALL,
+    }
+}
+
+/// Without a draft: where one comes from.
+fn empty(
+    ui: &mut Ui,
+    enrol: &EnrolState,
+    session: &Session,
+    theme: &Theme,
+    actions: &mut Vec<EnrolAction>,
+) {
+    let height = ui.available_height();
+    let layout = Layout::top_down(Align::Center);
+    ui.with_layout(layout, |ui| {
+        ui.add_space((height / 2.0 - 110.0).max(space::LARGE));
+        if let Some(running) = enrol.running() {
+            ui.add(egui::Spinner::new().size(28.0).color(theme.accent));
+            let text = RichText::new(format!("{}…", running.title));
+            ui.label(text.font(font::verdict()).color(theme.weak_text));
+            return;
+        }
+        let replaced = enrol.replaced_title(session);
+        let title = match replaced {
+            Some(title) => format!("Show what shall replace {title}"),
+            None => "Show the part to enrol".to_owned(),
+        };
+        ui.label(RichText::new(title).font(font::title()).color(theme.text));
+        let how = "Hang it before the camera and press Capture, open a capture, a cloud or a mesh, or drop its file here";
+        let how = RichText::new(how).color(theme.weak_text);
+        ui.scope(|ui| {
+            ui.set_max_width(460.0);
+            ui.label(how);
+        });
+        ui.add_space(space::LARGE);
+        if let Some(shown) = &session.shown {
+            let origin = shown.inspected.origin.title();
+            let text = format!("Take {origin}, which Inspect shows");
+            let label = "Take the inspected scene";
+            let button = Button::new(RichText::new(text).color(theme.on_accent));
+            let button = ui.add(button.fill(theme.accent).min_size(vec2(260.0, 48.0)));
+            button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, label));
+            if button.clicked() {
+                actions.push(EnrolAction::TakeShown);
+            }
+        }
+        let open = "Open a scan…";
+        if labelled(ui, Button::new(open), open)
+            .on_hover_text("Several shots from several sides, each with the pose of its camera (Ctrl Shift O)")
+            .clicked()
+        {
+            actions.push(EnrolAction::OpenScan);
+        }
+        if replaced.is_some() {
+            form::as_new(ui, actions);
+        }
+    });
+}
+
+/// The name for people of an enrolled part.
+fn title_of<'a>(session: &'a Session, name: &'a str) -> &'a str {
+    let library = session.library.as_deref();
+    let title = library.and_then(|library| Some(library.title(library.place_of(name)?)));
+    title.unwrap_or(name)
+}

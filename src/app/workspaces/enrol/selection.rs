@@ -1,0 +1,327 @@
+//! What a person corrected, and which points are left of it.
+
+use image::{Rgb, RgbImage};
+
+use super::{
+    segments::{PointAction, SegmentKind, Segments},
+    subject::{EnrolInput, InitialSelection},
+};
+use crate::{
+    app::ui::viewport::{PointSet, Role, ViewColours},
+    geometry::cloud::is_finite,
+    stages::segment::PointLabel,
+};
+
+/// All corrections, in their order.
+#[derive(Clone, Debug, PartialEq)]
+pub struct Corrections {
+    /// What they start from.
+    pub taking: InitialSelection,
+    /// One after the other.
+    pub edits: Vec<Edit>,
+}
+
+impl Corrections {
+    /// None yet.
+    pub fn none(taking: InitialSelection) -> Self {
+        Self {
+            taking,
+            edits: Vec::new(),
+        }
+    }
+}
+
+/// One correction.
+#[derive(Clone, Copy, Debug, PartialEq)]
+pub enum Edit {
+    /// Keep or drop a segment, by its place in the list.
+    Segment(usize, PointAction),
+    /// Keep or drop by a box in the picture.
+    Box(BoxMode, PixelBox),
+}
+
+/// What a box in the picture does.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub enum BoxMode {
+    /// Drops what lies outside.
+    #[default]
+    Keep,
+    /// Drops what lies inside.
+    Drop,
+    /// Takes everything inside, whatever it was taken for.
+    Add,
+}
+
+impl BoxMode {
+    /// Every mode.
+    pub const ALL: [Self; 3] = [Self::Keep, Self::Drop, Self::Add];
+
+    /// What a person calls it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Keep => "Keep box",
+            Self::Drop => "Drop box",
+            Self::Add => "Add box",
+        }
+    }
+
+    /// What it does, in words.
+    pub fn explanation(self) -> &'static str {
+        match self {
+            Self::Keep => "Drag a box in the picture: what lies outside is dropped",
+            Self::Drop => "Drag a box in the picture: what lies inside is dropped",
+            Self::Add => "Drag a box in the picture: everything inside is taken, background too",
+        }
+    }
+}
+
+/// A box in the picture: columns and rows from the first to the one after the last.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub struct PixelBox {
+    /// First column and row.
+    pub from: [usize; 2],
+    /// The column and row after the last.
+    pub to: [usize; 2],
+}
+
+impl PixelBox {
+    fn holds(&self, pixel: [usize; 2]) -> bool {
+        (0..2).all(|axis| self.from[axis] <= pixel[axis] && pixel[axis] < self.to[axis])
+    }
+}
+
+/// What is left of a subject, and how it looks.
+#[derive(Debug)]
+pub struct Selection {
+    /// The places of the points kept, ascending.
+    pub indices: Vec<u32>,
+    /// For each segment how many of its points are kept.
+    pub kept_of: Vec<usize>,
+    /// The points as a view shows them: kept as part, the rest by what it is.
+    pub points: PointSet,
+    /// The subject as the camera sees it, kept points bright.
+    pub picture: RgbImage,
+    /// For each pixel of the picture the place of the segment seen there, or [`Segments::NONE`].
+    pub segment_at: Vec<u16>,
+}
+
+impl Selection {
+    /// Goes through the corrections and prepares what is drawn.
+    pub(super) fn of(subject: &EnrolInput, corrections: &Corrections) -> Self {
+        let segments = subject.segments(corrections.taking);
+        let kept = kept(subject, corrections);
+        let mut kept_of = vec![0; segments.list.len()];
+        let of_kept = segments.of_point.iter().zip(&kept);
+        for (of, _) in of_kept.filter(|(_, is_kept)| **is_kept) {
+            kept_of[usize::from(*of)] += 1;
+        }
+        let labels = labels(segments, &kept);
+        let (picture, segment_at) = picture(subject, segments, &labels);
+        let indices = (0..kept.len()).filter(|i| kept[*i]);
+        Self {
+            indices: indices.map(|i| i as u32).collect(),
+            kept_of,
+            points: PointSet::segmented(subject.positions.clone(), &labels),
+            picture,
+            segment_at,
+        }
+    }
+}
+
+/// For each point whether it is kept.
+fn kept(subject: &EnrolInput, corrections: &Corrections) -> Vec<bool> {
+    let segments = subject.segments(corrections.taking);
+    let of_point = &segments.of_point;
+    let usual: Vec<bool> = segments
+        .list
+        .iter()
+        .map(|s| s.usual == PointAction::Kept)
+        .collect();
+    let is_usual = |of: &u16| usual.get(usize::from(*of)).copied().unwrap_or(false);
+    let mut kept: Vec<bool> = of_point.iter().map(is_usual).collect();
+    let points = &subject.cloud().points;
+    for edit in &corrections.edits {
+        match edit {
+            Edit::Segment(place, fate) => {
+                let of_it = of_point.iter().zip(&mut kept);
+                for (_, kept) in of_it.filter(|(of, _)| usize::from(**of) == *place) {
+                    *kept = *fate == PointAction::Kept;
+                }
+            }
+            Edit::Box(mode, pixel_box) => {
+                for (place, kept) in kept.iter_mut().enumerate() {
+                    if of_point[place] == Segments::NONE {
+                        continue;
+                    }
+                    let pixel = subject.picture.pixel(place, &points[place]);
+                    let is_inside = pixel_box.holds(pixel);
+                    *kept = match mode {
+                        BoxMode::Keep => *kept && is_inside,
+                        BoxMode::Drop => *kept && !is_inside,
+                        BoxMode::Add => *kept || is_inside,
+                    };
+                }
+            }
+        }
+    }
+    kept
+}
+
+fn labels(segments: &Segments, kept: &[bool]) -> Vec<PointLabel> {
+    let label = |(of, is_kept): (&u16, &bool)| match segments.list.get(usize::from(*of)) {
+        None => PointLabel::NoReading,
+        Some(_) if *is_kept => PointLabel::Part,
+        Some(segment) => match segment.kind {
+            SegmentKind::Plane(plane) => PointLabel::Background(plane),
+            SegmentKind::Surface | SegmentKind::Specks => PointLabel::Rest,
+        },
+    };
+    segments.of_point.iter().zip(kept).map(label).collect()
+}
+
+/// Kept points stand out by brightness as well as by hue; nearer is brighter. A picture has its colours in any window,
+/// as a photograph has.
+fn picture(
+    subject: &EnrolInput,
+    segments: &Segments,
+    labels: &[PointLabel],
+) -> (RgbImage, Vec<u16>) {
+    let [width, height] = subject.picture.size();
+    let spread = subject.picture.spread();
+    let cloud = subject.cloud();
+    let mut seen: Vec<Option<u32>> = vec![None; width * height];
+    let (mut nearest, mut farthest) = (f32::INFINITY, f32::NEG_INFINITY);
+    for (place, point) in cloud.finite() {
+        (nearest, farthest) = (nearest.min(point.z), farthest.max(point.z));
+        let [column, row] = subject.picture.pixel(place, point);
+        let about = |at: usize, end: usize| at.saturating_sub(spread)..=(at + spread).min(end - 1);
+        for row in about(row, height) {
+            for column in about(column, width) {
+                let slot = &mut seen[row * width + column];
+                if slot.is_none_or(|other| point.z < cloud.points[other as usize].z) {
+                    *slot = Some(place as u32);
+                }
+            }
+        }
+    }
+    let range = (farthest - nearest).max(1e-3);
+    let colours = ViewColours::dark();
+    let colour_at = |pixel: usize| -> Option<Rgb<u8>> {
+        let place = seen[pixel]? as usize;
+        let role = Role::of(*labels.get(place)?);
+        let colour = colours.role(role).colour;
+        let nearness = 1.0 - (cloud.points[place].z - nearest) / range;
+        // The view's colours are shaded by its light; these are not.
+        let brightness = match role {
+            Role::Part => 0.75 + 0.25 * nearness,
+            Role::Rest => 0.35 + 0.2 * nearness,
+            _ => 0.8 + 0.4 * nearness,
+        };
+        let channel = |c: u8| (f32::from(c) * brightness).min(255.0) as u8;
+        Some(Rgb([colour.r(), colour.g(), colour.b()].map(channel)))
+    };
+    let image = RgbImage::from_fn(width as u32, height as u32, |u, v| {
+        colour_at(v as usize * width + u as usize).unwrap_or(Rgb([0; 3]))
+    });
+    let is_read = |place: &u32| is_finite(&cloud.points[*place as usize]);
+    let segment = |slot: &Option<u32>| {
+        let place = slot.filter(is_read);
+        place.map_or(Segments::NONE, |place| segments.of_point[place as usize])
+    };
+    (image, seen.iter().map(segment).collect())
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        app::inspection::source::{CellChoice, SceneSource},
+        library::EnrolParams,
+        simulate::{PartKind, Side},
+    };
+
+    fn captured() -> EnrolInput {
+        let source = SceneSource::Cell {
+            choice: CellChoice::Part(PartKind::BackDoor, Side::Right),
+            number: 5,
+        };
+        let read = EnrolInput::read(
+            &source,
+            &EnrolParams::default(),
+            &crate::app::inspection::camera::Camera::default(),
+            &|| false,
+        )
+        .expect("a frame");
+        read.expect("a subject")
+    }
+
+    fn with(subject: &EnrolInput, edits: &[Edit]) -> Selection {
+        let corrections = Corrections {
+            taking: InitialSelection::Segmented,
+            edits: edits.to_vec(),
+        };
+        Selection::of(subject, &corrections)
+    }
+
+    const LEFT: PixelBox = PixelBox {
+        from: [0, 0],
+        to: [320, 480],
+    };
+
+    #[test]
+    fn a_kept_box_and_the_same_box_dropped_share_the_part_between_them() {
+        let subject = captured();
+        let all = with(&subject, &[]).indices;
+        let kept = with(&subject, &[Edit::Box(BoxMode::Keep, LEFT)]).indices;
+        let dropped = with(&subject, &[Edit::Box(BoxMode::Drop, LEFT)]).indices;
+        assert!(kept.iter().all(|i| i % 640 < 320) && dropped.iter().all(|i| i % 640 >= 320));
+        let mut both = [kept, dropped].concat();
+        both.sort_unstable();
+        assert_eq!(both, all);
+    }
+
+    #[test]
+    fn a_box_adds_the_background_too_and_never_what_was_not_read() {
+        let subject = captured();
+        let added = with(&subject, &[Edit::Box(BoxMode::Add, LEFT)]);
+        let cloud = subject.cloud();
+        let inside = cloud.finite().filter(|(i, _)| i % 640 < 320).count();
+        let kept_inside = added.indices.iter().filter(|i| *i % 640 < 320).count();
+        assert_eq!(kept_inside, inside);
+        let is_read = |i: &u32| is_finite(&cloud.points[*i as usize]);
+        assert!(added.indices.iter().all(is_read));
+    }
+
+    #[test]
+    fn a_dropped_segment_comes_back_whole_and_the_last_word_counts() {
+        let subject = captured();
+        let untouched = with(&subject, &[]);
+        let dropped = with(&subject, &[Edit::Segment(0, PointAction::Dropped)]);
+        assert_eq!((dropped.indices.len(), dropped.kept_of[0]), (0, 0));
+        let edits = [
+            Edit::Box(BoxMode::Drop, LEFT),
+            Edit::Segment(0, PointAction::Dropped),
+            Edit::Segment(0, PointAction::Kept),
+        ];
+        assert_eq!(with(&subject, &edits).indices, untouched.indices);
+    }
+
+    #[test]
+    fn kept_pixels_are_brighter_than_dropped_ones_and_know_their_segment() {
+        let subject = captured();
+        let selection = with(&subject, &[]);
+        let brightness = |place: u32| {
+            let pixel = selection.picture.get_pixel(place % 640, place / 640);
+            pixel.0.iter().map(|c| u32::from(*c)).sum::<u32>()
+        };
+        let is_kept = |i: &u32| selection.indices.binary_search(i).is_ok();
+        let read = subject.cloud().finite().map(|(i, _)| i as u32);
+        let (kept, dropped): (Vec<u32>, Vec<u32>) = read.partition(is_kept);
+        let mean = |all: &[u32]| {
+            let sum: u32 = all.iter().step_by(50).map(|i| brightness(*i)).sum();
+            sum / all.len().div_ceil(50) as u32
+        };
+        assert!(mean(&kept) > 2 * mean(&dropped));
+        assert!(kept.iter().all(|i| selection.segment_at[*i as usize] == 0));
+    }
+}

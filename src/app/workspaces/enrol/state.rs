@@ -1,0 +1,388 @@
+//! What the workspace knows, and what changes it.
+
+use std::sync::Arc;
+
+use super::{
+    action::{DraftPanes, EnrolAction, EnrolFile},
+    change::{Changed, LibraryChange},
+    draft::{Draft, Form, OpenedPart},
+    selection::{BoxMode, Corrections},
+    undo::{DraftEffect, LastChangedPart, LibraryStep, UndoDirection, UndoStack, UndoStep},
+    work::{self, DraftEvent},
+};
+use crate::{
+    app::{
+        inspection::{library_cache::LibraryView, scan_choice::ShotChoice},
+        shell::{
+            context::ShellContext,
+            file_dialog::FileDialog,
+            message::{Event, Message},
+            notice::Notice,
+            session::{Session, UserRole},
+        },
+        shots::{Asked, ShotsAction, ShotsFile, ShotsState},
+        task::{Running, Task, TaskContext, TaskError, TaskEvent, TaskRunner},
+        user_error::UserError,
+    },
+    library::{PartName, PartNaming},
+};
+
+/// What the workspace knows.
+#[derive(Debug)]
+pub struct EnrolState {
+    /// The part that is about to be enrolled.
+    pub draft: Option<Draft>,
+    /// How many drafts there were.
+    pub num_drafts: u64,
+    /// The enrolled part that the draft, or the next one, replaces.
+    pub replacing: Option<PartName>,
+    /// The part that the last change of the library left there.
+    pub latest: Option<LastChangedPart>,
+    /// How many changes of the library there were.
+    pub num_changes: u64,
+    /// The enrolled part that is looked at.
+    pub open: Option<OpenedPart>,
+    /// What a box in the picture does.
+    pub box_mode: BoxMode,
+    /// What is shown of the draft.
+    panes: DraftPanes,
+    /// What is shown of a draft that is a scan, which has no picture of its own.
+    scan_panes: DraftPanes,
+    /// Of the scan that the draft is, if it is one.
+    pub shots: ShotsState,
+    /// What can be taken back and done again.
+    pub steps: UndoStack,
+    /// Prepares the draft; a newer correction replaces an older one.
+    pub(super) draft_task: Task<DraftEvent>,
+    /// What the draft's task does, or did last.
+    pub(super) job: DraftJob,
+    /// Changes the library: what it began it finishes.
+    pub(super) change_task: Task<Box<Changed>>,
+    /// The change of the library that is being made.
+    pub(super) pending: Option<(UndoDirection, LibraryStep)>,
+    /// What waits for the engineer's view.
+    held: Option<EnrolAction>,
+    files: FileDialog<EnrolFile>,
+}
+
+/// What the draft's task does.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub(super) enum DraftJob {
+    /// It gets another draft.
+    Take,
+    /// It looks at the draft that is there.
+    Look,
+}
+
+impl EnrolState {
+    /// Without a draft.
+    pub fn new(runner: &TaskRunner) -> Self {
+        Self {
+            draft: None,
+            num_drafts: 0,
+            replacing: None,
+            latest: None,
+            num_changes: 0,
+            open: None,
+            box_mode: BoxMode::default(),
+            panes: DraftPanes::default(),
+            scan_panes: DraftPanes::View,
+            shots: ShotsState::default(),
+            steps: UndoStack::default(),
+            draft_task: Task::new("enrol", runner),
+            job: DraftJob::Look,
+            change_task: Task::new("library", runner),
+            pending: None,
+            held: None,
+            files: FileDialog::default(),
+        }
+    }
+
+    /// What is shown of the draft.
+    pub fn panes(&self) -> DraftPanes {
+        if self.has_scan() {
+            self.scan_panes
+        } else {
+            self.panes
+        }
+    }
+
+    fn has_scan(&self) -> bool {
+        let draft = self.draft.as_ref();
+        draft.is_some_and(|draft| draft.subject.scan().is_some())
+    }
+
+    /// The run that prepares a draft, if any.
+    pub fn running(&self) -> Option<&Running> {
+        self.draft_task.running()
+    }
+
+    /// Stops that run.
+    pub fn cancel(&mut self) {
+        self.draft_task.cancel();
+    }
+
+    /// The name for people of the enrolled part that the draft, or the next one, replaces.
+    pub fn replaced_title<'a>(&self, session: &'a Session) -> Option<&'a str> {
+        let library = session.library.as_ref()?;
+        let name = match &self.draft {
+            Some(draft) => &draft.form.name,
+            None => self.replacing.as_ref()?.as_str(),
+        };
+        library.place_of(name).map(|place| library.title(place))
+    }
+
+    /// True while the draft is not the one that was asked for last.
+    pub fn is_taking_another(&self) -> bool {
+        self.running().is_some() && self.job == DraftJob::Take
+    }
+
+    /// True while the library is being changed.
+    pub fn is_changing_library(&self) -> bool {
+        self.change_task.running().is_some()
+    }
+
+    /// Of a draft that is a scan, which shots shall be used: what was asked for last, while that is on its way.
+    pub fn shot_choice(&self) -> Option<&ShotChoice> {
+        let fused = self.draft.as_ref()?.subject.scan()?;
+        let asked = self.shots.asked_choice();
+        let asked = asked.filter(|_| self.is_taking_another());
+        Some(asked.unwrap_or(&fused.choice))
+    }
+
+    /// Carries out an action, once the engineer is in.
+    pub fn apply(&mut self, action: EnrolAction, cx: &mut ShellContext<'_>) {
+        if cx.session.role == UserRole::Operator {
+            self.held = Some(action);
+            cx.send(Message::AskEngineer);
+            return;
+        }
+        let library = cx.session.library.as_deref();
+        match action {
+            EnrolAction::TakeShown => self.take_shown(cx),
+            EnrolAction::Correct(edit) => self.correct(cx, |all| all.edits.push(edit)),
+            EnrolAction::TakeAs(taking) => {
+                let draft = self.draft.as_ref();
+                if draft.is_some_and(|draft| draft.subject.allows(taking)) {
+                    self.correct(cx, |all| *all = Corrections::none(taking));
+                }
+            }
+            EnrolAction::Reset => self.correct(cx, |all| all.edits.clear()),
+            EnrolAction::BoxMode(mode) => self.box_mode = mode,
+            EnrolAction::Panes(panes) if self.has_scan() => self.scan_panes = panes,
+            EnrolAction::Panes(panes) => self.panes = panes,
+            EnrolAction::Write(field) => {
+                if let Some(Draft { form, .. }) = &mut self.draft {
+                    form.write(field);
+                    // Under another name it is another part.
+                    self.replacing.take_if(|name| name.as_str() != form.name);
+                }
+            }
+            EnrolAction::LookAgain => self.look(cx),
+            EnrolAction::Save => self.save(cx),
+            EnrolAction::Discard => {
+                if let Some(former) = self.draft.take() {
+                    self.did(UndoStep::Draft(Some(Box::new(former))), cx);
+                }
+            }
+            EnrolAction::Undo => self.apply_step(UndoDirection::Back, cx),
+            EnrolAction::Redo => self.apply_step(UndoDirection::Again, cx),
+            EnrolAction::Open(name) => self.look_at(name, library),
+            EnrolAction::Close => self.open = None,
+            EnrolAction::WriteOpen(field) => {
+                if let Some(open) = &mut self.open {
+                    open.form.write(field);
+                }
+            }
+            EnrolAction::Rename => self.rename(cx),
+            EnrolAction::Remove(name) => {
+                self.change(LibraryChange::Remove(name), DraftEffect::Stays, cx);
+            }
+            EnrolAction::Replace(name) => {
+                if let Some(words) = words_of(&name, library) {
+                    if let Some(draft) = &mut self.draft {
+                        draft.form = Form::of(words);
+                    }
+                    self.replacing = Some(name);
+                    self.open = None;
+                }
+            }
+            EnrolAction::ReplaceNone => {
+                self.replacing = None;
+                if let Some(draft) = &mut self.draft {
+                    draft.form = Form::default();
+                }
+            }
+            EnrolAction::RemovePath(name) => {
+                self.change(LibraryChange::SetPath(name, None), DraftEffect::Stays, cx);
+            }
+            EnrolAction::OpenScan => cx.send(Message::OpenScan),
+            EnrolAction::Ask(file) => self.ask(file, cx),
+            EnrolAction::Shots(ShotsAction::Ask(file)) => self.ask(EnrolFile::Scan(file), cx),
+            EnrolAction::Chosen(EnrolFile::SprayPath, path) => {
+                if let Some(open) = &self.open {
+                    let change = LibraryChange::ReadPath(open.name.clone(), path);
+                    self.change(change, DraftEffect::Stays, cx);
+                }
+            }
+            EnrolAction::Chosen(EnrolFile::Scan(file), path) => {
+                self.choose_shots(ShotsAction::Chosen(file, path), cx);
+            }
+            EnrolAction::Shots(action) => self.choose_shots(action, cx),
+        }
+    }
+
+    /// Takes in what the tasks and the dialog report.
+    pub fn update(&mut self, cx: &mut ShellContext<'_>) {
+        while let Some(event) = self.draft_task.poll() {
+            match event {
+                TaskEvent::Partial(event) | TaskEvent::Done(event) => self.take_in(event, cx),
+                TaskEvent::Failed(error) => cx.notify(error),
+            }
+        }
+        match self.change_task.poll() {
+            Some(TaskEvent::Partial(changed) | TaskEvent::Done(changed)) => {
+                self.changed(*changed, cx);
+            }
+            Some(TaskEvent::Failed(error)) => {
+                cx.notify(error);
+                self.not_changed();
+            }
+            None => {}
+        }
+        match self.files.poll() {
+            Some((file, Ok(path))) => self.apply(EnrolAction::Chosen(file, path), cx),
+            Some((_, Err(notice))) => cx.notify(notice),
+            None => {}
+        }
+    }
+
+    /// Takes in what the shell tells.
+    pub fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
+        match event {
+            Event::Undo => self.apply(EnrolAction::Undo, cx),
+            Event::EngineerIn => {
+                if let Some(action) = self.held.take() {
+                    self.apply(action, cx);
+                }
+            }
+            Event::Inspected { .. } | Event::PosesWanted(_) | Event::Export | Event::Escape => {}
+        }
+    }
+
+    fn take_in(&mut self, event: DraftEvent, cx: &mut ShellContext<'_>) {
+        match event {
+            DraftEvent::Taken(subject, selection) => self.taken(subject, selection, cx),
+            DraftEvent::Selected(selection) => {
+                if let Some(draft) = &mut self.draft {
+                    draft.selection = selection;
+                }
+            }
+            DraftEvent::Checked(checked) => {
+                if let Some(draft) = &mut self.draft {
+                    draft.checked = Some(checked);
+                }
+            }
+            DraftEvent::PosesWanted(order, error) => {
+                cx.notify(error);
+                self.shots.ask_for_poses(*order);
+                self.ask(EnrolFile::Scan(ShotsFile::Poses), cx);
+            }
+        }
+    }
+
+    fn ask(&mut self, file: EnrolFile, cx: &ShellContext<'_>) {
+        let lock = &cx.services.dialogs;
+        self.files.open(file, &file.request(), lock, cx.egui);
+    }
+
+    /// Has the draft's task do something else.
+    pub(super) fn start(
+        &mut self,
+        title: impl Into<String>,
+        job: DraftJob,
+        asked: Option<Asked>,
+        work: impl FnOnce(&TaskContext<DraftEvent>) -> Result<DraftEvent, TaskError> + Send + 'static,
+    ) {
+        self.job = job;
+        self.shots.started(asked);
+        self.draft_task.start(title, work);
+    }
+
+    /// Changes the corrections, if that changes anything, and has them gone through.
+    fn correct(&mut self, cx: &mut ShellContext<'_>, change: impl FnOnce(&mut Corrections)) {
+        let draft = self.draft.as_mut();
+        let Some(draft) = draft.filter(|draft| draft.subject.can_be_corrected()) else {
+            return;
+        };
+        let before = draft.corrections.clone();
+        change(&mut draft.corrections);
+        if draft.corrections != before {
+            let step = UndoStep::Corrections(draft.number, before);
+            self.did(step, cx);
+            self.look(cx);
+        }
+    }
+
+    /// Has the corrections gone through.
+    pub(super) fn look(&mut self, cx: &ShellContext<'_>) {
+        let Some(draft) = &mut self.draft else {
+            return;
+        };
+        draft.checked = None;
+        let (subject, corrections) = (Arc::clone(&draft.subject), draft.corrections.clone());
+        let (recipe, shelf) = (Arc::clone(&cx.session.recipe), cx.services.shelf.clone());
+        self.start(
+            "Looking at the part",
+            DraftJob::Look,
+            None,
+            move |context| work::look(&subject, &corrections, &recipe, &shelf, context),
+        );
+    }
+
+    fn save(&mut self, cx: &mut ShellContext<'_>) {
+        let Some(draft) = &self.draft else {
+            return;
+        };
+        match (draft.form.words(), draft.ready()) {
+            (Err(error), _) => cx.notify(UserError::of(&error)),
+            (Ok(_), None) => cx.notify(Notice::look(
+                "There is nothing to save yet",
+                "Save once the picture of what will be stored is there",
+            )),
+            (Ok(words), Some(checked)) => {
+                let save = LibraryChange::Save(Arc::clone(&checked.enrolled), words);
+                self.change(save, DraftEffect::MakesWay(None), cx);
+            }
+        }
+    }
+
+    fn rename(&mut self, cx: &mut ShellContext<'_>) {
+        let Some(open) = &self.open else {
+            return;
+        };
+        match open.form.words() {
+            Ok(words) => {
+                let rename = LibraryChange::Rename(open.name.clone(), words);
+                self.change(rename, DraftEffect::Stays, cx);
+            }
+            Err(error) => cx.notify(UserError::of(&error)),
+        }
+    }
+
+    pub(super) fn look_at(&mut self, name: PartName, library: Option<&LibraryView>) {
+        let words = words_of(&name, library);
+        // A damaged one cannot be described; it can be removed.
+        let form = words.map_or_else(Form::default, Form::of);
+        self.open = Some(OpenedPart { name, form });
+    }
+}
+
+pub(super) fn words_of(name: &PartName, library: Option<&LibraryView>) -> Option<PartNaming> {
+    let library = library?;
+    let part = library.parts.get(library.place_of(name.as_str())?)?;
+    Some(part.words())
+}
+
+#[cfg(test)]
+mod tests;

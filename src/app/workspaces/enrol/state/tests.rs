@@ -1,0 +1,342 @@
+use nalgebra::Point3;
+
+use super::{
+    super::{
+        draft::Field,
+        segments::PointAction,
+        selection::{Edit, PixelBox},
+        subject::InitialSelection,
+    },
+    *,
+};
+use crate::{
+    app::{
+        inspection::{
+            camera::Camera,
+            inspected::SceneOrScan,
+            library_cache::LibraryCache,
+            source::{Origin, SceneSource},
+        },
+        shell::{context::TestShell, notice::NoticeKind},
+    },
+    geometry::cloud::PointCloud,
+    stages::scene::SceneCloud,
+};
+
+/// The workspace without a window or threads.
+struct Bench {
+    enrol: EnrolState,
+    shell: TestShell,
+    notices: Vec<Notice>,
+    folder: tempfile::TempDir,
+}
+
+impl Bench {
+    fn new() -> Self {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut shell = TestShell::default();
+        let library = Some(folder.path().to_owned());
+        shell.services.shelf = LibraryCache::new(library, Camera::default());
+        Self {
+            enrol: EnrolState::new(&TaskRunner::without_threads()),
+            shell,
+            notices: Vec::new(),
+            folder,
+        }
+    }
+
+    /// Does this, and all work that follows from it.
+    fn act(&mut self, action: EnrolAction) {
+        self.begin(action);
+        self.work();
+    }
+
+    /// Does this; the work that follows from it waits.
+    fn begin(&mut self, action: EnrolAction) {
+        self.enrol.apply(action, &mut self.shell.context());
+        self.deliver();
+    }
+
+    fn work(&mut self) {
+        while self.enrol.change_task.run_waiting() || self.enrol.draft_task.run_waiting() {
+            self.enrol.update(&mut self.shell.context());
+            self.deliver();
+        }
+    }
+
+    /// Does what was sent as the window does.
+    fn deliver(&mut self) {
+        for message in std::mem::take(&mut self.shell.messages) {
+            match message {
+                Message::Notify(notice) => self.notices.push(notice),
+                Message::WithdrawUndo => {
+                    for notice in &mut self.notices {
+                        if notice.kind == NoticeKind::Undoable {
+                            notice.kind = NoticeKind::Done;
+                        }
+                    }
+                }
+                Message::LibraryChanged { library, .. } => {
+                    self.shell.session.library = Some(library);
+                }
+                other => panic!("{other:?}"),
+            }
+        }
+    }
+
+    /// Takes an L-shaped plate of this width as the draft.
+    fn take(&mut self, width: usize) {
+        let points = (0..width * 80).filter_map(|i| {
+            let (x, y) = ((i % width) as f32 * 0.005, (i / width) as f32 * 0.005);
+            (x < 0.15 || y < 0.2).then(|| Point3::new(x, y, 1.2))
+        });
+        let scene = SceneCloud {
+            cloud: PointCloud::from_points(points),
+            ..SceneCloud::default()
+        };
+        let origin = Origin::File {
+            path: format!("{width}.pcd").into(),
+            is_simulated: false,
+        };
+        let source = SceneSource::AtHand(Arc::new(scene), origin);
+        let scene = SceneOrScan::Scene(source);
+        self.enrol
+            .take(scene, "Taking".into(), &self.shell.context());
+        self.work();
+        self.act(EnrolAction::TakeAs(InitialSelection::Whole));
+    }
+
+    fn named(&mut self, title: &str) {
+        self.act(EnrolAction::Write(Field::Title(title.into())));
+    }
+
+    fn num_kept(&self) -> usize {
+        let draft = self.enrol.draft.as_ref().expect("a draft");
+        draft.selection.indices.len()
+    }
+
+    fn from(&self) -> Option<String> {
+        let draft = self.enrol.draft.as_ref()?;
+        Some(draft.subject.origin.title())
+    }
+
+    fn names(&self) -> Vec<String> {
+        let library = self.shell.session.library.as_ref().expect("loaded");
+        library
+            .parts
+            .iter()
+            .map(|part| part.name.to_string())
+            .collect()
+    }
+}
+
+const CORNER: PixelBox = PixelBox {
+    from: [0, 0],
+    to: [100, 100],
+};
+
+#[test]
+fn every_correction_is_taken_back_and_done_again_in_its_order() {
+    let mut bench = Bench::new();
+    bench.take(80);
+    let mut kept = vec![bench.num_kept()];
+    for edit in [
+        Edit::Box(BoxMode::Keep, CORNER),
+        Edit::Segment(0, PointAction::Kept),
+        Edit::Box(BoxMode::Drop, CORNER),
+    ] {
+        bench.act(EnrolAction::Correct(edit));
+        kept.push(bench.num_kept());
+    }
+    assert!(kept[1] < kept[0] && kept[2] == kept[0] && kept[3] == kept[0] - kept[1]);
+    for num in kept.iter().rev().skip(1) {
+        bench.act(EnrolAction::Undo);
+        assert_eq!(bench.num_kept(), *num);
+    }
+    for num in &kept[1..] {
+        bench.act(EnrolAction::Redo);
+        assert_eq!(bench.num_kept(), *num);
+    }
+    bench.act(EnrolAction::Undo);
+    bench.act(EnrolAction::Correct(Edit::Segment(0, PointAction::Dropped)));
+    bench.act(EnrolAction::Redo);
+    assert_eq!(bench.num_kept(), 0, "what was done since counts");
+    let draft = bench.enrol.draft.as_ref().expect("a draft");
+    assert!(matches!(&draft.checked, Some(Err(trouble)) if !trouble.advice.is_empty()));
+}
+
+#[test]
+fn another_draft_keeps_the_words_and_can_be_taken_back() {
+    let mut bench = Bench::new();
+    bench.take(80);
+    bench.named("Plate");
+    bench.take(90);
+    assert_eq!(bench.from().as_deref(), Some("90.pcd"));
+    let draft = bench.enrol.draft.as_ref().expect("a draft");
+    assert_eq!(draft.form.name, "plate");
+    // Taken whole, then the draft itself.
+    bench.act(EnrolAction::Undo);
+    bench.act(EnrolAction::Undo);
+    assert_eq!(bench.from().as_deref(), Some("80.pcd"));
+    bench.act(EnrolAction::Discard);
+    assert_eq!(bench.from(), None);
+    bench.act(EnrolAction::Undo);
+    assert_eq!(bench.from().as_deref(), Some("80.pcd"));
+}
+
+#[test]
+fn a_saved_part_replaced_and_taken_back_twice_is_the_first_one_again() {
+    let mut bench = Bench::new();
+    for width in [80, 90] {
+        bench.take(width);
+        bench.named("Plate");
+        bench.act(EnrolAction::Save);
+        assert_eq!(bench.from(), None);
+    }
+    let enrolled_from = |bench: &Bench| {
+        let library = bench.shell.session.library.as_ref().expect("loaded");
+        library.parts.first().map(|part| part.enrolled.from.clone())
+    };
+    assert_eq!(enrolled_from(&bench).as_deref(), Some("90.pcd"));
+    assert_eq!(
+        bench.notices.last().map(|n| n.kind),
+        Some(NoticeKind::Undoable)
+    );
+    bench.act(EnrolAction::Undo);
+    assert_eq!(enrolled_from(&bench).as_deref(), Some("80.pcd"));
+    assert_eq!(bench.from().as_deref(), Some("90.pcd"), "the draft is back");
+    bench.act(EnrolAction::Redo);
+    assert_eq!(enrolled_from(&bench).as_deref(), Some("90.pcd"));
+    bench.act(EnrolAction::Undo);
+    // The draft's own steps, then the first saving.
+    while enrolled_from(&bench).is_some() {
+        bench.act(EnrolAction::Undo);
+    }
+    assert_eq!(bench.from().as_deref(), Some("80.pcd"));
+}
+
+#[test]
+fn an_offer_to_undo_goes_when_something_else_was_done() {
+    let mut bench = Bench::new();
+    bench.take(80);
+    bench.named("Plate");
+    bench.act(EnrolAction::Save);
+    bench.take(90);
+    let kinds = bench.notices.iter().map(|notice| notice.kind);
+    assert!(kinds.into_iter().all(|kind| kind != NoticeKind::Undoable));
+}
+
+#[test]
+fn a_change_that_fails_can_be_tried_again() {
+    let mut bench = Bench::new();
+    bench.take(80);
+    bench.named("Plate");
+    bench.act(EnrolAction::Save);
+    bench.act(EnrolAction::Remove(PartName::new("plate").expect("a name")));
+    let trash = bench.folder.path().join(".trash");
+    let hidden = bench.folder.path().join(".hidden");
+    std::fs::rename(&trash, &hidden).expect("moved");
+    bench.act(EnrolAction::Undo);
+    let last = bench.notices.last().expect("a notice");
+    assert!(
+        last.kind == NoticeKind::Look && !last.advice.is_empty(),
+        "{last:?}"
+    );
+    assert!(bench.names().is_empty());
+    std::fs::rename(&hidden, &trash).expect("moved back");
+    bench.act(EnrolAction::Undo);
+    assert_eq!(bench.names(), ["plate"]);
+}
+
+#[test]
+fn one_change_of_the_library_at_a_time() {
+    let mut bench = Bench::new();
+    bench.take(80);
+    bench.named("Plate");
+    let num_steps = bench.enrol.steps.done.len();
+    bench.begin(EnrolAction::Save);
+    bench.begin(EnrolAction::Write(Field::Title("Sheet".into())));
+    bench.begin(EnrolAction::Save);
+    bench.begin(EnrolAction::Undo);
+    assert_eq!(
+        bench.enrol.steps.done.len(),
+        num_steps,
+        "nothing is taken back"
+    );
+    bench.work();
+    assert_eq!(bench.names(), ["plate"]);
+}
+
+#[test]
+fn a_part_is_renamed_while_it_is_looked_at() {
+    let mut bench = Bench::new();
+    bench.take(80);
+    bench.named("Plate");
+    bench.act(EnrolAction::Save);
+    bench.act(EnrolAction::Open(PartName::new("plate").expect("a name")));
+    bench.act(EnrolAction::WriteOpen(Field::Name("Sheet".into())));
+    bench.act(EnrolAction::Rename);
+    assert_eq!(bench.names(), ["plate"], "capitals are refused");
+    bench.act(EnrolAction::WriteOpen(Field::Name("sheet".into())));
+    bench.act(EnrolAction::Rename);
+    assert_eq!(bench.names(), ["sheet"]);
+    let open = bench.enrol.open.as_ref().expect("still open");
+    assert_eq!(open.name.as_str(), "sheet");
+}
+
+#[test]
+fn without_a_name_nothing_is_saved_and_it_is_said() {
+    let mut bench = Bench::new();
+    bench.take(80);
+    bench.act(EnrolAction::Save);
+    assert!(!bench.enrol.is_changing_library());
+    assert!(bench.notices[0].what.contains("name is empty"));
+}
+
+#[test]
+fn what_is_checked_names_the_part_that_is_hardest_to_tell_from() {
+    let mut bench = Bench::new();
+    bench.take(80);
+    bench.named("Plate");
+    bench.act(EnrolAction::Save);
+    bench.take(80);
+    bench.named("Twin");
+    let draft = bench.enrol.draft.as_ref().expect("a draft");
+    let hardest = draft.hardest().expect("one is enrolled");
+    assert!(
+        hardest.other == "plate" && !hardest.is_distinguishable(),
+        "{hardest}"
+    );
+    bench.act(EnrolAction::Replace(
+        PartName::new("plate").expect("a name"),
+    ));
+    let draft = bench.enrol.draft.as_ref().expect("a draft");
+    assert!(draft.hardest().is_none(), "it replaces the only one");
+}
+
+#[test]
+fn a_result_that_comes_when_the_draft_is_gone_changes_nothing() {
+    let mut bench = Bench::new();
+    bench.take(80);
+    bench.begin(EnrolAction::LookAgain);
+    assert!(bench.enrol.draft_task.run_waiting());
+    bench.begin(EnrolAction::Discard);
+    bench.enrol.update(&mut bench.shell.context());
+    assert!(bench.enrol.draft.is_none() && bench.enrol.running().is_none());
+}
+
+#[test]
+fn an_operator_is_asked_for_the_engineer_before_anything_changes() {
+    let mut bench = Bench::new();
+    bench.take(80);
+    bench.shell.session.role = UserRole::Operator;
+    let discard = EnrolAction::Discard;
+    bench.enrol.apply(discard, &mut bench.shell.context());
+    assert!(matches!(bench.shell.messages[..], [Message::AskEngineer]));
+    bench.shell.messages.clear();
+    assert!(bench.enrol.draft.is_some());
+    bench.shell.session.role = UserRole::Engineer;
+    let event = Event::EngineerIn;
+    bench.enrol.on_event(&event, &mut bench.shell.context());
+    assert!(bench.enrol.draft.is_none());
+}

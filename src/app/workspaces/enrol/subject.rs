@@ -1,0 +1,285 @@
+//! What a part is enrolled from: a captured scene, a whole cloud or a mesh, cut into segments that a person takes or
+//! drops.
+
+use std::sync::Arc;
+
+use super::{
+    picture_plane::PicturePlane,
+    scanned::ScannedMatter,
+    segments::{PointAction, SegmentKind, Segments},
+};
+use crate::{
+    app::inspection::{
+        camera::Camera,
+        fuse::FusedShots,
+        source::{Origin, SceneError, SceneSource},
+    },
+    files::{self, FileContent, FileWarning},
+    geometry::{cloud::PointCloud, mesh::TriangleMesh},
+    library::{EnrolError, EnrolParams},
+    stages::scene::{SceneCloud, scene_from_cloud, scene_from_frame},
+};
+
+/// Which of the points are the part before anything is corrected.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum InitialSelection {
+    /// The part that stands before the background.
+    Segmented,
+    /// Everything.
+    Whole,
+}
+
+impl InitialSelection {
+    /// Both.
+    pub const ALL: [Self; 2] = [Self::Segmented, Self::Whole];
+
+    /// What a person calls it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Segmented => "Before the background",
+            Self::Whole => "Everything",
+        }
+    }
+}
+
+/// What a part is enrolled from. Its points have the same places in every list.
+#[derive(Debug)]
+pub struct EnrolInput {
+    /// Where it came from.
+    pub origin: Origin,
+    /// What was odd about the file.
+    pub warnings: Vec<FileWarning>,
+    /// What it is.
+    pub matter: EnrolInputKind,
+    /// How it is taken at first.
+    pub usual: InitialSelection,
+    /// The part and what lies about it; a mesh has none.
+    pub segmented: Option<Segments>,
+    /// The pieces of all of it.
+    pub whole: Segments,
+    /// Where its points lie in its picture.
+    pub picture: PicturePlane,
+    /// The points as a view takes them.
+    pub positions: Arc<[[f32; 3]]>,
+}
+
+/// What a subject is.
+#[derive(Debug)]
+pub enum EnrolInputKind {
+    /// Points.
+    Scene(Arc<SceneCloud>),
+    /// A surface, with points sampled on it to be looked at.
+    Mesh(Arc<TriangleMesh>, Arc<PointCloud>),
+    /// Several shots, put together.
+    Scan(Box<ScannedMatter>),
+}
+
+impl EnrolInput {
+    /// Gets it and cuts it into segments.
+    pub(super) fn read(
+        source: &SceneSource,
+        params: &EnrolParams,
+        camera: &Camera,
+        is_cancelled: &dyn Fn() -> bool,
+    ) -> Result<Result<Self, EnrolError>, SceneError> {
+        let SceneSource::File(path) = source else {
+            let captured = source.take(camera, is_cancelled)?;
+            let usual = InitialSelection::Segmented;
+            let (scene, origin) = (captured.scene, captured.origin);
+            return Ok(Ok(Self::of_scene(scene, origin, usual, params)));
+        };
+        let opened = files::open(path)?;
+        let warnings = opened.warnings();
+        let origin = Origin::File {
+            path: path.clone(),
+            is_simulated: opened.is_simulated(),
+        };
+        let read = match opened {
+            FileContent::Mesh(mesh) => Self::of_mesh(mesh, origin, params),
+            FileContent::Depth(frame) => {
+                let scene = Arc::new(scene_from_frame(&frame));
+                Ok(Self::of_scene(
+                    scene,
+                    origin,
+                    InitialSelection::Segmented,
+                    params,
+                ))
+            }
+            FileContent::Cloud(cloud) => {
+                // As on the command line: only what the camera read as a picture is taken for a scene.
+                let (usual, scene) = match cloud.grid {
+                    Some(_) => (InitialSelection::Segmented, scene_from_cloud(cloud)),
+                    // Every point of it: putting it back onto a picture would drop some.
+                    None => (InitialSelection::Whole, SceneCloud::new(cloud, None)),
+                };
+                Ok(Self::of_scene(Arc::new(scene), origin, usual, params))
+            }
+        };
+        Ok(read.map(|subject| Self {
+            warnings,
+            ..subject
+        }))
+    }
+
+    fn of_scene(
+        scene: Arc<SceneCloud>,
+        origin: Origin,
+        usual: InitialSelection,
+        params: &EnrolParams,
+    ) -> Self {
+        let positions = scene.cloud.points.iter().map(|p| [p.x, p.y, p.z]);
+        Self {
+            origin,
+            warnings: Vec::new(),
+            usual,
+            segmented: Some(Segments::before_background(&scene, &params.segment)),
+            whole: Segments::all_of(&scene, &params.segment),
+            picture: PicturePlane::of(&scene.cloud),
+            positions: positions.collect(),
+            matter: EnrolInputKind::Scene(scene),
+        }
+    }
+
+    fn of_mesh(
+        mesh: TriangleMesh,
+        origin: Origin,
+        params: &EnrolParams,
+    ) -> Result<Self, EnrolError> {
+        let no_area = EnrolError::NoArea {
+            num_triangles: mesh.triangles.len(),
+        };
+        let cloud = mesh.sample_evenly(params.max_points, 1).ok_or(no_area)?;
+        let mut whole = Segments::of_num(cloud.points.len());
+        let all: Vec<u32> = (0..cloud.points.len() as u32).collect();
+        whole.add(SegmentKind::Surface, "Mesh", PointAction::Kept, &all);
+        Ok(Self {
+            origin,
+            warnings: Vec::new(),
+            usual: InitialSelection::Whole,
+            segmented: None,
+            whole,
+            picture: PicturePlane::of(&cloud),
+            positions: cloud.points.iter().map(|p| [p.x, p.y, p.z]).collect(),
+            matter: EnrolInputKind::Mesh(Arc::new(mesh), Arc::new(cloud)),
+        })
+    }
+
+    /// Of shots that were put together.
+    pub(super) fn of_scan(fused: Arc<FusedShots>) -> Self {
+        let matter = ScannedMatter::of(fused);
+        let num_points = matter.cloud.points.len();
+        let mut segments = Segments::of_num(num_points);
+        let (part, rest) = (matter.voted(true), matter.voted(false));
+        segments.add(SegmentKind::Surface, "Part", PointAction::Kept, &part);
+        segments.add(
+            SegmentKind::Plane(0),
+            "Cell around it",
+            PointAction::Dropped,
+            &rest,
+        );
+        let positions = matter.cloud.points.iter().map(|p| [p.x, p.y, p.z]);
+        Self {
+            origin: matter.fused.origin(),
+            warnings: Vec::new(),
+            usual: InitialSelection::Segmented,
+            segmented: Some(segments),
+            whole: Segments::of_num(num_points),
+            picture: PicturePlane::of(&matter.cloud),
+            positions: positions.collect(),
+            matter: EnrolInputKind::Scan(Box::new(matter)),
+        }
+    }
+
+    /// True if it can be taken so.
+    pub fn allows(&self, taking: InitialSelection) -> bool {
+        match taking {
+            InitialSelection::Whole => self.scan().is_none(),
+            InitialSelection::Segmented => self.segmented.is_some(),
+        }
+    }
+
+    /// Its segments when it is taken so.
+    pub fn segments(&self, taking: InitialSelection) -> &Segments {
+        match (taking, &self.segmented) {
+            (InitialSelection::Segmented, Some(segmented)) => segmented,
+            _ => &self.whole,
+        }
+    }
+
+    /// Its points.
+    pub fn cloud(&self) -> &PointCloud {
+        match &self.matter {
+            EnrolInputKind::Scene(scene) => &scene.cloud,
+            EnrolInputKind::Mesh(_, cloud) => cloud,
+            EnrolInputKind::Scan(scan) => &scan.cloud,
+        }
+    }
+
+    /// The scene, if it is one.
+    pub fn scene(&self) -> Option<&Arc<SceneCloud>> {
+        match &self.matter {
+            EnrolInputKind::Scene(scene) => Some(scene),
+            EnrolInputKind::Mesh(..) | EnrolInputKind::Scan(_) => None,
+        }
+    }
+
+    /// The shots, if it is a scan.
+    pub fn scan(&self) -> Option<&Arc<FusedShots>> {
+        match &self.matter {
+            EnrolInputKind::Scan(scan) => Some(&scan.fused),
+            EnrolInputKind::Scene(_) | EnrolInputKind::Mesh(..) => None,
+        }
+    }
+
+    /// True if parts of it can be dropped: a mesh is enrolled by its surface, whole.
+    pub fn can_be_corrected(&self) -> bool {
+        !matches!(self.matter, EnrolInputKind::Mesh(..))
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{app::inspection::source::CellChoice, simulate::PartKind};
+
+    fn captured() -> EnrolInput {
+        let source = SceneSource::Cell {
+            choice: CellChoice::Part(PartKind::Fender, crate::simulate::Side::Left),
+            number: 3,
+        };
+        let read = EnrolInput::read(
+            &source,
+            &EnrolParams::default(),
+            &Camera::default(),
+            &|| false,
+        )
+        .expect("a frame");
+        read.expect("a subject")
+    }
+
+    #[test]
+    fn every_reading_of_a_scene_is_in_one_segment() {
+        let subject = captured();
+        for taking in InitialSelection::ALL {
+            let segments = subject.segments(taking);
+            let in_lists: usize = segments.list.iter().map(|s| s.num_points).sum();
+            assert_eq!(in_lists, subject.cloud().num_finite(), "{taking:?}");
+            for (place, segment) in segments.list.iter().enumerate() {
+                let of_it = segments.of_point.iter().filter(|of| **of == place as u16);
+                assert_eq!(of_it.count(), segment.num_points, "{}", segment.title);
+            }
+        }
+        let segmented = subject.segments(InitialSelection::Segmented);
+        let kept = segmented
+            .list
+            .iter()
+            .filter(|s| s.usual == PointAction::Kept);
+        assert_eq!(kept.map(|s| s.title.as_str()).collect::<Vec<_>>(), ["Part"]);
+        assert!(
+            segmented
+                .list
+                .iter()
+                .any(|s| s.kind == SegmentKind::Plane(0))
+        );
+    }
+}

@@ -1,0 +1,64 @@
+//! The small pictures, as textures: made once for a library and once for a draft.
+
+use std::sync::Arc;
+
+use egui::{ColorImage, Context, TextureHandle, TextureOptions};
+use image::RgbaImage;
+
+use super::work::Checked;
+use crate::app::inspection::library_cache::LibraryView;
+
+/// The textures, and what they were made of.
+#[derive(Default)]
+pub(super) struct Thumbnails {
+    library: Option<(Arc<LibraryView>, Vec<Option<TextureHandle>>)>,
+    draft: Option<(Arc<Checked>, TextureHandle)>,
+}
+
+impl Thumbnails {
+    /// Uploads what is new.
+    pub(super) fn make(
+        &mut self,
+        ctx: &Context,
+        library: Option<&Arc<LibraryView>>,
+        checked: Option<&Arc<Checked>>,
+    ) {
+        if let Some(library) = library
+            && self
+                .library
+                .as_ref()
+                .is_none_or(|(of, _)| !Arc::ptr_eq(of, library))
+        {
+            let all = library.thumbnails.iter().map(|thumbnail| {
+                let thumbnail = thumbnail.as_ref()?;
+                Some(texture(ctx, "enrolled part", thumbnail))
+            });
+            self.library = Some((Arc::clone(library), all.collect()));
+        }
+        if let Some(checked) = checked
+            && self
+                .draft
+                .as_ref()
+                .is_none_or(|(of, _)| !Arc::ptr_eq(of, checked))
+        {
+            let made = texture(ctx, "draft", &checked.enrolled.part.thumbnail);
+            self.draft = Some((Arc::clone(checked), made));
+        }
+    }
+
+    /// Of the enrolled part at this place.
+    pub(super) fn of_part(&self, place: usize) -> Option<&TextureHandle> {
+        self.library.as_ref()?.1.get(place)?.as_ref()
+    }
+
+    /// Of what would be stored.
+    pub(super) fn of_draft(&self) -> Option<&TextureHandle> {
+        Some(&self.draft.as_ref()?.1)
+    }
+}
+
+fn texture(ctx: &Context, name: &str, image: &RgbaImage) -> TextureHandle {
+    let size = [image.width() as usize, image.height() as usize];
+    let image = ColorImage::from_rgba_unmultiplied(size, image.as_raw());
+    ctx.load_texture(name, image, TextureOptions::LINEAR)
+}

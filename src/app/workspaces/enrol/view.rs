@@ -1,0 +1,177 @@
+//! The draft in three dimensions: kept bright, the rest dull.
+
+use std::sync::Arc;
+
+use egui::{Button, Rect, RichText, Ui, UiBuilder, Vec2, vec2};
+
+use super::{EnrolAction, draft::Draft, picture::toggled, selection::Selection};
+
+use crate::{
+    app::{
+        shots::{Overlay, POINT_SIZE},
+        ui::{
+            theme::{Theme, ThemeChoice, font, space},
+            viewport::{
+                FitRequest, PointSize, StandardView, ViewCamera, ViewColours, ViewError, ViewScene,
+                ViewStyle, Viewport, ViewportGpu,
+            },
+        },
+    },
+    geometry::rigid::RigidTransform,
+};
+
+/// What the view was made of.
+struct Shown {
+    number: u64,
+    selection: Arc<Selection>,
+    /// Of a scan: the shot whose own surface is marked.
+    looked_at: Option<usize>,
+    /// Of a scan: the camera's pose in whose space it is shown.
+    space: Option<RigidTransform>,
+}
+
+/// The view of the draft.
+pub(super) struct DraftView {
+    viewport: Viewport,
+    camera: ViewCamera,
+    scene: ViewScene,
+    style: ViewStyle,
+    styled: ThemeChoice,
+    /// The size of points but for those of a scan.
+    usual_size: PointSize,
+    shown: Option<Shown>,
+    has_focus: bool,
+}
+
+impl DraftView {
+    pub(super) fn new(gpu: Result<ViewportGpu, ViewError>) -> Self {
+        Self {
+            viewport: Viewport::new(gpu),
+            camera: ViewCamera::default(),
+            scene: ViewScene::default(),
+            style: ViewStyle::new(ViewColours::dark()),
+            styled: ThemeChoice::Dark,
+            usual_size: ViewStyle::new(ViewColours::dark()).point_size,
+            shown: None,
+            has_focus: false,
+        }
+    }
+
+    /// True while keys go to the view.
+    pub(super) fn has_focus(&self) -> bool {
+        self.has_focus
+    }
+
+    /// The view is not shown.
+    pub(super) fn rest(&mut self) {
+        self.has_focus = false;
+    }
+
+    pub(super) fn ui(
+        &mut self,
+        ui: &mut Ui,
+        draft: &Draft,
+        looked_at: Option<usize>,
+        theme: ThemeChoice,
+        actions: &mut Vec<EnrolAction>,
+    ) {
+        self.show(draft, looked_at);
+        if self.styled != theme {
+            self.style = ViewStyle::new(match theme {
+                ThemeChoice::Dark => ViewColours::dark(),
+                ThemeChoice::Light => ViewColours::light(),
+            });
+            self.styled = theme;
+        }
+        self.style.point_size = match draft.subject.scan() {
+            Some(_) => POINT_SIZE,
+            None => self.usual_size,
+        };
+        let rect = ui.available_rect_before_wrap();
+        let label = "3-D view of the draft";
+        let seen = self
+            .viewport
+            .ui(ui, label, &mut self.camera, &self.scene, &self.style);
+        self.has_focus = seen.response.has_focus();
+        if let Some(picked) = seen.picked
+            && draft.subject.can_be_corrected()
+        {
+            let segments = draft.subject.segments(draft.corrections.taking);
+            let segment = segments.of_point.get(picked.index).copied();
+            let edit = segment.and_then(|segment| toggled(draft, segment));
+            actions.extend(edit.map(EnrolAction::Correct));
+        }
+        if let Some(overlay) = overlay(draft, looked_at) {
+            let painter = ui.painter_at(rect);
+            let corner = rect.left_bottom() + vec2(space::MEDIUM, -space::MEDIUM);
+            overlay.legend(&painter, corner, &self.style.colours, Theme::of(theme));
+        }
+        let bar = vec2(rect.width() - 2.0 * space::SMALL, space::TARGET);
+        let bar = Rect::from_min_size(rect.min + Vec2::splat(space::SMALL), bar);
+        ui.scope_builder(UiBuilder::new().max_rect(bar), |ui| {
+            ui.horizontal(|ui| self.controls(ui));
+        });
+    }
+
+    /// Takes in another selection; its points were prepared by the worker. Only another draft moves the camera.
+    fn show(&mut self, draft: &Draft, looked_at: Option<usize>) {
+        let shown = self.shown.as_ref();
+        let is_same = |shown: &Shown| {
+            Arc::ptr_eq(&shown.selection, &draft.selection) && shown.looked_at == looked_at
+        };
+        if shown.is_some_and(is_same) {
+            return;
+        }
+        let fused = draft.subject.scan();
+        let space = fused.and_then(|fused| fused.space());
+        let stays =
+            |shown: &Shown| shown.number == draft.number || space.is_some() && shown.space == space;
+        if !shown.is_some_and(stays) {
+            self.camera.request_fit(FitRequest::Focus);
+        }
+        self.scene = ViewScene {
+            points: vec![draft.selection.points.clone()],
+            ..ViewScene::default()
+        };
+        if let Some(overlay) = overlay(draft, looked_at) {
+            overlay.add_to(&mut self.scene);
+        }
+        self.shown = Some(Shown {
+            number: draft.number,
+            selection: Arc::clone(&draft.selection),
+            looked_at,
+            space,
+        });
+    }
+
+    fn controls(&mut self, ui: &mut Ui) {
+        let button = |ui: &mut Ui, text: &str| {
+            let text = RichText::new(text).font(font::small());
+            ui.add(Button::new(text).min_size(Vec2::splat(space::TARGET)))
+        };
+        if button(ui, "Fit").clicked() {
+            self.camera.request_fit(FitRequest::Focus);
+        }
+        for (text, view) in [
+            ("Front", StandardView::Front),
+            ("Top", StandardView::Top),
+            ("Side", StandardView::Side),
+        ] {
+            if button(ui, text).clicked() {
+                self.camera.look(view);
+                self.camera.request_fit(FitRequest::Focus);
+            }
+        }
+    }
+}
+
+/// What the view shows of a scan over its points.
+fn overlay(draft: &Draft, looked_at: Option<usize>) -> Option<Overlay<'_>> {
+    Some(Overlay {
+        fused: draft.subject.scan()?,
+        unseen: None,
+        looked_at,
+        has_cameras: true,
+        has_unseen: true,
+    })
+}

@@ -1,0 +1,193 @@
+//! What the draft's task does: it gets what is to be enrolled, and prepares the part.
+
+use std::sync::Arc;
+
+use jiff::Timestamp;
+
+use super::{
+    selection::{Corrections, Selection},
+    subject::{EnrolInput, EnrolInputKind, InitialSelection},
+};
+use crate::{
+    app::{
+        inspection::{
+            camera::CameraError,
+            fuse::{Steps, Then, fuse},
+            library_cache::LibraryCache,
+            scan_choice::{ScanOrder, ScanRequest},
+            source::{SceneError, SceneSource},
+        },
+        task::{TaskContext, TaskError},
+        user_error::UserError,
+    },
+    library::{
+        EnrolError, EnrolParams, Enrolled, PartDescription, PartName, Similarity, enrol_mesh,
+        enrol_scan, enrol_selected, enrol_whole, likenesses,
+    },
+    pipeline::{ProgressObserver as _, Recipe},
+    stages::segment::SegmentedPart,
+};
+
+/// What the task hands over, part after part.
+#[derive(Clone, Debug)]
+pub enum DraftEvent {
+    /// Something to enrol, and what of it is kept. What would be stored follows.
+    Taken(Arc<EnrolInput>, Arc<Selection>),
+    /// What is kept after the corrections. What would be stored follows.
+    Selected(Arc<Selection>),
+    /// What would be stored, or why nothing can be.
+    Checked(Result<Arc<Checked>, UserError>),
+    /// The poses of these shots were not found: a person has to name their file.
+    PosesWanted(Box<ScanOrder>, UserError),
+}
+
+/// What would be stored.
+#[derive(Debug)]
+pub struct Checked {
+    /// The part, but for its name.
+    pub enrolled: Arc<Enrolled>,
+    /// What is odd about it.
+    pub warnings: Vec<UserError>,
+    /// How like every enrolled part it is, the one that it is hardest to tell from first.
+    pub likenesses: Vec<Similarity>,
+}
+
+/// Gets something to enrol, and sees what of it is the part.
+pub(super) fn take_scene(
+    source: &SceneSource,
+    recipe: &Recipe,
+    shelf: &LibraryCache,
+    context: &TaskContext<DraftEvent>,
+) -> Result<DraftEvent, TaskError> {
+    let params = params_of(recipe);
+    let is_cancelled = || context.is_cancelled();
+    let subject = match EnrolInput::read(source, &params, shelf.camera(), &is_cancelled) {
+        Ok(read) => read.map_err(|error| UserError::of(&error))?,
+        Err(SceneError::Camera(CameraError::Cancelled)) => return Err(TaskError::Cancelled),
+        Err(error) => return Err(UserError::of(&error).into()),
+    };
+    take(subject, &params, shelf, context)
+}
+
+/// Puts the shots of a scan together, and sees what of it is the part.
+pub(super) fn take_scan(
+    request: &ScanRequest,
+    shelf: &LibraryCache,
+    context: &TaskContext<DraftEvent>,
+) -> Result<DraftEvent, TaskError> {
+    let report = |done, total| context.progress(done, total);
+    match fuse(request, Then::Enrol, &Steps::new(context, &report)) {
+        Ok(Some(fused)) => {
+            let subject = EnrolInput::of_scan(Arc::new(fused));
+            take(subject, &params_of(&request.recipe), shelf, context)
+        }
+        Ok(None) => Err(TaskError::Cancelled),
+        Err(error) if error.wants_poses() => {
+            let order = Box::new(request.order.clone());
+            Ok(DraftEvent::PosesWanted(order, UserError::of(&error)))
+        }
+        Err(error) => Err(UserError::of(&error).into()),
+    }
+}
+
+/// Goes through the corrections, and sees what would be stored.
+pub(super) fn look(
+    subject: &EnrolInput,
+    corrections: &Corrections,
+    recipe: &Recipe,
+    shelf: &LibraryCache,
+    context: &TaskContext<DraftEvent>,
+) -> Result<DraftEvent, TaskError> {
+    let selection = Arc::new(Selection::of(subject, corrections));
+    context.check()?;
+    context.partial(DraftEvent::Selected(Arc::clone(&selection)));
+    let params = params_of(recipe);
+    check(subject, corrections, &selection, &params, shelf, context)
+}
+
+/// Hands over what there is to enrol, then looks at what would be stored.
+fn take(
+    subject: EnrolInput,
+    params: &EnrolParams,
+    shelf: &LibraryCache,
+    context: &TaskContext<DraftEvent>,
+) -> Result<DraftEvent, TaskError> {
+    let subject = Arc::new(subject);
+    let corrections = Corrections::none(subject.usual);
+    let selection = Arc::new(Selection::of(&subject, &corrections));
+    context.check()?;
+    let taken = DraftEvent::Taken(Arc::clone(&subject), Arc::clone(&selection));
+    context.partial(taken);
+    check(&subject, &corrections, &selection, params, shelf, context)
+}
+
+/// Segments as scenes are inspected; all else as usual.
+fn params_of(recipe: &Recipe) -> EnrolParams {
+    EnrolParams {
+        segment: recipe.segment.clone(),
+        ..EnrolParams::default()
+    }
+}
+
+/// Makes the part and holds it against every enrolled one.
+fn check(
+    subject: &EnrolInput,
+    corrections: &Corrections,
+    selection: &Selection,
+    params: &EnrolParams,
+    shelf: &LibraryCache,
+    context: &TaskContext<DraftEvent>,
+) -> Result<DraftEvent, TaskError> {
+    let mut enrolled = match enrol(subject, corrections.taking, selection, params) {
+        Ok(enrolled) => enrolled,
+        Err(error) => return Ok(DraftEvent::Checked(Err(UserError::of(&error)))),
+    };
+    context.check()?;
+    // It has no name yet: none of the enrolled ones is left out for bearing the same.
+    enrolled.reference.name.clear();
+    let shelved = match shelf.get() {
+        Ok(shelved) => shelved,
+        Err(error) => return Ok(DraftEvent::Checked(Err(UserError::of(&error)))),
+    };
+    let coverage = enrolled.part.meta.coverage;
+    let likenesses = likenesses(&enrolled.reference, coverage, &shelved.library);
+    Ok(DraftEvent::Checked(Ok(Arc::new(Checked {
+        warnings: enrolled.warnings.iter().map(UserError::of).collect(),
+        enrolled: Arc::new(enrolled),
+        likenesses,
+    }))))
+}
+
+fn enrol(
+    subject: &EnrolInput,
+    taking: InitialSelection,
+    selection: &Selection,
+    params: &EnrolParams,
+) -> Result<Enrolled, EnrolError> {
+    let now = Timestamp::now();
+    let about = PartDescription {
+        name: PartName::new("part").expect("a name"),
+        title: String::new(),
+        notes: String::new(),
+        from: match subject.scan() {
+            Some(fused) => fused.choice.set.files.title(),
+            None => subject.origin.title(),
+        },
+        // Whole seconds are enough for people.
+        at: Timestamp::from_second(now.as_second()).unwrap_or(now),
+        simulated: subject.origin.is_simulated(),
+    };
+    match (&subject.matter, taking) {
+        (EnrolInputKind::Mesh(mesh, _), _) => enrol_mesh(mesh, &about, params),
+        (EnrolInputKind::Scan(scan), _) => {
+            enrol_scan(&scan.with_part(&selection.indices), &about, params)
+        }
+        (EnrolInputKind::Scene(scene), InitialSelection::Segmented) => {
+            enrol_selected(scene, &selection.indices, &about, params)
+        }
+        (EnrolInputKind::Scene(scene), InitialSelection::Whole) => {
+            let kept = SegmentedPart::selected(scene, &selection.indices, &params.segment);
+            enrol_whole(&kept.cloud, &about, params)
+        }
+    }
+}

@@ -1,0 +1,346 @@
+//! Everything that can happen in the workspace, and the one function that makes it so.
+
+use std::{ops::Range, path::PathBuf, sync::Arc};
+
+use jiff::Zoned;
+
+use super::{
+    export::{self, PastExport},
+    filter::ListFilter,
+    state::HistoryState,
+    work::HistoryResult,
+};
+use crate::{
+    app::{
+        inspection::{inspected::Inspected, source::file_name},
+        shell::{
+            context::ShellContext,
+            file_dialog::{FileChoice, FileRequest},
+            message::{Event, Message, ReinspectionPurpose},
+            notice::Notice,
+            session::UserRole,
+        },
+        task::TaskEvent,
+        user_error::UserError,
+    },
+    history::{HistoryEvent, NewEntry, PruneResult, Retention, SetAside},
+    library::Truth,
+};
+
+/// Something that happened in the workspace.
+#[derive(Debug)]
+pub enum HistoryAction {
+    /// List only these.
+    Filter(ListFilter),
+    /// These rows of the list are in sight.
+    Visible(Range<usize>),
+    /// Look at this inspection.
+    Select(i64),
+    /// Look at the row above (the newer one) or below.
+    Step(Direction),
+    /// Show the inspection with all its stages.
+    Open(i64),
+    /// Show the inspection that is looked at.
+    OpenSelected,
+    /// Inspect its scene again with the recipe and the library now in use, and say what changed.
+    InspectAgain(i64),
+    /// The same with the inspection that is looked at.
+    AgainSelected,
+    /// A person remarks this.
+    Remark(i64, String),
+    /// A person says what it truly is, or that nobody knows.
+    Label(i64, Option<Truth>),
+    /// Open the window of the rule by which frames are kept, change the rule in it, or close it.
+    Rule(Option<Retention>),
+    /// Keep frames by this rule.
+    Keep(Retention),
+    /// Have a person choose where the listed inspections go.
+    Ask(HistoryFile),
+    /// Write the listed inspections there.
+    Export(HistoryFile, PathBuf),
+}
+
+/// What a person is asked to choose.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum HistoryFile {
+    /// The table that the listed history goes to.
+    Csv,
+    /// The folder that cases of the listed history go to.
+    Cases,
+}
+
+impl HistoryFile {
+    fn request(self) -> FileRequest {
+        match self {
+            Self::Csv => FileRequest {
+                title: "Export the listed inspections",
+                filters: &[("Comma-separated values", &["csv"])],
+                choice: FileChoice::NewFile("inspections.csv"),
+            },
+            Self::Cases => FileRequest {
+                title: "Folder for the cases of the listed inspections",
+                filters: &[],
+                choice: FileChoice::FolderToWrite,
+            },
+        }
+    }
+}
+
+impl HistoryAction {
+    /// True where frames may be lost by it: those that another rule does not keep are gone.
+    fn needs_engineer(&self) -> bool {
+        matches!(self, Self::Rule(Some(_)) | Self::Keep(_))
+    }
+}
+
+/// Which way to go in the list.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Direction {
+    /// To newer ones.
+    Up,
+    /// To older ones.
+    Down,
+}
+
+/// What the thread that writes is asked for.
+#[derive(Clone, Debug)]
+pub enum HistoryJob {
+    /// Write an inspection; the ticket comes back with its number.
+    Add(u64, Box<NewEntry>),
+    /// Write down a remark.
+    Remark(i64, String),
+    /// Write down what it truly is.
+    Label(i64, Option<Truth>),
+    /// Keep frames by this rule.
+    Keep(Retention),
+}
+
+impl HistoryState {
+    /// Makes it so, once the engineer is in where that is needed.
+    pub fn apply(&mut self, action: HistoryAction, cx: &mut ShellContext<'_>) {
+        if action.needs_engineer() && cx.session.role == UserRole::Operator {
+            self.held = Some(action);
+            cx.send(Message::AskEngineer);
+            return;
+        }
+        match action {
+            HistoryAction::Filter(filter) => {
+                self.filter = filter;
+                self.look(cx);
+            }
+            HistoryAction::Visible(rows) => {
+                if self.sees(rows) {
+                    self.look(cx);
+                }
+            }
+            HistoryAction::Select(number) => self.select(number, cx),
+            HistoryAction::Step(direction) => {
+                let at = self.selected.and_then(|number| self.place_of(number));
+                let to = match (at, direction) {
+                    (None, _) => 0,
+                    (Some(at), Direction::Up) => at.saturating_sub(1),
+                    (Some(at), Direction::Down) => at + 1,
+                };
+                if let Some(number) = self.row(to).map(|row| row.number) {
+                    self.select(number, cx);
+                }
+            }
+            HistoryAction::OpenSelected => {
+                if let Some(number) = self.selected {
+                    self.open(number, cx);
+                }
+            }
+            HistoryAction::Open(number) => self.open(number, cx),
+            HistoryAction::InspectAgain(number) => self.inspect_again(number, cx),
+            HistoryAction::AgainSelected => {
+                if let Some(number) = self.selected {
+                    self.inspect_again(number, cx);
+                }
+            }
+            HistoryAction::Remark(number, remark) => self.remark(number, remark),
+            HistoryAction::Label(number, label) => {
+                self.asked();
+                self.jobs.push(HistoryJob::Label(number, label));
+            }
+            HistoryAction::Rule(rule) => self.rule = rule,
+            HistoryAction::Keep(rule) => {
+                self.rule = None;
+                self.asked();
+                self.jobs.push(HistoryJob::Keep(rule.clamped()));
+            }
+            HistoryAction::Ask(file) => {
+                let lock = &cx.services.dialogs;
+                self.dialog.open(file, &file.request(), lock, cx.egui);
+            }
+            HistoryAction::Export(file, path) => self.export(file, path, cx),
+        }
+    }
+
+    /// A person remarks this.
+    pub(super) fn remark(&mut self, number: i64, remark: String) {
+        self.asked();
+        self.jobs.push(HistoryJob::Remark(number, remark));
+    }
+
+    fn select(&mut self, number: i64, cx: &ShellContext<'_>) {
+        if self.selected != Some(number) {
+            self.selected = Some(number);
+            self.look(cx);
+        }
+    }
+
+    /// Takes in what the shell tells.
+    pub fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
+        match event {
+            Event::Inspected { inspected, purpose } => match purpose {
+                // One frame, which is all that the history keeps, would not give the result of a scan again.
+                ReinspectionPurpose::New if inspected.scan.is_some() => {}
+                ReinspectionPurpose::New => self.keep(inspected),
+                ReinspectionPurpose::Repeated | ReinspectionPurpose::Shots => {}
+                ReinspectionPurpose::Past => self.remade(inspected, cx),
+            },
+            Event::EngineerIn => {
+                if let Some(action) = self.held.take() {
+                    self.apply(action, cx);
+                }
+            }
+            Event::PosesWanted(_) | Event::Export | Event::Escape | Event::Undo => {}
+        }
+    }
+
+    /// Hands an inspection over to be written.
+    pub(super) fn keep(&mut self, inspected: &Arc<Inspected>) {
+        let ticket = self.ticket(inspected);
+        let entry = Box::new(inspected.entry.clone());
+        self.jobs.push(HistoryJob::Add(ticket, entry));
+    }
+
+    /// Takes in what the tasks and the dialog report.
+    pub fn update(&mut self, cx: &mut ShellContext<'_>) {
+        while let Some(event) = self.looking.poll() {
+            match event {
+                TaskEvent::Partial(looked) | TaskEvent::Done(looked) => self.take_in(*looked, cx),
+                TaskEvent::Failed(error) => cx.notify(error),
+            }
+        }
+        match self.exporting.poll() {
+            Some(TaskEvent::Done(what) | TaskEvent::Partial(what)) => {
+                cx.notify(Notice::done(what));
+            }
+            Some(TaskEvent::Failed(error)) => cx.notify(error),
+            None => {}
+        }
+        match self.dialog.poll() {
+            Some((file, Ok(path))) => self.apply(HistoryAction::Export(file, path), cx),
+            Some((_, Err(notice))) => cx.notify(notice),
+            None => {}
+        }
+    }
+
+    /// The disk is too slow: the oldest of those handed over were too many, and are lost.
+    pub(super) fn crowded(&mut self, num_lost: usize, cx: &mut ShellContext<'_>) {
+        self.lost(num_lost);
+        // Once is enough: it will not become quicker by being said again.
+        if !std::mem::replace(&mut self.is_crowded, true) {
+            cx.notify(Notice::look(
+                "The history cannot keep up: the frames of some inspections are not kept",
+                "Keep fewer frames (Frames… in History), or use a quicker disk",
+            ));
+        }
+        self.refresh_if_stale(cx);
+    }
+
+    /// Takes in what the thread that writes reports.
+    pub fn take_news(&mut self, news: HistoryEvent, cx: &mut ShellContext<'_>) {
+        match news {
+            HistoryEvent::Added { ticket, number } => self.added(ticket, number),
+            HistoryEvent::SetAside(SetAside { what, aside }) => {
+                let aside = aside.display();
+                cx.notify(Notice::look(
+                    format!("The history: {what}"),
+                    format!("It was set aside as {aside}; a new one is begun"),
+                ));
+            }
+            HistoryEvent::Failed { what, advice } => {
+                let error = UserError { what, advice };
+                self.trouble = Some(error.clone());
+                let mut notice = Notice::from(error);
+                notice
+                    .advice
+                    .push_str("; inspections go on, and are kept in memory until then");
+                cx.notify(notice);
+            }
+            HistoryEvent::Works { numbers, num_lost } => {
+                self.trouble = None;
+                self.renumber(&numbers);
+                let mut what = format!(
+                    "The history is written again: {} that waited",
+                    inspections(numbers.len())
+                );
+                if num_lost > 0 {
+                    what = format!("{what}, {} were too many", inspections(num_lost));
+                }
+                cx.notify(Notice::done(what));
+            }
+            HistoryEvent::NotChanged { what, advice } => {
+                self.answered();
+                cx.notify(UserError { what, advice });
+            }
+            HistoryEvent::Swept(PruneResult {
+                num_frames,
+                num_bytes,
+            }) => {
+                let megabytes = num_bytes as f64 / 1e6;
+                let what = format!(
+                    "The history let go of {}, {megabytes:.1} MB, by the rule for frames",
+                    frames(num_frames)
+                );
+                cx.notify(Notice::done(what));
+                self.stale();
+            }
+            HistoryEvent::Changed { .. } | HistoryEvent::RuleChanged => self.answered(),
+        }
+        self.refresh_if_stale(cx);
+    }
+
+    /// Takes in what was looked up.
+    pub fn take_in(&mut self, looked: HistoryResult, cx: &mut ShellContext<'_>) {
+        let before = self.selected;
+        self.take(looked);
+        if before == self.selected {
+            self.go_on(cx);
+        } else {
+            // The first look finds what there is to be looked at.
+            self.look(cx);
+        }
+    }
+
+    /// Writes what is listed to where a person chose.
+    fn export(&mut self, file: HistoryFile, path: PathBuf, cx: &ShellContext<'_>) {
+        let title = format!("Writing {}", file_name(&path));
+        let filter = self.filter.at(&Zoned::now());
+        let to = match file {
+            HistoryFile::Csv => PastExport::Csv(path),
+            HistoryFile::Cases => PastExport::Cases(path),
+        };
+        let keeper = Arc::clone(cx.services.shelf.history());
+        self.exporting
+            .start(title, move |_| Ok(export::write(&filter, &to, &keeper)?));
+    }
+}
+
+/// So many inspections, in words.
+pub(super) fn inspections(num: usize) -> String {
+    match num {
+        1 => "one inspection".into(),
+        num => format!("{num} inspections"),
+    }
+}
+
+/// So many frames, in words.
+pub(super) fn frames(num: usize) -> String {
+    match num {
+        1 => "1 frame".into(),
+        num => format!("{num} frames"),
+    }
+}

@@ -1,0 +1,236 @@
+//! The inspection that is looked at: its verdict, its picture, and what can be done with it.
+
+use std::sync::Arc;
+
+use egui::{Button, RichText, ScrollArea, Sense, TextureHandle, Ui, Vec2, vec2};
+
+use super::{HistoryAction, HistoryState, OpenedInspection, differences, label, list::when};
+use crate::{
+    app::{
+        inspection::unit_system::UnitSystem,
+        shell::session::Session,
+        ui::{
+            theme::{Theme, font, space},
+            widgets::{Mark, fitted, heading, labelled, mark, row, shortened, texture},
+        },
+    },
+    history::{InspectionDetail, Record, StoredVerdict, Summary},
+    pipeline::Recipe,
+};
+
+/// What the details keep between frames.
+#[derive(Default)]
+pub(super) struct Details {
+    picture: Option<(i64, PictureOrigin, TextureHandle)>,
+    pub(super) remark: label::Remark,
+}
+
+/// What the picture was made of.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum PictureOrigin {
+    Whole,
+    Thumbnail,
+}
+
+impl Details {
+    pub(super) fn ui(
+        &mut self,
+        ui: &mut Ui,
+        history: &HistoryState,
+        session: &Session,
+        theme: &Theme,
+        actions: &mut Vec<HistoryAction>,
+    ) {
+        let Some(past) = &history.record else {
+            let text = "Choose an inspection to see more of it";
+            ui.label(RichText::new(text).color(theme.weak_text));
+            return;
+        };
+        self.make(ui, history, past);
+        let record = &past.record;
+        ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+            verdict(ui, record, theme);
+            self.picture(ui, record, theme);
+            ui.add_space(space::MEDIUM);
+            buttons(ui, record, theme, actions);
+            let differences = history.differences.as_ref();
+            let number = record.summary.number;
+            if let Some((_, found)) = differences.filter(|(of, _)| *of == number) {
+                differences::ui(ui, found, session.units, theme);
+            }
+            self.remark.ui(ui, &record.summary, session, theme, actions);
+            heading(ui, theme, &format!("Inspection {}", number.abs()));
+            ui.scope(|ui| {
+                // Text lies closer than controls do.
+                ui.spacing_mut().interact_size.y = 22.0;
+                figures(ui, record, theme);
+                pose(ui, record, session.units, theme);
+                times(ui, record, theme);
+            });
+        });
+    }
+
+    /// Uploads the picture, once.
+    fn make(&mut self, ui: &Ui, history: &HistoryState, past: &Arc<OpenedInspection>) {
+        let number = past.record.summary.number;
+        let whole = history.whole(number);
+        let large = whole.and_then(|whole| whole.figures.segmentation.as_ref());
+        let source = large.map_or(PictureOrigin::Thumbnail, |_| PictureOrigin::Whole);
+        let made = self.picture.as_ref();
+        if made.is_some_and(|(of, from, _)| (*of, *from) == (number, source)) {
+            return;
+        }
+        let image = large.or(past.picture.as_ref());
+        let made = texture(ui.ctx(), "past inspection", image);
+        self.picture = made.map(|made| (number, source, made));
+    }
+
+    fn picture(&self, ui: &mut Ui, record: &Record, theme: &Theme) {
+        let number = record.summary.number;
+        let made = self.picture.as_ref().filter(|(of, ..)| *of == number);
+        let Some((_, _, texture)) = made else {
+            let text = "Its scene has no rows and columns, so there is no picture of it";
+            ui.label(
+                RichText::new(text)
+                    .font(font::small())
+                    .color(theme.weak_text),
+            );
+            return;
+        };
+        ui.add_space(space::MEDIUM);
+        let width = ui.available_width();
+        let size = vec2(width, width * 0.75);
+        let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+        response.widget_info(|| {
+            let label = format!("Segmentation of inspection {}", number.abs());
+            egui::WidgetInfo::labeled(egui::Role::Image, true, label)
+        });
+        let place = fitted(rect, texture.aspect_ratio());
+        egui::Image::new(texture).paint_at(ui, place);
+    }
+}
+
+fn verdict(ui: &mut Ui, record: &Record, theme: &Theme) {
+    let summary = &record.summary;
+    let title = RichText::new(&summary.title).font(font::title());
+    ui.label(title.color(theme.text));
+    let (sign, colour) = match summary.verdict {
+        StoredVerdict::Accepted => (Mark::Good, theme.accepted),
+        StoredVerdict::NotAccepted | StoredVerdict::Unknown | StoredVerdict::NoPart => {
+            (Mark::Bad, theme.rejected)
+        }
+    };
+    ui.horizontal(|ui| {
+        let (rect, _) = ui.allocate_exact_size(Vec2::splat(20.0), Sense::hover());
+        mark(ui.painter(), rect.center(), 9.0, sign, theme);
+        let word = match summary.verdict {
+            StoredVerdict::Accepted => StoredVerdict::Accepted,
+            _ => StoredVerdict::NotAccepted,
+        };
+        let word = RichText::new(word.title()).font(font::verdict());
+        ui.label(word.color(colour));
+    });
+    if summary.is_simulated {
+        let text = "Simulated: no camera saw it";
+        ui.label(RichText::new(text).color(theme.warning));
+    }
+    if let Some([reason, advice]) = &record.detail.complaint {
+        ui.label(RichText::new(reason).color(theme.text));
+        let advice = RichText::new(advice).font(font::body_strong());
+        ui.label(advice.color(theme.warning));
+    }
+}
+
+fn figures(ui: &mut Ui, record: &Record, theme: &Theme) {
+    let Record { summary, detail } = record;
+    let Summary {
+        scene,
+        source,
+        at,
+        score,
+        frame_bytes,
+        ..
+    } = summary;
+    let mut row = |name: &str, value: &str| row(ui, theme, name, &shortened(value, 32));
+    row("scene", scene);
+    if source != scene {
+        row("source", source);
+    }
+    row("time", &when(*at));
+    if let Some([score, margin]) = score {
+        row("score", &format!("{score:.2}"));
+        row("margin", &format!("{margin:.2}"));
+    }
+    let InspectionDetail {
+        recipe,
+        recipe_identity,
+        library_identity,
+        program,
+        ..
+    } = detail;
+    let is_own = recipe.as_deref() == Some(&Recipe::default());
+    let whose = if is_own {
+        "the program's own"
+    } else {
+        "changed"
+    };
+    row("recipe", &format!("{recipe_identity}, {whose}"));
+    row("library", library_identity);
+    row("program", program);
+    let frame = frame_bytes.map_or_else(
+        || "not kept".to_owned(),
+        |bytes| format!("kept, {:.1} MB", bytes as f64 / 1e6),
+    );
+    row("frame", &frame);
+}
+
+fn pose(ui: &mut Ui, record: &Record, units: UnitSystem, theme: &Theme) {
+    let Some(pose) = &record.detail.camera_from_part else {
+        return;
+    };
+    heading(ui, theme, "camera_from_part");
+    let shift = pose.translation.vector;
+    let (rx, ry, rz) = pose.rotation.euler_angles();
+    for (name, metres) in ["x", "y", "z"].into_iter().zip(shift.iter()) {
+        row(ui, theme, name, &units.signed_length(*metres));
+    }
+    for (name, radians) in [("rx", rx), ("ry", ry), ("rz, of Rz·Ry·Rx", rz)] {
+        row(ui, theme, name, &units.signed_angle(radians));
+    }
+}
+
+fn times(ui: &mut Ui, record: &Record, theme: &Theme) {
+    let times = record.timings();
+    if times.is_empty() {
+        return;
+    }
+    heading(ui, theme, "Times");
+    for (stage, ms) in times {
+        row(ui, theme, &stage, &format!("{ms:.1} ms"));
+    }
+}
+
+fn buttons(ui: &mut Ui, record: &Record, theme: &Theme, actions: &mut Vec<HistoryAction>) {
+    let number = record.summary.number;
+    ui.horizontal(|ui| {
+        let open = RichText::new("Open").font(font::body_strong());
+        let key = RichText::new("Enter").font(font::small());
+        let open = Button::new(open.color(theme.on_accent))
+            .shortcut_text(key.color(theme.on_accent))
+            .fill(theme.accent);
+        if labelled(ui, open, "Open")
+            .on_hover_text("With every stage, by its own recipe")
+            .clicked()
+        {
+            actions.push(HistoryAction::Open(number));
+        }
+        let key = RichText::new("A").font(font::small());
+        let again = Button::new("Inspect again").shortcut_text(key.color(theme.weak_text));
+        if labelled(ui, again, "Inspect again")
+            .on_hover_text("With the recipe and the library now in use: what changed is shown here")
+            .clicked()
+        {
+            actions.push(HistoryAction::InspectAgain(number));
+        }
+    });
+}

@@ -1,0 +1,78 @@
+//! What changed between an inspection and the same scene inspected again.
+
+use egui::{Grid, RichText, Ui, vec2};
+
+use crate::{
+    app::{
+        inspection::unit_system::UnitSystem,
+        ui::{
+            theme::{Theme, font},
+            widgets::heading,
+        },
+    },
+    history::{Differences, InspectionSummary},
+};
+
+/// What a row tells of a finding.
+type FindingText<'a> = &'a dyn Fn(&InspectionSummary) -> String;
+
+/// Draws the table.
+pub(super) fn ui(ui: &mut Ui, found: &Differences, units: UnitSystem, theme: &Theme) {
+    heading(ui, theme, "Inspected again");
+    let sentence = if found.is_same() {
+        "The same is found today"
+    } else {
+        "Something else is found today"
+    };
+    let strong = RichText::new(sentence).font(font::body_strong());
+    ui.label(strong.color(if found.is_same() {
+        theme.text
+    } else {
+        theme.warning
+    }));
+    let Differences { before, now, pose } = found;
+    let none = || "-".to_owned();
+    let rows: [(&str, FindingText<'_>); 5] = [
+        ("verdict", &|of| of.verdict.title().to_owned()),
+        ("nearest", &|of| of.nearest.clone().unwrap_or_else(none)),
+        ("score", &|of| {
+            of.score
+                .map_or_else(none, |[score, _]| format!("{score:.3}"))
+        }),
+        ("recipe", &|of| of.recipe.clone()),
+        ("library", &|of| of.library.clone()),
+    ];
+    Grid::new("differences")
+        .num_columns(3)
+        .spacing(vec2(10.0, 2.0))
+        // Text lies closer than controls do.
+        .min_row_height(22.0)
+        .show(ui, |ui| {
+            for title in ["", "then", "today"] {
+                ui.label(RichText::new(title).color(theme.weak_text));
+            }
+            ui.end_row();
+            for (what, of) in rows {
+                let (then, today) = (of(before), of(now));
+                // Not by colour alone: what changed is set in bold.
+                let text = RichText::new(&today).color(theme.text);
+                let is_same = then == today;
+                ui.label(RichText::new(what).color(theme.weak_text));
+                ui.label(RichText::new(&then).color(theme.text));
+                ui.label(if is_same {
+                    text
+                } else {
+                    text.font(font::body_strong()).color(theme.warning)
+                });
+                ui.end_row();
+            }
+        });
+    if let Some(off) = pose {
+        let text = format!(
+            "The pose differs by {} and {}",
+            units.length(off.shift.0),
+            units.angle(off.rotation.0)
+        );
+        ui.label(RichText::new(text).color(theme.text));
+    }
+}

@@ -1,0 +1,109 @@
+//! The window in which a person says which frames are kept, and how long.
+
+use egui::{
+    Button, Context, DragValue, Frame, Grid, Id, Margin, Modal, RichText, Ui, WidgetInfo, vec2,
+};
+
+use super::{HistoryAction, HistoryState, apply::frames};
+use crate::{
+    app::ui::{
+        theme::{Theme, font, space},
+        widgets::labelled,
+    },
+    history::{KeepFrames, Retention, Usage},
+};
+
+/// Draws it while it is open.
+pub(super) fn ui(
+    ctx: &Context,
+    history: &HistoryState,
+    theme: &Theme,
+    actions: &mut Vec<HistoryAction>,
+) {
+    let Some(known) = history.rule else {
+        return;
+    };
+    let mut rule = known;
+    let modal = Modal::new(Id::unique("frames that are kept"))
+        .frame(Frame::window(&ctx.global_style()).inner_margin(Margin::same(18)))
+        .show(ctx, |ui| {
+            ui.set_max_width(520.0);
+            let title = RichText::new("Frames that are kept").font(font::verdict());
+            ui.label(title.color(theme.text));
+            ui.add_space(space::SMALL);
+            let why = "With its frame an inspection can be opened again with every stage. The inspections themselves are kept for good.";
+            ui.label(RichText::new(why).color(theme.weak_text));
+            ui.add_space(space::SMALL);
+            Grid::new("frames")
+                .num_columns(2)
+                .spacing(vec2(20.0, 8.0))
+                .show(ui, |ui| rows(ui, &mut rule));
+            ui.add_space(space::SMALL);
+            used(ui, history.kept.1, theme);
+            ui.add_space(space::MEDIUM);
+            let mut closing = None;
+            ui.horizontal(|ui| {
+                let text = RichText::new("Keep so").color(theme.on_accent);
+                if labelled(ui, Button::new(text).fill(theme.accent), "Keep so").clicked() {
+                    closing = Some(true);
+                }
+                if labelled(ui, Button::new("Close"), "Close").clicked() {
+                    closing = Some(false);
+                }
+            });
+            closing
+        });
+    let is_closed = modal.should_close();
+    let action = match modal.inner {
+        Some(true) => HistoryAction::Keep(rule),
+        Some(false) => HistoryAction::Rule(None),
+        None if is_closed => HistoryAction::Rule(None),
+        None if rule != known => HistoryAction::Rule(Some(rule)),
+        None => return,
+    };
+    actions.push(action);
+}
+
+fn rows(ui: &mut Ui, rule: &mut Retention) {
+    ui.label("Of which inspections");
+    ui.horizontal(|ui| {
+        for keep in KeepFrames::ALL {
+            let button = Button::selectable(rule.keep == keep, keep.title());
+            let button = button.frame_when_inactive(true);
+            if labelled(ui, button, keep.title()).clicked() {
+                rule.keep = keep;
+            }
+        }
+    });
+    ui.end_row();
+    ui.label("At most, days");
+    let days = DragValue::new(&mut rule.max_days).range(1..=3650);
+    number(ui, days, "At most, days");
+    ui.end_row();
+    ui.label("At most, gigabytes");
+    let gigabytes = DragValue::new(&mut rule.max_gigabytes)
+        .range(0.1..=10_000.0)
+        .speed(0.1);
+    number(ui, gigabytes, "At most, gigabytes");
+    ui.end_row();
+}
+
+fn number(ui: &mut Ui, value: DragValue<'_>, label: &str) {
+    let response = ui.add_sized(vec2(110.0, space::TARGET), value);
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::SpinButton, true, label));
+}
+
+fn used(ui: &mut Ui, usage: Usage, theme: &Theme) {
+    let gigabytes = |bytes: u64| format!("{:.2} GB", bytes as f64 / 1e9);
+    let text = format!(
+        "Now: {}, {}. The oldest go first",
+        frames(usage.num_frames),
+        gigabytes(usage.num_bytes)
+    );
+    ui.label(RichText::new(text).color(theme.text));
+    let text = format!(
+        "Those with a remark or a true label stay: {}",
+        gigabytes(usage.num_bytes_marked)
+    );
+    ui.label(RichText::new(text).color(theme.weak_text));
+}

@@ -1,0 +1,221 @@
+//! History: every inspection, to be found, looked at again and labelled.
+
+mod apply;
+mod bar;
+mod details;
+mod differences;
+mod export;
+mod filter;
+mod keeping;
+mod label;
+mod list;
+mod reopen;
+mod state;
+mod work;
+
+use std::sync::Arc;
+
+use egui::{CentralPanel, Frame, Key, Margin, Modifiers, Panel, RichText, Ui};
+
+pub use self::{
+    apply::{Direction, HistoryAction, HistoryFile, HistoryJob},
+    filter::{DateRange, ListFilter},
+    state::HistoryState,
+    work::{HistoryQuery, HistoryResult, OpenedInspection},
+};
+use self::{details::Details, list::List};
+
+use crate::{
+    app::{
+        shell::{
+            context::ShellContext,
+            key_binding::{KeyBinding, Shortcut},
+            message::Event,
+            session::{Session, WorkspaceKind},
+            workspace::Workspace,
+        },
+        task::TaskRunner,
+        ui::theme::{Theme, font, space},
+    },
+    history::{HistoryBuffer, Writer},
+};
+
+/// Width of the details, logical pixels, and in a narrow window.
+const DETAILS: [f32; 2] = [340.0, 300.0];
+
+/// Keys of this workspace.
+const SHORTCUTS: [Shortcut<HistoryAction>; 4] = [
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::ArrowUp,
+        keys: "Up",
+        does: "The newer inspection",
+        action: || HistoryAction::Step(Direction::Up),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::ArrowDown,
+        keys: "Down",
+        does: "The older inspection",
+        action: || HistoryAction::Step(Direction::Down),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::Enter,
+        keys: "Enter",
+        does: "Open it with all its stages",
+        action: || HistoryAction::OpenSelected,
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::A,
+        keys: "A",
+        does: "Inspect it again, with today's recipe and library",
+        action: || HistoryAction::AgainSelected,
+    },
+];
+
+/// The workspace.
+pub struct HistoryWorkspace {
+    state: HistoryState,
+    details: Details,
+    list: List,
+    writer: Writer,
+    keeper: Arc<HistoryBuffer>,
+}
+
+impl HistoryWorkspace {
+    /// `writer` writes what `keeper` keeps.
+    pub fn new(writer: Writer, keeper: Arc<HistoryBuffer>, runner: &TaskRunner) -> Self {
+        Self {
+            state: HistoryState::new(runner),
+            details: Details::default(),
+            list: List::default(),
+            writer,
+            keeper,
+        }
+    }
+
+    /// What it knows.
+    pub fn state(&self) -> &HistoryState {
+        &self.state
+    }
+
+    /// Does it.
+    pub fn apply(&mut self, action: HistoryAction, cx: &mut ShellContext<'_>) {
+        self.state.apply(action, cx);
+        self.write();
+    }
+
+    /// Hands over what is to be written.
+    fn write(&mut self) {
+        for job in self.state.jobs.drain(..) {
+            match job {
+                HistoryJob::Add(ticket, entry) => self.writer.add(ticket, *entry),
+                HistoryJob::Remark(number, remark) => self.writer.remark(number, remark),
+                HistoryJob::Label(number, label) => self.writer.label(number, label),
+                HistoryJob::Keep(rule) => self.writer.retention(rule),
+            }
+        }
+    }
+}
+
+impl Workspace for HistoryWorkspace {
+    fn kind(&self) -> WorkspaceKind {
+        WorkspaceKind::History
+    }
+
+    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
+        let Self {
+            state,
+            details,
+            list,
+            ..
+        } = self;
+        let (session, theme) = (cx.session, cx.theme);
+        if state.is_empty() && state.trouble.is_none() {
+            empty(ui, theme);
+            return;
+        }
+        let mut actions = Vec::new();
+        let width = ui.available_width();
+        Panel::right("details")
+            .exact_size(if width > 1100.0 {
+                DETAILS[0]
+            } else {
+                DETAILS[1]
+            })
+            .resizable(false)
+            .frame(
+                Frame::new()
+                    .fill(theme.panel)
+                    .inner_margin(Margin::same(16)),
+            )
+            .show(ui, |ui| details.ui(ui, state, session, theme, &mut actions));
+        CentralPanel::default()
+            .frame(Frame::new().inner_margin(Margin::same(16)))
+            .show(ui, |ui| list.ui(ui, state, session, theme, &mut actions));
+        keeping::ui(ui.ctx(), state, theme, &mut actions);
+        for action in actions {
+            self.apply(action, cx);
+        }
+    }
+
+    fn update(&mut self, cx: &mut ShellContext<'_>) {
+        let crowded = self.writer.take_dropped();
+        if crowded != [0; 2] {
+            self.state.crowded(crowded[1], cx);
+        }
+        for news in self.keeper.take_news() {
+            self.state.take_news(news, cx);
+        }
+        self.state.update(cx);
+        self.write();
+    }
+
+    fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
+        self.state.on_event(event, cx);
+        self.write();
+    }
+
+    fn close(&mut self) {
+        let mut actions = Vec::new();
+        self.details.remark.keep(&mut actions, None);
+        for action in actions {
+            if let HistoryAction::Remark(number, remark) = action {
+                self.state.remark(number, remark);
+            }
+        }
+        self.write();
+    }
+
+    fn key_bindings(&self) -> Vec<KeyBinding> {
+        SHORTCUTS.iter().map(Shortcut::binding).collect()
+    }
+
+    fn press(&mut self, place: usize, cx: &mut ShellContext<'_>) {
+        if let Some(shortcut) = SHORTCUTS.get(place) {
+            self.apply((shortcut.action)(), cx);
+        }
+    }
+
+    fn is_idle(&self, _session: &Session) -> bool {
+        self.state.is_settled()
+    }
+}
+
+/// Before the first inspection.
+fn empty(ui: &mut Ui, theme: &Theme) {
+    ui.vertical_centered(|ui| {
+        ui.add_space(ui.available_height() * 0.4);
+        ui.label(
+            RichText::new("Nothing inspected yet")
+                .font(font::verdict())
+                .color(theme.text),
+        );
+        ui.add_space(space::SMALL);
+        let advice =
+            "Press Capture: every inspection is listed here, also after the window was closed";
+        ui.label(RichText::new(advice).color(theme.weak_text));
+    });
+}

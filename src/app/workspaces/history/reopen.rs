@@ -1,0 +1,153 @@
+//! Past inspections made again: opened with every stage, or held against what is found today.
+
+use std::sync::Arc;
+
+use super::{
+    state::{HistoryState, ReinspectionJob, RemakeFor},
+    work::OpenedInspection,
+};
+use crate::{
+    app::{
+        inspection::{
+            inspected::{InspectJob, InspectRequest, Inspected},
+            source::{HistoryFrame, Origin, SceneSource},
+        },
+        shell::{
+            context::ShellContext,
+            message::{Message, ReinspectionPurpose},
+            notice::Notice,
+            session::WorkspaceKind,
+        },
+    },
+    history::{Differences, InspectionSummary, Record},
+};
+
+impl HistoryState {
+    /// Shows an inspection with every stage: as it is in memory, else made again with its own recipe.
+    pub(super) fn open(&mut self, number: i64, cx: &mut ShellContext<'_>) {
+        match self.whole(number) {
+            Some(inspected) => cx.send(Message::ShowPast(Arc::clone(inspected))),
+            None => self.reinspect(number, RemakeFor::Open, cx),
+        }
+    }
+
+    /// Inspects its scene again with the recipe and the library now in use.
+    pub(super) fn inspect_again(&mut self, number: i64, cx: &mut ShellContext<'_>) {
+        self.reinspect(number, RemakeFor::Compare, cx);
+    }
+
+    /// Makes again what was waited for.
+    pub(super) fn go_on(&mut self, cx: &mut ShellContext<'_>) {
+        if let Some((number, purpose)) = self.then.take()
+            && self.looked_at_as(number).is_some()
+        {
+            self.reinspect(number, purpose, cx);
+        }
+    }
+
+    fn reinspect(&mut self, number: i64, purpose: RemakeFor, cx: &mut ShellContext<'_>) {
+        let Some(past) = self.looked_at_as(number).cloned() else {
+            // Once it is there.
+            self.selected = Some(number);
+            self.then = Some((number, purpose));
+            return self.look(cx);
+        };
+        let scene = &past.record.summary.scene;
+        let Some(source) = self.source_of(&past.record) else {
+            return cx.notify(Notice::look(
+                format!("The frame of {scene} is not kept"),
+                "Keep more frames from now on: Frames… above the list",
+            ));
+        };
+        let (title, recipe) = match purpose {
+            RemakeFor::Compare => (
+                format!("Inspecting {scene} again"),
+                Some(Arc::clone(&cx.session.recipe)),
+            ),
+            RemakeFor::Open => (
+                format!("Opening {scene}"),
+                past.record.detail.recipe.clone(),
+            ),
+        };
+        let Some(recipe) = recipe else {
+            return cx.notify(Notice::look(
+                format!("The recipe of {scene} was written by another version of Partsight"),
+                "Press Inspect again to use the recipe of today",
+            ));
+        };
+        if purpose == RemakeFor::Open {
+            cx.send(Message::GoTo(WorkspaceKind::Inspect));
+        }
+        cx.send(Message::Inspect {
+            title,
+            job: InspectJob::Scene(InspectRequest { source, recipe }),
+            purpose: ReinspectionPurpose::Past,
+        });
+        self.remaking = Some(ReinspectionJob { past, purpose });
+    }
+
+    /// Where its scene can be had: in memory, among the kept frames, or where it came from.
+    fn source_of(&self, record: &Record) -> Option<SceneSource> {
+        if let Some(whole) = self.whole(record.summary.number) {
+            let scene = Arc::clone(&whole.scene);
+            return Some(SceneSource::AtHand(scene, whole.origin.clone()));
+        }
+        let origin = origin_of(record);
+        if let (Some(frame), Some(folder)) = (&record.detail.frame, &self.frames) {
+            return Some(SceneSource::Kept(Box::new(HistoryFrame {
+                folder: folder.clone(),
+                frame: frame.clone(),
+                origin,
+            })));
+        }
+        origin.source()
+    }
+
+    /// Takes in a past inspection that was made again.
+    pub(super) fn remade(&mut self, inspected: &Arc<Inspected>, cx: &mut ShellContext<'_>) {
+        let Some(ReinspectionJob { past, purpose }) = self.remaking.take() else {
+            return;
+        };
+        let differences = differences(&past, inspected);
+        match purpose {
+            RemakeFor::Compare => {
+                let number = past.record.summary.number;
+                self.differences = Some((number, differences));
+            }
+            RemakeFor::Open if differences.is_same() => {}
+            RemakeFor::Open => cx.notify(other_result(&past.record, &differences)),
+        }
+    }
+}
+
+/// As the window wrote it; a command writes none.
+fn origin_of(record: &Record) -> Origin {
+    let written = record.detail.origin.as_deref();
+    let written = written.and_then(|origin| serde_json::from_str(origin).ok());
+    written.unwrap_or_else(|| Origin::Frame {
+        name: record.summary.scene.clone(),
+        is_simulated: record.summary.is_simulated,
+    })
+}
+
+fn differences(past: &OpenedInspection, inspected: &Inspected) -> Differences {
+    let now = InspectionSummary::of(
+        &inspected.inspection,
+        &inspected.entry.record.detail.recipe_identity,
+        &inspected.library.identity,
+    );
+    Differences::between(InspectionSummary::from(&past.record), now, inspected.middle)
+}
+
+fn other_result(record: &Record, differences: &Differences) -> Notice {
+    let changed_inputs = differences.changed_inputs();
+    let cause = match changed_inputs.as_slice() {
+        [] => "its file or frame".to_owned(),
+        changed_inputs => format!("the {}", changed_inputs.join(" and the ")),
+    };
+    let scene = &record.summary.scene;
+    Notice::look(
+        format!("{scene} gives another result than it did: {cause} has changed since"),
+        "The history keeps the first result",
+    )
+}

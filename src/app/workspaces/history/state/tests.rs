@@ -1,0 +1,198 @@
+//! What is listed, looked at and kept in memory, without a thread that answers.
+
+use super::*;
+use crate::{
+    app::{
+        inspection::{
+            inspected::{InspectRequest, inspect},
+            library_cache::LibraryCache,
+            source::{CellChoice, SceneSource},
+        },
+        shell::{
+            context::TestShell,
+            message::{Event, Message, ReinspectionPurpose},
+            session::UserRole,
+        },
+        workspaces::history::Direction,
+    },
+    history::{HistoryEvent, StoredVerdict},
+    pipeline::{PoseChoice, Recipe, Unwatched},
+};
+
+fn inspected(number: u64) -> Arc<Inspected> {
+    // Without a pose it is quick.
+    let recipe = Recipe {
+        pose: PoseChoice::Skip,
+        ..Recipe::default()
+    };
+    let request = InspectRequest {
+        source: SceneSource::Cell {
+            choice: CellChoice::Empty,
+            number,
+        },
+        recipe: Arc::new(recipe),
+    };
+    Arc::new(inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected"))
+}
+
+fn row(inspected: &Inspected, number: i64) -> Summary {
+    Summary {
+        number,
+        ..inspected.entry.record.summary.clone()
+    }
+}
+
+/// The workspace without a window; nothing is fetched or written.
+struct Bench {
+    history: HistoryState,
+    shell: TestShell,
+}
+
+impl Bench {
+    fn new() -> Self {
+        Self {
+            history: HistoryState::new(&TaskRunner::without_threads()),
+            shell: TestShell::default(),
+        }
+    }
+
+    /// With these rows listed, the newest first.
+    fn listing(inspected: &Inspected, numbers: &[i64]) -> Self {
+        let mut bench = Self::new();
+        let rows: Vec<Summary> = numbers.iter().map(|n| row(inspected, *n)).collect();
+        let looked = HistoryResult {
+            asked: bench.history.wanted(),
+            page: Page {
+                num_matching: rows.len(),
+                num_all: rows.len(),
+                rows,
+            },
+            record: None,
+            kept: Default::default(),
+            frames: None,
+        };
+        bench.history.take_in(looked, &mut bench.shell.context());
+        let looking = bench.history.looking.running();
+        assert!(looking.is_some(), "the newest is looked up");
+        bench.history.looking.cancel();
+        bench
+    }
+
+    fn act(&mut self, action: HistoryAction) {
+        self.history.apply(action, &mut self.shell.context());
+    }
+
+    fn take_news(&mut self, news: HistoryEvent) {
+        self.history.take_news(news, &mut self.shell.context());
+    }
+
+    fn inspected(&mut self, inspected: &Arc<Inspected>, purpose: ReinspectionPurpose) {
+        let inspected = Arc::clone(inspected);
+        let event = Event::Inspected { inspected, purpose };
+        self.history.on_event(&event, &mut self.shell.context());
+    }
+}
+
+#[test]
+fn a_new_result_is_handed_over_and_the_newest_few_stay_whole() {
+    let found = inspected(1);
+    let mut bench = Bench::new();
+    for number in 1..=7_i64 {
+        bench.inspected(&found, ReinspectionPurpose::New);
+        let job = bench.history.jobs.pop();
+        let Some(HistoryJob::Add(ticket, entry)) = job else {
+            panic!("not handed over: {job:?}");
+        };
+        assert_eq!(entry.record.summary.verdict, StoredVerdict::NoPart);
+        assert!(!bench.history.is_settled());
+        assert_eq!(bench.history.num_rows(), number as usize);
+        bench.take_news(HistoryEvent::Added { ticket, number });
+    }
+    let whole = |number| bench.history.whole(number).is_some();
+    assert!(whole(7) && whole(4) && !whole(3) && !whole(1));
+    // A scene in front with something else changed is no inspection of its own.
+    bench.inspected(&found, ReinspectionPurpose::Repeated);
+    assert!(bench.history.jobs.is_empty());
+}
+
+#[test]
+fn who_looks_at_the_newest_goes_on_looking_at_the_newest() {
+    let found = inspected(1);
+    let mut bench = Bench::listing(&found, &[3, 2, 1]);
+    assert_eq!(bench.history.selected, Some(3));
+    let add = |bench: &mut Bench, number| {
+        let ticket = bench.history.ticket(&found);
+        bench.take_news(HistoryEvent::Added { ticket, number });
+    };
+    add(&mut bench, 4);
+    assert_eq!(bench.history.selected, Some(4));
+    let mut bench = Bench::listing(&found, &[3, 2, 1]);
+    bench.act(HistoryAction::Select(1));
+    add(&mut bench, 4);
+    assert_eq!(bench.history.selected, Some(1));
+}
+
+#[test]
+fn the_arrows_stop_at_the_ends() {
+    let mut bench = Bench::listing(&inspected(1), &[3, 2, 1]);
+    for (direction, expected) in [
+        (Direction::Up, 3),
+        (Direction::Down, 2),
+        (Direction::Down, 1),
+        (Direction::Down, 1),
+        (Direction::Up, 2),
+    ] {
+        bench.act(HistoryAction::Step(direction));
+        assert_eq!(bench.history.selected, Some(expected));
+    }
+}
+
+#[test]
+fn what_waited_keeps_its_place_under_its_new_number() {
+    let found = inspected(1);
+    let mut bench = Bench::new();
+    let ticket = bench.history.ticket(&found);
+    let trouble = HistoryEvent::Failed {
+        what: "the disk is full".into(),
+        advice: "Make room".into(),
+    };
+    bench.take_news(trouble);
+    bench.take_news(HistoryEvent::Added { ticket, number: -1 });
+    assert_eq!(bench.history.selected, Some(-1));
+    assert_eq!(bench.shell.notices().len(), 1);
+    let works = HistoryEvent::Works {
+        numbers: vec![(-1, 58)],
+        num_lost: 0,
+    };
+    bench.take_news(works);
+    assert_eq!(bench.history.selected, Some(58));
+    assert!(bench.history.whole(58).is_some() && bench.history.trouble.is_none());
+    assert!(bench.shell.notices()[1].contains("one inspection that waited"));
+}
+
+#[test]
+fn rows_out_of_sight_are_asked_for_once() {
+    let mut bench = Bench::listing(&inspected(1), &[3, 2, 1]);
+    bench.history.page.num_matching = 5000;
+    let see = |bench: &mut Bench, rows| {
+        bench.act(HistoryAction::Visible(rows));
+        bench.history.looking.running().is_some()
+    };
+    assert!(!see(&mut bench, 0..3));
+    assert!(see(&mut bench, 2000..2020));
+    assert_eq!(bench.history.wanted().rows, 1900..2120);
+}
+
+#[test]
+fn another_rule_for_frames_waits_for_the_engineer() {
+    let mut bench = Bench::new();
+    bench.shell.session.role = UserRole::Operator;
+    bench.act(HistoryAction::Rule(Some(Retention::default())));
+    assert!(bench.history.rule.is_none());
+    assert!(matches!(bench.shell.messages[..], [Message::AskEngineer]));
+    bench.shell.session.role = UserRole::Engineer;
+    bench
+        .history
+        .on_event(&Event::EngineerIn, &mut bench.shell.context());
+    assert_eq!(bench.history.rule, Some(Retention::default()));
+}

@@ -1,0 +1,413 @@
+//! The verdict card: which part, accepted or not, where, how sure, and what to do next.
+
+use egui::{
+    Align, Button, Frame, Layout, Panel, Rect, RichText, ScrollArea, Sense, Ui, Vec2, pos2,
+    style::ScrollStyle, vec2,
+};
+
+use super::{
+    action::{InspectAction, InspectFile},
+    robot_numbers, stand_off,
+};
+use crate::{
+    app::{
+        inspection::{
+            inspected::{Inspected, LiveFrameContext},
+            unit_system::UnitSystem,
+        },
+        shell::{live, session::Session},
+        shots::summary,
+        ui::{
+            theme::{ROUNDING, Theme, font, space},
+            widgets::{Mark, focus_ring, heading, mark, row, sentence},
+        },
+    },
+    error::Advice as _,
+    geometry::rigid::RigidTransform,
+    pipeline::{Rejection, Verdict, live::MotionState},
+    stages::pose::PoseEstimate,
+};
+
+/// What the card says first.
+struct Headline {
+    title: String,
+    /// The part that comes nearest, where none is accepted.
+    nearest: Option<String>,
+    is_accepted: bool,
+    /// True if it is too early to say.
+    is_open: bool,
+    /// Why not, and what to do.
+    complaint: Option<(String, String)>,
+}
+
+impl Headline {
+    fn of(inspected: &Inspected) -> Self {
+        if let Some(followed) = &inspected.followed
+            && followed.standing.counted().is_none()
+        {
+            return Self::not_yet(inspected, followed);
+        }
+        match &inspected.inspection.verdict {
+            Verdict::Part { part, rejected, .. } => {
+                let best = inspected.figures.candidates.first();
+                let nearest = best.map_or_else(|| part.clone(), |best| best.title.clone());
+                match rejected {
+                    None => Self {
+                        title: nearest,
+                        nearest: None,
+                        is_accepted: true,
+                        is_open: false,
+                        complaint: None,
+                    },
+                    // Of its type beyond doubt.
+                    Some(
+                        reason @ (Rejection::AnotherModel { .. } | Rejection::AnotherMake { .. }),
+                    ) => Self {
+                        title: match reason {
+                            Rejection::AnotherMake { .. } => format!("{nearest}, another make"),
+                            _ => format!("{nearest}, another model"),
+                        },
+                        nearest: None,
+                        is_accepted: false,
+                        is_open: false,
+                        complaint: Some((reason.to_string(), reason.advice())),
+                    },
+                    // No name in large letters that is not certain.
+                    Some(reason) => Self {
+                        title: if inspected.inspection.verdict.is_unknown() {
+                            "Unknown part".into()
+                        } else {
+                            "Not recognised".into()
+                        },
+                        nearest: Some(nearest),
+                        is_accepted: false,
+                        is_open: false,
+                        complaint: Some((reason.to_string(), reason.advice())),
+                    },
+                }
+            }
+            Verdict::NoPart(reason) => Self {
+                title: "No part".into(),
+                nearest: None,
+                is_accepted: false,
+                is_open: false,
+                complaint: Some((reason.to_string(), reason.advice())),
+            },
+        }
+    }
+
+    /// Of a frame whose verdict does not count.
+    fn not_yet(inspected: &Inspected, followed: &LiveFrameContext) -> Self {
+        let is_part = matches!(inspected.inspection.verdict, Verdict::Part { .. });
+        let nearest = inspected.figures.candidates.first();
+        let (title, complaint) = match followed.stillness {
+            MotionState::Moving => (
+                "Moving",
+                (
+                    "something moves before the camera",
+                    "Let the part hang still for a second",
+                ),
+            ),
+            MotionState::Watching => ("Looking", ("it was not seen long enough", "Wait a moment")),
+            MotionState::Steady { .. } => ("Looking", ("it hangs still", "Wait a moment")),
+        };
+        Self {
+            title: title.into(),
+            nearest: nearest.filter(|_| is_part).map(|best| best.title.clone()),
+            is_accepted: false,
+            is_open: true,
+            complaint: Some((complaint.0.into(), complaint.1.into())),
+        }
+    }
+}
+
+/// Draws the card.
+pub(super) fn ui(
+    ui: &mut Ui,
+    inspected: &Inspected,
+    session: &Session,
+    theme: &Theme,
+    actions: &mut Vec<InspectAction>,
+) {
+    if session.is_old() {
+        ui.label(
+            RichText::new("Old result: a new one is on its way")
+                .font(font::body_strong())
+                .color(theme.warning),
+        );
+        ui.multiply_opacity(0.55);
+    }
+    if session.shown.as_ref().is_some_and(|shown| shown.is_past) {
+        let text = "From the history: not what hangs there now";
+        let text = RichText::new(text).font(font::body_strong());
+        ui.label(text.color(theme.warning));
+    }
+    if session.is_live() && live::card(ui, session, theme) {
+        actions.push(InspectAction::ToggleRecording);
+    }
+    let inspection = &inspected.inspection;
+    let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+    // What is pressed stays in sight, however low the window.
+    let pose_to_copy = pose.filter(|_| inspection.verdict.is_accepted());
+    Panel::bottom("ways on")
+        .exact_size(space::TARGET + space::MEDIUM)
+        .resizable(false)
+        .show_separator_line(false)
+        .frame(Frame::new())
+        .show(ui, |ui| action_buttons(ui, pose_to_copy, theme, actions));
+    // Text lies closer than controls do.
+    ui.spacing_mut().interact_size.y = 20.0;
+    ui.spacing_mut().item_spacing.y = 3.0;
+    ui.spacing_mut().scroll = ScrollStyle::thin();
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        let headline = Headline::of(inspected);
+        verdict(ui, &headline, theme);
+        if inspection.touches_edge() && inspected.scan.is_none() {
+            let text = "It reaches the picture's edge: some of it may be missing";
+            ui.label(RichText::new(text).color(theme.warning));
+        }
+        score(ui, inspected, &headline, theme);
+        if let Some(pose) = pose {
+            offset(ui, inspected, pose, session.units, theme);
+            fit(ui, pose, session.units, theme);
+            if inspection.verdict.is_approximate() {
+                let text = "The pose is approximate: this may be another model of the part";
+                ui.label(RichText::new(text).color(theme.warning));
+            }
+            stand_off::ui(ui, inspected, session.units, theme);
+            robot_numbers::ui(ui, inspected, session, theme, actions);
+        }
+        if let Some(scan) = &inspected.scan {
+            summary(ui, &scan.fused, session.units, theme);
+        }
+        footer(ui, inspected, theme);
+    });
+}
+
+/// What can be done with the result.
+fn action_buttons(
+    ui: &mut Ui,
+    pose: Option<&PoseEstimate>,
+    theme: &Theme,
+    actions: &mut Vec<InspectAction>,
+) {
+    let ways = [
+        (
+            "Export…",
+            "A report: JSON, a page of PDF, a row in a table of poses, and the pictures of all stages (Ctrl E)",
+            InspectAction::Ask(InspectFile::Report),
+        ),
+        (
+            "Wrong part?",
+            "See in Compare why it was taken for this",
+            InspectAction::Compare,
+        ),
+        (
+            "Copy pose",
+            "In the robot's numbers, with a line that says which (Ctrl Shift C)",
+            InspectAction::CopyPose,
+        ),
+    ];
+    let num = if pose.is_some() { 3 } else { 2 };
+    ui.with_layout(Layout::bottom_up(Align::Min), |ui| {
+        ui.horizontal(|ui| {
+            ui.spacing_mut().button_padding.x = 4.0;
+            let gaps = ui.spacing().item_spacing.x * (num - 1) as f32;
+            let size = vec2((ui.available_width() - gaps) / num as f32, space::TARGET);
+            for (label, says, action) in ways.into_iter().take(num) {
+                let text = RichText::new(label).font(font::small());
+                let button = ui.add(Button::new(text).min_size(size));
+                focus_ring(ui, button.rect, &button, theme);
+                if button.on_hover_text(says).clicked() {
+                    actions.push(action);
+                }
+            }
+        });
+    });
+}
+
+fn verdict(ui: &mut Ui, headline: &Headline, theme: &Theme) {
+    ui.label(
+        RichText::new(&headline.title)
+            .font(font::title())
+            .color(theme.text),
+    );
+    let (sign, word, colour) = if headline.is_accepted {
+        (Mark::Good, "Accepted", theme.accepted)
+    } else if headline.is_open {
+        (Mark::Look, "Not accepted yet", theme.warning)
+    } else {
+        (Mark::Bad, "Not accepted", theme.rejected)
+    };
+    ui.horizontal(|ui| {
+        let (rect, _) = ui.allocate_exact_size(Vec2::splat(20.0), Sense::hover());
+        mark(ui.painter(), rect.center(), 9.0, sign, theme);
+        ui.label(RichText::new(word).font(font::verdict()).color(colour));
+    });
+    if let Some(nearest) = &headline.nearest {
+        ui.label(RichText::new(format!("Nearest: {nearest}")).color(theme.weak_text));
+    }
+    if let Some((reason, advice)) = &headline.complaint {
+        ui.add_space(space::SMALL);
+        ui.label(RichText::new(sentence(reason)).color(theme.text));
+        ui.label(
+            RichText::new(advice)
+                .font(font::body_strong())
+                .color(theme.warning),
+        );
+    }
+}
+
+/// The score as a bar against the threshold, and the lead over the next part.
+fn score(ui: &mut Ui, inspected: &Inspected, headline: &Headline, theme: &Theme) {
+    let Verdict::Part { score, margin, .. } = inspected.inspection.verdict else {
+        return;
+    };
+    ui.add_space(space::MEDIUM);
+    row(ui, theme, "Score", &format!("{score:.2}"));
+    let (rect, _) = ui.allocate_exact_size(vec2(ui.available_width(), 12.0), Sense::hover());
+    let painter = ui.painter();
+    let bar = Rect::from_min_max(rect.min + vec2(0.0, 2.0), rect.max - vec2(0.0, 2.0));
+    painter.rect_filled(bar, ROUNDING, theme.track);
+    let width = bar.width() * score.clamp(0.0, 1.0) as f32;
+    let fill = if headline.is_accepted {
+        theme.accepted
+    } else if headline.is_open {
+        theme.warning
+    } else {
+        theme.rejected
+    };
+    painter.rect_filled(
+        Rect::from_min_size(bar.min, vec2(width, bar.height())),
+        ROUNDING,
+        fill,
+    );
+    let tick = bar.left() + bar.width() * inspected.recipe.accept.min_score as f32;
+    let tick = Rect::from_min_max(
+        pos2(tick - 1.0, rect.top()),
+        pos2(tick + 1.0, rect.bottom()),
+    );
+    painter.rect_filled(tick, 0.0, theme.text);
+    let caption = |text: String| {
+        RichText::new(text)
+            .font(font::small())
+            .color(theme.weak_text)
+    };
+    ui.horizontal(|ui| {
+        if let Some(next) = inspected.figures.candidates.get(1) {
+            ui.label(caption(format!("Next: {} {:.2}", next.title, next.score)));
+        }
+        ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+            ui.label(caption(format!(
+                "threshold {:.2}",
+                inspected.recipe.accept.min_score
+            )));
+        });
+    });
+    if inspected.figures.candidates.len() > 1 {
+        ui.label(caption(format!("Margin to the next {margin:.2}")));
+    }
+}
+
+/// How far the part is off its standard position, at its middle, and how it is turned.
+fn offset(
+    ui: &mut Ui,
+    inspected: &Inspected,
+    pose: &PoseEstimate,
+    units: UnitSystem,
+    theme: &Theme,
+) {
+    let camera_from_part = pose.camera_from_part();
+    heading(ui, theme, "Offset from standard position");
+    let middle = inspected.middle;
+    let shift = middle.map(|middle| camera_from_part * middle - middle);
+    let shifts = shift.map_or_else(Vec::new, |shift| {
+        [("x", shift.x), ("y", shift.y), ("z", shift.z)]
+            .map(|(axis, metres)| (axis, units.signed_length(metres)))
+            .into()
+    });
+    let turns = turns(&camera_from_part).map(|(axis, angle)| (axis, units.signed_angle(angle)));
+    let rows = |ui: &mut Ui, rows: &[(&str, String)]| {
+        for (axis, value) in rows {
+            row(ui, theme, axis, value);
+        }
+    };
+    if shifts.is_empty() {
+        rows(ui, &turns);
+    } else {
+        ui.spacing_mut().item_spacing.x = space::LARGE;
+        ui.columns(2, |columns| {
+            if let [left, right] = columns {
+                rows(left, &shifts);
+                rows(right, &turns);
+            }
+        });
+        ui.spacing_mut().item_spacing.x = space::SMALL;
+    }
+    if let Some(other) = inspected.inspection.other_reference() {
+        let text = format!("From where {other} was enrolled, one more reference of this part");
+        ui.label(RichText::new(text).color(theme.warning));
+    }
+    let note = "Part's middle, camera axes · R = Rz·Ry·Rx";
+    ui.label(
+        RichText::new(note)
+            .font(font::small())
+            .color(theme.weak_text),
+    );
+}
+
+/// nalgebra's angles are those of Rz·Ry·Rx.
+fn turns(pose: &RigidTransform) -> [(&'static str, f64); 3] {
+    let (rx, ry, rz) = pose.rotation.euler_angles();
+    [("rx", rx), ("ry", ry), ("rz", rz)]
+}
+
+fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem, theme: &Theme) {
+    heading(ui, theme, "Fit");
+    row(ui, theme, "rms", &units.length(pose.fit.rms_m));
+    row(
+        ui,
+        theme,
+        "overlap",
+        &format!("{:.0} %", pose.fit.overlap * 100.0),
+    );
+    if let Some(bounds) = pose.uncertainty {
+        if let Some(freedom) = bounds.freedom {
+            let text = format!("Unconstrained: {freedom}");
+            ui.label(RichText::new(text).color(theme.warning));
+        } else {
+            let (shift, turn) = (units.length(bounds.shift.0), units.angle(bounds.turn.0));
+            row(ui, theme, "off by, 95 %", &format!("< {shift} · {turn}"));
+        }
+    }
+    if let Some(runner_up) = pose.runner_up {
+        row(
+            ui,
+            theme,
+            "runner-up pose",
+            &format!("{:.1}× worse", runner_up.ratio),
+        );
+    }
+    let stopped = pose.stopped.name().replace('_', " ");
+    let by = format!("{stopped} · {}", pose.method.name());
+    row(
+        ui,
+        theme,
+        &format!("{} iterations", pose.iterations.len()),
+        &by,
+    );
+    if pose.is_ambiguous() {
+        let text = "Another pose fits as well: check which way round the part hangs";
+        ui.label(RichText::new(text).color(theme.warning));
+    }
+}
+
+fn footer(ui: &mut Ui, inspected: &Inspected, theme: &Theme) {
+    heading(ui, theme, "Inspection");
+    let ms = inspected.inspection.timings.total.as_secs_f64() * 1000.0;
+    row(ui, theme, "time", &format!("{ms:.1} ms"));
+    row(ui, theme, "scene", &inspected.origin.title());
+    if inspected.origin.is_simulated() {
+        row(ui, theme, "camera", "simulated");
+    }
+}

@@ -1,0 +1,131 @@
+//! The row of controls over the 3-D view: from where, coloured by what, what else is shown.
+
+use egui::{Button, Response, RichText, Ui, Vec2};
+
+use super::{
+    action::{InspectAction, InspectFile},
+    state::{InspectState, ViewPart},
+    view::SceneView,
+};
+use crate::app::{
+    inspection::inspected::Inspected,
+    shell::session::Session,
+    ui::{
+        theme::{font, space},
+        viewport::{Colouring, FitRequest, StandardView, ViewTool},
+    },
+};
+
+/// A view narrower than this has the sides to look from in a menu.
+const NARROW: f32 = 800.0;
+
+/// Draws the row.
+pub(super) fn ui(
+    ui: &mut Ui,
+    view: &mut SceneView,
+    state: &InspectState,
+    session: &Session,
+    inspected: &Inspected,
+    actions: &mut Vec<InspectAction>,
+) {
+    let figure = &inspected.view;
+    if ui.available_width() < NARROW {
+        ui.menu_button(small("View ▼"), |ui| sides(ui, view));
+    } else {
+        sides(ui, view);
+    }
+    let now = format!("Colour · {} ▼", view.style.colouring.title());
+    ui.menu_button(small(now), |ui| {
+        for colouring in Colouring::ALL {
+            let is_chosen = view.style.colouring == colouring;
+            let is_there = colouring != Colouring::Deviation || figure.has_deviations;
+            let choice = Button::selectable(is_chosen, colouring.title());
+            if ui.add_enabled(is_there, choice).clicked() {
+                actions.push(InspectAction::Colour(colouring));
+                ui.close();
+            }
+        }
+    });
+    ui.menu_button(small("Show ▼"), |ui| {
+        for part in ViewPart::ALL {
+            let mut is_shown = state.parts.contains(&part);
+            let choice = egui::Checkbox::new(&mut is_shown, part.title());
+            if ui
+                .add_enabled(is_there(session, inspected, part), choice)
+                .clicked()
+            {
+                actions.push(InspectAction::Toggle(part));
+            }
+        }
+        ui.separator();
+        let export = Button::new("Export spray path…");
+        let can_export = figure.spray.is_some() && session.robot_of(inspected).is_some();
+        let export = ui.add_enabled(can_export, export);
+        let export = export.on_disabled_hover_text(
+            "Needs an accepted part with a stored spray path, and a calibrated cell",
+        );
+        if export.clicked() {
+            actions.push(InspectAction::Ask(InspectFile::SprayPath));
+            ui.close();
+        }
+    });
+    let is_measuring = view.viewport.tool == ViewTool::Measure;
+    let measure = Button::new(small("Measure")).selected(is_measuring);
+    if press(ui, measure)
+        .on_hover_text("Click two points (M)")
+        .clicked()
+    {
+        view.viewport.tool = if is_measuring {
+            ViewTool::Look
+        } else {
+            ViewTool::Measure
+        };
+    }
+    if press(ui, Button::new(small("Picture…")))
+        .on_hover_text("Save a picture of the view (P)")
+        .clicked()
+    {
+        actions.push(InspectAction::Ask(InspectFile::Picture));
+    }
+}
+
+fn sides(ui: &mut Ui, view: &mut SceneView) {
+    if press(ui, Button::new(small("Fit")))
+        .on_hover_text("Fit the part (F)")
+        .clicked()
+    {
+        view.camera.request_fit(FitRequest::Focus);
+    }
+    for (text, side) in [
+        ("Front", StandardView::Front),
+        ("Top", StandardView::Top),
+        ("Side", StandardView::Side),
+    ] {
+        if press(ui, Button::new(small(text))).clicked() {
+            view.camera.look(side);
+            view.camera.request_fit(FitRequest::Focus);
+        }
+    }
+}
+
+/// True where the result, or the cell, has this to show.
+fn is_there(session: &Session, inspected: &Inspected, part: ViewPart) -> bool {
+    let figure = &inspected.view;
+    match part {
+        ViewPart::Axes => figure.axes.is_some(),
+        ViewPart::Camera => figure.camera.is_some(),
+        ViewPart::Outline => figure.outline.is_some(),
+        ViewPart::NozzleMiddle | ViewPart::NozzleWorst => figure.nozzles.is_some(),
+        ViewPart::SprayPath => figure.spray.is_some(),
+        ViewPart::RobotBase => session.robot_of(inspected).is_some(),
+        ViewPart::ShotCameras | ViewPart::Unseen => inspected.scan.is_some(),
+    }
+}
+
+fn small(text: impl Into<String>) -> RichText {
+    RichText::new(text).font(font::small())
+}
+
+fn press(ui: &mut Ui, button: Button<'_>) -> Response {
+    ui.add(button.min_size(Vec2::splat(space::TARGET)))
+}

@@ -1,0 +1,352 @@
+//! Inspect, the operator's workspace: the view, the verdict and the stages.
+
+mod action;
+mod card;
+mod controls;
+mod plots;
+mod ranking;
+mod robot_numbers;
+mod stand_off;
+mod state;
+mod strip;
+mod view;
+
+use std::{path::Path, sync::Arc};
+
+use egui::{Align2, Frame, Key, Margin, Modifiers, Panel, TextureHandle, Ui};
+
+use self::view::SceneView;
+pub use self::{
+    action::{InspectAction, InspectFile},
+    state::{InspectState, ViewPart},
+    view::WorkCounts,
+};
+use crate::app::{
+    inspection::{fuse::FusedShots, inspected::Inspected},
+    shell::{
+        context::ShellContext,
+        key_binding::{KeyBinding, Shortcut},
+        message::Event,
+        session::{Session, Shown, WorkspaceKind},
+        workspace::Workspace,
+    },
+    shots::{ShotList, ShotsAction, ShotsFile, ShownShots, StripTab},
+    task::TaskRunner,
+    ui::{
+        theme::{Theme, font, space},
+        viewport::{ViewError, ViewportGpu},
+        widgets::texture,
+    },
+};
+
+/// Width of the verdict card, logical pixels, and in a narrow window.
+const CARD: [f32; 2] = [340.0, 300.0];
+/// Height of the stage strip, logical pixels, and in a low window.
+const STRIP: [f32; 2] = [196.0, 164.0];
+
+/// The workspace's own shortcuts.
+const SHORTCUTS: [Shortcut<InspectAction>; 7] = [
+    Shortcut {
+        modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
+        key: Key::Z,
+        keys: "Ctrl Shift Z",
+        does: "Do again what was undone last with the shots",
+        action: || InspectAction::Shots(ShotsAction::Redo),
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND,
+        key: Key::Z,
+        keys: "Ctrl Z",
+        does: "Undo the last change of the shots of a scan",
+        action: || InspectAction::Shots(ShotsAction::Undo),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::P,
+        keys: "P",
+        does: "Save a picture of the 3-D view",
+        action: || InspectAction::Ask(InspectFile::Picture),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::C,
+        keys: "C",
+        does: "Show or hide the enrolled contour",
+        action: || InspectAction::Toggle(ViewPart::Outline),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::N,
+        keys: "N",
+        does: "Show or hide the nozzle at the worst spot",
+        action: || InspectAction::Toggle(ViewPart::NozzleWorst),
+    },
+    Shortcut {
+        modifiers: Modifiers::NONE,
+        key: Key::K,
+        keys: "K",
+        does: "The pose in the next robot's numbers",
+        action: || InspectAction::NextConvention,
+    },
+    Shortcut {
+        modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
+        key: Key::C,
+        keys: "Ctrl Shift C",
+        does: "Copy the pose in those numbers",
+        action: || InspectAction::CopyPose,
+    },
+];
+
+/// The workspace. Between frames it keeps its state, and what was made of the last result.
+pub struct InspectWorkspace {
+    state: InspectState,
+    view: SceneView,
+    shots: ShotList,
+    made: Option<TextureSet>,
+    num_made: u64,
+}
+
+/// Textures of one result.
+struct TextureSet {
+    generation: u64,
+    segmentation: Option<TextureHandle>,
+    binary: Option<TextureHandle>,
+}
+
+impl InspectWorkspace {
+    /// The view draws with `gpu`.
+    pub fn new(gpu: &Result<ViewportGpu, ViewError>, runner: &TaskRunner) -> Self {
+        Self {
+            state: InspectState::new(runner),
+            view: SceneView::new(gpu.clone()),
+            shots: ShotList::default(),
+            made: None,
+            num_made: 0,
+        }
+    }
+
+    /// What it knows.
+    pub fn state(&self) -> &InspectState {
+        &self.state
+    }
+
+    /// Does it.
+    pub fn apply(&mut self, action: InspectAction, cx: &mut ShellContext<'_>) {
+        self.state.apply(action, cx);
+    }
+
+    /// What its frames have done so far.
+    pub fn counts(&self) -> WorkCounts {
+        let mut counts = self.view.counts();
+        counts.made += self.num_made;
+        counts
+    }
+
+    /// Share of the points that the view drew last, 0..1.
+    pub fn detail(&self) -> f32 {
+        self.view.viewport.detail()
+    }
+
+    /// The strip: the stages, or the list of shots of a scan.
+    fn strip(
+        &mut self,
+        ui: &mut Ui,
+        inspected: &Inspected,
+        session: &Session,
+        theme: &Theme,
+        actions: &mut Vec<InspectAction>,
+    ) {
+        if let Some(scan) = &inspected.scan
+            && self.shots_ui(ui, &scan.fused, session, theme, actions)
+        {
+            return;
+        }
+        strip::ui(ui, &self.pictures(inspected, session, theme), actions);
+    }
+
+    /// The strip of a scan: the row above it, and the list unless the stages are to be shown.
+    fn shots_ui(
+        &mut self,
+        ui: &mut Ui,
+        fused: &Arc<FusedShots>,
+        session: &Session,
+        theme: &Theme,
+        actions: &mut Vec<InspectAction>,
+    ) -> bool {
+        let scan = ShownShots {
+            fused,
+            choice: self.state.shot_choice(session).unwrap_or(&fused.choice),
+            shots: &self.state.shots,
+            session,
+            theme,
+        };
+        let mut caused = Vec::new();
+        let margin = Frame::new().inner_margin(Margin::symmetric(12, 6));
+        let shown = margin.show(ui, |ui| {
+            let is_list = ShotList::tabs(ui, scan, "Stages", &mut caused);
+            if is_list {
+                if session.is_old() {
+                    ui.multiply_opacity(0.75);
+                }
+                self.shots.ui(ui, scan, &mut caused);
+            }
+            is_list
+        });
+        actions.extend(caused.into_iter().map(InspectAction::Shots));
+        shown.inner
+    }
+
+    fn pictures<'a>(
+        &'a self,
+        inspected: &'a Inspected,
+        session: &'a Session,
+        theme: &'a Theme,
+    ) -> plots::Pictures<'a> {
+        let made = self.made.as_ref();
+        plots::Pictures {
+            inspected,
+            state: &self.state,
+            session,
+            theme,
+            segmentation: made.and_then(|made| made.segmentation.as_ref()),
+            binary: made.and_then(|made| made.binary.as_ref()),
+        }
+    }
+
+    /// Uploads what a new result shows, once.
+    fn make(&mut self, ctx: &egui::Context, shown: &Shown) {
+        if self
+            .made
+            .as_ref()
+            .is_some_and(|made| made.generation == shown.generation)
+        {
+            return;
+        }
+        self.num_made += 1;
+        let figures = &shown.inspected.figures;
+        self.made = Some(TextureSet {
+            generation: shown.generation,
+            segmentation: texture(ctx, "segmentation", figures.segmentation.as_ref()),
+            binary: texture(ctx, "binary image", figures.binary.as_ref()),
+        });
+        self.view.show(shown);
+    }
+}
+
+impl Workspace for InspectWorkspace {
+    fn kind(&self) -> WorkspaceKind {
+        WorkspaceKind::Inspect
+    }
+
+    fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
+        let (session, theme) = (cx.session, cx.theme);
+        let Some(shown) = &session.shown else {
+            ui.painter().rect_filled(ui.max_rect(), 0.0, theme.canvas);
+            empty(ui, session, theme);
+            return;
+        };
+        self.make(ui.ctx(), shown);
+        let inspected: &Inspected = &shown.inspected;
+        let mut actions = Vec::new();
+        let size = ui.available_size();
+        let panel = |margin| Frame::new().fill(theme.panel).inner_margin(margin);
+        Panel::right("verdict")
+            .exact_size(if size.x > 1100.0 { CARD[0] } else { CARD[1] })
+            .resizable(false)
+            .frame(panel(Margin::symmetric(18, 14)))
+            .show(ui, |ui| {
+                card::ui(ui, inspected, session, theme, &mut actions);
+            });
+        Panel::bottom("stages")
+            .exact_size(strip_height(&self.state, inspected, size.y))
+            .resizable(false)
+            .frame(panel(Margin::ZERO))
+            .show(ui, |ui| {
+                self.strip(ui, inspected, session, theme, &mut actions);
+            });
+        if self.state.enlarged.is_some() {
+            let rest = ui.available_rect_before_wrap();
+            ui.painter().rect_filled(rest, 0.0, theme.canvas);
+            let pictures = self.pictures(inspected, session, theme);
+            strip::enlarged_ui(ui, &pictures, &mut actions);
+        } else {
+            let Self { state, view, .. } = self;
+            view.ui(ui, state, session, inspected, &mut actions);
+        }
+        if self.state.wants_picture() {
+            let shot = self.view.shot(ui.pixels_per_point());
+            self.state.take_picture(shot, cx);
+        }
+        for action in actions {
+            self.state.apply(action, cx);
+        }
+    }
+
+    fn update(&mut self, cx: &mut ShellContext<'_>) {
+        self.state.update(cx);
+    }
+
+    fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
+        self.state.on_event(event, cx);
+    }
+
+    fn take_file(&mut self, path: &Path, cx: &mut ShellContext<'_>) -> bool {
+        let is_wanted = self.state.shots.wants(path);
+        if is_wanted {
+            let file = InspectFile::Shots(ShotsFile::Poses);
+            let chosen = InspectAction::Chosen(file, path.to_owned());
+            self.state.apply(chosen, cx);
+        }
+        is_wanted
+    }
+
+    fn key_bindings(&self) -> Vec<KeyBinding> {
+        SHORTCUTS.iter().map(Shortcut::binding).collect()
+    }
+
+    fn press(&mut self, place: usize, cx: &mut ShellContext<'_>) {
+        if let Some(shortcut) = SHORTCUTS.get(place) {
+            self.state.apply((shortcut.action)(), cx);
+        }
+    }
+
+    /// The space bar still captures then.
+    fn has_key_focus(&self) -> bool {
+        self.view.has_focus()
+    }
+
+    fn is_idle(&self, _session: &Session) -> bool {
+        !self.state.is_writing()
+    }
+}
+
+fn strip_height(state: &InspectState, inspected: &Inspected, height: f32) -> f32 {
+    let usual = if height > 760.0 { STRIP[0] } else { STRIP[1] };
+    match state.shots.strip {
+        _ if inspected.scan.is_none() => usual,
+        StripTab::Shots => ShotList::HEIGHT,
+        StripTab::Usual => usual + space::TARGET + 12.0,
+    }
+}
+
+/// Before the first result.
+fn empty(ui: &Ui, session: &Session, theme: &Theme) {
+    let text = match &session.inspecting {
+        Some(run) => format!("{}…", run.title),
+        None => "Nothing inspected yet\nPress Capture for a frame of the simulated cell, or drop a captured scene here"
+            .into(),
+    };
+    let rect = ui.max_rect();
+    let galley = ui.painter().layout(
+        text.clone(),
+        font::verdict(),
+        theme.weak_text,
+        rect.width() * 0.8,
+    );
+    let at = Align2::CENTER_CENTER
+        .align_size_within_rect(galley.size(), rect)
+        .min;
+    ui.painter().galley(at, galley, theme.weak_text);
+    let response = ui.interact(rect, ui.scope_id().with("empty"), egui::Sense::hover());
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Label, true, &text));
+}

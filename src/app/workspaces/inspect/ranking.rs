@@ -1,0 +1,145 @@
+//! The ranking as a picture: a bar for every enrolled part, best first, against the threshold.
+
+use std::sync::Arc;
+
+use egui::{
+    Align2, Color32, FontId, Galley, Painter, Rect, Stroke, pos2,
+    text::{LayoutJob, TextWrapping},
+};
+
+use super::plots::{Pictures, PlotDetail};
+use crate::{
+    app::{
+        inspection::figures::RankedPartFigure,
+        ui::{theme::font, widgets::Scale},
+    },
+    pipeline::Verdict,
+};
+
+/// A ranking narrower than this has its names over the bars, logical pixels.
+const STACKED: f32 = 125.0;
+
+impl Pictures<'_> {
+    pub(super) fn ranking(
+        &self,
+        candidates: &[RankedPartFigure],
+        painter: &Painter,
+        rect: Rect,
+        detail: PlotDetail,
+    ) {
+        let theme = self.theme;
+        if rect.width() < STACKED {
+            self.stacked_ranking(candidates, painter, rect);
+            return;
+        }
+        let num_rows = candidates.len().min(match detail {
+            PlotDetail::Small => 6,
+            PlotDetail::Large => 16,
+        });
+        let row = (rect.height() / num_rows.max(1) as f32).min(40.0);
+        let is_large = detail == PlotDetail::Large;
+        let titles: Vec<_> = candidates
+            .iter()
+            .take(num_rows)
+            .enumerate()
+            .map(|(place, candidate)| {
+                let colour = if place == self.state.candidate {
+                    theme.text
+                } else {
+                    theme.weak_text
+                };
+                let name = if is_large {
+                    &candidate.title
+                } else {
+                    &candidate.short_title
+                };
+                let font = if is_large {
+                    font::body()
+                } else {
+                    font::scale()
+                };
+                // A long name still leaves the bars their share.
+                elided(painter, name, font, colour, rect.width() * 0.56)
+            })
+            .collect();
+        let widest = titles.iter().map(|title| title.size().x);
+        let names = widest.fold(0.0, f32::max) + if is_large { 16.0 } else { 6.0 };
+        let values = if is_large { 60.0 } else { 0.0 };
+        let bars = Scale::new([0.0, 1.0], [rect.left() + names, rect.right() - values]);
+        for ((place, candidate), title) in candidates.iter().enumerate().zip(titles) {
+            let middle = rect.top() + row * (place as f32 + 0.5);
+            let is_chosen = place == self.state.candidate;
+            let colour = if is_chosen {
+                theme.text
+            } else {
+                theme.weak_text
+            };
+            let top = pos2(rect.left(), middle - title.size().y / 2.0);
+            painter.galley(top, title, colour);
+            let y = [middle - row * 0.3, middle + row * 0.3];
+            let bar =
+                |to: f32| Rect::from_min_max(pos2(bars.at(0.0), y[0]), pos2(bars.at(to), y[1]));
+            painter.rect_filled(bar(1.0), 2.0, theme.track);
+            painter.rect_filled(
+                bar(candidate.score.clamp(0.0, 1.0)),
+                2.0,
+                self.bar_fill(place),
+            );
+            if is_large {
+                let at = pos2(rect.right(), middle);
+                let score = format!("{:.2}", candidate.score);
+                painter.text(at, Align2::RIGHT_CENTER, score, font::body(), colour);
+            }
+        }
+        let threshold = bars.at(self.inspected.recipe.accept.min_score as f32);
+        let bottom = rect.top() + row * num_rows as f32;
+        painter.vline(threshold, rect.top()..=bottom, Stroke::new(1.0, theme.text));
+    }
+
+    /// As [`Self::ranking`], in little room: each name over its bar, the first few alone.
+    fn stacked_ranking(&self, candidates: &[RankedPartFigure], painter: &Painter, rect: Rect) {
+        const ROW: f32 = 22.0;
+        const BAR: f32 = 6.0;
+        let theme = self.theme;
+        let num_rows = ((rect.height() / ROW) as usize).clamp(1, candidates.len());
+        let row = rect.height() / num_rows as f32;
+        let across = Scale::new([0.0, 1.0], [rect.left(), rect.right()]);
+        for (place, candidate) in candidates.iter().take(num_rows).enumerate() {
+            let colour = if place == self.state.candidate {
+                theme.text
+            } else {
+                theme.weak_text
+            };
+            let at = pos2(rect.left(), rect.top() + row * place as f32);
+            let name = &candidate.short_title;
+            let title = elided(painter, name, font::scale(), colour, rect.width());
+            let y = at.y + title.size().y + 1.0;
+            painter.galley(at, title, colour);
+            let bar =
+                |to: f32| Rect::from_min_max(pos2(rect.left(), y), pos2(across.at(to), y + BAR));
+            painter.rect_filled(bar(1.0), 2.0, theme.track);
+            let score = candidate.score.clamp(0.0, 1.0);
+            painter.rect_filled(bar(score), 2.0, self.bar_fill(place));
+            let threshold = across.at(self.inspected.recipe.accept.min_score as f32);
+            painter.vline(threshold, y..=y + BAR, Stroke::new(1.0, theme.text));
+        }
+    }
+
+    /// Of the bar at this place of the ranking: only an accepted part's is that of acceptance.
+    fn bar_fill(&self, place: usize) -> Color32 {
+        let verdict = &self.inspected.inspection.verdict;
+        let is_accepted = matches!(verdict, Verdict::Part { rejected: None, .. });
+        match (place, is_accepted) {
+            (0, true) => self.theme.accepted,
+            (0, false) => self.theme.rejected,
+            _ => self.theme.weak_text.gamma_multiply(0.6),
+        }
+    }
+}
+
+/// One line of text, its end left out where it is too long.
+fn elided(painter: &Painter, text: &str, font: FontId, colour: Color32, width: f32) -> Arc<Galley> {
+    let mut job = LayoutJob::simple_singleline(text.to_owned(), font, colour);
+    job.wrap = TextWrapping::truncate_at_width(width);
+    painter.layout_job(job)
+}

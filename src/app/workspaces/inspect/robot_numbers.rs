@@ -1,0 +1,227 @@
+//! The card's section on the pose as a robot is told it: in one convention, and always with the frame it is in.
+
+use egui::{Align, ComboBox, Layout, RichText, Ui};
+
+use super::action::InspectAction;
+use crate::{
+    app::{
+        inspection::inspected::Inspected,
+        shell::session::Session,
+        ui::{
+            theme::{Theme, font, space},
+            widgets::{heading, row},
+        },
+    },
+    geometry::rigid::RigidTransform,
+    robot::{Convention, RobotPose, RobotValue, Unit},
+};
+
+/// A pose that may be moved by, in the numbers that were chosen.
+#[derive(Clone, Debug)]
+pub(super) struct NumberedPose {
+    /// `camera_from_part` or `robot_from_part`.
+    pub(super) name: &'static str,
+    /// The frame that it is in, in words.
+    pub(super) frame: String,
+    /// The numbers.
+    pub(super) pose: RobotPose,
+}
+
+/// The pose in the robot's frame where the cell is calibrated, else in the camera's. `None` unless it was accepted.
+pub(super) fn numbered(session: &Session, inspected: &Inspected) -> Option<NumberedPose> {
+    let camera_from_part = accepted_pose(inspected)?;
+    let (name, frame, transform) = match session.robot_of(inspected) {
+        Some(robot) => (
+            "robot_from_part",
+            format!("The robot's base frame, by {}", robot.name),
+            robot.robot_from_part(&camera_from_part),
+        ),
+        None => (
+            "camera_from_part",
+            "The camera's frame: the cell is not calibrated".to_owned(),
+            camera_from_part,
+        ),
+    };
+    Some(NumberedPose {
+        name,
+        frame,
+        pose: session.convention.write(&transform),
+    })
+}
+
+fn accepted_pose(inspected: &Inspected) -> Option<RigidTransform> {
+    let inspection = &inspected.inspection;
+    let pose = inspection.pose.as_ref()?.as_ref().ok()?;
+    inspection
+        .verdict
+        .is_accepted()
+        .then(|| pose.camera_from_part())
+}
+
+/// As it goes onto the clipboard: a line that says what it is, one with names and units, then the bare numbers.
+pub(super) fn clipboard_text(numbered: &NumberedPose) -> String {
+    let NumberedPose { name, frame, pose } = numbered;
+    let title = pose.convention.title();
+    let rounded: Vec<String> = pose.values.iter().map(RobotValue::rounded).collect();
+    let numbers = match pose.convention {
+        Convention::Matrix => {
+            let rows: Vec<String> = rounded.chunks(4).map(|row| row.join(" ")).collect();
+            rows.join("\n")
+        }
+        _ => format!("{}\n{}", pose.line(), rounded.join(" ")),
+    };
+    format!("{name} · {title} · {frame} · {}\n{numbers}", pose.meaning)
+}
+
+/// Draws the section; nothing unless the part was accepted.
+pub(super) fn ui(
+    ui: &mut Ui,
+    inspected: &Inspected,
+    session: &Session,
+    theme: &Theme,
+    actions: &mut Vec<InspectAction>,
+) {
+    let Some(numbered) = numbered(session, inspected) else {
+        return;
+    };
+    heading(ui, theme, "Pose");
+    ui.scope(|ui| {
+        // Text lies closer on the card; this is pressed.
+        ui.spacing_mut().interact_size.y = space::TARGET;
+        choice(ui, session.convention, actions);
+    });
+    let NumberedPose { name, frame, pose } = &numbered;
+    let small = |text: &str| {
+        RichText::new(text.to_owned())
+            .font(font::small())
+            .color(theme.weak_text)
+    };
+    ui.label(
+        RichText::new(*name)
+            .font(font::body_strong())
+            .color(theme.text),
+    );
+    // Numbers in the wrong frame move a robot to the wrong place.
+    let colour = if session.robot_of(inspected).is_some() {
+        theme.weak_text
+    } else {
+        theme.warning
+    };
+    ui.label(small(frame).color(colour));
+    if pose.convention == Convention::Matrix {
+        ui.columns(4, |columns| {
+            for (place, column) in columns.iter_mut().enumerate() {
+                column.with_layout(Layout::top_down(Align::Max), |ui| {
+                    for value in pose.values.iter().skip(place).step_by(4) {
+                        // As many digits as there is room for; the clipboard has them all.
+                        ui.label(RichText::new(format!("{:.4}", value.value)).color(theme.text));
+                    }
+                });
+            }
+        });
+    } else {
+        for value in &pose.values {
+            let unit = match value.unit {
+                Unit::Degrees => "°".to_owned(),
+                unit => format!(" {}", unit.symbol()),
+            };
+            let text = format!("{}{unit}", value.rounded());
+            row(ui, theme, value.name, text.trim_end());
+        }
+    }
+    ui.label(small(pose.meaning));
+    if let Some(note) = &pose.gimbal_note {
+        ui.label(RichText::new(note).color(theme.warning));
+    }
+}
+
+fn choice(ui: &mut Ui, chosen: Convention, actions: &mut Vec<InspectAction>) {
+    let mut convention = chosen;
+    let response = ComboBox::from_id_salt("convention")
+        .selected_text(chosen.title())
+        .width(ui.available_width())
+        .show_ui(ui, |ui| {
+            for other in Convention::ALL {
+                ui.selectable_value(&mut convention, other, other.title());
+            }
+        })
+        .response;
+    response.widget_info(|| {
+        let text = format!("Convention: {}", chosen.title());
+        egui::WidgetInfo::labeled(egui::Role::ComboBox, true, text)
+    });
+    response.on_hover_text("In which numbers the robot is told the pose (K for the next)");
+    if convention != chosen {
+        actions.push(InspectAction::UseConvention(convention));
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::sync::Arc;
+
+    use super::*;
+    use crate::{
+        app::inspection::{
+            inspected::{InspectRequest, inspect},
+            library_cache::LibraryCache,
+            source::{CellChoice, SceneSource},
+        },
+        geometry::rigid::from_euler_zyx,
+        pipeline::{Unwatched, Verdict},
+        robot::RobotFrame,
+    };
+
+    fn door() -> Inspected {
+        let request = InspectRequest {
+            source: SceneSource::Cell {
+                choice: CellChoice::InTurn,
+                number: 1,
+            },
+            recipe: Arc::default(),
+        };
+        inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected")
+    }
+
+    #[test]
+    fn what_is_copied_says_which_pose_it_is_and_reads_back() {
+        let mut inspected = door();
+        let mut session = Session {
+            convention: Convention::Fanuc,
+            ..Session::default()
+        };
+        let camera_from_part = accepted_pose(&inspected).expect("accepted");
+        let robot = RobotFrame {
+            robot_from_camera: from_euler_zyx([-2.2, 0.1, -1.6, 1.5, -0.2, 2.0]),
+            name: "cell 1".into(),
+        };
+        for robot in [None, Some(Arc::new(robot))] {
+            session.robot = robot;
+            let text = clipboard_text(&numbered(&session, &inspected).expect("a pose"));
+            let lines: Vec<&str> = text.lines().collect();
+            let (name, expected) = match &session.robot {
+                Some(robot) => ("robot_from_part", robot.robot_from_part(&camera_from_part)),
+                None => ("camera_from_part", camera_from_part),
+            };
+            assert!(
+                lines[0].starts_with(&format!("{name} · FANUC W P R · ")),
+                "{text}"
+            );
+            assert!(lines[0].contains("R = Rz(R)·Ry(P)·Rx(W)"), "{text}");
+            let numbers: Vec<f64> = lines[2]
+                .split(' ')
+                .map(|word| word.parse().expect("a number"))
+                .collect();
+            let read = Convention::Fanuc.read(&numbers).expect("a pose");
+            assert!(
+                (read.to_homogeneous() - expected.to_homogeneous()).amax() < 2e-6,
+                "{text}"
+            );
+        }
+        // A part that is not accepted has none.
+        if let Verdict::Part { rejected, part, .. } = &mut inspected.inspection.verdict {
+            *rejected = Some(crate::pipeline::Rejection::NotSteady { part: part.clone() });
+        }
+        assert!(numbered(&session, &inspected).is_none());
+    }
+}

@@ -1,0 +1,104 @@
+//! The card's section on the nozzle's stand-off: where the taught path would be, against its band.
+
+use egui::{Align2, Rect, RichText, Sense, Ui, pos2, vec2};
+
+use crate::{
+    app::{
+        inspection::{inspected::Inspected, unit_system::UnitSystem},
+        ui::{
+            theme::{ROUNDING, Theme, font, space},
+            widgets::{Mark, Scale, heading, mark, row, sentence},
+        },
+    },
+    stages::stand_off::{StandOff, StandOffParams},
+};
+
+/// Draws the section; nothing without a pose.
+pub(super) fn ui(ui: &mut Ui, inspected: &Inspected, units: UnitSystem, theme: &Theme) {
+    let Some(found) = &inspected.stand_off else {
+        return;
+    };
+    heading(ui, theme, "Stand-off of the taught path");
+    match found {
+        Ok(found) => figures(ui, found, &inspected.recipe.stand_off, units, theme),
+        Err(error) => {
+            let text = sentence(&error.to_string());
+            ui.label(RichText::new(text).color(theme.weak_text));
+        }
+    }
+}
+
+fn figures(
+    ui: &mut Ui,
+    found: &StandOff,
+    params: &StandOffParams,
+    units: UnitSystem,
+    theme: &Theme,
+) {
+    bar(ui, found, params, units, theme);
+    let pair = format!(
+        "{}, worst {}",
+        units.length(found.mean.0),
+        units.length(found.worst.distance.0)
+    );
+    row(ui, theme, "mean", &pair);
+    row(
+        ui,
+        theme,
+        "inside the band",
+        &format!("{:.0} %", found.in_band * 100.0),
+    );
+    let pair = format!(
+        "{}, worst {}",
+        units.angle(found.mean_angle.0),
+        units.angle(found.worst_angle.0)
+    );
+    row(ui, theme, "angle", &pair);
+    let (sign, text, colour) = if found.keeps_the_band() {
+        (Mark::Good, "The path can run as taught", theme.accepted)
+    } else {
+        (Mark::Look, "Move the path by the pose first", theme.warning)
+    };
+    ui.horizontal(|ui| {
+        let (rect, _) = ui.allocate_exact_size(egui::Vec2::splat(16.0), Sense::hover());
+        mark(ui.painter(), rect.center(), 7.0, sign, theme);
+        ui.label(RichText::new(text).color(colour));
+    });
+}
+
+/// A stretch of distances with the band in its middle third; the mean a full tick, the worst a short one.
+fn bar(ui: &mut Ui, found: &StandOff, params: &StandOffParams, units: UnitSystem, theme: &Theme) {
+    const BAR: f32 = 14.0;
+    const NUMBERS: f32 = 15.0;
+    let (near, far) = (params.nearest.0 as f32, params.farthest.0 as f32);
+    let wide = (far - near).max(1e-3);
+    let size = vec2(ui.available_width(), BAR + space::SMALL + NUMBERS);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    let text = format!(
+        "Stand-off {} of {} to {}",
+        units.length(found.mean.0),
+        units.length(params.nearest.0),
+        units.length(params.farthest.0)
+    );
+    response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Image, true, &text));
+    let painter = ui.painter();
+    let bar = Rect::from_min_size(rect.min + vec2(0.0, 3.0), vec2(rect.width(), BAR));
+    let across = Scale::new([near - wide, far + wide], [bar.left(), bar.right()]);
+    painter.rect_filled(bar, ROUNDING, theme.track);
+    let band = Rect::from_x_y_ranges(across.at(near)..=across.at(far), bar.y_range());
+    painter.rect_filled(band, 0.0, theme.accepted.gamma_multiply(0.45));
+    // What is further off than the bar reaches stands at its end.
+    let tick = |distance: f64, width: f32, over: f32, colour| {
+        let x = across.at(distance as f32);
+        let x = x.clamp(bar.left() + width, bar.right() - width);
+        let line = Rect::from_center_size(pos2(x, bar.center().y), vec2(width, BAR + over));
+        painter.rect_filled(line, 0.0, colour);
+    };
+    tick(found.worst.distance.0, 2.0, -4.0, theme.warning);
+    tick(found.mean.0, 3.0, 5.0, theme.text);
+    for (at, align) in [(near, Align2::CENTER_TOP), (far, Align2::CENTER_TOP)] {
+        let text = units.length(f64::from(at));
+        let at = pos2(across.at(at), bar.bottom() + 4.0);
+        painter.text(at, align, text, font::small(), theme.weak_text);
+    }
+}

@@ -1,0 +1,494 @@
+//! What the workspace knows besides the result, and what changes it.
+
+use std::{collections::BTreeSet, path::PathBuf, sync::Arc};
+
+use super::{
+    action::{InspectAction, InspectFile},
+    robot_numbers::{clipboard_text, numbered},
+};
+use crate::{
+    app::{
+        inspection::{
+            figures::StagePanel,
+            fuse::FusedShots,
+            inspected::{InspectJob, Inspected},
+            report_files,
+            scan_choice::{ScanOrder, ShotChoice},
+        },
+        shell::{
+            context::ShellContext,
+            file_dialog::FileDialog,
+            message::{Event, Message, ReinspectionPurpose},
+            notice::Notice,
+            session::{Session, Source, WorkspaceKind},
+        },
+        shots::{Asked, ShotsAction, ShotsFile, ShotsState, source_of},
+        task::{Task, TaskEvent, TaskRunner},
+        ui::viewport::{Colouring, ViewShot},
+        user_error::UserError,
+    },
+    robot::Convention,
+};
+
+/// What the view can show besides the points.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, PartialOrd, Ord)]
+pub enum ViewPart {
+    /// The axes of the part's middle.
+    Axes,
+    /// The depth camera and what it sees.
+    Camera,
+    /// The enrolled part's outline at the found pose.
+    Outline,
+    /// The taught nozzle over the middle of the part.
+    NozzleMiddle,
+    /// The taught nozzle that is furthest off its distance.
+    NozzleWorst,
+    /// The part's stored spray path, carried to where it hangs now.
+    SprayPath,
+    /// The axes of the robot's base.
+    RobotBase,
+    /// The cameras of a scan's shots.
+    ShotCameras,
+    /// What no shot of a scan shows.
+    Unseen,
+}
+
+impl ViewPart {
+    /// All of them, in the order of the menu.
+    pub const ALL: [Self; 9] = [
+        Self::Outline,
+        Self::NozzleMiddle,
+        Self::NozzleWorst,
+        Self::SprayPath,
+        Self::Axes,
+        Self::Camera,
+        Self::RobotBase,
+        Self::ShotCameras,
+        Self::Unseen,
+    ];
+
+    /// What a person calls it.
+    pub fn title(self) -> &'static str {
+        match self {
+            Self::Axes => "Axes of the part",
+            Self::Camera => "Depth camera",
+            Self::Outline => "Enrolled contour",
+            Self::NozzleMiddle => "Nozzle over the middle",
+            Self::NozzleWorst => "Nozzle at the worst spot",
+            Self::SprayPath => "Spray path",
+            Self::RobotBase => "Robot base",
+            Self::ShotCameras => "Cameras of the shots",
+            Self::Unseen => "Not seen by any shot",
+        }
+    }
+}
+
+/// What the workspace knows.
+#[derive(Debug)]
+pub struct InspectState {
+    /// What the view shows besides the points.
+    pub parts: BTreeSet<ViewPart>,
+    /// What a person chose to colour by; until then the deviation where there is one, else the segments.
+    pub colouring: Option<Colouring>,
+    /// The stage that fills the middle, if one is enlarged.
+    pub enlarged: Option<StagePanel>,
+    /// Place in the ranking of the part that contour and signature are compared with; 0 is the best.
+    pub candidate: usize,
+    /// Of the scan that is shown, if it is one.
+    pub shots: ShotsState,
+    /// Where a picture of the view is to go, until it is taken.
+    picture_to: Option<PathBuf>,
+    /// The folder that a report is to go to, until a picture of the view is taken for it.
+    report_to: Option<PathBuf>,
+    /// Number of the result that was shown last.
+    seen: Option<u64>,
+    /// The scan that it rests on.
+    seen_scan: Option<Arc<FusedShots>>,
+    writing: Task<String>,
+    dialog: FileDialog<InspectFile>,
+}
+
+impl InspectState {
+    /// Before the first result.
+    pub fn new(runner: &TaskRunner) -> Self {
+        Self {
+            parts: [
+                ViewPart::Axes,
+                ViewPart::Outline,
+                ViewPart::NozzleMiddle,
+                ViewPart::SprayPath,
+                ViewPart::RobotBase,
+                ViewPart::ShotCameras,
+                ViewPart::Unseen,
+            ]
+            .into(),
+            colouring: None,
+            enlarged: None,
+            candidate: 0,
+            shots: ShotsState::default(),
+            picture_to: None,
+            report_to: None,
+            seen: None,
+            seen_scan: None,
+            writing: Task::new("inspect-write", runner),
+            dialog: FileDialog::default(),
+        }
+    }
+
+    /// Which shots of the scan shall be used: what was asked for last, while that is on its way.
+    pub fn shot_choice<'a>(&'a self, session: &'a Session) -> Option<&'a ShotChoice> {
+        let scan = session.shown.as_ref()?.inspected.scan.as_ref()?;
+        let run = session.inspecting.as_ref();
+        let is_on_its_way = run.is_some_and(|run| run.purpose == ReinspectionPurpose::Shots);
+        let asked = self.shots.asked_choice().filter(|_| is_on_its_way);
+        Some(asked.unwrap_or(&scan.fused.choice))
+    }
+
+    /// True while a file is being written.
+    pub fn is_writing(&self) -> bool {
+        self.writing.running().is_some()
+    }
+
+    /// True if a picture of the view is waited for.
+    pub fn wants_picture(&self) -> bool {
+        self.picture_to.is_some() || self.report_to.is_some()
+    }
+
+    /// Carries out an action.
+    pub fn apply(&mut self, action: InspectAction, cx: &mut ShellContext<'_>) {
+        match action {
+            InspectAction::Toggle(part) => {
+                if !self.parts.remove(&part) {
+                    self.parts.insert(part);
+                }
+            }
+            InspectAction::Colour(colouring) => self.colouring = Some(colouring),
+            InspectAction::Enlarge(panel) => self.enlarged = Some(panel),
+            InspectAction::CloseEnlarged => self.enlarged = None,
+            InspectAction::Candidate(place) => self.candidate = place,
+            InspectAction::UseConvention(convention) => {
+                cx.send(Message::UseConvention(convention));
+            }
+            InspectAction::NextConvention => {
+                let all = Convention::ALL;
+                let now = cx.session.convention;
+                let place = all.iter().position(|known| *known == now);
+                let next = all[place.map_or(0, |place| (place + 1) % all.len())];
+                cx.send(Message::UseConvention(next));
+            }
+            InspectAction::CopyPose => copy_pose(cx),
+            InspectAction::Compare => cx.send(Message::GoTo(WorkspaceKind::Compare)),
+            InspectAction::ToggleRecording => cx.send(Message::ToggleRecording),
+            InspectAction::Shots(action) => self.change_shots(action, cx),
+            InspectAction::Ask(file) => {
+                let lock = &cx.services.dialogs;
+                self.dialog.open(file, &file.request(), lock, cx.egui);
+            }
+            InspectAction::Chosen(file, path) => self.chosen(file, path, cx),
+        }
+    }
+
+    fn chosen(&mut self, file: InspectFile, path: PathBuf, cx: &mut ShellContext<'_>) {
+        let is_in_sight =
+            cx.session.workspace == WorkspaceKind::Inspect && cx.session.shown.is_some();
+        match file {
+            InspectFile::Picture => self.picture_to = Some(path),
+            // The view hands its picture over with the next frame.
+            InspectFile::Report if is_in_sight => self.report_to = Some(path),
+            InspectFile::Report => self.write_report(path, None, cx),
+            InspectFile::SprayPath => self.write_spray_path(path, cx),
+            InspectFile::Shots(file) => self.change_shots(ShotsAction::Chosen(file, path), cx),
+        }
+    }
+
+    /// Has the shots put together anew and inspected, if the action changes them.
+    fn change_shots(&mut self, action: ShotsAction, cx: &mut ShellContext<'_>) {
+        if let ShotsAction::Ask(file) = action {
+            return self.apply(InspectAction::Ask(InspectFile::Shots(file)), cx);
+        }
+        let used = self.shot_choice(cx.session).cloned();
+        match self.shots.apply(action, used) {
+            Ok(None) => {}
+            Ok(Some((order, asked))) => {
+                self.shots.started(Some(asked));
+                if let ScanOrder::Open(files) = &order {
+                    cx.send(Message::UseSource(Source::Scan(files.clone())));
+                }
+                cx.send(Message::Inspect {
+                    title: order.title(),
+                    job: InspectJob::Scan(cx.session.scan_request(order)),
+                    purpose: ReinspectionPurpose::Shots,
+                });
+            }
+            Err(notice) => cx.notify(notice),
+        }
+    }
+
+    /// Takes in what the shell tells.
+    pub fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
+        match event {
+            Event::Inspected { inspected, purpose } => {
+                self.settle_shots(inspected, *purpose, cx);
+            }
+            Event::PosesWanted(order) => {
+                self.shots.ask_for_poses(order.clone());
+                let file = InspectFile::Shots(ShotsFile::Poses);
+                self.apply(InspectAction::Ask(file), cx);
+            }
+            Event::Export => self.apply(InspectAction::Ask(InspectFile::Report), cx),
+            Event::Escape => self.enlarged = None,
+            Event::EngineerIn | Event::Undo => {}
+        }
+    }
+
+    /// A result has come: what was asked for about its shots can be taken back.
+    fn settle_shots(
+        &mut self,
+        inspected: &Inspected,
+        purpose: ReinspectionPurpose,
+        cx: &mut ShellContext<'_>,
+    ) {
+        let former = self.seen_scan.as_ref().map(|scan| scan.choice.clone());
+        let now = inspected.scan.as_ref().map(|scan| &scan.fused.choice);
+        if purpose != ReinspectionPurpose::Shots {
+            let both = former.as_ref().zip(now);
+            // Those at hand once more, by another recipe or library.
+            let is_same = both.is_some_and(|(former, now)| Arc::ptr_eq(&former.set, &now.set));
+            self.shots.started((!is_same).then(Asked::first));
+        }
+        let files = now.map(ShotChoice::files);
+        // The next start opens the same shots.
+        if let Some(files) = &files
+            && let Some(source) = source_of(files, &cx.session.source)
+        {
+            cx.send(Message::UseSource(source));
+        }
+        self.shots.settle(files.as_ref(), former);
+    }
+
+    /// Takes in what the task and the dialog report, and which result is shown.
+    pub fn update(&mut self, cx: &mut ShellContext<'_>) {
+        match self.writing.poll() {
+            Some(TaskEvent::Done(what) | TaskEvent::Partial(what)) => {
+                cx.notify(Notice::done(what));
+            }
+            Some(TaskEvent::Failed(error)) => cx.notify(error),
+            None => {}
+        }
+        match self.dialog.poll() {
+            Some((file, Ok(path))) => self.chosen(file, path, cx),
+            Some((_, Err(notice))) => cx.notify(notice),
+            None => {}
+        }
+        let shown = cx.session.shown.as_ref();
+        let number = shown.map(|shown| shown.generation);
+        if let Some(shown) = shown.filter(|_| number != self.seen) {
+            let num_candidates = shown.inspected.figures.candidates.len();
+            // From frame to frame of a source that is followed the same part is compared with.
+            self.candidate = match shown.session {
+                Some(_) => self.candidate.min(num_candidates.saturating_sub(1)),
+                None => 0,
+            };
+            let scan = shown.inspected.scan.as_ref();
+            self.seen_scan = scan.map(|scan| Arc::clone(&scan.fused));
+            self.seen = number;
+        }
+    }
+
+    /// Takes in the view that was waited for, or why there is none.
+    pub fn take_picture(&mut self, shot: Result<ViewShot, UserError>, cx: &mut ShellContext<'_>) {
+        if let Some(folder) = self.report_to.take() {
+            // A report without the view is one all the same.
+            return self.write_report(folder, shot.ok(), cx);
+        }
+        let Some(mut path) = self.picture_to.take() else {
+            return;
+        };
+        match shot {
+            Ok(shot) => {
+                if path.extension().is_none() {
+                    path.set_extension("png");
+                }
+                self.writing.start("Saving the picture", move |_| {
+                    Ok(report_files::picture(&path, &shot)?)
+                });
+            }
+            Err(error) => cx.notify(error),
+        }
+    }
+
+    /// Writes the report of the inspection in front.
+    fn write_report(&mut self, folder: PathBuf, shot: Option<ViewShot>, cx: &ShellContext<'_>) {
+        let Some(shown) = &cx.session.shown else {
+            return;
+        };
+        let inspected = Arc::clone(&shown.inspected);
+        let robot = cx.session.robot_of(&inspected).cloned();
+        let convention = cx.session.convention;
+        self.writing.start("Writing the report", move |_| {
+            let report = report_files::report_of(&inspected, robot.as_deref(), convention);
+            Ok(report_files::report(
+                &folder,
+                &inspected,
+                &report,
+                shot.as_ref(),
+            )?)
+        });
+    }
+
+    /// Writes the spray path of the inspection in front for the robot; nothing without a path or a calibrated cell.
+    fn write_spray_path(&mut self, path: PathBuf, cx: &ShellContext<'_>) {
+        let Some(shown) = &cx.session.shown else {
+            return;
+        };
+        let inspected = Arc::clone(&shown.inspected);
+        let Some(robot) = cx.session.robot_of(&inspected).cloned() else {
+            return;
+        };
+        if inspected.spray.is_none() {
+            return;
+        }
+        let convention = cx.session.convention;
+        self.writing.start("Writing the spray path", move |_| {
+            Ok(report_files::spray_path(
+                &path, &inspected, &robot, convention,
+            )?)
+        });
+    }
+}
+
+/// Puts the pose on the clipboard, if there is one.
+fn copy_pose(cx: &mut ShellContext<'_>) {
+    let Some(shown) = &cx.session.shown else {
+        return;
+    };
+    let Some(numbered) = numbered(cx.session, &shown.inspected) else {
+        return cx.notify(Notice::look(
+            "There is no pose to copy: the part was not accepted",
+            "Do as the card says, and capture again",
+        ));
+    };
+    let title = numbered.pose.convention.title();
+    let what = format!("Copied {} in the numbers of {title}", numbered.name);
+    cx.notify(Notice::done(what));
+    cx.send(Message::CopyText(clipboard_text(&numbered)));
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{
+        app::{
+            inspection::{
+                inspected::{InspectRequest, inspect},
+                library_cache::LibraryCache,
+                scan_choice::ScanFiles,
+                source::{CellChoice, SceneSource},
+            },
+            shell::{context::TestShell, session::Shown},
+        },
+        pipeline::Unwatched,
+    };
+
+    #[test]
+    fn what_is_shown_is_hidden_and_shown_again() {
+        let mut shell = TestShell::default();
+        let mut state = InspectState::new(&TaskRunner::without_threads());
+        for is_shown in [false, true] {
+            state.apply(InspectAction::Toggle(ViewPart::Axes), &mut shell.context());
+            assert_eq!(state.parts.contains(&ViewPart::Axes), is_shown);
+        }
+    }
+
+    #[test]
+    fn a_picture_waits_for_its_place_and_a_view_that_is_not_there_is_said_once() {
+        let mut shell = TestShell::default();
+        let mut state = InspectState::new(&TaskRunner::without_threads());
+        let none = || {
+            Err(UserError {
+                what: "no view".into(),
+                advice: "mend it".into(),
+            })
+        };
+        // Nobody asked.
+        state.take_picture(none(), &mut shell.context());
+        assert!(shell.notices().is_empty());
+        let chosen = InspectAction::Chosen(InspectFile::Picture, "view".into());
+        state.apply(chosen, &mut shell.context());
+        assert_eq!(state.picture_to, Some("view".into()));
+        state.take_picture(none(), &mut shell.context());
+        assert_eq!(
+            (shell.notices(), state.wants_picture()),
+            (vec!["no view"], false)
+        );
+        assert!(!state.is_writing());
+    }
+
+    #[test]
+    fn escape_shows_the_view_again() {
+        let mut shell = TestShell::default();
+        let mut state = InspectState::new(&TaskRunner::without_threads());
+        state.apply(
+            InspectAction::Enlarge(StagePanel::Contour),
+            &mut shell.context(),
+        );
+        state.on_event(&Event::Escape, &mut shell.context());
+        assert_eq!(state.enlarged, None);
+    }
+
+    #[test]
+    fn the_scan_whose_poses_were_not_found_is_opened_with_the_chosen_file() {
+        let mut shell = TestShell::default();
+        let mut state = InspectState::new(&TaskRunner::without_threads());
+        let scan = ScanFiles::of_folder("scan".into());
+        state.shots.ask_for_poses(ScanOrder::Open(scan.clone()));
+        let file = PathBuf::from("elsewhere.json");
+        assert!(state.shots.wants(&file));
+        let chosen = InspectAction::Chosen(InspectFile::Shots(ShotsFile::Poses), file.clone());
+        state.apply(chosen, &mut shell.context());
+        assert!(!state.shots.wants(&file));
+        let with_poses = ScanFiles {
+            poses: Some(file),
+            ..scan
+        };
+        assert!(matches!(
+            &shell.messages[..],
+            [
+                Message::UseSource(Source::Scan(files)),
+                Message::Inspect {
+                    job: InspectJob::Scan(request),
+                    purpose: ReinspectionPurpose::Shots,
+                    ..
+                }
+            ] if *files == with_poses
+                && matches!(&request.order, ScanOrder::Open(files) if *files == with_poses)
+        ));
+    }
+
+    #[test]
+    fn the_pose_of_an_accepted_part_is_copied() {
+        let mut shell = TestShell::default();
+        let mut state = InspectState::new(&TaskRunner::without_threads());
+        state.apply(InspectAction::CopyPose, &mut shell.context());
+        assert!(shell.messages.is_empty(), "nothing is shown");
+        let request = InspectRequest {
+            source: SceneSource::Cell {
+                choice: CellChoice::InTurn,
+                number: 1,
+            },
+            recipe: Arc::default(),
+        };
+        let found = inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected");
+        shell.session.shown = Some(Shown {
+            generation: 1,
+            inspected: Arc::new(found),
+            is_past: false,
+            session: None,
+        });
+        state.apply(InspectAction::CopyPose, &mut shell.context());
+        assert!(matches!(
+            &shell.messages[..],
+            [Message::Notify(_), Message::CopyText(_)]
+        ));
+    }
+}

@@ -1,0 +1,175 @@
+//! The stage strip: a live picture per stage, any of which can fill the middle.
+
+use egui::{
+    Align, Button, Frame, Label, Layout, Margin, Rect, RichText, Sense, Ui, Vec2, pos2, vec2,
+};
+
+use super::{
+    action::InspectAction,
+    plots::{Pictures, PlotDetail},
+};
+use crate::{
+    app::{
+        inspection::figures::StagePanel,
+        ui::{
+            theme::{font, space},
+            widgets::focus_ring,
+        },
+    },
+    pipeline::Timings,
+};
+
+/// Pictures narrower than this have their time below instead of beside the title.
+const NARROW: f32 = 150.0;
+
+/// The time of the stage that a picture shows.
+fn time_of(panel: StagePanel, timings: &Timings) -> String {
+    let time = match panel {
+        StagePanel::Segmentation => timings.segment,
+        StagePanel::BinaryImage => timings.project,
+        StagePanel::Contour => timings.contour,
+        StagePanel::Signature => timings.signature,
+        StagePanel::Ranking => timings.rank,
+        StagePanel::Alignment => timings.pose,
+    };
+    format!("{:.1} ms", time.as_secs_f64() * 1000.0)
+}
+
+/// Draws the strip.
+pub(super) fn ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<InspectAction>) {
+    let theme = pictures.theme;
+    if pictures.session.is_old() {
+        ui.multiply_opacity(0.55);
+    }
+    let all = ui.available_rect_before_wrap();
+    let width = all.width() / StagePanel::ALL.len() as f32;
+    for (place, panel) in StagePanel::ALL.into_iter().enumerate() {
+        let left = all.left() + place as f32 * width;
+        let cell = Rect::from_min_size(pos2(left, all.top()), vec2(width, all.height()));
+        let response = ui.interact(cell, ui.scope_id().with(place), Sense::click());
+        let is_enlarged = pictures.state.enlarged == Some(panel);
+        response.widget_info(|| {
+            let label = format!("Enlarge {}", panel.title().to_lowercase());
+            egui::WidgetInfo::selected(egui::Role::Button, true, is_enlarged, label)
+        });
+        let painter = ui.painter_at(cell);
+        if response.hovered() || is_enlarged {
+            painter.rect_filled(cell, 0.0, theme.control);
+        }
+        if place > 0 {
+            painter.vline(cell.left(), cell.y_range(), theme.edge_stroke());
+        }
+        let inner = cell.shrink(space::MEDIUM);
+        let title = format!("{} {}", place + 1, panel.title());
+        painter.text(
+            inner.min,
+            egui::Align2::LEFT_TOP,
+            title,
+            font::small(),
+            theme.text,
+        );
+        let time = time_of(panel, &pictures.inspected.inspection.timings);
+        let mut picture = inner;
+        picture.min.y += 22.0;
+        let (at, anchor) = if width < NARROW {
+            picture.max.y -= 18.0;
+            (inner.left_bottom(), egui::Align2::LEFT_BOTTOM)
+        } else {
+            (inner.right_top(), egui::Align2::RIGHT_TOP)
+        };
+        painter.text(at, anchor, time, font::small(), theme.weak_text);
+        pictures.paint(panel, &painter, picture, PlotDetail::Small);
+        focus_ring(ui, cell, &response, theme);
+        if response.clicked() {
+            actions.push(if is_enlarged {
+                InspectAction::CloseEnlarged
+            } else {
+                InspectAction::Enlarge(panel)
+            });
+        }
+    }
+}
+
+/// Draws the enlarged stage over the middle.
+pub(super) fn enlarged_ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<InspectAction>) {
+    let Some(panel) = pictures.state.enlarged else {
+        return;
+    };
+    let theme = pictures.theme;
+    if pictures.session.is_old() {
+        ui.multiply_opacity(0.55);
+    }
+    Frame::new().inner_margin(Margin::same(14)).show(ui, |ui| {
+        ui.horizontal(|ui| {
+            ui.set_min_height(space::TARGET);
+            ui.label(
+                RichText::new(panel.title())
+                    .font(font::verdict())
+                    .color(theme.text),
+            );
+            ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                let close =
+                    Button::new("Close").shortcut_text(RichText::new("Esc").font(font::small()));
+                let close = ui.add(close.min_size(Vec2::splat(space::TARGET)));
+                close.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, "Close"));
+                if close.clicked() {
+                    actions.push(InspectAction::CloseEnlarged);
+                }
+                ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                    let text = RichText::new(explanation(panel)).color(theme.weak_text);
+                    ui.add(Label::new(text).truncate());
+                });
+            });
+        });
+        let compares = matches!(
+            panel,
+            StagePanel::Contour
+                | StagePanel::Signature
+                | StagePanel::Ranking
+                | StagePanel::Alignment
+        );
+        if compares {
+            candidates(ui, pictures, actions);
+        }
+        ui.add_space(space::SMALL);
+        let rect = ui.available_rect_before_wrap();
+        let response = ui.allocate_rect(rect, Sense::hover());
+        response.widget_info(|| {
+            let mut label = format!("{}, enlarged", panel.title());
+            if let (StagePanel::Alignment, Some(why)) = (panel, pictures.not_aligned()) {
+                label = format!("{label}: {why}");
+            }
+            egui::WidgetInfo::labeled(egui::Role::Image, true, label)
+        });
+        pictures.paint(panel, ui.painter(), rect, PlotDetail::Large);
+    });
+}
+
+/// The enrolled parts to compare with, best first.
+fn candidates(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<InspectAction>) {
+    ui.horizontal_wrapped(|ui| {
+        for (place, candidate) in pictures.inspected.figures.candidates.iter().enumerate() {
+            let is_chosen = pictures.state.candidate == place;
+            let button = Button::selectable(is_chosen, &candidate.title);
+            if ui
+                .add(button.min_size(Vec2::splat(space::TARGET)))
+                .clicked()
+            {
+                actions.push(InspectAction::Candidate(place));
+            }
+        }
+    });
+}
+
+fn explanation(panel: StagePanel) -> &'static str {
+    match panel {
+        StagePanel::Segmentation => "background planes in dull colours, the part bright",
+        StagePanel::BinaryImage => "the part in the plane of its two longest axes",
+        StagePanel::Contour => {
+            "outline, openings, rays from the centroid; dashed: the enrolled part"
+        }
+        StagePanel::Signature => "length L and angle Θ of the rays; thin: the enrolled part",
+        StagePanel::Ranking => "score of every enrolled part against the threshold",
+        StagePanel::Alignment => "mean squared distance E per iteration, logarithmic",
+    }
+}

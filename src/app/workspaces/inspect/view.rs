@@ -1,0 +1,357 @@
+//! The scene in three dimensions, the part coloured by its deviation from the enrolled one.
+
+use std::collections::BTreeSet;
+
+use egui::{Painter, Rect, Ui, UiBuilder, Vec2, pos2, vec2};
+
+use super::{
+    action::InspectAction,
+    controls,
+    state::{InspectState, ViewPart},
+};
+use crate::{
+    app::{
+        inspection::{inspected::Inspected, unit_system::UnitSystem},
+        shell::session::{Session, Shown, ThemeChoice},
+        shots::{Overlay, POINT_SIZE},
+        ui::{
+            theme::{ROUNDING, Theme, font, space},
+            viewport::{
+                Colouring, FitRequest, Legend, PointSize, TextLabel, ViewCamera, ViewColours,
+                ViewError, ViewScene, ViewShot, ViewStyle, Viewport, ViewportGpu, furniture,
+            },
+            widgets::grouped,
+        },
+        user_error::UserError,
+    },
+    geometry::rigid::RigidTransform,
+    units::Metres,
+};
+
+/// Counts since the window was opened: what stands still in a frame cost nothing in it.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct WorkCounts {
+    /// Point and line sets copied to the device.
+    pub uploads: u64,
+    /// Times that the 3-D view was drawn anew.
+    pub pictures: u64,
+    /// Times that something was made of a result: textures, or a choice of lines.
+    pub made: u64,
+}
+
+/// Ends of the scale of deviations: a few times a depth camera's noise, so that a dent shows and noise does not.
+const DEVIATION_RANGE: Metres = Metres(0.01);
+/// Length of the axes of the robot's base: they stand farther away than the part.
+const BASE_AXES: Metres = Metres(0.3);
+/// A view narrower than this has no room for the colour scale beside the controls.
+const NARROW: f32 = 655.0;
+
+/// What the lines and words of a scene are chosen by.
+#[derive(PartialEq)]
+struct SceneAnnotation {
+    parts: BTreeSet<ViewPart>,
+    units: UnitSystem,
+    camera_from_robot: Option<RigidTransform>,
+    looked_at: Option<usize>,
+}
+
+/// The view of the last result.
+pub(super) struct SceneView {
+    pub(super) viewport: Viewport,
+    pub(super) camera: ViewCamera,
+    scene: ViewScene,
+    pub(super) style: ViewStyle,
+    styled: ThemeChoice,
+    /// The size of points but for those of a scan.
+    usual_size: PointSize,
+    /// What the lines and words of the scene were chosen by.
+    placed: Option<SceneAnnotation>,
+    num_placed: u64,
+    has_deviations: bool,
+    has_focus: bool,
+    caption: String,
+    origin: Option<String>,
+    /// Of the source followed, whose frame it shows.
+    session: Option<u64>,
+    /// Of a scan: the camera's pose in whose space it is shown.
+    space: Option<RigidTransform>,
+    /// Of the view in the last frame, logical pixels.
+    size: Vec2,
+}
+
+impl SceneView {
+    pub(super) fn new(gpu: Result<ViewportGpu, ViewError>) -> Self {
+        let mut camera = ViewCamera::default();
+        camera.request_fit(FitRequest::Focus);
+        Self {
+            viewport: Viewport::new(gpu),
+            camera,
+            scene: ViewScene::default(),
+            style: style(ThemeChoice::Dark),
+            styled: ThemeChoice::Dark,
+            usual_size: style(ThemeChoice::Dark).point_size,
+            placed: None,
+            num_placed: 0,
+            has_deviations: false,
+            has_focus: false,
+            caption: String::new(),
+            origin: None,
+            session: None,
+            space: None,
+            size: Vec2::splat(1.0),
+        }
+    }
+
+    /// Takes in a new result: what the task made of it, and no point of it is gone through.
+    pub(super) fn show(&mut self, shown: &Shown) {
+        let inspected = &shown.inspected;
+        let figures = &inspected.figures;
+        self.has_deviations = inspected.view.has_deviations;
+        self.scene.points = vec![inspected.view.points.clone()];
+        self.placed = None;
+        // While a source is followed, a person looks from where they please.
+        let wants_more = shown.session.is_some() && self.session == shown.session;
+        // The same scan with other shots dropped lies where it did.
+        let space = inspected.scan.as_ref().and_then(|scan| scan.fused.space());
+        if !(wants_more || space.is_some() && space == self.space) {
+            self.camera.request_fit(FitRequest::Focus);
+        }
+        self.space = space;
+        self.session = shown.session;
+        let num_planes = inspected.inspection.segmentation.planes.len();
+        let removed = match &inspected.scan {
+            Some(scan) => format!("{} shots together", scan.fused.num_used()),
+            None if num_planes == 1 => "1 background plane removed".into(),
+            None => format!("{num_planes} background planes removed"),
+        };
+        self.caption = format!(
+            "{} points · part {} · {removed}",
+            grouped(figures.num_points),
+            grouped(figures.num_part),
+        );
+        let is_simulated = inspected.origin.is_simulated();
+        let title = inspected.origin.title();
+        self.origin = is_simulated.then(|| format!("{title} · no camera was read"));
+    }
+
+    pub(super) fn ui(
+        &mut self,
+        ui: &mut Ui,
+        state: &InspectState,
+        session: &Session,
+        inspected: &Inspected,
+        actions: &mut Vec<InspectAction>,
+    ) {
+        if self.styled != session.theme {
+            self.style = style(session.theme);
+            self.styled = session.theme;
+        }
+        self.place(state, session, inspected);
+        self.style.colouring = self.colouring(state);
+        self.style.point_size = match &inspected.scan {
+            Some(_) => POINT_SIZE,
+            None => self.usual_size,
+        };
+        let theme = Theme::of(session.theme);
+        let rect = ui.available_rect_before_wrap();
+        self.size = rect.size();
+        let is_narrow = rect.width() < NARROW;
+        self.style.legend = if is_narrow {
+            Legend::BelowControls
+        } else {
+            Legend::Shown
+        };
+        let label = "3-D view of the scene";
+        let seen = self
+            .viewport
+            .ui(ui, label, &mut self.camera, &self.scene, &self.style);
+        self.has_focus = seen.response.has_focus();
+        let bar = Rect::from_min_size(
+            rect.min + Vec2::splat(space::MEDIUM),
+            vec2(rect.width() - 2.0 * space::MEDIUM, space::TARGET),
+        );
+        ui.scope_builder(UiBuilder::new().max_rect(bar), |ui| {
+            ui.horizontal(|ui| controls::ui(ui, self, state, session, inspected, actions));
+        });
+        let painter = ui.painter_at(rect);
+        let top = self.captions(&painter, rect, theme);
+        if let Some(overlay) = overlay(state, inspected) {
+            let corner = pos2(rect.left() + space::MEDIUM, top - 4.0);
+            overlay.legend(&painter, corner, &self.style.colours, theme);
+        }
+    }
+
+    /// True while keys go to the view; the space bar then still captures.
+    pub(super) fn has_focus(&self) -> bool {
+        self.has_focus
+    }
+
+    /// What its frames have done so far.
+    pub(super) fn counts(&self) -> WorkCounts {
+        WorkCounts {
+            uploads: self.viewport.num_uploads(),
+            pictures: self.viewport.num_pictures(),
+            made: self.num_placed,
+        }
+    }
+
+    /// The view as it is now, or why there is none.
+    pub(super) fn shot(&self, pixels_per_point: f32) -> Result<ViewShot, UserError> {
+        self.viewport
+            .shot(
+                &self.camera,
+                &self.scene,
+                &self.style,
+                self.size,
+                pixels_per_point,
+            )
+            .map_err(|error| UserError::of(&error))
+    }
+
+    /// Chooses the lines and words, if what they are chosen by is not what it was.
+    fn place(&mut self, state: &InspectState, session: &Session, inspected: &Inspected) {
+        let figure = &inspected.view;
+        let robot = session.robot_of(inspected);
+        let by = SceneAnnotation {
+            parts: state.parts.clone(),
+            units: session.units,
+            camera_from_robot: robot.map(|robot| robot.robot_from_camera.inverse()),
+            looked_at: state.shots.looked_at,
+        };
+        if self.placed.as_ref() == Some(&by) {
+            return;
+        }
+        let (parts, units) = (&by.parts, by.units);
+        let mut lines = Vec::new();
+        let mut labels = Vec::new();
+        let nozzles = figure.nozzles.as_ref();
+        for part in parts {
+            match part {
+                ViewPart::Axes => lines.extend(figure.axes.clone()),
+                ViewPart::Camera => lines.extend(figure.camera.clone()),
+                ViewPart::Outline => lines.extend(figure.outline.clone()),
+                ViewPart::NozzleMiddle | ViewPart::NozzleWorst => {
+                    let (place, name) = match part {
+                        ViewPart::NozzleMiddle => (0, "Taught nozzle"),
+                        _ => (1, "Worst"),
+                    };
+                    if let Some(nozzle) = nozzles.and_then(|nozzles| nozzles.get(place)) {
+                        lines.push(nozzle.lines.clone());
+                        labels.push(TextLabel {
+                            at: nozzle.mouth,
+                            text: format!("{name} · {}", units.length(nozzle.distance.0)),
+                        });
+                    }
+                }
+                // The overlay of the scan has them.
+                ViewPart::ShotCameras | ViewPart::Unseen => {}
+                ViewPart::SprayPath => {
+                    if let Some(spray) = &figure.spray {
+                        lines.push(spray.lines.clone());
+                        labels.push(TextLabel {
+                            at: spray.start,
+                            text: format!(
+                                "Spray path · {} of {} in the band",
+                                spray.num_inside, spray.num_points
+                            ),
+                        });
+                    }
+                }
+                ViewPart::RobotBase => {
+                    if let Some(base) = &by.camera_from_robot {
+                        lines.push(furniture::axes(BASE_AXES).at(base));
+                        let at = base.translation.vector;
+                        labels.push(TextLabel {
+                            at: glam::Vec3::new(at.x as f32, at.y as f32, at.z as f32),
+                            text: "Robot base".into(),
+                        });
+                    }
+                }
+            }
+        }
+        self.scene.lines = lines;
+        self.scene.labels = labels;
+        self.scene.points.truncate(1);
+        if let Some(overlay) = overlay(state, inspected) {
+            overlay.add_to(&mut self.scene);
+        }
+        self.placed = Some(by);
+        self.num_placed += 1;
+    }
+
+    fn colouring(&self, state: &InspectState) -> Colouring {
+        match (state.colouring, self.has_deviations) {
+            (Some(Colouring::Deviation) | None, false) => Colouring::Segment,
+            (Some(chosen), _) => chosen,
+            (None, true) => Colouring::Deviation,
+        }
+    }
+
+    /// What is shown, and that no camera was read, at the bottom; one above the other where both do not fit. Says where
+    /// they end at the top.
+    fn captions(&self, painter: &Painter, rect: Rect, theme: &Theme) -> f32 {
+        let mut corner = pos2(rect.left() + space::MEDIUM, rect.bottom() - space::MEDIUM);
+        let first = plate(
+            painter,
+            corner,
+            egui::Align2::LEFT_BOTTOM,
+            &self.caption,
+            theme,
+        );
+        let Some(origin) = &self.origin else {
+            return first.top();
+        };
+        let width = painter
+            .layout_no_wrap(origin.clone(), font::small(), theme.text)
+            .size()
+            .x;
+        if first.right() + width + 4.0 * space::MEDIUM < rect.right() {
+            corner.x = rect.right() - space::MEDIUM;
+            plate(painter, corner, egui::Align2::RIGHT_BOTTOM, origin, theme);
+            first.top()
+        } else {
+            corner.y = first.top() - 4.0;
+            plate(painter, corner, egui::Align2::LEFT_BOTTOM, origin, theme).top()
+        }
+    }
+}
+
+/// What the view shows of a scan over its points.
+fn overlay<'a>(state: &'a InspectState, inspected: &'a Inspected) -> Option<Overlay<'a>> {
+    let scan = inspected.scan.as_ref()?;
+    let unseen = scan.unseen.as_ref();
+    Some(Overlay {
+        fused: &scan.fused,
+        unseen: unseen.map(|(points, share)| (points, *share)),
+        looked_at: state.shots.looked_at,
+        has_cameras: state.parts.contains(&ViewPart::ShotCameras),
+        has_unseen: state.parts.contains(&ViewPart::Unseen),
+    })
+}
+
+fn style(theme: ThemeChoice) -> ViewStyle {
+    let colours = match theme {
+        ThemeChoice::Dark => ViewColours::dark(),
+        ThemeChoice::Light => ViewColours::light(),
+    };
+    ViewStyle {
+        deviation_range: DEVIATION_RANGE,
+        ..ViewStyle::new(colours)
+    }
+}
+
+/// Words on a backing, so that they can be read on any points.
+fn plate(
+    painter: &Painter,
+    corner: egui::Pos2,
+    anchor: egui::Align2,
+    text: &str,
+    theme: &Theme,
+) -> Rect {
+    let galley = painter.layout_no_wrap(text.to_owned(), font::small(), theme.text);
+    let margin = vec2(8.0, 4.0);
+    let rect = anchor.anchor_size(corner, galley.size() + 2.0 * margin);
+    painter.rect_filled(rect, ROUNDING, theme.canvas.gamma_multiply(0.82));
+    painter.galley(rect.min + margin, galley, theme.text);
+    rect
+}

@@ -1,0 +1,7 @@
+//! The workspaces. Each owns its state, its panels and its tasks; none imports another.
+
+pub mod align;
+pub mod compare;
+pub mod enrol;
+pub mod history;
+pub mod inspect;
