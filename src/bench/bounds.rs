@@ -9,6 +9,7 @@ mod subject;
 use nalgebra::{Point3, Vector3};
 use serde::Serialize;
 
+pub(super) use self::subject::hung_from_mesh;
 pub use self::subject::{BoundsLibrary, BoundsPart};
 use super::suites::pushed_out_of_the_picture;
 use crate::{

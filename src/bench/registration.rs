@@ -11,10 +11,12 @@ use nalgebra::{Point3, UnitQuaternion, Vector3};
 use rand::{RngExt as _, SeedableRng as _};
 use rand_pcg::Pcg64;
 
-use self::clouds::{hide, noisy_sample, stray, view};
+use self::clouds::{hide, noisy_sample, random_sample, seen_from_outside, stray, view};
+use super::bounds::hung_from_mesh;
 use crate::{
     geometry::{
         cloud::PointCloud,
+        mesh::TriangleMesh,
         principal::principal_axes,
         rigid::{self, RigidTransform, pose_error},
     },
@@ -49,18 +51,29 @@ pub enum Condition {
     Stray,
     /// As whole, from T1..T5 (eq. 15) and then from starts drawn anyhow.
     Starts,
+    /// Both clouds are drawn at random places, 1 500 to 20 000 of each, with 0.5 to 4 mm of noise along and across.
+    Resampled,
+    /// What is seen of the part from within 75° of its outside, drawn likewise, onto the whole part.
+    Outside,
 }
 
 impl Condition {
     /// All of them.
-    pub const ALL: [Self; 6] = [
+    pub const ALL: [Self; 8] = [
         Self::Whole,
         Self::View,
         Self::Hidden,
         Self::Noisy,
         Self::Stray,
         Self::Starts,
+        Self::Resampled,
+        Self::Outside,
     ];
+
+    /// Whether every source has a target of its own.
+    fn has_targets_of_its_own(self) -> bool {
+        matches!(self, Self::Resampled | Self::Outside)
+    }
 
     /// In words.
     pub fn title(self) -> &'static str {
@@ -71,13 +84,50 @@ impl Condition {
             Self::Noisy => "3 mm noise",
             Self::Stray => "10 % stray points",
             Self::Starts => "from T1..T5 and from random starts",
+            Self::Resampled => "both at random places, 1 500 to 20 000 points, 0.5 to 4 mm noise",
+            Self::Outside => {
+                "seen from within 75° of the outside, drawn likewise, onto the whole part"
+            }
         }
+    }
+}
+
+/// A part that is registered to itself.
+#[derive(Clone, Debug, PartialEq)]
+pub struct RegistrationPart {
+    /// Its name.
+    pub name: String,
+    /// Its surface, centred, the outside towards -z.
+    pub mesh: TriangleMesh,
+}
+
+impl RegistrationPart {
+    /// The eight parts of the simulator.
+    pub fn simulated() -> Vec<Self> {
+        let part = |kind: PartKind| Self {
+            name: kind.name().to_owned(),
+            mesh: PartModel::new(kind, Side::Left, 0).into_mesh(),
+        };
+        PartKind::ALL.map(part).into()
+    }
+
+    /// Any mesh in metres.
+    pub fn of_mesh(name: String, mesh: &TriangleMesh) -> Self {
+        let hung = hung_from_mesh(mesh);
+        let hang = |p: &Point3<f32>| (hung * p.cast::<f64>()).cast();
+        let mesh = TriangleMesh {
+            vertices: mesh.vertices.iter().map(hang).collect(),
+            triangles: mesh.triangles.clone(),
+        };
+        Self { name, mesh }
     }
 }
 
 /// What is registered, and how often.
 #[derive(Clone, Debug, PartialEq)]
 pub struct RegistrationSetup {
+    /// The parts.
+    pub parts: Vec<RegistrationPart>,
     /// What the sources are.
     pub condition: Condition,
     /// Sources of each part.
@@ -93,8 +143,8 @@ pub struct RegistrationSetup {
 pub struct Attempt {
     /// The method's name.
     pub method: String,
-    /// The part.
-    pub part: PartKind,
+    /// The part's name.
+    pub part: String,
     /// Place of the source among those of the part.
     pub source: usize,
     /// Time of the estimation without preparing the target.
@@ -141,7 +191,7 @@ impl Attempt {
 pub struct Registration {
     /// One per part, source and method, in that order.
     pub attempts: Vec<Attempt>,
-    /// How long each part's target took to prepare.
+    /// How long each target took to prepare.
     pub preparations: Vec<Duration>,
 }
 
@@ -157,15 +207,16 @@ pub fn register_all(
     is_cancelled: &dyn Fn() -> bool,
 ) -> Result<Registration, Cancelled> {
     let mut registration = Registration::default();
-    for (k, part) in PartKind::ALL.into_iter().enumerate() {
-        let model = PartModel::new(part, Side::Left, 0);
-        let target = noisy_target(&model, setup.seed);
-        let clock = Instant::now();
-        let prepared = PreparedTarget::new(&target).expect("a part spans three dimensions");
-        registration.preparations.push(clock.elapsed());
+    for (k, part) in setup.parts.iter().enumerate() {
+        let shared = noisy_sample(&part.mesh, NOISE, setup.seed ^ 0x7a6e);
+        let mut prepared = registration.prepared(&shared);
         for source in 0..setup.num_sources {
-            let seed = setup.seed + (source * PartKind::ALL.len() + k) as u64;
-            let (cloud, target_from_source) = drawn_source(setup.condition, &model, source, seed);
+            let seed = setup.seed + (source * setup.parts.len() + k) as u64;
+            if setup.condition.has_targets_of_its_own() {
+                let target = random_sample(&part.mesh, &mut Pcg64::seed_from_u64(seed ^ 0x7a6e));
+                prepared = registration.prepared(&target);
+            }
+            let (cloud, target_from_source) = drawn_source(setup.condition, part, source, seed);
             let middle = principal_axes(cloud.points.iter().map(|p| (p.cast(), 1.0)))
                 .map_or(Point3::origin(), |axes| axes.mean);
             for (method, params) in &setup.methods {
@@ -177,7 +228,7 @@ pub fn register_all(
                 }
                 let attempt = Attempt {
                     method: method.clone(),
-                    part,
+                    part: part.name.clone(),
                     source,
                     time,
                     found: aligned.map(|pose| PoseAgainstTruth {
@@ -194,26 +245,30 @@ pub fn register_all(
     Ok(registration)
 }
 
-/// What the sources of a part are registered to.
-pub fn noisy_target(model: &PartModel, seed: u64) -> PointCloud {
-    noisy_sample(model.mesh(), NOISE, seed ^ 0x7a6e)
+impl Registration {
+    fn prepared(&mut self, target: &PointCloud) -> PreparedTarget {
+        let clock = Instant::now();
+        let prepared = PreparedTarget::new(target).expect("a part spans three dimensions");
+        self.preparations.push(clock.elapsed());
+        prepared
+    }
 }
 
 /// A source, and the pose that puts it back.
-pub fn drawn_source(
+fn drawn_source(
     condition: Condition,
-    model: &PartModel,
+    part: &RegistrationPart,
     place: usize,
     seed: u64,
 ) -> (PointCloud, RigidTransform) {
-    if condition == Condition::View {
-        return view(model, seed);
-    }
-    let noise = match condition {
-        Condition::Noisy => Metres(3.0 * NOISE.0),
-        _ => NOISE,
+    let mut rng = Pcg64::seed_from_u64(seed);
+    let mut cloud = match condition {
+        Condition::View => return view(&part.mesh, seed),
+        Condition::Resampled => random_sample(&part.mesh, &mut rng),
+        Condition::Outside => seen_from_outside(&part.mesh, &mut rng),
+        Condition::Noisy => noisy_sample(&part.mesh, Metres(3.0 * NOISE.0), seed),
+        _ => noisy_sample(&part.mesh, NOISE, seed),
     };
-    let mut cloud = noisy_sample(model.mesh(), noise, seed);
     match condition {
         Condition::Hidden => hide(&mut cloud, 0.3, seed),
         Condition::Stray => stray(&mut cloud, 0.1, seed),
@@ -297,6 +352,7 @@ mod tests {
     #[test]
     fn whole_parts_are_found_from_anywhere_and_hidden_ones_mostly() {
         let setup = |condition| RegistrationSetup {
+            parts: RegistrationPart::simulated(),
             condition,
             num_sources: 1,
             seed: 500,
@@ -310,11 +366,14 @@ mod tests {
         assert_eq!(right(Condition::Whole), 8);
         assert!(right(Condition::Hidden) >= 7);
         assert!(right(Condition::View) >= 7);
+        assert_eq!(right(Condition::Resampled), 8);
+        assert!(right(Condition::Outside) >= 7);
     }
 
     #[test]
     fn cancelling_ends_it() {
         let setup = RegistrationSetup {
+            parts: RegistrationPart::simulated(),
             condition: Condition::Whole,
             num_sources: 1,
             seed: 1,

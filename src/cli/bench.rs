@@ -41,6 +41,7 @@ Examples:
   partsight bench table1 --csv table1.csv
   partsight bench table1 --part fender --part grille
   partsight bench registration --poses 125
+  partsight bench registration --condition resampled --condition outside --mesh car.gltf#Door_FL
   partsight bench bounds --poses 10
   partsight bench bounds --mesh car.gltf#Door_FL --mesh car.gltf#Trunk_Lid
   partsight bench scaling --plot scaling.png
@@ -76,9 +77,12 @@ pub(super) struct BenchArgs {
     /// Of table1: write every attempt to this file as comma-separated values
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-    /// Of bounds: enrol and render this mesh instead of the simulated parts, with its outside towards the camera; may be given several times
+    /// Of bounds and registration: take this mesh instead of the simulated parts, with its outside towards the camera; may be given several times
     #[arg(long, value_name = "FILE#NAME")]
     mesh: Vec<PathBuf>,
+    /// Of registration: only sources of this kind; may be given several times
+    #[arg(long, value_enum, value_name = "NAME")]
+    condition: Vec<registration::ConditionChoice>,
     /// Of scaling: draw the times into this file
     #[arg(long, value_name = "PNG")]
     plot: Option<PathBuf>,
@@ -107,7 +111,7 @@ enum Bench {
     Calibration,
     /// The right half of that table: what is left of E from T1..T5, by ICP, ICP-GA and the global method
     Table1,
-    /// Poses of clouds that share no point: whole, single views, hidden, noisy, with stray points, and what the genetic algorithm adds
+    /// Poses of clouds that share no point: whole, single views, hidden, noisy, with stray points, sampled otherwise, and what the genetic algorithm adds
     Registration,
     /// Whether poses are as exact as their bounds say: whole and cut views of parts of other car models, enrolled themselves, or of meshes
     Bounds,
@@ -159,10 +163,16 @@ fn check(args: &BenchArgs) -> anyhow::Result<()> {
             "Ask for it: partsight bench recognition --suite all",
         ));
     }
-    if bench != Bench::Bounds && !args.mesh.is_empty() {
+    if !args.mesh.is_empty() && !matches!(bench, Bench::Bounds | Bench::Registration) {
         return Err(advised_error(
-            "--mesh goes with bounds",
+            "--mesh goes with bounds and registration",
             "Ask for it: partsight bench bounds --mesh FILE#NAME",
+        ));
+    }
+    if bench != Bench::Registration && !args.condition.is_empty() {
+        return Err(advised_error(
+            "--condition goes with registration",
+            "Ask for it: partsight bench registration --condition outside",
         ));
     }
     if bench != Bench::Recognition && !args.set.is_empty() {

@@ -104,7 +104,7 @@ const LEAST_ONE_SIDED: f64 = 0.2;
 
 /// Centres a mesh and turns its face, the side that more of its area looks to, towards -z: the camera. Of a closed mesh
 /// that is a side of its flattest extent.
-fn hung_from_mesh(mesh: &TriangleMesh) -> RigidTransform {
+pub(in crate::bench) fn hung_from_mesh(mesh: &TriangleMesh) -> RigidTransform {
     let corner = |i: u32| mesh.vertices[i as usize].cast::<f64>();
     let facing = mesh.triangles.iter().fold(Vector3::zeros(), |sum, t| {
         let (a, b, c) = (corner(t[0]), corner(t[1]), corner(t[2]));

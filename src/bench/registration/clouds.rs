@@ -11,13 +11,13 @@ use crate::{
         mesh::TriangleMesh,
         rigid::RigidTransform,
     },
-    simulate::{CellSetup, PartModel, PartPose, PoseRange, Side, SurfaceLabel, frame_of_mesh},
+    simulate::{
+        CellSetup, PartPose, PoseRange, SensorNoise, SimulatedFrame, SimulatedObject, SurfaceLabel,
+        frame_of_mesh,
+    },
     stages::scene::scene_from_frame,
     units::{Metres, Radians},
 };
-
-/// How far from the front a view is taken, as a cosine.
-const FRONTAL: f64 = 0.5;
 
 /// The surface sampled anew, every coordinate with normal noise.
 pub(super) fn noisy_sample(mesh: &TriangleMesh, noise: Metres, seed: u64) -> PointCloud {
@@ -65,34 +65,87 @@ pub(super) fn stray(cloud: &mut PointCloud, share: f64, seed: u64) {
 }
 
 /// What the simulated camera sees of a part from within 60° of its front, thinned, and the pose that puts it back.
-pub(super) fn view(model: &PartModel, seed: u64) -> (PointCloud, RigidTransform) {
+pub(super) fn view(mesh: &TriangleMesh, seed: u64) -> (PointCloud, RigidTransform) {
     let mut rng = Pcg64::seed_from_u64(seed);
+    let shot = drawn_shot(mesh, Radians::from_degrees(60.0), None, &mut rng);
+    let mut points = part_points(&shot);
+    points.shuffle(&mut rng);
+    points.truncate(NUM_POINTS);
+    let camera_from_part = shot.truth.camera_from_part;
+    (PointCloud::from_points(points), camera_from_part.inverse())
+}
+
+/// A frame of the part that shows all of one side of it, from within an angle of its front.
+fn drawn_shot(
+    mesh: &TriangleMesh,
+    most: Radians,
+    noise: Option<SensorNoise>,
+    rng: &mut Pcg64,
+) -> SimulatedFrame {
     let placement = PoseRange {
-        yaw: Radians::from_degrees(60.0),
-        pitch: Radians::from_degrees(60.0),
+        yaw: most,
+        pitch: most,
         ..PoseRange::placed()
     };
     loop {
-        let side = model.side().unwrap_or(Side::Left);
-        let mut cell = CellSetup::with_part(model.kind(), side, model.model_seed(), rng.random());
+        let mut cell = CellSetup::new(SimulatedObject::Nothing, rng.random());
         cell.pose = PartPose::Drawn(placement);
-        let shot = frame_of_mesh(&cell, model.mesh());
-        let camera_from_part = shot.truth.camera_from_part;
-        let is_frontal = (camera_from_part.rotation * Vector3::z()).z >= FRONTAL;
-        if !is_frontal || !shot.truth.fully_visible {
-            continue;
+        cell.noise = noise.unwrap_or(cell.noise);
+        let shot = frame_of_mesh(&cell, mesh);
+        let facing = (shot.truth.camera_from_part.rotation * Vector3::z()).z;
+        if facing >= most.0.cos() && shot.truth.fully_visible {
+            return shot;
         }
-        let scene = scene_from_frame(&shot.frame);
-        let mut points: Vec<Point3<f32>> = scene
-            .cloud
-            .points
-            .iter()
-            .zip(&shot.truth.labels)
-            .filter(|(p, label)| **label == SurfaceLabel::Part && is_finite(p))
-            .map(|(p, _)| *p)
-            .collect();
-        points.shuffle(&mut rng);
-        points.truncate(NUM_POINTS);
-        return (PointCloud::from_points(points), camera_from_part.inverse());
     }
+}
+
+fn part_points(shot: &SimulatedFrame) -> Vec<Point3<f32>> {
+    let scene = scene_from_frame(&shot.frame);
+    let labelled = scene.cloud.points.iter().zip(&shot.truth.labels);
+    labelled
+        .filter(|(p, label)| **label == SurfaceLabel::Part && is_finite(p))
+        .map(|(p, _)| *p)
+        .collect()
+}
+
+/// Points at random places of the whole surface.
+pub(super) fn random_sample(mesh: &TriangleMesh, rng: &mut Pcg64) -> PointCloud {
+    let sample = mesh.sample_evenly(NUM_DENSE, rng.random());
+    let dense = sample.expect("a part's mesh has an area").points;
+    disturbed(dense, rng)
+}
+
+/// Points at random places of what a perfect camera sees from within 75° of the outside, in the part's space.
+pub(super) fn seen_from_outside(mesh: &TriangleMesh, rng: &mut Pcg64) -> PointCloud {
+    let shot = drawn_shot(
+        mesh,
+        Radians::from_degrees(75.0),
+        Some(SensorNoise::none()),
+        rng,
+    );
+    let part_from_camera = shot.truth.camera_from_part.inverse();
+    let seen = part_points(&shot).into_iter();
+    let seen = seen.map(|p| (part_from_camera * p.cast::<f64>()).cast());
+    disturbed(seen.collect(), rng)
+}
+
+/// Points from which a random few are at random places: neighbours in an even sample avoid each other.
+const NUM_DENSE: usize = 8 * NUM_POINTS;
+/// Points of a random sample at least, and its noise at least and at most, metres.
+const FEWEST_POINTS: f64 = 1_500.0;
+const LEAST_NOISE: f64 = 0.0005;
+const MOST_NOISE: f64 = 0.004;
+
+/// A random number of the points, with as random a noise along and across the surface.
+fn disturbed(mut points: Vec<Point3<f32>>, rng: &mut Pcg64) -> PointCloud {
+    let mut between =
+        |low: f64, high: f64| (low.ln() + rng.random::<f64>() * (high / low).ln()).exp();
+    let num_points = between(FEWEST_POINTS, NUM_POINTS as f64) as usize;
+    let noise = between(LEAST_NOISE, MOST_NOISE);
+    points.shuffle(rng);
+    points.truncate(num_points);
+    for p in &mut points {
+        *p += Vector3::from([(); 3].map(|()| (noise * normal(rng)) as f32));
+    }
+    PointCloud::from_points(points)
 }

@@ -90,7 +90,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
 }
 
 /// A mesh by the name after `#`, or by that of its file.
-fn opened(path: &Path) -> anyhow::Result<(String, TriangleMesh)> {
+pub(super) fn opened(path: &Path) -> anyhow::Result<(String, TriangleMesh)> {
     let FileContent::Mesh(mesh) = open(path).advised()? else {
         return Err(advised_error(
             format!("{} is no mesh", path.display()),

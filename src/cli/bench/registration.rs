@@ -1,13 +1,15 @@
 //! `partsight bench registration`: poses of clouds that share no point.
 
+use clap::ValueEnum;
 use serde::Serialize;
 
-use super::{BenchArgs, NUM_POSES, write_json};
+use super::{BenchArgs, NUM_POSES, bounds::opened, write_json};
 use crate::{
     bench::{
         quantile,
         registration::{
-            Attempt, Condition, NUM_POINTS, Registration, RegistrationSetup, ablation, register_all,
+            Attempt, Condition, NUM_POINTS, Registration, RegistrationPart, RegistrationSetup,
+            ablation, register_all,
         },
         suites::MEASURING_SEED,
     },
@@ -15,7 +17,6 @@ use crate::{
         Outcome,
         console::{Console, Table},
     },
-    simulate::PartKind,
     stages::pose::{AlignParams, PoseMethod},
 };
 
@@ -32,7 +33,7 @@ struct RegistrationFile {
 struct AttemptLine {
     condition: Condition,
     method: String,
-    part: &'static str,
+    part: String,
     source: usize,
     time_ms: f64,
     right: bool,
@@ -51,10 +52,48 @@ struct Experiment {
     methods: Vec<(String, AlignParams)>,
 }
 
-fn studies() -> Vec<Experiment> {
+/// A condition on the command line.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
+pub(super) enum ConditionChoice {
+    /// The whole part
+    Whole,
+    /// One view with a Kinect's noise
+    View,
+    /// 30 % hidden
+    Hidden,
+    /// Three times the noise
+    Noisy,
+    /// One point in ten anywhere
+    Stray,
+    /// From T1..T5 and random starts, with every method
+    Starts,
+    /// Both clouds at random places, few or many points
+    Resampled,
+    /// Seen from outside, drawn likewise
+    Outside,
+}
+
+impl From<ConditionChoice> for Condition {
+    fn from(choice: ConditionChoice) -> Self {
+        match choice {
+            ConditionChoice::Whole => Self::Whole,
+            ConditionChoice::View => Self::View,
+            ConditionChoice::Hidden => Self::Hidden,
+            ConditionChoice::Noisy => Self::Noisy,
+            ConditionChoice::Stray => Self::Stray,
+            ConditionChoice::Starts => Self::Starts,
+            ConditionChoice::Resampled => Self::Resampled,
+            ConditionChoice::Outside => Self::Outside,
+        }
+    }
+}
+
+fn studies(chosen: &[ConditionChoice]) -> Vec<Experiment> {
     let named = |method: PoseMethod| (method.name().to_owned(), AlignParams::from(method));
+    let chosen: Vec<Condition> = chosen.iter().map(|choice| (*choice).into()).collect();
     let mut studies: Vec<Experiment> = Condition::ALL
         .into_iter()
+        .filter(|condition| chosen.is_empty() || chosen.contains(condition))
         .map(|condition| Experiment {
             title: condition.title().to_owned(),
             condition,
@@ -64,23 +103,35 @@ fn studies() -> Vec<Experiment> {
             },
         })
         .collect();
-    studies.push(Experiment {
-        title: "what ICP-GA is without each of its means, from the same starts".to_owned(),
-        condition: Condition::Starts,
-        methods: ablation(),
-    });
+    if chosen.is_empty() {
+        studies.push(Experiment {
+            title: "what ICP-GA is without each of its means, from the same starts".to_owned(),
+            condition: Condition::Starts,
+            methods: ablation(),
+        });
+    }
     studies
 }
 
 pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    let studies = studies();
+    let studies = studies(&args.condition);
+    let parts = if args.mesh.is_empty() {
+        RegistrationPart::simulated()
+    } else {
+        let opened = args.mesh.iter().map(|path| opened(path));
+        let part = |(name, mesh)| RegistrationPart::of_mesh(name, &mesh);
+        opened
+            .map(|opened| opened.map(part))
+            .collect::<anyhow::Result<_>>()?
+    };
     let num_sources = args.poses.unwrap_or(NUM_POSES) as usize;
     let num_methods: usize = studies.iter().map(|study| study.methods.len()).sum();
-    console.start_progress(num_methods * num_sources * PartKind::ALL.len());
+    console.start_progress(num_methods * num_sources * parts.len());
     let mut done = Vec::new();
     for study in studies {
         console.begin(&study.title);
         let setup = RegistrationSetup {
+            parts: parts.clone(),
             condition: study.condition,
             num_sources,
             seed: args.seed.unwrap_or(MEASURING_SEED),
@@ -91,9 +142,10 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     }
     console.end_progress();
     console.line(&format_args!(
-        "Simulated: 8 parts, {num_sources} sources of each, {NUM_POINTS} points each (of a view: at most), one core. Right: within 2° and 1 cm."
+        "Simulated: {} parts, {num_sources} sources of each, {NUM_POINTS} points each (of a view: at most), one core. Right: within 2° and 1 cm.",
+        parts.len()
     ));
-    show(&done, console);
+    show(&done, &parts, console);
     if let Some(path) = &args.json {
         let file = RegistrationFile {
             schema: 1,
@@ -106,7 +158,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     Ok(Outcome::Accepted)
 }
 
-fn show(done: &[(Experiment, Registration)], console: &mut Console) {
+fn show(done: &[(Experiment, Registration)], parts: &[RegistrationPart], console: &mut Console) {
     for (study, registration) in done {
         console.line(&"");
         console.line(&study.title);
@@ -153,26 +205,32 @@ fn show(done: &[(Experiment, Registration)], console: &mut Console) {
             ]);
         }
         table.show(console);
-        for kind in PartKind::ALL {
-            let wrong = |a: &&Attempt| a.part == kind && !a.is_right();
-            let of_first = |a: &&Attempt| a.method == study.methods[0].0;
-            let num = registration
-                .attempts
-                .iter()
-                .filter(of_first)
-                .filter(wrong)
-                .count();
-            if num > 0 && study.methods.len() == 1 {
-                console.line(&format_args!("  not right: {} {num} times", kind.name()));
-            }
+        if study.methods.len() == 1 {
+            by_part(registration, parts, console);
         }
     }
     let preparations = done.iter().flat_map(|(_, r)| &r.preparations);
     if let Some(ms) = quantile(preparations.map(|t| t.as_secs_f64() * 1e3), 0.5) {
         console.line(&"");
         console.line(&format_args!(
-            "Preparing a target, once per part: {ms:.0} ms (median), not in the times above."
+            "Preparing a target: {ms:.1} ms (median), not in the times above."
         ));
+    }
+}
+
+/// The parts that were missed, with and without a doubt.
+fn by_part(registration: &Registration, parts: &[RegistrationPart], console: &mut Console) {
+    for RegistrationPart { name, .. } in parts {
+        let attempts = || registration.attempts.iter().filter(|a| a.part == *name);
+        let missed = attempts().filter(|a| !a.is_right()).count();
+        let silent = attempts().filter(|a| !a.is_right() && !a.is_doubted());
+        if missed > 0 {
+            console.line(&format_args!(
+                "  {name}: {missed} of {} not right, {} of them without a doubt",
+                attempts().count(),
+                silent.count()
+            ));
+        }
     }
 }
 
@@ -187,7 +245,7 @@ fn lines(study: &Experiment, registration: &Registration) -> Vec<AttemptLine> {
         AttemptLine {
             condition: study.condition,
             method: attempt.method.clone(),
-            part: attempt.part.name(),
+            part: attempt.part.clone(),
             source: attempt.source,
             time_ms: time_ms(attempt),
             right: attempt.is_right(),
