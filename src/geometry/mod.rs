@@ -15,5 +15,6 @@ pub mod raster;
 pub mod rays;
 pub mod rigid;
 pub mod sixteen_numbers;
+pub mod surface_grid;
 pub mod voxel;
 pub mod written_pose;

@@ -20,7 +20,7 @@ const MAX_CELLS: f64 = 4e6;
 const MAX_CELLS_ALONG: f64 = 60_000.0;
 
 /// Nearest points within a band around a cloud.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq)]
 pub struct NearestField {
     low: Point3<f32>,
     per_cell: f32,

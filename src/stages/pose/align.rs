@@ -8,7 +8,7 @@ use super::{
     global::search,
     icp::{IcpParams, icp},
     icp_ga::{IcpGaParams, icp_ga},
-    prepared::PreparedTarget,
+    prepared::{Measured, PreparedTarget},
     refine::Refined,
 };
 use crate::geometry::{cloud::PointCloud, rigid::RigidTransform};
@@ -93,6 +93,12 @@ fn align_centred(
         |start: RigidTransform| target.centring() * start * source.centring().inverse();
     let no_turn = from_origin(RigidTransform::identity());
     let start = initial.map(from_origin);
+    let by_points = || Measured {
+        surface: &source.points,
+        edges: Vec::new(),
+        level: prepared.finest(),
+        outline_error: 0.0,
+    };
     let mut estimate = match params.method {
         PoseMethod::Icp => {
             let thinned = thinned(&source.points, params.icp.max_source_points);
@@ -111,7 +117,7 @@ fn align_centred(
                 iterations: run.iterations,
                 stopped: run.stopped,
             };
-            prepared.estimate(&source.points, refined, PoseMethod::Icp, None)
+            prepared.estimate(by_points(), refined, PoseMethod::Icp, None)
         }
         PoseMethod::IcpGa => {
             let run = icp_ga(
@@ -126,7 +132,7 @@ fn align_centred(
                 iterations: run.iterations,
                 stopped: run.stopped,
             };
-            prepared.estimate(&source.points, refined, PoseMethod::IcpGa, run.runner_up)
+            prepared.estimate(by_points(), refined, PoseMethod::IcpGa, run.runner_up)
         }
         PoseMethod::Global => search(source, prepared, no_turn, start, is_cancelled)?,
     };

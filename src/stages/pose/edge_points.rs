@@ -1,11 +1,16 @@
 //! The points of outline and openings, for an exhaustive search of the closest.
 
-use nalgebra::{Point3, Vector3};
+use nalgebra::{Matrix3, Point3, Vector3};
+
+use crate::geometry::{nearest_field::NearestField, surface_grid::SurfaceEnd};
 
 /// Points looked at side by side.
 const LANES: usize = 8;
 /// A neighbour this many times as far away as the other one is no neighbour.
 const SAME_OUTLINE: f32 = 3.0;
+
+/// Ends this many pieces' halves away say which way a border runs.
+const NEIGHBOURS: f64 = 3.0;
 
 /// A few hundred points in columns of eight, which the processor looks at all at once. Neighbours along an outline are
 /// neighbours in a column, so most columns are too far away as a whole.
@@ -16,9 +21,28 @@ pub struct EdgePoints {
     /// The least and the greatest x, y and z of eight groups each, filled up likewise.
     boxes: Vec<[[[f32; LANES]; 3]; 2]>,
     num: usize,
+    /// Of each point, if every one stands for a piece of a line: from it to the end of its piece.
+    pieces: Vec<Vector3<f32>>,
+    /// What else would be a search of all of them.
+    field: Option<NearestField>,
 }
 
 impl EdgePoints {
+    /// The ends of a cloud's surface, each a straight piece that reaches as far as `half` either way; at most `limit`.
+    /// The closest is looked for within `band` of them only, and is off by less than `half` along them.
+    pub fn of_ends(ends: &[SurfaceEnd], half: f64, limit: usize, band: f64) -> Self {
+        let step = ends.len().div_ceil(limit.max(1)).max(1);
+        let kept = || ends.iter().step_by(step);
+        let points: Vec<Point3<f32>> = kept().map(|end| end.at).collect();
+        Self {
+            pieces: kept()
+                .map(|end| along_neighbours(end, ends, NEIGHBOURS * half) * half as f32)
+                .collect(),
+            field: Some(NearestField::new(&points, half as f32, band as f32)),
+            ..Self::new(&points, limit)
+        }
+    }
+
     /// Keeps at most `limit` of the points, evenly spread over their order.
     pub fn new(points: &[Point3<f32>], limit: usize) -> Self {
         let step = points.len().div_ceil(limit.max(1)).max(1);
@@ -48,7 +72,14 @@ impl EdgePoints {
             boxes: groups.chunks(LANES).map(bounds).collect(),
             groups: groups.into_iter().map(group).collect(),
             num: kept.len(),
+            pieces: Vec::new(),
+            field: None,
         }
+    }
+
+    /// True if the points stand for pieces of lines, whose directions come from noisy points.
+    pub fn are_pieces(&self) -> bool {
+        !self.pieces.is_empty()
     }
 
     /// The number of points.
@@ -75,11 +106,23 @@ impl EdgePoints {
     /// The closest point within reach, with its squared distance.
     pub fn closest(&self, at: &Point3<f32>, reach_sq: f32) -> Option<(Point3<f32>, f32)> {
         let (number, distance_sq) = self.closest_number(at, reach_sq)?;
-        Some((self.point(number), distance_sq))
+        let point = self.point(number);
+        let Some(piece) = self.pieces.get(number) else {
+            return Some((point, distance_sq));
+        };
+        let along = (at - point).dot(piece) / piece.norm_squared();
+        let foot = point + piece * along.clamp(-1.0, 1.0);
+        Some((foot, (foot - at).norm_squared()))
     }
 
     /// The number of the closest point within reach, with its squared distance.
     pub fn closest_number(&self, at: &Point3<f32>, reach_sq: f32) -> Option<(usize, f32)> {
+        if let Some(field) = &self.field {
+            let near = field
+                .nearest(at)
+                .filter(|near| near.distance_sq < reach_sq)?;
+            return Some((near.index, near.distance_sq));
+        }
         let mut best = (reach_sq, usize::MAX);
         for (number, boxes) in self.boxes.iter().enumerate() {
             let at_least = distances_to_boxes_sq(boxes, at);
@@ -96,6 +139,9 @@ impl EdgePoints {
     ///
     /// A neighbour that is several times as far away as the other belongs to another outline.
     pub fn along(&self, number: usize) -> Option<Vector3<f32>> {
+        if let Some(piece) = self.pieces.get(number) {
+            return piece.try_normalize(0.0);
+        }
         let at = self.point(number);
         let to = |other: Option<usize>| {
             let other = other.filter(|other| *other < self.num)?;
@@ -123,6 +169,20 @@ impl EdgePoints {
             *best = (least, group * LANES + lane);
         }
     }
+}
+
+/// The direction in which the ends around one spread; its own says where to begin.
+fn along_neighbours(end: &SurfaceEnd, ends: &[SurfaceEnd], reach: f64) -> Vector3<f32> {
+    let spread: Matrix3<f32> = ends
+        .iter()
+        .map(|other| other.at - end.at)
+        .filter(|off| off.norm_squared() < (reach * reach) as f32)
+        .map(|off| off * off.transpose())
+        .sum();
+    // Powers of the matrix turn a vector towards its widest direction.
+    (0..4).fold(end.along, |along, _| {
+        (spread * along).try_normalize(0.0).unwrap_or(along)
+    })
 }
 
 /// Squared distances to eight boxes, 0 inside.
@@ -167,6 +227,37 @@ mod tests {
             assert!((along - expected).norm() < 1e-5, "{number}: {along}");
         }
         assert_eq!(EdgePoints::new(&points[..1], 100).along(0), None);
+    }
+
+    #[test]
+    fn ends_of_a_surface_are_pieces_of_its_border() {
+        let end = |i: i32| SurfaceEnd {
+            at: Point3::new(
+                i as f32 * 0.02,
+                if i % 2 == 0 { 0.001 } else { -0.001 },
+                0.0,
+            ),
+            along: Vector3::new(0.9, 0.4, 0.0).normalize(),
+        };
+        let ends: Vec<SurfaceEnd> = (0..20).map(end).collect();
+        let edges = EdgePoints::of_ends(&ends, 0.02, 100, 0.1);
+        assert_eq!(edges.len(), 20);
+        assert!(edges.are_pieces());
+        for i in 2..18 {
+            let along = edges.along(i).expect("every piece has a direction");
+            assert!(along.x > 0.99, "{along}");
+        }
+        // Between two points the closest is on the line, not at one of them.
+        let (foot, distance_sq) = edges
+            .closest(&Point3::new(0.21, 0.03, 0.0), 0.01)
+            .expect("near");
+        assert!((foot.x - 0.21).abs() < 0.003, "{foot}");
+        assert!((distance_sq.sqrt() - 0.03).abs() < 0.002);
+        assert_eq!(
+            edges.closest(&Point3::new(0.2, 0.3, 0.0), 1.0),
+            None,
+            "out of the band"
+        );
     }
 
     proptest! {

@@ -4,12 +4,16 @@
 //! can be. Two clouds of the same whole thing have the same principal variances, and their principal axes lie on each
 //! other up to half turns: those starts come first, and if one of them convinces there is nothing else to look for,
 //! since a rigid motion that takes such a cloud onto itself takes its axes onto themselves. Otherwise rotations spread
-//! evenly over SO(3) race each other: all are refined a little on few points, the better go on to more points and
-//! finer scales.
+//! evenly over SO(3) race each other, centre on centre: all are refined a little on few points, the better go on to more
+//! points and finer scales. A view's centre is not the part's, so the best are put elsewhere and race once more.
 //!
-//! Known limits: a shift between clouds that share less than about half of their surface is only found if it is small
-//! against their size, since starts put centre on centre.
+//! Nearly flat sheets slide along themselves as far as their surface goes, so what fits on the fine likeness is judged by
+//! the borders of both clouds as well. Copies of the same points need none, and are then exact.
+//!
+//! Known limits: a view ends where the surface turns out of sight, too, and such a border has no counterpart; it pulls
+//! where one happens to be near.
 
+mod best;
 mod translations;
 
 use nalgebra::Point3;
@@ -17,12 +21,10 @@ use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
 use super::{
-    MIN_POINTS, PoseError, PoseEstimate, PoseMethod, RunnerUp,
+    PoseError, PoseEstimate,
     centred::Centred,
-    closest::Correspondence,
     prepared::PreparedTarget,
-    quality::{Tolerance, measure_fit},
-    refine::{AlignmentSource, AlignmentTarget, Level, Refined, SETTLED, Search, cost, refine},
+    refine::{AlignmentSource, AlignmentTarget, Costs, Level, Refined, Search, costs, refine},
     starts::{all_round, along_axes},
 };
 use crate::{
@@ -30,6 +32,7 @@ use crate::{
         cloud::PointCloud,
         principal::{PrincipalAxes, principal_axes},
         rigid::{RigidTransform, pose_error},
+        surface_grid::SurfaceGrid,
         voxel::downsample,
     },
     units::Metres,
@@ -43,8 +46,20 @@ const COMPLETE: f64 = 0.99;
 const ALIKE: f64 = 0.15;
 /// Principal variances that differ by less than this share leave their axes free to turn into each other.
 const TURNABLE: f64 = 0.25;
+/// What a stretch of a border may be off by where both clouds show the whole thing, and where the source may end
+/// elsewhere, metres: on them most bounds hold (`partsight bench registration`).
+const OUTLINE_ERROR_OF_WHOLE: f64 = 0.003;
+const OUTLINE_ERROR_OF_VIEW: f64 = 0.01;
 /// Share of the source that lies on the target where a start along the axes convinces.
 const CONVINCING: f64 = 0.9;
+
+/// Points of a source at most in which its borders are looked for, and those of them that are used.
+const MOST_FOR_EDGES: usize = 12_000;
+const NUM_EDGES: usize = 256;
+
+/// What ends a level in the race, and before the last: shares of its scale.
+const ROUGHLY_SETTLED: f64 = 0.05;
+const NEARLY_SETTLED: f64 = 0.02;
 
 /// A round of the race.
 struct Round {
@@ -87,7 +102,7 @@ const RACE: [Round; 4] = [
 
 /// A pose on its way, with what it costs.
 struct PoseTrial {
-    cost: f64,
+    costs: Costs,
     refined: Refined,
 }
 
@@ -102,12 +117,14 @@ pub(super) fn search(
     let search = GlobalSearch::new(source, prepared, is_cancelled);
     let axes = (&search.axes, &prepared.axes);
     let mut finished = Vec::new();
+    let mut outline_error = OUTLINE_ERROR_OF_VIEW;
     if let Some(start) = start {
         finished = search.finish(search.successive_halving([start])?)?;
     } else {
         let near_at_hand = || std::iter::once(no_turn).chain(along_axes(axes.0, axes.1));
         if have_same_shape(axes.0, axes.1) {
-            finished = search.finish(search.successive_halving(near_at_hand())?)?;
+            let near = search.halved(near_at_hand(), &RACE[2..])?;
+            finished = search.finish(near)?;
             let best = finished.first();
             let overlap = best.map_or(0.0, |best| search.overlap(best));
             if overlap < CONVINCING {
@@ -119,10 +136,14 @@ pub(super) fn search(
         if finished.is_empty() {
             let starts = near_at_hand().chain(all_round(axes.0, axes.1));
             finished = search.finish(search.successive_halving(starts)?)?;
-            search.try_translations(&mut finished)?;
+            let elsewhere = search.put_elsewhere(&finished);
+            finished.extend(search.finish(search.successive_halving(elsewhere)?)?);
+            finished = search.distinct(finished);
+        } else {
+            outline_error = OUTLINE_ERROR_OF_WHOLE;
         }
     }
-    search.refine_best(finished)
+    search.refine_best(finished, outline_error)
 }
 
 /// True for clouds of the same whole thing, whose axes cannot turn into each other.
@@ -151,14 +172,19 @@ impl<'a> GlobalSearch<'a> {
         let num_wanted = prepared.finest().num_surface;
         let step = source.points.len().div_ceil(num_wanted).max(1);
         let some = source.points.iter().step_by(step).copied().collect();
-        let all = PointCloud::from_points(source.points.iter().copied());
+        let step = source.points.len().div_ceil(MOST_FOR_EDGES).max(1);
+        let all = PointCloud::from_points(source.points.iter().step_by(step).copied());
         let even = downsample(&all, Metres(prepared.coarse_target().spacing)).points;
         let axes = principal_axes(even.iter().map(|p| (p.cast(), 1.0))).unwrap_or(source.axes);
+        let ends = SurfaceGrid::new(&all.points).ends();
+        let mut edges: Vec<Point3<f32>> = ends.iter().map(|end| end.at).collect();
+        edges.shuffle(&mut Pcg64::seed_from_u64(1));
+        edges.truncate(NUM_EDGES);
         Self {
             prepared,
             all_points: &source.points,
-            coarse: shuffled(even),
-            source: shuffled(some),
+            coarse: shuffled(even, edges.clone()),
+            source: shuffled(some, edges),
             axes,
             is_cancelled,
         }
@@ -169,16 +195,25 @@ impl<'a> GlobalSearch<'a> {
         &self,
         starts: impl IntoIterator<Item = RigidTransform>,
     ) -> Result<Vec<PoseTrial>, PoseError> {
+        self.halved(starts, &RACE)
+    }
+
+    /// As [`Self::successive_halving`], by some of the rounds: a start along the axes needs the last ones only.
+    fn halved(
+        &self,
+        starts: impl IntoIterator<Item = RigidTransform>,
+        rounds: &[Round],
+    ) -> Result<Vec<PoseTrial>, PoseError> {
         let extent = self.prepared.extent();
         let target = self.prepared.coarse_target();
         let mut trials: Vec<PoseTrial> = starts.into_iter().map(PoseTrial::unrefined).collect();
-        for round in &RACE {
+        for round in rounds {
             let level = Level {
                 num_surface: round.num_points,
                 num_edges: 0,
                 scale: round.scale * extent,
                 max_steps: round.max_steps,
-                settled: SETTLED,
+                settled: ROUGHLY_SETTLED,
                 search: Search::Field,
             };
             trials = self.further(trials, &self.coarse, &target, &[level], 2.0 * level.scale)?;
@@ -200,10 +235,10 @@ impl<'a> GlobalSearch<'a> {
             .take_while(|scale| *scale >= finest)
             .map(|scale| Level {
                 num_surface: 600,
-                num_edges: 0,
+                num_edges: 200,
                 scale,
                 max_steps: 7,
-                settled: SETTLED,
+                settled: NEARLY_SETTLED,
                 search: Search::Field,
             })
             .collect();
@@ -225,22 +260,18 @@ impl<'a> GlobalSearch<'a> {
             if (self.is_cancelled)() {
                 return Err(PoseError::Cancelled);
             }
-            let refined = refine(source, target, &trial.refined.target_from_source, levels);
-            trial.refined.target_from_source = refined.target_from_source;
-            trial.refined.stopped = refined.stopped;
-            trial.refined.iterations.extend(refined.iterations);
+            trial.refine(source, target, levels);
             let level = &levels[levels.len() - 1];
             let pose = &trial.refined.target_from_source;
-            trial.cost = cost(source, target, pose, level, limit);
+            trial.costs = costs(source, target, pose, level, limit);
         }
-        trials.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-        Ok(trials)
+        Ok(sorted(trials))
     }
 
-    /// Of poses that a refinement would close, the cheapest.
-    fn distinct(&self, sorted: Vec<PoseTrial>) -> Vec<PoseTrial> {
+    /// Of poses that a refinement would close, the cheapest; the cheapest of all first.
+    fn distinct(&self, trials: Vec<PoseTrial>) -> Vec<PoseTrial> {
         let mut kept: Vec<PoseTrial> = Vec::new();
-        for trial in sorted {
+        for trial in sorted(trials) {
             let is_new = kept.iter().all(|k| {
                 let (a, b) = (
                     &k.refined.target_from_source,
@@ -255,77 +286,33 @@ impl<'a> GlobalSearch<'a> {
         }
         kept
     }
-
-    /// Share of the source that lies on the target.
-    fn overlap(&self, trial: &PoseTrial) -> f64 {
-        let some = &self.source.surface[..self.source.surface.len().min(500)];
-        let tolerance = Tolerance {
-            base: Metres(3.0 * self.prepared.spacing()),
-            noise_at_1m: Metres(0.0),
-        };
-        let pose = &trial.refined.target_from_source;
-        let target = self.prepared.target();
-        let closest = Correspondence::of_each(some, &target, pose, Search::Field);
-        measure_fit(some, &closest, &target, tolerance).overlap
-    }
-
-    /// The best, refined to the end.
-    fn refine_best(&self, finished: Vec<PoseTrial>) -> Result<PoseEstimate, PoseError> {
-        let mut finished = finished.into_iter();
-        let best = finished.next().ok_or_else(|| self.no_overlap(0))?;
-        let runner_up = finished.next().map(|t| RunnerUp {
-            target_from_source: t.refined.target_from_source,
-            ratio: t.cost / best.cost.max(f64::MIN_POSITIVE),
-        });
-        let finest = self.prepared.finest();
-        // Most of the way on a third of the points.
-        let levels = [
-            Level {
-                num_surface: finest.num_surface / 3,
-                ..finest
-            },
-            finest,
-        ];
-        let best = self
-            .further(
-                vec![best],
-                &self.source,
-                &self.prepared.target(),
-                &levels,
-                1.0,
-            )?
-            .remove(0);
-        let num_pairs = best.refined.iterations.last().map_or(0, |i| i.num_pairs);
-        if num_pairs < MIN_POINTS {
-            return Err(self.no_overlap(num_pairs));
-        }
-        Ok(self
-            .prepared
-            .estimate(self.all_points, best.refined, PoseMethod::Global, runner_up))
-    }
-
-    fn no_overlap(&self, found: usize) -> PoseError {
-        PoseError::NoOverlap {
-            found,
-            needed: MIN_POINTS,
-            reach: Metres(0.5 * self.prepared.extent()),
-        }
-    }
 }
 
 /// Any first n of the points are spread over the source.
-fn shuffled(mut surface: Vec<Point3<f32>>) -> AlignmentSource {
+fn shuffled(mut surface: Vec<Point3<f32>>, edges: Vec<Point3<f32>>) -> AlignmentSource {
     surface.shuffle(&mut Pcg64::seed_from_u64(1));
-    AlignmentSource {
-        surface,
-        edges: Vec::new(),
-    }
+    AlignmentSource { surface, edges }
+}
+
+fn sorted(mut trials: Vec<PoseTrial>) -> Vec<PoseTrial> {
+    trials.sort_by(|a, b| a.costs.whole().total_cmp(&b.costs.whole()));
+    trials
 }
 
 impl PoseTrial {
+    fn refine(&mut self, source: &AlignmentSource, target: &AlignmentTarget<'_>, levels: &[Level]) {
+        let refined = refine(source, target, &self.refined.target_from_source, levels);
+        self.refined.target_from_source = refined.target_from_source;
+        self.refined.stopped = refined.stopped;
+        self.refined.iterations.extend(refined.iterations);
+    }
+
     fn unrefined(target_from_source: RigidTransform) -> Self {
         Self {
-            cost: f64::INFINITY,
+            costs: Costs {
+                surface: f64::INFINITY,
+                ..Costs::default()
+            },
             refined: Refined {
                 target_from_source,
                 iterations: Vec::new(),

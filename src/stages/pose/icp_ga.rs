@@ -162,7 +162,7 @@ impl<'a> Search<'a> {
         Ok(Self {
             params,
             source,
-            target: prepared.target(),
+            target: prepared.wide_target(),
             coarse: prepared.coarse_target(),
             shuffled,
             source_from_axes: source_axes.frame(),

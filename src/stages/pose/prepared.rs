@@ -11,15 +11,15 @@ use super::{
     edge_points::EdgePoints,
     quality::{Tolerance, measure_fit},
     refine::{AlignmentSource, AlignmentTarget, Level, Refined, SETTLED, Search},
-    uncertainty::uncertainty,
+    uncertainty::uncertainty_with,
 };
 use crate::{
     geometry::{
         cloud::PointCloud,
         nearest::KdTree,
         nearest_field::NearestField,
-        normals::estimate_normals,
         principal::{PrincipalAxes, principal_axes},
+        surface_grid::SurfaceGrid,
         voxel::downsample,
     },
     units::Metres,
@@ -31,8 +31,18 @@ const MAX_POINTS: usize = 150_000;
 const NUM_COARSE: f64 = 2_000.0;
 /// How far off a target the coarse field answers, in extents of it: a start is off by less.
 const COARSE_BAND: f64 = 0.5;
-/// The same for the fine field: five times the scale at which the fine likeness takes over.
-const FINE_BAND: f64 = 0.15;
+/// The same for the fine field: three times the scale at which the fine likeness takes over.
+const FINE_BAND: f64 = 0.1;
+/// Cells of the fields along an extent, at most: coarser ones mistake the nearest point, finer ones take longer to make.
+const COARSE_CELLS: f64 = 16.0;
+const FINE_CELLS: f64 = 40.0;
+/// The same of the wide field.
+const WIDE_BAND: f64 = 0.15;
+const WIDE_CELLS: f64 = 60.0;
+/// The same for borders: what a refinement of the fine likeness looks for.
+const EDGE_BAND: f64 = 0.1;
+/// Points kept of a target's borders.
+const NUM_EDGES: usize = 1000;
 /// Points of the source on which the figures of a fit are taken.
 const NUM_MEASURED: usize = 2_000;
 
@@ -44,6 +54,9 @@ pub struct PreparedTarget {
     pub(super) axes: PrincipalAxes,
     fine: CorrespondenceCache,
     coarse: CorrespondenceCache,
+    /// A finer field of nearest points that reaches further than the fine likeness's, for Algorithm 3; made when it is
+    /// first asked for.
+    wide: OnceLock<NearestField>,
 }
 
 /// Points with normals and the ways to find the nearest of them.
@@ -55,6 +68,18 @@ struct CorrespondenceCache {
     edges: EdgePoints,
     /// Distance between neighbouring points, metres.
     spacing: f64,
+}
+
+/// What the figures of an estimate are taken on.
+pub(super) struct Measured<'a> {
+    /// The source's points, in any order.
+    pub(super) surface: &'a [Point3<f32>],
+    /// Those of its borders that held the pose.
+    pub(super) edges: Vec<Point3<f32>>,
+    /// At which the refinement ended.
+    pub(super) level: Level,
+    /// What a stretch of the borders may be off by, metres.
+    pub(super) outline_error: f64,
 }
 
 impl PreparedTarget {
@@ -72,25 +97,53 @@ impl PreparedTarget {
             thinned = downsample(&thinned, Metres(spacing));
             tree = None;
         }
+        let tree = tree.unwrap_or_else(|| KdTree::new(&thinned.points));
+        let grid = SurfaceGrid::new(&thinned.points);
+        let edges = EdgePoints::of_ends(&grid.ends(), grid.side(), NUM_EDGES, EDGE_BAND * extent);
+        thinned.normals = Some(grid.normals());
         let per_point = spacing * (thinned.points.len() as f64 / NUM_COARSE).sqrt();
         let coarse = downsample(&thinned, Metres(per_point.max(spacing)));
-        let tree = tree.unwrap_or_else(|| KdTree::new(&thinned.points));
-        let cell = (2.0 * spacing).max(extent / 60.0);
-        let fine =
-            CorrespondenceCache::new(thinned, tree, spacing, cell, FINE_BAND * extent, &centred);
         let axes = principal_axes(coarse.points.iter().map(|p| (p.cast(), 1.0)));
         let axes = axes.unwrap_or(centred.axes);
+        let cell = (2.0 * spacing).max(extent / FINE_CELLS);
+        let field = NearestField::new(&thinned.points, cell as f32, (FINE_BAND * extent) as f32);
+        let fine = CorrespondenceCache {
+            cloud: thinned,
+            tree: tree.into(),
+            field,
+            edges,
+            spacing,
+        };
         let tree = KdTree::new(&coarse.points);
-        let spacing = spacing_of(&coarse.points, &tree);
-        let cell = extent / 16.0;
-        let coarse =
-            CorrespondenceCache::new(coarse, tree, spacing, cell, COARSE_BAND * extent, &centred);
+        let (cell, band) = (extent / COARSE_CELLS, COARSE_BAND * extent);
+        let coarse = CorrespondenceCache {
+            spacing: spacing_of(&coarse.points, &tree),
+            field: NearestField::new(&coarse.points, cell as f32, band as f32),
+            tree: tree.into(),
+            edges: EdgePoints::default(),
+            cloud: coarse,
+        };
         Ok(Self {
             centred,
             axes,
             fine,
             coarse,
+            wide: OnceLock::new(),
         })
+    }
+
+    /// The target with a field that answers further off.
+    pub(super) fn wide_target(&self) -> AlignmentTarget<'_> {
+        let extent = self.extent();
+        let field = self.wide.get_or_init(|| {
+            let cell = (2.0 * self.spacing()).max(extent / WIDE_CELLS);
+            let points = &self.fine.cloud.points;
+            NearestField::new(points, cell as f32, (WIDE_BAND * extent) as f32)
+        });
+        AlignmentTarget {
+            field,
+            ..self.target()
+        }
     }
 
     pub(super) fn target(&self) -> AlignmentTarget<'_> {
@@ -115,24 +168,30 @@ impl PreparedTarget {
     /// The estimate that a refined pose stands for.
     pub(super) fn estimate(
         &self,
-        source: &[Point3<f32>],
+        measured: Measured<'_>,
         refined: Refined,
         method: PoseMethod,
         runner_up: Option<RunnerUp>,
     ) -> PoseEstimate {
-        let step = source.len().div_ceil(NUM_MEASURED).max(1);
-        let measured = AlignmentSource {
-            surface: source.iter().step_by(step).copied().collect(),
-            edges: Vec::new(),
+        let Measured {
+            surface,
+            edges,
+            level,
+            outline_error,
+        } = measured;
+        let step = surface.len().div_ceil(NUM_MEASURED).max(1);
+        let source = AlignmentSource {
+            surface: surface.iter().step_by(step).copied().collect(),
+            edges,
         };
         let tolerance = Tolerance {
             base: Metres(3.0 * self.spacing()),
             noise_at_1m: Metres(0.0),
         };
         let (target, pose) = (self.target(), &refined.target_from_source);
-        let closest = Correspondence::of_each(&measured.surface, &target, pose, Search::Tree);
-        let fit = measure_fit(&measured.surface, &closest, &target, tolerance);
-        let uncertainty = uncertainty(&measured, &closest, &target, pose, &self.finest());
+        let closest = Correspondence::of_each(&source.surface, &target, pose, Search::Tree);
+        let fit = measure_fit(&source.surface, &closest, &target, tolerance);
+        let uncertainty = uncertainty_with(&source, &closest, &target, pose, &level, outline_error);
         PoseEstimate {
             target_from_source: refined.target_from_source,
             method,
@@ -148,7 +207,7 @@ impl PreparedTarget {
     pub(super) fn finest(&self) -> Level {
         Level {
             num_surface: NUM_MEASURED,
-            num_edges: 0,
+            num_edges: usize::MAX,
             scale: (1.5 * self.spacing()).min(0.1 * self.extent()),
             max_steps: 40,
             settled: SETTLED,
@@ -158,30 +217,6 @@ impl PreparedTarget {
 }
 
 impl CorrespondenceCache {
-    fn new(
-        mut cloud: PointCloud,
-        tree: KdTree,
-        spacing: f64,
-        cell: f64,
-        band: f64,
-        whole: &Centred,
-    ) -> Self {
-        // Three spacings reach some thirty neighbours: enough to average the noise of one point.
-        cloud.normals = Some(estimate_normals(
-            &cloud.points,
-            &tree,
-            Metres(3.0 * spacing),
-            &whole.axes.mean,
-        ));
-        Self {
-            field: NearestField::new(&cloud.points, cell as f32, band as f32),
-            edges: EdgePoints::default(),
-            cloud,
-            tree: tree.into(),
-            spacing,
-        }
-    }
-
     fn target(&self) -> AlignmentTarget<'_> {
         let Self {
             cloud,

@@ -217,10 +217,36 @@ pub fn cost(
     level: &Level,
     limit: f64,
 ) -> f64 {
+    costs(source, target, pose, level, limit).whole()
+}
+
+/// How badly a pose fits, square metres: mean squared distances, cut off.
+#[derive(Clone, Copy, Debug, Default)]
+pub(super) struct Costs {
+    /// Of the source's surface to the target's.
+    pub(super) surface: f64,
+    /// Of the source's edges to the target's, and of the target's to the source's; 0 without edges.
+    pub(super) edges: [f64; 2],
+}
+
+impl Costs {
+    pub(super) fn whole(&self) -> f64 {
+        self.surface + f64::midpoint(self.edges[0], self.edges[1])
+    }
+}
+
+/// As [`cost`], each by itself.
+pub(super) fn costs(
+    source: &AlignmentSource,
+    target: &AlignmentTarget<'_>,
+    pose: &RigidTransform,
+    level: &Level,
+    limit: f64,
+) -> Costs {
     let limit_sq = limit * limit;
     let moved = pose.cast::<f32>();
     let surface = &source.surface[..level.num_surface.min(source.surface.len())];
-    let surface_cost = mean(surface.iter().map(|p| {
+    let surface = mean(surface.iter().map(|p| {
         let at = moved * p;
         match target.nearest(level.search, &at, limit_sq as f32) {
             Some(n) => surface_distance_sq(target, n.index, &at).min(limit_sq),
@@ -229,7 +255,10 @@ pub fn cost(
     }));
     let edges = &source.edges[..level.num_edges.min(source.edges.len())];
     if edges.is_empty() || target.edges.is_empty() {
-        return surface_cost;
+        return Costs {
+            surface,
+            edges: [0.0; 2],
+        };
     }
     let edge_distance_sq = |among: &EdgePoints, at: &Point3<f32>| {
         among
@@ -251,7 +280,10 @@ pub fn cost(
             .step_by(step)
             .map(|at| edge_distance_sq(&moved_edges, &at)),
     );
-    surface_cost + f64::midpoint(there, back)
+    Costs {
+        surface,
+        edges: [there, back],
+    }
 }
 
 /// Squared distance of a point to the target's surface near its closest point: along the normal, and beside it what

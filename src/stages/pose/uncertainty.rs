@@ -72,6 +72,8 @@ const LOOSE: Radians = Radians(0.035);
 const LOOSE_WITHOUT_OUTLINE: Radians = Radians(0.01);
 /// Where more of the hold than this is feigned, there is none.
 const FEIGNED: f64 = 0.5;
+/// What the direction of a border is off by that was found among the points of a cloud, radians.
+const EDGE_TILT: f64 = 0.1;
 /// Every so many pairs show what is feigned: it is a mean.
 const FEIGNED_EVERY: usize = 4;
 /// Side of a region of the surface and of the outline, in root mean square distances of the points from their middle.
@@ -94,6 +96,18 @@ pub fn uncertainty(
     target: &AlignmentTarget<'_>,
     pose: &RigidTransform,
     level: &Level,
+) -> Uncertainty {
+    uncertainty_with(source, closest, target, pose, level, OUTLINE_ERROR)
+}
+
+/// As [`uncertainty`], where a stretch of the outline may be off by so many metres.
+pub(super) fn uncertainty_with(
+    source: &AlignmentSource,
+    closest: &[Correspondence],
+    target: &AlignmentTarget<'_>,
+    pose: &RigidTransform,
+    level: &Level,
+    outline_error: f64,
 ) -> Uncertainty {
     let reach_sq = (3.0 * level.scale).powi(2);
     let per_scale_sq = 1.0 / (level.scale * level.scale);
@@ -122,7 +136,7 @@ pub fn uncertainty(
         patches.add(&pair.at, None, &lever, pair.off, pair.weight);
         surface.add(&pair.at, None, &lever, pair.off, pair.weight);
     }
-    let spurious_stiffness = spurious_stiffness(&pairs, &middle, tilt_sq(&pairs, target));
+    let mut spurious_stiffness = spurious_stiffness(&pairs, &middle, tilt_sq(&pairs, target));
     let edges = &source.edges[..level.num_edges.min(source.edges.len())];
     let mut outline = Regions::new(middle, OUTLINE_REGION * frame.radius);
     let share = edge_share(closest.len(), edges.len().max(1));
@@ -138,8 +152,13 @@ pub fn uncertainty(
         let off = edge.away.dot(&edge.outwards);
         let lever = sums.add(&at, &edge.outwards, off, weight);
         outline.add(&at, Some(&edge.outwards), &lever, off, weight);
+        if target.edges.are_pieces() {
+            let along = edge.outwards.cross(&edge.normal);
+            let change = change(&(at.coords - middle), &along);
+            spurious_stiffness += change * change.transpose() * (weight * EDGE_TILT * EDGE_TILT);
+        }
     }
-    let spread = patches.scatter() + surface.spread(0.0) + outline.spread(OUTLINE_ERROR);
+    let spread = patches.scatter() + surface.spread(0.0) + outline.spread(outline_error);
     let loose = if outline.is_empty() {
         LOOSE_WITHOUT_OUTLINE
     } else {

@@ -163,6 +163,36 @@ fn what_fits_in_many_places_is_doubted_and_never_sure() {
 }
 
 #[test]
+fn a_flat_plate_is_held_by_its_borders_alone() {
+    let mut rng = Pcg64::seed_from_u64(11);
+    let mut plate = |num: usize| {
+        let mut noise = || 0.004 * (rng.random::<f32>() - 0.5);
+        let noises: Vec<[f32; 3]> = (0..num).map(|_| [(); 3].map(|()| noise())).collect();
+        let places = (0..num).map(|_| (1.2 * rng.random::<f32>(), 0.7 * rng.random::<f32>()));
+        let points = places
+            .zip(noises)
+            .filter(|((x, y), _)| !(*x > 0.8 && *y > 0.4));
+        PointCloud::from_points(points.map(|((x, y), [a, b, c])| Point3::new(x + a, y + b, c)))
+    };
+    let target = plate(12_000);
+    for start in [
+        [1.57, 0.0, 0.0, 0.8, 0.0, 0.5],
+        [3.1, 1.2, -2.0, -0.4, 0.7, 0.1],
+        [0.2, -1.4, 2.9, 0.1, -0.6, 2.0],
+    ] {
+        let truth = from_euler_zyx(start);
+        let source = moved(&plate(6_000), &truth.inverse());
+        let found = align(&source, &target, PoseMethod::Global, None).expect("a pose");
+        let middle = truth.inverse() * Point3::new(0.6, 0.3, 0.0);
+        let error = pose_error(&found.target_from_source, &truth, &middle);
+        assert!(
+            error.rotation.degrees() < 0.5 && error.shift.mm() < 3.0,
+            "{error:?} from {start:?}"
+        );
+    }
+}
+
+#[test]
 fn a_piece_of_a_cloud_of_few_points_is_put_back() {
     let target = PointCloud::from_points(sheet().points.into_iter().step_by(12));
     for start in [
@@ -233,8 +263,9 @@ fn bounds_hold_the_truth_and_follow_the_noise() {
         );
         bounds.shift.0
     };
+    // The borders are never better known than their points are apart, however quiet those are.
     let (quiet, loud) = (bound(0.001), bound(0.008));
-    assert!((3.0..30.0).contains(&(loud / quiet)), "{quiet} {loud}");
+    assert!((2.0..30.0).contains(&(loud / quiet)), "{quiet} {loud}");
 }
 
 #[test]

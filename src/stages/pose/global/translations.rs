@@ -5,18 +5,21 @@
 
 use nalgebra::{Translation3, Unit, UnitQuaternion};
 
-use super::{COMPLETE, GlobalSearch, NUM_FINISHED, PoseTrial};
+use super::{COMPLETE, GlobalSearch, NUM_FINISHED, PoseTrial, sorted};
 use crate::{
     geometry::rigid::RigidTransform,
     stages::pose::{
         PoseError,
-        refine::{Level, SETTLED, Search, cost},
+        refine::{Level, SETTLED, Search, costs},
     },
 };
 
 /// A pose is put aside so many times either way, by so many extents of the target each.
 const SLIDES: i32 = 10;
 const SLIDE: f64 = 0.06;
+/// A start of another race lies so many times this many extents along the target's two longest axes, either way.
+const ELSEWHERE: f64 = 0.35;
+const STEPS_ELSEWHERE: [i32; 2] = [3, 2];
 /// So often at most: each time costs as much as the race.
 const MOST_ROUNDS: usize = 4;
 
@@ -27,14 +30,13 @@ impl GlobalSearch<'_> {
             let Some(best) = finished.first() else {
                 return Ok(());
             };
-            let before = best.cost;
+            let before = best.costs.whole();
             let mut aside = self.slid(&best.refined.target_from_source);
             if round > 0 {
                 for axis in 0..3 {
                     aside.extend(self.slid(&self.half_turned(best, axis)));
                 }
             }
-            aside.sort_by(|a, b| a.cost.total_cmp(&b.cost));
             let mut aside = self.distinct(aside);
             aside.truncate(NUM_FINISHED);
             for trial in &mut aside {
@@ -44,15 +46,35 @@ impl GlobalSearch<'_> {
                     .clone_from(&best.refined.iterations);
             }
             finished.extend(self.finish(aside)?);
-            finished.sort_by(|a, b| a.cost.total_cmp(&b.cost));
             *finished = self.distinct(std::mem::take(finished));
             let best = &finished[0];
-            let is_done = self.overlap(best) >= COMPLETE || (round > 0 && best.cost >= before);
+            let is_done =
+                self.overlap(best) >= COMPLETE || (round > 0 && best.costs.whole() >= before);
             if is_done {
                 break;
             }
         }
         Ok(())
+    }
+
+    /// Poses put elsewhere, as they are and turned by half a turn: starts of another race.
+    pub(super) fn put_elsewhere(&self, finished: &[PoseTrial]) -> Vec<RigidTransform> {
+        let extent = self.prepared.extent();
+        let axes = &self.prepared.axes.axes;
+        let steps = |num: i32| (-num..=num).map(|i| f64::from(i) * ELSEWHERE * extent);
+        let mut starts = Vec::new();
+        for trial in finished.iter().take(NUM_FINISHED) {
+            let pose = trial.refined.target_from_source;
+            let turned = (0..3).map(|axis| self.half_turned(trial, axis));
+            for pose in std::iter::once(pose).chain(turned) {
+                let shifts = steps(STEPS_ELSEWHERE[0])
+                    .flat_map(|a| steps(STEPS_ELSEWHERE[1]).map(move |b| (a, b)));
+                starts.extend(shifts.map(|(a, b)| {
+                    Translation3::from(axes.column(0) * a + axes.column(1) * b) * pose
+                }));
+            }
+        }
+        starts
     }
 
     /// A pose put aside along the target's two longest axes: the cheapest places.
@@ -68,17 +90,17 @@ impl GlobalSearch<'_> {
         };
         let axes = &self.prepared.axes.axes;
         let steps = || (-SLIDES..=SLIDES).map(|i| f64::from(i) * SLIDE * extent);
-        let mut slid: Vec<PoseTrial> = steps()
+        let slid: Vec<PoseTrial> = steps()
             .flat_map(|a| steps().map(move |b| (a, b)))
             .map(|(a, b)| {
                 let shift = axes.column(0) * a + axes.column(1) * b;
                 let aside = Translation3::from(shift) * pose;
                 let mut trial = PoseTrial::unrefined(aside);
-                trial.cost = cost(&self.source, &target, &aside, &level, 0.04 * extent);
+                trial.costs = costs(&self.source, &target, &aside, &level, 0.04 * extent);
                 trial
             })
             .collect();
-        slid.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        let mut slid = sorted(slid);
         slid.truncate(20 * NUM_FINISHED);
         slid
     }

@@ -104,7 +104,7 @@ fn a_cancelled_search_ends_soon_whenever_it_is_cancelled() {
     let [source_from_target, _] = t4_and_t5();
     let source = moved(&target, &source_from_target);
     for method in [PoseMethod::Icp, PoseMethod::IcpGa, PoseMethod::Global] {
-        for patience in [0, 3, 20] {
+        for patience in [0, 3, 8] {
             let num_asked = Cell::new(0);
             let is_cancelled = || {
                 num_asked.set(num_asked.get() + 1);
