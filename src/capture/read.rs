@@ -13,16 +13,15 @@ use crate::{
     geometry::cloud::PointCloud,
 };
 
-/// Endings of files that may be captures. Beside them programs leave logs, previews and settings.
-const ENDINGS: [&str; 7] = ["pcd", "ply", "xyz", "csv", "asc", "pts", "png"];
+/// An ending of scenes that programs also give to what they leave beside them: logs and settings.
+const OF_LOGS: &str = "txt";
 
 /// True if a file of this name may be a capture: a known ending, and not hidden.
-pub(super) fn may_be_capture(path: &Path) -> bool {
+pub(crate) fn may_be_capture(path: &Path) -> bool {
     let ending = path.extension().map(|ending| ending.to_string_lossy());
     let is_known = ending.is_some_and(|found| {
-        ENDINGS
-            .iter()
-            .any(|ending| found.eq_ignore_ascii_case(ending))
+        let mut endings = files::SCENE_ENDINGS.iter();
+        endings.any(|ending| *ending != OF_LOGS && found.eq_ignore_ascii_case(ending))
     });
     is_known && !file_name(path).starts_with('.')
 }

@@ -63,6 +63,13 @@ pub(crate) use self::write::{folder_of, sync_folder};
 pub use self::write::{save_cloud, write_atomically};
 pub use self::xyz::write_xyz;
 
+/// Endings of files that may hold a captured scene, for filters; the content says what a file is.
+pub const SCENE_ENDINGS: &[&str] = &["pcd", "ply", "xyz", "txt", "csv", "asc", "pts", "png"];
+/// The same of whatever holds points: meshes too.
+pub const POINT_ENDINGS: &[&str] = &[
+    "pcd", "ply", "xyz", "txt", "csv", "asc", "pts", "png", "stl", "obj", "gltf", "glb",
+];
+
 /// The most points, vertices, triangles or pixels taken from one file: 160 full Kinect frames. Above it a header is
 /// wrong far more often than a cell has such a camera, and one `PointCloud` would pass a gigabyte.
 pub const MAX_POINTS: usize = 50_000_000;

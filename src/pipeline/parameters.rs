@@ -448,7 +448,7 @@ mod tests {
 
     #[test]
     fn setting_a_parameter_changes_its_own_field_and_no_other() {
-        for parameter in &PARAMETERS {
+        for parameter in PARAMETERS {
             let default = Recipe::default();
             let mut changed = default.clone();
             let value = match &parameter.kind {
@@ -487,7 +487,7 @@ mod tests {
 
     #[test]
     fn what_is_out_of_range_is_refused_and_changes_nothing() {
-        for parameter in &PARAMETERS {
+        for parameter in PARAMETERS {
             let mut recipe = Recipe::default();
             let bad = match &parameter.kind {
                 Kind::Number(number) => {
@@ -506,7 +506,7 @@ mod tests {
 
     #[test]
     fn every_parameter_explains_itself() {
-        for parameter in &PARAMETERS {
+        for parameter in PARAMETERS {
             assert!(parameter.help.len() > 40 && !parameter.name.is_empty());
             assert!(Group::ALL.contains(&parameter.group));
             assert!(!parameter.text(&Recipe::default()).is_empty());
@@ -560,7 +560,7 @@ mod tests {
         assert_eq!(set("signature.num_rays=512").signature.num_rays, 512);
         assert_eq!(set("pose=icp-ga").pose, PoseChoice::By(PoseMethod::IcpGa));
         assert_eq!(set("icp.max_iterations=7").icp.max_iterations, 7);
-        for parameter in &PARAMETERS {
+        for parameter in PARAMETERS {
             let text = format!("{}={}", parameter.key, parameter.text(&Recipe::default()));
             assert_eq!(num_changed(&set(&text)), 0, "{text}");
         }

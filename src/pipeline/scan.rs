@@ -77,7 +77,7 @@ pub fn run_scan(
     let base_from_first = scan.shots[first].base_from_camera;
     let Some(part) = joint_part(scan, &frames, recipe) else {
         if inspection.segmentation.part.is_ok() {
-            inspection.verdict = Verdict::NoPart(Unrecognisable::from(nothing_in_common()));
+            inspection.verdict = Verdict::NoPart(Unrecognisable::from(nothing_in_common(recipe)));
             inspection.pose = None;
         }
         return Ok(ScanInspection {
@@ -127,11 +127,11 @@ pub fn run_scan(
     })
 }
 
-fn nothing_in_common() -> NoPart {
+fn nothing_in_common(recipe: &Recipe) -> NoPart {
     NoPart::OnlyBackground {
         planes: 0,
         found: 0.0,
-        needed: crate::stages::segment::SegmentParams::default().min_part_area,
+        needed: recipe.segment.min_part_area,
         knows_cell: false,
     }
 }

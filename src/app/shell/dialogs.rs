@@ -4,6 +4,7 @@ use super::{
     action::DialogRequest,
     file_dialog::{ALL_FILES, FileChoice, FileRequest, POINTS},
 };
+use crate::files::SCENE_ENDINGS;
 
 /// The dialog that asks this.
 pub(in crate::app) fn request(ask: DialogRequest) -> FileRequest {
@@ -28,13 +29,7 @@ pub(in crate::app) fn request(ask: DialogRequest) -> FileRequest {
 
 fn filters(ask: DialogRequest) -> &'static [(&'static str, &'static [&'static str])] {
     match ask {
-        DialogRequest::Scene => &[
-            (
-                "Captured scenes",
-                &["pcd", "ply", "xyz", "txt", "csv", "png"],
-            ),
-            ALL_FILES,
-        ],
+        DialogRequest::Scene => &[("Captured scenes", SCENE_ENDINGS), ALL_FILES],
         DialogRequest::Part => &[POINTS, ALL_FILES],
         DialogRequest::Scan
         | DialogRequest::Library

@@ -12,6 +12,7 @@ use std::{
 };
 
 use super::notice::Notice;
+use crate::files::POINT_ENDINGS;
 
 /// What a file dialog asks for.
 #[derive(Clone, Copy, Debug)]
@@ -40,12 +41,7 @@ pub enum FileChoice {
 /// A filter that lets every file through.
 pub const ALL_FILES: (&str, &[&str]) = ("All files", &["*"]);
 /// A filter for whatever holds points.
-pub const POINTS: (&str, &[&str]) = (
-    "Scenes, clouds and meshes",
-    &[
-        "pcd", "ply", "xyz", "txt", "csv", "png", "stl", "obj", "gltf", "glb",
-    ],
-);
+pub const POINTS: (&str, &[&str]) = ("Scenes, clouds and meshes", POINT_ENDINGS);
 
 /// The file dialog of one owner, who tells its questions apart by `K`.
 pub struct FileDialog<K> {

@@ -5,6 +5,7 @@ use std::path::{Path, PathBuf};
 use clap::Args;
 
 use crate::{
+    capture::may_be_capture,
     cli::{
         LibraryChoice,
         console::{Advised as _, Console, advised_error},
@@ -94,7 +95,7 @@ fn files_of(folder: &Path, poses: &[ArmPose]) -> anyhow::Result<Vec<PathBuf>> {
     })?;
     let mut files: Vec<PathBuf> = listed
         .filter_map(|entry| Some(entry.ok()?.path()))
-        .filter(|path| is_capture(path))
+        .filter(|path| may_be_capture(path))
         .collect();
     files.sort_by_cached_key(|path| in_counting_order(&file_name(path)));
     if files.len() != poses.len() {
@@ -109,11 +110,6 @@ fn files_of(folder: &Path, poses: &[ArmPose]) -> anyhow::Result<Vec<PathBuf>> {
         ));
     }
     Ok(files)
-}
-
-fn is_capture(path: &Path) -> bool {
-    let ending = path.extension().map(|e| e.to_string_lossy().to_lowercase());
-    matches!(ending.as_deref(), Some("pcd" | "ply" | "xyz" | "png"))
 }
 
 fn file_name(path: &Path) -> String {
