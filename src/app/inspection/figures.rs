@@ -118,8 +118,10 @@ pub struct RankedPartFigure {
     pub title: String,
     /// The same for a small picture: a side as its first letter.
     pub short_title: String,
-    /// Its score, 0..1.
+    /// Its score, 0..1; 0 if it was not examined.
     pub score: f32,
+    /// False if it was left out because its outline is unlike, and others were looked for.
+    pub is_examined: bool,
     /// Its outline laid over the scene's, closed; empty if the matcher places nothing.
     pub outline: PlaneLine,
     /// Its signature at the best lag.
@@ -284,6 +286,7 @@ impl RankedPartFigure {
             short_title: shortened(&title),
             title,
             score: entry.score as f32,
+            is_examined: inspection.ranking.score_of(entry).is_some(),
             outline,
             curves: placed
                 .and_then(|(placement, view)| SignatureCurves::placed(view, placement, scene)),

@@ -248,9 +248,13 @@ fn of_cell(
         .filter_map(|place| run.results.get(*place))
     {
         let found = &result.found;
-        let what = match (&found.part, found.score) {
-            (Some(part), Some(score)) => format!("{} {score:.2}", part_title(part, shown)),
-            _ => found.reason.clone().unwrap_or_default(),
+        let what = match (&found.part, found.score, &found.reason) {
+            // A high score alone does not say why it is refused.
+            (Some(part), Some(score), Some(reason)) => {
+                format!("{} {score:.2}: {reason}", part_title(part, shown))
+            }
+            (Some(part), Some(score), None) => format!("{} {score:.2}", part_title(part, shown)),
+            (_, _, reason) => reason.clone().unwrap_or_default(),
         };
         let what = format!("{what}{}", difficulty_words(result.difficulty.as_deref()));
         case_row(ui, &result.name, &what, theme, acts);
