@@ -5,7 +5,7 @@ use nalgebra::{Isometry2, Isometry3, Translation3, UnitQuaternion, Vector3};
 use super::{
     COST_LIMIT, FIRST, FIRST_OF_A_PIECE, HOPELESS, PreparedScene,
     evidence::{Evidence, facing_view},
-    piece_search::{PieceSample, Start, WORSE_START},
+    piece_search::{PieceSample, Start},
 };
 use crate::{
     geometry::rigid::{RigidTransform, pose_error},
@@ -77,7 +77,8 @@ const MOST_REFINED: usize = 16;
 /// Where the best start costs more than this, nothing enrolled is there: so few are refined, to say how far off it is.
 const HOPELESS_START: f64 = 1.3;
 const FEW_REFINED: usize = 3;
-/// A pose of a piece that costs this much more than the best one is not weighed.
+/// A start of a piece that costs this much more than the best one is not refined; nor is a pose weighed.
+const WORSE_START: f64 = 0.5;
 const WORSE_POSE: f64 = 0.35;
 /// Points of the part and of the reference on which the first figures are taken.
 const NUM_MEASURED: usize = 500;
@@ -92,13 +93,22 @@ impl PreparedScene<'_> {
         references: &[Reference],
         least_score: f64,
     ) -> Vec<Vec<PoseTrial>> {
-        let found = self.coarse_starts(entries, references);
-        let mut starts: Vec<(usize, Start)> = found
-            .into_iter()
-            .flat_map(|(number, starts)| starts.into_iter().map(move |start| (number, start)))
-            .collect();
+        let mut starts: Vec<(usize, Start)> = Vec::new();
+        let mut least = f64::INFINITY;
+        for (number, entry) in entries.iter().enumerate() {
+            let reference = &references[entry.reference];
+            if let Some(piece) = self.piece_for(reference) {
+                let placed = self.distinct_starts(reference, &entry.placements);
+                let placed = placed.into_iter().map(|start| start.1);
+                let limit = least + WORSE_START;
+                let of_reference = self.coarse_starts(piece, reference, placed, limit);
+                least = of_reference
+                    .first()
+                    .map_or(least, |best| least.min(best.cost));
+                starts.extend(of_reference.into_iter().map(|start| (number, start)));
+            }
+        }
         starts.sort_by(|a, b| a.1.cost.total_cmp(&b.1.cost));
-        let least = starts.first().map_or(f64::INFINITY, |best| best.1.cost);
         starts.truncate(if least < HOPELESS_START {
             MOST_REFINED
         } else if least_score > 0.0 {
@@ -236,7 +246,7 @@ impl PreparedScene<'_> {
     }
 
     /// Neighbouring views lead to nearly the same start: one or two of them are enough.
-    pub(super) fn distinct_starts(
+    fn distinct_starts(
         &self,
         reference: &Reference,
         placements: &[ImagePlacement],

@@ -13,22 +13,16 @@ use rand_pcg::Pcg64;
 use super::PreparedScene;
 use crate::{
     geometry::{cloud::is_finite, rigid::RigidTransform},
-    stages::{
-        rank::MatchEntry,
-        reference::{
-            Reference,
-            border::{BorderPair, BorderPoint, ReferenceBorder, frame_of},
-        },
+    stages::reference::{
+        Reference,
+        border::{BorderPair, BorderPoint, ReferenceBorder, frame_of},
     },
 };
 
 /// Points of a piece's border that are paired.
 const NUM_BORDER: usize = 80;
-/// Pairs that are looked up.
+/// Pairs that are looked up in each reference.
 const NUM_PAIRS: usize = 450;
-/// How the references are searched: in rounds, with so many of the pairs by the end of each, on so many of the best. The
-/// reference that all pairs put first was among the first five by a third of them on each of 216 surfaces that some reference fits.
-const ROUNDS: [(usize, usize); 2] = [(150, usize::MAX), (NUM_PAIRS, 6)];
 /// Points of the surface that a pose is scored on, and those that it is first tried on.
 const NUM_SURFACE: usize = 56;
 const NUM_TRIED: usize = 16;
@@ -46,10 +40,8 @@ const FAR: f32 = 0.045;
 const MOST_OFF: usize = 4;
 /// Share of the border tried first that must find the reference's.
 const LEAST_BORDER: f32 = 0.45;
-/// Poses of a reference that are scored in each round.
-const MOST_SCORED: usize = 60;
-/// A start that costs this much more than the best one is of no use.
-pub(super) const WORSE_START: f64 = 0.5;
+/// Poses of a reference that are scored.
+const MOST_SCORED: usize = 100;
 /// Poses kept of a reference.
 const MOST_KEPT: usize = 6;
 /// Poses that lie this close, turn (degrees) and shift (millimetres), lead to the same one.
@@ -118,96 +110,51 @@ impl PieceSample {
 }
 
 impl PreparedScene<'_> {
-    /// Of each reference that the piece may lie on, by its number among the entries, the best few poses, none of them
-    /// refined; the best reference comes first.
-    ///
-    /// A few pairs of the border tell which references are worth more: in rounds, fewer and fewer of them are searched with
-    /// more and more pairs.
+    /// The best few poses of a reference that cost less than `limit`, none of them refined; `others` are scored with them.
     pub(super) fn coarse_starts(
         &self,
-        entries: &[&MatchEntry],
-        references: &[Reference],
-    ) -> Vec<(usize, Vec<Start>)> {
-        let of_entry = |entry: &MatchEntry| {
-            let reference = &references[entry.reference];
-            self.piece_for(reference).map(|piece| (piece, reference))
-        };
-        let mut least = f64::INFINITY;
-        let mut found: Vec<(usize, Vec<Start>)> = Vec::new();
-        for (number, entry) in entries.iter().enumerate() {
-            if let Some((piece, reference)) = of_entry(entry) {
-                let placed = self.distinct_starts(reference, &entry.placements);
-                let placed = placed.into_iter().map(|start| start.1);
-                let starts = self.scored(piece, reference, placed, least + WORSE_START);
-                least = least.min(least_cost(&starts));
-                found.push((number, starts));
-            }
-        }
-        let mut first = 0;
-        for (num_pairs, num_references) in ROUNDS {
-            for (number, starts) in found.iter_mut().take(num_references) {
-                if let Some((piece, reference)) = of_entry(entries[*number]) {
-                    let end = num_pairs.min(piece.pairs.len());
-                    let poses =
-                        Self::align_border(piece, reference, &piece.pairs[first.min(end)..end]);
-                    starts.extend(self.scored(piece, reference, poses, least + WORSE_START));
-                    self.keep_best(starts);
-                    least = least.min(least_cost(starts));
-                }
-            }
-            first = num_pairs;
-            found.sort_by(|a, b| least_cost(&a.1).total_cmp(&least_cost(&b.1)));
-        }
-        found
-    }
-
-    /// The poses that cost less than `limit`.
-    fn scored(
-        &self,
         piece: &PieceSample,
         reference: &Reference,
-        poses: impl IntoIterator<Item = RigidTransform>,
+        others: impl Iterator<Item = RigidTransform>,
         limit: f64,
     ) -> Vec<Start> {
-        let score = |target_from_source: RigidTransform| {
-            let cost = self.coarse_cost(piece, reference, &target_from_source, limit)?;
-            Some(Start {
-                cost,
-                target_from_source,
-            })
-        };
-        poses.into_iter().filter_map(score).collect()
-    }
-
-    /// Sorts starts by cost, and keeps the best of those that lead to the same pose.
-    fn keep_best(&self, starts: &mut Vec<Start>) {
-        starts.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-        let mut kept: Vec<Start> = Vec::with_capacity(MOST_KEPT);
-        for start in starts.iter() {
-            let pose = &start.target_from_source;
-            let is_other = |known: &Start| self.is_apart(&known.target_from_source, pose, SAME);
-            if kept.len() < MOST_KEPT && kept.iter().all(is_other) {
-                kept.push(*start);
-            }
-        }
-        *starts = kept;
-    }
-
-    /// The poses, best first by the points tried, in which some pairs of the piece's border lie on the reference's.
-    fn align_border(
-        piece: &PieceSample,
-        reference: &Reference,
-        pairs: &[OrientedPair],
-    ) -> Vec<RigidTransform> {
         let mut poses: Vec<(f32, Isometry3<f32>)> = Vec::new();
         for border in reference.borders() {
-            for pair in pairs {
+            for pair in &piece.pairs {
                 Self::align_border_pair(piece, reference, border, pair, &mut poses);
             }
         }
-        poses.sort_by(|a, b| a.0.total_cmp(&b.0));
-        poses.truncate(MOST_SCORED);
-        poses.into_iter().map(|(_, pose)| pose.cast()).collect()
+        if poses.len() > MOST_SCORED {
+            poses.select_nth_unstable_by(MOST_SCORED, |a, b| a.0.total_cmp(&b.0));
+            poses.truncate(MOST_SCORED);
+        }
+        let mut starts: Vec<Start> = poses
+            .iter()
+            .map(|(_, pose)| pose.cast())
+            .chain(others)
+            .filter_map(|target_from_source| {
+                let cost = self.coarse_cost(piece, reference, &target_from_source, limit)?;
+                Some(Start {
+                    cost,
+                    target_from_source,
+                })
+            })
+            .collect();
+        starts.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+        let mut kept: Vec<Start> = Vec::with_capacity(MOST_KEPT);
+        for start in starts {
+            let pose = &start.target_from_source;
+            if kept
+                .iter()
+                .all(|k| self.is_apart(&k.target_from_source, pose, SAME))
+            {
+                kept.push(start);
+            }
+            if kept.len() == MOST_KEPT {
+                break;
+            }
+        }
+        kept
     }
 
     /// All poses in which a pair of the piece's border lies on one of the reference's, as far as the first points agree.
@@ -341,13 +288,6 @@ impl PreparedScene<'_> {
             1.0
         }
     }
-}
-
-fn least_cost(starts: &[Start]) -> f64 {
-    starts
-        .iter()
-        .map(|start| start.cost)
-        .fold(f64::INFINITY, f64::min)
 }
 
 /// Mean squared distance of the first points at a pose, or `None` as soon as too many of them are off.
