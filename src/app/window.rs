@@ -140,7 +140,11 @@ impl Window {
             (None, Source::Camera(spec)) => Action::Live(LiveAction::Use((**spec).clone())),
             (None, _) => Action::Capture,
         };
+        window.state.load_library();
+        // Nobody has asked for a draft: the first scene is inspected, whatever is in front.
+        let front = std::mem::take(&mut window.state.session.workspace);
         window.act(first, ctx);
+        window.state.session.workspace = front;
         Ok(window)
     }
 

@@ -18,7 +18,7 @@ use partsight::{
 };
 
 use super::set_up::{
-    SMALL, USUAL, WindowHarness, act, drop_file, enrol_of, open_with, press, settle,
+    SMALL, USUAL, WindowHarness, act, drop_file, enrol_of, history_of, open_with, press, settle,
 };
 
 fn open_at(library: &Path, size: Vec2) -> WindowHarness {
@@ -483,4 +483,36 @@ fn every_control_is_large_enough_labelled_and_inside_a_small_window() {
         let save = harness.query_by_label("Save");
         assert!(save.is_none_or(|save| save.rect().max.y <= size.y));
     }
+}
+
+#[test]
+fn a_window_that_starts_in_enrol_has_its_library_an_inspection_and_its_history() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let settings = folder.path().join("settings.toml");
+    let options = |scene| WindowOptions {
+        settings: Some(settings.clone()),
+        history: Some(folder.path().join("history")),
+        scene,
+        ..WindowOptions::default()
+    };
+    drop(open_with(USUAL, options(None)));
+    let left_in_enrol = "workspace = \"enrol\"\n";
+    std::fs::write(&settings, left_in_enrol).expect("written");
+
+    let harness = open_with(USUAL, options(None));
+    assert_eq!(state(&harness).workspace, Workspace::Enrol);
+    harness.get_by_label("Enrolled: Front door, left");
+    harness.get_by_label("Take the inspected scene");
+    assert_eq!(history_of(&harness).num_rows(), 2);
+    drop(harness);
+
+    // Nor does it take a scene that can be read.
+    let broken = folder.path().join("broken.pcd");
+    std::fs::write(&broken, "VERSION .7\nFIELDS x y z\nPOINTS 9999999999\n").expect("written");
+    std::fs::write(&settings, left_in_enrol).expect("written");
+    let harness = open_with(USUAL, options(Some(broken)));
+    assert_eq!(state(&harness).workspace, Workspace::Enrol);
+    assert_eq!(notices(&harness).len(), 1);
+    harness.get_by_label("Enrolled: Front door, left");
+    assert_eq!(history_of(&harness).num_rows(), 2);
 }

@@ -33,6 +33,8 @@ use crate::{
 #[derive(Debug)]
 pub struct Inspector {
     task: Task<InspectorResult>,
+    /// Loads the library at the start.
+    loading: Task<Arc<LibraryView>>,
     shelf: LibraryCache,
     /// The number of the newest run, which is that of its result.
     generation: u64,
@@ -58,6 +60,7 @@ impl Inspector {
     pub fn new(runner: &TaskRunner, shelf: &LibraryCache) -> Self {
         Self {
             task: Task::new("inspect", runner),
+            loading: Task::new("library", runner),
             shelf: shelf.clone(),
             generation: 0,
             purpose: ReinspectionPurpose::New,
@@ -70,6 +73,11 @@ impl Inspector {
         self.task.running()
     }
 
+    /// True while nothing is inspected or loaded.
+    pub fn is_idle(&self) -> bool {
+        self.running().is_none() && self.loading.running().is_none()
+    }
+
     #[cfg(test)]
     pub(in crate::app) fn run_waiting(&self) -> bool {
         self.task.run_waiting()
@@ -77,6 +85,16 @@ impl Inspector {
 }
 
 impl State {
+    /// Loads the library, whatever is in front and whatever becomes of the first scene.
+    pub(in crate::app) fn load_library(&mut self) {
+        let shelf = self.inspector.shelf.clone();
+        let loading = &mut self.inspector.loading;
+        loading.start("Loading the library", move |_| {
+            let loaded = shelf.get().map_err(|error| UserError::of(&error))?;
+            Ok(Arc::clone(&loaded.shown))
+        });
+    }
+
     /// Takes a scene from the source: to be inspected, or to be enrolled while that is in front. To be inspected it is a
     /// single one, and ends following the source.
     pub(in crate::app) fn capture(&mut self) -> Option<Effect> {
@@ -283,6 +301,14 @@ fn run(
 
 /// Takes in what the task reports; every workspace is told of what comes back.
 pub(in crate::app) fn update(state: &mut State) -> Option<Event> {
+    match state.inspector.loading.poll() {
+        // One that came with a result, or that a person chose, is newer.
+        Some(TaskEvent::Partial(library) | TaskEvent::Done(library)) if state.library.is_none() => {
+            state.use_library(&library);
+        }
+        Some(TaskEvent::Failed(error)) => notify(state, error.into()),
+        _ => {}
+    }
     let event = state.inspector.task.poll();
     if state.inspector.running().is_none() {
         state.session.inspecting = None;

@@ -149,9 +149,8 @@ impl Window {
     pub fn is_idle(&self) -> bool {
         let mut all = self.workspaces.iter();
         let session = &self.state.session;
-        let is_shell_idle = self.state.inspector.running().is_none()
-            && self.state.follower.is_idle()
-            && self.robot.is_idle();
+        let is_shell_idle =
+            self.state.inspector.is_idle() && self.state.follower.is_idle() && self.robot.is_idle();
         is_shell_idle && all.all(|workspace| workspace.is_idle(session))
     }
 }

@@ -162,6 +162,9 @@ impl AlignState {
     /// What Run would align, or what is missing for it, in words.
     pub fn choice(&self, session: &Session) -> Result<PairSource, String> {
         let part = || {
+            if session.library.is_none() {
+                return Err("The library is being loaded".to_owned());
+            }
             let part = self.chosen_part(session).map(str::to_owned);
             part.ok_or_else(|| {
                 "The library has no part: enrol one in the Enrol workspace".to_owned()

@@ -82,6 +82,8 @@ pub struct HistoryWorkspace {
     list: List,
     writer: Writer,
     keeper: Arc<HistoryBuffer>,
+    /// What was written before the start has been looked for.
+    has_looked: bool,
 }
 
 impl HistoryWorkspace {
@@ -93,6 +95,7 @@ impl HistoryWorkspace {
             list: List::default(),
             writer,
             keeper,
+            has_looked: false,
         }
     }
 
@@ -162,6 +165,9 @@ impl Workspace for HistoryWorkspace {
     }
 
     fn update(&mut self, cx: &mut ShellContext<'_>) {
+        if !std::mem::replace(&mut self.has_looked, true) {
+            self.state.look(cx);
+        }
         let crowded = self.writer.take_dropped();
         if crowded != [0; 2] {
             self.state.crowded(crowded[1], cx);
