@@ -213,3 +213,29 @@ fn every_control_is_large_enough_labelled_and_inside_a_small_window() {
         assert!(num_controls >= 14, "{num_controls} controls");
     }
 }
+
+#[test]
+fn the_verdict_stays_in_sight_and_large_however_far_the_card_is_scrolled() {
+    let mut harness = open_with(SMALL, WindowOptions::default());
+    harness.get_by_label("Simulated frame 1").scroll_to_me();
+    harness.run_steps(12);
+    harness.key_press(Key::Space);
+    settle(&mut harness);
+    let shown = harness.state().state().shown.as_ref().expect("a result");
+    let title = shown.inspected.figures.candidates[0].title.clone();
+    let name = harness.get_by_label(&title).rect();
+    let word = harness.get_by_label("Accepted").rect();
+    let scrolled = harness.get_by_label("Offset from standard position").rect();
+    assert!(
+        scrolled.max.y < word.max.y,
+        "not scrolled: {scrolled:?}, {word:?}"
+    );
+    assert!(52.0 <= name.min.y && name.max.y <= word.min.y, "{name:?}");
+    assert!(word.max.y < SMALL.y / 2.0, "{word:?}");
+    // From three metres.
+    assert!(
+        name.height() >= 36.0 && word.height() >= 28.0,
+        "{name:?}, {word:?}"
+    );
+    assert!(name.max.x <= SMALL.x, "{name:?}");
+}

@@ -149,7 +149,19 @@ pub mod font {
     pub fn title() -> FontId {
         FontId::new(27.0, strong_family())
     }
-    /// The verdict, and the headings of an enlarged stage.
+    /// The name of the part to be read from three metres, the largest first.
+    pub fn far_names() -> [FontId; 4] {
+        [48.0, 42.0, 36.0, 30.0].map(|size| FontId::new(size, strong_family()))
+    }
+    /// The verdict to be read from there.
+    pub fn far_verdict() -> FontId {
+        FontId::new(26.0, strong_family())
+    }
+    /// Why it is not accepted, to be read from there.
+    pub fn far_reason() -> FontId {
+        FontId::new(18.0, strong_family())
+    }
+    /// The verdict in a list, and the headings of an enlarged stage.
     pub fn verdict() -> FontId {
         FontId::new(16.5, strong_family())
     }

@@ -1,7 +1,7 @@
 //! The verdict card: which part, accepted or not, where, how sure, and what to do next.
 
 use egui::{
-    Align, Button, Frame, Layout, Panel, Rect, RichText, ScrollArea, Sense, Ui, Vec2, pos2,
+    Align, Button, FontId, Frame, Layout, Panel, Rect, RichText, ScrollArea, Sense, Ui, Vec2, pos2,
     style::ScrollStyle, vec2,
 };
 
@@ -159,9 +159,10 @@ pub(super) fn ui(
     ui.spacing_mut().interact_size.y = 20.0;
     ui.spacing_mut().item_spacing.y = 3.0;
     ui.spacing_mut().scroll = ScrollStyle::thin();
+    // However far the rest is scrolled, the verdict stays in sight.
+    let headline = Headline::of(inspected);
+    verdict(ui, &headline, theme);
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
-        let headline = Headline::of(inspected);
-        verdict(ui, &headline, theme);
         if inspection.touches_edge() && inspected.scan.is_none() {
             let text = "It reaches the picture's edge: some of it may be missing";
             ui.label(RichText::new(text).color(theme.warning));
@@ -229,7 +230,7 @@ fn action_buttons(
 fn verdict(ui: &mut Ui, headline: &Headline, theme: &Theme) {
     ui.label(
         RichText::new(&headline.title)
-            .font(font::title())
+            .font(name_font(ui, &headline.title))
             .color(theme.text),
     );
     let (sign, word, colour) = if headline.is_accepted {
@@ -240,22 +241,40 @@ fn verdict(ui: &mut Ui, headline: &Headline, theme: &Theme) {
         (Mark::Bad, "Not accepted", theme.rejected)
     };
     ui.horizontal(|ui| {
-        let (rect, _) = ui.allocate_exact_size(Vec2::splat(20.0), Sense::hover());
-        mark(ui.painter(), rect.center(), 9.0, sign, theme);
-        ui.label(RichText::new(word).font(font::verdict()).color(colour));
+        let (rect, _) = ui.allocate_exact_size(Vec2::splat(32.0), Sense::hover());
+        mark(ui.painter(), rect.center(), 14.0, sign, theme);
+        ui.label(RichText::new(word).font(font::far_verdict()).color(colour));
     });
     if let Some(nearest) = &headline.nearest {
         ui.label(RichText::new(format!("Nearest: {nearest}")).color(theme.weak_text));
     }
     if let Some((reason, advice)) = &headline.complaint {
         ui.add_space(space::SMALL);
-        ui.label(RichText::new(sentence(reason)).color(theme.text));
+        let reason = RichText::new(sentence(reason)).font(font::far_reason());
+        ui.label(reason.color(theme.text));
         ui.label(
             RichText::new(advice)
                 .font(font::body_strong())
                 .color(theme.warning),
         );
     }
+    ui.add_space(space::SMALL);
+}
+
+/// The largest in which the name takes at most two lines, and none of its words is broken.
+fn name_font(ui: &Ui, name: &str) -> FontId {
+    let [sizes @ .., smallest] = font::far_names();
+    let (width, colour) = (ui.available_width(), ui.visuals().text_color());
+    let fits = |font: &FontId| {
+        let size = |text: &str, width: f32| {
+            let painter = ui.painter();
+            let galley = painter.layout(text.to_owned(), font.clone(), colour, width);
+            (galley.rows.len(), galley.size().x)
+        };
+        let mut words = name.split_whitespace();
+        words.all(|word| size(word, f32::INFINITY).1 <= width) && size(name, width).0 <= 2
+    };
+    sizes.into_iter().find(fits).unwrap_or(smallest)
 }
 
 /// The score as a bar against the threshold, and the lead over the next part.
