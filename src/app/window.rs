@@ -3,7 +3,7 @@
 use std::{io, path::PathBuf, sync::Arc, time::Duration};
 
 use eframe::egui_wgpu::RenderState;
-use egui::{CentralPanel, Frame, Ui};
+use egui::{CentralPanel, Frame, LayerId, Ui};
 
 use super::{
     inspection::{camera::Camera, inspected::Inspected, library_cache::LibraryCache},
@@ -16,7 +16,7 @@ use super::{
         live::{self, LiveAction},
         message::{Event, Message},
         notices, rail,
-        robot::{RobotAction, RobotCell},
+        robot::RobotCell,
         roles::{self, RoleAction},
         settings,
         settings_file::Memory,
@@ -155,11 +155,6 @@ impl Window {
 
     /// Does what a person could cause.
     pub fn act(&mut self, action: Action, ctx: &egui::Context) {
-        let lies_on_top = self.robot.dialog().is_some() && self.state.help == HelpPage::Closed;
-        let action = match action {
-            Action::CloseTop if lies_on_top => Action::Robot(RobotAction::Close),
-            action => action,
-        };
         if let Some(effect) = apply(&mut self.state, action) {
             self.make(effect, ctx);
         }
@@ -343,11 +338,31 @@ impl Window {
         let of_robot = self.robot.ui(&ctx, &self.state.session, theme);
         actions.extend(of_robot.into_iter().map(Action::Robot));
         keys::help(&ctx, &self.state, &keys, theme, &mut actions);
-        keys::shortcuts(&ctx, &self.state, &keys, view_has_focus, &mut actions);
+        let is_behind_dialog = self.is_behind_dialog(&ctx);
+        keys::shortcuts(
+            &ctx,
+            &self.state,
+            &keys,
+            view_has_focus,
+            is_behind_dialog,
+            &mut actions,
+        );
         for action in actions {
             self.act(action, &ctx);
         }
         self.lock_untouched(&ctx);
+    }
+
+    /// True while a dialog lies over the workspaces, the window's, a workspace's or the system's.
+    fn is_behind_dialog(&self, ctx: &egui::Context) -> bool {
+        let state = &self.state;
+        let is_own = state.help == HelpPage::Open
+            || state.live.setup.is_some()
+            || state.roles.asked.is_some()
+            || self.robot.dialog().is_some();
+        let is_beneath =
+            |memory: &egui::Memory| !memory.is_above_modal_layer(LayerId::background());
+        is_own || self.services.dialogs.is_open() || ctx.memory(is_beneath)
     }
 
     /// Locks the engineer's view when nobody has touched it for long.

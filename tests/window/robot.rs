@@ -12,7 +12,7 @@ use partsight::{
             action::Action,
             robot::RobotAction,
             session::RememberedCell,
-            state::{State, Workspace},
+            state::{State, ThemeChoice, Workspace},
         },
         workspaces::{
             enrol::{EnrolAction, EnrolFile, EnrolWorkspace},
@@ -203,6 +203,77 @@ fn without_a_folder_of_its_own_a_window_says_so() {
     harness.key_press(Key::Escape);
     settle(&mut harness);
     assert!(harness.state().robot().dialog().is_none());
+}
+
+#[test]
+fn behind_a_dialog_no_key_is_a_shortcut_and_escape_closes_its_list_first() {
+    let typed = |harness: &mut WindowHarness| {
+        let keys = [
+            Key::Num2,
+            Key::Space,
+            Key::Num5,
+            Key::T,
+            Key::U,
+            Key::L,
+            Key::F1,
+            Key::C,
+            Key::B,
+        ];
+        for key in keys {
+            harness.key_press(key);
+            harness.run_steps(2);
+        }
+        let state = state(harness);
+        assert_eq!(state.inspector.num_captures, 1);
+        assert_eq!(state.theme, ThemeChoice::Dark);
+        assert!(!state.is_live());
+        assert!(harness.query_by_label("Shortcuts").is_none());
+        state.workspace
+    };
+    let mut harness = open();
+    let parts = inspect_of(&harness).parts.clone();
+    press(&mut harness, "Robot…");
+    press(&mut harness, "By hand");
+    assert_eq!(typed(&mut harness), Workspace::Inspect);
+    assert_eq!(inspect_of(&harness).parts, parts);
+    assert!(harness.state().robot().dialog().is_some());
+    harness.get_by_label_contains("Numbers of: ").click();
+    harness.run_steps(4);
+    harness.get_by_label("FANUC W P R");
+    harness.key_press(Key::Escape);
+    harness.run_steps(4);
+    assert!(harness.query_by_label("FANUC W P R").is_none());
+    assert!(harness.state().robot().dialog().is_some());
+    harness.key_press(Key::Escape);
+    harness.run_steps(4);
+    assert!(harness.state().robot().dialog().is_none());
+
+    harness.get_by_label_contains("Source").click();
+    harness.run_steps(4);
+    press(&mut harness, "Set up the cell…");
+    assert_eq!(typed(&mut harness), Workspace::Inspect);
+    harness.get_by_label_contains("Hangs there: ").click();
+    harness.run_steps(4);
+    harness.get_by_label("Nothing");
+    harness.key_press(Key::Escape);
+    harness.run_steps(4);
+    assert!(harness.query_by_label("Nothing").is_none());
+    assert!(state(&harness).live.setup.is_some());
+    harness.key_press(Key::Escape);
+    harness.run_steps(4);
+    assert!(state(&harness).live.setup.is_none());
+
+    act(&mut harness, Action::GoTo(Workspace::History));
+    press(&mut harness, "Frames…");
+    harness.get_by_label("Frames that are kept");
+    assert_eq!(typed(&mut harness), Workspace::History);
+    harness.key_press(Key::Escape);
+    harness.run_steps(4);
+    assert!(harness.query_by_label("Frames that are kept").is_none());
+    // And with nothing over it, keys are shortcuts again.
+    harness.key_press(Key::Num1);
+    harness.run_steps(4);
+    assert_eq!(state(&harness).workspace, Workspace::Inspect);
 }
 
 /// Writes a calibration that a person entered.

@@ -93,6 +93,11 @@ impl<K: Copy> FileDialog<K> {
 }
 
 impl DialogLock {
+    /// True while a dialog is open.
+    pub fn is_open(&self) -> bool {
+        self.0.get()
+    }
+
     fn take(&self) -> Option<DialogGuard> {
         (!self.0.replace(true)).then(|| DialogGuard(self.clone()))
     }
@@ -281,8 +286,9 @@ mod tests {
     fn one_dialog_is_open_at_a_time() {
         let lock = DialogLock::default();
         let first = lock.take().expect("free");
-        assert!(lock.take().is_none());
+        assert!(lock.take().is_none() && lock.is_open());
         drop(first);
+        assert!(!lock.is_open());
         assert!(lock.take().is_some());
     }
 }

@@ -152,18 +152,19 @@ enum Pressed {
 /// What the keys cause. Called after the panels, so that a focused control has its keys first.
 ///
 /// The space bar presses a focused control; `space_is_free` says that what has the focus does not use it. While a
-/// person writes, only keys with Ctrl are shortcuts; the Enter that ends the writing is the text's, too.
+/// person writes, only keys with Ctrl are shortcuts; the Enter that ends the writing is the text's, too. Behind a dialog
+/// there are none: the dialog has the keys.
 pub(in crate::app) fn shortcuts(
     ctx: &egui::Context,
     state: &State,
     own: &[KeyBinding],
     space_is_free: bool,
+    is_behind_dialog: bool,
     actions: &mut Vec<Action>,
 ) {
     let is_writing = ctx.text_edit_focused();
     let was_writing = remember_writing(ctx, is_writing);
-    if state.roles.asked.is_some() {
-        // Digits are those of a PIN.
+    if is_behind_dialog {
         return;
     }
     let is_pressing = !space_is_free && ctx.memory(|memory| memory.focused().is_some());
@@ -262,7 +263,8 @@ pub(in crate::app) fn help(
             ui.add_space(space::MEDIUM);
             labelled(ui, Button::new("Close"), "Close").clicked()
         });
-    if modal.inner || modal.backdrop_response.clicked() {
+    let is_pressed_again = || ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::F1));
+    if modal.inner || modal.should_close() || is_pressed_again() {
         actions.push(Action::ToggleHelp);
     }
 }
