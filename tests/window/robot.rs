@@ -10,7 +10,7 @@ use partsight::{
         WindowOptions,
         shell::{
             action::Action,
-            robot::RobotAction,
+            robot::{RobotAction, RobotPage},
             session::RememberedCell,
             state::{State, ThemeChoice, Workspace},
         },
@@ -274,6 +274,31 @@ fn behind_a_dialog_no_key_is_a_shortcut_and_escape_closes_its_list_first() {
     harness.key_press(Key::Num1);
     harness.run_steps(4);
     assert_eq!(state(&harness).workspace, Workspace::Inspect);
+}
+
+#[test]
+fn a_dialog_that_grows_or_shrinks_is_in_its_place_at_once() {
+    let mut harness = open();
+    press(&mut harness, "Robot…");
+    let mut height = 0.0;
+    for page in [RobotPage::ByHand, RobotPage::InUse] {
+        let mut dialog = harness.state().robot().dialog().expect("open").clone();
+        dialog.page = page;
+        let context = harness.ctx.clone();
+        let edit = Action::Robot(RobotAction::Edit(Box::new(dialog)));
+        harness.state_mut().act(edit, &context);
+        harness.step();
+        let ends = |harness: &WindowHarness| {
+            let top = harness.get_by_label("By hand").rect().min;
+            (top, harness.get_by_label("Close").rect().max)
+        };
+        let at_once = ends(&harness);
+        harness.run_steps(8);
+        assert_eq!(at_once, ends(&harness), "{page:?}");
+        let (before, now) = (height, at_once.1.y - at_once.0.y);
+        assert!(f32::abs(now - before) > 20.0, "{before} {now}");
+        height = now;
+    }
 }
 
 /// Writes a calibration that a person entered.

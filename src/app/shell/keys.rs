@@ -1,8 +1,6 @@
 //! Shortcuts, and the list of them.
 
-use egui::{
-    Button, Frame, Id, Key, KeyboardShortcut, Margin, Modal, Modifiers, RichText, ScrollArea, vec2,
-};
+use egui::{Button, Id, Key, KeyboardShortcut, Modifiers, RichText, ScrollArea, vec2};
 
 use super::{
     action::{Action, DialogRequest},
@@ -13,7 +11,10 @@ use super::{
     state::{HelpPage, State, Workspace},
     top_bar::labelled,
 };
-use crate::app::ui::theme::{Theme, font, space};
+use crate::app::ui::{
+    theme::{Theme, font, space},
+    widgets,
+};
 
 /// The shortcuts of the whole window.
 const SHORTCUTS: [Shortcut<Action>; 13] = [
@@ -225,44 +226,43 @@ pub(in crate::app) fn help(
     if state.help == HelpPage::Closed {
         return;
     }
-    let modal = Modal::new(Id::unique("help"))
-        .frame(Frame::window(&ctx.global_style()).inner_margin(Margin::same(18)))
-        .show(ctx, |ui| {
-            ui.set_max_width(520.0);
-            let height = ui.spacing().interact_size.y;
-            ui.spacing_mut().interact_size.y = 24.0;
-            ui.label(
-                RichText::new("Shortcuts")
-                    .font(font::verdict())
-                    .color(theme.text),
-            );
-            ui.add_space(space::SMALL);
-            let room = ctx.content_rect().height() - HELP_MARGIN;
-            let list = egui::Grid::new("shortcuts")
-                .num_columns(2)
-                .spacing(vec2(24.0, 6.0));
-            ScrollArea::vertical().max_height(room).show(ui, |ui| {
-                list.show(ui, |ui| {
-                    let own = own.iter().map(|binding| (binding.keys, binding.does));
-                    let named = SHORTCUTS.iter().map(|s| (s.keys, s.does));
-                    let of_rail = RAIL_KEYS.into_iter().zip(Workspace::ALL);
-                    let of_rail = of_rail.map(|((_, keys), workspace)| (keys, workspace.title()));
-                    let of_picture = match state.workspace {
-                        Workspace::Enrol => &PICTURE_KEYS[..],
-                        _ => &[],
-                    };
-                    let others = of_picture.iter().copied().chain(OTHER_KEYS);
-                    for (keys, does) in named.chain(own).chain(of_rail).chain(others) {
-                        ui.label(RichText::new(keys).font(font::body_strong()));
-                        ui.label(RichText::new(does).color(theme.weak_text));
-                        ui.end_row();
-                    }
-                });
+    let modal = widgets::dialog(ctx, "help", |ui| {
+        ui.set_max_width(520.0);
+        let height = ui.spacing().interact_size.y;
+        ui.spacing_mut().interact_size.y = 24.0;
+        ui.label(
+            RichText::new("Shortcuts")
+                .font(font::verdict())
+                .color(theme.text),
+        );
+        ui.add_space(space::SMALL);
+        let room = ctx.content_rect().height() - HELP_MARGIN;
+        let list = egui::Grid::new("shortcuts")
+            .num_columns(2)
+            .spacing(vec2(24.0, 6.0));
+        let list_area = ScrollArea::vertical().max_height(room);
+        list_area.min_scrolled_height(room).show(ui, |ui| {
+            list.show(ui, |ui| {
+                let own = own.iter().map(|binding| (binding.keys, binding.does));
+                let named = SHORTCUTS.iter().map(|s| (s.keys, s.does));
+                let of_rail = RAIL_KEYS.into_iter().zip(Workspace::ALL);
+                let of_rail = of_rail.map(|((_, keys), workspace)| (keys, workspace.title()));
+                let of_picture = match state.workspace {
+                    Workspace::Enrol => &PICTURE_KEYS[..],
+                    _ => &[],
+                };
+                let others = of_picture.iter().copied().chain(OTHER_KEYS);
+                for (keys, does) in named.chain(own).chain(of_rail).chain(others) {
+                    ui.label(RichText::new(keys).font(font::body_strong()));
+                    ui.label(RichText::new(does).color(theme.weak_text));
+                    ui.end_row();
+                }
             });
-            ui.spacing_mut().interact_size.y = height;
-            ui.add_space(space::MEDIUM);
-            labelled(ui, Button::new("Close"), "Close").clicked()
         });
+        ui.spacing_mut().interact_size.y = height;
+        ui.add_space(space::MEDIUM);
+        labelled(ui, Button::new("Close"), "Close").clicked()
+    });
     let is_pressed_again = || ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::F1));
     if modal.inner || modal.should_close() || is_pressed_again() {
         actions.push(Action::ToggleHelp);

@@ -1,8 +1,9 @@
 //! Small things that several panels draw.
 
 use egui::{
-    Align, Align2, Button, Color32, ColorImage, Layout, Painter, Pos2, Rect, RichText, Stroke,
-    StrokeKind, TextureHandle, TextureOptions, Ui, Vec2, pos2, vec2,
+    Align, Align2, Button, Color32, ColorImage, Context, Frame, Id, Layout, Margin, Modal,
+    ModalResponse, Painter, Pos2, Rect, RichText, Stroke, StrokeKind, TextureHandle,
+    TextureOptions, Ui, Vec2, pos2, vec2,
 };
 use image::RgbImage;
 
@@ -158,6 +159,29 @@ pub(in crate::app) fn shortened(text: &str, most: usize) -> String {
         head.iter().collect::<String>(),
         tail.iter().collect::<String>()
     )
+}
+
+/// A dialog over everything.
+pub(in crate::app) fn dialog<R>(
+    ctx: &Context,
+    name: &str,
+    content: impl FnOnce(&mut Ui) -> R,
+) -> ModalResponse<R> {
+    let id = Id::unique(name);
+    let modal = Modal::new(id)
+        .frame(Frame::window(&ctx.global_style()).inner_margin(Margin::same(18)))
+        .show(ctx, content);
+    let size = modal.response.rect.size();
+    let before = ctx.data_mut(|data| {
+        let before = data.get_temp::<Vec2>(id);
+        data.insert_temp(id, size);
+        before
+    });
+    // egui places and cuts a dialog by the size that it had when it was drawn last.
+    if before.is_some_and(|before| before != size) {
+        ctx.request_discard("a dialog has another size");
+    }
+    modal
 }
 
 /// Uploads a picture.

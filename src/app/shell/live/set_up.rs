@@ -1,6 +1,6 @@
 //! The window in which the simulated cell is set up.
 
-use egui::{Button, Context, DragValue, Frame, Grid, Id, Margin, Modal, RichText, Ui, vec2};
+use egui::{Button, Context, DragValue, Grid, RichText, Ui, vec2};
 
 use super::state::LiveAction;
 use crate::{
@@ -8,7 +8,7 @@ use crate::{
         shell::{action::Action, state::State, top_bar::labelled},
         ui::{
             theme::{Theme, font, space},
-            widgets::sentence,
+            widgets::{self, sentence},
         },
     },
     capture::{CellScene, SimulatedPose, SimulatedSpec, SourceSpec},
@@ -33,30 +33,28 @@ pub(in crate::app) fn set_up(
         return;
     };
     let mut spec = known.clone();
-    let modal = Modal::new(Id::unique("set up the cell"))
-        .frame(Frame::window(&ctx.global_style()).inner_margin(Margin::same(18)))
-        .show(ctx, |ui| {
-            ui.set_max_width(560.0);
-            let title = RichText::new("Simulated cell").font(font::verdict());
-            ui.label(title.color(theme.text));
-            ui.add_space(space::SMALL);
-            Grid::new("cell")
-                .num_columns(2)
-                .spacing(vec2(20.0, 8.0))
-                .show(ui, |ui| rows(ui, &mut spec));
-            ui.add_space(space::MEDIUM);
-            let mut closing = None;
-            ui.horizontal(|ui| {
-                let text = RichText::new("Use it").color(theme.on_accent);
-                if labelled(ui, Button::new(text).fill(theme.accent), "Use it").clicked() {
-                    closing = Some(true);
-                }
-                if labelled(ui, Button::new("Close"), "Close").clicked() {
-                    closing = Some(false);
-                }
-            });
-            closing
+    let modal = widgets::dialog(ctx, "set up the cell", |ui| {
+        ui.set_max_width(560.0);
+        let title = RichText::new("Simulated cell").font(font::verdict());
+        ui.label(title.color(theme.text));
+        ui.add_space(space::SMALL);
+        Grid::new("cell")
+            .num_columns(2)
+            .spacing(vec2(20.0, 8.0))
+            .show(ui, |ui| rows(ui, &mut spec));
+        ui.add_space(space::MEDIUM);
+        let mut closing = None;
+        ui.horizontal(|ui| {
+            let text = RichText::new("Use it").color(theme.on_accent);
+            if labelled(ui, Button::new(text).fill(theme.accent), "Use it").clicked() {
+                closing = Some(true);
+            }
+            if labelled(ui, Button::new("Close"), "Close").clicked() {
+                closing = Some(false);
+            }
         });
+        closing
+    });
     let is_closed = modal.should_close();
     match modal.inner {
         Some(true) => {

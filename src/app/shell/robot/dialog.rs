@@ -1,6 +1,6 @@
 //! The dialog itself: its pages, and what went wrong.
 
-use egui::{Button, Context, Frame, Id, Margin, Modal, RichText, ScrollArea, Ui, vec2};
+use egui::{Button, Context, RichText, ScrollArea, Ui, vec2};
 
 use super::{
     by_hand, from_pairs, in_use,
@@ -11,7 +11,7 @@ use crate::{
         shell::session::Session,
         ui::{
             theme::{Theme, font, space},
-            widgets::{Mark, labelled, mark, sentence},
+            widgets::{self, Mark, labelled, mark, sentence},
         },
         user_error::UserError,
     },
@@ -36,31 +36,30 @@ impl RobotCell {
         };
         let mut dialog = known.clone();
         let mut caused = Vec::new();
-        let modal = Modal::new(Id::unique("robot"))
-            .frame(Frame::window(&ctx.global_style()).inner_margin(Margin::same(18)))
-            .show(ctx, |ui| {
-                ui.set_width(WIDTH.min(ctx.content_rect().width() - 80.0));
-                let title = RichText::new("Robot").font(font::verdict());
-                ui.label(title.color(theme.text));
-                ui.add_space(space::SMALL);
-                ui.horizontal(|ui| {
-                    for page in RobotPage::ALL {
-                        choice(ui, &mut dialog.page, page, page.title());
-                    }
-                });
-                ui.separator();
-                let room = ctx.content_rect().height() - MARGIN;
-                ScrollArea::vertical()
-                    .max_height(room)
-                    .auto_shrink([false, true])
-                    .show(ui, |ui| {
-                        self.page(ui, session, &mut dialog, theme, &mut caused);
-                    });
-                ui.separator();
-                if labelled(ui, Button::new("Close"), "Close").clicked() {
-                    caused.push(RobotAction::Close);
+        let modal = widgets::dialog(ctx, "robot", |ui| {
+            ui.set_width(WIDTH.min(ctx.content_rect().width() - 80.0));
+            let title = RichText::new("Robot").font(font::verdict());
+            ui.label(title.color(theme.text));
+            ui.add_space(space::SMALL);
+            ui.horizontal(|ui| {
+                for page in RobotPage::ALL {
+                    choice(ui, &mut dialog.page, page, page.title());
                 }
             });
+            ui.separator();
+            let room = ctx.content_rect().height() - MARGIN;
+            ScrollArea::vertical()
+                .max_height(room)
+                .min_scrolled_height(room)
+                .auto_shrink([false, true])
+                .show(ui, |ui| {
+                    self.page(ui, session, &mut dialog, theme, &mut caused);
+                });
+            ui.separator();
+            if labelled(ui, Button::new("Close"), "Close").clicked() {
+                caused.push(RobotAction::Close);
+            }
+        });
         if modal.should_close() && caused.is_empty() {
             caused.push(RobotAction::Close);
         }

@@ -1,11 +1,14 @@
 //! The question on top of the window: a pad of digits, for gloves and for the keyboard.
 
-use egui::{Button, Context, Event, Frame, Id, Key, Margin, Modal, RichText, Ui, vec2};
+use egui::{Button, Context, Event, Key, RichText, Ui, vec2};
 
 use super::{RoleAction, RoleQuestion, pin::MOST_DIGITS};
 use crate::app::{
     shell::{action::Action, state::State, top_bar::labelled},
-    ui::theme::{Theme, font, space},
+    ui::{
+        theme::{Theme, font, space},
+        widgets,
+    },
 };
 
 /// Sides of a digit's button, logical pixels.
@@ -40,36 +43,38 @@ pub(in crate::app) fn dialog(
         ),
         RoleQuestion::NewPinAgain(_) => ("New PIN", "The same digits once more", "Set the PIN"),
     };
-    let modal = Modal::new(Id::unique("role"))
-        .frame(Frame::window(&ctx.global_style()).inner_margin(Margin::same(18)))
-        .show(ctx, |ui| {
-            ui.set_max_width(3.0 * DIGIT[0] + 2.0 * ui.spacing().item_spacing.x);
-            let title = RichText::new(title).font(font::verdict());
-            ui.label(title.color(theme.text));
-            ui.label(RichText::new(says).color(theme.weak_text));
-            if asks_pin {
-                pad(ui, &asked.digits, theme, actions);
+    let modal = widgets::dialog(ctx, "role", |ui| {
+        ui.set_max_width(3.0 * DIGIT[0] + 2.0 * ui.spacing().item_spacing.x);
+        let title = RichText::new(title).font(font::verdict());
+        ui.label(title.color(theme.text));
+        ui.label(RichText::new(says).color(theme.weak_text));
+        if asks_pin {
+            pad(ui, &asked.digits, theme, actions);
+        }
+        ui.add_space(space::SMALL);
+        if let Some(wrong) = asked.wrong {
+            let text = RichText::new(wrong).font(font::body_strong());
+            ui.label(text.color(theme.warning));
+            if state.roles.pin.is_some() {
+                let forgotten = "Forgotten: close Partsight and take the lines below [pin] out of its settings.toml";
+                ui.label(
+                    RichText::new(forgotten)
+                        .font(font::small())
+                        .color(theme.weak_text),
+                );
             }
             ui.add_space(space::SMALL);
-            if let Some(wrong) = asked.wrong {
-                let text = RichText::new(wrong).font(font::body_strong());
-                ui.label(text.color(theme.warning));
-                if state.roles.pin.is_some() {
-                    let forgotten = "Forgotten: close Partsight and take the lines below [pin] out of its settings.toml";
-                    ui.label(RichText::new(forgotten).font(font::small()).color(theme.weak_text));
-                }
-                ui.add_space(space::SMALL);
+        }
+        ui.horizontal(|ui| {
+            let text = RichText::new(done).color(theme.on_accent);
+            if labelled(ui, Button::new(text).fill(theme.accent), done).clicked() {
+                actions.push(Action::Role(RoleAction::Enter));
             }
-            ui.horizontal(|ui| {
-                let text = RichText::new(done).color(theme.on_accent);
-                if labelled(ui, Button::new(text).fill(theme.accent), done).clicked() {
-                    actions.push(Action::Role(RoleAction::Enter));
-                }
-                if labelled(ui, Button::new("Not now"), "Not now").clicked() {
-                    actions.push(Action::Role(RoleAction::Close));
-                }
-            });
+            if labelled(ui, Button::new("Not now"), "Not now").clicked() {
+                actions.push(Action::Role(RoleAction::Close));
+            }
         });
+    });
     if asks_pin {
         typed(ctx, actions);
     }

@@ -1,14 +1,12 @@
 //! The window in which a person says which frames are kept, and how long.
 
-use egui::{
-    Button, Context, DragValue, Frame, Grid, Id, Margin, Modal, RichText, Ui, WidgetInfo, vec2,
-};
+use egui::{Button, Context, DragValue, Grid, RichText, Ui, WidgetInfo, vec2};
 
 use super::{HistoryAction, HistoryState, apply::frames};
 use crate::{
     app::ui::{
         theme::{Theme, font, space},
-        widgets::labelled,
+        widgets::{self, labelled},
     },
     history::{KeepFrames, Retention, Usage},
 };
@@ -24,35 +22,33 @@ pub(super) fn ui(
         return;
     };
     let mut rule = known;
-    let modal = Modal::new(Id::unique("frames that are kept"))
-        .frame(Frame::window(&ctx.global_style()).inner_margin(Margin::same(18)))
-        .show(ctx, |ui| {
-            ui.set_max_width(520.0);
-            let title = RichText::new("Frames that are kept").font(font::verdict());
-            ui.label(title.color(theme.text));
-            ui.add_space(space::SMALL);
-            let why = "With its frame an inspection can be opened again with every stage. The inspections themselves are kept for good.";
-            ui.label(RichText::new(why).color(theme.weak_text));
-            ui.add_space(space::SMALL);
-            Grid::new("frames")
-                .num_columns(2)
-                .spacing(vec2(20.0, 8.0))
-                .show(ui, |ui| rows(ui, &mut rule));
-            ui.add_space(space::SMALL);
-            used(ui, history.kept.1, theme);
-            ui.add_space(space::MEDIUM);
-            let mut closing = None;
-            ui.horizontal(|ui| {
-                let text = RichText::new("Keep so").color(theme.on_accent);
-                if labelled(ui, Button::new(text).fill(theme.accent), "Keep so").clicked() {
-                    closing = Some(true);
-                }
-                if labelled(ui, Button::new("Close"), "Close").clicked() {
-                    closing = Some(false);
-                }
-            });
-            closing
+    let modal = widgets::dialog(ctx, "frames that are kept", |ui| {
+        ui.set_max_width(520.0);
+        let title = RichText::new("Frames that are kept").font(font::verdict());
+        ui.label(title.color(theme.text));
+        ui.add_space(space::SMALL);
+        let why = "With its frame an inspection can be opened again with every stage. The inspections themselves are kept for good.";
+        ui.label(RichText::new(why).color(theme.weak_text));
+        ui.add_space(space::SMALL);
+        Grid::new("frames")
+            .num_columns(2)
+            .spacing(vec2(20.0, 8.0))
+            .show(ui, |ui| rows(ui, &mut rule));
+        ui.add_space(space::SMALL);
+        used(ui, history.kept.1, theme);
+        ui.add_space(space::MEDIUM);
+        let mut closing = None;
+        ui.horizontal(|ui| {
+            let text = RichText::new("Keep so").color(theme.on_accent);
+            if labelled(ui, Button::new(text).fill(theme.accent), "Keep so").clicked() {
+                closing = Some(true);
+            }
+            if labelled(ui, Button::new("Close"), "Close").clicked() {
+                closing = Some(false);
+            }
         });
+        closing
+    });
     let is_closed = modal.should_close();
     let action = match modal.inner {
         Some(true) => HistoryAction::Keep(rule),
