@@ -116,10 +116,10 @@ fn found_words(found: &FoundVerdict) -> String {
     };
     // A high score alone does not say why it is refused.
     let words: Vec<String> = guess.into_iter().chain(found.reason.clone()).collect();
-    match words.is_empty() {
-        true => "nothing found".into(),
-        false => words.join(": "),
+    if words.is_empty() {
+        return "nothing found".into();
     }
+    words.join(": ")
 }
 
 /// Columns by number, so that eight names fit a terminal.

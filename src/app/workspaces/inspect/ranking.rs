@@ -87,9 +87,10 @@ impl Pictures<'_> {
             );
             if is_large {
                 let at = pos2(rect.right(), middle);
-                let score = match candidate.is_examined {
-                    true => format!("{:.2}", candidate.score),
-                    false => "not examined".to_owned(),
+                let score = if candidate.is_examined {
+                    format!("{:.2}", candidate.score)
+                } else {
+                    "not examined".to_owned()
                 };
                 painter.text(at, Align2::RIGHT_CENTER, score, font::body(), colour);
             }

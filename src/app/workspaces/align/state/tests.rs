@@ -14,7 +14,7 @@ struct Bench {
 }
 
 impl Bench {
-    /// With an empty library.
+    /// Before a library is loaded.
     fn new() -> Self {
         Self {
             align: AlignState::new(&TaskRunner::without_threads()),
@@ -173,6 +173,10 @@ fn a_row_of_the_table_is_aligned_unless_the_table_is_at_work() {
 fn what_is_missing_is_said_in_words() {
     let mut bench = Bench::new();
     let says = |bench: &Bench, words| bench.missing().is_some_and(|text| text.contains(words));
+    assert!(says(&bench, "being loaded"));
+    bench.act(AlignAction::Run);
+    assert!(bench.align.running().is_none());
+    bench.shell.session.library = Some(Arc::default());
     assert!(says(&bench, "no part"));
     bench.act(AlignAction::Run);
     assert!(bench.align.running().is_none());
