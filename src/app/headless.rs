@@ -51,7 +51,7 @@ pub struct FrameTime {
     pub whole: f64,
 }
 
-/// A window that nobody sees.
+/// A window without a display.
 pub struct HeadlessWindow {
     ctx: egui::Context,
     window: Window,

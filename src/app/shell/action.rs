@@ -1,4 +1,4 @@
-//! What can be pressed above the workspaces, and the one function that makes it so.
+//! The actions of the window outside the workspaces, and the function that applies them.
 
 use std::path::PathBuf;
 

@@ -231,7 +231,7 @@ impl State {
         live::give_way(self);
     }
 
-    /// From now on this library is shown; what had to be set aside in it is said once.
+    /// Shows this library, and reports once what had to be set aside in it.
     pub(in crate::app) fn use_library(&mut self, library: &Arc<LibraryView>) {
         let is_other = |known: &Arc<_>| !Arc::ptr_eq(known, library);
         if self.library.as_ref().is_none_or(is_other) {
@@ -299,7 +299,7 @@ fn run(
     Ok(InspectorResult::Inspected(Arc::new(inspected)))
 }
 
-/// Takes in what the task reports; every workspace is told of what comes back.
+/// Polls the tasks; returns the event that every workspace receives.
 pub(in crate::app) fn update(state: &mut State) -> Option<Event> {
     match state.inspector.loading.poll() {
         // One that came with a result, or that a person chose, is newer.
@@ -375,7 +375,7 @@ fn show(state: &mut State, inspected: Arc<Inspected>) -> Event {
     Event::Inspected { inspected, purpose }
 }
 
-/// More files than this nobody looks through.
+/// Recent files that are remembered.
 const MAX_RECENT: usize = 8;
 
 /// Puts a file first among the recent ones.

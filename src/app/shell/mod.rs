@@ -1,7 +1,7 @@
 //! What every workspace stands on, and what stands around them: the session that they share, messages, file dialogs,
 //! notices and keys; the bars, the inspector, the source that is followed, the robot's cell, and whose window it is.
 //!
-//! What is pressed above the workspaces is an [`action`], which changes the window's [`state`].
+//! A control outside the workspaces causes an [`action`], which changes the window's [`state`].
 
 pub mod action;
 pub mod context;

@@ -1,4 +1,4 @@
-//! What stands above the workspaces: the session that they share, and who changes it.
+//! The state of the window outside the workspaces: the session that they share, and what changes it.
 
 use std::ops::{Deref, DerefMut};
 
@@ -10,7 +10,7 @@ pub use super::{
 };
 use crate::app::{inspection::library_cache::LibraryCache, task::TaskRunner};
 
-/// What stands above the workspaces. [`apply`](super::action::apply) changes it.
+/// The state of the window outside the workspaces. [`apply`](super::action::apply) changes it.
 #[derive(Debug)]
 pub struct State {
     /// What the workspaces share.

@@ -20,10 +20,10 @@ pub trait Workspace: Any {
     /// Draws it, and does what a person caused.
     fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>);
 
-    /// Takes in what its tasks and dialogs report. Called in every frame, in front or not.
+    /// Polls its tasks and dialogs. Called in every frame, in front or not.
     fn update(&mut self, cx: &mut ShellContext<'_>);
 
-    /// Takes in what the shell tells.
+    /// Handles an event of the shell.
     fn on_event(&mut self, _event: &Event, _cx: &mut ShellContext<'_>) {}
 
     /// Takes what is captured or opened while it is in front.

@@ -175,7 +175,7 @@ fn start(state: &mut State) {
     follow_source(state);
 }
 
-/// Follows the source with what holds now, in place of whatever was followed.
+/// Follows the source with the current settings; a source that is followed already is dropped first.
 fn follow_source(state: &mut State) {
     let Some(spec) = state.source.followed() else {
         return;
@@ -239,7 +239,7 @@ fn ended(state: &mut State) {
     dismiss_lost_notice(state);
 }
 
-/// Takes in what the task reports; every workspace is told of what comes back.
+/// Polls the task; returns the event that every workspace receives.
 pub(in crate::app) fn update(state: &mut State) -> Vec<Event> {
     let mut counted = Vec::new();
     while let Some(event) = state.follower.task.poll() {

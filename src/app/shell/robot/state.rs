@@ -335,7 +335,7 @@ impl RobotCell {
         self.save(path, calibration);
     }
 
-    /// Takes in what the task reports; says what follows from the file that a person chose.
+    /// Polls the task and the file dialog; returns the action that a chosen file causes.
     pub fn update(&mut self, cx: &mut ShellContext<'_>) -> Option<RobotAction> {
         match self.task.poll() {
             Some(TaskEvent::Partial(result) | TaskEvent::Done(result)) => self.take_in(result, cx),
