@@ -15,12 +15,14 @@ use super::{
         inspector, keys,
         live::{self, LiveAction},
         message::{Event, Message},
+        notice::Notice,
         notices, rail,
         robot::RobotCell,
         roles::{self, RoleAction},
+        session::{Source, ThemeChoice, WorkspaceKind},
         settings,
         settings_file::Memory,
-        state::{HelpPage, Notice, Source, State, ThemeChoice, Workspace as WorkspaceKind},
+        state::{HelpPage, State},
         top_bar,
         workspace::Workspace,
     },
@@ -103,8 +105,9 @@ impl Window {
         let runner = TaskRunner::new(move || repaint.request_repaint());
         let repaint = ctx.clone();
         let history_writer = Writer::start(Arc::clone(&kept), move || repaint.request_repaint())?;
-        let shelf = LibraryCache::new(library.or_else(|| remembered.library.clone()), camera)
-            .with_history(Arc::clone(&kept));
+        let library_cache =
+            LibraryCache::new(library.or_else(|| remembered.library.clone()), camera)
+                .with_history(Arc::clone(&kept));
         let gpu = render_state
             .map(ViewportGpu::of_window)
             .ok_or_else(|| ViewError::NoDevice {
@@ -112,10 +115,10 @@ impl Window {
             });
         let mut window = Self {
             memory: Memory::new(settings, remembered.clone(), &runner),
-            state: remembered.into_state(&runner, &shelf),
+            state: remembered.into_state(&runner, &library_cache),
             dialog: FileDialog::default(),
             services: Services {
-                shelf,
+                library_cache,
                 dialogs: DialogLock::default(),
             },
             robot: RobotCell::new(&runner),

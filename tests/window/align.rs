@@ -5,7 +5,7 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use partsight::{
     app::{
         WindowOptions,
-        shell::state::{NoticeKind, Workspace},
+        shell::{notice::NoticeKind, session::WorkspaceKind},
         workspaces::align::{
             AlignAction, AlignFile, AlignState, AlignWorkspace, Pairing, Playback, Start,
         },
@@ -18,7 +18,7 @@ use super::set_up::{SMALL, USUAL, WindowHarness, act_in, open_with, settle, wait
 fn open_at(size: Vec2) -> WindowHarness {
     let mut harness = open_with(size, WindowOptions::default());
     press_quickly(&mut harness, "Align");
-    assert_eq!(harness.state().state().workspace, Workspace::Align);
+    assert_eq!(harness.state().state().workspace, WorkspaceKind::Align);
     harness
 }
 

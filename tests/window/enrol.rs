@@ -8,10 +8,7 @@ use partsight::{
     app::{
         WindowOptions,
         inspection::source::CellChoice,
-        shell::{
-            action::Action,
-            state::{State, Workspace},
-        },
+        shell::{action::Action, session::WorkspaceKind, state::State},
     },
     library::{LibraryFolder, PartName},
     simulate::{PartKind, PartModel, Side},
@@ -421,7 +418,7 @@ fn the_inspected_scene_is_taken_at_one_press_and_captures_stay_with_the_workspac
     let still = state(&harness).shown.as_ref().expect("a result").generation;
     assert_eq!(
         (still, state(&harness).workspace),
-        (shown, Workspace::Enrol)
+        (shown, WorkspaceKind::Enrol)
     );
     press(&mut harness, "Everything");
     assert!(num_kept(&harness) > 200_000);
@@ -500,7 +497,7 @@ fn a_window_that_starts_in_enrol_has_its_library_an_inspection_and_its_history()
     std::fs::write(&settings, left_in_enrol).expect("written");
 
     let harness = open_with(USUAL, options(None));
-    assert_eq!(state(&harness).workspace, Workspace::Enrol);
+    assert_eq!(state(&harness).workspace, WorkspaceKind::Enrol);
     harness.get_by_label("Enrolled: Front door, left");
     harness.get_by_label("Take the inspected scene");
     assert_eq!(history_of(&harness).num_rows(), 2);
@@ -511,7 +508,7 @@ fn a_window_that_starts_in_enrol_has_its_library_an_inspection_and_its_history()
     std::fs::write(&broken, "VERSION .7\nFIELDS x y z\nPOINTS 9999999999\n").expect("written");
     std::fs::write(&settings, left_in_enrol).expect("written");
     let harness = open_with(USUAL, options(Some(broken)));
-    assert_eq!(state(&harness).workspace, Workspace::Enrol);
+    assert_eq!(state(&harness).workspace, WorkspaceKind::Enrol);
     assert_eq!(notices(&harness).len(), 1);
     harness.get_by_label("Enrolled: Front door, left");
     assert_eq!(history_of(&harness).num_rows(), 2);

@@ -15,7 +15,7 @@ use partsight::{
         inspection::{source::CellChoice, unit_system::UnitSystem},
         shell::{
             action::Action,
-            state::{ThemeChoice, Workspace},
+            session::{ThemeChoice, WorkspaceKind},
         },
         workspaces::{
             history::{HistoryAction, HistoryFile, HistoryWorkspace, ListFilter},
@@ -48,7 +48,7 @@ fn keeping(path: &Path) -> WindowOptions {
 }
 
 fn go_to_history(harness: &mut WindowHarness) {
-    act(harness, Action::GoTo(Workspace::History));
+    act(harness, Action::GoTo(WorkspaceKind::History));
 }
 
 fn act_in_history(harness: &mut WindowHarness, action: HistoryAction) {
@@ -69,7 +69,7 @@ fn an_earlier_inspection_is_found_and_opened_again_with_its_stages() {
     press(&mut harness, "Inspection 1: Front door, left, Accepted");
     harness.get_by_label("Segmentation of inspection 1");
     press(&mut harness, "Open");
-    assert_eq!(harness.state().state().workspace, Workspace::Inspect);
+    assert_eq!(harness.state().state().workspace, WorkspaceKind::Inspect);
     harness.get_by_label("Simulated frame 1");
     harness.get_by_label_contains("From the history");
     harness.get_by_label("Enlarge contour");
@@ -88,12 +88,12 @@ fn the_list_is_filtered_by_what_is_written_and_keys_do_not_switch_meanwhile() {
     harness.get_by_label("Find").type_text("frame 1");
     settle(&mut harness);
     harness.get_by_label("1 of 2");
-    assert_eq!(harness.state().state().workspace, Workspace::History);
+    assert_eq!(harness.state().state().workspace, WorkspaceKind::History);
     // Nor does the Enter that ends the writing, though the field has lost the focus by then.
     harness.key_press(Key::Enter);
     settle(&mut harness);
     harness.get_by_label("1 of 2");
-    assert_eq!(harness.state().state().workspace, Workspace::History);
+    assert_eq!(harness.state().state().workspace, WorkspaceKind::History);
     press(&mut harness, "Verdict · All ▼");
     press(&mut harness, "Verdict: No part");
     harness.get_by_label_contains("No inspection is like this");
@@ -135,7 +135,7 @@ fn the_history_outlives_the_window_and_what_a_person_said_of_it() {
     settle(&mut harness);
     // Enter was the field's: it does not open the inspection as well.
     let state = harness.state().state();
-    assert_eq!(state.workspace, Workspace::History);
+    assert_eq!(state.workspace, WorkspaceKind::History);
     assert!(state.shown.as_ref().is_some_and(|shown| !shown.is_past));
     drop(harness);
 
@@ -154,7 +154,7 @@ fn the_history_outlives_the_window_and_what_a_person_said_of_it() {
     assert!(row.frame_bytes.is_some());
     act_in_history(&mut harness, HistoryAction::Open(2));
     let state = harness.state().state();
-    assert_eq!(state.workspace, Workspace::Inspect);
+    assert_eq!(state.workspace, WorkspaceKind::Inspect);
     assert!(state.shown.as_ref().is_some_and(|shown| shown.is_past));
     assert!(state.notices.is_empty(), "{:?}", state.notices);
     // The first one's was not; but the simulated cell can show it again.
@@ -193,7 +193,7 @@ fn inspected_again_it_says_what_changed() {
     go_to_history(&mut harness);
     press(&mut harness, "Inspect again");
     harness.get_by_label("The same is found today");
-    assert_eq!(harness.state().state().workspace, Workspace::History);
+    assert_eq!(harness.state().state().workspace, WorkspaceKind::History);
     assert_eq!(history_of(&harness).num_rows(), 1);
 }
 
@@ -347,7 +347,7 @@ fn the_window_starts_as_it_was_left() {
     let state = harness.state().state();
     assert_eq!(state.theme, ThemeChoice::Light);
     assert_eq!(state.units, UnitSystem::MetresRadians);
-    assert_eq!(state.workspace, Workspace::History);
+    assert_eq!(state.workspace, WorkspaceKind::History);
 }
 
 #[test]

@@ -8,7 +8,7 @@ use partsight::{
     app::{
         WindowOptions,
         inspection::{figures::StagePanel, unit_system::UnitSystem},
-        shell::state::ThemeChoice,
+        shell::session::ThemeChoice,
     },
     files::save_cloud,
     robot::Convention,

@@ -19,7 +19,8 @@ use partsight::{
         shell::{
             action::Action,
             live::{LiveAction, SourceState},
-            state::{Source, State, Workspace},
+            session::{Source, WorkspaceKind},
+            state::State,
         },
     },
     capture::{CaptureError, Captured, DepthSource, Image, NextCapture},
@@ -214,7 +215,7 @@ fn the_view_stays_where_a_person_has_turned_it_and_each_frame_is_shown() {
     assert!(!Arc::ptr_eq(&first.inspected, &second.inspected));
     assert!(first.generation != second.generation && first.session == second.session);
     // Another workspace keeps what it has in hand, and says how live stands.
-    act_live(&mut harness, Action::GoTo(Workspace::History));
+    act_live(&mut harness, Action::GoTo(WorkspaceKind::History));
     sees(&mut harness, &wire, [0.0]);
     let third = harness.state().state().shown.clone().expect("shown");
     assert!(Arc::ptr_eq(&second.inspected, &third.inspected));

@@ -22,7 +22,7 @@ use partsight::{
             library_cache::LibraryCache,
             source::{CellChoice, SceneSource},
         },
-        shell::{action::Action, robot::RobotAction, state::Workspace},
+        shell::{action::Action, robot::RobotAction, session::WorkspaceKind},
         workspaces::align::{AlignWorkspace, MethodRun},
     },
     library::{LibraryFolder, PartName},
@@ -61,13 +61,13 @@ fn inspected() -> Inspected {
     inspected_by(&LibraryCache::default())
 }
 
-fn inspected_by(shelf: &LibraryCache) -> Inspected {
+fn inspected_by(library_cache: &LibraryCache) -> Inspected {
     let choice = CellChoice::InTurn;
     let request = InspectRequest {
         source: SceneSource::Cell { choice, number: 1 },
         recipe: Arc::default(),
     };
-    let mut found = inspect(&request, shelf, &Unwatched).expect("inspected");
+    let mut found = inspect(&request, library_cache, &Unwatched).expect("inspected");
     let ms = Duration::from_millis;
     found.inspection.timings = Timings {
         segment: ms(3),
@@ -201,7 +201,7 @@ fn a_scan_looks_as_it_did() {
     }
     let scan = ScanFolder::new(3);
     let mut harness = open_drawn(SMALL);
-    act(&mut harness, Action::GoTo(Workspace::Enrol));
+    act(&mut harness, Action::GoTo(WorkspaceKind::Enrol));
     act(&mut harness, Action::Open(scan.scan()));
     compare(&mut harness, "scan");
 }
@@ -275,12 +275,12 @@ fn the_robots_cell_looks_as_it_did() {
         .expect("stored");
     let cell = folder.path().join("cell.toml");
     robot::save_calibration(&cell);
-    let shelf = LibraryCache::new(Some(parts), Camera::default());
+    let library_cache = LibraryCache::new(Some(parts), Camera::default());
     for (size, is_light, name) in [
         (USUAL, false, "spray_path"),
         (SMALL, true, "spray_path_small_light"),
     ] {
-        let mut harness = open_with(size, inspected_by(&shelf));
+        let mut harness = open_with(size, inspected_by(&library_cache));
         if is_light {
             act(&mut harness, Action::SwitchTheme);
         }
@@ -305,11 +305,11 @@ fn the_other_workspaces_look_as_they_did() {
         return;
     }
     let mut harness = open_drawn(SMALL);
-    act(&mut harness, Action::GoTo(Workspace::Enrol));
+    act(&mut harness, Action::GoTo(WorkspaceKind::Enrol));
     compare(&mut harness, "enrol");
-    act(&mut harness, Action::GoTo(Workspace::Compare));
+    act(&mut harness, Action::GoTo(WorkspaceKind::Compare));
     compare(&mut harness, "compare");
-    act(&mut harness, Action::GoTo(Workspace::Align));
+    act(&mut harness, Action::GoTo(WorkspaceKind::Align));
     press(&mut harness, "T4");
     press(&mut harness, "Run");
     run_again_in_no_time(&mut harness);
@@ -317,7 +317,7 @@ fn the_other_workspaces_look_as_they_did() {
     // The time of day is that of where the machine stands.
     if jiff::tz::TimeZone::system().to_offset(jiff::Timestamp::UNIX_EPOCH) == jiff::tz::Offset::UTC
     {
-        act(&mut harness, Action::GoTo(Workspace::History));
+        act(&mut harness, Action::GoTo(WorkspaceKind::History));
         compare(&mut harness, "history");
     }
 }

@@ -11,8 +11,8 @@ use partsight::{
         shell::{
             action::Action,
             robot::{RobotAction, RobotPage},
-            session::RememberedCell,
-            state::{State, ThemeChoice, Workspace},
+            session::{RememberedCell, ThemeChoice, WorkspaceKind},
+            state::State,
         },
         workspaces::{
             enrol::{EnrolAction, EnrolFile, EnrolWorkspace},
@@ -234,7 +234,7 @@ fn behind_a_dialog_no_key_is_a_shortcut_and_escape_closes_its_list_first() {
     let parts = inspect_of(&harness).parts.clone();
     press(&mut harness, "Robot…");
     press(&mut harness, "By hand");
-    assert_eq!(typed(&mut harness), Workspace::Inspect);
+    assert_eq!(typed(&mut harness), WorkspaceKind::Inspect);
     assert_eq!(inspect_of(&harness).parts, parts);
     assert!(harness.state().robot().dialog().is_some());
     harness.get_by_label_contains("Numbers of: ").click();
@@ -251,7 +251,7 @@ fn behind_a_dialog_no_key_is_a_shortcut_and_escape_closes_its_list_first() {
     harness.get_by_label_contains("Source").click();
     harness.run_steps(4);
     press(&mut harness, "Set up the cell…");
-    assert_eq!(typed(&mut harness), Workspace::Inspect);
+    assert_eq!(typed(&mut harness), WorkspaceKind::Inspect);
     harness.get_by_label_contains("Hangs there: ").click();
     harness.run_steps(4);
     harness.get_by_label("Nothing");
@@ -263,17 +263,17 @@ fn behind_a_dialog_no_key_is_a_shortcut_and_escape_closes_its_list_first() {
     harness.run_steps(4);
     assert!(state(&harness).live.setup.is_none());
 
-    act(&mut harness, Action::GoTo(Workspace::History));
+    act(&mut harness, Action::GoTo(WorkspaceKind::History));
     press(&mut harness, "Frames…");
     harness.get_by_label("Frames that are kept");
-    assert_eq!(typed(&mut harness), Workspace::History);
+    assert_eq!(typed(&mut harness), WorkspaceKind::History);
     harness.key_press(Key::Escape);
     harness.run_steps(4);
     assert!(harness.query_by_label("Frames that are kept").is_none());
     // And with nothing over it, keys are shortcuts again.
     harness.key_press(Key::Num1);
     harness.run_steps(4);
-    assert_eq!(state(&harness).workspace, Workspace::Inspect);
+    assert_eq!(state(&harness).workspace, WorkspaceKind::Inspect);
 }
 
 #[test]
@@ -372,7 +372,7 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
     };
     assert!(shown(&harness).spray.is_none());
 
-    // Stored in the shelf of enrolled parts, as a file from elsewhere.
+    // Stored in the library_cache of enrolled parts, as a file from elsewhere.
     let file = folder.path().join("path.csv");
     let mut text =
         String::from("nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z\n");
@@ -381,7 +381,7 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
         writeln!(text, "{},{},{},0,0,1", mm.x, mm.y, mm.z).expect("memory");
     }
     fs::write(&file, text).expect("written");
-    act(&mut harness, Action::GoTo(Workspace::Enrol));
+    act(&mut harness, Action::GoTo(WorkspaceKind::Enrol));
     in_enrol(&mut harness, EnrolAction::Open(door));
     in_enrol(
         &mut harness,
@@ -396,7 +396,7 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
         Some(6)
     );
 
-    act(&mut harness, Action::GoTo(Workspace::Inspect));
+    act(&mut harness, Action::GoTo(WorkspaceKind::Inspect));
     let inspected = shown(&harness);
     let carried = inspected.spray.as_ref().expect("carried");
     assert_eq!(carried.points.len(), 6);

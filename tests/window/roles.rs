@@ -7,8 +7,8 @@ use partsight::app::{
     shell::{
         action::Action,
         roles::{RoleAction, UserRole},
+        session::WorkspaceKind,
         settings,
-        state::Workspace,
     },
 };
 
@@ -43,7 +43,7 @@ fn the_operators_view_is_locked_and_unlocked_with_the_pin() {
     // By key as by the rail.
     harness.key_press(Key::Num3);
     harness.run_steps(4);
-    assert_eq!(harness.state().state().workspace, Workspace::Inspect);
+    assert_eq!(harness.state().state().workspace, WorkspaceKind::Inspect);
     write(&mut harness, "2589", "Unlock");
     assert!(harness.query_by_label("That is not the PIN").is_some());
     for digit in "2580".chars() {
@@ -54,7 +54,7 @@ fn the_operators_view_is_locked_and_unlocked_with_the_pin() {
     harness.run_steps(4);
     // The digits were no shortcuts, and what was wanted is done.
     assert_eq!(role(&harness), UserRole::Engineer);
-    assert_eq!(harness.state().state().workspace, Workspace::Compare);
+    assert_eq!(harness.state().state().workspace, WorkspaceKind::Compare);
 }
 
 #[test]
@@ -62,7 +62,7 @@ fn without_a_pin_a_yes_is_enough() {
     let mut harness = open();
     act(&mut harness, Action::Role(RoleAction::Switch));
     press(&mut harness, "Enrol");
-    assert_eq!(harness.state().state().workspace, Workspace::Inspect);
+    assert_eq!(harness.state().state().workspace, WorkspaceKind::Inspect);
     press(&mut harness, "Not now");
     press(&mut harness, "Operator's view");
     press(&mut harness, "Change to it");
@@ -73,7 +73,7 @@ fn without_a_pin_a_yes_is_enough() {
 fn an_untouched_window_is_the_operators_again() {
     let mut harness = open();
     set_pin(&mut harness, "1111");
-    act(&mut harness, Action::GoTo(Workspace::Enrol));
+    act(&mut harness, Action::GoTo(WorkspaceKind::Enrol));
     act(&mut harness, Action::Role(RoleAction::LockAfter(1)));
     let now = harness.ctx.input(|input| input.time);
     let mut at = |seconds: f64| {
@@ -83,7 +83,7 @@ fn an_untouched_window_is_the_operators_again() {
     };
     assert_eq!(at(30.0), UserRole::Engineer);
     assert_eq!(at(80.0), UserRole::Operator);
-    assert_eq!(harness.state().state().workspace, Workspace::Inspect);
+    assert_eq!(harness.state().state().workspace, WorkspaceKind::Inspect);
 }
 
 #[test]
@@ -95,7 +95,7 @@ fn with_a_pin_the_next_start_is_the_operators() {
         ..WindowOptions::default()
     };
     let mut harness = open_with(USUAL, options());
-    act(&mut harness, Action::GoTo(Workspace::Compare));
+    act(&mut harness, Action::GoTo(WorkspaceKind::Compare));
     set_pin(&mut harness, "9753");
     let remembered = settings::Settings::of(harness.state().state(), None);
     settings::save(&path, &remembered).expect("saved");
@@ -107,5 +107,5 @@ fn with_a_pin_the_next_start_is_the_operators() {
     );
     let harness = open_with(USUAL, options());
     assert_eq!(role(&harness), UserRole::Operator);
-    assert_eq!(harness.state().state().workspace, Workspace::Inspect);
+    assert_eq!(harness.state().state().workspace, WorkspaceKind::Inspect);
 }

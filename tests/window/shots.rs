@@ -14,7 +14,8 @@ use partsight::{
         inspection::{fuse::FusedShots, scan_figure::ShotFate},
         shell::{
             action::Action,
-            state::{Source, State, Workspace},
+            session::{Source, WorkspaceKind},
+            state::State,
         },
         shots::ShotsFile,
         workspaces::inspect::InspectFile,
@@ -139,7 +140,7 @@ fn state(harness: &WindowHarness) -> &State {
 
 /// The scan in front.
 fn fused(harness: &WindowHarness) -> &FusedShots {
-    let fused = if state(harness).workspace == Workspace::Enrol {
+    let fused = if state(harness).workspace == WorkspaceKind::Enrol {
         let draft = enrol_of(harness).draft.as_ref();
         draft.expect("a draft").subject.scan()
     } else {
@@ -334,7 +335,7 @@ fn in_a_small_window_every_control_of_a_scan_is_large_enough_and_has_a_name() {
     press(&mut harness, "Enrol");
     drop_file(&mut harness, &scan.scan());
     assert_eq!(used(&harness), [0, 1]);
-    for workspace in [Workspace::Enrol, Workspace::Inspect] {
+    for workspace in [WorkspaceKind::Enrol, WorkspaceKind::Inspect] {
         act(&mut harness, Action::GoTo(workspace));
         for role in [egui::Role::Button, egui::Role::Tab, egui::Role::CheckBox] {
             for node in harness.query_all_by_role(role) {

@@ -11,7 +11,7 @@ use serde::Serialize;
 use super::{FrameTime, HeadlessWindow, Pace};
 use crate::{
     app::{
-        shell::{action::Action, live::LiveAction, state::Workspace},
+        shell::{action::Action, live::LiveAction, session::WorkspaceKind},
         ui::viewport::ViewError,
         window::WindowOptions,
         workspaces::{
@@ -136,19 +136,19 @@ type Prepare = fn(&mut HeadlessWindow);
 
 /// Each as full as a person would have it: a part to enrol, a case under the glass, every method run.
 fn other_workspaces(window: &mut HeadlessWindow, num_frames: usize) -> Vec<FrameCost> {
-    let prepared: [(&str, Workspace, Prepare); 4] = [
-        ("Enrol, pointer moving", Workspace::Enrol, |window| {
+    let prepared: [(&str, WorkspaceKind, Prepare); 4] = [
+        ("Enrol, pointer moving", WorkspaceKind::Enrol, |window| {
             window.with(|enrol: &mut EnrolWorkspace, cx| {
                 enrol.state_mut().apply(EnrolAction::TakeShown, cx);
             });
         }),
-        ("Compare, pointer moving", Workspace::Compare, |_| {}),
-        ("Align, pointer moving", Workspace::Align, |window| {
+        ("Compare, pointer moving", WorkspaceKind::Compare, |_| {}),
+        ("Align, pointer moving", WorkspaceKind::Align, |window| {
             window.with(|align: &mut AlignWorkspace, cx| {
                 align.state_mut().apply(AlignAction::Run, cx);
             });
         }),
-        ("History, pointer moving", Workspace::History, |_| {}),
+        ("History, pointer moving", WorkspaceKind::History, |_| {}),
     ];
     let over = |i: usize| {
         let across = (i as f32 * 0.07).sin() * 0.4 + 0.5;
@@ -209,7 +209,7 @@ fn measured(
         busy_p95_ms: busy(0.95),
         all_threads_mean_ms: spent.map(|s| s * 1e3 / num_frames.max(1) as f64),
         paced_p50_ms: whole.filter(|_| pace == Pace::InStep),
-        detail: (window.window().state().workspace == Workspace::Inspect)
+        detail: (window.window().state().workspace == WorkspaceKind::Inspect)
             .then(|| f64::from(window.window().detail_of_view())),
     }
 }

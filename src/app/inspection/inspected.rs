@@ -146,16 +146,16 @@ pub struct LiveFrameContext {
 /// Gets the scene and inspects it.
 pub fn inspect(
     request: &InspectRequest,
-    shelf: &LibraryCache,
+    library_cache: &LibraryCache,
     watch: &dyn ProgressObserver,
 ) -> Result<Inspected, TaskError> {
-    let shelved = shelf.get().map_err(|error| UserError::of(&error))?;
+    let shelved = library_cache.get().map_err(|error| UserError::of(&error))?;
     if watch.is_cancelled() {
         return Err(TaskError::Cancelled);
     }
     let taken = request
         .source
-        .take(shelf.camera(), &|| watch.is_cancelled());
+        .take(library_cache.camera(), &|| watch.is_cancelled());
     let Captured {
         scene,
         origin,
@@ -182,11 +182,11 @@ pub fn inspect(
 /// Puts the shots of a scan together and inspects them, or says why they cannot be put together.
 pub(in crate::app) fn inspect_scan(
     request: &ScanRequest,
-    shelf: &LibraryCache,
+    library_cache: &LibraryCache,
     steps: &Steps<'_>,
 ) -> Result<Result<Inspected, FuseError>, TaskError> {
     let begun = Instant::now();
-    let shelved = shelf.get().map_err(|error| UserError::of(&error))?;
+    let shelved = library_cache.get().map_err(|error| UserError::of(&error))?;
     let fused = match fuse(request, Then::Inspect, steps) {
         Ok(fused) => Arc::new(fused.ok_or(TaskError::Cancelled)?),
         Err(error) => return Ok(Err(error)),

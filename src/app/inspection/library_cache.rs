@@ -227,16 +227,16 @@ mod tests {
 
     #[test]
     fn a_library_that_cannot_be_loaded_leaves_the_old_one_in_use() {
-        let shelf = LibraryCache::default();
-        let before = shelf.get().expect("the shipped parts");
+        let library_cache = LibraryCache::default();
+        let before = library_cache.get().expect("the shipped parts");
         assert_eq!(before.shown.place_of("fender"), Some(2));
         assert_eq!(before.shown.title(2), "Fender, left");
-        shelf
+        library_cache
             .choose(Some("no/such/library".into()))
             .expect_err("refused");
-        let after = shelf.get().expect("still there");
+        let after = library_cache.get().expect("still there");
         assert!(Arc::ptr_eq(&before, &after));
-        let anew = shelf.reload().expect("loaded again");
+        let anew = library_cache.reload().expect("loaded again");
         assert!(!Arc::ptr_eq(&before, &anew));
     }
 }

@@ -4,9 +4,12 @@ use std::path::PathBuf;
 
 use super::{
     live::{self, LiveAction},
+    message::Event,
+    notice::Notice,
     robot::RobotAction,
     roles::{self, RoleAction},
-    state::{Event, HelpPage, Notice, Source, State, Workspace},
+    session::{Source, WorkspaceKind},
+    state::{HelpPage, State},
 };
 use crate::{
     app::inspection::{inspected::SceneOrScan, scan_choice::ScanFiles, source::CellChoice},
@@ -36,7 +39,7 @@ pub enum Action {
     /// Cancel what the inspector is at.
     CancelInspection,
     /// Bring a workspace to the front.
-    GoTo(Workspace),
+    GoTo(WorkspaceKind),
     /// Ask where the report of the inspection in front goes.
     Export,
     /// Close what lies on top: the shortcuts, then an enlarged stage.
@@ -62,11 +65,11 @@ pub enum Action {
     /// Take back what the last notice offers to.
     Undo,
     /// The key at this place of a workspace's own was pressed.
-    Press(Workspace, usize),
+    Press(WorkspaceKind, usize),
     /// Cancel what a workspace is at.
-    CancelTask(Workspace),
+    CancelTask(WorkspaceKind),
     /// The engineer's view, which a workspace asked for, is there.
-    EngineerIn(Workspace),
+    EngineerIn(WorkspaceKind),
     /// Of the robot's cell.
     Robot(RobotAction),
 }
@@ -96,9 +99,9 @@ pub enum Effect {
     /// Show the system's dialog.
     ShowDialog(DialogRequest),
     /// Have a workspace do what its key at this place does.
-    Press(Workspace, usize),
+    Press(WorkspaceKind, usize),
     /// Have a workspace cancel what it is at.
-    CancelTask(Workspace),
+    CancelTask(WorkspaceKind),
     /// Have the workspace in front take this.
     Take(SceneOrScan, String),
     /// Have this done about the robot's cell.
@@ -106,7 +109,7 @@ pub enum Effect {
     /// Tell every workspace.
     Tell(Event),
     /// Tell this workspace that the engineer's view is there.
-    EngineerIn(Workspace),
+    EngineerIn(WorkspaceKind),
     /// Close the window.
     Close,
 }
@@ -129,7 +132,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
             notify(state, Notice::done("The empty cell is forgotten"));
             live::restart_consensus(state);
         }
-        Action::Ask(DialogRequest::Scene) if state.workspace == Workspace::Enrol => {
+        Action::Ask(DialogRequest::Scene) if state.workspace == WorkspaceKind::Enrol => {
             return Some(Effect::ShowDialog(DialogRequest::Part));
         }
         Action::Ask(ask) => return Some(Effect::ShowDialog(ask)),
@@ -232,7 +235,7 @@ mod tests {
             assert!(apply(&mut state, action).is_none());
             assert!(state.inspector.running().is_some());
         }
-        state.workspace = Workspace::Enrol;
+        state.workspace = WorkspaceKind::Enrol;
         for action in [Action::Capture, Action::Open("door.pcd".into())] {
             let effect = apply(&mut state, action);
             assert!(

@@ -7,7 +7,7 @@ use crate::app::{inspection::library_cache::LibraryCache, ui::theme::Theme};
 #[derive(Clone, Debug, Default)]
 pub struct Services {
     /// The library, the camera, the recording and the history in use.
-    pub shelf: LibraryCache,
+    pub library_cache: LibraryCache,
     /// Keeps a second file dialog from opening behind the first.
     pub dialogs: DialogLock,
 }

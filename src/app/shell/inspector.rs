@@ -35,7 +35,7 @@ pub struct Inspector {
     task: Task<InspectorResult>,
     /// Loads the library at the start.
     loading: Task<Arc<LibraryView>>,
-    shelf: LibraryCache,
+    library_cache: LibraryCache,
     /// The number of the newest run, which is that of its result.
     generation: u64,
     /// What the newest run is for.
@@ -57,11 +57,11 @@ enum InspectorResult {
 
 impl Inspector {
     /// Before the first capture.
-    pub fn new(runner: &TaskRunner, shelf: &LibraryCache) -> Self {
+    pub fn new(runner: &TaskRunner, library_cache: &LibraryCache) -> Self {
         Self {
             task: Task::new("inspect", runner),
             loading: Task::new("library", runner),
-            shelf: shelf.clone(),
+            library_cache: library_cache.clone(),
             generation: 0,
             purpose: ReinspectionPurpose::New,
             num_captures: 0,
@@ -87,10 +87,10 @@ impl Inspector {
 impl State {
     /// Loads the library, whatever is in front and whatever becomes of the first scene.
     pub(in crate::app) fn load_library(&mut self) {
-        let shelf = self.inspector.shelf.clone();
+        let library_cache = self.inspector.library_cache.clone();
         let loading = &mut self.inspector.loading;
         loading.start("Loading the library", move |_| {
-            let loaded = shelf.get().map_err(|error| UserError::of(&error))?;
+            let loaded = library_cache.get().map_err(|error| UserError::of(&error))?;
             Ok(Arc::clone(&loaded.shown))
         });
     }
@@ -149,9 +149,9 @@ impl State {
     ) {
         live::give_way(self);
         let title = title.into();
-        let shelf = self.begins(&title, purpose);
+        let library_cache = self.begins(&title, purpose);
         let task = &mut self.inspector.task;
-        task.start(title, move |context| run(&job, &shelf, context));
+        task.start(title, move |context| run(&job, &library_cache, context));
     }
 
     /// Cancels what the inspector is at.
@@ -197,9 +197,9 @@ impl State {
     pub(in crate::app) fn open_library(&mut self) {
         let chosen = self.chosen_library.clone();
         let title = "Opening the library";
-        let shelf = self.begins(title, ReinspectionPurpose::Repeated);
+        let library_cache = self.begins(title, ReinspectionPurpose::Repeated);
         self.inspector.task.start(title, move |_| {
-            let loaded = shelf.choose(chosen);
+            let loaded = library_cache.choose(chosen);
             let loaded = loaded.map_err(|error| UserError::of(&error))?;
             Ok(InspectorResult::Library(Arc::clone(&loaded.shown)))
         });
@@ -215,7 +215,7 @@ impl State {
         let inspector = &mut self.inspector;
         inspector.generation = self.generation;
         inspector.purpose = purpose;
-        inspector.shelf.clone()
+        inspector.library_cache.clone()
     }
 
     /// Shows a past inspection that is still in memory.
@@ -279,14 +279,14 @@ impl State {
 /// What the task does.
 fn run(
     job: &InspectJob,
-    shelf: &LibraryCache,
+    library_cache: &LibraryCache,
     context: &TaskContext<InspectorResult>,
 ) -> Result<InspectorResult, TaskError> {
     let inspected = match job {
-        InspectJob::Scene(request) => inspect(request, shelf, context)?,
+        InspectJob::Scene(request) => inspect(request, library_cache, context)?,
         InspectJob::Scan(request) => {
             let report = |done, total| context.progress(done, total);
-            match inspect_scan(request, shelf, &Steps::new(context, &report))? {
+            match inspect_scan(request, library_cache, &Steps::new(context, &report))? {
                 Ok(inspected) => inspected,
                 Err(error) if error.wants_poses() => {
                     let order = Box::new(request.order.clone());

@@ -8,7 +8,8 @@ use super::{
     live::LiveAction,
     robot::RobotAction,
     roles::RoleAction,
-    state::{HelpPage, State, Workspace},
+    session::WorkspaceKind,
+    state::{HelpPage, State},
     top_bar::labelled,
 };
 use crate::app::ui::{
@@ -196,7 +197,7 @@ pub(in crate::app) fn shortcuts(
     if is_writing || was_writing {
         return;
     }
-    for ((key, _), workspace) in RAIL_KEYS.into_iter().zip(Workspace::ALL) {
+    for ((key, _), workspace) in RAIL_KEYS.into_iter().zip(WorkspaceKind::ALL) {
         if ctx.input_mut(|input| input.consume_key(Modifiers::NONE, key)) {
             actions.push(Action::GoTo(workspace));
         }
@@ -245,10 +246,10 @@ pub(in crate::app) fn help(
             list.show(ui, |ui| {
                 let own = own.iter().map(|binding| (binding.keys, binding.does));
                 let named = SHORTCUTS.iter().map(|s| (s.keys, s.does));
-                let of_rail = RAIL_KEYS.into_iter().zip(Workspace::ALL);
+                let of_rail = RAIL_KEYS.into_iter().zip(WorkspaceKind::ALL);
                 let of_rail = of_rail.map(|((_, keys), workspace)| (keys, workspace.title()));
                 let of_picture = match state.workspace {
-                    Workspace::Enrol => &PICTURE_KEYS[..],
+                    WorkspaceKind::Enrol => &PICTURE_KEYS[..],
                     _ => &[],
                 };
                 let others = of_picture.iter().copied().chain(OTHER_KEYS);

@@ -7,7 +7,8 @@ use egui::{
 
 use super::{
     action::Action,
-    state::{Notice, NoticeKind, State},
+    notice::{Notice, NoticeKind},
+    state::State,
     top_bar::labelled,
 };
 use crate::app::ui::{

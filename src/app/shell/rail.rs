@@ -5,7 +5,8 @@ use egui::{Frame, Painter, Panel, Pos2, Rect, Sense, Stroke, Ui, pos2, vec2};
 use super::{
     action::Action,
     roles::{UserRole, chip, is_operators, lock},
-    state::{State, Workspace},
+    session::WorkspaceKind,
+    state::State,
     top_bar::focus_ring,
 };
 use crate::app::ui::theme::{Theme, font, space};
@@ -18,7 +19,7 @@ pub(in crate::app) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mu
         .resizable(false)
         .frame(frame)
         .show(ui, |ui| {
-            for workspace in Workspace::ALL {
+            for workspace in WorkspaceKind::ALL {
                 let is_front = state.workspace == workspace;
                 let size = vec2(ui.available_width(), space::RAIL);
                 let (rect, response) = ui.allocate_exact_size(size, Sense::click());
@@ -61,27 +62,27 @@ pub(in crate::app) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mu
 }
 
 /// The workspace's sign.
-fn sign(painter: &Painter, workspace: Workspace, centre: Pos2, stroke: Stroke) {
+fn sign(painter: &Painter, workspace: WorkspaceKind, centre: Pos2, stroke: Stroke) {
     let at = |x: f32, y: f32| pos2(centre.x + x, centre.y + y);
     match workspace {
-        Workspace::Inspect => {
+        WorkspaceKind::Inspect => {
             painter.circle_stroke(centre, 8.0, stroke);
             painter.circle_filled(centre, 2.4, stroke.color);
         }
-        Workspace::Enrol => {
+        WorkspaceKind::Enrol => {
             painter.line_segment([at(-7.0, 0.0), at(7.0, 0.0)], stroke);
             painter.line_segment([at(0.0, -7.0), at(0.0, 7.0)], stroke);
         }
-        Workspace::Compare => {
+        WorkspaceKind::Compare => {
             let frame = Rect::from_center_size(centre, vec2(16.0, 12.0));
             painter.rect_stroke(frame, 1.0, stroke, egui::StrokeKind::Middle);
             painter.line_segment([at(0.0, -6.0), at(0.0, 6.0)], stroke);
         }
-        Workspace::Align => {
+        WorkspaceKind::Align => {
             let corners = [at(-8.0, 5.0), at(-3.0, -7.0), at(8.0, -4.0), at(3.0, 7.0)];
             painter.add(egui::Shape::closed_line(corners.to_vec(), stroke));
         }
-        Workspace::History => {
+        WorkspaceKind::History => {
             for y in [-6.0, 0.0, 6.0] {
                 painter.line_segment([at(-8.0, y), at(8.0, y)], stroke);
             }

@@ -12,8 +12,8 @@ use serde::{Deserialize, Serialize};
 use super::{
     live::LiveState,
     roles::{LOCK_AFTER, Pin, RoleState, is_operators},
-    session::RememberedCell,
-    state::{Session, Source, State, ThemeChoice, Workspace},
+    session::{RememberedCell, Session, Source, ThemeChoice, WorkspaceKind},
+    state::State,
 };
 use crate::{
     app::{
@@ -50,7 +50,7 @@ pub struct Settings {
     /// In which numbers the robot is told a pose.
     pub convention: Convention,
     /// The workspace in front.
-    pub workspace: Workspace,
+    pub workspace: WorkspaceKind,
     /// The library chosen in the window; none: the one found as on the command line.
     pub library: Option<PathBuf>,
     /// Scenes opened last, the newest first.
@@ -98,7 +98,7 @@ impl Default for Settings {
             theme: ThemeChoice::default(),
             units: UnitSystem::default(),
             convention: Convention::default(),
-            workspace: Workspace::default(),
+            workspace: WorkspaceKind::default(),
             library: None,
             recent: Vec::new(),
             window: None,
@@ -166,14 +166,14 @@ impl Settings {
             && self.window == window
     }
 
-    /// The state to start in; its tasks are run by `runner` and share `shelf`.
-    pub fn into_state(self, runner: &TaskRunner, shelf: &LibraryCache) -> State {
+    /// The state to start in; its tasks are run by `runner` and share `library_cache`.
+    pub fn into_state(self, runner: &TaskRunner, library_cache: &LibraryCache) -> State {
         let roles = RoleState::starting(self.pin.clone(), self.lock_after);
         let session = Session {
             theme: self.theme,
             units: self.units,
             workspace: match &self.pin {
-                Some(_) if !is_operators(self.workspace) => Workspace::Inspect,
+                Some(_) if !is_operators(self.workspace) => WorkspaceKind::Inspect,
                 _ => self.workspace,
             },
             convention: self.convention,
@@ -194,7 +194,7 @@ impl Settings {
         State {
             session,
             roles,
-            ..State::new(runner, shelf)
+            ..State::new(runner, library_cache)
         }
     }
 }

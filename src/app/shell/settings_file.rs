@@ -3,8 +3,9 @@
 use std::path::PathBuf;
 
 use super::{
+    notice::Notice,
     settings::{Settings, save},
-    state::{Notice, State},
+    state::State,
 };
 use crate::app::task::{Task, TaskEvent, TaskRunner};
 

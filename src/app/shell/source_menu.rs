@@ -5,7 +5,8 @@ use egui::{Button, RichText, ScrollArea, Ui, Vec2};
 use super::{
     action::{Action, DialogRequest},
     live::LiveAction,
-    state::{Source, State},
+    session::Source,
+    state::State,
     top_bar::{NARROW, shortened},
 };
 use crate::{

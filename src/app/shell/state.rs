@@ -2,11 +2,8 @@
 
 use std::ops::{Deref, DerefMut};
 
-use super::{inspector::Inspector, live::Follower, roles::RoleState};
-pub use super::{
-    message::{Event, ReinspectionPurpose},
-    notice::{Notice, NoticeKind},
-    session::{Session, Shown, Source, ThemeChoice, WorkspaceKind as Workspace},
+use super::{
+    inspector::Inspector, live::Follower, notice::Notice, roles::RoleState, session::Session,
 };
 use crate::app::{inspection::library_cache::LibraryCache, task::TaskRunner};
 
@@ -52,11 +49,11 @@ impl Default for State {
 
 impl State {
     /// Before the first capture.
-    pub fn new(runner: &TaskRunner, shelf: &LibraryCache) -> Self {
+    pub fn new(runner: &TaskRunner, library_cache: &LibraryCache) -> Self {
         Self {
             session: Session::default(),
-            inspector: Inspector::new(runner, shelf),
-            follower: Follower::new(runner, shelf),
+            inspector: Inspector::new(runner, library_cache),
+            follower: Follower::new(runner, library_cache),
             notices: Vec::new(),
             help: HelpPage::default(),
             generation: 0,

@@ -6,8 +6,9 @@ use super::{
     action::{Action, DialogRequest},
     live::{self, LiveAction},
     robot::{RobotAction, RobotCell},
+    session::WorkspaceKind,
     source_menu,
-    state::{State, Workspace},
+    state::State,
 };
 pub(in crate::app) use crate::app::ui::widgets::{focus_ring, labelled, shortened};
 use crate::app::{
@@ -201,7 +202,7 @@ fn progress(
 ) {
     let Some(Progress { running, cancel }) = work else {
         // There the verdict card says it.
-        if state.is_live() && state.workspace != Workspace::Inspect {
+        if state.is_live() && state.workspace != WorkspaceKind::Inspect {
             live::chip(ui, state, theme);
         }
         return;

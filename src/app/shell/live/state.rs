@@ -11,10 +11,10 @@ use crate::{
         inspection::{inspected::Inspected, library_cache::LibraryCache},
         shell::{
             action::{DialogRequest, Effect, notify},
-            state::{
-                Event, Notice, NoticeKind, ReinspectionPurpose, Session, Shown, Source, State,
-                Workspace,
-            },
+            message::{Event, ReinspectionPurpose},
+            notice::{Notice, NoticeKind},
+            session::{Session, Shown, Source, WorkspaceKind},
+            state::State,
         },
         task::{Task, TaskEvent, TaskRunner},
         user_error::UserError,
@@ -42,7 +42,7 @@ pub struct LiveState {
 #[derive(Debug)]
 pub struct Follower {
     task: Task<LiveAnswer>,
-    shelf: LibraryCache,
+    library_cache: LibraryCache,
     /// Counts how often following began with another view: within one the 3-D view keeps its camera.
     session: u64,
     /// The notice that stands while the source is lost.
@@ -51,10 +51,10 @@ pub struct Follower {
 
 impl Follower {
     /// Before anything is followed.
-    pub fn new(runner: &TaskRunner, shelf: &LibraryCache) -> Self {
+    pub fn new(runner: &TaskRunner, library_cache: &LibraryCache) -> Self {
         Self {
             task: Task::new("live", runner),
-            shelf: shelf.clone(),
+            library_cache: library_cache.clone(),
             session: 0,
             lost: None,
         }
@@ -189,8 +189,8 @@ fn follow_source(state: &mut State) {
     };
     state.live.is_on = true;
     state.live.status = None;
-    let shelf = state.follower.shelf.clone();
-    let job = move |context: &_| follow(&request, &shelf, context);
+    let library_cache = state.follower.library_cache.clone();
+    let job = move |context: &_| follow(&request, &library_cache, context);
     state.follower.task.start("Live", job);
 }
 
@@ -205,9 +205,9 @@ pub(in crate::app) fn restart_consensus(state: &mut State) {
 pub(in crate::app) fn give_way(state: &mut State) {
     if state.is_live() {
         ended(state);
-        let shelf = state.follower.shelf.clone();
+        let library_cache = state.follower.library_cache.clone();
         let task = &mut state.follower.task;
-        task.start("Closing the camera", move |_| Ok(rest(&shelf)));
+        task.start("Closing the camera", move |_| Ok(rest(&library_cache)));
     }
 }
 
@@ -296,7 +296,7 @@ fn show(state: &mut State, inspected: Arc<Inspected>) {
         .shown
         .as_ref()
         .is_some_and(|shown| Arc::ptr_eq(&shown.inspected, &inspected));
-    if is_shown || state.workspace != Workspace::Inspect || !state.is_live() {
+    if is_shown || state.workspace != WorkspaceKind::Inspect || !state.is_live() {
         return;
     }
     state.use_library(&inspected.library);

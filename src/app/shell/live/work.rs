@@ -109,24 +109,24 @@ const NUM_LATENCIES: usize = 15;
 /// Follows a source until it ends, or something else is asked for.
 pub(super) fn follow(
     request: &LiveStart,
-    shelf: &LibraryCache,
+    library_cache: &LibraryCache,
     context: &TaskContext<LiveAnswer>,
 ) -> Result<LiveAnswer, TaskError> {
     // It stays open behind this: whoever asks next may follow the same one.
-    let feed = shelf.camera().feed(&request.spec);
+    let feed = library_cache.camera().feed(&request.spec);
     let feed = feed.map_err(|error| UserError::of(&error))?;
-    LiveSession::new(request, shelf, context).follow(&feed)
+    LiveSession::new(request, library_cache, context).follow(&feed)
 }
 
 /// Lets the camera rest.
-pub(super) fn rest(shelf: &LibraryCache) -> LiveAnswer {
-    shelf.recording().end();
-    shelf.camera().rest();
+pub(super) fn rest(library_cache: &LibraryCache) -> LiveAnswer {
+    library_cache.recording().end();
+    library_cache.camera().rest();
     LiveAnswer::Rests
 }
 
 struct LiveSession<'a> {
-    shelf: &'a LibraryCache,
+    library_cache: &'a LibraryCache,
     context: &'a TaskContext<LiveAnswer>,
     spec: &'a SourceSpec,
     /// Where it is recorded; not any more after a failure.
@@ -161,13 +161,13 @@ impl ProgressObserver for SilentContext<'_> {
 impl<'a> LiveSession<'a> {
     fn new(
         request: &'a LiveStart,
-        shelf: &'a LibraryCache,
+        library_cache: &'a LibraryCache,
         context: &'a TaskContext<LiveAnswer>,
     ) -> Self {
         let stands_for_itself = matches!(request.spec, SourceSpec::Watched(_));
         let watch = (!stands_for_itself).then(|| LiveTracker::new(&request.params));
         Self {
-            shelf,
+            library_cache,
             context,
             spec: &request.spec,
             record: request.record.as_deref(),
@@ -212,7 +212,7 @@ impl<'a> LiveSession<'a> {
 
     /// Records the frame before anything else is done with it, if it is to be.
     fn write(&mut self, captured: &Captured, feed: &Feed) {
-        let recording = self.shelf.recording();
+        let recording = self.library_cache.recording();
         match recording.write(self.record, captured, self.spec, &feed.status()) {
             Ok(recorded) => self.recorded = recorded,
             Err(error) => {
@@ -226,7 +226,10 @@ impl<'a> LiveSession<'a> {
 
     /// Inspects a frame.
     fn take(&mut self, captured: Captured) -> Result<(), TaskError> {
-        let shelved = self.shelf.get().map_err(|error| UserError::of(&error))?;
+        let shelved = self
+            .library_cache
+            .get()
+            .map_err(|error| UserError::of(&error))?;
         let watching = SilentContext(self.context);
         let fitted = shelved.fitting(self.recipe, &watching);
         let fitted = fitted.ok_or(TaskError::Cancelled)?;

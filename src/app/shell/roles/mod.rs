@@ -20,7 +20,9 @@ pub(in crate::app) use self::{
 pub use super::session::UserRole;
 use super::{
     action::{Action, Effect, apply as apply_any, notify},
-    state::{Notice, State, Workspace},
+    notice::Notice,
+    session::WorkspaceKind,
+    state::State,
 };
 
 /// Minutes without a hand on the window until it is the operator's again, that can be chosen.
@@ -183,7 +185,7 @@ fn switch_to_operator(state: &mut State) {
     state.role = UserRole::Operator;
     state.roles.asked = None;
     if !is_operators(state.workspace) {
-        state.workspace = Workspace::Inspect;
+        state.workspace = WorkspaceKind::Inspect;
     }
 }
 

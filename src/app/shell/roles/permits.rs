@@ -1,13 +1,13 @@
 //! What the operator's view lets through.
 
-use super::{Action, RoleAction, Workspace};
+use super::{Action, RoleAction, WorkspaceKind};
 use crate::app::shell::{action::DialogRequest, live::LiveAction, robot::RobotAction};
 
 /// True for the workspaces in which nothing can be changed that verdicts rest on.
-pub(in crate::app) fn is_operators(workspace: Workspace) -> bool {
+pub(in crate::app) fn is_operators(workspace: WorkspaceKind) -> bool {
     match workspace {
-        Workspace::Inspect | Workspace::History => true,
-        Workspace::Enrol | Workspace::Compare | Workspace::Align => false,
+        WorkspaceKind::Inspect | WorkspaceKind::History => true,
+        WorkspaceKind::Enrol | WorkspaceKind::Compare | WorkspaceKind::Align => false,
     }
 }
 

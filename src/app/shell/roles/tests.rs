@@ -26,11 +26,11 @@ fn the_operators_view_changes_nothing_that_a_verdict_rests_on() {
     apply(&mut state, RoleAction::Switch);
     let held_back = [
         Action::Robot(RobotAction::Forget),
-        Action::Press(Workspace::Compare, 0),
+        Action::Press(WorkspaceKind::Compare, 0),
         Action::Ask(DialogRequest::Library),
         Action::Chosen(DialogRequest::Library, "other".into()),
         Action::TakeEmptyCell,
-        Action::GoTo(Workspace::Enrol),
+        Action::GoTo(WorkspaceKind::Enrol),
     ];
     for action in held_back {
         state.roles.asked = None;
@@ -40,7 +40,7 @@ fn the_operators_view_changes_nothing_that_a_verdict_rests_on() {
     }
     assert_eq!(
         (&state.chosen_library, state.workspace),
-        (&None, Workspace::Inspect)
+        (&None, WorkspaceKind::Inspect)
     );
     apply_any(&mut state, Action::Capture);
     assert!(state.inspector.running().is_some());
@@ -52,7 +52,7 @@ fn the_pin_lets_in_and_what_was_asked_for_is_done_then() {
     let mut state = with_pin("2468");
     apply(&mut state, RoleAction::Lock);
     assert_eq!(state.role, UserRole::Operator);
-    apply_any(&mut state, Action::GoTo(Workspace::Compare));
+    apply_any(&mut state, Action::GoTo(WorkspaceKind::Compare));
     write(&mut state, "2467");
     assert_eq!(state.role, UserRole::Operator);
     assert!(
@@ -64,10 +64,10 @@ fn the_pin_lets_in_and_what_was_asked_for_is_done_then() {
     );
     write(&mut state, "2468");
     assert_eq!(state.role, UserRole::Engineer);
-    assert_eq!(state.workspace, Workspace::Compare);
+    assert_eq!(state.workspace, WorkspaceKind::Compare);
     // What is in front when it locks is not for the operator.
     apply(&mut state, RoleAction::Lock);
-    assert_eq!(state.workspace, Workspace::Inspect);
+    assert_eq!(state.workspace, WorkspaceKind::Inspect);
 }
 
 #[test]

@@ -89,15 +89,15 @@ const SAMPLE: usize = 4_000;
 
 impl Pair {
     /// Reads and prepares both clouds.
-    pub fn of(source: &PairSource, shelf: &LibraryCache) -> Result<Self, UserError> {
+    pub fn of(source: &PairSource, library_cache: &LibraryCache) -> Result<Self, UserError> {
         match source {
             PairSource::MovedCopy { part, start } => {
-                let shelved = shelf.get().map_err(|error| UserError::of(&error))?;
+                let shelved = library_cache.get().map_err(|error| UserError::of(&error))?;
                 let (reference, title) = find(&shelved, part)?;
                 Ok(Self::moved_copy(reference, title, *start))
             }
             PairSource::Scene { inspected, part } => {
-                let shelved = shelf.get().map_err(|error| UserError::of(&error))?;
+                let shelved = library_cache.get().map_err(|error| UserError::of(&error))?;
                 let (reference, title) = find(&shelved, part)?;
                 let found = inspected.inspection.segmentation.part.as_ref();
                 let found = found.map_err(UserError::of)?;

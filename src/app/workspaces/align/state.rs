@@ -271,9 +271,9 @@ impl AlignState {
         };
         self.coming = None;
         self.job = AlignJob::Pair;
-        let shelf = cx.services.shelf.clone();
+        let library_cache = cx.services.library_cache.clone();
         self.task.start("Aligning", move |context| {
-            work::pair(&source, &shelf, context)
+            work::pair(&source, &library_cache, context)
         });
     }
 
@@ -283,9 +283,9 @@ impl AlignState {
         self.table.num_before = done.len();
         self.table.elapsed = Duration::ZERO;
         self.job = AlignJob::Table;
-        let shelf = cx.services.shelf.clone();
+        let library_cache = cx.services.library_cache.clone();
         self.task.start("Table I", move |context| {
-            work::table(&done, &shelf, context)
+            work::table(&done, &library_cache, context)
         });
     }
 

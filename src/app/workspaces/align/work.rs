@@ -23,10 +23,10 @@ use crate::{
 /// Aligns a pair by every method.
 pub(super) fn pair(
     source: &PairSource,
-    shelf: &LibraryCache,
+    library_cache: &LibraryCache,
     context: &TaskContext<AlignResult>,
 ) -> Result<AlignResult, TaskError> {
-    let pair = Arc::new(Pair::of(source, shelf)?);
+    let pair = Arc::new(Pair::of(source, library_cache)?);
     context.partial(AlignResult::Prepared(Arc::clone(&pair)));
     for (place, method) in PoseMethod::ALL.into_iter().enumerate() {
         context.progress(place, PoseMethod::ALL.len());
@@ -41,10 +41,10 @@ pub(super) fn pair(
 /// Works out Table I but for the rows done: name of the part and start.
 pub(super) fn table(
     done: &[(String, usize)],
-    shelf: &LibraryCache,
+    library_cache: &LibraryCache,
     context: &TaskContext<AlignResult>,
 ) -> Result<AlignResult, TaskError> {
-    let shelved = shelf.get().map_err(|error| UserError::of(&error))?;
+    let shelved = library_cache.get().map_err(|error| UserError::of(&error))?;
     let references = &shelved.library.references;
     let total = references.len() * Start::NUM_PAPER;
     let clock = Instant::now();

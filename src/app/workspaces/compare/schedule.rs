@@ -145,14 +145,15 @@ impl CompareState {
             }
             _ => {}
         }
-        let shelf = cx.services.shelf.clone();
+        let library_cache = cx.services.library_cache.clone();
         if let Some((title, job)) = self.queue.pop_front() {
             if at_work == Some(JobKind::Study) {
                 self.due = self.due.max(StudyNeed::WhenFree);
             }
             self.job = Some(job.kind());
-            self.task
-                .start(title, move |context| work::run(job, &shelf, context));
+            self.task.start(title, move |context| {
+                work::run(job, &library_cache, context)
+            });
             return;
         }
         if self.due == StudyNeed::No {
@@ -163,7 +164,7 @@ impl CompareState {
             self.is_current = false;
             self.job = Some(JobKind::Study);
             self.task.start("Comparing", move |context| {
-                let study = study(&request, &shelf, context)?;
+                let study = study(&request, &library_cache, context)?;
                 Ok(CompareResult::Studied(Arc::new(study)))
             });
         }

@@ -134,10 +134,10 @@ impl CaseStudy {
 /// Inspects and compares.
 pub fn study(
     request: &StudyRequest,
-    shelf: &LibraryCache,
+    library_cache: &LibraryCache,
     watch: &dyn ProgressObserver,
 ) -> Result<CaseStudy, TaskError> {
-    let shelved = shelf.get().map_err(|error| UserError::of(&error))?;
+    let shelved = library_cache.get().map_err(|error| UserError::of(&error))?;
     let (scene, title, camera) = opened(&request.case)?;
     if watch.is_cancelled() {
         return Err(TaskError::Cancelled);

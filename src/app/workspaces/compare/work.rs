@@ -123,14 +123,14 @@ pub struct CaseRun {
 /// Does what is asked.
 pub(super) fn run(
     job: Job,
-    shelf: &LibraryCache,
+    library_cache: &LibraryCache,
     context: &TaskContext<CompareResult>,
 ) -> Result<CompareResult, TaskError> {
     Ok(match job {
         Job::Cases { folder, change } => {
             cases(folder.as_deref(), change).map_err(|error| UserError::of(&error))?
         }
-        Job::Run { folder, recipe } => run_cases(&folder, &recipe, shelf, context)?,
+        Job::Run { folder, recipe } => run_cases(&folder, &recipe, library_cache, context)?,
         Job::Scaling => measure_scaling(context)?,
         Job::Earlier { path, run } => {
             let changes = changes(&path, &run).map_err(|error| UserError::of(&error))?;
@@ -192,10 +192,10 @@ fn cases(folder: Option<&Path>, change: CaseChange) -> Result<CompareResult, Cas
 fn run_cases(
     folder: &CaseFolder,
     recipe: &Arc<Recipe>,
-    shelf: &LibraryCache,
+    library_cache: &LibraryCache,
     context: &TaskContext<CompareResult>,
 ) -> Result<CompareResult, TaskError> {
-    let shelved = shelf.get().map_err(|error| UserError::of(&error))?;
+    let shelved = library_cache.get().map_err(|error| UserError::of(&error))?;
     let list = folder.list().map_err(|error| UserError::of(&error))?;
     let library = shelved.fitting(recipe, context);
     let library = library.ok_or(TaskError::Cancelled)?;

@@ -44,8 +44,11 @@ pub struct Changed {
 }
 
 /// Changes the library in use and loads it anew.
-pub(super) fn change(change: &LibraryChange, shelf: &LibraryCache) -> Result<Changed, UserError> {
-    let shelved = shelf.get().map_err(|error| UserError::of(&error))?;
+pub(super) fn change(
+    change: &LibraryChange,
+    library_cache: &LibraryCache,
+) -> Result<Changed, UserError> {
+    let shelved = library_cache.get().map_err(|error| UserError::of(&error))?;
     let Some(folder) = shelved.place.folder() else {
         return Err(inside_the_program(shelved.shown.is_fixed.as_ref()));
     };
@@ -64,7 +67,9 @@ pub(super) fn change(change: &LibraryChange, shelf: &LibraryCache) -> Result<Cha
     let change = read.as_ref().unwrap_or(change);
     let done = make(change, folder, &title_of).map_err(|error| UserError::of(&error))?;
     let (what, back, name) = done;
-    let library = shelf.reload().map_err(|error| UserError::of(&error))?;
+    let library = library_cache
+        .reload()
+        .map_err(|error| UserError::of(&error))?;
     Ok(Changed {
         what,
         back,

@@ -331,12 +331,15 @@ impl EnrolState {
         };
         draft.checked = None;
         let (subject, corrections) = (Arc::clone(&draft.subject), draft.corrections.clone());
-        let (recipe, shelf) = (Arc::clone(&cx.session.recipe), cx.services.shelf.clone());
+        let (recipe, library_cache) = (
+            Arc::clone(&cx.session.recipe),
+            cx.services.library_cache.clone(),
+        );
         self.start(
             "Looking at the part",
             DraftJob::Look,
             None,
-            move |context| work::look(&subject, &corrections, &recipe, &shelf, context),
+            move |context| work::look(&subject, &corrections, &recipe, &library_cache, context),
         );
     }
 

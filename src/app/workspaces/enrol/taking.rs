@@ -29,9 +29,12 @@ impl EnrolState {
 
     fn take_scene(&mut self, source: SceneSource, title: String, cx: &ShellContext<'_>) {
         self.open = None;
-        let (recipe, shelf) = (Arc::clone(&cx.session.recipe), cx.services.shelf.clone());
+        let (recipe, library_cache) = (
+            Arc::clone(&cx.session.recipe),
+            cx.services.library_cache.clone(),
+        );
         self.start(title, DraftJob::Take, None, move |context| {
-            work::take_scene(&source, &recipe, &shelf, context)
+            work::take_scene(&source, &recipe, &library_cache, context)
         });
     }
 
@@ -45,9 +48,9 @@ impl EnrolState {
     ) {
         self.open = None;
         let request = cx.session.scan_request(order);
-        let shelf = cx.services.shelf.clone();
+        let library_cache = cx.services.library_cache.clone();
         self.start(title, DraftJob::Take, asked, move |context| {
-            work::take_scan(&request, &shelf, context)
+            work::take_scan(&request, &library_cache, context)
         });
     }
 

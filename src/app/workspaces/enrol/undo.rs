@@ -145,10 +145,10 @@ impl EnrolState {
         if self.is_changing_library() {
             return;
         }
-        let (change, shelf) = (step.change.clone(), cx.services.shelf.clone());
+        let (change, library_cache) = (step.change.clone(), cx.services.library_cache.clone());
         self.pending = Some((way, step));
         self.change_task.start("Changing the library", move |_| {
-            Ok(Box::new(change::change(&change, &shelf)?))
+            Ok(Box::new(change::change(&change, &library_cache)?))
         });
     }
 

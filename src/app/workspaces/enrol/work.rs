@@ -56,30 +56,30 @@ pub struct Checked {
 pub(super) fn take_scene(
     source: &SceneSource,
     recipe: &Recipe,
-    shelf: &LibraryCache,
+    library_cache: &LibraryCache,
     context: &TaskContext<DraftEvent>,
 ) -> Result<DraftEvent, TaskError> {
     let params = params_of(recipe);
     let is_cancelled = || context.is_cancelled();
-    let subject = match EnrolInput::read(source, &params, shelf.camera(), &is_cancelled) {
+    let subject = match EnrolInput::read(source, &params, library_cache.camera(), &is_cancelled) {
         Ok(read) => read.map_err(|error| UserError::of(&error))?,
         Err(SceneError::Camera(CameraError::Cancelled)) => return Err(TaskError::Cancelled),
         Err(error) => return Err(UserError::of(&error).into()),
     };
-    take(subject, &params, shelf, context)
+    take(subject, &params, library_cache, context)
 }
 
 /// Puts the shots of a scan together, and sees what of it is the part.
 pub(super) fn take_scan(
     request: &ScanRequest,
-    shelf: &LibraryCache,
+    library_cache: &LibraryCache,
     context: &TaskContext<DraftEvent>,
 ) -> Result<DraftEvent, TaskError> {
     let report = |done, total| context.progress(done, total);
     match fuse(request, Then::Enrol, &Steps::new(context, &report)) {
         Ok(Some(fused)) => {
             let subject = EnrolInput::of_scan(Arc::new(fused));
-            take(subject, &params_of(&request.recipe), shelf, context)
+            take(subject, &params_of(&request.recipe), library_cache, context)
         }
         Ok(None) => Err(TaskError::Cancelled),
         Err(error) if error.wants_poses() => {
@@ -95,21 +95,28 @@ pub(super) fn look(
     subject: &EnrolInput,
     corrections: &Corrections,
     recipe: &Recipe,
-    shelf: &LibraryCache,
+    library_cache: &LibraryCache,
     context: &TaskContext<DraftEvent>,
 ) -> Result<DraftEvent, TaskError> {
     let selection = Arc::new(Selection::of(subject, corrections));
     context.check()?;
     context.partial(DraftEvent::Selected(Arc::clone(&selection)));
     let params = params_of(recipe);
-    check(subject, corrections, &selection, &params, shelf, context)
+    check(
+        subject,
+        corrections,
+        &selection,
+        &params,
+        library_cache,
+        context,
+    )
 }
 
 /// Hands over what there is to enrol, then looks at what would be stored.
 fn take(
     subject: EnrolInput,
     params: &EnrolParams,
-    shelf: &LibraryCache,
+    library_cache: &LibraryCache,
     context: &TaskContext<DraftEvent>,
 ) -> Result<DraftEvent, TaskError> {
     let subject = Arc::new(subject);
@@ -118,7 +125,14 @@ fn take(
     context.check()?;
     let taken = DraftEvent::Taken(Arc::clone(&subject), Arc::clone(&selection));
     context.partial(taken);
-    check(&subject, &corrections, &selection, params, shelf, context)
+    check(
+        &subject,
+        &corrections,
+        &selection,
+        params,
+        library_cache,
+        context,
+    )
 }
 
 /// Segments as scenes are inspected; all else as usual.
@@ -135,7 +149,7 @@ fn check(
     corrections: &Corrections,
     selection: &Selection,
     params: &EnrolParams,
-    shelf: &LibraryCache,
+    library_cache: &LibraryCache,
     context: &TaskContext<DraftEvent>,
 ) -> Result<DraftEvent, TaskError> {
     let mut enrolled = match enrol(subject, corrections.taking, selection, params) {
@@ -145,7 +159,7 @@ fn check(
     context.check()?;
     // It has no name yet: none of the enrolled ones is left out for bearing the same.
     enrolled.reference.name.clear();
-    let shelved = match shelf.get() {
+    let shelved = match library_cache.get() {
         Ok(shelved) => shelved,
         Err(error) => return Ok(DraftEvent::Checked(Err(UserError::of(&error)))),
     };

@@ -323,7 +323,7 @@ impl HistoryState {
             HistoryFile::Csv => PastExport::Csv(path),
             HistoryFile::Cases => PastExport::Cases(path),
         };
-        let keeper = Arc::clone(cx.services.shelf.history());
+        let keeper = Arc::clone(cx.services.library_cache.history());
         self.exporting
             .start(title, move |_| Ok(export::write(&filter, &to, &keeper)?));
     }

@@ -284,7 +284,7 @@ impl HistoryState {
     pub(super) fn look(&mut self, cx: &ShellContext<'_>) {
         self.is_stale = false;
         let request = self.wanted();
-        let keeper = Arc::clone(cx.services.shelf.history());
+        let keeper = Arc::clone(cx.services.library_cache.history());
         self.looking.start("Looking into the history", move |_| {
             Ok(Box::new(work::look(&request, &keeper)?))
         });

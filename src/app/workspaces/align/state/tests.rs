@@ -25,7 +25,12 @@ impl Bench {
     /// With the shipped library.
     fn with_library() -> Self {
         let mut bench = Self::new();
-        let shelved = bench.shell.services.shelf.get().expect("shipped parts");
+        let shelved = bench
+            .shell
+            .services
+            .library_cache
+            .get()
+            .expect("shipped parts");
         bench.shell.session.library = Some(Arc::clone(&shelved.shown));
         bench
     }
@@ -121,8 +126,8 @@ fn every_method_runs_on_the_pair_and_a_scrubbed_pose_gives_the_e_of_its_iteratio
 
 #[test]
 fn the_source_is_the_part_moved_by_the_start_and_the_truth_brings_it_back() {
-    let shelf = LibraryCache::default();
-    let shelved = shelf.get().expect("shipped parts");
+    let library_cache = LibraryCache::default();
+    let shelved = library_cache.get().expect("shipped parts");
     let reference = &shelved.library.references[0];
     for start in [Start::Paper(4), Start::Random(3)] {
         let pair = Pair::moved_copy(reference, "part", start);
@@ -270,8 +275,13 @@ fn an_old_result_stays_until_the_first_method_of_the_next_has_run() {
 #[test]
 fn two_files_far_from_the_origin_are_laid_over_each_other() {
     let folder = tempfile::tempdir().expect("a folder");
-    let shelf = LibraryCache::default();
-    let cloud = &shelf.get().expect("shipped parts").library.references[2].cloud;
+    let library_cache = LibraryCache::default();
+    let cloud = &library_cache
+        .get()
+        .expect("shipped parts")
+        .library
+        .references[2]
+        .cloud;
     let off = nalgebra::Vector3::new(400.0, -300.0, 0.0);
     let turned = Start::Paper(1).transform();
     let mut bench = Bench::new();

@@ -36,7 +36,7 @@ impl Bench {
         let folder = tempfile::tempdir().expect("a folder");
         let mut shell = TestShell::default();
         let library = Some(folder.path().to_owned());
-        shell.services.shelf = LibraryCache::new(library, Camera::default());
+        shell.services.library_cache = LibraryCache::new(library, Camera::default());
         Self {
             enrol: EnrolState::new(&TaskRunner::without_threads()),
             shell,
