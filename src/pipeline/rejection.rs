@@ -97,6 +97,16 @@ pub enum Rejection {
         /// How it can move and still fit.
         freedom: FreeMotion,
     },
+    /// The pose is not known exactly enough.
+    #[error("the pose of {part} is uncertain by {shift}, and {limit} is allowed")]
+    Uncertain {
+        /// Best match.
+        part: String,
+        /// Bound of the shift's error, 95 %.
+        shift: Metres,
+        /// Largest bound that is accepted.
+        limit: Metres,
+    },
     /// Nothing enrolled is like it.
     #[error("unknown: nothing enrolled is like it; the nearest, {nearest}, scores {score:.2}")]
     Unknown {
@@ -231,7 +241,7 @@ impl Advice for Rejection {
             Self::HardlySeen { .. } => {
                 "Turn the part so that its face looks at the camera, all of it inside the picture, and capture again".into()
             }
-            Self::AmbiguousPose { .. } | Self::Unconstrained { .. } => {
+            Self::AmbiguousPose { .. } | Self::Unconstrained { .. } | Self::Uncertain { .. } => {
                 "Move the camera so that it sees a corner or another edge of the part, and capture again".into()
             }
             Self::AnotherModel { part, .. } | Self::AnotherMake { part, .. } => format!(

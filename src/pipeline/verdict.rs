@@ -36,6 +36,8 @@ pub struct AcceptParams {
     /// How far stretches of the outline may lie off the reference's, 2..20 mm root mean square; more is another model of
     /// the part. Raising it accepts other models too, at a pose that is only about right.
     pub max_outline_shift: Metres,
+    /// Largest bound of the pose's shift, 2..50 mm. Raising it accepts poses that are known less exactly.
+    pub max_uncertainty: Metres,
 }
 
 impl Default for AcceptParams {
@@ -48,6 +50,7 @@ impl Default for AcceptParams {
             max_relief: Metres::from_mm(4.0),
             max_missing: 0.008,
             max_outline_shift: Metres::from_mm(10.0),
+            max_uncertainty: Metres::from_mm(15.0),
         }
     }
 }
@@ -137,7 +140,13 @@ pub(super) fn verdict(
     let margin = best.score - next.map_or(0.0, |n| n.score);
     let unlike = best.evidence.map_or(0.0, |e| model_deviation(&e, accept));
     let other_model = best.evidence.filter(|_| unlike > 1.0);
-    let freedom = |pose: &PoseEstimate| pose.uncertainty.and_then(|u| u.freedom);
+    // The other methods' bounds do without the outline, and are wider than need be.
+    let uncertainty = pose
+        .and_then(|pose| pose.as_ref().ok())
+        .filter(|pose| pose.method == PoseMethod::Global)
+        .and_then(|pose| pose.uncertainty);
+    let freedom = uncertainty.and_then(|uncertainty| uncertainty.freedom);
+    let too_uncertain = uncertainty.filter(|found| found.shift > accept.max_uncertainty);
     let rejected = match (pose, best.evidence) {
         (Some(Err(error)), _) => Some(Rejection::NoPose(*error)),
         (None, _) if recipe.rank.matcher == Matcher::Paper => Some(Rejection::Unconfirmed {
@@ -157,13 +166,15 @@ pub(super) fn verdict(
                 threshold: accept.min_margin,
             })
         }
-        // The other methods' bounds do without the outline, and are wider than need be.
-        (Some(Ok(pose)), _) if pose.method == PoseMethod::Global && freedom(pose).is_some() => {
-            freedom(pose).map(|freedom| Rejection::Unconstrained {
-                part: best.part.clone(),
-                freedom,
-            })
-        }
+        _ if freedom.is_some() => freedom.map(|freedom| Rejection::Unconstrained {
+            part: best.part.clone(),
+            freedom,
+        }),
+        _ if too_uncertain.is_some() => too_uncertain.map(|found| Rejection::Uncertain {
+            part: best.part.clone(),
+            shift: found.shift,
+            limit: accept.max_uncertainty,
+        }),
         _ => other_model.map(|evidence| Rejection::AnotherModel {
             part: best.part.clone(),
             relief: Metres(evidence.relief_m),

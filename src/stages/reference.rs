@@ -212,8 +212,13 @@ impl Reference {
             tree,
             field,
             edges: view.edges.get_or_init(|| {
-                let edges = sheet_edges(view, cloud, field, &self.cut);
-                let edges: Vec<Point3<f32>> = edges.iter().map(|edge| edge.at).collect();
+                let outline = self.outline_of(view);
+                let is_edge = |point: &&BorderPoint| {
+                    let towards = view.viewpoint - point.at.cast();
+                    point.normal.cast().dot(&towards) >= LEAST_FACING_AT_EDGE * towards.norm()
+                };
+                let edges = outline.iter().filter(is_edge);
+                let edges: Vec<Point3<f32>> = edges.map(|edge| edge.at).collect();
                 EdgePoints::new(&edges, NUM_EDGES)
             }),
             spacing: SPACING,
@@ -236,7 +241,8 @@ impl Reference {
         Self { cut, ..self }
     }
 
-    /// Its border from each side that it can be seen from.
+    /// Its border from each side that it can be seen from. Where a rounded surface turns away its outline wanders with the
+    /// viewpoint, so the outlines of all views of a side belong to it: a piece seen at an angle ends at one of them.
     pub fn borders(&self) -> &[ReferenceBorder] {
         self.borders.get_or_init(|| {
             let Some(front) = self.views.first() else {
@@ -249,13 +255,46 @@ impl Reference {
                 .iter()
                 .min_by(|a, b| turned(a).total_cmp(&turned(b)))
                 .filter(|view| turned(view) < -0.9);
-            std::iter::once(front)
-                .chain(back)
-                .map(|view| {
-                    ReferenceBorder::new(&sheet_edges(view, &self.cloud, &self.field, &self.cut))
-                })
-                .collect()
+            let of_side = |side: &ReferenceView| {
+                let same_side = self
+                    .views
+                    .iter()
+                    .filter(|view| normal(view).dot(&normal(side)) > 0.0);
+                let outlines: Vec<Point3<f32>> = same_side
+                    .flat_map(|view| self.outline_of(view))
+                    .map(|point| point.at)
+                    .collect();
+                ReferenceBorder::new(&self.outline_of(side), &outlines)
+            };
+            std::iter::once(front).chain(back).map(of_side).collect()
         })
+    }
+
+    /// Outline and openings from one side, part space, without what the view that it was captured from cut off.
+    fn outline_of(&self, view: &ReferenceView) -> Vec<BorderPoint> {
+        let part_from_plane = view.plane_from_part.inverse();
+        let point = |(at, along): (Point3<f64>, Vector3<f64>)| {
+            let at = part_from_plane * at;
+            if self.cut.depth_inside(&at) < AT_CUT {
+                return None;
+            }
+            let nearest = self.field.nearest(&at.cast());
+            let normal = nearest.zip(self.cloud.normals.as_ref()).map_or_else(
+                || (view.viewpoint - at).normalize().cast(),
+                |(nearest, normals)| normals[nearest.index],
+            );
+            Some(BorderPoint {
+                at: at.cast(),
+                along: (part_from_plane * along).cast(),
+                normal,
+            })
+        };
+        let borders = std::iter::once(&view.contour.outline).chain(&view.contour.openings);
+        borders
+            .flat_map(|border| lift_oriented(border, &view.plane))
+            .flatten()
+            .filter_map(point)
+            .collect()
     }
 
     /// Search tree over the cloud.
@@ -381,33 +420,3 @@ const LEAST_FACING_AT_EDGE: f64 = 0.5;
 
 /// A border this close to where the view cut the part off is the view's, metres.
 const AT_CUT: f64 = 0.02;
-
-/// The points of outline and openings, in the cloud's space, where the sheet itself ends.
-fn sheet_edges(
-    view: &ReferenceView,
-    cloud: &PointCloud,
-    field: &NearestField,
-    cut: &ViewCut,
-) -> Vec<BorderPoint> {
-    let cloud_from_plane = view.plane_from_part.inverse();
-    let edge = |(at, along): (Point3<f64>, Vector3<f64>)| {
-        let at = cloud_from_plane * at;
-        if cut.depth_inside(&at) < AT_CUT {
-            return None;
-        }
-        let towards = (view.viewpoint - at).normalize();
-        let nearest = field.nearest(&at.cast()).zip(cloud.normals.as_ref());
-        let normal = nearest.map_or(towards, |(n, normals)| normals[n.index].cast());
-        (normal.dot(&towards) >= LEAST_FACING_AT_EDGE).then(|| BorderPoint {
-            at: at.cast(),
-            along: (cloud_from_plane * along).cast(),
-            normal: normal.cast(),
-        })
-    };
-    let borders = std::iter::once(&view.contour.outline).chain(&view.contour.openings);
-    borders
-        .flat_map(|border| lift_oriented(border, &view.plane))
-        .flatten()
-        .filter_map(edge)
-        .collect()
-}

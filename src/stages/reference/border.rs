@@ -10,7 +10,7 @@ use nalgebra::{Matrix3, Point3, Vector3};
 
 use crate::geometry::nearest_field::NearestField;
 
-/// A point where the surface ends.
+/// A point where the surface ends, or turns away from the viewer.
 #[derive(Clone, Copy, Debug, PartialEq)]
 pub struct BorderPoint {
     /// Where.
@@ -41,7 +41,7 @@ pub struct ReferenceBorder {
     pairs: Vec<BorderPair>,
     /// Where each bin of distance and angles begins among the pairs; one more than there are bins.
     bins: Vec<u32>,
-    /// The nearest of all its points, not only the evenly spread ones.
+    /// The nearest point of all outlines from this side.
     pub field: NearestField,
 }
 
@@ -60,11 +60,11 @@ const FIELD_CELL: f32 = 0.02;
 const FIELD_BAND: f32 = 0.06;
 
 impl ReferenceBorder {
-    /// Of oriented points, part space.
-    pub fn new(all: &[BorderPoint]) -> Self {
+    /// Of the oriented points of one view's outline, part space. `outlines` are the points at which the surface ends or
+    /// turns away in this view or in another from the same side.
+    pub fn new(all: &[BorderPoint], outlines: &[Point3<f32>]) -> Self {
         let step = all.len().div_ceil(NUM_POINTS).max(1);
         let points: Vec<BorderPoint> = all.iter().step_by(step).copied().collect();
-        let positions: Vec<Point3<f32>> = all.iter().map(|p| p.at).collect();
         let mut pairs = Vec::with_capacity(points.len() * points.len());
         for (i, a) in points.iter().enumerate() {
             for (j, b) in points.iter().enumerate().filter(|(j, _)| *j != i) {
@@ -89,7 +89,7 @@ impl ReferenceBorder {
             points,
             pairs,
             bins,
-            field: NearestField::new(&positions, FIELD_CELL, FIELD_BAND),
+            field: NearestField::new(outlines, FIELD_CELL, FIELD_BAND),
         }
     }
 
@@ -198,7 +198,7 @@ mod tests {
     #[test]
     fn the_pairs_like_one_are_those_of_a_plain_search() {
         let points = disc(60);
-        let border = ReferenceBorder::new(&points);
+        let border = ReferenceBorder::new(&points, &[]);
         let pairs = || (0..60).flat_map(|i| (0..60).map(move |j| [i, j]));
         let of = |[i, j]: [u16; 2]| {
             BorderPair::of([&points[usize::from(i)], &points[usize::from(j)]], [i, j])

@@ -276,6 +276,9 @@ fn refused(verdict: &Verdict, title_of: &dyn Fn(&str) -> String) -> Option<Strin
             Rejection::Unconstrained { freedom, .. } => {
                 format!("the pose is unconstrained: {freedom}")
             }
+            Rejection::Uncertain { shift, limit, .. } => {
+                format!("the pose is uncertain by {shift}, and {limit} is allowed")
+            }
             other @ (Rejection::NoPose(_)
             | Rejection::NotSteady { .. }
             | Rejection::FewFrames { .. }
