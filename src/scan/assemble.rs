@@ -19,7 +19,10 @@ use crate::{
         parallel::map_in_order,
         rigid::{PoseDelta, RigidTransform, pose_error},
     },
-    stages::segment::{Segmentation, segment},
+    stages::{
+        field_of_view::FieldOfView,
+        segment::{Segmentation, segment},
+    },
     units::{Metres, Radians},
 };
 
@@ -47,6 +50,7 @@ pub fn assemble(
     if found > MAX_SHOTS {
         return Err(ScanError::TooManyShots { found });
     }
+    let shots = &with_common_view(shots);
     let num_workers = params.register.num_workers;
     let prepared = map_in_order(
         found,
@@ -79,6 +83,19 @@ pub fn assemble(
         before,
         after,
     })
+}
+
+/// All frames are one camera's: what one shows of its field of view, all know.
+fn with_common_view(shots: &[Shot]) -> Vec<Shot> {
+    let scenes = shots.iter().map(|shot| &*shot.scene);
+    let common = scenes.fold(None, FieldOfView::remembered);
+    let mut shots = shots.to_vec();
+    if common.is_some() {
+        for shot in &mut shots {
+            Arc::make_mut(&mut shot.scene).set_known_view(common.clone());
+        }
+    }
+    shots
 }
 
 fn go_on(watch: &dyn ScanObserver, next: ScanStep) -> Result<(), ScanError> {

@@ -11,8 +11,12 @@
 //!
 //! Known limits: readings that cover less than half of the picture or leave gaps along their hull, such as a part alone
 //! before nothing, are no field of view; the whole picture is. A border that a frame leaves dark over its whole length
-//! is found too far inside; the capture of an empty cell shows it.
+//! is found too far inside. The capture of an empty cell shows it, and so do other frames of the same camera: Live and
+//! scans remember what they saw.
 
+use std::sync::Arc;
+
+use super::scene::SceneCloud;
 use crate::geometry::cloud::Grid;
 
 /// In which pixels of a picture the camera delivers readings.
@@ -64,6 +68,21 @@ impl FieldOfView {
             ends: ends_of(grid, &is_reading, &rows),
             rows,
             is_inner,
+        }
+    }
+
+    /// What this frame and those before it show together; `None` while the field of view is the whole picture.
+    pub fn remembered(known: Option<Arc<Self>>, scene: &SceneCloud) -> Option<Arc<Self>> {
+        match (known, scene.field_of_view().filter(|view| view.is_inner)) {
+            (Some(known), Some(view)) if known.grid == view.grid => {
+                let rows = joined(&known.rows, &view.rows);
+                Some(Arc::new(Self {
+                    rows,
+                    ..view.clone()
+                }))
+            }
+            (_, Some(view)) => Some(Arc::new(view.clone())),
+            (known, None) => known,
         }
     }
 
@@ -257,7 +276,10 @@ fn outermost([first, last]: [u32; 2], is_reading: impl Fn(usize) -> bool) -> [u3
 
 #[cfg(test)]
 mod tests {
+    use nalgebra::Point3;
+
     use super::*;
+    use crate::geometry::cloud::PointCloud;
 
     const GRID: Grid = Grid {
         width: 160,
@@ -325,5 +347,34 @@ mod tests {
         let known = FieldOfView::of(GRID, dark, Some(&empty));
         assert!(known.is_inner() && known.contains(30, 60) && !known.contains(10, 60));
         assert!(!alone.is_inner());
+    }
+
+    fn scene(is_reading: impl Fn(usize) -> bool) -> SceneCloud {
+        let point = |i: usize| {
+            let z = if is_reading(i) { 1.0 } else { f32::NAN };
+            Point3::new(z, z, z)
+        };
+        let cloud = PointCloud {
+            points: (0..GRID.num_cells()).map(point).collect(),
+            grid: Some(GRID),
+            ..PointCloud::default()
+        };
+        SceneCloud::new(cloud, None)
+    }
+
+    #[test]
+    fn what_other_frames_of_the_camera_showed_is_remembered() {
+        let part = |i: usize| (60..100).contains(&(i % 160)) && (45..75).contains(&(i / 160));
+        let is_half = |i: usize| is_inside(i) && i % GRID.width > 44;
+        let frames = [scene(is_half), scene(part), scene(is_inside)];
+        let remembered = frames.iter().fold(None, FieldOfView::remembered);
+        let mut alone = scene(part);
+        assert!(alone.field_of_view().is_some_and(|view| !view.is_inner()));
+        alone.set_known_view(remembered);
+        let view = alone.field_of_view().expect("a picture");
+        assert!(view.is_inner() && view.contains(30, 60) && !view.contains(10, 60));
+        // Nothing is known of a camera that fills its picture.
+        let full = scene(|_| true);
+        assert!(FieldOfView::remembered(None, &full).is_none());
     }
 }

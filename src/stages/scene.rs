@@ -39,6 +39,8 @@ pub struct SceneCloud {
     pub edge: PictureEdge,
     /// What the same camera saw without a part, if that was captured.
     pub empty_cell: Option<Arc<EmptyCell>>,
+    /// The field of view that other frames of the same camera showed.
+    pub known_view: Option<Arc<FieldOfView>>,
     /// What it was reduced from, if the picture was finer than the method needs.
     pub reduced: Option<Reduced>,
     /// Made when it is first asked for.
@@ -72,9 +74,15 @@ impl SceneCloud {
         Some(self.field_of_view.get_or_init(|| {
             let points = &self.cloud.points;
             let is_reading = |i: usize| points.get(i).is_some_and(is_finite);
-            let known = self.empty_cell.as_ref().map(|cell| cell.field_of_view());
-            FieldOfView::of(grid, is_reading, known)
+            let of_cell = self.empty_cell.as_ref().map(|cell| cell.field_of_view());
+            FieldOfView::of(grid, is_reading, of_cell.or(self.known_view.as_deref()))
         }))
+    }
+
+    /// Makes known what other frames of the same camera showed of its field of view.
+    pub fn set_known_view(&mut self, known: Option<Arc<FieldOfView>>) {
+        self.known_view = known;
+        self.field_of_view = OnceLock::new();
     }
 
     /// The scene as in a mirror held beside the camera: x turned round, the picture's rows with it.

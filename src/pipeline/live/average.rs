@@ -99,6 +99,7 @@ impl DepthAverage {
         );
         let mut scene = SceneCloud {
             empty_cell: last.empty_cell.clone(),
+            known_view: last.known_view.clone(),
             intrinsics: last.intrinsics,
             edge: last.edge,
             ..SceneCloud::default()

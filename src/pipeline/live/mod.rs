@@ -24,7 +24,7 @@ pub use self::{
     steady::{MotionDetector, MotionState, SteadyParams},
 };
 use super::{AcceptParams, Inspection, Rejection, Verdict};
-use crate::stages::scene::SceneCloud;
+use crate::stages::{field_of_view::FieldOfView, scene::SceneCloud};
 
 /// How frames are followed.
 #[derive(Clone, Debug, PartialEq)]
@@ -82,6 +82,8 @@ pub struct LiveTracker {
     average: DepthAverage,
     consensus: Consensus,
     last_at: Duration,
+    /// What the frames so far showed of the camera's field of view.
+    field_of_view: Option<Arc<FieldOfView>>,
 }
 
 impl LiveTracker {
@@ -92,6 +94,7 @@ impl LiveTracker {
             average: DepthAverage::over(params.average),
             consensus: Consensus::new(params.consensus.clone()),
             last_at: Duration::ZERO,
+            field_of_view: None,
         }
     }
 
@@ -107,19 +110,23 @@ impl LiveTracker {
 
     /// Takes in a frame, and gives the scene to be inspected: the frame as it came, or averaged with the ones before
     /// while nothing moves. `at` is the camera's time, from any moment on.
-    pub fn look(&mut self, scene: &Arc<SceneCloud>, at: Duration) -> Arc<SceneCloud> {
+    pub fn look(&mut self, mut scene: Arc<SceneCloud>, at: Duration) -> Arc<SceneCloud> {
+        if self.field_of_view.is_some() {
+            Arc::make_mut(&mut scene).set_known_view(self.field_of_view.clone());
+        }
+        self.field_of_view = FieldOfView::remembered(self.field_of_view.take(), &scene);
         let run = self.steady.run();
-        let stillness = self.steady.see(scene, at);
+        let stillness = self.steady.see(&scene, at);
         self.last_at = at;
         if self.steady.run() != run {
             self.average.clear();
             self.consensus.clear();
         }
-        self.average.add(scene);
+        self.average.add(&scene);
         if stillness.is_steady() {
-            self.average.mean().unwrap_or_else(|| Arc::clone(scene))
+            self.average.mean().unwrap_or(scene)
         } else {
-            Arc::clone(scene)
+            scene
         }
     }
 

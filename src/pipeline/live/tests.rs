@@ -74,7 +74,7 @@ fn a_part_is_accepted_once_it_hangs_still_and_no_longer_when_it_moves() {
             } else {
                 0.2 / 30.0 * (number - 39) as f64
             };
-            let scene = watch.look(&cell.scene(number, x), FRAME * number as u32);
+            let scene = watch.look(cell.scene(number, x), FRAME * number as u32);
             // Every frame is looked at, not every one can be inspected in time.
             if number % 4 != 0 && number < 40 {
                 return None;
@@ -107,6 +107,32 @@ fn a_part_is_accepted_once_it_hangs_still_and_no_longer_when_it_moves() {
     }
     // The same frames again: the same verdicts, bit for bit.
     assert_eq!(follow(), said);
+}
+
+#[test]
+fn the_field_of_view_that_earlier_frames_showed_is_known_of_a_part_alone() {
+    let cell = Cell::with(PartKind::FrontDoor, 4);
+    let within = |margins: [usize; 2]| {
+        let mut frame = cell.depth(SensorNoise::none(), &aside(0.0));
+        let [width, height] = [frame.intrinsics.width, frame.intrinsics.height];
+        for (i, depth) in frame.depth.iter_mut().enumerate() {
+            let (u, v) = (i % width, i / width);
+            let is_inside =
+                |at: usize, size: usize, margin: usize| (margin..size - margin).contains(&at);
+            if !(is_inside(u, width, margins[0]) && is_inside(v, height, margins[1])) {
+                *depth = 0;
+            } else if *depth == 0 {
+                *depth = 1500;
+            }
+        }
+        Arc::new(scene_from_frame(&frame))
+    };
+    let is_inner = |scene: &SceneCloud| scene.field_of_view().is_some_and(|view| view.is_inner());
+    let mut watch = LiveTracker::new(&LiveParams::default());
+    let (whole, alone) = (within([60, 40]), within([230, 150]));
+    assert!(is_inner(&whole) && !is_inner(&alone));
+    watch.look(whole, FRAME);
+    assert!(is_inner(&watch.look(alone, FRAME * 2)));
 }
 
 #[test]

@@ -243,7 +243,7 @@ impl<'a> LiveSession<'a> {
             Arc::make_mut(&mut scene).empty_cell = Some(Arc::clone(cell));
         }
         if let Some(watch) = &mut self.watch {
-            scene = watch.look(&scene, at);
+            scene = watch.look(scene, at);
         }
         let mut inspection = pipeline::run(&scene, &fitted, self.recipe, &watching)?;
         let mut followed = None;
