@@ -277,6 +277,9 @@ fn refused(verdict: &Verdict, title_of: &dyn Fn(&str) -> String) -> Option<Strin
                 format!("the pose is unconstrained: {freedom}")
             }
             other @ (Rejection::NoPose(_)
+            | Rejection::OutOfRange { .. }
+            | Rejection::BehindCamera { .. }
+            | Rejection::SurplusBytes { .. }
             | Rejection::NotSteady { .. }
             | Rejection::FewFrames { .. }
             | Rejection::Undecided { .. }
