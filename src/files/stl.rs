@@ -18,9 +18,8 @@ use crate::geometry::mesh::TriangleMesh;
 
 const HEADER_BYTES: usize = 84;
 const TRIANGLE_BYTES: usize = 50;
-/// Memory of a triangle until its corners are welded: itself, its indices, and its share of the vertices, of which there
-/// are half as many as triangles, each listed and looked up.
-const WELDED_BYTES: usize = 36 + 12 + (12 + 32) / 2;
+/// Memory of a triangle until its corners are welded: itself, its indices, and half a vertex, listed and looked up.
+const WELDED_BYTES: usize = 36 + 12 + 22;
 
 /// True if the count in the header predicts the length of the file.
 pub(super) fn is_binary(bytes: &[u8]) -> bool {

@@ -46,7 +46,7 @@ pub fn write_atomically(
 const PREFIX: &str = ".partsight-";
 const SUFFIX: &str = ".part";
 /// Nobody writes to a temporary file any more that has not changed for so long.
-const ABANDONED: Duration = Duration::from_secs(600);
+const ABANDONED: Duration = Duration::from_mins(10);
 
 /// Removes what programs left in a folder that were killed while they wrote; this one looks there once.
 fn clear_leftovers_once(folder: &Path) {

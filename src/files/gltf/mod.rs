@@ -126,7 +126,7 @@ fn parse(source: Source<'_>, json: &[u8]) -> Result<Document, FileError> {
         "KHR_mesh_quantization",
     ];
     let text = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
-    let num_objects = text.iter().filter(|byte| **byte == b'{').count();
+    let num_objects = text.split(|byte| *byte == b'{').count();
     source.affordable(num_objects, OBJECT_BYTES)?;
     let mut root = Root::from_slice(text).map_err(|error| {
         if error.is_eof() {

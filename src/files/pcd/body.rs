@@ -9,6 +9,9 @@ use super::super::source::Source;
 use super::header::{Field, Header, Storage};
 use super::lzf;
 
+/// Memory that an inspection takes for a point besides: a small packed file must not make that large either.
+const INSPECTED_BYTES: usize = 24;
+
 /// The points as bytes: row after row, or field after field where the file was packed.
 pub(super) struct Body<'a> {
     bytes: Cow<'a, [u8]>,
@@ -35,8 +38,9 @@ impl<'a> Body<'a> {
             row_bytes: header.row_bytes,
         };
         let copied = match header.storage {
-            Storage::Ascii | Storage::BinaryCompressed => header.row_bytes,
             Storage::Binary => 0,
+            Storage::Ascii => header.row_bytes,
+            Storage::BinaryCompressed => header.row_bytes.saturating_add(INSPECTED_BYTES),
         };
         let has = |name| header.field(name).is_some();
         let point = point_bytes(has("normal_z"), has("rgb") || has("rgba"), has("label"));

@@ -73,18 +73,14 @@ pub(super) fn read(source: Source<'_>) -> Result<FileContent, FileError> {
             .map(|(offset, scalar)| rows.column(offset, scalar))
     };
     let mut cloud = cloud_of(source, column)?;
-    match faces {
-        Some(faces) => {
-            let triangles = fans(source, &faces)?;
-            checked_mesh(source, cloud.points, triangles).map(FileContent::Mesh)
-        }
-        None => {
-            if is_read_to_end {
-                cloud.surplus_bytes = body.surplus();
-            }
-            tidy(cloud, source).map(FileContent::Cloud)
-        }
+    if let Some(faces) = faces {
+        let triangles = fans(source, &faces)?;
+        return checked_mesh(source, cloud.points, triangles).map(FileContent::Mesh);
     }
+    if is_read_to_end {
+        cloud.surplus_bytes = body.surplus();
+    }
+    tidy(cloud, source).map(FileContent::Cloud)
 }
 
 fn cloud_of<'a>(

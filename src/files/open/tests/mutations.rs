@@ -14,7 +14,7 @@ use crate::geometry::cloud::Grid;
 use crate::geometry::depth_frame::Intrinsics;
 use crate::stages::scene::scene_from_cloud;
 
-/// Changed files in all; about half a minute in a build for tests.
+/// Changed files in all; about a second in a build for tests.
 const NUM_FILES: usize = 120_000;
 
 /// Words that a header or a table may hold by mistake.
@@ -141,10 +141,6 @@ fn change(bytes: &mut Vec<u8>, other: &[u8], random: &mut Pcg64) {
 }
 
 #[test]
-#[expect(
-    clippy::print_stderr,
-    reason = "the counts tell whether the changes still reach the readers"
-)]
 fn files_changed_at_random_open_or_fail_by_name() {
     let seeds = seeds();
     let path = Path::new("changed");
