@@ -70,7 +70,7 @@ pub use self::{
     capture::{
         CaptureError, Captured, DepthSource, Image, NextCapture, SourceSpec, open as open_source,
     },
-    error::Advice,
+    error::{Advice, Fault},
     files::{FileContent, FileError, open as open_file, save_cloud},
     geometry::{
         cloud::{Grid, PointCloud},

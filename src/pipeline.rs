@@ -8,10 +8,12 @@ mod mirror;
 pub mod parameters;
 mod rejection;
 pub mod scan;
+mod unsound;
 mod verdict;
 mod watch;
 
 use crate::{
+    error::{Fault, guarded},
     library::Library,
     stages::{
         confirm::{ConfirmParams, ConfirmedRanking, Scene, confirm},
@@ -25,14 +27,18 @@ use crate::{
         reference::Reference,
         scene::SceneCloud,
         segment::{
-            SegmentParams, Segmentation, SegmentedPart, other_segments, segment, without_bars,
+            NoPart, PointLabel, SegmentParams, Segmentation, SegmentedPart, other_segments,
+            segment, without_bars,
         },
         signature::{FanSignature, SignatureParams, describe},
         stand_off::StandOffParams,
     },
+    units::Metres,
 };
 
-use self::{mirror::check_mirror_image, verdict::verdict, watch::StageClock};
+use self::{
+    mirror::check_mirror_image, unsound::refuse_unsound, verdict::verdict, watch::StageClock,
+};
 pub use self::{
     mirror::{MirrorTally, OnlyMirrored},
     rejection::{Rejection, Unrecognisable},
@@ -107,8 +113,27 @@ pub struct Inspection {
 
 /// Inspects a scene: which enrolled part is it, and where?
 ///
-/// With nothing enrolled or nothing found the inspection still holds what the stages before made.
+/// With nothing enrolled or nothing found the inspection still holds what the stages before made. A panic in a stage is
+/// a verdict too: no part, and why.
 pub fn run(
+    scene: &SceneCloud,
+    library: &Library,
+    recipe: &Recipe,
+    watch: &dyn ProgressObserver,
+) -> Result<Inspection, Cancelled> {
+    let ran = match &scene.fault {
+        Some(fault) => Err(fault.clone()),
+        None => guarded(|| inspect(scene, library, recipe, watch)),
+    };
+    let mut inspection = ran.unwrap_or_else(|fault| {
+        let num_points = scene.cloud.points.len();
+        Ok(Inspection::broken_off(fault, num_points))
+    })?;
+    refuse_unsound(&mut inspection, scene);
+    Ok(inspection)
+}
+
+fn inspect(
     scene: &SceneCloud,
     library: &Library,
     recipe: &Recipe,
@@ -244,6 +269,29 @@ impl SurfaceResult {
 }
 
 impl Inspection {
+    /// Of a scene at which the program itself failed.
+    fn broken_off(fault: Fault, num_points: usize) -> Self {
+        Self {
+            segmentation: Segmentation {
+                labels: vec![PointLabel::NoReading; num_points],
+                planes: Vec::new(),
+                clusters: Vec::new(),
+                noise_at_1m: Metres(0.0),
+                part: Err(NoPart::TooFewPoints {
+                    found: 0,
+                    needed: 0,
+                }),
+            },
+            plane: None,
+            contour: None,
+            signature: None,
+            ranking: ConfirmedRanking::default(),
+            pose: None,
+            verdict: Verdict::NoPart(Unrecognisable::Fault(fault)),
+            timings: Timings::default(),
+        }
+    }
+
     /// True if what was taken for the part reaches the picture's edge, so that some of it may be missing.
     pub fn touches_edge(&self) -> bool {
         let part = self.segmentation.part.as_ref();

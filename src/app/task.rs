@@ -4,9 +4,7 @@
 //! run still sends is lost: results need no generation numbers. Progress is a value that is overwritten, not an event.
 
 use std::{
-    any::Any,
     fmt, io,
-    panic::{AssertUnwindSafe, catch_unwind},
     sync::{
         Arc, Mutex, MutexGuard, PoisonError,
         atomic::{AtomicBool, Ordering},
@@ -17,6 +15,7 @@ use std::{
 
 use crate::{
     app::user_error::UserError,
+    error::guarded,
     pipeline::{Cancelled, ProgressObserver, Stage},
 };
 
@@ -329,12 +328,12 @@ impl<T> TaskContext<T> {
             return;
         }
         // What a job shares with others (a loaded library) is only ever replaced whole.
-        let ended = catch_unwind(AssertUnwindSafe(|| job(&self)));
+        let ended = guarded(|| job(&self));
         let event = match ended {
             Ok(Ok(result)) => Some(TaskEvent::Done(result)),
             Ok(Err(TaskError::Failed(error))) => Some(TaskEvent::Failed(error)),
             Ok(Err(TaskError::Cancelled)) => None,
-            Err(panic) => Some(TaskEvent::Failed(panicked(panic.as_ref()))),
+            Err(fault) => Some(TaskEvent::Failed(UserError::of(&fault))),
         };
         let Self {
             events,
@@ -370,16 +369,6 @@ impl<T> ProgressObserver for TaskContext<T> {
             return true;
         }
         self.shared.is_cancelled.load(Ordering::Relaxed)
-    }
-}
-
-fn panicked(panic: &(dyn Any + Send)) -> UserError {
-    let text = panic.downcast_ref::<&str>().map(ToString::to_string);
-    let text = text.or_else(|| panic.downcast_ref::<String>().cloned());
-    let message = text.unwrap_or_else(|| "no message".into());
-    UserError {
-        what: format!("The work broke off inside the program: {message}"),
-        advice: "Try again; if it happens again, keep the file and report it".into(),
     }
 }
 

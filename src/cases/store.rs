@@ -15,8 +15,8 @@ use super::{
 };
 use crate::{
     files::{
-        FileContent, FileError, crc32, in_counting_order, open_bytes, read_bytes, words_of,
-        write_pcd,
+        FileContent, FileError, crc32, in_counting_order, open_bytes, open_lock, open_regular,
+        read_bytes, words_of, write_pcd,
     },
     geometry::cloud::PointCloud,
     stages::{scene::SceneCloud, segment::EmptyCell},
@@ -266,7 +266,9 @@ impl CaseFolder {
         if size > MAX_META_BYTES {
             return Err(damaged(format!("{META} has {size} bytes")));
         }
-        let text = fs::read_to_string(&meta).map_err(unreadable)?;
+        let text = open_regular(&meta)
+            .and_then(io::read_to_string)
+            .map_err(unreadable)?;
         let bad = |error: toml::de::Error| damaged(format!("{META}: {}", error.message()));
         let Versioned { schema_version } = toml::from_str(&text).map_err(bad)?;
         if schema_version > SCHEMA_VERSION {
@@ -310,7 +312,7 @@ impl CaseFolder {
 
     /// Runs one change while no other writer is at work.
     fn writing<T>(&self, change: impl FnOnce() -> io::Result<T>) -> io::Result<T> {
-        let lock = File::create(self.path.join(LOCK))?;
+        let lock = open_lock(&self.path.join(LOCK))?;
         match lock.lock() {
             // Some network file systems have no locks; a shop with one writer needs none.
             Err(error) if error.kind() == io::ErrorKind::Unsupported => {}

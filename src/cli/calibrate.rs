@@ -162,6 +162,7 @@ fn capture_pose(args: &CapturePoseArgs, console: &mut Console) -> anyhow::Result
     calibration.save_keeping_former(&path).advised()?;
     console.line(&format_args!("{}: captures are taken from", path.display()));
     show::matrix("robot_from_flange", &args.pose.pose, console);
+    question_unit(&calibration, console);
     Ok(Outcome::Accepted)
 }
 
@@ -183,7 +184,14 @@ fn keep(
         ));
     }
     show::calibration(&calibration, None, console);
+    question_unit(&calibration, console);
     Ok(Outcome::Accepted)
+}
+
+fn question_unit(calibration: &CellCalibration, console: &Console) {
+    if let Some(doubt) = calibration.camera.unit_doubt() {
+        console.warn(&doubt, &doubt);
+    }
 }
 
 /// The file named, or the user's own.

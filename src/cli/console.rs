@@ -8,9 +8,9 @@ use std::{
 
 use indicatif::{ProgressBar, ProgressStyle};
 
-use crate::error::Advice;
+use crate::{error::Advice, files::visible};
 
-/// Both outputs of a call.
+/// Both outputs of a call. Nothing that stands in a file or in its name reaches the terminal as a command to it.
 ///
 /// A reader that goes away (`| head`) does not end the work: the rest is not shown, and the exit code stays true.
 pub(super) struct Console {
@@ -34,13 +34,15 @@ impl Console {
         }
     }
 
-    /// One line of the answer.
+    /// One line of the answer, or several.
     pub(super) fn line(&mut self, text: &dyn Display) {
         if !self.is_read {
             return;
         }
+        let text = text.to_string();
+        let shown: Vec<_> = text.split('\n').map(visible).collect();
         let out = &mut self.out;
-        let write = || writeln!(out, "{text}").and_then(|()| out.flush());
+        let write = || writeln!(out, "{}", shown.join("\n")).and_then(|()| out.flush());
         match self.progress.suspend(write) {
             Ok(()) => {}
             Err(error) => {
@@ -52,11 +54,12 @@ impl Console {
         }
     }
 
-    /// A remark beside the answer.
+    /// A remark beside the answer, on one line.
     pub(super) fn note(&self, text: &dyn Display) {
+        let text = text.to_string();
         // Nobody reads it if this fails.
         self.progress
-            .suspend(|| drop(writeln!(io::stderr(), "{text}")));
+            .suspend(|| drop(writeln!(io::stderr(), "{}", visible(&text))));
     }
 
     /// Something odd, and what to do about it.
@@ -95,7 +98,8 @@ impl Console {
 
     /// One input more is done; `next` comes now.
     pub(super) fn begin(&self, next: &dyn Display) {
-        self.progress.set_message(next.to_string());
+        self.progress
+            .set_message(visible(&next.to_string()).into_owned());
     }
 
     /// The input begun last is done.
@@ -178,7 +182,8 @@ impl Table {
     }
 
     pub(super) fn row(&mut self, cells: impl IntoIterator<Item = String>) {
-        self.rows.push(cells.into_iter().collect());
+        let shown = cells.into_iter().map(|cell| visible(&cell).into_owned());
+        self.rows.push(shown.collect());
     }
 
     pub(super) fn show(&self, console: &mut Console) {

@@ -26,7 +26,7 @@ use super::{
 };
 use crate::{
     capture::{FeedItem, SourceSpec},
-    error::Advice,
+    error::{Advice, guarded},
     library::Library,
     pipeline::{self, MirrorTally, Recipe, Unwatched},
     report::{CaptureLine, InspectionLine, ReportFolder, stage_pictures},
@@ -208,11 +208,26 @@ impl InspectSession {
                 for warning in &warnings {
                     console.warn(&format_args!("{name}: {warning}"), warning);
                 }
-                self.inspect_scene(path, scene, None, console)
+                self.frame(path, console, |one, console| {
+                    one.inspect_scene(path, scene, None, console)
+                })
             }
             // The message names the file.
             Err(error) => self.unreadable(path, &error, &error, console),
         }
+    }
+
+    /// One frame of many: where the program itself fails at it, that is its error, and the next one comes.
+    fn frame(
+        &mut self,
+        path: &Path,
+        console: &mut Console,
+        inspect: impl FnOnce(&mut Self, &mut Console) -> anyhow::Result<Outcome>,
+    ) -> anyhow::Result<Outcome> {
+        guarded(|| inspect(self, console)).unwrap_or_else(|fault| {
+            let shown = format!("{}: {fault}", path.display());
+            self.unreadable(path, &fault, &shown, console)
+        })
     }
 
     /// Something that is no scene, and why; `shown` is the same in words for people.
@@ -325,9 +340,11 @@ fn inspect_source(
                 }
                 num_inspected += 1;
                 let line = CaptureLine::of(&text, &captured, status.num_dropped);
-                let name = captured.name;
-                let scene = scene_from_image(captured.image);
-                inspector.inspect_scene(Path::new(&name), scene, Some(line), console)?
+                let path = Path::new(&captured.name);
+                let image = captured.image;
+                inspector.frame(path, console, |one, console| {
+                    one.inspect_scene(path, scene_from_image(image), Some(line), console)
+                })?
             }
         };
         outcome = outcome.max(one);
@@ -346,4 +363,39 @@ fn inspect_source(
     } else {
         outcome
     })
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_frame_at_which_the_program_fails_is_unreadable_and_the_next_one_comes() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let mut session = InspectSession {
+            library: Library::default(),
+            recipe: Recipe::default(),
+            empty_cell: None,
+            robot: None,
+            spray: None,
+            telling: OutputFormat::Card,
+            report: Some(ReportFolder::make(folder.path()).expect("made")),
+            recording: None,
+            mirrored: MirrorTally::default(),
+        };
+        let mut console = Console::new();
+        let failed = session.frame(Path::new("a.pcd"), &mut console, |_, _| {
+            panic!("no ray for this pixel")
+        });
+        assert_eq!(failed.expect("it goes on"), Outcome::CouldNotRun);
+        let kept = std::fs::read_to_string(folder.path().join("a.report.json")).expect("its line");
+        assert!(
+            kept.contains("unreadable") && kept.contains("no ray for this pixel"),
+            "{kept}"
+        );
+        let sound = session.frame(Path::new("b.pcd"), &mut console, |one, console| {
+            one.inspect_scene(Path::new("b.pcd"), SceneCloud::default(), None, console)
+        });
+        assert_eq!(sound.expect("inspected"), Outcome::NotAccepted);
+    }
 }

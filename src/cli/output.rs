@@ -7,6 +7,7 @@ use super::{
     verdict::{complaint, place_of, show_card},
 };
 use crate::{
+    files::visible,
     library::Library,
     pipeline::{Inspection, Verdict},
 };
@@ -88,6 +89,7 @@ impl Columns {
             scene: scene_width,
             part: part_width,
         } = *self;
+        let scene = visible(scene);
         let row = format!("{scene:<scene_width$}  {part:<part_width$}  {verdict:<12}  {figures}");
         console.line(&row.trim_end());
     }

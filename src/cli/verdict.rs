@@ -3,6 +3,7 @@
 use super::{Outcome, console::Console};
 use crate::{
     error::Advice,
+    files::visible,
     library::Library,
     pipeline::{Inspection, Verdict},
     robot::RobotFrame,
@@ -75,7 +76,7 @@ pub(super) fn show_card(
             ..
         } => {
             let verdict = rejected.as_ref().map_or("accepted", |_| "NOT ACCEPTED");
-            line("scene", scene.to_owned());
+            line("scene", visible(scene).into_owned());
             if inspection.verdict.is_unknown() {
                 line("part", format!("unknown, nearest {part}: {verdict}"));
             } else {
@@ -89,7 +90,7 @@ pub(super) fn show_card(
             line("score", format!("{score:.2}{ahead}"));
         }
         Verdict::NoPart(_) => {
-            line("scene", scene.to_owned());
+            line("scene", visible(scene).into_owned());
             line("part", "none: NOT ACCEPTED".to_owned());
         }
     }

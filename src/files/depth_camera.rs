@@ -5,11 +5,14 @@ use std::path::Path;
 use serde::{Deserialize, Serialize, de::IgnoredAny};
 
 use super::error::FileError;
-use super::source::read_bytes;
+use super::source::read_limited;
 use crate::geometry::{
     depth_frame::{DepthFrame, Intrinsics},
     distortion::Distortion,
 };
+
+/// A larger file is no camera.
+pub(super) const MAX_CAMERA_BYTES: u64 = 1 << 20;
 
 /// The camera of a depth image, as the JSON beside it says. All its numbers are about the image as it is stored.
 #[derive(Clone, Copy, Debug, PartialEq, Serialize, Deserialize)]
@@ -175,8 +178,8 @@ impl DepthCamera {
             path: path.to_owned(),
             found,
         };
-        let camera: Self =
-            serde_json::from_slice(&read_bytes(path)?).map_err(|error| bad(error.to_string()))?;
+        let camera: Self = serde_json::from_slice(&read_limited(path, MAX_CAMERA_BYTES)?)
+            .map_err(|error| bad(error.to_string()))?;
         camera.checked().map_err(|found| match found {
             found if found == FOLDS => FileError::FoldingDistortion {
                 path: path.to_owned(),

@@ -22,10 +22,12 @@ use image::{
     DynamicImage, ExtendedColorType, ImageDecoder as _, ImageEncoder as _, ImageError, Limits,
 };
 
-use super::depth_camera::DepthCamera;
+use super::depth_camera::{DepthCamera, MAX_CAMERA_BYTES};
 use super::error::FileError;
-use super::source::Source;
+use super::open::described;
+use super::source::{Source, read_limited};
 use super::write::write_atomically;
+use crate::error::guarded;
 use crate::geometry::depth_frame::{DepthFrame, Intrinsics};
 
 /// Where the camera of a depth image stands: the same name ending in `.json`.
@@ -45,7 +47,11 @@ pub const FOLDER_CAMERA: &str = "intrinsics.json";
 pub fn write_depth_png(path: &Path, frame: &DepthFrame) -> Result<(), FileError> {
     let json = intrinsics_path(path);
     // Whatever else lies there is somebody's data.
-    if std::fs::read(&json).is_ok_and(|bytes| !is_intrinsics(&bytes)) {
+    let is_free = match read_limited(&json, MAX_CAMERA_BYTES) {
+        Ok(bytes) => is_intrinsics(&bytes),
+        Err(error) => matches!(error, FileError::NotFound { .. }),
+    };
+    if !is_free {
         return Err(FileError::ForeignSidecar {
             path: json,
             image: path.to_owned(),
@@ -87,7 +93,12 @@ pub(crate) fn write_depths(writer: &mut dyn Write, frame: &DepthFrame) -> io::Re
 
 /// True for the JSON that describes a depth image's camera.
 pub(super) fn is_intrinsics(bytes: &[u8]) -> bool {
-    serde_json::from_slice::<DepthCamera>(bytes).is_ok()
+    bytes.len() as u64 <= MAX_CAMERA_BYTES && serde_json::from_slice::<DepthCamera>(bytes).is_ok()
+}
+
+/// True for the eight bytes that begin a PNG.
+pub(super) fn is_png(bytes: &[u8]) -> bool {
+    bytes.starts_with(b"\x89PNG\r\n\x1a\n")
 }
 
 pub(super) fn read(source: Source<'_>) -> Result<DepthFrame, FileError> {
@@ -119,12 +130,39 @@ pub(super) fn read(source: Source<'_>) -> Result<DepthFrame, FileError> {
     Ok(frame)
 }
 
+/// The largest file of a small picture, bytes, and its longest side, pixels.
+const MAX_PICTURE_BYTES: u64 = 16 << 20;
+const MAX_PICTURE_SIDE: u32 = 4096;
+
+/// A small picture for people, such as a part's thumbnail.
+pub(crate) fn read_picture(path: &Path) -> Result<DynamicImage, FileError> {
+    let bytes = read_limited(path, MAX_PICTURE_BYTES)?;
+    let damaged = |what: String| FileError::Damaged {
+        path: path.to_owned(),
+        what,
+    };
+    let mut limits = Limits::default();
+    limits.max_image_width = Some(MAX_PICTURE_SIDE);
+    limits.max_image_height = Some(MAX_PICTURE_SIDE);
+    let decoded = guarded(|| {
+        let decoder = PngDecoder::with_limits(Cursor::new(bytes), limits)?;
+        DynamicImage::from_decoder(decoder)
+    });
+    let decoded = decoded.map_err(|fault| damaged(fault.to_string()))?;
+    decoded.map_err(|error| damaged(error.to_string()))
+}
+
 /// Width, height and the depths of a 16-bit PNG in memory, with or without a reading; `path` is for the errors.
 pub(crate) fn read_depths(
     path: &Path,
     bytes: &[u8],
 ) -> Result<((usize, usize), Vec<u16>), FileError> {
-    decode(Source { path, bytes })
+    guarded(|| decode(Source { path, bytes })).unwrap_or_else(|fault| {
+        Err(FileError::Fault {
+            path: path.to_owned(),
+            fault,
+        })
+    })
 }
 
 fn decode(source: Source<'_>) -> Result<((usize, usize), Vec<u16>), FileError> {
@@ -132,10 +170,25 @@ fn decode(source: Source<'_>) -> Result<((usize, usize), Vec<u16>), FileError> {
         ImageError::IoError(_) => source.cut_before("the end of the image", "PNG"),
         other => source.damaged(other.to_string()),
     };
+    if !is_png(source.bytes) {
+        return Err(FileError::WrongPngKind {
+            path: source.path.to_owned(),
+            found: described(source),
+        });
+    }
     let header = Header::of(source.bytes)
         .ok_or_else(|| source.cut_before("the end of the header", "PNG"))?;
     // Before the decoder, which refuses large sizes in words of its own.
     source.limited("pixels", header.width.saturating_mul(header.height))?;
+    let longest = header.width.max(header.height);
+    if longest > MAX_SIDE {
+        return Err(FileError::TooLarge {
+            path: source.path.to_owned(),
+            what: "pixels along one side",
+            found: longest as u64,
+            limit: MAX_SIDE as u64,
+        });
+    }
     if header.colour_type == PALETTE {
         return Err(FileError::WrongPngKind {
             path: source.path.to_owned(),
@@ -196,6 +249,10 @@ impl Header {
         })
     }
 }
+
+/// The longest side of a depth image, in pixels: four times that of the finest depth camera. A line of pixels is no
+/// picture, and packs to nearly nothing.
+const MAX_SIDE: usize = 16_384;
 
 /// What the decoder may take for itself: rows and text chunks, far above any camera's.
 const MAX_ANCILLARY_BYTES: u64 = 64 << 20;

@@ -7,7 +7,7 @@ use thiserror::Error;
 
 use super::cause::{advice_on, words_of};
 use super::names::{listed, nearest_name};
-use crate::error::Advice;
+use crate::error::{Advice, Fault};
 
 /// Why a file could not be read or written. Every variant names the file.
 #[derive(Debug, Error)]
@@ -118,15 +118,29 @@ pub enum FileError {
         /// How many are read.
         limit: u64,
     },
-    /// Larger than a text of its kind ever is.
-    #[error("{}: {found} bytes, at most {limit} are read of a text", path.display())]
-    TextTooLong {
+    /// Larger than a file of its kind ever is.
+    #[error("{}: {found} bytes, at most {limit} are read of a file of this kind", path.display())]
+    TooLong {
         /// The file.
         path: PathBuf,
         /// How many bytes the file has.
         found: u64,
         /// How many are read.
         limit: u64,
+    },
+    /// Another program wrote to it meanwhile.
+    #[error("{}: the file changed while it was read", path.display())]
+    Changing {
+        /// The file.
+        path: PathBuf,
+    },
+    /// Its reader failed.
+    #[error("{}: {fault}", path.display())]
+    Fault {
+        /// The file.
+        path: PathBuf,
+        /// How.
+        fault: Fault,
     },
     /// No point, or none with three finite coordinates.
     #[error("{}: none of its {found} points is a reading", path.display())]
@@ -254,6 +268,10 @@ impl FileError {
     /// The variant for what the system said on reading.
     pub(super) fn reading(path: &Path, source: io::Error) -> Self {
         let path = path.to_owned();
+        let inner = source.get_ref().and_then(|inner| inner.downcast_ref());
+        if let Some(found) = inner.copied() {
+            return Self::NotAFile { path, found };
+        }
         match source.kind() {
             io::ErrorKind::NotFound => Self::NotFound { path },
             io::ErrorKind::PermissionDenied => Self::PermissionDenied { path },
@@ -311,12 +329,16 @@ impl Advice for FileError {
                     "Open the file in a text editor and correct line {line}, or export it again"
                 )
             }
-            Self::TextTooLong { .. } => {
+            Self::TooLong { .. } => {
                 "Choose another file: a table, a description or a calibration is far smaller".into()
             }
             Self::TooLarge { .. } => {
                 "Thin the cloud out, or cut away what is not the part, and export it again".into()
             }
+            Self::Changing { .. } => {
+                "Wait until the program that writes it has finished, then open it again".into()
+            }
+            Self::Fault { fault, .. } => fault.advice(),
             Self::NoPoints { .. } => {
                 "Check that the camera saw the part, between 0.5 m and 4 m away, and capture again"
                     .into()

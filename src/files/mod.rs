@@ -13,7 +13,9 @@
 //! Lengths are taken as metres, whatever the file meant: none of the cloud formats says its unit.
 //! [`FileContent::warnings`] tells when the numbers look like millimetres.
 //!
-//! Every size that a header claims is held against the bytes really there before memory is taken for it.
+//! Every size that a header claims is held against the bytes really there, and against [`MAX_UNPACKED_BYTES`], before
+//! memory is taken for it. Only regular files are opened ([`open_regular`]), up to a limit, and a panic in a reader is an
+//! error of its file.
 //!
 //! # Whose readers
 //! PNG, JSON, base64 and the glTF document are read by libraries. The rest is read here, because the libraries tried
@@ -45,19 +47,22 @@ mod write;
 pub mod xyz;
 
 pub(crate) use self::cause::{advice_on, words_of};
-pub(crate) use self::cells::{cells, content_lines, number_in};
+pub(crate) use self::cells::{Row, csv_comment, csv_text, table_rows};
 pub(crate) use self::checksum::crc32;
 pub(crate) use self::counting_order::in_counting_order;
 pub use self::depth_camera::{DepthCamera, StoredOrientation, Turn};
+pub(crate) use self::depth_png::read_picture;
 pub use self::depth_png::write_depth_png;
 pub use self::error::{Expected, FileError, NoFile};
-pub(crate) use self::names::nearest_name;
-pub(crate) use self::open::open_bytes;
-pub use self::open::{FileContent, FileWarning, open};
+pub(crate) use self::names::{nearest_name, stays_inside};
+
+pub use self::open::{FileContent, FileWarning, open, open_bytes};
 pub use self::pcd::write_pcd;
 pub use self::ply::{write_ply, write_ply_with};
-pub(crate) use self::source::read_bytes;
+pub(crate) use self::source::{open_lock, open_regular, read_bytes, read_limited, shortened};
 pub(crate) use self::text::read_text;
+#[cfg(feature = "cli")]
+pub(crate) use self::text::visible;
 #[cfg(feature = "cli")]
 pub(crate) use self::write::{folder_of, sync_folder};
 pub use self::write::{save_cloud, write_atomically};
@@ -76,3 +81,7 @@ pub const MAX_POINTS: usize = 50_000_000;
 
 /// The largest file read, in bytes. 50 million points with normals and colours are 1.6 GB in binary.
 pub const MAX_FILE_BYTES: u64 = 2 << 30;
+
+/// The most memory that is taken for what a file unpacks to, in bytes. Packed points and empty pixels can stand for a
+/// thousand times their own size.
+pub const MAX_UNPACKED_BYTES: u64 = 1 << 30;

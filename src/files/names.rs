@@ -1,4 +1,13 @@
-//! Names for an error: the nearest to what was asked for first, and not hundreds of them.
+//! Names of files in files, and names for an error: the nearest to what was asked for first, and not hundreds of them.
+
+use std::path::{Component, Path};
+
+/// True for a path that stays in the folder that it is taken from: a document or a list must not choose which other
+/// files of the machine are read.
+pub(crate) fn stays_inside(path: &Path) -> bool {
+    let is_inside = |part| matches!(part, Component::Normal(_) | Component::CurDir);
+    !path.as_os_str().is_empty() && path.components().all(is_inside)
+}
 
 /// Names shown; a car has hundreds.
 const MAX_SHOWN: usize = 10;

@@ -50,6 +50,7 @@ pub(super) fn read(source: Source<'_>) -> Result<FileContent, FileError> {
                         source.malformed(number, &statement, "v and three numbers")
                     })?,
                 );
+                source.limited("points", points.len())?;
             }
             Some("f") => {
                 let polygon: Option<Vec<u32>> =
@@ -63,13 +64,12 @@ pub(super) fn read(source: Source<'_>) -> Result<FileContent, FileError> {
                     )
                 })?;
                 push_fan(&polygon, &mut triangles);
+                source.limited("triangles", triangles.len())?;
             }
             _ => {}
         }
         statement.clear();
     }
-    source.limited("points", points.len())?;
-    source.limited("triangles", triangles.len())?;
     if triangles.is_empty() {
         tidy(
             PointCloud {

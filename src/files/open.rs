@@ -7,10 +7,11 @@ use thiserror::Error;
 use super::error::FileError;
 use super::source::{Source, read_bytes};
 use super::{depth_png, gltf, obj, pcd, ply, stl, xyz};
-use crate::error::Advice;
+use crate::error::{Advice, guarded};
 use crate::geometry::cloud::PointCloud;
 use crate::geometry::depth_frame::DepthFrame;
 use crate::geometry::mesh::TriangleMesh;
+use crate::geometry::pinhole_fit::fit_pinhole;
 use crate::units::Metres;
 
 /// What a file held.
@@ -33,18 +34,58 @@ pub enum FileWarning {
         /// The longest side of the box around the points.
         extent: Metres,
     },
+    /// The file has more in it than its header says.
+    #[error("{num} bytes follow the last point, so the file is probably damaged")]
+    SurplusBytes {
+        /// Bytes behind the last point.
+        num: u64,
+    },
+    /// Points that a camera at the origin cannot see.
+    #[error("{:.1} % of the points lie behind the camera, so they are probably in another frame", share * 100.0)]
+    BehindCamera {
+        /// Share of the points, 0..1.
+        share: f64,
+    },
+    /// Rows and columns that are no picture.
+    #[error(
+        "its rows and columns are not the picture of a camera without distortion at the origin"
+    )]
+    NoPinholeCamera,
 }
 
 impl Advice for FileWarning {
     fn advice(&self) -> String {
         match self {
             Self::TooWideForMetres { .. } => "Export the file again with metres as its unit".into(),
+            Self::SurplusBytes { .. } => {
+                "Copy or export the file again from the program that made it".into()
+            }
+            Self::BehindCamera { .. } | Self::NoPinholeCamera => {
+                "For an inspection export the capture in the camera's own frame, x right, y down, z forward, with its distortion removed"
+                    .into()
+            }
         }
     }
 }
 
 /// Extents from here on, in metres, are warned about: a mirror of 0.1 m reads so in millimetres, and no cell is as wide.
 const SUSPICIOUS_EXTENT: f64 = 100.0;
+
+/// Of an organised cloud with fewer readings nothing is said: no camera can be fitted to a few.
+const MIN_READINGS: usize = 1000;
+
+fn warnings_of(cloud: &PointCloud) -> impl Iterator<Item = FileWarning> {
+    let num = cloud.surplus_bytes;
+    let surplus = (num > 0).then_some(FileWarning::SurplusBytes { num });
+    // Only a picture is for sure in a camera's space; other clouds may be in any, and are when they are enrolled.
+    let share = cloud.grid.map_or(0.0, |_| cloud.share_behind());
+    let behind = (share > 0.0).then_some(FileWarning::BehindCamera { share });
+    let is_no_picture = cloud.grid.is_some_and(|grid| {
+        cloud.num_finite() >= MIN_READINGS && fit_pinhole(&cloud.points, grid).is_none()
+    });
+    let no_camera = (behind.is_none() && is_no_picture).then_some(FileWarning::NoPinholeCamera);
+    surplus.into_iter().chain(behind).chain(no_camera)
+}
 
 impl FileContent {
     /// True if the file says that no camera read what it holds.
@@ -64,12 +105,15 @@ impl FileContent {
             Self::Depth(_) => None,
         };
         let extent = bounds.map_or(0.0, |(low, high)| f64::from((high - low).amax()));
-        (extent >= SUSPICIOUS_EXTENT)
-            .then_some(FileWarning::TooWideForMetres {
-                extent: Metres(extent),
-            })
-            .into_iter()
-            .collect()
+        let mut warnings = Vec::new();
+        if extent >= SUSPICIOUS_EXTENT {
+            let extent = Metres(extent);
+            warnings.push(FileWarning::TooWideForMetres { extent });
+        }
+        if let Self::Cloud(cloud) = self {
+            warnings.extend(warnings_of(cloud));
+        }
+        warnings
     }
 }
 
@@ -85,16 +129,24 @@ pub fn open(path: &Path) -> Result<FileContent, FileError> {
 
 /// As [`open`], for bytes that are in memory already; `path` is for the errors about them, and where a depth image's
 /// camera is looked for.
-pub(crate) fn open_bytes(path: &Path, bytes: &[u8]) -> Result<FileContent, FileError> {
+pub fn open_bytes(path: &Path, bytes: &[u8]) -> Result<FileContent, FileError> {
     read(path, bytes, None)
 }
 
 fn read(path: &Path, bytes: &[u8], mesh_name: Option<&str>) -> Result<FileContent, FileError> {
-    let source = Source { path, bytes };
+    guarded(|| read_known(Source { path, bytes }, mesh_name)).unwrap_or_else(|fault| {
+        Err(FileError::Fault {
+            path: path.to_owned(),
+            fault,
+        })
+    })
+}
+
+fn read_known(source: Source<'_>, mesh_name: Option<&str>) -> Result<FileContent, FileError> {
     let format = recognise(source)?;
     if let (Some(wanted), false) = (mesh_name, matches!(format, Format::Gltf)) {
         return Err(FileError::NoSuchMesh {
-            path: path.to_owned(),
+            path: source.path.to_owned(),
             wanted: wanted.to_owned(),
             available: Vec::new(),
         });
@@ -140,7 +192,7 @@ enum Format {
 
 fn recognise(source: Source<'_>) -> Result<Format, FileError> {
     let bytes = source.bytes;
-    if bytes.starts_with(b"\x89PNG\r\n\x1a\n") {
+    if depth_png::is_png(bytes) {
         return Ok(Format::DepthPng);
     }
     if gltf::is_glb(bytes) {
@@ -189,6 +241,23 @@ fn recognise(source: Source<'_>) -> Result<Format, FileError> {
             beginning(&first.unwrap_or_default())
         ),
     ))
+}
+
+/// What a file is, for an error about one that should be something else.
+pub(super) fn described(source: Source<'_>) -> String {
+    let words = match recognise(source) {
+        Ok(Format::Pcd) => "a PCD cloud",
+        Ok(Format::Ply) => "a PLY",
+        Ok(Format::Stl) => "an STL mesh",
+        Ok(Format::Obj) => "an OBJ",
+        Ok(Format::Gltf) => "a glTF",
+        Ok(Format::DepthPng) => "a PNG",
+        Ok(Format::Xyz) => "XYZ text",
+        Err(FileError::UnknownFormat { found, .. }) => return found,
+        Err(FileError::IsIntrinsics { .. }) => "the camera of a depth image",
+        Err(_) => "something else",
+    };
+    words.into()
 }
 
 /// Text has no zero bytes; its beginning is enough to tell.

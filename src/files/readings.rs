@@ -3,6 +3,7 @@
 use nalgebra::{Point3, Vector3};
 
 use super::error::FileError;
+use super::scalar::Column;
 use super::source::Source;
 use crate::geometry::cloud::PointCloud;
 
@@ -61,9 +62,36 @@ pub(super) fn tidy(mut cloud: PointCloud, source: Source<'_>) -> Result<PointClo
 }
 
 /// The points of three coordinate columns.
-pub(super) fn points_from(x: &[f32], y: &[f32], z: &[f32]) -> Vec<Point3<f32>> {
-    let rows = x.iter().zip(y).zip(z);
-    rows.map(|((&x, &y), &z)| Point3::new(x, y, z)).collect()
+pub(super) fn points_from([x, y, z]: [Column<'_>; 3]) -> Vec<Point3<f32>> {
+    let mut points = Vec::with_capacity(x.len);
+    let rows = x.f32s().zip(y.f32s()).zip(z.f32s());
+    points.extend(rows.map(|((x, y), z)| Point3::new(x, y, z)));
+    points
+}
+
+/// The normals of three columns.
+pub(super) fn normals_from(columns: [Column<'_>; 3]) -> Vec<Vector3<f32>> {
+    let rows = points_from(columns).into_iter();
+    // Done in place.
+    rows.map(|row| row.coords).collect()
+}
+
+/// Bytes of a point of a cloud in memory.
+pub(super) fn point_bytes(has_normal: bool, has_colour: bool, has_label: bool) -> usize {
+    let of = |is_there: bool, bytes: usize| if is_there { bytes } else { 0 };
+    size_of::<Point3<f32>>()
+        + of(has_normal, size_of::<Vector3<f32>>())
+        + of(has_colour, size_of::<[u8; 3]>())
+        + of(has_label, size_of::<u32>())
+}
+
+/// The number of bytes behind the last point; padding is none.
+pub(super) fn surplus_of(rest: &[u8]) -> u64 {
+    let is_blank = |byte: &u8| *byte == 0 || byte.is_ascii_whitespace();
+    if rest.iter().all(is_blank) {
+        return 0;
+    }
+    rest.len() as u64
 }
 
 fn retain<T>(values: &mut Vec<T>, keep: &[bool]) {

@@ -108,13 +108,14 @@ impl<'a> Column<'a> {
     }
 
     /// Every cell as a real number.
-    pub(super) fn f32s(self) -> Vec<f32> {
-        if self.scalar == Scalar::F32 {
-            let chunks = self.cells().filter_map(|cell| cell.first_chunk());
-            return chunks.map(|chunk| f32::from_le_bytes(*chunk)).collect();
-        }
-        let values = self.cells().filter_map(|cell| self.scalar.value(cell));
-        values.map(|value| value as f32).collect()
+    pub(super) fn f32s(self) -> impl Iterator<Item = f32> + 'a {
+        let is_f32 = self.scalar == Scalar::F32;
+        self.cells().filter_map(move |cell| {
+            if is_f32 {
+                return cell.first_chunk().map(|bytes| f32::from_le_bytes(*bytes));
+            }
+            self.scalar.value(cell).map(|value| value as f32)
+        })
     }
 
     /// Every cell as a whole number; negative ones and fractions are cut.

@@ -1,12 +1,14 @@
 //! One file in memory, with its path for the errors about it.
 
 use std::borrow::Cow;
-use std::fs::{self, File};
-use std::io::Read as _;
+use std::fs::{self, File, Metadata};
+use std::io::{self, Read as _};
 use std::path::Path;
+use std::thread;
+use std::time::Duration;
 
 use super::error::{Expected, FileError, NoFile};
-use super::{MAX_FILE_BYTES, MAX_POINTS};
+use super::{MAX_FILE_BYTES, MAX_POINTS, MAX_UNPACKED_BYTES};
 
 /// The bytes of a file and where they came from.
 #[derive(Clone, Copy)]
@@ -15,45 +17,102 @@ pub(super) struct Source<'a> {
     pub(super) bytes: &'a [u8],
 }
 
-/// All bytes of a regular file that is not empty and not above [`MAX_FILE_BYTES`].
+/// Opens a regular file to read. Anything else is refused before it is opened: a pipe without a writer would keep the
+/// opener waiting, and a device may never end.
+pub(crate) fn open_regular(path: &Path) -> io::Result<File> {
+    refuse_all_but_files(&fs::metadata(path)?)?;
+    let file = File::open(path)?;
+    // Another may have taken its place since.
+    refuse_all_but_files(&file.metadata()?)?;
+    Ok(file)
+}
+
+/// Opens the file that writers lock, and makes it where it is missing; what is no regular file is refused.
+pub(crate) fn open_lock(path: &Path) -> io::Result<File> {
+    if let Ok(found) = fs::metadata(path) {
+        refuse_all_but_files(&found)?;
+    }
+    File::options().create(true).append(true).open(path)
+}
+
+fn refuse_all_but_files(found: &Metadata) -> io::Result<()> {
+    if found.is_file() {
+        Ok(())
+    } else if found.is_dir() {
+        Err(io::Error::new(io::ErrorKind::IsADirectory, NoFile::Folder))
+    } else {
+        Err(io::Error::new(io::ErrorKind::InvalidInput, NoFile::Device))
+    }
+}
+
+/// A capture, a cloud or a mesh: all bytes of a regular file that is not empty and not above [`MAX_FILE_BYTES`].
 pub(crate) fn read_bytes(path: &Path) -> Result<Vec<u8>, FileError> {
+    read_limited(path, MAX_FILE_BYTES)
+}
+
+/// All bytes of a regular file that is not empty and not above `limit` bytes. One that changes meanwhile is refused:
+/// it would be half of one content and half of another.
+pub(crate) fn read_limited(path: &Path, limit: u64) -> Result<Vec<u8>, FileError> {
     let wrong = |error| FileError::reading(path, error);
-    // Before it is opened: a pipe without a writer would keep the opener waiting.
-    let metadata = fs::metadata(path).map_err(wrong)?;
-    if !metadata.is_file() {
-        let found = if metadata.is_dir() {
-            NoFile::Folder
+    let too_large = |found| {
+        let path = path.to_owned();
+        if limit < MAX_FILE_BYTES {
+            FileError::TooLong { path, found, limit }
         } else {
-            NoFile::Device
-        };
-        return Err(FileError::NotAFile {
-            path: path.to_owned(),
-            found,
-        });
-    }
-    let too_large = |found| FileError::TooLarge {
-        path: path.to_owned(),
-        what: "bytes",
-        found,
-        limit: MAX_FILE_BYTES,
+            FileError::TooLarge {
+                path,
+                what: "bytes",
+                found,
+                limit,
+            }
+        }
     };
-    if metadata.len() > MAX_FILE_BYTES {
-        return Err(too_large(metadata.len()));
+    let file = open_regular(path).map_err(wrong)?;
+    let changing = || FileError::Changing {
+        path: path.to_owned(),
+    };
+    let before = settled(&file).map_err(wrong)?.ok_or_else(changing)?;
+    if before.len() > limit {
+        return Err(too_large(before.len()));
     }
-    let mut bytes = Vec::with_capacity(metadata.len() as usize + 1);
-    // A file that is still being written may be longer by now than its metadata said.
-    File::open(path)
-        .map_err(wrong)?
-        .take(MAX_FILE_BYTES + 1)
+    let mut bytes = Vec::with_capacity(before.len() as usize + 1);
+    (&file)
+        .take(limit + 1)
         .read_to_end(&mut bytes)
         .map_err(wrong)?;
-    match bytes.len() as u64 {
-        0 => Err(FileError::Empty {
-            path: path.to_owned(),
-        }),
-        found if found > MAX_FILE_BYTES => Err(too_large(found)),
-        _ => Ok(bytes),
+    let found = bytes.len() as u64;
+    if found > limit {
+        return Err(too_large(found));
     }
+    let after = file.metadata().map_err(wrong)?;
+    if found != before.len() || stamp(&after) != stamp(&before) {
+        return Err(changing());
+    }
+    if bytes.is_empty() {
+        return Err(FileError::Empty {
+            path: path.to_owned(),
+        });
+    }
+    Ok(bytes)
+}
+
+/// Two changes within this time may have the same time in their file: several ticks of the slowest system.
+const FILE_CLOCK: Duration = Duration::from_millis(30);
+
+/// What the system says of a file, once any later change will show in it; `None` if it changes now.
+fn settled(file: &File) -> io::Result<Option<Metadata>> {
+    let found = file.metadata()?;
+    let age = found.modified().ok().and_then(|time| time.elapsed().ok());
+    if age.is_some_and(|age| age < FILE_CLOCK) {
+        thread::sleep(FILE_CLOCK);
+        let again = file.metadata()?;
+        return Ok((stamp(&again) == stamp(&found)).then_some(again));
+    }
+    Ok(Some(found))
+}
+
+fn stamp(found: &Metadata) -> (u64, Option<std::time::SystemTime>) {
+    (found.len(), found.modified().ok())
 }
 
 /// Bytes at the beginning of a file in which its comments are looked for.
@@ -129,6 +188,21 @@ impl<'a> Source<'a> {
         }
     }
 
+    /// Refuses what would take more than [`MAX_UNPACKED_BYTES`] of memory, before it is taken: a header or a packed block
+    /// of a few bytes can stand for any amount.
+    pub(super) fn affordable(self, count: usize, bytes_each: usize) -> Result<(), FileError> {
+        let found = (count as u64).saturating_mul(bytes_each as u64);
+        if found <= MAX_UNPACKED_BYTES {
+            return Ok(());
+        }
+        Err(FileError::TooLarge {
+            path: self.path.to_owned(),
+            what: "bytes unpacked",
+            found,
+            limit: MAX_UNPACKED_BYTES,
+        })
+    }
+
     /// `count` again if it is within [`MAX_POINTS`].
     pub(super) fn limited(self, what: &'static str, count: usize) -> Result<usize, FileError> {
         if count <= MAX_POINTS {
@@ -149,9 +223,125 @@ pub(super) fn header_text(line: &[u8]) -> Cow<'_, str> {
 }
 
 /// The first 60 characters: enough to find the place, short enough for one line of the window.
-fn shortened(text: &str) -> String {
+pub(crate) fn shortened(text: &str) -> String {
     match text.char_indices().nth(60) {
         Some((end, _)) => format!("{}…", text.get(..end).unwrap_or_default()),
         None => text.to_owned(),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use std::io::{Seek as _, SeekFrom, Write as _};
+    use std::sync::atomic::{AtomicBool, Ordering};
+
+    use super::*;
+
+    #[test]
+    fn a_file_that_is_written_while_it_is_read_is_never_a_mixture() {
+        const SIZE: usize = 1 << 20;
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("written.bin");
+        fs::write(&path, vec![b'a'; SIZE]).unwrap();
+        let is_over = AtomicBool::new(false);
+        let results = thread::scope(|scope| {
+            scope.spawn(|| {
+                let mut file = File::options().write(true).open(&path).unwrap();
+                for letter in [b'b', b'a'].into_iter().cycle() {
+                    if is_over.load(Ordering::Relaxed) {
+                        break;
+                    }
+                    file.seek(SeekFrom::Start(0)).unwrap();
+                    for piece in vec![letter; SIZE].chunks(4096) {
+                        file.write_all(piece).unwrap();
+                    }
+                    // Long enough for a whole read now and then.
+                    thread::sleep(FILE_CLOCK + FILE_CLOCK / 3);
+                }
+            });
+            // Nothing may end this before the writer is told to stop.
+            let results: Vec<_> = (0..80).map(|_| read_bytes(&path)).collect();
+            is_over.store(true, Ordering::Relaxed);
+            results
+        });
+        let mut num_refused = 0;
+        for result in results {
+            match result {
+                Ok(bytes) => {
+                    let first = bytes.first().copied();
+                    assert!(bytes.iter().all(|byte| Some(*byte) == first), "a mixture");
+                }
+                Err(FileError::Changing { .. }) => num_refused += 1,
+                Err(error) => panic!("{error}"),
+            }
+        }
+        assert!(
+            (1..80).contains(&num_refused),
+            "{num_refused} of 80 refused"
+        );
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn a_pipe_or_a_device_is_refused_at_once_wherever_a_file_is_read_or_locked() {
+        let folder = tempfile::tempdir().unwrap();
+        let pipe = folder.path().join("pipe");
+        let made = std::process::Command::new("mkfifo").arg(&pipe).status();
+        assert!(made.is_ok_and(|made| made.success()), "mkfifo");
+        let device = folder.path().join("device.toml");
+        std::os::unix::fs::symlink("/dev/zero", &device).unwrap();
+        for path in [pipe, device] {
+            let is_refused = |error: FileError| {
+                assert!(
+                    matches!(
+                        error,
+                        FileError::NotAFile {
+                            found: NoFile::Device,
+                            ..
+                        }
+                    ),
+                    "{error}"
+                );
+            };
+            is_refused(read_bytes(&path).unwrap_err());
+            is_refused(super::super::read_text(&path, 100).unwrap_err());
+            is_refused(super::super::read_picture(&path).unwrap_err());
+            is_refused(super::super::open(&path).unwrap_err());
+            is_refused(super::super::DepthCamera::read(&path).unwrap_err());
+            for opened in [open_regular(&path), open_lock(&path)] {
+                let error = opened.unwrap_err();
+                assert_eq!(error.to_string(), "not a regular file");
+            }
+        }
+    }
+
+    #[test]
+    fn a_file_above_its_limit_is_refused_before_it_is_read() {
+        let folder = tempfile::tempdir().unwrap();
+        let path = folder.path().join("sparse.toml");
+        File::create(&path).unwrap().set_len(1 << 40).unwrap();
+        assert!(matches!(
+            read_limited(&path, 1000),
+            Err(FileError::TooLong { limit: 1000, found, .. }) if found == 1 << 40
+        ));
+        assert!(matches!(read_bytes(&path), Err(FileError::TooLarge { .. })));
+    }
+
+    #[test]
+    fn a_count_that_overflows_is_too_large() {
+        let source = Source {
+            path: Path::new("bomb"),
+            bytes: &[],
+        };
+        assert!(source.affordable(1 << 20, 1 << 10).is_ok());
+        for (count, each) in [((1 << 20) + 1, 1 << 10), (usize::MAX, usize::MAX)] {
+            assert!(matches!(
+                source.affordable(count, each),
+                Err(FileError::TooLarge {
+                    limit: MAX_UNPACKED_BYTES,
+                    ..
+                })
+            ));
+        }
     }
 }

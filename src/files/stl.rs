@@ -18,6 +18,8 @@ use crate::geometry::mesh::TriangleMesh;
 
 const HEADER_BYTES: usize = 84;
 const TRIANGLE_BYTES: usize = 50;
+/// Memory of a triangle until its corners are welded: itself, its indices, and half a vertex, listed and looked up.
+const WELDED_BYTES: usize = 36 + 12 + 22;
 
 /// True if the count in the header predicts the length of the file.
 pub(super) fn is_binary(bytes: &[u8]) -> bool {
@@ -63,7 +65,8 @@ fn promised_length(bytes: &[u8]) -> Option<usize> {
 
 fn corners_of_binary(source: Source<'_>) -> Result<Vec<[Point3<f32>; 3]>, FileError> {
     let rows = source.bytes.get(HEADER_BYTES..).unwrap_or_default();
-    source.limited("triangles", rows.len() / TRIANGLE_BYTES)?;
+    let num_triangles = source.limited("triangles", rows.len() / TRIANGLE_BYTES)?;
+    source.affordable(num_triangles, WELDED_BYTES)?;
     let number = |row: &[u8], i: usize| {
         let bytes = row.get(i * 4..).and_then(|rest| rest.first_chunk());
         bytes.map_or(f32::NAN, |bytes| f32::from_le_bytes(*bytes))
@@ -98,7 +101,10 @@ fn corners_of_text(source: Source<'_>) -> Result<Vec<[Point3<f32>; 3]>, FileErro
                 corners.push(Point3::new(x, y, z));
             }
             Some("endfacet") => match *corners.as_slice() {
-                [a, b, c] => triangles.push([a, b, c]),
+                [a, b, c] => {
+                    triangles.push([a, b, c]);
+                    source.affordable(triangles.len(), WELDED_BYTES)?;
+                }
                 _ => return Err(wrong("three vertices before the end of a facet")),
             },
             None | Some("outer" | "endloop" | "color") => {}

@@ -1,19 +1,14 @@
-//! Text files that people write: whole in memory, with a limit.
+//! Text files that people write: whole in memory, with a limit. And text of files, to be shown.
 
+use std::borrow::Cow;
+use std::fmt::Write as _;
 use std::path::Path;
 
-use super::{FileError, read_bytes};
+use super::{FileError, read_limited};
 
 /// The text of a file of at most `limit` bytes, without a byte order mark.
 pub(crate) fn read_text(path: &Path, limit: u64) -> Result<String, FileError> {
-    let bytes = read_bytes(path)?;
-    if bytes.len() as u64 > limit {
-        return Err(FileError::TextTooLong {
-            path: path.to_owned(),
-            found: bytes.len() as u64,
-            limit,
-        });
-    }
+    let bytes = read_limited(path, limit)?;
     let text = String::from_utf8(bytes).map_err(|error| FileError::Damaged {
         path: path.to_owned(),
         what: format!(
@@ -25,4 +20,44 @@ pub(crate) fn read_text(path: &Path, limit: u64) -> Result<String, FileError> {
         Some(rest) => rest.to_owned(),
         None => text,
     })
+}
+
+/// A text from a file, or a file's name, for a terminal: control characters, which could move the cursor or recolour what
+/// stands before, and marks that turn the direction of writing are shown as `\u001b`, which JSON reads as the same
+/// character.
+pub(crate) fn visible(text: &str) -> Cow<'_, str> {
+    let is_hidden = |c: char| {
+        c.is_control()
+            || matches!(c, '\u{200e}' | '\u{200f}' | '\u{202a}'..='\u{202e}' | '\u{2066}'..='\u{2069}')
+    };
+    if !text.contains(is_hidden) {
+        return text.into();
+    }
+    let mut shown = String::with_capacity(text.len() + 16);
+    for c in text.chars() {
+        if is_hidden(c) {
+            // Writing to memory does not fail.
+            let _ = write!(shown, "\\u{:04x}", u32::from(c));
+        } else {
+            shown.push(c);
+        }
+    }
+    shown.into()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn what_would_steer_a_terminal_is_shown_in_letters() {
+        assert_eq!(visible("tür 2.pcd"), "tür 2.pcd");
+        assert_eq!(
+            visible("a\u{1b}[2Jb\n\u{9b}31m\u{7f}\u{202e}"),
+            "a\\u001b[2Jb\\u000a\\u009b31m\\u007f\\u202e"
+        );
+        let json = serde_json::to_string("a\u{9b}b\u{202e}").expect("JSON");
+        let read: String = serde_json::from_str(&visible(&json)).expect("still JSON");
+        assert_eq!(read, "a\u{9b}b\u{202e}");
+    }
 }

@@ -1,8 +1,11 @@
 //! Writing a file so that it is complete or not there.
 
-use std::fs::File;
+use std::collections::BTreeSet;
+use std::fs::{self, File};
 use std::io::{self, BufWriter, Write};
-use std::path::Path;
+use std::path::{Path, PathBuf};
+use std::sync::{Mutex, PoisonError};
+use std::time::Duration;
 
 use super::error::FileError;
 use super::{write_pcd, write_ply, write_xyz};
@@ -17,9 +20,10 @@ pub fn write_atomically(
     fill: impl FnOnce(&mut dyn Write) -> io::Result<()>,
 ) -> Result<(), FileError> {
     let folder = folder_of(path);
+    clear_leftovers_once(folder);
     let written = || -> io::Result<()> {
         let mut builder = tempfile::Builder::new();
-        builder.prefix(".partsight-").suffix(".part");
+        builder.prefix(PREFIX).suffix(SUFFIX);
         #[cfg(unix)]
         {
             use std::os::unix::fs::PermissionsExt as _;
@@ -36,6 +40,37 @@ pub fn write_atomically(
         sync_folder(folder)
     };
     written().map_err(|error| FileError::writing(path, error))
+}
+
+/// How the temporary files are called.
+const PREFIX: &str = ".partsight-";
+const SUFFIX: &str = ".part";
+/// Nobody writes to a temporary file any more that has not changed for so long.
+const ABANDONED: Duration = Duration::from_mins(10);
+
+/// Removes what programs left in a folder that were killed while they wrote; this one looks there once.
+fn clear_leftovers_once(folder: &Path) {
+    static CLEARED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
+    let mut cleared = CLEARED.lock().unwrap_or_else(PoisonError::into_inner);
+    if cleared.insert(folder.to_owned()) {
+        drop(cleared);
+        clear_leftovers(folder);
+    }
+}
+
+/// What cannot be removed harms nobody: the names of new files are never those of old ones.
+fn clear_leftovers(folder: &Path) {
+    for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
+        let name = entry.file_name();
+        let is_ours = name.to_str().is_some_and(|name| {
+            let name = name.strip_prefix(PREFIX);
+            name.is_some_and(|name| name.ends_with(SUFFIX))
+        });
+        let changed = || entry.metadata().ok()?.modified().ok()?.elapsed().ok();
+        if is_ours && changed().is_some_and(|age| age > ABANDONED) {
+            let _ = fs::remove_file(entry.path());
+        }
+    }
 }
 
 /// The folder that a file is in.
@@ -86,6 +121,26 @@ mod tests {
         assert!(matches!(failed, Err(FileError::Write { .. })));
         assert_eq!(std::fs::read(&path).unwrap(), b"old");
         assert_eq!(std::fs::read_dir(folder.path()).unwrap().count(), 1);
+    }
+
+    #[test]
+    fn what_a_killed_program_left_is_removed_and_what_another_writes_now_stays() {
+        let folder = tempfile::tempdir().unwrap();
+        let at = |name: &str| folder.path().join(name);
+        let long_ago = std::time::SystemTime::now() - 2 * ABANDONED;
+        for (name, is_old) in [
+            (".partsight-old.part", true),
+            (".partsight-new.part", false),
+            ("cell.part", true),
+        ] {
+            let file = File::create(at(name)).unwrap();
+            if is_old {
+                file.set_modified(long_ago).unwrap();
+            }
+        }
+        write_atomically(&at("cell.toml"), |writer| writer.write_all(b"x")).unwrap();
+        let left = [".partsight-old.part", ".partsight-new.part", "cell.part"];
+        assert_eq!(left.map(|name| at(name).exists()), [false, true, true]);
     }
 
     #[test]

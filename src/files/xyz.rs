@@ -9,7 +9,7 @@ use std::io::{self, Write};
 
 use nalgebra::Point3;
 
-use super::cells::{cells, number_in};
+use super::cells::{MAX_COLUMNS, Row};
 use super::error::FileError;
 use super::readings::tidy;
 use super::source::Source;
@@ -20,24 +20,26 @@ type Columns = [usize; 3];
 
 /// True if one of the first two lines with content is a point.
 pub(super) fn is_xyz(source: Source<'_>) -> bool {
-    content(source)
-        .take(2)
-        .any(|(_, line)| point_of(&line, [0, 1, 2]).is_some() || columns_named_in(&line).is_some())
+    content(source).take(2).any(|(_, line)| {
+        let row = Row::of(&line);
+        point_of(row, [0, 1, 2]).is_some() || columns_named_in(row).is_some()
+    })
 }
 
 pub(super) fn read(source: Source<'_>) -> Result<PointCloud, FileError> {
     let mut columns = [0, 1, 2];
     let mut points = Vec::new();
     for (i, (number, line)) in content(source).enumerate() {
-        match point_of(&line, columns) {
+        let row = Row::of(&line).limited(source, number)?;
+        match point_of(row, columns) {
             Some(point) => points.push(point),
-            None if i == 0 && is_heading(&line) => {
-                columns = columns_named_in(&line).unwrap_or(columns);
+            None if i == 0 && is_heading(row) => {
+                columns = columns_named_in(row).unwrap_or(columns);
             }
             None => return Err(source.malformed(number, &line, "three numbers")),
         }
+        source.limited("points", points.len())?;
     }
-    source.limited("points", points.len())?;
     tidy(
         PointCloud {
             points,
@@ -66,12 +68,12 @@ fn content(source: Source<'_>) -> impl Iterator<Item = (usize, std::borrow::Cow<
         .filter(|(_, line)| !line.is_empty() && !line.starts_with('#') && !line.starts_with("//"))
 }
 
-fn point_of(line: &str, columns: Columns) -> Option<Point3<f32>> {
+fn point_of(row: Row<'_>, columns: Columns) -> Option<Point3<f32>> {
     let mut point = [None; 3];
-    for (i, cell) in cells(line).enumerate() {
+    for (i, cell) in row.cells().enumerate() {
         for (coordinate, &column) in point.iter_mut().zip(&columns) {
             if column == i {
-                *coordinate = Some(number_of(line, cell)?);
+                *coordinate = Some(number_of(row, cell)?);
             }
         }
         if point.iter().all(Option::is_some) {
@@ -82,22 +84,22 @@ fn point_of(line: &str, columns: Columns) -> Option<Point3<f32>> {
     Some(Point3::new(x?, y?, z?))
 }
 
-fn number_of(line: &str, cell: &str) -> Option<f32> {
+fn number_of(row: Row<'_>, cell: &str) -> Option<f32> {
     // A spreadsheet's empty cell is a point without a reading.
     if cell.is_empty() {
         return Some(f32::NAN);
     }
-    number_in(line, cell).map(|real| real as f32)
+    row.number(cell).map(|real| real as f32)
 }
 
 /// Names, or the number of points. A first line with some numbers in it is a damaged point.
-fn is_heading(line: &str) -> bool {
-    let is_name = |cell: &str| number_of(line, cell).is_none();
-    cells(line).all(is_name) || cells(line).count() == 1
+fn is_heading(row: Row<'_>) -> bool {
+    let is_name = |cell: &str| number_of(row, cell).is_none();
+    row.cells().all(is_name) || row.cells().count() == 1
 }
 
-fn columns_named_in(line: &str) -> Option<Columns> {
-    let names: Vec<String> = cells(line).map(column_name).collect();
+fn columns_named_in(row: Row<'_>) -> Option<Columns> {
+    let names: Vec<String> = row.cells().take(MAX_COLUMNS).map(column_name).collect();
     let place = |wanted: &str| names.iter().position(|name| name == wanted);
     Some([place("x")?, place("y")?, place("z")?])
 }

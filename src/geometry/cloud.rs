@@ -37,6 +37,9 @@ pub struct PointCloud {
     pub grid: Option<Grid>,
     /// True if no camera read these points: they are simulated, and the file or the source says so.
     pub is_simulated: bool,
+    /// Bytes that follow the last point in the file, if it was read from one: with any, its header does not describe what
+    /// is in it, and the points may be wrong.
+    pub surplus_bytes: u64,
 }
 
 impl PointCloud {
@@ -56,6 +59,17 @@ impl PointCloud {
     /// The number of finite points.
     pub fn num_finite(&self) -> usize {
         self.finite().count()
+    }
+
+    /// The share of the finite points that lie behind a camera at the origin that looks along z, 0..1. The origin itself
+    /// is not counted: it often stands for "no reading".
+    pub fn share_behind(&self) -> f64 {
+        let is_behind = |p: &&Point3<f32>| p.z < 0.0 || (p.z == 0.0 && **p != Point3::origin());
+        let num_behind = self.points.iter().filter(is_behind).count();
+        if num_behind == 0 {
+            return 0.0;
+        }
+        num_behind as f64 / self.num_finite().max(1) as f64
     }
 
     /// Smallest and largest coordinate of the finite points; `None` without any.

@@ -8,6 +8,7 @@ pub mod nearest;
 pub mod nearest_field;
 pub mod normals;
 pub mod parallel;
+pub mod pinhole_fit;
 pub mod plane;
 pub mod polygon;
 pub mod principal;

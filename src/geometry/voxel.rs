@@ -55,6 +55,7 @@ pub fn downsample(cloud: &PointCloud, size: Metres) -> PointCloud {
         labels: None,
         grid: None,
         is_simulated: cloud.is_simulated,
+        surplus_bytes: cloud.surplus_bytes,
     }
 }
 

@@ -14,6 +14,8 @@ use std::{
 
 use rusqlite::{Connection, OpenFlags, config::DbConfig};
 
+use crate::files::{open_lock, open_regular};
+
 use super::{
     error::HistoryError,
     schema::{APPLICATION, VERSION, migrate, version},
@@ -134,10 +136,7 @@ impl Lock {
     }
 
     fn file(folder: &Path) -> Result<File, HistoryError> {
-        let made = File::options()
-            .create(true)
-            .append(true)
-            .open(folder.join(LOCK));
+        let made = open_lock(&folder.join(LOCK));
         made.map_err(|error| HistoryError::io(folder, error))
     }
 }
@@ -244,7 +243,7 @@ impl Header {
 fn first_bytes(path: &Path, most: u64) -> Result<Option<Vec<u8>>, HistoryError> {
     let read = || -> io::Result<Vec<u8>> {
         let mut bytes = Vec::new();
-        File::open(path)?.take(most).read_to_end(&mut bytes)?;
+        open_regular(path)?.take(most).read_to_end(&mut bytes)?;
         Ok(bytes)
     };
     match read() {

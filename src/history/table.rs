@@ -51,11 +51,7 @@ pub fn write_row(writer: &mut dyn Write, record: &Record) -> io::Result<()> {
 
 /// A field as RFC 4180 has it.
 fn quoted(text: &str) -> String {
-    if text.contains([',', '"', '\n', '\r']) {
-        format!("\"{}\"", text.replace('"', "\"\""))
-    } else {
-        text.to_owned()
-    }
+    crate::files::csv_text(text).into_owned()
 }
 
 #[cfg(test)]

@@ -2,7 +2,7 @@
 
 use std::{
     fs::{self, File},
-    io::{self, Write as _},
+    io::{self, Read as _, Write as _},
     path::{Path, PathBuf},
 };
 
@@ -10,6 +10,8 @@ use super::{
     name::PartName,
     part::{Part, PartMeta, cloud_bytes},
 };
+
+use crate::files::open_regular;
 
 /// File names within a part's folder.
 pub(super) const META: &str = "part.toml";
@@ -100,7 +102,9 @@ pub(super) fn copy_files(from: &Path, to: &Path) -> io::Result<()> {
         let path = found?.path();
         match path.file_name() {
             Some(name) if name != META && path.is_file() => {
-                write_file(&to.join(name), &fs::read(&path)?)?;
+                let mut content = Vec::new();
+                open_regular(&path)?.read_to_end(&mut content)?;
+                write_file(&to.join(name), &content)?;
             }
             _ => {}
         }

@@ -2,7 +2,7 @@
 
 use std::{
     borrow::Cow,
-    fs::{self, File},
+    fs,
     io::{self, Read as _},
     path::{Path, PathBuf},
 };
@@ -20,7 +20,7 @@ use super::{
     store::LibraryFolder,
 };
 use crate::{
-    files::{FileContent, FileError, open_bytes, read_bytes},
+    files::{FileContent, FileError, open_bytes, open_regular, read_bytes, read_picture},
     geometry::{
         cloud::PointCloud,
         nearest::KdTree,
@@ -245,7 +245,9 @@ fn meta_text(entry: &Entry) -> io::Result<String> {
 
 fn read_text(path: &Path) -> io::Result<String> {
     let mut text = String::new();
-    File::open(path)?.take(MAX_TEXT).read_to_string(&mut text)?;
+    open_regular(path)?
+        .take(MAX_TEXT)
+        .read_to_string(&mut text)?;
     Ok(text)
 }
 
@@ -326,7 +328,7 @@ fn troubles(
 /// True if a file that is made from the cloud is whole and fits the cloud.
 fn belongs(file: &Path, reference: &Reference, params: &ReferenceParams) -> bool {
     if file.ends_with(THUMBNAIL) {
-        return image::open(file).is_ok();
+        return read_picture(file).is_ok();
     }
     let stored = read_text(file)
         .ok()

@@ -16,7 +16,7 @@ use super::{
     spray_path::{SprayPath, SprayPathError},
     store::LibraryFolder,
 };
-use crate::stages::reference::ReferenceParams;
+use crate::{files::read_picture, stages::reference::ReferenceParams};
 
 /// The folder looked for in the working directory.
 const IN_WORKING_FOLDER: &str = "reference_parts";
@@ -90,12 +90,12 @@ impl LibraryPlace {
     /// The small picture of a part, if it is there and can be read.
     pub fn thumbnail(&self, name: &str) -> Option<RgbaImage> {
         let picture = if let Some(folder) = self.folder() {
-            image::open(folder.thumbnail(name)?)
+            read_picture(&folder.thumbnail(name)?).ok()
         } else {
             let entry = shipped_entries().into_iter().find(|e| e.name == name)?;
-            image::load_from_memory(entry.shipped_file(THUMBNAIL)?)
+            image::load_from_memory(entry.shipped_file(THUMBNAIL)?).ok()
         };
-        Some(picture.ok()?.into_rgba8())
+        Some(picture?.into_rgba8())
     }
 
     /// The stored spray path of a part; none where none was stored.

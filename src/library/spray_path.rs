@@ -23,7 +23,7 @@ use std::{fmt::Write as _, path::Path};
 use nalgebra::{Point3, Unit, Vector3};
 
 use crate::{
-    files::{cells, content_lines, number_in, read_text},
+    files::{Row, read_text, table_rows},
     units::Metres,
 };
 
@@ -83,12 +83,12 @@ impl SprayPath {
 
     /// The path in a text; errors name it as this file.
     pub(super) fn parse(text: &str, path: &Path) -> Result<Self, SprayPathError> {
-        let mut lines = content_lines(text);
+        let mut lines = table_rows(text, path)?.into_iter();
         let no_heading = || SprayPathError::NoHeading {
             path: path.to_owned(),
         };
         let (_, heading) = lines.next().ok_or_else(no_heading)?;
-        if cells(heading).any(|cell| number_in(heading, cell).is_some()) {
+        if heading.cells().any(|cell| heading.number(cell).is_some()) {
             return Err(no_heading());
         }
         let columns = Columns::of(heading, path)?;
@@ -151,8 +151,8 @@ struct Columns {
 }
 
 impl Columns {
-    fn of(heading: &str, path: &Path) -> Result<Self, SprayPathError> {
-        let known: Vec<Option<(Column, f64)>> = cells(heading).map(column).collect();
+    fn of(heading: Row<'_>, path: &Path) -> Result<Self, SprayPathError> {
+        let known: Vec<Option<(Column, f64)>> = heading.cells().map(column).collect();
         let has = |wanted: Column| known.iter().flatten().any(|(column, _)| *column == wanted);
         let all = |kind: fn(usize) -> Column| (0..3).all(|axis| has(kind(axis)));
         let is_nozzle = all(Column::Nozzle) && all(Column::Direction);
@@ -165,21 +165,21 @@ impl Columns {
         }
         Err(SprayPathError::MissingColumns {
             path: path.to_owned(),
-            found: heading.chars().take(100).collect(),
+            found: heading.text().chars().take(100).collect(),
         })
     }
 
-    fn point(&self, line: &str) -> Result<PathPoint, PathLineProblem> {
+    fn point(&self, line: Row<'_>) -> Result<PathPoint, PathLineProblem> {
         let (mut at, mut along) = ([None; 3], [None; 3]);
         let mut stand_off = None;
-        for (i, cell) in cells(line).enumerate() {
+        for (i, cell) in line.cells().enumerate() {
             let Some(Some((column, factor))) = self.known.get(i) else {
                 continue;
             };
             if cell.is_empty() && *column == Column::StandOff {
                 continue;
             }
-            let number = number_in(line, cell).filter(|number| number.is_finite());
+            let number = line.number(cell).filter(|number| number.is_finite());
             let number = number.ok_or_else(|| PathLineProblem::NoNumber {
                 column: i + 1,
                 cell: cell.to_owned(),

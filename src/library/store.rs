@@ -19,8 +19,7 @@
 //! Looking never writes: a library can lie on a medium that is write-protected. Writers take turns by a lock.
 
 use std::{
-    fs::{self, File},
-    io,
+    fs, io,
     path::{Path, PathBuf},
 };
 
@@ -35,6 +34,7 @@ use super::{
     part::{Part, PartMeta, PartNaming},
     trash,
 };
+use crate::files::open_lock;
 
 const OLD_PREFIX: &str = ".old-";
 const LOCK: &str = ".lock";
@@ -350,7 +350,7 @@ impl LibraryFolder {
         change: impl FnOnce() -> io::Result<T>,
     ) -> Result<T, LibraryError> {
         let locked = || -> io::Result<T> {
-            let lock = File::create(self.path.join(LOCK))?;
+            let lock = open_lock(&self.path.join(LOCK))?;
             match lock.lock() {
                 // Some network file systems have no locks; a shop with one writer needs none.
                 Err(error) if error.kind() == io::ErrorKind::Unsupported => {}

@@ -1,8 +1,8 @@
 //! Why a part was not accepted, or nothing could be recognised, and what to do about it.
 
-use super::mirror::PUT_RIGHT;
+use super::{mirror::PUT_RIGHT, unsound::RANGE};
 use crate::{
-    error::Advice,
+    error::{Advice, Fault},
     stages::{
         contour::ContourError,
         pose::{FreeMotion, PoseError},
@@ -157,6 +157,37 @@ pub enum Rejection {
         /// Best match.
         part: String,
     },
+    /// It would be where no depth camera reads.
+    #[error(
+        "what may be {part} is {:.2} m from the camera: depth cameras read from {} to {} m",
+        depth.0,
+        RANGE[0].0,
+        RANGE[1].0
+    )]
+    OutOfRange {
+        /// Best match.
+        part: String,
+        /// The middle one of its points' depths.
+        depth: Metres,
+    },
+    /// The points are not in the space of a camera.
+    #[error("{:.1} % of the points lie behind the camera, so that it is not known where {part} is", share * 100.0)]
+    BehindCamera {
+        /// Best match.
+        part: String,
+        /// Share of the points.
+        share: f64,
+    },
+    /// The file has more in it than its header says.
+    #[error(
+        "{num} bytes follow the last point of the file: it is damaged, and what may be {part} with it"
+    )]
+    SurplusBytes {
+        /// Best match.
+        part: String,
+        /// Bytes behind the last point.
+        num: u64,
+    },
     /// The pose could not be estimated.
     #[error("no pose was found: {0}")]
     NoPose(#[from] PoseError),
@@ -222,6 +253,9 @@ pub enum Unrecognisable {
     /// Nothing is enrolled.
     #[error("no part is enrolled in the library")]
     EmptyLibrary,
+    /// A mistake in the program, met at this scene.
+    #[error(transparent)]
+    Fault(Fault),
 }
 
 impl Advice for Rejection {
@@ -255,6 +289,15 @@ impl Advice for Rejection {
             }
             Self::MirroredImage { .. } => format!("Do not move the robot by this image: {PUT_RIGHT}"),
             Self::Unconfirmed { .. } => "Have the pose estimated too, with --pose global".into(),
+            Self::OutOfRange { .. } => {
+                "Check the unit of the file or of the camera's JSON: lengths are metres; then capture again".into()
+            }
+            Self::BehindCamera { .. } => {
+                "Export the capture in the camera's own frame: x right, y down, z forward".into()
+            }
+            Self::SurplusBytes { .. } => {
+                "Copy or export the file again from the program that made it".into()
+            }
             Self::NoPose(error) => error.advice(),
             Self::NotSteady { .. } => "Let the part hang still for a second".into(),
             Self::FewFrames { .. } => "Wait a moment".into(),
@@ -275,6 +318,7 @@ impl Advice for Unrecognisable {
             Self::Project(error) => error.advice(),
             Self::Contour(error) => error.advice(),
             Self::Signature(error) => error.advice(),
+            Self::Fault(fault) => fault.advice(),
             Self::EmptyLibrary => "Enrol a part first: partsight enrol FILE --name NAME".into(),
         }
     }

@@ -10,7 +10,8 @@ use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
 use super::{
-    Cancelled, Inspection, ProgressObserver, Recipe, Unrecognisable, Verdict, run, verdict::verdict,
+    Cancelled, Inspection, ProgressObserver, Recipe, Unrecognisable, Verdict, run,
+    unsound::refuse_unsound, verdict::verdict,
 };
 use crate::{
     geometry::{nearest::KdTree, rigid::RigidTransform},
@@ -119,6 +120,7 @@ pub fn run_scan(
     let camera_from_part = pose.as_ref().and_then(|pose| pose.as_ref().ok());
     let base_from_part = camera_from_part.map(|pose| base_from_first * pose.camera_from_part());
     inspection.pose = pose;
+    refuse_unsound(&mut inspection, &scan.shots[first].scene);
     Ok(ScanInspection {
         inspection,
         first,

@@ -2,11 +2,7 @@
 //! matrix.
 
 use super::{Convention, ConventionError};
-use crate::{
-    error::Advice,
-    files::{cells, number_in},
-    geometry::rigid::RigidTransform,
-};
+use crate::{error::Advice, files::Row, geometry::rigid::RigidTransform};
 
 /// A pose that a person wrote, and how.
 #[derive(Clone, Copy, Debug, PartialEq)]
@@ -76,10 +72,12 @@ pub fn parse_written_pose(text: &str) -> Result<WrittenPose, WrittenPoseError> {
     };
     // As it is copied out of JSON.
     let bare = rest.trim().trim_start_matches('[').trim_end_matches(']');
-    let numbers = cells(bare)
+    let row = Row::of(bare);
+    let numbers = row
+        .cells()
         .flat_map(str::split_whitespace)
         .map(|word| {
-            let number = number_in(bare, word);
+            let number = row.number(word);
             number.ok_or_else(|| WrittenPoseError::NoNumber {
                 word: word.to_owned(),
             })

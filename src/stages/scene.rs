@@ -11,7 +11,7 @@ use std::sync::{Arc, OnceLock};
 
 use nalgebra::Point3;
 
-use self::picture::{fit_intrinsics, organised};
+use self::picture::organised;
 pub use super::reduce::SceneParams;
 use super::{
     field_of_view::FieldOfView,
@@ -20,10 +20,12 @@ use super::{
 };
 use crate::{
     capture::Image,
+    error::{Fault, guarded},
     files::FileContent,
     geometry::{
         cloud::{Grid, PointCloud, is_finite},
         depth_frame::{DepthFrame, Intrinsics},
+        pinhole_fit::fit_pinhole,
         rays::Rays,
     },
 };
@@ -43,6 +45,8 @@ pub struct SceneCloud {
     pub known_view: Option<Arc<FieldOfView>>,
     /// What it was reduced from, if the picture was finer than the method needs.
     pub reduced: Option<Reduced>,
+    /// How the program failed to make it; it is empty then.
+    pub fault: Option<Fault>,
     /// Made when it is first asked for.
     #[doc(hidden)]
     pub field_of_view: OnceLock<FieldOfView>,
@@ -211,6 +215,7 @@ pub fn reduced_scene(original: Arc<Image>, side: usize) -> SceneCloud {
                 points: reduced_points(&cloud.points, grid, side),
                 grid: Some(coarse),
                 is_simulated: cloud.is_simulated,
+                surplus_bytes: cloud.surplus_bytes,
                 ..PointCloud::default()
             };
             picture_of(reduced, coarse)
@@ -227,7 +232,10 @@ pub fn reduced_scene(original: Arc<Image>, side: usize) -> SceneCloud {
 
 /// What a source captured, as a scene; a picture finer than the method needs is reduced.
 pub fn scene_from_image(image: Image) -> SceneCloud {
-    scene_with(image, &SceneParams::default())
+    guarded(|| scene_with(image, &SceneParams::default())).unwrap_or_else(|fault| SceneCloud {
+        fault: Some(fault),
+        ..SceneCloud::default()
+    })
 }
 
 /// As [`scene_from_image`], by other parameters.
@@ -257,7 +265,7 @@ pub fn scene_from_cloud(cloud: PointCloud) -> SceneCloud {
 
 /// An organised cloud as a scene.
 fn picture_of(cloud: PointCloud, grid: Grid) -> SceneCloud {
-    let camera = fit_intrinsics(&cloud.points, grid);
+    let camera = fit_pinhole(&cloud.points, grid);
     SceneCloud::new(cloud, camera)
 }
 
@@ -450,6 +458,28 @@ mod tests {
         });
         let scene = scene_from_cloud(PointCloud::from_points(points));
         assert_eq!((scene.cloud.grid, scene.intrinsics), (None, None));
+    }
+
+    #[test]
+    fn a_sliver_thinner_than_any_number_is_no_picture() {
+        for [across, down] in [
+            [1e-42_f32, 1.0],
+            [1.0, 1e-42],
+            [1e-42, 1e-42],
+            [1e-20, 1e-20],
+        ] {
+            let points = (0..2000).map(|i| {
+                let along = |span: f32| span * (i % 40) as f32 / 40.0;
+                Point3::new(along(across), along(down), 1.0)
+            });
+            let scene = scene_from_cloud(PointCloud::from_points(points));
+            assert_eq!(
+                (scene.cloud.grid, scene.fault),
+                (None, None),
+                "{across}, {down}"
+            );
+            assert_eq!(scene.cloud.points.len(), 2000);
+        }
     }
 
     #[test]

@@ -520,3 +520,34 @@ fn of_what_is_not_accepted_no_spray_path_is_left() {
         ],
     );
 }
+
+#[test]
+fn numbers_that_the_file_cannot_hold_are_not_reported_as_written_and_a_wrong_unit_is_questioned() {
+    let place = Workplace::new();
+    let set = |code: i32, pose: &str| {
+        let arguments = ["calibrate", "set", pose, "--mount", "eye-to-hand", "--out"];
+        place.coded(code, &[&arguments[..], &["cell.toml"]].concat())
+    };
+    let right = set(0, "kuka 1200 -400 1900 86 -5 120");
+    assert!(!right.err.contains("warning"), "{}", right.err);
+    for pose in [
+        "kuka 1e300 -400 1900 86 -5 120",
+        "kuka nan -400 1900 86 -5 120",
+        "kuka 1200 -400 inf 86 -5 120",
+        "quaternion-xyzw 1e300 0 0 0 0 0 1",
+    ] {
+        let ran = set(2, pose);
+        assert!(!ran.out.contains("Written"), "{pose}: {}", ran.out);
+        assert!(ran.err.contains("to do"), "{pose}: {}", ran.err);
+    }
+    let shown = place.accepted(&["calibrate", "show", "--calibration", "cell.toml"]);
+    assert!(
+        shown.out.contains("1.2"),
+        "the first one stays: {}",
+        shown.out
+    );
+    let near = set(0, "kuka 1.2 -0.4 1.9 86 -5 120").err;
+    assert!(near.contains("metres given as millimetres"), "{near}");
+    let far = set(0, "quaternion-xyzw 1200 -400 1900 0 0 0 1").err;
+    assert!(far.contains("millimetres given as metres"), "{far}");
+}

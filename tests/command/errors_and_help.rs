@@ -160,3 +160,26 @@ fn causes_are_said_once_in_words_with_advice_that_fits() {
         );
     }
 }
+
+#[cfg(unix)]
+#[test]
+fn a_name_that_would_steer_the_terminal_is_shown_in_letters() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    let name = "a\u{1b}[2J\u{9b}31m\nfender: accepted.pcd";
+    fs::copy(place.path("fender.pcd"), place.path(name)).expect("copied");
+    let missing = "no\u{1b}]0;title\u{7}.pcd";
+    for arguments in [&[name][..], &[name, "fender.pcd", missing]] {
+        let ran = place.run(&[&["inspect", "--library", "parts"], arguments].concat());
+        let shown = ran.out + &ran.err;
+        let is_plain = |c: char| c == '\n' || !c.is_control();
+        assert!(shown.chars().all(is_plain), "{shown:?}");
+        assert!(
+            shown.contains("a\\u001b[2J\\u009b31m\\u000afender"),
+            "{shown}"
+        );
+    }
+    let ran = place.run(&["inspect", "--library", "parts", name, "--json"]);
+    let line: serde_json::Value = serde_json::from_str(&ran.out).expect("JSON");
+    assert_eq!(line["scene"], name);
+}

@@ -5,6 +5,8 @@
 
 mod booth;
 mod files;
+#[cfg(unix)]
+mod hostile;
 mod registration;
 mod scan;
 mod scenes;

@@ -25,7 +25,7 @@ use crate::{
         user_error::UserError,
     },
     capture::SourceSpec,
-    files::write_atomically,
+    files::{open_regular, write_atomically},
     pipeline::Recipe,
     robot::Convention,
 };
@@ -256,7 +256,7 @@ pub(in crate::app) fn window_size(path: &Path) -> Option<[f32; 2]> {
 
 fn read(path: &Path) -> Result<Settings, BadSettings> {
     let mut text = String::new();
-    let file = fs::File::open(path)?;
+    let file = open_regular(path)?;
     let num_read = file.take(MAX_BYTES + 1).read_to_string(&mut text)?;
     if num_read as u64 > MAX_BYTES {
         return Err(BadSettings::TooLarge);

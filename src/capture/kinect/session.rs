@@ -6,13 +6,13 @@
 
 use std::{
     collections::BTreeSet,
-    env, fs,
+    env,
     io::{self, BufRead as _, BufReader, Read as _},
     path::Path,
 };
 
 use super::error::KinectError;
-use crate::files::words_of;
+use crate::files::{open_regular, words_of};
 
 const VARIABLE: &str = "FAKENECT_PATH";
 /// Bytes of a frame behind its header.
@@ -33,7 +33,9 @@ pub(super) fn check(library: &str) -> Result<usize, KinectError> {
 
 fn check_folder(folder: &Path) -> Result<usize, KinectError> {
     let index = folder.join("INDEX.txt");
-    let lines = fs::read_to_string(&index).map_err(|error| unusable(&index, words(&error)))?;
+    let lines = open_regular(&index)
+        .and_then(io::read_to_string)
+        .map_err(|error| unusable(&index, words(&error)))?;
     // An empty line ends the session for the library, too.
     let entries = || lines.split('\n').take_while(|line| !line.is_empty());
     let names: BTreeSet<&str> = entries().collect();
@@ -86,7 +88,7 @@ fn is_entry(name: &str) -> bool {
 
 /// Bytes behind the first line; 0 where that is longer than a header.
 fn room_behind_header(path: &Path) -> io::Result<u64> {
-    let file = fs::File::open(path)?;
+    let file = open_regular(path)?;
     let size = file.metadata()?.len();
     let mut header = Vec::new();
     let num_read = BufReader::new(file)
@@ -101,6 +103,8 @@ fn room_behind_header(path: &Path) -> io::Result<u64> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     fn session(index: &str, frame: &[u8]) -> tempfile::TempDir {

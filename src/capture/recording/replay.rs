@@ -35,6 +35,9 @@ pub struct Replay {
     due: Vec<Duration>,
     next: usize,
     started: Option<Instant>,
+    folder: PathBuf,
+    /// What is there as long as the drive is: the list that the frames were found in, else their folder.
+    root: PathBuf,
     /// What is odd about all of it; said with the first frame.
     warnings: Vec<CaptureWarning>,
 }
@@ -83,12 +86,14 @@ impl Replay {
                 may_come: false,
             });
         }
-        let found = if folder.join(MANIFEST).is_file() {
-            of_recording(folder)?
-        } else if folder.join(LIST).is_file() {
-            rgbd_sequence::frames(folder, spec.camera.as_deref())?
+        let [manifest, list] = [MANIFEST, LIST].map(|name| folder.join(name));
+        let (root, found) = if manifest.is_file() {
+            (manifest, of_recording(folder)?)
+        } else if list.is_file() {
+            let frames = rgbd_sequence::frames(folder, spec.camera.as_deref())?;
+            (list, frames)
         } else {
-            frame_folder::frames(folder)?
+            (folder.clone(), frame_folder::frames(folder)?)
         };
         let Frames {
             title,
@@ -107,6 +112,8 @@ impl Replay {
             frames,
             next: 0,
             started: None,
+            folder: folder.clone(),
+            root,
             warnings,
         })
     }
@@ -266,11 +273,10 @@ impl DepthSource for Replay {
                 warnings: self.warnings.drain(..).chain(warnings).collect(),
             })),
             // The drive was pulled out: all that follows would be missing, one by one.
-            Err(_) if frame.path.parent().is_some_and(|folder| !folder.is_dir()) => {
+            Err(_) if !self.root.exists() => {
                 self.next -= 1;
-                let path = frame.path.parent().map(Path::to_owned).unwrap_or_default();
                 Err(CaptureError::FolderGone {
-                    path,
+                    path: self.folder.clone(),
                     may_come: true,
                 })
             }

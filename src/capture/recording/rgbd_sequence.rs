@@ -15,11 +15,18 @@ use crate::{
         error::{CaptureError, CaptureWarning},
         read::file_name,
     },
-    files::{DepthCamera, StoredOrientation, Turn, depth_png::FOLDER_CAMERA, read_bytes},
+    files::{
+        DepthCamera, StoredOrientation, Turn, depth_png::FOLDER_CAMERA, read_limited, shortened,
+        stays_inside,
+    },
     geometry::depth_frame::Intrinsics,
 };
 
 pub(super) const LIST: &str = "depth.txt";
+
+/// A list has at most so many lines, nine hours of frames, and so many bytes.
+const MAX_LINES: usize = 1_000_000;
+const MAX_LIST_BYTES: u64 = 256 << 20;
 
 const ASSUMED: DepthCamera = DepthCamera {
     intrinsics: Intrinsics::KINECT,
@@ -43,22 +50,28 @@ pub(super) fn frames(folder: &Path, camera: Option<&Path>) -> Result<Frames, Cap
         }
     };
     let path = folder.join(LIST);
-    let bytes = read_bytes(&path)?;
+    let bytes = read_limited(&path, MAX_LIST_BYTES)?;
     let text = String::from_utf8_lossy(&bytes);
     let lines = text.lines().map(str::trim).enumerate();
     let lines = lines.filter(|(_, line)| !line.is_empty() && !line.starts_with('#'));
     let frames = lines.map(|(at, line)| {
-        let words = line.split_once(|c: char| c.is_whitespace() || c == ',');
-        let Some((time, image)) = words else {
-            return Err(CaptureError::DamagedRecording {
-                path: path.clone(),
-                what: format!(
-                    "line {}: expected a time and a file, found {line:.60?}",
-                    at + 1
-                ),
-            });
+        let wrong = |expected: &str| CaptureError::DamagedRecording {
+            path: path.clone(),
+            what: format!(
+                "line {}: expected {expected}, found {:?}",
+                at + 1,
+                shortened(line)
+            ),
         };
+        let words = line.split_once(|c: char| c.is_whitespace() || c == ',');
+        let (time, image) = words.ok_or_else(|| wrong("a time and a file"))?;
         let image = image.trim();
+        if !stays_inside(Path::new(image)) {
+            return Err(wrong("a file inside the sequence's own folder"));
+        }
+        if at >= MAX_LINES {
+            return Err(wrong("at most a million lines"));
+        }
         Ok(RecordedFrame {
             name: image.to_owned(),
             path: folder.join(image),

@@ -69,11 +69,10 @@ pub(super) fn pairs_of_captures(
                 };
                 seen.push((pair, part));
             }
-            Err(error) => console.note(&format_args!(
-                "left out {}: {error}\n  to do: {}",
-                file.display(),
-                error.advice()
-            )),
+            Err(error) => {
+                console.note(&format_args!("left out {}: {error}", file.display()));
+                console.note(&format_args!("  to do: {}", error.advice()));
+            }
         }
         console.done();
     }

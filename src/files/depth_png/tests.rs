@@ -244,3 +244,26 @@ fn a_distorted_frame_survives_being_written_and_read() {
     write_depth_png(&path, &frame).unwrap();
     assert_eq!(open(&path).unwrap(), FileContent::Depth(frame));
 }
+
+#[test]
+fn a_line_of_pixels_takes_no_memory_and_what_is_no_png_is_named() {
+    let path = Path::new("line.png");
+    let mut bytes = b"\x89PNG\r\n\x1a\n\0\0\0\x0dIHDR".to_vec();
+    bytes.extend(1_u32.to_be_bytes());
+    bytes.extend(50_000_000_u32.to_be_bytes());
+    bytes.extend([16, 0, 0, 0, 0]);
+    let error = read_depths(path, &bytes).unwrap_err();
+    assert!(
+        error.to_string().contains("50000000 pixels along one side"),
+        "{error}"
+    );
+    for (bytes, expected) in [
+        (&b"1 2 3\n4 5 6\n"[..], "XYZ text"),
+        (b"\xff\xd8\xff\xe0\0\x10JFIF", "a JPEG picture"),
+        (b"ply\nformat ascii 1.0\n", "a PLY"),
+    ] {
+        let error = read_depths(path, bytes).unwrap_err();
+        assert!(matches!(error, FileError::WrongPngKind { .. }), "{error}");
+        assert!(error.to_string().contains(expected), "{error}");
+    }
+}

@@ -2,15 +2,17 @@
 
 use std::collections::HashMap;
 use std::collections::hash_map::Entry;
-use std::path::{Component, Path, PathBuf};
+use std::path::{Path, PathBuf};
 
 use ::gltf::accessor::{Accessor, DataType, Dimensions};
 use ::gltf::buffer::{self, Buffer};
 use base64::Engine as _;
 use base64::engine::general_purpose::STANDARD;
 
+use super::super::MAX_UNPACKED_BYTES;
 use super::super::error::FileError;
-use super::super::source::{Source, read_bytes};
+use super::super::names::stays_inside;
+use super::super::source::{Source, read_limited};
 
 /// The buffers of a document, loaded when first asked for.
 pub(super) struct Buffers<'a> {
@@ -103,9 +105,14 @@ impl<'a> Buffers<'a> {
         let bytes = match buffer.source() {
             buffer::Source::Bin => self.blob.ok_or_else(|| source.damaged("no binary chunk"))?,
             buffer::Source::Uri(uri) => {
+                let num_loaded: usize = self.loaded.values().map(Vec::len).sum();
                 let bytes = match self.loaded.entry(buffer.index()) {
                     Entry::Occupied(known) => known.into_mut(),
-                    Entry::Vacant(unknown) => unknown.insert(load(source, uri)?),
+                    Entry::Vacant(unknown) => {
+                        // All of them may be the same file.
+                        let room = MAX_UNPACKED_BYTES.saturating_sub(num_loaded as u64);
+                        unknown.insert(load(source, uri, room)?)
+                    }
                 };
                 bytes.as_slice()
             }
@@ -116,7 +123,8 @@ impl<'a> Buffers<'a> {
     }
 }
 
-fn load(source: Source<'_>, uri: &str) -> Result<Vec<u8>, FileError> {
+/// The bytes at a URI, `room` at most.
+fn load(source: Source<'_>, uri: &str, room: u64) -> Result<Vec<u8>, FileError> {
     if let Some(data) = uri.strip_prefix("data:") {
         let encoded = data.split_once(";base64,").map(|(_, encoded)| encoded);
         let decoded = encoded.and_then(|encoded| STANDARD.decode(encoded).ok());
@@ -127,11 +135,10 @@ fn load(source: Source<'_>, uri: &str) -> Result<Vec<u8>, FileError> {
         return Err(source.unsupported(found, "glTF with its buffers beside it or inside it"));
     };
     let folder = source.path.parent().unwrap_or(Path::new(""));
-    read_bytes(&folder.join(relative))
+    read_limited(&folder.join(relative), room)
 }
 
-/// The file that a URI names below the document's own folder; `None` for anything else: a document must not choose
-/// which other files of the machine, or of the network, are read.
+/// The file that a URI names below the document's own folder; `None` for anything else.
 fn relative_path(uri: &str) -> Option<PathBuf> {
     let decoded = percent_decoded(uri)?;
     // A colon is a scheme or a drive, a backslash a folder on Windows.
@@ -139,10 +146,7 @@ fn relative_path(uri: &str) -> Option<PathBuf> {
         return None;
     }
     let path = PathBuf::from(decoded);
-    let mut components = path.components();
-    let is_below =
-        components.all(|component| matches!(component, Component::Normal(_) | Component::CurDir));
-    is_below.then_some(path)
+    stays_inside(&path).then_some(path)
 }
 
 fn percent_decoded(uri: &str) -> Option<String> {

@@ -63,8 +63,11 @@ pub(super) fn read(source: Source<'_>, wanted: Option<&str>) -> Result<TriangleM
             else {
                 continue;
             };
-            source.limited("points", whole.vertices.len() + part.vertices.len())?;
-            source.limited("triangles", whole.triangles.len() + part.triangles.len())?;
+            let num_vertices = whole.vertices.len() + part.vertices.len();
+            let num_triangles = whole.triangles.len() + part.triangles.len();
+            source.limited("points", num_vertices)?;
+            source.limited("triangles", num_triangles)?;
+            source.affordable(num_vertices + num_triangles, size_of::<[u32; 3]>())?;
             whole.append(&part);
         }
     }
@@ -111,6 +114,9 @@ fn word_at(bytes: &[u8], at: usize) -> Option<u32> {
     word.map(|word| u32::from_le_bytes(*word))
 }
 
+/// Memory of an object of the document: "{}" in a list of nodes becomes as much.
+const OBJECT_BYTES: usize = 1000;
+
 fn parse(source: Source<'_>, json: &[u8]) -> Result<Document, FileError> {
     /// Extensions that change how positions or indices are stored.
     const GEOMETRY_EXTENSIONS: [&str; 4] = [
@@ -120,6 +126,8 @@ fn parse(source: Source<'_>, json: &[u8]) -> Result<Document, FileError> {
         "KHR_mesh_quantization",
     ];
     let text = json.strip_prefix(b"\xef\xbb\xbf").unwrap_or(json);
+    let num_objects = text.split(|byte| *byte == b'{').count();
+    source.affordable(num_objects, OBJECT_BYTES)?;
     let mut root = Root::from_slice(text).map_err(|error| {
         if error.is_eof() {
             source.cut_before("the end of the JSON", "JSON")
@@ -327,4 +335,4 @@ fn triangles_of(mode: Mode, indices: &[u32]) -> Vec<[u32; 3]> {
 }
 
 #[cfg(test)]
-mod tests;
+pub(super) mod tests;

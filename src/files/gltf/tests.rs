@@ -37,14 +37,14 @@ fn document(buffer: &str) -> String {
     )
 }
 
-fn embedded() -> String {
+pub(in crate::files) fn embedded() -> String {
     let data = STANDARD.encode(triangle_bytes());
     document(&format!(
         r#","uri":"data:application/octet-stream;base64,{data}""#
     ))
 }
 
-fn glb() -> Vec<u8> {
+pub(in crate::files) fn glb() -> Vec<u8> {
     let mut json = document("").into_bytes();
     json.resize(json.len().next_multiple_of(4), b' ');
     let mut blob = triangle_bytes();
@@ -241,4 +241,12 @@ fn strips_and_fans_are_cut_into_triangles_that_face_one_way() {
     );
     assert_eq!(triangles_of(Mode::Triangles, &[0, 1, 2, 3]), [[0, 1, 2]]);
     assert_eq!(triangles_of(Mode::TriangleFan, &[]), [[0; 3]; 0]);
+}
+
+#[test]
+fn a_document_of_nothing_but_braces_takes_no_memory() {
+    let nodes = "{},".repeat(1_200_000);
+    let text = format!("{{\"asset\":{{\"version\":\"2.0\"}},\"nodes\":[{nodes}{{}}]}}");
+    let error = read_bytes(text.as_bytes(), None).unwrap_err();
+    assert!(matches!(error, FileError::TooLarge { .. }), "{error}");
 }

@@ -3,16 +3,22 @@
 use std::borrow::Cow;
 
 use super::super::error::FileError;
+use super::super::readings::{point_bytes, surplus_of};
 use super::super::scalar::Column;
 use super::super::source::Source;
 use super::header::{Field, Header, Storage};
 use super::lzf;
+
+/// Memory that an inspection takes for a point besides: a small packed file must not make that large either.
+const INSPECTED_BYTES: usize = 24;
 
 /// The points as bytes: row after row, or field after field where the file was packed.
 pub(super) struct Body<'a> {
     bytes: Cow<'a, [u8]>,
     num_points: usize,
     layout: Layout,
+    /// Bytes behind the last point, blank ones aside: the header is then of another file than the points.
+    pub(super) surplus: u64,
 }
 
 enum Layout {
@@ -31,23 +37,36 @@ impl<'a> Body<'a> {
         let rows = Layout::Rows {
             row_bytes: header.row_bytes,
         };
-        let (bytes, layout) = match header.storage {
-            Storage::Ascii => (Cow::Owned(rows_of_text(source, header)?), rows),
+        let copied = match header.storage {
+            Storage::Binary => 0,
+            Storage::Ascii => header.row_bytes,
+            Storage::BinaryCompressed => header.row_bytes.saturating_add(INSPECTED_BYTES),
+        };
+        let has = |name| header.field(name).is_some();
+        let point = point_bytes(has("normal_z"), has("rgb") || has("rgba"), has("label"));
+        source.affordable(num_points, copied.saturating_add(point))?;
+        let (bytes, layout, surplus) = match header.storage {
+            Storage::Ascii => {
+                let (bytes, surplus) = rows_of_text(source, header)?;
+                (Cow::Owned(bytes), rows, surplus)
+            }
             Storage::Binary => {
                 let bytes = stored.get(..needed);
                 let bytes =
                     bytes.ok_or_else(|| source.truncated("point data", stored.len(), needed))?;
-                (Cow::Borrowed(bytes), rows)
+                let rest = stored.get(needed..).unwrap_or_default();
+                (Cow::Borrowed(bytes), rows, surplus_of(rest))
             }
-            Storage::BinaryCompressed => (
-                Cow::Owned(unpacked(source, stored, needed)?),
-                Layout::Columns,
-            ),
+            Storage::BinaryCompressed => {
+                let (bytes, rest) = unpacked(source, stored, needed)?;
+                (Cow::Owned(bytes), Layout::Columns, surplus_of(rest))
+            }
         };
         Ok(Self {
             bytes,
             num_points,
             layout,
+            surplus,
         })
     }
 
@@ -69,19 +88,21 @@ impl<'a> Body<'a> {
     }
 }
 
-/// Text rows as the bytes that binary storage would have.
-fn rows_of_text(source: Source<'_>, header: &Header) -> Result<Vec<u8>, FileError> {
+/// Text rows as the bytes that binary storage would have, and how many bytes of further rows there are.
+fn rows_of_text(source: Source<'_>, header: &Header) -> Result<(Vec<u8>, u64), FileError> {
     let text = Source {
         bytes: source.bytes.get(header.body_start..).unwrap_or_default(),
         ..source
     };
     let mut rows = Vec::new();
     let mut num_rows = 0;
+    let mut surplus = 0;
     for (i, line) in text.lines() {
-        if num_rows == header.num_points {
-            break;
-        }
         if line.is_empty() || line.starts_with('#') {
+            continue;
+        }
+        if num_rows == header.num_points {
+            surplus += line.len() as u64;
             continue;
         }
         let mut tokens = line.split_whitespace();
@@ -113,10 +134,15 @@ fn rows_of_text(source: Source<'_>, header: &Header) -> Result<Vec<u8>, FileErro
             needed.max(text.bytes.len() + 1),
         ));
     }
-    Ok(rows)
+    Ok((rows, surplus))
 }
 
-fn unpacked(source: Source<'_>, stored: &[u8], needed: usize) -> Result<Vec<u8>, FileError> {
+/// The packed points, and what follows their block.
+fn unpacked<'a>(
+    source: Source<'_>,
+    stored: &'a [u8],
+    needed: usize,
+) -> Result<(Vec<u8>, &'a [u8]), FileError> {
     let sizes = stored
         .first_chunk::<4>()
         .zip(stored.get(4..).and_then(<[u8]>::first_chunk::<4>));
@@ -128,7 +154,7 @@ fn unpacked(source: Source<'_>, stored: &[u8], needed: usize) -> Result<Vec<u8>,
         u32::from_le_bytes(*unpacked_size),
     );
     let stored = stored.get(8..).unwrap_or_default();
-    let Some(packed) = stored.get(..packed_size as usize) else {
+    let Some((packed, rest)) = stored.split_at_checked(packed_size as usize) else {
         return Err(source.truncated("packed point data", stored.len(), packed_size as usize));
     };
     if unpacked_size as usize != needed {
@@ -140,5 +166,7 @@ fn unpacked(source: Source<'_>, stored: &[u8], needed: usize) -> Result<Vec<u8>,
     if needed > packed.len().saturating_mul(lzf::MAX_RATIO) {
         return Err(source.truncated("packed point data", packed.len(), needed / lzf::MAX_RATIO));
     }
-    lzf::decompress(packed, needed).map_err(|error| source.damaged(error.to_string()))
+    let points = lzf::decompress(packed, needed);
+    let points = points.map_err(|error| source.damaged(error.to_string()))?;
+    Ok((points, rest))
 }

@@ -8,7 +8,8 @@
 //! `VIEWPOINT` is read over on purpose. It says where the sensor was in some world, while the points stay in the
 //! camera's space, and that is the space in which everything here works.
 //!
-//! Deviation: a packed block without its end is refused as a whole, where the library fills up with zeros.
+//! Deviations: a packed block without its end is refused as a whole, where the library fills up with zeros; what
+//! follows the last point is counted, where the library reads over it.
 
 mod body;
 mod header;
@@ -17,10 +18,8 @@ mod write;
 
 pub use self::write::write_pcd;
 
-use nalgebra::Vector3;
-
 use super::error::FileError;
-use super::readings::{points_from, tidy};
+use super::readings::{normals_from, points_from, tidy};
 use super::source::Source;
 use crate::geometry::cloud::PointCloud;
 
@@ -56,16 +55,9 @@ pub(super) fn read(source: Source<'_>) -> Result<PointCloud, FileError> {
     let (x, y, z) = (coordinate("x")?, coordinate("y")?, coordinate("z")?);
     let normals = (column("normal_x"), column("normal_y"), column("normal_z"));
     let cloud = PointCloud {
-        points: points_from(&x.f32s(), &y.f32s(), &z.f32s()),
+        points: points_from([x, y, z]),
         normals: match normals {
-            (Some(x), Some(y), Some(z)) => {
-                let rows = points_from(&x.f32s(), &y.f32s(), &z.f32s());
-                Some(
-                    rows.into_iter()
-                        .map(|row| Vector3::from(row.coords))
-                        .collect(),
-                )
-            }
+            (Some(x), Some(y), Some(z)) => Some(normals_from([x, y, z])),
             _ => None,
         },
         colours: column("rgb")
@@ -75,6 +67,7 @@ pub(super) fn read(source: Source<'_>) -> Result<PointCloud, FileError> {
         labels: column("label").map(super::scalar::Column::u32s),
         grid: header.grid,
         is_simulated: source.says_simulated(),
+        surplus_bytes: body.surplus,
     };
     tidy(cloud, source)
 }

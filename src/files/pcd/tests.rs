@@ -1,7 +1,7 @@
 use std::fmt::Write as _;
 use std::path::Path;
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 use proptest::prelude::*;
 
 use super::*;
@@ -53,7 +53,7 @@ fn pack(bytes: &[u8]) -> Vec<u8> {
 const FIELDS: &str = "label:U:2:1 x:F:4:1 _:U:1:3 y:F:8:1 z:F:4:1 rgb:F:4:1";
 
 /// Two points with those fields, in each of the three storages.
-fn same_points_stored_three_ways() -> [Vec<u8>; 3] {
+pub(in crate::files) fn same_points_stored_three_ways() -> [Vec<u8>; 3] {
     let points = [
         (7_u16, 1.5_f32, -2.25_f64, 3.0_f32, 0x00FF_8001_u32),
         (65_535, 4.0, 5.0, 6.0, 0x0001_0203),
@@ -219,6 +219,47 @@ fn a_header_that_claims_more_than_the_file_has_takes_no_memory() {
 }
 
 #[test]
+fn points_that_unpack_to_more_than_a_gigabyte_take_no_memory() {
+    for (fields, width) in [
+        // 7 MB packed.
+        ("x:F:4:1 y:F:4:1 z:F:4:1", "50000000"),
+        ("x:F:4:1 y:F:4:1 z:F:4:1 _:U:1:1000", "4000000"),
+    ] {
+        for storage in ["ascii", "binary_compressed"] {
+            let bytes = [header(fields, width, "1", storage).into_bytes(), vec![1; 8]].concat();
+            let error = read_bytes(&bytes).unwrap_err();
+            assert!(
+                matches!(
+                    error,
+                    FileError::TooLarge {
+                        limit: crate::files::MAX_UNPACKED_BYTES,
+                        ..
+                    }
+                ),
+                "{error}"
+            );
+        }
+    }
+}
+
+#[test]
+fn bytes_behind_the_last_point_are_counted_and_padding_is_not() {
+    for bytes in same_points_stored_three_ways() {
+        let surplus = |tail: &[u8]| {
+            let cloud = read_bytes(&[bytes.as_slice(), tail].concat()).unwrap();
+            assert_eq!(cloud.points.len(), 2);
+            cloud.surplus_bytes
+        };
+        assert_eq!(surplus(b""), 0);
+        assert_eq!(surplus(b"\n \n"), 0);
+        assert_eq!(surplus(b"7 8 9 9 9 1 2"), 13);
+        if !bytes.ends_with(b"\n") {
+            assert_eq!(surplus(&[0; 500]), 0);
+        }
+    }
+}
+
+#[test]
 fn a_header_that_makes_no_sense_is_quoted() {
     let good = header("x:F:4:1 y:F:4:1 z:F:4:1", "1", "1", "ascii") + "1 2 3\n";
     for (from, to) in [
@@ -325,6 +366,7 @@ pub(in crate::files) fn any_cloud() -> impl Strategy<Value = PointCloud> {
                 labels: has_labels.then(|| rows.iter().map(|row| row.3).collect()),
                 grid: is_organised.then_some(Grid { width, height: 2 }),
                 is_simulated: has_labels,
+                surplus_bytes: 0,
             }
         },
     )

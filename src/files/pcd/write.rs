@@ -16,6 +16,7 @@ pub fn write_pcd(writer: &mut dyn Write, cloud: &PointCloud) -> io::Result<()> {
         labels,
         grid,
         is_simulated,
+        surplus_bytes: _,
     } = cloud;
     let mut fields: Vec<(&str, &str)> = vec![("x", "F"), ("y", "F"), ("z", "F")];
     if normals.is_some() {

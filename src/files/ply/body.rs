@@ -3,6 +3,7 @@
 use std::borrow::Cow;
 
 use super::super::error::FileError;
+use super::super::readings::{point_bytes, surplus_of};
 use super::super::scalar::{Column, Scalar};
 use super::super::source::Source;
 use super::header::{Element, Header, Kind, Storage};
@@ -91,6 +92,10 @@ impl<'a> Body<'a> {
             return Ok(rows);
         }
         self.check_count(element)?;
+        let has = |name| element.scalar_at(name).is_some();
+        let point = point_bytes(has("nz"), has("blue"), has("label"));
+        let row_bytes = rows.row_bytes.saturating_add(point);
+        self.source.affordable(element.count, row_bytes)?;
         let mut scalars = Vec::with_capacity(
             element
                 .count
@@ -106,6 +111,8 @@ impl<'a> Body<'a> {
                         let length = self.list_length(length)?;
                         let is_wanted = wanted_list == Some(i);
                         if is_wanted {
+                            let num = rows.list_values.len() + length as usize;
+                            self.source.affordable(num, size_of::<u32>())?;
                             rows.list_lengths.push(length);
                         }
                         for _ in 0..length {
@@ -121,6 +128,11 @@ impl<'a> Body<'a> {
         }
         rows.scalars = Cow::Owned(scalars);
         Ok(rows)
+    }
+
+    /// Bytes behind the last row, blank ones aside: the header is then of another file than the rows.
+    pub(super) fn surplus(&self) -> u64 {
+        surplus_of(self.rest)
     }
 
     /// The bytes of an element without lists.

@@ -17,11 +17,9 @@ mod write;
 
 pub use self::write::{write_ply, write_ply_with};
 
-use nalgebra::Vector3;
-
 use super::error::FileError;
 use super::open::FileContent;
-use super::readings::{points_from, tidy};
+use super::readings::{normals_from, points_from, tidy};
 use super::scalar::Column;
 use super::source::Source;
 use super::surface::{checked_mesh, push_fan};
@@ -41,6 +39,7 @@ pub(super) fn read(source: Source<'_>) -> Result<FileContent, FileError> {
     let header = Header::parse(source)?;
     let mut body = Body::new(source, &header);
     let (mut vertices, mut faces) = (None, None);
+    let mut is_read_to_end = true;
     for element in &header.elements {
         match element.name.as_str() {
             "vertex" if vertices.is_none() => {
@@ -58,7 +57,10 @@ pub(super) fn read(source: Source<'_>) -> Result<FileContent, FileError> {
                 return Err(source.unsupported("a PLY of triangle strips", "PLY with faces"));
             }
             // Nothing behind the last element of use needs to be read.
-            _ if vertices.is_some() && !header.has_faces_left(faces.is_some()) => break,
+            _ if vertices.is_some() && !header.has_faces_left(faces.is_some()) => {
+                is_read_to_end = false;
+                break;
+            }
             _ => body.skip(element)?,
         }
     }
@@ -70,14 +72,15 @@ pub(super) fn read(source: Source<'_>) -> Result<FileContent, FileError> {
             .scalar_at(name)
             .map(|(offset, scalar)| rows.column(offset, scalar))
     };
-    let cloud = cloud_of(source, column)?;
-    match faces {
-        Some(faces) => {
-            let triangles = fans(source, &faces)?;
-            checked_mesh(source, cloud.points, triangles).map(FileContent::Mesh)
-        }
-        None => tidy(cloud, source).map(FileContent::Cloud),
+    let mut cloud = cloud_of(source, column)?;
+    if let Some(faces) = faces {
+        let triangles = fans(source, &faces)?;
+        return checked_mesh(source, cloud.points, triangles).map(FileContent::Mesh);
     }
+    if is_read_to_end {
+        cloud.surplus_bytes = body.surplus();
+    }
+    tidy(cloud, source).map(FileContent::Cloud)
 }
 
 fn cloud_of<'a>(
@@ -91,13 +94,8 @@ fn cloud_of<'a>(
     let three = |a, b, c| column(a).zip(column(b)).zip(column(c));
     Ok(PointCloud {
         is_simulated: source.says_simulated(),
-        points: points_from(&x.f32s(), &y.f32s(), &z.f32s()),
-        normals: three("nx", "ny", "nz").map(|((x, y), z)| {
-            let rows = points_from(&x.f32s(), &y.f32s(), &z.f32s());
-            rows.into_iter()
-                .map(|row| Vector3::from(row.coords))
-                .collect()
-        }),
+        points: points_from([x, y, z]),
+        normals: three("nx", "ny", "nz").map(|((x, y), z)| normals_from([x, y, z])),
         colours: three("red", "green", "blue").map(|((red, green), blue)| {
             let (red, green, blue) = (red.channel(), green.channel(), blue.channel());
             let rows = red.into_iter().zip(green).zip(blue);
@@ -106,6 +104,7 @@ fn cloud_of<'a>(
         }),
         labels: column("label").map(Column::u32s),
         grid: None,
+        surplus_bytes: 0,
     })
 }
 
@@ -116,6 +115,7 @@ fn fans(source: Source<'_>, faces: &Rows<'_>) -> Result<Vec<[u32; 3]>, FileError
         .clone()
         .map(|corners| corners.saturating_sub(2))
         .sum();
+    source.affordable(num_triangles, size_of::<[u32; 3]>())?;
     let mut triangles = Vec::with_capacity(source.limited("triangles", num_triangles)?);
     let mut rest = faces.list_values.as_slice();
     for corners in num_corners {

@@ -1,6 +1,6 @@
 use std::path::Path;
 
-use nalgebra::Point3;
+use nalgebra::{Point3, Vector3};
 use proptest::prelude::*;
 
 use super::*;
@@ -237,5 +237,24 @@ proptest! {
         prop_assert_eq!(back.colours, cloud.colours.map(|all| kept.iter().map(|&i| all[i]).collect::<Vec<_>>()));
         prop_assert_eq!(back.labels, cloud.labels.map(|all| kept.iter().map(|&i| all[i]).collect::<Vec<_>>()));
         prop_assert_eq!(back.grid, None);
+    }
+}
+
+#[test]
+fn bytes_behind_the_last_vertex_are_counted() {
+    let header = "ply\nformat binary_little_endian 1.0\nelement vertex 1\nproperty float x\nproperty float y\n\
+                  property float z\nend_header\n";
+    for (tail, expected) in [(&b""[..], 0), (b"\n", 0), (b"more", 4)] {
+        let mut bytes = header.as_bytes().to_vec();
+        bytes.extend([1.0_f32, 2.0, 3.0].iter().flat_map(|x| x.to_le_bytes()));
+        bytes.extend(tail);
+        let source = Source {
+            path: std::path::Path::new("test.ply"),
+            bytes: &bytes,
+        };
+        let FileContent::Cloud(cloud) = read(source).unwrap() else {
+            panic!("a cloud");
+        };
+        assert_eq!(cloud.surplus_bytes, expected);
     }
 }

@@ -3,7 +3,12 @@
 use std::path::PathBuf;
 
 use super::MAX_PATH_POINTS;
-use crate::{error::Advice, files::FileError, library::LibraryError, units::Metres};
+use crate::{
+    error::Advice,
+    files::{FileError, shortened},
+    library::LibraryError,
+    units::Metres,
+};
 
 /// Why a spray path cannot be read.
 #[derive(Debug, thiserror::Error)]
@@ -66,7 +71,7 @@ pub enum SprayPathError {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum PathLineProblem {
     /// A word where a number is needed.
-    #[error("{cell:?} in column {column} is not a number")]
+    #[error("{:?} in column {column} is not a number", shortened(cell))]
     NoNumber {
         /// The column, from 1.
         column: usize,

@@ -12,7 +12,7 @@ use std::{
 use super::{PoseReport, TransformBlock};
 use crate::{
     error::Advice,
-    files::{advice_on, folder_of, sync_folder, words_of},
+    files::{advice_on, csv_text, folder_of, sync_folder, words_of},
     robot::Convention,
 };
 
@@ -258,17 +258,13 @@ fn snake(value: &impl serde::Serialize) -> String {
         .to_owned()
 }
 
-/// In quotes where it needs them (RFC 4180), and on one line.
+/// As a cell of the table, and on one line.
 fn quoted(value: &str) -> String {
     let line: String = value
         .chars()
         .map(|c| if c.is_control() { ' ' } else { c })
         .collect();
-    if line.contains([',', '"']) {
-        format!("\"{}\"", line.replace('"', "\"\""))
-    } else {
-        line
-    }
+    csv_text(&line).into_owned()
 }
 
 #[cfg(test)]

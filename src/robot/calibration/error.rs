@@ -35,6 +35,12 @@ pub enum CalibrationError {
         /// The matrix.
         key: &'static str,
     },
+    /// Numbers that the file cannot hold.
+    #[error("{}: not written: the numbers would not come back from the file as they are", path.display())]
+    NotKept {
+        /// The file.
+        path: PathBuf,
+    },
     /// The system does not say where a user's data belong.
     #[error("this system names no folder for a user's data")]
     NoUserFolder,
@@ -53,6 +59,9 @@ impl Advice for CalibrationError {
             }
             Self::NotRigid { .. } => {
                 "Enter the matrix again with at least four digits behind the point: rows of a rotation, then the shift in metres, then 0 0 0 1".into()
+            }
+            Self::NotKept { .. } => {
+                "Check the numbers and their convention: a camera sits within metres of the robot".into()
             }
             Self::NoUserFolder => "Name a file with --calibration".into(),
         }

@@ -54,6 +54,9 @@ struct Text {
 
 type Matrix = [[f64; 4]; 4];
 
+/// Numbers come back from the file to within this share: a nanometre in a metre.
+const KEPT: f64 = 1e-9;
+
 const HEAD: &str = "\
 # Partsight: where the camera of a robot cell sits.
 #
@@ -80,13 +83,33 @@ impl CellCalibration {
                 source,
             })?;
         }
-        let text = self.to_text();
+        let text = self.checked_text(path)?;
         write_atomically(path, |writer| writer.write_all(text.as_bytes()))?;
         Ok(())
     }
 
+    /// What is to be written at that path, read back: numbers that do not come back are not written.
+    fn checked_text(&self, path: &Path) -> Result<String, CalibrationError> {
+        let text = self.to_text();
+        let again = parse(&text, path)?.calibration;
+        let numbers = |calibration: &Self| {
+            let matrices = calibration.matrices().into_iter();
+            matrices.flat_map(|(_, matrix)| row_major(matrix)).collect()
+        };
+        let (meant, read): (Vec<f64>, Vec<f64>) = (numbers(self), numbers(&again));
+        let is_same = |(a, b): (&f64, &f64)| (a - b).abs() <= KEPT * a.abs().max(1.0);
+        if meant.len() == read.len() && meant.iter().zip(&read).all(is_same) {
+            Ok(text)
+        } else {
+            Err(CalibrationError::NotKept {
+                path: path.to_owned(),
+            })
+        }
+    }
+
     /// As [`Self::save`]; what was at that path before is kept beside it, and where is told.
     pub fn save_keeping_former(&self, path: &Path) -> Result<Option<PathBuf>, CalibrationError> {
+        self.checked_text(path)?;
         let former = match read_text(path, MAX_BYTES) {
             Ok(text) if text != self.to_text() => Some(text),
             Ok(_) | Err(FileError::NotFound { .. }) => None,

@@ -22,6 +22,7 @@ use crate::{
     error::Advice,
     files::crc32,
     geometry::rigid::{PoseDelta, RigidTransform, row_major},
+    units::Metres,
 };
 
 pub use self::{
@@ -152,7 +153,58 @@ impl Advice for NoRobotPose {
     }
 }
 
+/// Distances in another unit than was meant, most likely.
+#[derive(Clone, Copy, Debug, PartialEq, thiserror::Error)]
+pub enum UnitDoubt {
+    /// Metres were needed.
+    #[error("{name} shifts by {:.0} m: these look like millimetres given as metres", distance.0)]
+    TooFar {
+        /// The transform.
+        name: &'static str,
+        /// How far it shifts.
+        distance: Metres,
+    },
+    /// Millimetres were needed.
+    #[error("{name} shifts by {:.2} mm only: these look like metres given as millimetres", distance.mm())]
+    TooNear {
+        /// The transform.
+        name: &'static str,
+        /// How far it shifts.
+        distance: Metres,
+    },
+}
+
+impl Advice for UnitDoubt {
+    fn advice(&self) -> String {
+        "Check the unit of the convention (partsight report --conventions), and enter the pose again if it is wrong".into()
+    }
+}
+
 impl CameraPlace {
+    /// What makes the unit of its lengths doubtful, if anything does.
+    pub fn unit_doubt(&self) -> Option<UnitDoubt> {
+        // No cell is larger, and no camera or flange sits as near to the robot's base.
+        let in_cell = [Metres(0.02), Metres(20.0)];
+        let on_flange = [Metres(0.002), Metres(3.0)];
+        let doubt = |name, transform: &RigidTransform, [least, most]: [Metres; 2]| {
+            let distance = Metres(transform.translation.vector.norm());
+            // Nothing at all was not measured: it stands for a frame that is the same.
+            if distance.0 > 0.0 && distance < least {
+                return Some(UnitDoubt::TooNear { name, distance });
+            }
+            (distance > most).then_some(UnitDoubt::TooFar { name, distance })
+        };
+        let camera = self.mount().camera_transform();
+        match self {
+            Self::Fixed { robot_from_camera } => doubt(camera, robot_from_camera, in_cell),
+            Self::OnFlange {
+                flange_from_camera,
+                capture_pose,
+            } => doubt(camera, flange_from_camera, on_flange)
+                .or_else(|| doubt("robot_from_flange", capture_pose.as_ref()?, in_cell)),
+        }
+    }
+
     /// The camera as it is fixed to this mount.
     pub fn on(mount: Mount, mount_from_camera: RigidTransform) -> Self {
         match mount {

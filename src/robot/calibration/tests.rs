@@ -1,4 +1,4 @@
-use std::path::Path;
+use std::{fs, path::Path};
 
 use super::*;
 use crate::{
@@ -210,4 +210,62 @@ fn what_is_no_calibration_is_refused_in_words() {
         "{}",
         missing.advice()
     );
+}
+
+#[test]
+fn numbers_that_would_not_come_back_are_not_written_and_the_former_file_stays() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("cell.toml");
+    let sound = fixed();
+    sound.save(&path).expect("written");
+    let before = fs::read_to_string(&path).expect("there");
+    for wrong in [1e300, f64::NAN, f64::INFINITY, f64::NEG_INFINITY] {
+        let mut calibration = sound.clone();
+        let CameraPlace::Fixed { robot_from_camera } = &mut calibration.camera else {
+            panic!("fixed");
+        };
+        robot_from_camera.translation.vector.x = wrong;
+        let error = calibration
+            .save_keeping_former(&path)
+            .expect_err("no number of a cell");
+        assert!(!error.advice().is_empty(), "{error}");
+        assert!(calibration.save(&path).is_err());
+    }
+    assert_eq!(fs::read_to_string(&path).expect("there"), before);
+    assert_eq!(fs::read_dir(folder.path()).expect("listed").count(), 1);
+}
+
+#[test]
+fn lengths_in_the_wrong_unit_are_questioned() {
+    let at = |metres: f64| RigidTransform::translation(0.0, 0.6 * metres, 0.8 * metres);
+    let doubt = |place: CameraPlace| match place.unit_doubt() {
+        None => "none",
+        Some(UnitDoubt::TooFar { .. }) => "far",
+        Some(UnitDoubt::TooNear { .. }) => "near",
+    };
+    for (metres, in_cell, on_flange) in [
+        (0.0, "none", "none"),
+        (0.000_05, "near", "near"),
+        (0.002_5, "near", "none"),
+        (0.05, "none", "none"),
+        (2.5, "none", "none"),
+        (50.0, "far", "far"),
+        (2500.0, "far", "far"),
+    ] {
+        assert_eq!(
+            doubt(CameraPlace::on(Mount::EyeToHand, at(metres))),
+            in_cell,
+            "{metres}"
+        );
+        assert_eq!(
+            doubt(CameraPlace::on(Mount::EyeInHand, at(metres))),
+            on_flange,
+            "{metres}"
+        );
+    }
+    let arm = CameraPlace::OnFlange {
+        flange_from_camera: at(0.1),
+        capture_pose: Some(at(0.001)),
+    };
+    assert_eq!(doubt(arm), "near");
 }

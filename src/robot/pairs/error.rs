@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use crate::{
     error::Advice,
-    files::FileError,
+    files::{FileError, shortened},
     robot::{Convention, ConventionError},
 };
 
@@ -50,7 +50,7 @@ pub enum PairsError {
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum LineProblem {
     /// A word where a number is needed.
-    #[error("{cell:?} in column {column} is not a number")]
+    #[error("{:?} in column {column} is not a number", shortened(cell))]
     NoNumber {
         /// The column, from 1.
         column: usize,
@@ -71,7 +71,7 @@ pub enum LineProblem {
     #[error(transparent)]
     Pose(#[from] ConventionError),
     /// A convention that is not known.
-    #[error("no convention is called {name:?}")]
+    #[error("no convention is called {:?}", shortened(name))]
     NoSuchConvention {
         /// What was written.
         name: String,

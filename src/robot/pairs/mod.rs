@@ -28,7 +28,7 @@ use std::path::Path;
 
 use super::{Convention, hand_eye::PosePair};
 use crate::{
-    files::{cells, content_lines, number_in, read_text},
+    files::{read_text, table_rows},
     geometry::rigid::RigidTransform,
 };
 
@@ -207,17 +207,17 @@ fn rows(
     expected: impl Fn() -> String,
 ) -> Result<Vec<Row>, PairsError> {
     let mut rows = Vec::new();
-    for (i, (line, content)) in content_lines(text).enumerate() {
-        let mut cells: Vec<&str> = cells(content).collect();
+    for (i, (line, content)) in table_rows(text, path)?.into_iter().enumerate() {
+        let mut cells: Vec<&str> = content.cells().collect();
         // Spreadsheets end lines with empty cells.
         while cells.len() > needed && cells.last().is_some_and(|cell| cell.is_empty()) {
             cells.pop();
         }
-        let is_heading = cells.iter().all(|cell| number_in(content, cell).is_none());
+        let is_heading = cells.iter().all(|cell| content.number(cell).is_none());
         if i == 0 && is_heading {
             continue;
         }
-        let has_name = number_in(content, cells[0]).is_none();
+        let has_name = content.number(cells[0]).is_none();
         let given_name = has_name.then(|| cells[0].trim_matches('"').to_owned());
         let mut row = Row {
             line,
@@ -225,7 +225,7 @@ fn rows(
             numbers: Vec::new(),
         };
         for (column, cell) in cells.iter().enumerate().skip(usize::from(has_name)) {
-            let number = number_in(content, cell).ok_or_else(|| {
+            let number = content.number(cell).ok_or_else(|| {
                 let cell = (*cell).to_owned();
                 row.problem(
                     path,

@@ -1,13 +1,13 @@
 //! A carried path as a file for a robot, that says what every number is.
 
-use std::{fmt::Write as _, fs::File, io::Read as _, path::Path};
+use std::{fmt::Write as _, io::Read as _, path::Path};
 
 use jiff::Timestamp;
 use serde::Serialize;
 
 use super::{BandStatus, CarriedPath, MOST_TILT};
 use crate::{
-    files::{FileError, write_atomically},
+    files::{FileError, csv_comment, open_regular, write_atomically},
     robot::{Convention, RobotFrame, RobotPose, RobotValue},
     stages::stand_off::StandOffParams,
 };
@@ -64,7 +64,7 @@ const BEGINNINGS: [&str; 2] = ["# Partsight spray path", "{\n  \"schema\": 1,\n 
 /// Anything else of that name stays.
 pub fn remove_previous_export(path: &Path) -> Result<bool, FileError> {
     let mut beginning = [0; 64];
-    let read = File::open(path).and_then(|mut file| file.read(&mut beginning));
+    let read = open_regular(path).and_then(|mut file| file.read(&mut beginning));
     // Whatever is wrong with it shows when the next one is written.
     let Ok(num_read) = read else {
         return Ok(false);
@@ -153,9 +153,9 @@ impl SprayExport<'_> {
              # convention: {}: {}\n\
              # band: stand-off {:.0} to {:.0} mm and at most {:.0} degrees from square on, against the part as it was seen; {} of {} inside\n",
             self.part,
-            self.scene,
+            csv_comment(self.scene),
             self.at,
-            self.frame.name,
+            csv_comment(&self.frame.name),
             self.convention.name(),
             self.convention.meaning(),
             params.nearest.mm(),

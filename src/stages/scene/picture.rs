@@ -4,7 +4,7 @@ use nalgebra::Point3;
 
 use super::{PictureEdge, SceneCloud};
 use crate::geometry::{
-    cloud::{Grid, PointCloud, is_finite},
+    cloud::{Grid, PointCloud},
     depth_frame::Intrinsics,
     distortion::Distortion,
 };
@@ -14,7 +14,9 @@ const MIN_PICTURE_POINTS: usize = 1000;
 /// Nearer than this no depth camera reads, metres.
 const NEAREST_READING: f32 = 0.05;
 /// Width or height of the picture over its distance: 120° of view.
-const WIDEST_VIEW: f32 = 3.5;
+const WIDEST_VIEW: f64 = 3.5;
+/// A picture has more pixels than this along each side.
+const LEAST_SIDE: f64 = 7.0;
 /// Points per pixel of the picture that they are put back onto. A capture exported as bare points has lost at most
 /// its pixels without a reading; with about one point and a half per pixel few pixels stay empty.
 const POINTS_PER_PIXEL: f64 = 1.4;
@@ -42,16 +44,19 @@ pub(super) fn organised(cloud: &PointCloud) -> Option<SceneCloud> {
             high[axis] = high[axis].max(ratio);
         }
     }
-    let [across, down] = [0, 1].map(|axis| high[axis] - low[axis]);
+    // The area of a sliver is no f32 any more.
+    let [across, down] = [0, 1].map(|axis| f64::from(high[axis] - low[axis]));
     let is_picture = across > 0.0 && down > 0.0 && across.max(down) < WIDEST_VIEW;
     if num_points < MIN_PICTURE_POINTS || !is_picture {
         return None;
     }
-    let focal = (num_points as f64 / POINTS_PER_PIXEL / f64::from(across * down)).sqrt();
-    let [width, height] = [across, down].map(|x| (f64::from(x) * focal) as usize + 1);
-    if width.min(height) < 8 {
+    let focal = (num_points as f64 / POINTS_PER_PIXEL / (across * down)).sqrt();
+    let sides = [across, down].map(|x| x * focal);
+    // Above it the other side has fewer pixels than there are points.
+    if !sides.iter().all(|&side| side >= LEAST_SIDE) {
         return None;
     }
+    let [width, height] = sides.map(|side| side as usize + 1);
     let mut nearest: Vec<Option<u32>> = vec![None; width * height];
     let mut num_hidden = 0_usize;
     for (i, p) in cloud.finite() {
@@ -80,6 +85,7 @@ pub(super) fn organised(cloud: &PointCloud) -> Option<SceneCloud> {
             points: nearest.iter().map(pick).collect(),
             grid: Some(Grid { width, height }),
             is_simulated: cloud.is_simulated,
+            surplus_bytes: cloud.surplus_bytes,
             ..PointCloud::default()
         },
         // A ratio falls into the pixel whose centre is half a pixel further.
@@ -95,71 +101,4 @@ pub(super) fn organised(cloud: &PointCloud) -> Option<SceneCloud> {
         edge: PictureEdge::Points,
         ..SceneCloud::default()
     })
-}
-
-/// Fits column = fx · x/z + cx and row = fy · y/z + cy; `None` when the fit is off by more than a pixel (rms) or the
-/// points lie behind the camera: then no pinhole camera at the origin took them.
-pub(super) fn fit_intrinsics(points: &[Point3<f32>], grid: Grid) -> Option<Intrinsics> {
-    let mut columns = LineFit::default();
-    let mut rows = LineFit::default();
-    // A few thousand readings fix four numbers; an odd stride visits all columns.
-    let stride = (points.len() / 4000).max(1) | 1;
-    for (i, p) in points.iter().enumerate().step_by(stride) {
-        if !is_finite(p) {
-            continue;
-        }
-        if p.z <= 0.0 {
-            return None;
-        }
-        columns.add(f64::from(p.x / p.z), (i % grid.width) as f64);
-        rows.add(f64::from(p.y / p.z), (i / grid.width) as f64);
-    }
-    let (fx, cx) = columns.solve()?;
-    let (fy, cy) = rows.solve()?;
-    (fx > 0.0 && fy > 0.0).then_some(Intrinsics {
-        width: grid.width,
-        height: grid.height,
-        fx,
-        fy,
-        cx,
-        cy,
-        distortion: Distortion::NONE,
-    })
-}
-
-/// Least squares for pixel = focal · ratio + centre.
-#[derive(Default)]
-struct LineFit {
-    num: f64,
-    x: f64,
-    y: f64,
-    xx: f64,
-    xy: f64,
-    yy: f64,
-}
-
-impl LineFit {
-    fn add(&mut self, x: f64, y: f64) {
-        self.num += 1.0;
-        self.x += x;
-        self.y += y;
-        self.xx += x * x;
-        self.xy += x * y;
-        self.yy += y * y;
-    }
-
-    fn solve(&self) -> Option<(f64, f64)> {
-        if self.num < 100.0 {
-            return None;
-        }
-        let xx = self.xx - self.x * self.x / self.num;
-        let xy = self.xy - self.x * self.y / self.num;
-        let yy = self.yy - self.y * self.y / self.num;
-        if xx <= 0.0 {
-            return None;
-        }
-        let slope = xy / xx;
-        let rms = ((yy - slope * xy).max(0.0) / self.num).sqrt();
-        (rms < 1.0).then(|| (slope, (self.y - slope * self.x) / self.num))
-    }
 }

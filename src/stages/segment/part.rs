@@ -148,6 +148,7 @@ impl SegmentedPart {
                 labels: None,
                 grid: None,
                 is_simulated: scene.is_simulated,
+                surplus_bytes: scene.surplus_bytes,
             },
             indices,
             stand: Vec::new(),

@@ -19,6 +19,7 @@ use crate::{
         user_error::UserError,
     },
     capture::{Captured, Feed, FeedItem, FeedState, FrameRate, SourceSpec},
+    error::{Fault, guarded},
     pipeline::{
         self, ProgressObserver, Recipe, Verdict,
         live::{LiveParams, LiveTracker, LiveVerdict, MotionState},
@@ -194,7 +195,11 @@ impl<'a> LiveSession<'a> {
             match feed.wait(TURN) {
                 Some(FeedItem::Captured(captured)) => {
                     self.write(&captured, feed);
-                    self.take(captured)?;
+                    let name = captured.name.clone();
+                    match guarded(|| self.take(captured)) {
+                        Ok(taken) => taken?,
+                        Err(fault) => self.skip(&name, &fault),
+                    }
                 }
                 Some(FeedItem::Skipped(skipped)) => {
                     let error = UserError::of(&*skipped.error);
@@ -222,6 +227,16 @@ impl<'a> LiveSession<'a> {
                 self.context.partial(LiveAnswer::NotRecorded(error));
             }
         }
+    }
+
+    /// Names a frame at which the program failed, and goes on to the next.
+    fn skip(&mut self, name: &str, fault: &Fault) {
+        self.standing = LiveVerdict::Open;
+        self.counted = None;
+        let UserError { what, advice } = UserError::of(fault);
+        let what = format!("{name}: {what}");
+        let error = UserError { what, advice };
+        self.context.partial(LiveAnswer::Skipped(error));
     }
 
     /// Inspects a frame.

@@ -15,7 +15,7 @@ use crate::{
         },
         user_error::UserError,
     },
-    robot::Convention,
+    robot::{Convention, calibration::CameraPlace},
 };
 
 pub(super) fn ui(
@@ -53,6 +53,9 @@ pub(super) fn ui(
         Ok(written) => {
             // Said back as a matrix: whoever slips in order or sign sees it.
             pose(ui, transform, &written.pose, Convention::Matrix, theme);
+            if let Some(doubt) = CameraPlace::on(dialog.mount, written.pose).unit_doubt() {
+                told(ui, Mark::Look, &UserError::of(&doubt), theme);
+            }
         }
         Err(_) if dialog.numbers.trim().is_empty() => {}
         Err(error) => told(ui, Mark::Bad, &UserError::of(error), theme),

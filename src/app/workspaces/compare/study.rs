@@ -280,6 +280,9 @@ fn refused(verdict: &Verdict, title_of: &dyn Fn(&str) -> String) -> Option<Strin
                 format!("the pose is uncertain by {shift}, and {limit} is allowed")
             }
             other @ (Rejection::NoPose(_)
+            | Rejection::OutOfRange { .. }
+            | Rejection::BehindCamera { .. }
+            | Rejection::SurplusBytes { .. }
             | Rejection::NotSteady { .. }
             | Rejection::FewFrames { .. }
             | Rejection::Undecided { .. }

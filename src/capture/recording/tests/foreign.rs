@@ -116,3 +116,29 @@ fn a_folder_of_clouds_is_read_in_counting_order() {
         .collect();
     assert_eq!(xs, [1.0, 9.0, 10.0]);
 }
+
+#[test]
+fn a_mistyped_path_in_a_list_is_one_missing_frame_and_one_that_leads_out_is_refused() {
+    let folder = tempfile::tempdir().unwrap();
+    let Image::Depth(frame) = simulated(1).remove(0).image else {
+        panic!("a depth image");
+    };
+    let mut png = Vec::new();
+    write_depths(&mut png, &frame).unwrap();
+    fs::create_dir(folder.path().join("depth")).unwrap();
+    fs::write(folder.path().join("depth/1.png"), png).unwrap();
+    fs::write(folder.path().join("depth/2.png"), "1 2 3\n").unwrap();
+    let list = folder.path().join("depth.txt");
+    fs::write(&list, "1 depht/1.png\n2 depth/1.png\n3 depth/2.png\n").unwrap();
+    let (_, names) = replayed(folder.path());
+    assert_eq!(names, ["!depht/1.png", "depth/1.png", "!depth/2.png"]);
+    for outside in ["../other/1.png", "/etc/passwd", "depth/../../1.png"] {
+        fs::write(&list, format!("1 depth/1.png\n2 {outside}\n")).unwrap();
+        let error = Replay::open(&recording_of(folder.path())).err();
+        let error = error.expect("it leads out").to_string();
+        assert!(
+            error.contains("line 2") && error.contains("own folder"),
+            "{error}"
+        );
+    }
+}
