@@ -3,12 +3,14 @@
 //! The cloud is thinned to one point per cube, which evens it out, averages the sensor's noise and keeps the file
 //! small; normals are estimated on the thinned cloud. Part space is the coordinates as they came.
 
+mod own_pose;
 mod problem;
 mod scan;
 
 use jiff::Timestamp;
 use nalgebra::{Point3, Vector3};
 
+use self::own_pose::pose_warning;
 pub use self::{
     problem::{EnrolError, EnrolWarning},
     scan::enrol_scan,
@@ -313,8 +315,10 @@ fn assemble(
     };
     Ok(Enrolled {
         part,
+        warnings: pose_warning(&reference, source.coverage)
+            .into_iter()
+            .collect(),
         reference,
-        warnings: Vec::new(),
     })
 }
 

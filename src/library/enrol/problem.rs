@@ -3,6 +3,7 @@
 use crate::{
     error::Advice,
     stages::{
+        pose::FreeMotion,
         reference::ReferenceError,
         segment::{BackgroundSign, NoPart},
     },
@@ -17,6 +18,17 @@ pub enum EnrolWarning {
     /// What a person chose may be background.
     #[error("this may be background: {0}")]
     Background(BackgroundSign),
+    /// The shape does not fix the pose.
+    #[error("the shape does not fix the pose: {0}")]
+    Unconstrained(FreeMotion),
+    /// The part looks the same in another pose.
+    #[error(
+        "the part looks the same turned by {degrees}°, so its pose cannot be told from that one"
+    )]
+    Symmetric {
+        /// Between the two poses, rounded.
+        degrees: u16,
+    },
     /// The surface of a scan goes on where no frame looked.
     #[error(
         "{percent} % of the scanned surface's outline is where the view of every frame ends: the part may go on there"
@@ -32,6 +44,10 @@ impl Advice for EnrolWarning {
         match self {
             Self::TouchesEdge => "Move the camera back or centre the part, then enrol it again",
             Self::Background(_) => "Check the picture, and take the part instead if it is not",
+            Self::Unconstrained(_) => "Enrol more of the part, so that corners or openings hold it",
+            Self::Symmetric { .. } => {
+                "Paint it with a path that suits both poses, or hang it so that it cannot be turned"
+            }
             Self::GoesOnUnseen { .. } => {
                 "Add frames that show the missing sides, then enrol it again"
             }
