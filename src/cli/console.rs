@@ -34,6 +34,11 @@ impl Console {
         }
     }
 
+    /// One of several things about the same: what it is and, in a column of its own, how it is.
+    pub(super) fn entry(&mut self, what: &str, text: &dyn Display) {
+        self.line(&format_args!("  {what:<9} {text}"));
+    }
+
     /// One line of the answer, or several.
     pub(super) fn line(&mut self, text: &dyn Display) {
         if !self.is_read {
@@ -166,6 +171,13 @@ pub(super) fn advised_error(
         message: message.into(),
         advice: advice.into(),
     })
+}
+
+/// Numbers in columns, each to the millionth.
+pub(super) fn in_columns(numbers: &[f64]) -> String {
+    // Adding zero takes the sign from a negative zero.
+    let cells = numbers.iter().map(|x| format!("{:10.6}", x + 0.0));
+    cells.collect::<Vec<_>>().join(" ")
 }
 
 /// Lines of cells under a heading, each column as wide as its widest cell.

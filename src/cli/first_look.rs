@@ -1,6 +1,10 @@
 //! `partsight` alone without a display: one inspection of the simulated cell, so that a first call shows something.
 
-use super::{LibraryChoice, Outcome, console::Console, verdict::show_card};
+use super::{
+    LibraryChoice, Outcome,
+    console::{Console, Table},
+    verdict::show_card,
+};
 use crate::{
     pipeline::{self, Recipe, Unwatched},
     simulate::{CellSetup, PartKind, PartPose, PoseRange, Side, frame},
@@ -21,6 +25,7 @@ pub(super) fn run(library: &LibraryChoice, console: &mut Console) -> anyhow::Res
     show_card("simulated cell", &inspection, &load.library, console);
     console.line(&"");
     console.line(&"Next:");
+    let mut table = Table::default();
     for (command, what) in [
         (
             "partsight inspect FILE...",
@@ -37,8 +42,9 @@ pub(super) fn run(library: &LibraryChoice, console: &mut Console) -> anyhow::Res
         ),
         ("partsight help", "everything else"),
     ] {
-        console.line(&format_args!("  {command:<51} {what}"));
+        table.row([format!("  {command}"), what.to_owned()]);
     }
+    table.show(console);
     // A look around, not an inspection: whatever the verdict, it ran.
     Ok(Outcome::Accepted)
 }

@@ -51,10 +51,11 @@ pub(super) fn show_in_robot(
     };
     let middle = robot.robot_from_camera * nalgebra::Point3::new(x, y, z).map(|mm| mm / 1000.0);
     let [x, y, z] = [middle.x, middle.y, middle.z].map(|m| Metres(m).mm());
-    console.line(&format_args!(
-        "  {:<9} middle at x {x:.1}  y {y:.1}  z {z:.1} mm in the robot's base frame, by {}",
-        "robot", robot.name
-    ));
+    let text = format!(
+        "middle at x {x:.1}  y {y:.1}  z {z:.1} mm in the robot's base frame, by {}",
+        robot.name
+    );
+    console.entry("robot", &text);
 }
 
 /// All about one inspection, a line for each thing.
@@ -64,9 +65,7 @@ pub(super) fn show_card(
     library: &Library,
     console: &mut Console,
 ) {
-    let mut line = |what: &str, text: String| {
-        console.line(&format_args!("  {what:<9} {text}"));
-    };
+    let mut line = |what: &str, text: String| console.entry(what, &text);
     match &inspection.verdict {
         Verdict::Part {
             part,

@@ -1,9 +1,12 @@
 //! The thread that writes the history, so that no inspection waits for the disk.
 
 use std::{
-    collections::VecDeque,
     io,
-    sync::{Arc, Condvar, Mutex, MutexGuard, PoisonError},
+    sync::{
+        Arc,
+        atomic::{AtomicUsize, Ordering},
+        mpsc::{Receiver, RecvTimeoutError, Sender, SyncSender, channel, sync_channel},
+    },
     thread::{self, JoinHandle},
     time::Instant,
 };
@@ -14,7 +17,7 @@ use crate::library::Truth;
 /// Inspections whose scenes wait for the thread at most, 4 MB each; beyond that their frames are not kept.
 const MAX_SCENES: usize = 8;
 /// Inspections that wait for the thread at most; beyond that they are lost, and counted.
-const MAX_JOBS: usize = 4096;
+const MAX_INSPECTIONS: usize = 4096;
 
 /// Something to be written.
 #[derive(Debug)]
@@ -23,29 +26,29 @@ enum Job {
     Remark(i64, String),
     Label(i64, Option<Truth>),
     Retention(Retention),
+    /// Answers once all before it is done.
+    Answer(SyncSender<()>),
 }
 
 /// The thread. Dropping it waits until all is written that was handed over.
 #[derive(Debug)]
 pub struct Writer {
-    queue: Arc<Queue>,
+    /// `None` while it is dropped: the thread ends once it has done all that was sent.
+    jobs: Option<Sender<Job>>,
+    counts: Arc<Counts>,
     thread: Option<JoinHandle<()>>,
 }
 
 #[derive(Debug, Default)]
-struct Queue {
-    jobs: Mutex<Jobs>,
-    filled: Condvar,
-    emptied: Condvar,
-}
-
-#[derive(Debug, Default)]
-struct Jobs {
-    waiting: VecDeque<Job>,
-    is_busy: bool,
-    is_closed: bool,
-    /// Inspections whose frame was not kept, and that were lost: the disk is too slow.
-    num_crowded: [usize; 2],
+struct Counts {
+    /// Inspections that wait for the thread.
+    waiting: AtomicUsize,
+    /// Those of them whose scene waits with them.
+    scenes: AtomicUsize,
+    /// Inspections whose frame was not kept, because the disk is too slow.
+    bare: AtomicUsize,
+    /// Inspections that were lost for the same reason.
+    lost: AtomicUsize,
 }
 
 impl Writer {
@@ -54,40 +57,45 @@ impl Writer {
         keeper: Arc<HistoryBuffer>,
         on_news: impl Fn() + Send + 'static,
     ) -> io::Result<Self> {
-        let queue = Arc::<Queue>::default();
-        // Busy from the beginning: whoever waits for it waits until it is open.
-        queue.lock().is_busy = true;
-        let of_thread = Arc::clone(&queue);
+        let (jobs, received) = channel();
+        let counts = Arc::<Counts>::default();
+        let of_thread = Arc::clone(&counts);
         let thread = thread::Builder::new()
             .name("history".into())
             .spawn(move || {
                 keeper.open(Instant::now());
                 on_news();
-                while let Some(job) = of_thread.next(&keeper, &on_news) {
-                    work(&keeper, job);
+                loop {
+                    match next(&received, &keeper) {
+                        Ok(job) => work(&keeper, job, &of_thread),
+                        Err(RecvTimeoutError::Timeout) => keeper.retry(Instant::now()),
+                        Err(RecvTimeoutError::Disconnected) => break,
+                    }
                     on_news();
                 }
             })?;
         Ok(Self {
-            queue,
+            jobs: Some(jobs),
+            counts,
             thread: Some(thread),
         })
     }
 
     /// Has an inspection written. Never waits.
     pub fn add(&self, ticket: u64, mut entry: NewEntry) {
-        let mut jobs = self.queue.lock();
-        let has_scene = |job: &&Job| matches!(job, Job::Add(_, entry) if entry.scene.is_some());
-        if jobs.waiting.iter().filter(has_scene).count() >= MAX_SCENES {
+        let counts = &self.counts;
+        if entry.scene.is_some() && counts.scenes.load(Ordering::Relaxed) >= MAX_SCENES {
             entry.scene = None;
-            jobs.num_crowded[0] += 1;
+            counts.bare.fetch_add(1, Ordering::Relaxed);
         }
-        if jobs.waiting.len() >= MAX_JOBS {
-            jobs.num_crowded[1] += 1;
+        if counts.waiting.load(Ordering::Relaxed) >= MAX_INSPECTIONS {
+            counts.lost.fetch_add(1, Ordering::Relaxed);
             return;
         }
-        jobs.waiting.push_back(Job::Add(ticket, Box::new(entry)));
-        self.queue.filled.notify_one();
+        counts.waiting.fetch_add(1, Ordering::Relaxed);
+        let num_scenes = usize::from(entry.scene.is_some());
+        counts.scenes.fetch_add(num_scenes, Ordering::Relaxed);
+        self.post(Job::Add(ticket, Box::new(entry)));
     }
 
     /// Has written down what a person remarks.
@@ -106,33 +114,30 @@ impl Writer {
     }
 
     fn post(&self, job: Job) {
-        self.queue.lock().waiting.push_back(job);
-        self.queue.filled.notify_one();
+        if let Some(jobs) = &self.jobs {
+            // Only a thread that panicked does not receive it.
+            let _ = jobs.send(job);
+        }
     }
 
     /// Waits until all is written that was handed over.
     pub fn finish(&self) {
-        let mut jobs = self.queue.lock();
-        while jobs.is_busy || !jobs.waiting.is_empty() {
-            jobs = self
-                .queue
-                .emptied
-                .wait(jobs)
-                .unwrap_or_else(PoisonError::into_inner);
-        }
+        let (answer, answered) = sync_channel(1);
+        self.post(Job::Answer(answer));
+        let _ = answered.recv();
     }
 
     /// How many inspections' frames were not kept, and how many inspections were lost, because the disk was too slow;
     /// counted since this was asked last.
     pub fn take_dropped(&self) -> [usize; 2] {
-        std::mem::take(&mut self.queue.lock().num_crowded)
+        let Counts { bare, lost, .. } = self.counts.as_ref();
+        [bare, lost].map(|count| count.swap(0, Ordering::Relaxed))
     }
 }
 
 impl Drop for Writer {
     fn drop(&mut self) {
-        self.queue.lock().is_closed = true;
-        self.queue.filled.notify_one();
+        self.jobs = None;
         if let Some(thread) = self.thread.take() {
             // What it panicked with was said on its own thread.
             let _ = thread.join();
@@ -140,58 +145,57 @@ impl Drop for Writer {
     }
 }
 
-impl Queue {
-    fn lock(&self) -> MutexGuard<'_, Jobs> {
-        self.jobs.lock().unwrap_or_else(PoisonError::into_inner)
-    }
-
-    /// Waits for a job, and meanwhile tries again what failed; `None` once it is closed and all is done.
-    fn next(&self, keeper: &HistoryBuffer, on_news: &dyn Fn()) -> Option<Job> {
-        let mut jobs = self.lock();
-        jobs.is_busy = false;
-        loop {
-            if let Some(job) = jobs.waiting.pop_front() {
-                jobs.is_busy = true;
-                return Some(job);
-            }
-            self.emptied.notify_all();
-            if jobs.is_closed {
-                return None;
-            }
-            drop(jobs);
-            // Not under the lock of the queue: whoever hands something over never waits for the disk.
-            let next_try = keeper.next_try();
-            jobs = self.lock();
-            if !jobs.waiting.is_empty() || jobs.is_closed {
-                continue;
-            }
-            let Some(at) = next_try else {
-                jobs = self
-                    .filled
-                    .wait(jobs)
-                    .unwrap_or_else(PoisonError::into_inner);
-                continue;
-            };
-            let left = at.saturating_duration_since(Instant::now());
-            let waited = self.filled.wait_timeout(jobs, left);
-            let (guard, over) = waited.unwrap_or_else(PoisonError::into_inner);
-            if over.timed_out() {
-                drop(guard);
-                keeper.retry(Instant::now());
-                on_news();
-                jobs = self.lock();
-            } else {
-                jobs = guard;
-            }
-        }
+/// Waits for a job, at most until what failed is to be tried again.
+fn next(received: &Receiver<Job>, keeper: &HistoryBuffer) -> Result<Job, RecvTimeoutError> {
+    match keeper.next_try() {
+        Some(at) => received.recv_timeout(at.saturating_duration_since(Instant::now())),
+        None => Ok(received.recv()?),
     }
 }
 
-fn work(keeper: &HistoryBuffer, job: Job) {
+fn work(keeper: &HistoryBuffer, job: Job, counts: &Counts) {
     match job {
-        Job::Add(ticket, entry) => keeper.add(ticket, *entry, Instant::now()),
+        Job::Add(ticket, entry) => {
+            let num_scenes = usize::from(entry.scene.is_some());
+            counts.waiting.fetch_sub(1, Ordering::Relaxed);
+            counts.scenes.fetch_sub(num_scenes, Ordering::Relaxed);
+            keeper.add(ticket, *entry, Instant::now());
+        }
         Job::Remark(number, remark) => keeper.set_remark(number, &remark),
         Job::Label(number, label) => keeper.set_label(number, label.as_ref()),
         Job::Retention(retention) => keeper.set_retention(retention),
+        // Whoever asked may have gone.
+        Job::Answer(answer) => drop(answer.send(())),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::history::{
+        Filter, StoredVerdict,
+        fixtures::{entry, scene},
+    };
+
+    #[test]
+    fn what_waits_is_written_and_what_is_too_much_without_its_frame() {
+        let keeper = Arc::new(HistoryBuffer::new(None));
+        let (go_on, is_held) = channel::<()>();
+        // The thread stops here once it has opened the history: until then everything waits.
+        let hold = move || {
+            let _ = is_held.recv();
+        };
+        let writer = Writer::start(Arc::clone(&keeper), hold).expect("a thread");
+        for ticket in 1..=10 {
+            let mut waiting = entry(ticket as i64, StoredVerdict::NotAccepted, "fender");
+            waiting.scene = Some(scene(1));
+            writer.add(ticket, waiting);
+        }
+        drop(go_on);
+        writer.finish();
+        assert_eq!(writer.take_dropped(), [2, 0]);
+        assert_eq!(writer.take_dropped(), [0, 0]);
+        let page = keeper.page(&Filter::default(), 0, 100).expect("asked");
+        assert_eq!(page.rows.len(), 10);
     }
 }

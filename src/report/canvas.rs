@@ -1,119 +1,209 @@
-//! Drawing on a picture: lines, polylines and curves.
+//! A picture to draw on: lines, dots, blocks and letters. `vello_cpu` fills and strokes them, as egui's letters are.
 
 use image::{Rgb, RgbImage};
+use vello_cpu::{
+    Pixmap, RenderContext, Resources,
+    color::{AlphaColor, Srgb},
+    kurbo::{Affine, BezPath, Circle, Point, Rect, Shape as _, Stroke},
+};
+
+use super::lettering::{Anchor, Lettering, REGULAR};
 
 /// A picture that can be drawn on beyond its edges; what lies outside is left out.
 pub(super) struct Canvas {
-    pub(super) image: RgbImage,
+    context: RenderContext,
+    letters: Lettering,
 }
 
 impl Canvas {
     pub(super) fn new(width: usize, height: usize, background: Rgb<u8>) -> Self {
-        Self {
-            image: RgbImage::from_pixel(width as u32, height as u32, background),
-        }
+        let [columns, rows] = [width, height].map(|side| side.clamp(1, usize::from(u16::MAX)));
+        let mut canvas = Self {
+            context: RenderContext::new(columns as u16, rows as u16),
+            letters: Lettering::of(REGULAR),
+        };
+        canvas.block([0.0, 0.0], [columns as f64, rows as f64], background);
+        canvas
+    }
+
+    /// What was drawn.
+    pub(super) fn finish(mut self) -> RgbImage {
+        let (width, height) = (self.context.width(), self.context.height());
+        let mut drawn = Pixmap::new(width, height);
+        self.context.flush();
+        self.context.render(&mut drawn, &mut Resources::new());
+        let pixels = drawn.data_as_u8_slice().chunks_exact(4);
+        let colours = pixels.flat_map(|pixel| [pixel[0], pixel[1], pixel[2]]);
+        RgbImage::from_raw(width.into(), height.into(), colours.collect())
+            .expect("as many colours as pixels")
+    }
+
+    fn paint(&mut self, Rgb([red, green, blue]): Rgb<u8>) {
+        self.context
+            .set_paint(AlphaColor::<Srgb>::from_rgb8(red, green, blue));
     }
 
     pub(super) fn dot(&mut self, at: [f64; 2], radius: f64, colour: Rgb<u8>) {
-        let reach = radius.ceil() as i64;
-        let (u, v) = (at[0].round() as i64, at[1].round() as i64);
-        for dv in -reach..=reach {
-            for du in -reach..=reach {
-                if (du * du + dv * dv) as f64 <= radius * radius {
-                    self.set(u + du, v + dv, colour);
-                }
-            }
-        }
+        self.paint(colour);
+        let dot = Circle::new(middle_of(at), radius);
+        self.context.fill_path(&dot.to_path(0.1));
     }
 
-    /// A line from pixel to pixel, ends included.
+    /// A thin line from pixel to pixel.
     pub(super) fn line(&mut self, from: [f64; 2], to: [f64; 2], colour: Rgb<u8>) {
-        self.dashes([from, to].into_iter(), &[], colour);
+        let ends = [from, to].map(|end| end.map(f64::round));
+        self.polyline(ends, (1.0, &[]), colour);
     }
 
-    pub(super) fn polyline(&mut self, corners: impl Iterator<Item = [f64; 2]>, colour: Rgb<u8>) {
-        self.dashes(corners, &[], colour);
-    }
-
-    /// A polyline in dashes: drawn and left out by turns over so many pixels each; an empty pattern leaves nothing out.
-    pub(super) fn dashes(
+    /// A line through pixels, as wide as said; in dashes, drawn and left out by turns over so many pixels each, unless the
+    /// pattern is empty.
+    pub(super) fn polyline(
         &mut self,
-        corners: impl Iterator<Item = [f64; 2]>,
-        pattern: &[f64],
+        corners: impl IntoIterator<Item = [f64; 2]>,
+        (width, pattern): (f64, &[f64]),
         colour: Rgb<u8>,
     ) {
-        let mut walked = 0.0;
-        let mut previous: Option<[f64; 2]> = None;
-        for corner in corners {
-            let Some(from) = previous.replace(corner) else {
-                continue;
-            };
-            let (dx, dy) = (corner[0] - from[0], corner[1] - from[1]);
-            let num_steps = dx.abs().max(dy.abs()).ceil().clamp(1.0, 1e5);
-            for step in 0..=num_steps as usize {
-                let t = step as f64 / num_steps;
-                if is_drawn(pattern, walked + t * dx.hypot(dy)) {
-                    let (u, v) = (from[0] + t * dx, from[1] + t * dy);
-                    self.set(u.round() as i64, v.round() as i64, colour);
-                }
+        let mut path = BezPath::new();
+        let drawable = |corner: &[f64; 2]| corner.iter().all(|x| x.is_finite());
+        for corner in corners.into_iter().filter(drawable) {
+            if path.elements().is_empty() {
+                path.move_to(middle_of(corner));
+            } else {
+                path.line_to(middle_of(corner));
             }
-            walked += dx.hypot(dy);
         }
+        self.paint(colour);
+        let stroke = Stroke::new(width).with_dashes(0.0, pattern.iter().copied());
+        self.context.set_stroke(stroke);
+        self.context.stroke_path(&path);
     }
 
     /// A filled rectangle, from corner to corner.
     pub(super) fn block(&mut self, from: [f64; 2], to: [f64; 2], colour: Rgb<u8>) {
-        let pixel = |x: f64| x.round() as i64;
-        for v in pixel(from[1])..pixel(to[1]) {
-            for u in pixel(from[0])..pixel(to[0]) {
-                self.set(u, v, colour);
-            }
-        }
+        self.paint(colour);
+        let [from, to] = [from, to].map(|[x, y]| Point::new(x.round(), y.round()));
+        self.context.fill_rect(&Rect::from_points(from, to));
     }
 
-    fn set(&mut self, u: i64, v: i64, colour: Rgb<u8>) {
-        if let (Ok(u), Ok(v)) = (u32::try_from(u), u32::try_from(v))
-            && u < self.image.width()
-            && v < self.image.height()
-        {
-            self.image.put_pixel(u, v, colour);
-        }
+    /// Writes a text in letters of this size; `at` is on the line that they stand on.
+    pub(super) fn write(
+        &mut self,
+        text: &str,
+        size: f32,
+        at: [f64; 2],
+        anchor: Anchor,
+        colour: Rgb<u8>,
+    ) {
+        self.letters((text, size), 0.0, at, anchor, colour);
+    }
+
+    /// Writes a text from bottom to top; `at` is on the line that the letters stand on.
+    pub(super) fn write_upwards(
+        &mut self,
+        text: &str,
+        size: f32,
+        at: [f64; 2],
+        anchor: Anchor,
+        colour: Rgb<u8>,
+    ) {
+        let upwards = -std::f64::consts::FRAC_PI_2;
+        self.letters((text, size), upwards, at, anchor, colour);
+    }
+
+    fn letters(
+        &mut self,
+        (text, size): (&str, f32),
+        turned: f64,
+        at: [f64; 2],
+        anchor: Anchor,
+        colour: Rgb<u8>,
+    ) {
+        self.paint(colour);
+        let start = anchor.offset(self.letters.width(text, size)).round();
+        let start = Affine::translate((f64::from(start), 0.0));
+        let place = Affine::translate((at[0].round(), at[1].round())) * Affine::rotate(turned);
+        let outline = self.letters.outline(text, size);
+        self.context.fill_path(&(place * start * outline));
     }
 }
 
-/// True if a line of this pattern is drawn so many pixels from its beginning.
-fn is_drawn(pattern: &[f64], at: f64) -> bool {
-    let whole: f64 = pattern.iter().sum();
-    if whole <= 0.0 {
-        return true;
-    }
-    let mut rest = at.rem_euclid(whole);
-    let piece = pattern.iter().position(|length| {
-        rest -= length;
-        rest < 0.0
-    });
-    piece.is_none_or(|piece| piece % 2 == 0)
+/// The middle of a pixel.
+fn middle_of([x, y]: [f64; 2]) -> Point {
+    Point::new(x + 0.5, y + 0.5)
 }
 
 #[cfg(test)]
 mod tests {
     use super::*;
 
+    const WHITE: Rgb<u8> = Rgb([255; 3]);
+
+    fn drawn([width, height]: [usize; 2], draw: impl FnOnce(&mut Canvas)) -> RgbImage {
+        let mut canvas = Canvas::new(width, height, Rgb([0; 3]));
+        draw(&mut canvas);
+        canvas.finish()
+    }
+
+    fn ink(image: &RgbImage) -> f64 {
+        image.pixels().map(|p| f64::from(p[0]) / 255.0).sum()
+    }
+
+    fn written(text: &str) -> RgbImage {
+        drawn([120, 30], |canvas| {
+            canvas.write(text, 16.0, [10.0, 20.0], Anchor::Left, WHITE);
+        })
+    }
+
     #[test]
     fn dashes_go_round_corners_and_leave_out_their_share() {
-        let (dark, light) = (Rgb([0; 3]), Rgb([255; 3]));
         let corners = [[10.0, 10.0], [110.0, 10.0], [110.0, 70.0]];
-        let num = |pattern: &[f64]| {
-            let mut canvas = Canvas::new(160, 90, dark);
-            canvas.dashes(corners.into_iter(), pattern, light);
-            canvas.image.pixels().filter(|p| **p == light).count()
+        let ink = |pattern: &[f64]| {
+            ink(&drawn([160, 90], |canvas| {
+                canvas.polyline(corners, (1.0, pattern), WHITE);
+            }))
         };
-        assert_eq!(num(&[]), 161);
+        assert!((ink(&[]) - 160.0).abs() < 2.0, "{}", ink(&[]));
+        let half = ink(&[8.0, 8.0]);
+        assert!((75.0..=87.0).contains(&half), "{half}");
+        assert!(ink(&[2.0, 6.0]) < 50.0);
+    }
+
+    #[test]
+    fn a_full_stop_covers_as_much_as_its_square_and_a_letter_is_no_blot() {
+        // An em dash is a bar; its ink is its area whatever the place.
+        let dash = ink(&written("—"));
+        assert!((10.0..40.0).contains(&dash), "{dash}");
+        let letters = written("Fender 8");
+        assert!((60.0..260.0).contains(&ink(&letters)), "{}", ink(&letters));
+        // Nothing leaks out of a glyph to the right, as an outline that is not closed would.
         assert!(
-            (75..=87).contains(&num(&[8.0, 8.0])),
-            "{}",
-            num(&[8.0, 8.0])
+            letters
+                .rows()
+                .all(|mut row| row.nth(110).expect("wide")[0] == 0)
         );
-        assert!(num(&[2.0, 6.0]) < 50);
+        assert!(ink(&written("")) < 0.5);
+    }
+
+    #[test]
+    fn what_is_beyond_the_picture_or_nowhere_is_left_out() {
+        let image = drawn([20, 20], |canvas| {
+            for at in [[-500.0, 10.0], [10.0, -90.0], [1e6, 1e6]] {
+                canvas.write("door", 14.0, at, Anchor::Middle, WHITE);
+                canvas.write_upwards("door", 14.0, at, Anchor::Right, WHITE);
+                canvas.dot(at, 2.0, WHITE);
+            }
+            canvas.polyline([[-1e5, -5.0], [1e5, -5.0]], (2.0, &[4.0, 4.0]), WHITE);
+            canvas.polyline([[f64::NAN, 3.0], [4.0, f64::INFINITY]], (1.0, &[]), WHITE);
+        });
+        assert!(ink(&image) < 0.5);
+    }
+
+    #[test]
+    fn a_text_upwards_has_the_ink_of_the_same_text_across() {
+        let image = drawn([30, 120], |canvas| {
+            canvas.write_upwards("Fender", 16.0, [20.0, 110.0], Anchor::Left, WHITE);
+        });
+        let across = ink(&written("Fender"));
+        assert!((ink(&image) - across).abs() < 0.02 * across);
     }
 }

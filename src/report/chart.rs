@@ -4,9 +4,12 @@ use image::Rgb;
 
 use super::{
     canvas::Canvas,
-    lettering::{Anchor, Lettering},
+    lettering::Anchor,
     pictures::{DIM, FAINT, LIGHT},
 };
+
+/// Size of the letters around charts, pixels.
+pub(super) const LETTERS: f32 = 15.0;
 
 /// How an axis divides its length.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -57,39 +60,26 @@ impl Chart<'_> {
     }
 
     /// Lines, numbers and titles.
-    pub(super) fn draw_axes(&self, canvas: &mut Canvas, lettering: &Lettering) {
+    pub(super) fn draw_axes(&self, canvas: &mut Canvas) {
         let [[left, top], [right, bottom]] = self.corners;
         for (value, text) in &self.across.ticks {
             let x = self.place([*value, self.up.range[0]])[0];
             canvas.line([x, top], [x, bottom], FAINT);
-            lettering.write(
-                &mut canvas.image,
-                text,
-                [x, bottom + 20.0],
-                Anchor::Middle,
-                DIM_TEXT,
-            );
+            let at = [x, bottom + 20.0];
+            canvas.write(text, LETTERS, at, Anchor::Middle, DIM_TEXT);
         }
         for (value, text) in &self.up.ticks {
             let y = self.place([self.across.range[0], *value])[1];
             canvas.line([left, y], [right, y], FAINT);
             let at = [left - 8.0, y + 5.0];
-            lettering.write(&mut canvas.image, text, at, Anchor::Right, DIM_TEXT);
+            canvas.write(text, LETTERS, at, Anchor::Right, DIM_TEXT);
         }
-        canvas.polyline(
-            [[left, top], [left, bottom], [right, bottom]].into_iter(),
-            DIM,
-        );
+        let corners = [[left, top], [left, bottom], [right, bottom]];
+        canvas.polyline(corners, (1.0, &[]), DIM);
         let at = [f64::midpoint(left, right), bottom + 44.0];
-        lettering.write(
-            &mut canvas.image,
-            self.across.title,
-            at,
-            Anchor::Middle,
-            LIGHT,
-        );
+        canvas.write(self.across.title, LETTERS, at, Anchor::Middle, LIGHT);
         let at = [left - 56.0, f64::midpoint(top, bottom)];
-        lettering.write_upwards(&mut canvas.image, self.up.title, at, Anchor::Middle, LIGHT);
+        canvas.write_upwards(self.up.title, LETTERS, at, Anchor::Middle, LIGHT);
     }
 }
 

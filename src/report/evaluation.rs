@@ -4,8 +4,8 @@ use image::{Rgb, RgbImage};
 
 use super::{
     canvas::Canvas,
-    chart::DIM_TEXT,
-    lettering::{Anchor, Lettering},
+    chart::{DIM_TEXT, LETTERS},
+    lettering::{Anchor, Lettering, REGULAR},
     pictures::{DARK, FAINT, LIGHT},
     score_plots::{PLOT, draw_calibration, draw_trade_off},
 };
@@ -20,10 +20,12 @@ const EDGE: f64 = 28.0;
 
 /// Draws them side by side; `title` stands above, and `threshold` is the recipe's least score.
 pub fn evaluation_picture(title: &str, evaluation: &Evaluation, threshold: f64) -> RgbImage {
-    let small = Lettering::new(15.0);
+    let letters = Lettering::of(REGULAR);
     let confusion = &evaluation.confusion;
     let widest = |names: &mut dyn Iterator<Item = &str>| {
-        names.map(|name| small.width(name)).fold(60.0, f32::max)
+        names
+            .map(|name| letters.width(name, LETTERS))
+            .fold(60.0, f32::max)
     };
     let names = f64::from(widest(&mut confusion.rows.iter().map(row_name))) + 12.0;
     let head = f64::from(widest(&mut confusion.columns.iter().map(column_name))) + 12.0;
@@ -38,41 +40,23 @@ pub fn evaluation_picture(title: &str, evaluation: &Evaluation, threshold: f64) 
     let width = plot_left + 2.0 * PLOT + GAP + 2.0 * EDGE;
     let height = (top + matrix[1] + 60.0).max(plot_top + PLOT + 110.0);
     let mut canvas = Canvas::new(width as usize, height as usize, DARK);
-    let large = Lettering::new(20.0);
-    large.write(
-        &mut canvas.image,
-        title,
-        [EDGE, EDGE + 18.0],
-        Anchor::Left,
-        LIGHT,
-    );
+    canvas.write(title, 20.0, [EDGE, EDGE + 18.0], Anchor::Left, LIGHT);
     let tally = &confusion.tally;
     let text = format!(
         "{} cases: {} right, {} wrong and accepted, {} refused",
         tally.total, tally.right, tally.wrong_accepted, tally.refused
     );
-    small.write(
-        &mut canvas.image,
-        &text,
-        [EDGE, EDGE + 44.0],
-        Anchor::Left,
-        DIM_TEXT,
-    );
-    draw_matrix(&mut canvas, &small, confusion, [left, top]);
-    draw_calibration(
-        &mut canvas,
-        &small,
-        &evaluation.calibration,
-        [plot_left, plot_top],
-    );
+    let at = [EDGE, EDGE + 44.0];
+    canvas.write(&text, LETTERS, at, Anchor::Left, DIM_TEXT);
+    draw_matrix(&mut canvas, confusion, [left, top]);
+    draw_calibration(&mut canvas, &evaluation.calibration, [plot_left, plot_top]);
     draw_trade_off(
         &mut canvas,
-        &small,
         &evaluation.trade_off,
         threshold,
         [plot_left + PLOT + GAP, plot_top],
     );
-    canvas.image
+    canvas.finish()
 }
 
 fn row_name(truth: &Truth) -> &str {
@@ -100,12 +84,7 @@ fn look(judgement: CaseOutcome) -> (Rgb<u8>, &'static str) {
 }
 
 /// Rows are what it is, columns what it was accepted as.
-fn draw_matrix(
-    canvas: &mut Canvas,
-    lettering: &Lettering,
-    confusion: &Confusion,
-    [left, top]: [f64; 2],
-) {
+fn draw_matrix(canvas: &mut Canvas, confusion: &Confusion, [left, top]: [f64; 2]) {
     let Confusion {
         rows,
         columns,
@@ -117,7 +96,7 @@ fn draw_matrix(
     for (row, truth) in rows.iter().enumerate() {
         let [x, y] = corner(row, 0);
         let at = [x - 10.0, y + CELL / 2.0 + 5.0];
-        lettering.write(&mut canvas.image, row_name(truth), at, Anchor::Right, LIGHT);
+        canvas.write(row_name(truth), LETTERS, at, Anchor::Right, LIGHT);
         for column in 0..columns.len() {
             let (from, to) = inner(corner(row, column));
             canvas.block(from, to, FAINT);
@@ -127,7 +106,7 @@ fn draw_matrix(
         let [x, y] = corner(0, column);
         let at = [x + CELL / 2.0 + 5.0, y - 8.0];
         let name = column_name(answered);
-        lettering.write_upwards(&mut canvas.image, name, at, Anchor::Left, LIGHT);
+        canvas.write_upwards(name, LETTERS, at, Anchor::Left, LIGHT);
     }
     for ((truth, answered), places) in cells {
         let row = rows.iter().position(|row| row == truth);
@@ -140,11 +119,11 @@ fn draw_matrix(
         canvas.block(from, to, colour);
         let text = format!("{}{sign}", places.len());
         let at = [from[0] + CELL / 2.0, from[1] + CELL / 2.0 + 5.0];
-        lettering.write(&mut canvas.image, &text, at, Anchor::Middle, LIGHT);
+        canvas.write(&text, LETTERS, at, Anchor::Middle, LIGHT);
     }
     let words = "rows: what it is; columns: what it was accepted as; × wrong, ! refused";
     let at = [EDGE, top + CELL * rows.len() as f64 + 32.0];
-    lettering.write(&mut canvas.image, words, at, Anchor::Left, DIM_TEXT);
+    canvas.write(words, LETTERS, at, Anchor::Left, DIM_TEXT);
 }
 
 #[cfg(test)]

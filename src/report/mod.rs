@@ -16,7 +16,7 @@ pub use self::{
     evaluation::evaluation_picture,
     folder::{ReportError, ReportFolder},
     line::{CaptureLine, InspectionLine, SCHEMA, ScanLine, TimingsLine},
-    pictures::{Picture, segmentation_picture, stage_pictures, strip, write_png},
+    pictures::{Picture, binary_picture, segmentation_picture, stage_pictures, strip, write_png},
     runner_up_picture::runner_up_picture,
     scaling::{TimeCurve, scaling_picture, stacked},
 };

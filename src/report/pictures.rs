@@ -66,7 +66,7 @@ pub fn stage_pictures(scene: &SceneCloud, inspection: &Inspection) -> Vec<Pictur
             "segmentation",
             segmentation_picture(scene, &inspection.segmentation),
         ),
-        picture("binary", plane.map(binary)),
+        picture("binary", plane.map(binary_picture)),
         picture(
             "contour",
             plane
@@ -133,7 +133,7 @@ pub fn segmentation_picture(scene: &SceneCloud, segmentation: &Segmentation) -> 
 }
 
 /// The paper's picture: black on white.
-fn binary(plane: &PlaneImage) -> RgbImage {
+pub fn binary_picture(plane: &PlaneImage) -> RgbImage {
     let scale = scale_of(plane) as u32;
     let image = &plane.image;
     RgbImage::from_fn(
@@ -174,16 +174,20 @@ fn fan(plane: &PlaneImage, contour: &Contour, signature: Option<&FanSignature>) 
         border.iter().copied().chain(again).collect::<Vec<_>>()
     };
     for opening in &contour.openings {
-        canvas.polyline(closed(opening).iter().map(place), OPENING);
+        canvas.polyline(closed(opening).iter().map(place), (1.5, &[]), OPENING);
     }
-    canvas.polyline(closed(&contour.outline).iter().map(place), OUTLINE);
+    canvas.polyline(
+        closed(&contour.outline).iter().map(place),
+        (1.5, &[]),
+        OUTLINE,
+    );
     if let Some(signature) = signature {
         canvas.dot(place(&signature.centroid), 5.0, LIGHT);
         if let Some(first) = signature.rays.first() {
             canvas.dot(place(&(signature.centroid + first)), 4.0, LIGHT);
         }
     }
-    canvas.image
+    canvas.finish()
 }
 
 /// Size of each curve's half of the picture, picture elements.
@@ -219,9 +223,9 @@ fn curves(signature: &FanSignature) -> RgbImage {
             ]
         };
         let colour = if from_zero { OUTLINE } else { OPENING };
-        canvas.polyline(values.iter().enumerate().map(place), colour);
+        canvas.polyline(values.iter().enumerate().map(place), (1.5, &[]), colour);
     }
-    canvas.image
+    canvas.finish()
 }
 
 #[cfg(test)]

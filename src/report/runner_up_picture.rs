@@ -6,7 +6,7 @@ use nalgebra::Point3;
 use super::{
     canvas::Canvas,
     chart::DIM_TEXT,
-    lettering::{Anchor, Lettering},
+    lettering::Anchor,
     pictures::{DARK, LIGHT, OPENING, PART, Picture},
 };
 use crate::{
@@ -102,7 +102,7 @@ impl<'a> View<'a> {
         let (u, v) = self.camera.pixel_of(p)?;
         let [from, to] = self.corners;
         let is_inside = u >= from[0] && v >= from[1] && u < to[0] && v < to[1];
-        is_inside.then(|| [(u - from[0]) * SCALE, (v - from[1]) * SCALE + HEAD])
+        is_inside.then(|| [(u - from[0]) * SCALE, (v - from[1]) * SCALE + HEAD].map(f64::round))
     }
 
     /// How far off counts at a depth, metres.
@@ -123,18 +123,17 @@ impl<'a> View<'a> {
         let (num_off, num_part) = self.draw_part(&mut canvas, pose, reference);
         let (num_missing, num_looked_for) = self.draw_missing(&mut canvas, pose, reference);
         let percent = |num: usize, of: usize| 100.0 * num as f64 / of.max(1) as f64;
-        let text = Lettering::new(16.0);
         let title = format!("{} {:.3}", entry.part, entry.score);
         let at = [8.0, HEAD - 12.0];
-        text.write(&mut canvas.image, &title, at, Anchor::Left, LIGHT);
+        canvas.write(&title, 16.0, at, Anchor::Left, LIGHT);
         let words = format!(
             "dots: {:.1} % of the scene off it · crosses: {:.1} % of it missing",
             percent(num_off, num_part),
             percent(num_missing, num_looked_for)
         );
         let at = [8.0, height - 12.0];
-        Lettering::new(13.0).write(&mut canvas.image, &words, at, Anchor::Left, DIM_TEXT);
-        canvas.image
+        canvas.write(&words, 13.0, at, Anchor::Left, DIM_TEXT);
+        canvas.finish()
     }
 
     /// The part's points: how many lie off the reference, of how many.
@@ -155,7 +154,7 @@ impl<'a> View<'a> {
             let is_off = off > self.tolerance(f64::from(p.z));
             num_off += usize::from(is_off);
             if let Some(at) = self.place(&p.cast()) {
-                canvas.dot(at, 1.0, if is_off { PART } else { ON });
+                canvas.dot(at, 1.25, if is_off { PART } else { ON });
             }
         }
         (num_off, self.part.len())

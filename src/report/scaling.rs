@@ -4,8 +4,8 @@ use image::{Rgb, RgbImage, imageops::replace};
 
 use super::{
     canvas::Canvas,
-    chart::{Axis, Chart, Division},
-    lettering::{Anchor, Lettering},
+    chart::{Axis, Chart, Division, LETTERS},
+    lettering::Anchor,
     pictures::{DARK, DIM, LIGHT},
 };
 
@@ -62,9 +62,8 @@ pub fn scaling_picture(
         },
     };
     let mut canvas = Canvas::new(1040, 570, DARK);
-    let (large, small) = (Lettering::new(20.0), Lettering::new(15.0));
-    large.write(&mut canvas.image, title, [110.0, 36.0], Anchor::Left, LIGHT);
-    chart.draw_axes(&mut canvas, &small);
+    canvas.write(title, 20.0, [110.0, 36.0], Anchor::Left, LIGHT);
+    chart.draw_axes(&mut canvas);
     if let Some((size, words)) = crossover {
         let [x, top] = chart.place([size, chart.up.range[1]]);
         canvas.line([x, top], [x, chart.corners[1][1]], DIM);
@@ -75,27 +74,21 @@ pub fn scaling_picture(
         } else {
             ([x - 6.0, bottom - 10.0], Anchor::Right)
         };
-        small.write(&mut canvas.image, words, at, anchor, LIGHT);
+        canvas.write(words, LETTERS, at, anchor, LIGHT);
     }
     for (place, curve) in curves.iter().enumerate() {
         let (colour, pattern) = LOOKS[place % LOOKS.len()];
         let corners = curve.points.iter().map(|p| chart.place(*p));
-        canvas.dashes(corners, pattern, colour);
+        canvas.polyline(corners, (2.0, pattern), colour);
         for point in &curve.points {
             canvas.dot(chart.place(*point), 3.0, colour);
         }
         let row = 80.0 + 24.0 * place as f64;
         let sample = [[850.0, row - 5.0], [890.0, row - 5.0]];
-        canvas.dashes(sample.into_iter(), pattern, colour);
-        small.write(
-            &mut canvas.image,
-            &curve.name,
-            [898.0, row],
-            Anchor::Left,
-            LIGHT,
-        );
+        canvas.polyline(sample, (2.0, pattern), colour);
+        canvas.write(&curve.name, LETTERS, [898.0, row], Anchor::Left, LIGHT);
     }
-    canvas.image
+    canvas.finish()
 }
 
 /// Pictures over each other.

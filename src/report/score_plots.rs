@@ -4,8 +4,8 @@ use image::Rgb;
 
 use super::{
     canvas::Canvas,
-    chart::{Axis, Chart, DIM_TEXT, Division},
-    lettering::{Anchor, Lettering},
+    chart::{Axis, Chart, DIM_TEXT, Division, LETTERS},
+    lettering::Anchor,
     pictures::{DIM, LIGHT, OPENING, PART},
 };
 use crate::cases::{Calibration, ThresholdCounts, TradeOff};
@@ -34,7 +34,6 @@ fn unit_chart([left, top]: [f64; 2], [across, up]: [&str; 2]) -> Chart<'_> {
 /// A dot a bin, with the number of its guesses; on the diagonal a score says how often it is right.
 pub(super) fn draw_calibration(
     canvas: &mut Canvas,
-    lettering: &Lettering,
     calibration: &Calibration,
     [left, top]: [f64; 2],
 ) {
@@ -42,35 +41,30 @@ pub(super) fn draw_calibration(
         [left, top],
         ["score of the best guess", "share of right guesses"],
     );
-    chart.draw_axes(canvas, lettering);
+    chart.draw_axes(canvas);
     canvas.line(chart.place([0.0, 0.0]), chart.place([1.0, 1.0]), DIM);
-    let mut last = None;
-    for bin in &calibration.bins {
-        let Some(share) = bin.share_right() else {
-            continue;
-        };
-        let at = chart.place([bin.mean_score, share]);
-        if let Some(last) = last.replace(at) {
-            canvas.line(last, at, PART);
-        }
+    let bins = calibration.bins.iter();
+    let bins =
+        bins.filter_map(|bin| Some((bin.num, chart.place([bin.mean_score, bin.share_right()?]))));
+    let bins: Vec<(usize, [f64; 2])> = bins.collect();
+    canvas.polyline(bins.iter().map(|(_, at)| *at), (1.0, &[]), PART);
+    for (num, at) in bins {
         canvas.dot(at, 5.0, PART);
-        let text = bin.num.to_string();
         // Above: below the lowest are the numbers of the axis.
-        let at = [at[0], at[1] - 12.0];
-        lettering.write(&mut canvas.image, &text, at, Anchor::Middle, LIGHT);
+        let above = [at[0], at[1] - 12.0];
+        canvas.write(&num.to_string(), LETTERS, above, Anchor::Middle, LIGHT);
     }
     let words = calibration.expected_error.map_or_else(
         || "no guess, no calibration".to_owned(),
         |error| format!("expected calibration error {error:.3}; numbers are guesses"),
     );
     let at = [left, top + PLOT + 74.0];
-    lettering.write(&mut canvas.image, &words, at, Anchor::Left, DIM_TEXT);
+    canvas.write(&words, LETTERS, at, Anchor::Left, DIM_TEXT);
 }
 
 /// What every least score would accept wrongly, and what it would refuse, by the score alone.
 pub(super) fn draw_trade_off(
     canvas: &mut Canvas,
-    lettering: &Lettering,
     trade_off: &TradeOff,
     threshold: f64,
     [left, top]: [f64; 2],
@@ -81,7 +75,7 @@ pub(super) fn draw_trade_off(
         steps,
     } = trade_off;
     let chart = unit_chart([left, top], ["least score", "share"]);
-    chart.draw_axes(canvas, lettering);
+    chart.draw_axes(canvas);
     let ends = [0.0, 1.0].map(|share| chart.place([threshold, share]));
     canvas.line(ends[0], ends[1], DIM);
     let share = |num: usize, of: usize| num as f64 / of.max(1) as f64;
@@ -98,17 +92,14 @@ pub(super) fn draw_trade_off(
     for (row, ((words, pattern, colour), curve)) in
         (0..).zip(looks.into_iter().zip([wrong, refused]))
     {
-        // Twice, a pixel apart: a thin line is lost beside the grid.
-        let below = curve.iter().map(|[x, y]| [*x, y + 1.0]);
-        canvas.dashes(below, pattern, colour);
-        canvas.dashes(curve.iter().copied(), pattern, colour);
+        canvas.polyline(curve, (2.0, pattern), colour);
         let y = top - 30.0 + 20.0 * f64::from(row);
         let sample = [[left, y - 5.0], [left + 40.0, y - 5.0]];
-        canvas.dashes(sample.into_iter(), pattern, colour);
+        canvas.polyline(sample, (2.0, pattern), colour);
         let at = [left + 50.0, y];
-        lettering.write(&mut canvas.image, words, at, Anchor::Left, LIGHT);
+        canvas.write(words, LETTERS, at, Anchor::Left, LIGHT);
     }
     let words = format!("the upright line is the threshold of {threshold:.2}");
     let at = [left, top + PLOT + 74.0];
-    lettering.write(&mut canvas.image, &words, at, Anchor::Left, DIM_TEXT);
+    canvas.write(&words, LETTERS, at, Anchor::Left, DIM_TEXT);
 }

@@ -247,8 +247,10 @@ fn pictures_of_the_workspace() {
         keep(&mut harness, &format!("{name}_menu"));
         harness.key_press(Key::Escape);
         harness.key_press(Key::T);
-        harness.get_by_label("Enlarge alignment").click();
-        keep(&mut harness, &format!("{name}_alignment"));
+        for stage in ["signatures", "alignment"] {
+            harness.get_by_label(&format!("Enlarge {stage}")).click();
+            keep(&mut harness, &format!("{name}_{stage}"));
+        }
         harness.key_press(Key::Escape);
         act(
             &mut harness,

@@ -7,7 +7,7 @@ use super::library_cache::LibraryView;
 use crate::{
     library::Library,
     pipeline::{Inspection, Stage},
-    report::stage_pictures,
+    report::{binary_picture, segmentation_picture},
     stages::{
         confirm::ConfirmedMatch, contour::Contour, rank::ImagePlacement, reference::ReferenceView,
         scene::SceneCloud, signature::FanSignature,
@@ -179,16 +179,11 @@ impl StageFigures {
         shown: &LibraryView,
     ) -> Self {
         let mut figures = Self {
+            segmentation: segmentation_picture(scene, &inspection.segmentation),
+            binary: inspection.plane.as_ref().map(binary_picture),
             num_points: scene.cloud.num_finite(),
             ..Self::default()
         };
-        for picture in stage_pictures(scene, inspection) {
-            match picture.stage {
-                "segmentation" => figures.segmentation = Some(picture.image),
-                "binary" => figures.binary = Some(picture.image),
-                _ => {}
-            }
-        }
         if let Ok(part) = &inspection.segmentation.part {
             figures.num_part = part.cloud.points.len();
         }

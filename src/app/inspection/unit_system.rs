@@ -37,6 +37,22 @@ impl UnitSystem {
         }
     }
 
+    /// Factor from metres, sign and decimals of lengths along an axis.
+    pub fn length_axis(self) -> (f64, &'static str, usize) {
+        match self {
+            Self::MillimetresDegrees => (1000.0, "mm", 0),
+            Self::MetresRadians => (1.0, "m", 3),
+        }
+    }
+
+    /// Factor from radians, sign and decimals of angles along an axis.
+    pub fn angle_axis(self) -> (f64, &'static str, usize) {
+        match self {
+            Self::MillimetresDegrees => (1.0_f64.to_degrees(), "°", 0),
+            Self::MetresRadians => (1.0, "rad", 2),
+        }
+    }
+
     /// A difference of lengths in metres, with its sign.
     pub fn signed_length(self, metres: f64) -> String {
         match self {

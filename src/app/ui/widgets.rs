@@ -1,9 +1,8 @@
 //! Small things that several panels draw.
 
 use egui::{
-    Align, Align2, Button, Color32, ColorImage, Context, Frame, Id, Layout, Margin, Modal,
-    ModalResponse, Painter, Pos2, Rect, RichText, Stroke, StrokeKind, TextureHandle,
-    TextureOptions, Ui, Vec2, pos2, vec2,
+    Align, Button, ColorImage, Context, Frame, Id, Layout, Margin, Modal, ModalResponse, Painter,
+    Pos2, Rect, RichText, Stroke, StrokeKind, TextureHandle, TextureOptions, Ui, Vec2, pos2, vec2,
 };
 use image::RgbImage;
 
@@ -84,17 +83,6 @@ pub(in crate::app) fn sentence(text: &str) -> String {
     })
 }
 
-/// Text on a picture.
-pub(in crate::app) fn caption(
-    painter: &Painter,
-    at: Pos2,
-    anchor: Align2,
-    text: &str,
-    colour: Color32,
-) {
-    painter.text(at, anchor, text, font::scale(), colour);
-}
-
 /// The largest rectangle of this aspect (width over height) in the middle of another.
 pub(in crate::app) fn fitted(outer: Rect, aspect: f32) -> Rect {
     let width = outer.width().min(outer.height() * aspect);
@@ -124,10 +112,16 @@ impl Scale {
     }
 }
 
-/// A curve over evenly spaced places.
-pub(in crate::app) fn curve(values: &[f32], across: &Scale, up: &Scale) -> Vec<Pos2> {
-    let place = |(i, value): (usize, &f32)| pos2(across.at(i as f32), up.at(*value));
-    values.iter().enumerate().map(place).collect()
+/// Where points of a plane are on the screen: what is within `bounds` as large as it fits into the middle of `rect`, y up.
+pub(in crate::app) fn plane_in(
+    rect: Rect,
+    [low, high]: [[f32; 2]; 2],
+) -> impl Fn(&[f32; 2]) -> Pos2 {
+    let (wide, tall) = ((high[0] - low[0]).max(1e-3), (high[1] - low[1]).max(1e-3));
+    let place = fitted(rect, wide / tall);
+    let across = Scale::new([low[0], high[0]], [place.left(), place.right()]);
+    let up = Scale::new([low[1], high[1]], [place.bottom(), place.top()]);
+    move |p| pos2(across.at(p[0]), up.at(p[1]))
 }
 
 /// Shows which hand-drawn control has the focus.

@@ -173,18 +173,20 @@ fn show(solved: &HandEye, console: &mut Console) {
     ]);
     table.show(console);
     let span = &solved.span;
-    console.line(&format_args!(
-        "  span      the flange turned by {:.0}° at most, about other axes than its main one by {:.0}° (rms); the target moved by {:.0} mm before the camera",
+    let text = format!(
+        "the flange turned by {:.0}° at most, about other axes than its main one by {:.0}° (rms); the target moved by {:.0} mm before the camera",
         span.largest_turn.degrees(),
         span.other_turn.degrees(),
         span.travel.mm()
-    ));
+    );
+    console.entry("span", &text);
     if solved.bounds.shift.0.is_finite() {
-        console.line(&format_args!(
-            "  bounds    off by less than {:.2} mm where the targets stood and {:.3}° in 95 of 100 cases, if the pairs err independently",
+        let text = format!(
+            "off by less than {:.2} mm where the targets stood and {:.3}° in 95 of 100 cases, if the pairs err independently",
             solved.bounds.shift.mm(),
             solved.bounds.turn.degrees()
-        ));
+        );
+        console.entry("bounds", &text);
     }
     matrix(
         solved.mount.target_transform(),

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::{Console, Outcome, load};
 use crate::{
-    cli::report::parse_convention,
+    cli::{console::in_columns, report::parse_convention},
     geometry::rigid::{RigidTransform, row_major},
     report::SCHEMA,
     robot::{
@@ -88,7 +88,7 @@ pub(super) fn calibration(
 ) {
     let mut line = |what: &str, text: &str| {
         if !text.is_empty() {
-            console.line(&format_args!("  {what:<9} {text}"));
+            console.entry(what, &text);
         }
     };
     line("cell", &shown.shown_with_identity());
@@ -149,7 +149,6 @@ fn pose(
 pub(super) fn matrix(name: &str, transform: &RigidTransform, console: &mut Console) {
     console.line(&format_args!("  {name}, 4x4 matrix, shift in metres"));
     for row in row_major(transform).chunks(4) {
-        let cells: Vec<String> = row.iter().map(|x| format!("{:10.6}", x + 0.0)).collect();
-        console.line(&format_args!("    {}", cells.join(" ")));
+        console.line(&format_args!("    {}", in_columns(row)));
     }
 }

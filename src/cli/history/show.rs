@@ -7,7 +7,7 @@ use super::{ShowArgs, again, here};
 use crate::{
     cli::{
         Outcome,
-        console::{Advised as _, Console, Table},
+        console::{Advised as _, Console, Table, in_columns},
     },
     history::{History, Record, Summary},
     library::Truth,
@@ -165,9 +165,8 @@ fn card(history: &History, record: &Record, console: &mut Console) {
     }
     if let Some(numbers) = record.matrix() {
         for (i, line) in numbers.chunks(4).enumerate() {
-            let numbers: Vec<String> = line.iter().map(|x| format!("{x:10.6}")).collect();
             let name = if i == 0 { "camera_from_part, m" } else { "" };
-            row(name, numbers.join(" "));
+            row(name, in_columns(line));
         }
     }
     let times = record.timings().into_iter();

@@ -13,9 +13,9 @@ use krilla::{
 
 use super::{
     PoseReport, SeenBy,
-    sheet::{Align, Area, Faces, Ink, Sheet, Style, Weight},
+    sheet::{Area, Faces, Ink, Sheet, Style, Weight},
 };
-use crate::report::Picture;
+use crate::report::{Picture, lettering::Anchor};
 
 /// A4, points.
 const PAGE: [f32; 2] = [595.28, 841.89];
@@ -143,13 +143,13 @@ fn head(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
         "Partsight pose report",
         [MARGIN, 46.0],
         HEADING,
-        Align::Left,
+        Anchor::Left,
     );
     let at = report
         .inspected_at
         .strftime("%Y-%m-%d %H:%M:%S UTC")
         .to_string();
-    sheet.text(&at, [MARGIN + WIDTH, 46.0], BODY, Align::Right);
+    sheet.text(&at, [MARGIN + WIDTH, 46.0], BODY, Anchor::Right);
     sheet.line(&[[MARGIN, 54.0], [MARGIN + WIDTH, 54.0]], 0.75, RULE);
     if report.seen_by != SeenBy::Simulation {
         return 66.0;
@@ -166,7 +166,7 @@ fn head(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
         text,
         [MARGIN + 8.0, 72.5],
         style(10.0, Weight::Bold, WHITE),
-        Align::Left,
+        Anchor::Left,
     );
     90.0
 }
@@ -204,7 +204,7 @@ fn verdict(
     let title_style = large(size.unwrap_or(15.0));
     let title = sheet.faces.fitted(&title, wide, title_style);
     let mut y = top + 21.0;
-    sheet.text(&title, [MARGIN + INDENT, y], title_style, Align::Left);
+    sheet.text(&title, [MARGIN + INDENT, y], title_style, Anchor::Left);
     y += 21.0;
     let words = match (verdict.accepted, &report.refused_pose) {
         (true, _) => "Accepted",
@@ -221,7 +221,7 @@ fn verdict(
         words,
         [MARGIN + INDENT + 18.0, y],
         style(14.0, Weight::Bold, ink),
-        Align::Left,
+        Anchor::Left,
     );
     if let Some(score) = verdict.score {
         let right = MARGIN + WIDTH;
@@ -229,13 +229,13 @@ fn verdict(
             &format!("{score:.2}"),
             [right, top + 21.0],
             large(22.0),
-            Align::Right,
+            Anchor::Right,
         );
         let margin = verdict.margin.map_or(String::new(), |margin| {
             format!(", {margin:.2} ahead of the next")
         });
         let below = format!("score, threshold {:.2}{margin}", verdict.threshold);
-        sheet.text(&below, [right, y], SMALL, Align::Right);
+        sheet.text(&below, [right, y], SMALL, Anchor::Right);
     }
     y += 15.0;
     let text = |sheet: &mut Sheet<'_>, text: &str, style, y| {
@@ -319,7 +319,7 @@ fn strip(sheet: &mut Sheet<'_>, stages: &[&Picture], bottom: f32) -> f32 {
         let caption = sheet
             .faces
             .fitted(stage_title(stage.stage), area.width, SMALL);
-        sheet.text(&caption, [left, top + height + 9.0], SMALL, Align::Left);
+        sheet.text(&caption, [left, top + height + 9.0], SMALL, Anchor::Left);
         left += area.width + BETWEEN;
     }
     top - 10.0

@@ -1,6 +1,6 @@
 //! A page to write and draw on: text that can be selected, in the font of the window, lines, and pictures.
 //!
-//! `skrifa` says how wide letters are, `krilla` makes the PDF. Lengths are points, 72 to the inch; y goes down.
+//! `krilla` makes the PDF. Lengths are points, 72 to the inch; y goes down.
 //!
 //! Known limits: text from left to right, no kerning; a letter that the font lacks is an empty box on paper, and still
 //! itself when it is copied.
@@ -14,10 +14,8 @@ use krilla::{
     surface::Surface,
     text::{Font, GlyphId, KrillaGlyph},
 };
-use skrifa::{FontRef, MetadataProvider as _, instance::LocationRef};
 
-const REGULAR: &[u8] = include_bytes!("../../../assets/fonts/Inter-Regular.otf");
-const BOLD: &[u8] = include_bytes!("../../../assets/fonts/Inter-SemiBold.otf");
+use crate::report::lettering::{Anchor, BOLD, Lettering, REGULAR};
 
 /// A colour on paper.
 pub(super) type Ink = [u8; 3];
@@ -35,13 +33,6 @@ pub(super) struct Style {
 pub(super) enum Weight {
     Regular,
     Bold,
-}
-
-/// Where a text stands to its place.
-#[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Align {
-    Left,
-    Right,
 }
 
 /// A stretch of the page: left, top, width, height.
@@ -69,7 +60,7 @@ impl Area {
 
 /// A font, to be measured and to be written with.
 pub(super) struct Face {
-    measured: FontRef<'static>,
+    measured: Lettering,
     written: Font,
 }
 
@@ -80,32 +71,19 @@ impl Face {
             Weight::Bold => BOLD,
         };
         Self {
-            measured: FontRef::new(bytes).expect("our own font is one"),
+            measured: Lettering::of(bytes),
             written: Font::new(bytes.into(), 0).expect("our own font is one"),
         }
     }
 
-    /// The glyphs of a text, their widths as shares of the size.
     fn glyphs(&self, text: &str) -> Vec<KrillaGlyph> {
-        let metrics = self
-            .measured
-            .glyph_metrics(skrifa::instance::Size::new(1.0), LocationRef::default());
-        let charmap = self.measured.charmap();
-        let glyph = |(at, letter): (usize, char)| {
-            let glyph = charmap.map(letter).unwrap_or_default();
-            let advance = metrics.advance_width(glyph).unwrap_or(0.0);
-            let range = at..at + letter.len_utf8();
-            KrillaGlyph::new(
-                GlyphId::new(glyph.to_u32()),
-                advance,
-                0.0,
-                0.0,
-                0.0,
-                range,
-                None,
-            )
+        let places = text.char_indices();
+        let glyphs = places.zip(self.measured.glyphs(text));
+        let glyph = |((at, letter), (glyph, width)): ((usize, char), (skrifa::GlyphId, f32))| {
+            let (glyph, range) = (GlyphId::new(glyph.to_u32()), at..at + letter.len_utf8());
+            KrillaGlyph::new(glyph, width, 0.0, 0.0, 0.0, range, None)
         };
-        text.char_indices().map(glyph).collect()
+        glyphs.map(glyph).collect()
     }
 }
 
@@ -132,8 +110,7 @@ impl Faces {
 
     /// Width of a text.
     pub(super) fn width(&self, text: &str, style: Style) -> f32 {
-        let glyphs = self.of(style.weight).glyphs(text);
-        glyphs.iter().map(|glyph| glyph.x_advance).sum::<f32>() * style.size
+        self.of(style.weight).measured.width(text, style.size)
     }
 
     /// The text, cut in its middle where it is wider: both ends of a path say more than its middle.
@@ -212,15 +189,12 @@ impl<'a> Sheet<'a> {
     }
 
     /// Writes one line; `at` is on the line that the letters stand on.
-    pub(super) fn text(&mut self, text: &str, at: [f32; 2], style: Style, align: Align) {
+    pub(super) fn text(&mut self, text: &str, at: [f32; 2], style: Style, anchor: Anchor) {
         if text.is_empty() {
             return;
         }
         let width = self.faces.width(text, style);
-        let left = match align {
-            Align::Left => at[0],
-            Align::Right => at[0] - width,
-        };
+        let left = at[0] + anchor.offset(width);
         #[cfg(test)]
         self.texts.push((
             text.to_owned(),
@@ -256,7 +230,7 @@ impl<'a> Sheet<'a> {
     ) -> f32 {
         let mut y = at[1];
         for line in self.faces.lines(text, width, style, most) {
-            self.text(&line, [at[0], y], style, Align::Left);
+            self.text(&line, [at[0], y], style, Anchor::Left);
             y += style.size * 1.3;
         }
         y

@@ -1,8 +1,7 @@
 //! E per iteration on a logarithmic scale: one curve per method, the goal of Algorithm 3, the genetic searches.
 
-use std::ops::RangeInclusive;
-
-use egui::{Align2, Painter, Pos2, Rect, Shape, Stroke, Vec2, pos2, vec2};
+use egui::{Align2, Painter, Pos2, Rect, Stroke, Ui, Vec2, pos2};
+use egui_plot::{HLine, Line, LineStyle, PlotPoint, PlotTransform, Points, Span};
 
 use super::{
     playback::MethodComparison,
@@ -10,155 +9,93 @@ use super::{
     track::{MethodRun, Track},
 };
 use crate::app::ui::{
+    plot::{Axes, Axis, curve, range_of},
     theme::{Theme, font},
-    widgets::{Scale, curve},
 };
 
 /// The goal of Algorithm 3, 1e-6 m², as a power of ten.
-const GOAL: f32 = -6.0;
-/// Room for the scale on the left, logical pixels.
-const LEFT: f32 = 48.0;
+const GOAL: f64 = -6.0;
 /// Opacity of a method's level after its end.
 const HELD: f32 = 0.5;
-/// More powers of ten than this are named every second one only.
-const MANY_POWERS: i32 = 7;
 
-/// Where things are on the plot.
-#[derive(Clone, Copy, Debug)]
-pub(super) struct Axes {
-    area: Rect,
-    across: Scale,
-    up: Scale,
-    powers: [i32; 2],
-    last: usize,
-}
-
-impl Axes {
-    /// The axes of a comparison in a rectangle.
-    pub(super) fn of(shown: &MethodComparison, rect: Rect) -> Self {
-        let range = shown.tracks().map(|(_, track)| track.log_range);
-        let [low, high] = range.fold([GOAL, GOAL + 1.0], |[low, high], range| {
-            [low.min(range[0]), high.max(range[1])]
-        });
-        let (low, high) = (low.floor(), high.ceil());
-        let area = Rect::from_min_max(rect.min + vec2(LEFT, 6.0), rect.max - vec2(14.0, 16.0));
-        let last = shown.last_place();
-        Self {
-            area,
-            across: Scale::new([0.0, last.max(1) as f32], [area.left(), area.right()]),
-            up: Scale::new([low, high], [area.bottom(), area.top()]),
-            powers: [low as i32, high as i32],
-            last,
-        }
-    }
-
-    /// The place under the pointer, iterations.
-    pub(super) fn place_at(&self, x: f32) -> f32 {
-        let share = (x - self.area.left()) / self.area.width().max(1.0);
-        (share * self.last as f32)
-            .round()
-            .clamp(0.0, self.last as f32)
-    }
-
-    fn powers(&self) -> RangeInclusive<i32> {
-        self.powers[0]..=self.powers[1]
-    }
-}
-
-/// Draws scale, goal, searches, curves and the scrubber at `place`.
-pub(super) fn paint(
-    painter: &Painter,
-    axes: &Axes,
+/// Draws axes, goal, searches, curves and the scrubber at `place`.
+pub(super) fn show(
+    ui: &mut Ui,
+    rect: Rect,
     shown: &MethodComparison,
     place: f32,
     theme: &Theme,
-) {
-    let Axes {
-        area, across, up, ..
-    } = *axes;
-    for (_, track) in shown.tracks() {
-        shade(painter, axes, track, theme);
-    }
-    let is_tall = axes.powers[1] - axes.powers[0] <= MANY_POWERS;
-    for power in axes.powers().filter(|power| is_tall || power % 2 == 0) {
-        let y = up.at(power as f32);
-        painter.hline(area.x_range(), y, theme.edge_stroke());
-        let at = pos2(area.left() - 8.0, y);
-        let text = format!("1e{power}");
-        painter.text(
-            at,
-            Align2::RIGHT_CENTER,
-            text,
-            font::small(),
-            theme.weak_text,
-        );
-    }
-    for share in [0, 1, 2] {
-        let number = axes.last * share / 2;
-        let at = pos2(across.at(number as f32), area.bottom() + 3.0);
-        let anchor = [Align2::LEFT_TOP, Align2::CENTER_TOP, Align2::RIGHT_TOP][share];
-        painter.text(
-            at,
-            anchor,
-            number.to_string(),
-            font::scale(),
-            theme.weak_text,
-        );
-    }
-    let goal = up.at(GOAL);
-    let ends = [pos2(area.left(), goal), pos2(area.right(), goal)];
-    let stroke = Stroke::new(1.4, theme.accepted);
-    painter.extend(Shape::dashed_line(&ends, stroke, 6.0, 5.0));
-    let searches = name_the_searches(painter, axes, shown, theme);
-    let curves: Vec<Vec<Pos2>> = shown
-        .tracks()
-        .map(|(_, track)| curve(&track.log_e, &across, &up))
-        .collect();
-    for ((run, _), points) in shown.tracks().zip(&curves) {
-        painter.extend(series::line(run.method, points, theme));
-        if let Some(end) = points.last() {
+) -> PlotTransform {
+    let [low, high] = range_of(shown.tracks().flat_map(|(_, track)| &track.log_e));
+    let (low, high) = (low.min(GOAL).floor(), high.max(GOAL + 1.0).ceil());
+    let last = shown.last_place();
+    let marks = [0, last / 2, last].map(|number| (number as f64, number.to_string()));
+    let axes = Axes {
+        title: Vec::new(),
+        across: Axis::new([0.0, last.max(1) as f64], marks.to_vec()),
+        up: Axis::powers([low, high], |power| format!("1e{power}")),
+        font: font::small(),
+        read: None,
+    };
+    let rect = rect.with_max_y(rect.bottom() - 2.0);
+    let drawn = axes.show(ui, rect, theme, |plot| {
+        for search in shown.tracks().flat_map(|(_, track)| &track.searches) {
+            let stretch = search.start as f64..=search.end as f64;
+            plot.span(Span::new("", stretch).fill(theme.control));
+        }
+        let goal = HLine::new("", GOAL).color(theme.accepted).width(1.4);
+        plot.hline(goal.style(LineStyle::Dashed { length: 6.0 }));
+        for (run, track) in shown.tracks() {
+            let colour = series::colour(run.method, theme);
+            let line = curve(&track.log_e, colour).width(2.0);
+            plot.line(line.style(series::style(run.method)));
+            let [x, y] = end_of(track);
             // Where it ended it stays, while others go on.
-            let colour = series::colour(run.method, theme).gamma_multiply(HELD);
-            painter.hline(end.x..=area.right(), end.y, Stroke::new(1.0, colour));
+            let held = Line::new("", vec![[x, y], [last as f64, y]]).width(1.0);
+            plot.line(held.color(colour.gamma_multiply(HELD)));
+            plot.points(Points::new("", vec![[x, y]]).color(colour).radius(3.5));
         }
-    }
-    let mut taken = vec![name_the_goal(painter, area, goal, &curves, theme)];
+    });
+    let painter = ui.painter();
+    let searches = name_the_searches(painter, &drawn, shown, theme);
+    let mut taken = vec![name_the_goal(painter, &drawn, shown, theme)];
     taken.extend(searches);
-    for ((run, _), points) in shown.tracks().zip(&curves) {
-        if let Some(end) = points.last() {
-            painter.circle_filled(*end, 3.5, series::colour(run.method, theme));
-            taken.push(name(painter, area, *end, &taken, run, theme));
-        }
+    let area = *drawn.frame();
+    for (run, track) in shown.tracks() {
+        let end = drawn.position_from_point(&end_of(track).into());
+        taken.push(name(painter, area, end, &taken, run, theme));
     }
-
-    let x = across.at(place);
+    let x = drawn.position_from_point_x(f64::from(place));
     let stroke = Stroke::new(1.5, theme.text);
-    painter.vline(x, area.top()..=area.bottom() + 6.0, stroke);
-    painter.circle_filled(pos2(x, area.bottom() + 6.0), 5.0, theme.text);
+    painter.vline(x, area.y_range(), stroke);
+    // Above the curves: below them are the numbers.
+    painter.circle_filled(pos2(x, area.top()), 5.0, theme.text);
+    drawn
 }
 
-/// The stretches in which the genetic algorithm searched.
-fn shade(painter: &Painter, axes: &Axes, track: &Track, theme: &Theme) {
-    for search in &track.searches {
-        let x = [search.start, search.end].map(|place| axes.across.at(place as f32));
-        let stretch = Rect::from_x_y_ranges(x[0]..=x[1], axes.area.y_range());
-        painter.rect_filled(stretch, 0.0, theme.control);
-    }
+/// Where the curve of a way ends.
+fn end_of(track: &Track) -> [f64; 2] {
+    let last = track.log_e.len().saturating_sub(1);
+    [
+        last as f64,
+        track.log_e.last().map_or(0.0, |e| f64::from(*e)),
+    ]
 }
 
 /// What the shaded stretches are, once, in the first of them, on a plate over the grid.
 fn name_the_searches(
     painter: &Painter,
-    axes: &Axes,
+    drawn: &PlotTransform,
     shown: &MethodComparison,
     theme: &Theme,
 ) -> Option<Rect> {
     let mut searches = shown.tracks().flat_map(|(_, track)| &track.searches);
     let first = searches.next()?;
-    let middle = (first.start + first.end) as f32 / 2.0;
+    let middle = (first.start + first.end) as f64 / 2.0;
     let text = "genetic search".to_owned();
     let galley = painter.layout_no_wrap(text, font::small(), theme.weak_text);
-    let top = pos2(axes.across.at(middle), axes.area.top() + 2.0);
+    let x = drawn.position_from_point_x(middle);
+    let top = pos2(x, drawn.frame().top() + 2.0);
     let rect = Align2::CENTER_TOP.anchor_size(top, galley.size());
     painter.rect_filled(rect.expand(2.0), 0.0, theme.control);
     painter.galley(rect.min, galley, theme.weak_text);
@@ -168,11 +105,19 @@ fn name_the_searches(
 /// The goal's name above its line, where no curve runs through it: at the right end, in the middle or at the left.
 fn name_the_goal(
     painter: &Painter,
-    area: Rect,
-    goal: f32,
-    curves: &[Vec<Pos2>],
+    drawn: &PlotTransform,
+    shown: &MethodComparison,
     theme: &Theme,
 ) -> Rect {
+    let (area, goal) = (*drawn.frame(), drawn.position_from_point_y(GOAL));
+    let curves = shown.tracks().map(|(_, track)| -> Vec<Pos2> {
+        let places = track.log_e.iter().enumerate();
+        let at = |(place, e): (usize, &f32)| PlotPoint::new(place as f64, *e);
+        places
+            .map(|one| drawn.position_from_point(&at(one)))
+            .collect()
+    });
+    let curves: Vec<Vec<Pos2>> = curves.collect();
     let text = "accepted below 1e-6 (Algorithm 3)".to_owned();
     let galley = painter.layout_no_wrap(text, font::small(), theme.accepted);
     let size = galley.size();

@@ -8,7 +8,7 @@ use egui::{
 use super::{
     action::AlignAction,
     playback::{MethodComparison, Playback},
-    plot::{self, Axes},
+    plot,
     state::AlignState,
 };
 use crate::app::ui::{
@@ -39,7 +39,7 @@ pub(super) fn ui(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut V
     let sense = Sense::click_and_drag() | Sense::FOCUSABLE;
     let response = ui.interact(rect, id, sense);
     ui.allocate_rect(rect, Sense::hover());
-    let axes = Axes::of(shown, rect);
+    let drawn = plot::show(ui, rect, shown, align.place, theme);
     describe(ui, &response, align);
     if response.clicked() || response.drag_started() {
         response.request_focus();
@@ -47,10 +47,10 @@ pub(super) fn ui(ui: &mut Ui, align: &AlignState, theme: &Theme, actions: &mut V
     if (response.clicked() || response.dragged())
         && let Some(at) = response.interact_pointer_pos()
     {
-        actions.push(AlignAction::Scrub(axes.place_at(at.x)));
+        let place = drawn.value_from_position(at).x.round() as f32;
+        actions.push(AlignAction::Scrub(place));
     }
     keys(ui, &response, align, actions);
-    plot::paint(ui.painter(), &axes, shown, align.place, theme);
     focus_ring(ui, rect, &response, theme);
 }
 

@@ -1,6 +1,7 @@
 //! How a method is told from the others: by its name, its colour, and the dashes of its curve.
 
-use egui::{Color32, Pos2, Shape, Stroke};
+use egui::Color32;
+use egui_plot::LineStyle;
 
 use crate::{app::ui::theme::Theme, stages::pose::PoseMethod};
 
@@ -23,11 +24,10 @@ pub(super) fn colour(method: PoseMethod, theme: &Theme) -> Color32 {
 }
 
 /// Its curve: whole for ICP, in dashes or dots for the others.
-pub(super) fn line(method: PoseMethod, points: &[Pos2], theme: &Theme) -> Vec<Shape> {
-    let stroke = Stroke::new(2.0, colour(method, theme));
+pub(super) fn style(method: PoseMethod) -> LineStyle {
     match method {
-        PoseMethod::Icp => vec![Shape::line(points.to_vec(), stroke)],
-        PoseMethod::IcpGa => Shape::dashed_line(points, stroke, 9.0, 4.0),
-        PoseMethod::Global => Shape::dashed_line(points, stroke, 2.5, 3.5),
+        PoseMethod::Icp => LineStyle::Solid,
+        PoseMethod::IcpGa => LineStyle::Dashed { length: 9.0 },
+        PoseMethod::Global => LineStyle::Dashed { length: 3.0 },
     }
 }

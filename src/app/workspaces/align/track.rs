@@ -36,8 +36,6 @@ pub struct Track {
     pub e_m2: Vec<f64>,
     /// Their base-10 logarithms.
     pub log_e: Vec<f32>,
-    /// Smallest and largest of them.
-    pub log_range: [f32; 2],
     /// The iterations in which the genetic algorithm searched.
     pub searches: Vec<Range<usize>>,
     /// Why it ended.
@@ -95,11 +93,7 @@ impl Track {
         poses.push(end);
         let e_m2 = e_along(&poses, pair);
         let log_e: Vec<f32> = e_m2.iter().map(|e| e.max(LEAST_E).log10() as f32).collect();
-        let range = [f32::INFINITY, f32::NEG_INFINITY];
         Self {
-            log_range: log_e
-                .iter()
-                .fold(range, |[low, high], e| [low.min(*e), high.max(*e)]),
             log_e,
             searches: searches(&estimate.iterations),
             stopped: estimate.stopped,

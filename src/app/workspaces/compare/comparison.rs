@@ -85,8 +85,6 @@ pub struct Trace {
     pub query: Vec<f32>,
     /// The part's, shifted by the lag where there is one.
     pub reference: Vec<f32>,
-    /// Smallest and largest value of both.
-    pub range: [f32; 2],
 }
 
 /// A (the part with itself) and C (the part with the scene).
@@ -104,8 +102,6 @@ pub struct Correlation {
     pub steps: &'static str,
     /// ‖A − C‖₁ of these two.
     pub l1: f64,
-    /// Smallest and largest value of both.
-    pub range: [f32; 2],
 }
 
 /// Samples nearer to each other than this are not joined, metres: about a pixel of the image.
@@ -184,13 +180,11 @@ impl Overlay {
 
 impl Trace {
     fn new(name: &'static str, measure: AxisQuantity, query: &[f32], reference: &[f32]) -> Self {
-        let range = range_of(query.iter().chain(reference));
         Self {
             name,
             measure,
             query: every(query),
             reference: every(reference),
-            range,
         }
     }
 }
@@ -211,7 +205,6 @@ impl Correlation {
         let (auto, cross) = (narrow(auto), narrow(cross));
         Self {
             name,
-            range: range_of(auto.iter().chain(&cross)),
             auto,
             cross,
             first_lag,
@@ -314,17 +307,6 @@ fn as_written(query: &Query<'_>, reference: &Reference) -> ([Trace; 2], Vec<Corr
 fn every(values: &[f32]) -> Vec<f32> {
     let step = values.len().div_ceil(MAX_VALUES).max(1);
     values.iter().step_by(step).copied().collect()
-}
-
-fn range_of<'a>(values: impl Iterator<Item = &'a f32>) -> [f32; 2] {
-    let range = values.fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], value| {
-        [low.min(*value), high.max(*value)]
-    });
-    if range[0] <= range[1] {
-        range
-    } else {
-        [0.0, 1.0]
-    }
 }
 
 #[cfg(test)]

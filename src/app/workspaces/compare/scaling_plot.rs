@@ -1,18 +1,27 @@
 //! What ranking takes over a growing number of references, by one and by several workers: the paper's Fig. 7(a) and (b).
 
-use egui::{Align2, Button, Pos2, RichText, Sense, Shape, Stroke, Ui, WidgetInfo, vec2};
+use egui::{Button, RichText, Sense, Ui, WidgetInfo, vec2};
+use egui_plot::{Line, LineStyle};
 
 use super::{CompareAction, CompareState};
 use crate::{
     app::ui::{
-        theme::{Theme, font},
-        widgets::{Scale, labelled},
+        plot::{Axes, Axis, legend, range_of},
+        theme::{ROUNDING, Theme, font},
+        widgets::labelled,
     },
     bench::scaling::Scaling,
 };
 
 /// Height of the plot.
 const HEIGHT: f32 = 190.0;
+/// Whole for one worker, ever finer for more.
+const STYLES: [LineStyle; 4] = [
+    LineStyle::Solid,
+    LineStyle::Dashed { length: 10.0 },
+    LineStyle::Dashed { length: 5.0 },
+    LineStyle::Dashed { length: 2.0 },
+];
 
 /// Draws the fold's inside: a button, then the plot.
 pub(super) fn ui(
@@ -60,83 +69,50 @@ fn plot(ui: &mut Ui, scaling: &Scaling, theme: &Theme) {
         words(scaling)
     );
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, &name));
-    let painter = ui.painter_at(all);
-    let mut area = all;
-    area.min += vec2(44.0, 8.0);
-    area.max -= vec2(26.0, 24.0);
-    painter.rect_filled(area, 0.0, theme.canvas);
+    ui.painter().rect_filled(all, ROUNDING, theme.canvas);
     let log = |value: f64| value.max(1e-9).log10() as f32;
-    let times = || scaling.rows.iter().flat_map(|row| row.least_ms).map(log);
-    let sizes = || {
-        scaling
-            .rows
-            .iter()
-            .map(|row| log(row.num_references as f64))
-    };
-    let least = |values: &mut dyn Iterator<Item = f32>| values.fold(f32::INFINITY, f32::min);
-    let most = |values: &mut dyn Iterator<Item = f32>| values.fold(f32::NEG_INFINITY, f32::max);
-    let ranges = [
-        [least(&mut sizes()), most(&mut sizes())],
-        [least(&mut times()) - 0.1, most(&mut times()) + 0.1],
-    ];
-    if !ranges.iter().flatten().all(|end| end.is_finite()) {
-        return;
-    }
-    let across = Scale::new(ranges[0], [area.left(), area.right()]);
-    let up = Scale::new(ranges[1], [area.bottom(), area.top()]);
+    let rows = &scaling.rows;
+    let sizes: Vec<f32> = rows
+        .iter()
+        .map(|row| log(row.num_references as f64))
+        .collect();
+    let times: Vec<f32> = rows.iter().flat_map(|row| row.least_ms).map(log).collect();
+    let [least, most] = range_of(&times);
     let tick = |power: i32| 10.0_f64.powi(power).to_string();
-    for power in -3..=6 {
-        let value = power as f32;
-        let colour = theme.weak_text;
-        if (ranges[0][0]..=ranges[0][1]).contains(&value) {
-            let at = Pos2::new(across.at(value), area.bottom());
-            painter.vline(at.x, area.y_range(), theme.edge_stroke());
-            let at = at + vec2(0.0, 4.0);
-            painter.text(at, Align2::CENTER_TOP, tick(power), font::scale(), colour);
-        }
-        if (ranges[1][0]..=ranges[1][1]).contains(&value) {
-            let at = Pos2::new(area.left(), up.at(value));
-            painter.hline(area.x_range(), at.y, theme.edge_stroke());
-            let text = format!("{} ms", tick(power));
-            let at = at - vec2(4.0, 0.0);
-            painter.text(at, Align2::RIGHT_CENTER, text, font::scale(), colour);
-        }
-    }
+    let axes = Axes {
+        title: Vec::new(),
+        across: Axis::powers(range_of(&sizes), tick),
+        up: Axis::powers([least - 0.1, most + 0.1], |power| {
+            format!("{} ms", tick(power))
+        }),
+        font: font::small(),
+        read: None,
+    };
     let colours = [
         theme.text,
         theme.first_series,
         theme.second_series,
         theme.reference_series,
     ];
-    for (place, (workers, colour)) in scaling.workers.iter().zip(colours).enumerate() {
-        let points: Vec<Pos2> = scaling
-            .rows
-            .iter()
-            .map(|row| {
-                let size = log(row.num_references as f64);
-                Pos2::new(across.at(size), up.at(log(row.least_ms[place])))
-            })
-            .collect();
-        // A list, since the ends lie over each other where there are fewer cores than workers.
-        let name = match workers {
-            1 => "1 worker".to_owned(),
-            workers => workers.to_string(),
-        };
-        let at = area.left_top() + vec2(8.0, 13.0 + 15.0 * place as f32);
-        let stroke = Stroke::new(1.5, colour);
-        painter.extend(line(place, &[at, at + vec2(26.0, 0.0)], stroke));
-        let at = at + vec2(32.0, 0.0);
-        painter.text(at, Align2::LEFT_CENTER, name, font::scale(), colour);
-        painter.extend(line(place, &points, stroke));
-    }
-}
-
-/// Whole for the serial curve, in ever shorter dashes for the others.
-fn line(place: usize, points: &[Pos2], stroke: Stroke) -> Vec<Shape> {
-    match place {
-        0 => vec![Shape::line(points.to_vec(), stroke)],
-        1 => Shape::dashed_line(points, stroke, 10.0, 4.0),
-        2 => Shape::dashed_line(points, stroke, 5.0, 3.0),
-        _ => Shape::dashed_line(points, stroke, 1.5, 3.0),
-    }
+    let shown = axes.show(ui, all.shrink(8.0), theme, |plot| {
+        for (place, (colour, style)) in colours.into_iter().zip(STYLES).enumerate() {
+            let times = rows.iter().map(|row| log(row.least_ms[place]));
+            let points = sizes.iter().zip(times);
+            let points = points.map(|(size, time)| [f64::from(*size), f64::from(time)]);
+            let points: Vec<[f64; 2]> = points.collect();
+            plot.line(Line::new("", points).color(colour).width(1.5).style(style));
+        }
+    });
+    // A list, since the ends lie over each other where there are fewer cores than workers.
+    let names = scaling.workers.map(|workers| match workers {
+        1 => "1 worker".to_owned(),
+        workers => workers.to_string(),
+    });
+    let names = names.iter().map(String::as_str);
+    let curves = names.zip(colours).zip(STYLES);
+    legend(
+        ui.painter(),
+        &shown,
+        curves.map(|((name, colour), style)| (name, colour, style)),
+    );
 }

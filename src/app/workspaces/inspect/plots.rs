@@ -1,9 +1,10 @@
 //! The stage pictures: textures made once, curves and outlines drawn from prepared numbers.
 
 use egui::{
-    Align, Align2, Color32, Painter, Pos2, Rect, Shape, Stroke, TextureHandle, pos2,
+    Align, Align2, Color32, Painter, Pos2, Rect, RichText, Shape, Stroke, TextureHandle, Ui, pos2,
     text::LayoutJob, vec2,
 };
+use egui_plot::{HLine, LineStyle, PlotPoint, Points, Text};
 
 use crate::app::{
     inspection::{
@@ -14,8 +15,9 @@ use crate::app::{
     },
     shell::session::Session,
     ui::{
+        plot::{Axes, Axis, RayCurves, curve, range_of},
         theme::{ROUNDING, Theme, font},
-        widgets::{Scale, caption, curve, fitted},
+        widgets::{fitted, plane_in},
     },
     workspaces::inspect::InspectState,
 };
@@ -53,17 +55,12 @@ impl PlotDetail {
 }
 
 /// The paper's goal for E, 1e-6 m², as a power of ten.
-const GOAL: f32 = -6.0;
+const GOAL: f64 = -6.0;
 
 impl Pictures<'_> {
     /// Draws the picture of a stage into a rectangle.
-    pub(super) fn paint(
-        &self,
-        panel: StagePanel,
-        painter: &Painter,
-        rect: Rect,
-        detail: PlotDetail,
-    ) {
+    pub(super) fn paint(&self, panel: StagePanel, ui: &mut Ui, rect: Rect, detail: PlotDetail) {
+        let painter = &ui.painter_at(rect);
         painter.rect_filled(rect, ROUNDING, self.theme.canvas);
         let figures = &self.inspected.figures;
         let inner = rect.shrink(if detail == PlotDetail::Large {
@@ -81,12 +78,12 @@ impl Pictures<'_> {
             StagePanel::Signature => figures
                 .signature
                 .as_ref()
-                .map(|curves| self.signature(curves, painter, inner, detail)),
+                .map(|curves| self.signature(curves, ui, inner, detail)),
             StagePanel::Ranking => (!figures.candidates.is_empty())
                 .then(|| self.ranking(&figures.candidates, painter, inner, detail)),
             StagePanel::Alignment => self
                 .candidate()
-                .map(|candidate| self.alignment(candidate, painter, inner, detail)),
+                .map(|candidate| self.alignment(candidate, ui, inner, detail)),
         };
         if is_there.is_none() {
             self.says(painter, inner, "not reached");
@@ -136,19 +133,12 @@ impl Pictures<'_> {
     }
 
     fn contour(&self, figure: &ContourFigure, painter: &Painter, rect: Rect, detail: PlotDetail) {
-        let [low, high] = figure.bounds;
-        let (wide, tall) = ((high[0] - low[0]).max(1e-3), (high[1] - low[1]).max(1e-3));
-        let place = fitted(rect, wide / tall);
-        let (across, up) = (
-            Scale::new([low[0], high[0]], [place.left(), place.right()]),
-            Scale::new([low[1], high[1]], [place.bottom(), place.top()]),
-        );
-        let at = |p: &[f32; 2]| pos2(across.at(p[0]), up.at(p[1]));
+        let at = plane_in(rect, figure.bounds);
         let centroid = at(&figure.centroid);
         let corners = |border: &PlaneLine| -> Vec<Pos2> {
             let step = detail.step(border.len(), rect.width());
             let last = border.last().into_iter();
-            border.iter().step_by(step).chain(last).map(at).collect()
+            border.iter().step_by(step).chain(last).map(&at).collect()
         };
         let ray = Stroke::new(1.0, self.theme.weak_text.gamma_multiply(0.45));
         let step = detail.step(figure.ray_ends.len(), rect.width());
@@ -171,145 +161,75 @@ impl Pictures<'_> {
         painter.circle_filled(centroid, 3.5, self.theme.second_series);
     }
 
-    fn signature(
-        &self,
-        scene: &SignatureCurves,
-        painter: &Painter,
-        rect: Rect,
-        detail: PlotDetail,
-    ) {
+    fn signature(&self, scene: &SignatureCurves, ui: &mut Ui, rect: Rect, detail: PlotDetail) {
         let reference = self.candidate().and_then(|c| c.curves.as_ref());
-        let half = rect.height() / 2.0;
+        let units = self.session.units;
+        let (lengths, angles) = (reference.map(|r| &r.lengths), reference.map(|r| &r.angles));
         let halves = [
-            (
-                "L, m",
-                1,
-                &scene.lengths,
-                reference.map(|r| &r.lengths),
-                self.theme.first_series,
-            ),
-            (
-                "Θ, rad",
-                2,
-                &scene.angles,
-                reference.map(|r| &r.angles),
-                self.theme.second_series,
-            ),
+            ("L", units.length_axis(), &scene.lengths, lengths),
+            ("Θ", units.angle_axis(), &scene.angles, angles),
         ];
-        for (name, number, values, other, colour) in halves {
-            let top = rect.top() + half * (number - 1) as f32;
-            let area =
-                Rect::from_min_size(pos2(rect.left(), top), vec2(rect.width(), half)).shrink(4.0);
-            let range = range_of(values.iter().chain(other.into_iter().flatten()));
-            let up = Scale::new(range, [area.bottom(), area.top()]);
+        let middle = rect.center().y;
+        let rows = [rect.with_max_y(middle - 4.0), rect.with_min_y(middle + 4.0)];
+        for ((name, unit, values, other), area) in halves.into_iter().zip(rows) {
             let step = detail.step(values.len(), rect.width());
             let thin =
-                |values: &[f32]| -> Vec<f32> { values.iter().step_by(step).copied().collect() };
-            let last = (values.len().saturating_sub(1) / step).max(1) as f32;
-            let across = Scale::new([0.0, last], [area.left(), area.right()]);
-            if detail == PlotDetail::Large {
-                self.level(painter, area, &up, range[0], &format!("{:.2}", range[0]));
-                self.level(painter, area, &up, range[1], &format!("{:.2}", range[1]));
-            }
-            if let Some(other) = other {
-                let stroke = Stroke::new(1.0, self.theme.reference_series);
-                painter.line(curve(&thin(other), &across, &up), stroke);
-            }
-            painter.line(curve(&thin(values), &across, &up), Stroke::new(1.6, colour));
-            if detail == PlotDetail::Large {
-                let at = area.left_center();
-                painter.text(at, Align2::LEFT_CENTER, name, font::body_strong(), colour);
-            }
+                |values: &Vec<f32>| -> Vec<f32> { values.iter().step_by(step).copied().collect() };
+            let (scene, part) = (thin(values), other.map(thin));
+            let curves = RayCurves {
+                name,
+                unit: (detail == PlotDetail::Large).then_some(unit),
+                scene: &scene,
+                part: part.as_deref(),
+            };
+            curves.show(ui, area, self.theme);
         }
     }
 
-    fn alignment(
-        &self,
-        candidate: &RankedPartFigure,
-        painter: &Painter,
-        rect: Rect,
-        detail: PlotDetail,
-    ) {
+    fn alignment(&self, candidate: &RankedPartFigure, ui: &mut Ui, rect: Rect, detail: PlotDetail) {
         let (log_e, rms_m) = match &candidate.alignment {
             Alignment::Done { log_e, rms_m } if !log_e.is_empty() => (log_e, *rms_m),
-            Alignment::Done { .. } => return self.says(painter, rect, "E stayed at 0"),
-            Alignment::None(why) => return self.says(painter, rect, why),
+            Alignment::Done { .. } => return self.says(ui.painter(), rect, "E stayed at 0"),
+            Alignment::None(why) => return self.says(ui.painter(), rect, why),
         };
-        let [low, high] = range_of(log_e.iter());
-        let (low, high) = (low.min(GOAL).floor(), high.max(GOAL + 1.0).ceil());
-        let mut area = rect;
-        area.min.x += if detail == PlotDetail::Large {
-            44.0
-        } else {
-            26.0
+        let theme = self.theme;
+        let [low, high] = range_of(log_e);
+        let up = [low.min(GOAL).floor(), high.max(GOAL + 1.0).ceil()];
+        let is_large = detail == PlotDetail::Large;
+        let rms = self.session.units.length(rms_m);
+        let title = format!("{} ended at rms {rms}", candidate.title);
+        let last = (log_e.len() - 1) as f64;
+        let axes = Axes {
+            title: is_large
+                .then_some((title, theme.text))
+                .into_iter()
+                .collect(),
+            across: Axis::new([0.0, last.max(1.0)], Vec::new()),
+            up: Axis::powers(up, |power| format!("1e{power}")),
+            font: if is_large {
+                font::body()
+            } else {
+                font::scale()
+            },
+            read: None,
         };
-        // Room for a line of text over the curve.
-        area.min.y += if detail == PlotDetail::Large {
-            22.0
-        } else {
-            0.0
-        };
-        let up = Scale::new([low, high], [area.bottom() - 4.0, area.top() + 6.0]);
-        let last = (log_e.len() - 1).max(1) as f32;
-        let across = Scale::new([0.0, last], [area.left() + 4.0, area.right() - 6.0]);
-        for power in low as i32..=high as i32 {
-            let y = up.at(power as f32);
-            painter.hline(area.x_range(), y, self.theme.edge_stroke());
-            let at = pos2(area.left() - 4.0, y);
-            caption(
-                painter,
-                at,
-                Align2::RIGHT_CENTER,
-                &format!("1e{power}"),
-                self.theme.weak_text,
-            );
-        }
-        let y = up.at(GOAL);
-        let goal = [pos2(area.left(), y), pos2(area.right(), y)];
-        let stroke = Stroke::new(1.4, self.theme.second_series);
-        painter.extend(Shape::dashed_line(&goal, stroke, 5.0, 4.0));
-        let points = curve(log_e, &across, &up);
-        if let Some(end) = points.last() {
-            painter.circle_filled(*end, 3.0, self.theme.first_series);
-        }
-        painter.line(points, Stroke::new(1.8, self.theme.first_series));
-        if detail == PlotDetail::Large {
-            let rms = self.session.units.length(rms_m);
-            let text = format!("{} ended at rms {rms}", candidate.title);
-            let at = rect.right_top();
-            painter.text(at, Align2::RIGHT_TOP, text, font::body(), self.theme.text);
-            let at = pos2(area.right(), y - 4.0);
-            let text = "the paper's goal, 1e\u{2212}6 m²";
-            painter.text(
-                at,
-                Align2::RIGHT_BOTTOM,
-                text,
-                font::small(),
-                self.theme.second_series,
-            );
-        }
+        axes.show(ui, rect, theme, |plot| {
+            let colour = theme.second_series;
+            let goal = HLine::new("", GOAL).color(colour).width(1.4);
+            plot.hline(goal.style(LineStyle::Dashed { length: 5.0 }));
+            plot.line(curve(log_e, theme.first_series));
+            let end = log_e.last().map(|e| vec![[last, f64::from(*e)]]);
+            let end = Points::new("", end.unwrap_or_default()).radius(3.0);
+            plot.points(end.color(theme.first_series));
+            if is_large {
+                let text = RichText::new("the paper's goal, 1e\u{2212}6 m²").font(font::small());
+                let above = GOAL + 0.01 * (up[1] - up[0]);
+                let at = PlotPoint::new(last.max(1.0), above);
+                let text = Text::new("", at, text).color(colour);
+                plot.text(text.anchor(Align2::RIGHT_BOTTOM));
+            }
+        });
     }
-
-    /// A faint line across, with its value.
-    fn level(&self, painter: &Painter, area: Rect, up: &Scale, value: f32, text: &str) {
-        let y = up.at(value);
-        painter.hline(area.x_range(), y, self.theme.edge_stroke());
-        let at = pos2(area.right(), y);
-        caption(
-            painter,
-            at,
-            Align2::RIGHT_BOTTOM,
-            text,
-            self.theme.weak_text,
-        );
-    }
-}
-
-/// Smallest and largest.
-fn range_of<'a>(values: impl Iterator<Item = &'a f32>) -> [f32; 2] {
-    values.fold([f32::INFINITY, f32::NEG_INFINITY], |[low, high], value| {
-        [low.min(*value), high.max(*value)]
-    })
 }
 
 #[cfg(test)]

@@ -78,7 +78,7 @@ pub(super) fn ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Vec<Inspect
             (inner.right_top(), egui::Align2::RIGHT_TOP)
         };
         painter.text(at, anchor, time, font::small(), theme.weak_text);
-        pictures.paint(panel, &painter, picture, PlotDetail::Small);
+        pictures.paint(panel, ui, picture, PlotDetail::Small);
         focus_ring(ui, cell, &response, theme);
         if response.clicked() {
             actions.push(if is_enlarged {
@@ -141,7 +141,7 @@ pub(super) fn enlarged_ui(ui: &mut Ui, pictures: &Pictures<'_>, actions: &mut Ve
             }
             egui::WidgetInfo::labeled(egui::Role::Image, true, label)
         });
-        pictures.paint(panel, ui.painter(), rect, PlotDetail::Large);
+        pictures.paint(panel, ui, rect, PlotDetail::Large);
     });
 }
 
@@ -168,7 +168,7 @@ fn explanation(panel: StagePanel) -> &'static str {
         StagePanel::Contour => {
             "outline, openings, rays from the centroid; dashed: the enrolled part"
         }
-        StagePanel::Signature => "length L and angle Θ of the rays; thin: the enrolled part",
+        StagePanel::Signature => "length L and angle Θ of the rays; dashed: the enrolled part",
         StagePanel::Ranking => "score of every enrolled part against the threshold",
         StagePanel::Alignment => "mean squared distance E per iteration, logarithmic",
     }

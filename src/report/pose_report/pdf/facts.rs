@@ -1,7 +1,7 @@
 //! The right column: the picture of the scene and the figures; and the foot of the page.
 
 use super::{
-    Align, Area, BLACK, BODY, HEADING, MARGIN, PAGE, PALE, PdfPictures, RED, RULE, SMALL, STRONG,
+    Anchor, Area, BLACK, BODY, HEADING, MARGIN, PAGE, PALE, PdfPictures, RED, RULE, SMALL, STRONG,
     Sheet, WIDTH, Weight, style,
 };
 use crate::report::pose_report::{
@@ -44,7 +44,7 @@ pub(super) fn without_pose(
     const SIDE: f32 = 150.0;
     let mut y = area.top + 9.0;
     let heading = style(HEADING.size, Weight::Bold, RED);
-    sheet.text("No pose is given", [area.left, y], heading, Align::Left);
+    sheet.text("No pose is given", [area.left, y], heading, Anchor::Left);
     y += LINE + 2.0;
     let text = match (report.verdict.accepted, &report.refused_pose) {
         (true, _) => "The part was accepted by its outline alone: no pose was estimated.",
@@ -94,7 +94,7 @@ fn scene(sheet: &mut Sheet<'_>, pictures: &PdfPictures<'_>, area: Area) -> f32 {
     let covered = sheet.picture(picture, area);
     sheet.outline(covered, RULE);
     let y = area.top + covered.height + 9.0;
-    sheet.text(caption, [area.left, y], SMALL, Align::Left);
+    sheet.text(caption, [area.left, y], SMALL, Anchor::Left);
     y
 }
 
@@ -108,16 +108,16 @@ struct Rows<'s, 'p> {
 impl Rows<'_, '_> {
     fn heading(&mut self, text: &str) {
         self.sheet
-            .text(text, [self.area.left, self.y], HEADING, Align::Left);
+            .text(text, [self.area.left, self.y], HEADING, Anchor::Left);
         self.y += LINE + 1.5;
     }
 
     fn row(&mut self, name: &str, value: &str) {
         self.sheet
-            .text(name, [self.area.left, self.y], BODY, Align::Left);
+            .text(name, [self.area.left, self.y], BODY, Anchor::Left);
         let right = self.area.left + self.area.width;
         self.sheet
-            .text(value, [right, self.y], STRONG, Align::Right);
+            .text(value, [right, self.y], STRONG, Anchor::Right);
         self.y += LINE;
     }
 
@@ -246,9 +246,9 @@ pub(super) fn foot(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
         let mut y = top + 14.0;
         for (name, value) in facts {
             let style = style(8.0, Weight::Regular, BLACK);
-            sheet.text(name, [left, y], SMALL, Align::Left);
+            sheet.text(name, [left, y], SMALL, Anchor::Left);
             let value = sheet.faces.fitted(value, WIDTH / 2.0 - 72.0, style);
-            sheet.text(&value, [left + 54.0, y], style, Align::Left);
+            sheet.text(&value, [left + 54.0, y], style, Anchor::Left);
             y += 12.0;
         }
     }

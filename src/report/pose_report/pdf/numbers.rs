@@ -1,7 +1,7 @@
 //! The left column: the pose in numbers.
 
 use super::{
-    AMBER, Align, Area, BLACK, BODY, GREY, HEADING, RULE, SMALL, STRONG, Sheet, Weight, style,
+    AMBER, Anchor, Area, BLACK, BODY, GREY, HEADING, RULE, SMALL, STRONG, Sheet, Weight, style,
 };
 use crate::{
     report::pose_report::{PoseBlock, PoseReport, TransformBlock},
@@ -36,13 +36,18 @@ fn robot(sheet: &mut Sheet<'_>, report: &PoseReport, pose: &PoseBlock, area: Are
         in_robot
     };
     let mut y = area.top + 9.0;
-    sheet.text(robot.convention_title, [area.left, y], HEADING, Align::Left);
+    sheet.text(
+        robot.convention_title,
+        [area.left, y],
+        HEADING,
+        Anchor::Left,
+    );
     if let Some(calibration) = &robot.calibration {
         let style = SMALL;
         let text = sheet
             .faces
             .fitted(&format!("calibration: {calibration}"), 150.0, style);
-        sheet.text(&text, [area.left + area.width, y], style, Align::Right);
+        sheet.text(&text, [area.left + area.width, y], style, Anchor::Right);
     }
     y += 6.0;
     if let Some(why) = robot.unavailable {
@@ -53,7 +58,7 @@ fn robot(sheet: &mut Sheet<'_>, report: &PoseReport, pose: &PoseBlock, area: Are
     }
     if robot.convention == Convention::Matrix {
         for block in &shown {
-            sheet.text(block.name, [area.left, y + LINE], STRONG, Align::Left);
+            sheet.text(block.name, [area.left, y + LINE], STRONG, Anchor::Left);
             y = matrix(
                 sheet,
                 block,
@@ -101,7 +106,7 @@ fn table(sheet: &mut Sheet<'_>, shown: &[&TransformBlock], area: Area) -> f32 {
             block.name,
             [right(column), y],
             style(8.5, Weight::Bold, BLACK),
-            Align::Right,
+            Anchor::Right,
         );
     }
     let Some(first) = shown.first() else {
@@ -114,12 +119,12 @@ fn table(sheet: &mut Sheet<'_>, shown: &[&TransformBlock], area: Area) -> f32 {
             RULE,
         );
         y += LINE + 0.8;
-        sheet.text(value.name, [area.left, y], STRONG, Align::Left);
+        sheet.text(value.name, [area.left, y], STRONG, Anchor::Left);
         sheet.text(
             value.unit.symbol(),
             [area.left + 30.0, y],
             style(9.0, Weight::Regular, GREY),
-            Align::Left,
+            Anchor::Left,
         );
         for (column, block) in shown.iter().enumerate() {
             if let Some(value) = block.in_convention.values.get(row) {
@@ -127,7 +132,7 @@ fn table(sheet: &mut Sheet<'_>, shown: &[&TransformBlock], area: Area) -> f32 {
                     &value.rounded(),
                     [right(column), y],
                     style(10.0, Weight::Regular, BLACK),
-                    Align::Right,
+                    Anchor::Right,
                 );
             }
         }
@@ -139,7 +144,7 @@ fn table(sheet: &mut Sheet<'_>, shown: &[&TransformBlock], area: Area) -> f32 {
 fn camera(sheet: &mut Sheet<'_>, pose: &PoseBlock, area: Area) {
     let block = &pose.camera_from_part;
     let mut y = area.top;
-    sheet.text(block.name, [area.left, y], HEADING, Align::Left);
+    sheet.text(block.name, [area.left, y], HEADING, Anchor::Left);
     y = matrix(
         sheet,
         block,
@@ -167,7 +172,7 @@ fn camera(sheet: &mut Sheet<'_>, pose: &PoseBlock, area: Area) {
             &(line(names_at, at, 6) + "   m"),
             [area.left, y],
             BODY,
-            Align::Left,
+            Anchor::Left,
         );
     }
     if let ([_, _, _, names @ ..], [_, _, _, turn @ ..]) =
@@ -177,7 +182,7 @@ fn camera(sheet: &mut Sheet<'_>, pose: &PoseBlock, area: Area) {
             &line(names, turn, 6),
             [area.left, y + LINE],
             BODY,
-            Align::Left,
+            Anchor::Left,
         );
     }
     let text = "Quaternion with the scalar qw last. Its inverse, part_from_camera, is the paper's T (eq. 13).";
@@ -197,7 +202,7 @@ fn matrix(sheet: &mut Sheet<'_>, block: &TransformBlock, area: Area) -> f32 {
         y += LINE;
         for (column, value) in row.iter().enumerate() {
             let right = area.left + (column + 1) as f32 * area.width / 4.0;
-            sheet.text(&format!("{value:.6}"), [right, y], BODY, Align::Right);
+            sheet.text(&format!("{value:.6}"), [right, y], BODY, Anchor::Right);
         }
     }
     y

@@ -1,0 +1,281 @@
+//! Plots: curves over two axes, by `egui_plot` in the window's colours. A plot neither moves nor zooms, so the wheel
+//! scrolls the panel around it.
+
+use egui::{
+    Align2, Color32, FontId, Painter, Pos2, Rangef, Rect, Shape, Stroke, Ui, UiBuilder, Vec2, pos2,
+    text::{LayoutJob, TextFormat},
+    vec2,
+};
+use egui_plot::{
+    AxisHints, GridInput, GridMark, HoverPosition, Line, LineStyle, Plot, PlotPoints,
+    PlotTransform, PlotUi,
+};
+
+use super::theme::{Theme, font};
+
+/// Beyond either end of its range an axis shows this share of it: a line at the end is seen whole.
+const MARGIN: f64 = 0.03;
+/// More powers of ten than this are marked every second one only.
+const MANY_POWERS: usize = 8;
+
+/// The range of an axis and the values marked along it.
+#[derive(Clone, Debug)]
+pub(in crate::app) struct Axis {
+    range: [f64; 2],
+    marks: Vec<(f64, String)>,
+}
+
+impl Axis {
+    pub(in crate::app) fn new(range: [f64; 2], marks: Vec<(f64, String)>) -> Self {
+        Self { range, marks }
+    }
+
+    /// A logarithmic axis: `range` and curves are base-10 logarithms.
+    pub(in crate::app) fn powers(range: [f64; 2], name: impl Fn(i32) -> String) -> Self {
+        let inside = |power: &i32| (range[0]..=range[1]).contains(&f64::from(*power));
+        let powers: Vec<i32> = (-20..=20).filter(inside).collect();
+        let step = if powers.len() > MANY_POWERS { 2 } else { 1 };
+        let powers = powers.into_iter().filter(|power| power % step == 0);
+        let marks = powers.map(|power| (f64::from(power), name(power)));
+        Self::new(range, marks.collect())
+    }
+
+    fn in_sight(&self) -> [f64; 2] {
+        let [low, high] = self.range;
+        let margin = ((high - low) * MARGIN).max(1e-6);
+        [low - margin, high + margin]
+    }
+
+    fn grid(&self) -> impl Fn(GridInput) -> Vec<GridMark> + use<> {
+        let [low, high] = self.in_sight();
+        let values: Vec<f64> = self.marks.iter().map(|(value, _)| *value).collect();
+        move |_| {
+            // As if far apart: whoever sets the marks sees to it that they have room.
+            let step_size = high - low;
+            let mark = |value: &f64| GridMark {
+                value: *value,
+                step_size,
+            };
+            values.iter().map(mark).collect()
+        }
+    }
+
+    fn hints(self, hints: AxisHints<'_>, thickness: f32) -> AxisHints<'_> {
+        hints
+            .min_thickness(thickness)
+            .label_spacing(Rangef::new(0.0, 1.0))
+            .formatter(move |mark, _| {
+                let is_it = |(value, _): &&(f64, String)| value.total_cmp(&mark.value).is_eq();
+                let found = self.marks.iter().find(is_it);
+                found.map_or_else(String::new, |(_, text)| text.clone())
+            })
+    }
+}
+
+/// Room for the text of marks, logical pixels.
+fn text_size<'m>(
+    ui: &Ui,
+    font: &FontId,
+    marks: impl IntoIterator<Item = &'m (f64, String)>,
+) -> Vec2 {
+    let sizes = marks.into_iter().map(|(_, text)| {
+        let painter = ui.painter();
+        let galley = painter.layout_no_wrap(text.clone(), font.clone(), Color32::WHITE);
+        galley.size()
+    });
+    sizes.fold(Vec2::ZERO, Vec2::max)
+}
+
+/// A plot before its curves are drawn.
+pub(in crate::app) struct Axes<'a> {
+    /// Its title, in pieces with a colour each; without any it has none.
+    pub(in crate::app) title: Vec<(String, Color32)>,
+    /// From left to right.
+    pub(in crate::app) across: Axis,
+    /// From bottom to top.
+    pub(in crate::app) up: Axis,
+    /// Of title and marks.
+    pub(in crate::app) font: FontId,
+    /// What is shown beside the pointer at a value of the axis across.
+    pub(in crate::app) read: Option<Box<dyn Fn(f64) -> String + 'a>>,
+}
+
+impl<'a> Axes<'a> {
+    /// Draws them into a rectangle, then what `draw` adds. The answer says where on the screen a value is.
+    pub(in crate::app) fn show(
+        self,
+        ui: &mut Ui,
+        rect: Rect,
+        theme: &Theme,
+        draw: impl FnOnce(&mut PlotUi<'a>) + 'a,
+    ) -> PlotTransform {
+        let Self {
+            title,
+            across,
+            up,
+            font,
+            read,
+        } = self;
+        let mut job = LayoutJob::default();
+        for (text, colour) in &title {
+            job.append(text, 0.0, TextFormat::simple(font.clone(), *colour));
+        }
+        let title = ui.painter().layout_job(job);
+        let below = text_size(ui, &font, &across.marks);
+        let beside = text_size(ui, &font, &up.marks);
+        // Half of the text of the last mark is beyond the end of its axis.
+        let right = text_size(ui, &font, across.marks.last()).x / 2.0;
+        let top = title.size().y.max(beside.y / 2.0);
+        let bottom = if below.y > 0.0 { 0.0 } else { beside.y / 2.0 };
+        let area = Rect::from_min_max(rect.min + vec2(0.0, top), rect.max - vec2(right, bottom));
+        let (x, y) = (across.in_sight(), up.in_sight());
+        let mut ui = ui.new_child(UiBuilder::new().max_rect(area));
+        let hints = |axis: AxisHints<'a>| {
+            let axis = axis.tick_label_font(font.clone());
+            axis.tick_label_color(theme.weak_text)
+        };
+        // It holds nothing that has to last, so it may be another one tomorrow.
+        let plot = Plot::new("plot")
+            .id(ui.unique_id().with("plot"))
+            .min_size(Vec2::ZERO)
+            .allow_drag(false)
+            .allow_zoom(false)
+            .allow_scroll(false)
+            .allow_boxed_zoom(false)
+            .allow_axis_zoom_drag(false)
+            .allow_double_click_reset(false)
+            .sense(egui::Sense::hover())
+            .show_background(false)
+            .show_axes([below.y > 0.0, beside.y > 0.0])
+            .x_grid_spacer(across.grid())
+            .y_grid_spacer(up.grid())
+            .grid_color(theme.edge)
+            .grid_fade(0.0)
+            .custom_x_axes(vec![hints(across.hints(AxisHints::new_x(), below.y))])
+            .custom_y_axes(vec![hints(up.hints(AxisHints::new_y(), beside.x + 8.0))])
+            .cursor_color(theme.text)
+            .show_x(read.is_some())
+            .show_y(false)
+            .label_formatter(move |at| {
+                let (HoverPosition::NearDataPoint { position, .. }
+                | HoverPosition::Elsewhere { position }) = at;
+                read.as_ref().map(|read| read(position.x))
+            });
+        let shown = plot.show(&mut ui, move |plot| {
+            plot.set_plot_bounds_x(x[0]..=x[1]);
+            plot.set_plot_bounds_y(y[0]..=y[1]);
+            draw(plot);
+        });
+        // Over the curves, or further left where that is too narrow.
+        let left = shown.transform.frame().left();
+        let left = left.min(rect.right() - title.size().x).max(rect.left());
+        let corner = pos2(left, rect.top());
+        ui.painter()
+            .with_clip_rect(rect)
+            .galley(corner, title, theme.text);
+        shown.transform
+    }
+}
+
+/// A quantity of the rays of a scene and of an enrolled part.
+pub(in crate::app) struct RayCurves<'a> {
+    /// L or Θ.
+    pub(in crate::app) name: &'static str,
+    /// Factor from stored to shown values, sign and decimals; `None` in a picture too small for text.
+    pub(in crate::app) unit: Option<(f64, &'static str, usize)>,
+    /// The scene's, one value per ray.
+    pub(in crate::app) scene: &'a [f32],
+    /// The part's.
+    pub(in crate::app) part: Option<&'a [f32]>,
+}
+
+impl RayCurves<'_> {
+    /// Draws both, the part's in dashes.
+    pub(in crate::app) fn show(self, ui: &mut Ui, area: Rect, theme: &Theme) {
+        let Self {
+            name,
+            unit,
+            scene,
+            part,
+        } = self;
+        let colour = match name {
+            "L" => theme.first_series,
+            _ => theme.second_series,
+        };
+        let range = range_of(scene.iter().chain(part.into_iter().flatten()));
+        let num = scene.len().max(part.map_or(0, <[f32]>::len));
+        let last = num.saturating_sub(1).max(1) as f64;
+        let mut axes = Axes {
+            title: Vec::new(),
+            across: Axis::new([0.0, last], Vec::new()),
+            up: Axis::new(range, Vec::new()),
+            font: font::small(),
+            read: None,
+        };
+        if let Some((per, unit, decimals)) = unit {
+            let text = move |value: f64| format!("{:.decimals$}", value * per);
+            axes.title.push((format!("{name}, {unit}"), colour));
+            axes.up.marks = range.map(|value| (value, text(value))).to_vec();
+            axes.read = Some(Box::new(move |x| {
+                let place = x.round().clamp(0.0, last) as usize;
+                let value = |values: &[f32]| {
+                    let value = values.get(place).copied();
+                    value.map_or("–".to_owned(), |value| text(f64::from(value)))
+                };
+                let part = part.map_or("–".to_owned(), value);
+                format!("ray {place}: query {}, part {part} {unit}", value(scene))
+            }));
+        }
+        axes.show(ui, area, theme, |plot| {
+            if let Some(part) = part {
+                let dashed = LineStyle::Dashed { length: 6.0 };
+                let line = curve(part, theme.reference_series).width(1.3);
+                plot.line(line.style(dashed));
+            }
+            plot.line(curve(scene, colour));
+        });
+    }
+}
+
+/// A curve over evenly spaced values, 0, 1, 2…
+pub(in crate::app) fn curve(values: &[f32], colour: Color32) -> Line<'static> {
+    let points = PlotPoints::from_ys_f32(values);
+    Line::new("", points).color(colour).width(1.6)
+}
+
+/// Smallest and largest; 0 and 1 of none.
+pub(in crate::app) fn range_of<'v>(values: impl IntoIterator<Item = &'v f32>) -> [f64; 2] {
+    let values = values.into_iter().map(|value| f64::from(*value));
+    let ends = values.fold(None, |ends: Option<[f64; 2]>, value| {
+        let [low, high] = ends.unwrap_or([value; 2]);
+        Some([low.min(value), high.max(value)])
+    });
+    ends.unwrap_or([0.0, 1.0])
+}
+
+/// Names the curves from the top left corner of a plot down, each behind a piece of its line: colour alone must not tell
+/// them apart.
+pub(in crate::app) fn legend<'n>(
+    painter: &Painter,
+    plot: &PlotTransform,
+    curves: impl IntoIterator<Item = (&'n str, Color32, LineStyle)>,
+) {
+    for (row, (name, colour, style)) in (0_u8..).zip(curves) {
+        let start = plot.frame().left_top() + vec2(8.0, 10.0 + 15.0 * f32::from(row));
+        let ends = [start, start + vec2(26.0, 0.0)];
+        painter.extend(line(&ends, Stroke::new(2.0, colour), style));
+        let at = ends[1] + vec2(6.0, 0.0);
+        painter.text(at, Align2::LEFT_CENTER, name, font::small(), colour);
+    }
+}
+
+/// As `egui_plot` draws a line of this style.
+fn line(points: &[Pos2], stroke: Stroke, style: LineStyle) -> Vec<Shape> {
+    match style {
+        LineStyle::Solid => vec![Shape::line(points.to_vec(), stroke)],
+        LineStyle::Dashed { length } => Shape::dashed_line(points, stroke, length, length * 0.618),
+        LineStyle::Dotted { spacing } => {
+            Shape::dotted_line(points, stroke.color, spacing, stroke.width)
+        }
+    }
+}
