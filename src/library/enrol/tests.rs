@@ -152,3 +152,45 @@ fn a_part_from_all_that_segmentation_found_is_the_captured_one_and_less_makes_it
         Err(EnrolError::TooFewPoints { found: 20, .. })
     ));
 }
+
+/// A flat sheet 1.3 m before the camera, a point every 5 mm.
+fn sheet(is_inside: impl Fn(f32, f32) -> bool) -> PointCloud {
+    let steps = || (-100..=100).map(|step| step as f32 * 0.005);
+    let all = steps().flat_map(|y| steps().map(move |x| (x, y)));
+    PointCloud {
+        points: all
+            .filter(|(x, y)| is_inside(*x, *y))
+            .map(|(x, y)| Point3::new(x, y, 1.3))
+            .collect(),
+        ..PointCloud::default()
+    }
+}
+
+#[test]
+fn a_shape_that_does_not_fix_the_pose_is_warned_of() {
+    let warnings = |cloud: &PointCloud| {
+        let enrolled = enrol_whole(cloud, &about("sheet"), &EnrolParams::default());
+        enrolled.expect("enough points").warnings
+    };
+    let oblong = warnings(&sheet(|x, y| x.abs() < 0.4 && y.abs() < 0.25));
+    assert_eq!(oblong, [EnrolWarning::Symmetric { degrees: 180 }]);
+    let disc = warnings(&sheet(|x, y| x.hypot(y) < 0.3));
+    assert!(
+        matches!(disc[..], [EnrolWarning::Unconstrained(_)]),
+        "{disc:?}"
+    );
+    let corner = warnings(&sheet(|x, y| {
+        x.abs() < 0.4 && y.abs() < 0.25 && (x < 0.1 || y < 0.0)
+    }));
+    assert_eq!(corner, []);
+}
+
+#[test]
+fn the_shape_of_every_simulated_part_fixes_its_pose() {
+    for kind in PartKind::ALL {
+        let setup = CellSetup::with_part(kind, Side::Left, 0, 3);
+        let scene = scene_from_frame(&crate::simulate::frame(&setup).frame);
+        let enrolled = enrol_captured(&scene, &about("part"), &EnrolParams::default());
+        assert_eq!(enrolled.expect("a part").warnings, [], "{kind:?}");
+    }
+}
