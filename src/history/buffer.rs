@@ -4,7 +4,7 @@
 //! the keeper too, and see what waits above what is written.
 
 use std::{
-    collections::VecDeque,
+    collections::{BTreeMap, VecDeque},
     path::{Path, PathBuf},
     sync::{Arc, Mutex, MutexGuard, PoisonError},
     time::{Duration, Instant},
@@ -13,9 +13,10 @@ use std::{
 use jiff::Timestamp;
 
 use super::{
-    entry::{NewEntry, Record, png_of},
+    entry::{NewEntry, Record, Summary, png_of},
     error::HistoryError,
     filter::Filter,
+    hung::HungId,
     news::HistoryEvent,
     open::OpenedHistory,
     retention::{PruneResult, Retention, Usage},
@@ -196,12 +197,13 @@ impl HistoryBuffer {
     pub fn page(&self, filter: &Filter, offset: usize, most: usize) -> Result<Page, HistoryError> {
         let mut inner = self.lock();
         self.look(&mut inner);
-        let waiting = inner.waiting.iter().rev();
-        let waiting = waiting.map(|entry| &entry.record.summary);
-        let matching: Vec<_> = waiting.filter(|row| filter.passes(row)).collect();
-        let (num_waiting, num_above) = (inner.waiting.len(), matching.len());
-        let above = matching.into_iter().skip(offset).take(most).cloned();
-        let mut rows: Vec<_> = above.collect();
+        let waiting = inner.waiting_rows()?;
+        let num_waiting = waiting.iter().filter(|row| row.parent.is_none()).count();
+        let mut matching = waiting;
+        matching.retain(|row| filter.passes(row));
+        let num_above = matching.len();
+        let above = matching.into_iter().rev().skip(offset).take(most);
+        let mut rows: Vec<Summary> = above.collect();
         let below = match &inner.history {
             Some(history) => {
                 let offset = offset.saturating_sub(num_above);
@@ -221,15 +223,36 @@ impl HistoryBuffer {
     pub fn row(&self, number: i64) -> Result<Option<Record>, HistoryError> {
         let mut inner = self.lock();
         self.look(&mut inner);
-        if let Some(entry) = inner.waiting_mut(number) {
-            let mut record = entry.record.clone();
-            record.detail.thumbnail = entry.picture.as_ref().map_or_else(Vec::new, png_of);
-            return Ok(Some(record));
+        let rows = inner.waiting_rows()?.into_iter().zip(&inner.waiting);
+        if let Some((summary, entry)) = rows.into_iter().find(|(row, _)| row.number == number) {
+            let mut detail = entry.record.detail.clone();
+            detail.thumbnail = entry.picture.as_ref().map_or_else(Vec::new, png_of);
+            return Ok(Some(Record { summary, detail }));
         }
         match &inner.history {
             Some(history) => history.row(number),
             None => Ok(None),
         }
+    }
+
+    /// The inspections that lie below this one, the oldest first.
+    pub fn below(&self, number: i64) -> Result<Vec<Record>, HistoryError> {
+        let mut inner = self.lock();
+        self.look(&mut inner);
+        let mut below = match &inner.history {
+            Some(history) => history.below(number)?,
+            None => Vec::new(),
+        };
+        let rows = inner.waiting_rows()?;
+        for (summary, entry) in rows.into_iter().zip(&inner.waiting) {
+            if summary.parent == Some(number) {
+                below.push(Record {
+                    summary,
+                    detail: entry.record.detail.clone(),
+                });
+            }
+        }
+        Ok(below)
     }
 
     /// The scene of an inspection, if its frame is kept.
@@ -256,9 +279,12 @@ impl HistoryBuffer {
         if let Some(history) = &inner.history {
             history.each(filter, &mut each)?;
         }
-        let waiting = inner.waiting.iter().map(|entry| &entry.record);
-        for record in waiting.filter(|record| filter.passes(&record.summary)) {
-            each(record.clone())?;
+        let rows = inner.waiting_rows()?;
+        for (summary, entry) in rows.into_iter().zip(&inner.waiting) {
+            if filter.passes(&summary) {
+                let detail = entry.record.detail.clone();
+                each(Record { summary, detail })?;
+            }
         }
         Ok(())
     }
@@ -371,8 +397,44 @@ impl Inner {
         }
         let old = self.waiting.len().saturating_sub(MAX_SCENES);
         if let Some(entry) = old.checked_sub(1).and_then(|i| self.waiting.get_mut(i)) {
-            entry.scene = None;
+            entry.drop_frames();
         }
+    }
+
+    /// What waits, the oldest first, each with what stands for its part: as it will be once it is written, but for a
+    /// part whose refusal is written already.
+    fn waiting_rows(&self) -> Result<Vec<Summary>, HistoryError> {
+        let mut rows: Vec<Summary> = Vec::new();
+        let mut heads: BTreeMap<HungId, usize> = BTreeMap::new();
+        for (place, entry) in self.waiting.iter().enumerate() {
+            let mut row = entry.record.summary.clone();
+            match heads.get(&row.hung).copied() {
+                Some(head) if rows[head].gives_way_to(&row) => {
+                    for other in &mut rows {
+                        if other.hung == row.hung {
+                            other.parent = Some(row.number);
+                            other.num_below = 0;
+                            row.num_below += 1;
+                        }
+                    }
+                    heads.insert(row.hung.clone(), place);
+                }
+                Some(head) => {
+                    row.parent = Some(rows[head].number);
+                    rows[head].num_below += 1;
+                }
+                None => {
+                    let written = self.history.as_ref();
+                    let written = written.map(|history| history.head_of(&row.hung));
+                    row.parent = written.transpose()?.flatten().map(|head| head.number);
+                    if row.parent.is_none() {
+                        heads.insert(row.hung.clone(), place);
+                    }
+                }
+            }
+            rows.push(row);
+        }
+        Ok(rows)
     }
 
     fn waiting_mut(&mut self, number: i64) -> Option<&mut NewEntry> {

@@ -22,6 +22,7 @@ mod filter;
 #[cfg(test)]
 mod fixtures;
 mod frames;
+mod hung;
 mod news;
 mod open;
 mod retention;
@@ -35,11 +36,15 @@ mod writer;
 
 pub use self::{
     buffer::HistoryBuffer,
-    differences::{Differences, InspectionSummary},
+    differences::{Differences, InspectionSummary, ParameterChange},
     entry::{InspectionContext, InspectionDetail, NewEntry, Record, StoredVerdict, Summary},
     error::HistoryError,
     filter::Filter,
-    frames::{FrameRecord, read as read_frame},
+    frames::{
+        FrameError, FrameRecord, ShotRecord, read as read_frame, read_shots,
+        write_as as write_frame,
+    },
+    hung::{HungId, HungRows},
     news::HistoryEvent,
     open::{FILE, OpenedHistory, SetAside, users_folder},
     retention::{KeepFrames, PruneResult, Retention, Usage},

@@ -79,7 +79,7 @@ impl Writer {
         let mut jobs = self.queue.lock();
         let has_scene = |job: &&Job| matches!(job, Job::Add(_, entry) if entry.scene.is_some());
         if jobs.waiting.iter().filter(has_scene).count() >= MAX_SCENES {
-            entry.scene = None;
+            entry.drop_frames();
             jobs.num_crowded[0] += 1;
         }
         if jobs.waiting.len() >= MAX_JOBS {
