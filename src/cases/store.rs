@@ -92,11 +92,10 @@ impl CaseFolder {
                 self.clear_leftovers()?;
                 let (name, place) = self.free_name(&plain_name(&about.origin))?;
                 let building = new_folder(&self.path)?;
-                let written = write_frame(building.path(), SCENE, scene);
                 let meta = CaseMeta {
                     schema_version: SCHEMA_VERSION,
                     about,
-                    scene: written.map_err(io::Error::other)?,
+                    scene: write_frame(building.path(), SCENE, scene)?,
                 };
                 let text = toml::to_string(&meta).map_err(io::Error::other)?;
                 write_file(&building.path().join(META), text.as_bytes())?;

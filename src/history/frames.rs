@@ -150,6 +150,17 @@ impl FrameError {
     }
 }
 
+impl From<FrameError> for io::Error {
+    /// What the system says, where it says something.
+    fn from(error: FrameError) -> Self {
+        match error {
+            FrameError::File(FileError::Write { source, .. })
+            | FrameError::Unwritable { source, .. } => source,
+            error => Self::other(error),
+        }
+    }
+}
+
 impl Advice for FrameError {
     fn advice(&self) -> String {
         match self {

@@ -287,7 +287,12 @@ impl History {
                 .file
                 .transaction_with_behavior(TransactionBehavior::Immediate)?;
             let asked = format!("SELECT {COLUMNS} FROM inspection WHERE number = ?");
-            let row = file.query_row(&asked, [number], summary_of).optional()?;
+            let row = |number| file.query_row(&asked, [number], summary_of).optional();
+            // What is said of a part is said with the inspection that stands for it.
+            let row = match row(number)? {
+                Some(below) => below.parent.map_or_else(|| Ok(Some(below.clone())), row)?,
+                None => None,
+            };
             let Some(mut row) = row else {
                 return Ok(false);
             };
@@ -298,7 +303,7 @@ impl History {
                     row.remark,
                     row.label.as_ref().and_then(json),
                     row.search(),
-                    number
+                    row.number
                 ],
             )?;
             file.commit()?;

@@ -484,6 +484,11 @@ fn a_refusal_gives_way_to_an_acceptance_and_an_acceptance_stands() {
         ..Filter::default()
     };
     assert_eq!(numbers(&history, &found), [3]);
+    history.set_remark(1, "the new grille").expect("written");
+    assert_eq!(
+        history.known(3).expect("there").summary.remark,
+        "the new grille"
+    );
     let first = history.known(1).expect("there").summary;
     assert_eq!(
         (first.verdict, first.parent),

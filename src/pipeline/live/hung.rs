@@ -4,7 +4,8 @@
 //! while. Afterwards it has left as soon as the camera looks through most of the place where it hung: a person who walks
 //! by or a hand that turns it takes nothing away, and the same part hung into the same jig is another one.
 //!
-//! Known limit: a part that is exchanged for another between two frames is taken for the same.
+//! Known limits: a part that is exchanged for another between two frames is taken for the same once its verdict counts.
+//! Of captures seconds apart, in which nothing can be seen to hang still, two of one name in a row are one part.
 
 use std::time::Duration;
 
@@ -79,6 +80,8 @@ enum HungState {
     Unsettled {
         best_score: f64,
         is_named: bool,
+        /// What the last frame called it.
+        last: String,
     },
     Counted(Box<CountedPart>),
 }
@@ -100,6 +103,8 @@ struct CountedPart {
 
 /// Without a frame for longer than this nobody knows what hangs there.
 const MAX_BLIND: Duration = Duration::from_secs(10);
+/// Frames further apart than this are no motion picture: what the next one calls otherwise is something else.
+const APART: Duration = Duration::from_secs(2);
 /// A part that no frame shows for so long, and in so many frames, has left.
 const ABSENCE: (Duration, usize) = (Duration::from_millis(400), 2);
 /// Points of a part that are looked for at its place.
@@ -120,15 +125,17 @@ impl HungParts {
     /// Takes in a frame: what has left before it, and what it is for the part that hangs there now.
     pub fn see(&mut self, frame: &HungFrame<'_>) -> (Left, FrameRole) {
         let before = self.last_at.replace(frame.at);
-        let is_blind = |before| frame.at < before || frame.at.saturating_sub(before) > MAX_BLIND;
-        let mut left = Left::Nothing;
-        if before.is_some_and(is_blind) {
-            left = self.leave();
-        }
         let shown = match &frame.inspection.verdict {
-            Verdict::Part { score, .. } => Some(*score),
+            Verdict::Part { part, score, .. } => Some((part.as_str(), *score)),
             Verdict::NoPart(_) => None,
         };
+        // A clock that was set back says nothing either.
+        let gap = before.map(|before| frame.at.checked_sub(before).unwrap_or(Duration::MAX));
+        let is_blind = |gap| gap > MAX_BLIND || (gap > APART && self.is_another(shown));
+        let mut left = Left::Nothing;
+        if gap.is_some_and(is_blind) {
+            left = self.leave();
+        }
         if let HungState::Counted(part) = &mut self.state {
             part.has_left |= part.is_looked_through(frame.scene, shown.is_none());
         }
@@ -143,15 +150,23 @@ impl HungParts {
                 }
                 FrameRole::Nothing
             }
-            (_, Some(score)) => {
+            (_, Some((name, score))) => {
                 self.absent = None;
-                self.glimpse(score, !frame.inspection.verdict.is_unknown())
+                self.glimpse(name, score, !frame.inspection.verdict.is_unknown())
             }
         };
         if let HungState::Counted(part) = &mut self.state {
             part.has_stirred |= frame.verdict.counted().is_none();
         }
         (left, role)
+    }
+
+    /// True if this is not what was seen last, before any verdict on that counted.
+    fn is_another(&self, shown: Option<(&str, f64)>) -> bool {
+        match (&self.state, shown) {
+            (HungState::Unsettled { last, .. }, Some((name, _))) => last != name,
+            _ => false,
+        }
     }
 
     /// True once no part was seen for long enough, this frame included.
@@ -179,8 +194,8 @@ impl HungParts {
     }
 
     /// A part is seen, and no verdict counts.
-    fn glimpse(&mut self, score: f64, is_named: bool) -> FrameRole {
-        let known = match self.state {
+    fn glimpse(&mut self, name: &str, score: f64, is_named: bool) -> FrameRole {
+        let known = match &mut self.state {
             // It moves away, or something hides it.
             HungState::Counted(_) => return FrameRole::Nothing,
             HungState::Empty => {
@@ -190,7 +205,11 @@ impl HungParts {
             HungState::Unsettled {
                 best_score,
                 is_named,
-            } => Some((is_named, best_score)),
+                last,
+            } => {
+                name.clone_into(last);
+                Some((*is_named, *best_score))
+            }
         };
         // What looks like a part says more than what scores more and looks like none.
         let is_best = known.is_none_or(|known| (is_named, score) > known);
@@ -198,6 +217,7 @@ impl HungParts {
             self.state = HungState::Unsettled {
                 best_score: score,
                 is_named,
+                last: name.to_owned(),
             };
             return FrameRole::Best;
         }

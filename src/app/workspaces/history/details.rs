@@ -62,7 +62,10 @@ impl Details {
                 differences::today(ui, found, session.units, theme);
             }
             part(ui, past, session.units, theme, actions);
-            self.remark.ui(ui, &record.summary, session, theme, actions);
+            // What is said of a part stands with the inspection that stands for it.
+            let of_part = past.part.first().unwrap_or(record);
+            self.remark
+                .ui(ui, &of_part.summary, session, theme, actions);
             heading(ui, theme, &format!("Inspection {}", number.abs()));
             ui.scope(|ui| {
                 // Text lies closer than controls do.

@@ -224,10 +224,10 @@ fn paint(painter: &Painter, rect: Rect, past: &Summary, columns: &Columns, theme
                 colour,
             );
     };
-    // How often it was inspected, where it was more than once.
+    // How often it was inspected again.
     let title = match past.num_below {
         0 => past.title.clone(),
-        num => format!("{} · {}×", past.title, num + 1),
+        num => format!("{} · again {num}×", past.title),
     };
     left(
         columns.part,

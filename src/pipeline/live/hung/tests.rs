@@ -176,8 +176,15 @@ fn what_leaves_before_its_verdict_counts_is_told_once_it_has_left_if_it_looked_l
     assert_eq!(line.open(&wheel).1, FrameRole::Best);
     let left: Vec<Left> = (0..4).map(|_| line.open(&empty).0).collect();
     assert_eq!(left.iter().filter(|left| **left == Left::Other).count(), 1);
+    // Captures seconds apart, each of another part.
+    let door = seen(&library, part(PartKind::FrontDoor), 0.0);
+    line.num_frames += 20;
+    assert_eq!(line.open(&fender), (Left::Nothing, FrameRole::Best));
+    line.num_frames += 20;
+    assert_eq!(line.open(&door), (Left::Part, FrameRole::Best));
+    line.num_frames += 20;
+    assert_eq!(line.counted(&door, ""), FIRST);
     // After a long time without a frame nobody knows whether it is the same.
-    assert_eq!(line.counted(&fender, ""), FIRST);
     line.num_frames += 100;
-    assert_eq!(line.counted(&fender, ""), FIRST);
+    assert_eq!(line.counted(&door, ""), FIRST);
 }
