@@ -4,7 +4,7 @@
 //! the keeper too, and see what waits above what is written.
 
 use std::{
-    collections::{BTreeMap, VecDeque},
+    collections::VecDeque,
     path::{Path, PathBuf},
     sync::{Arc, Mutex, MutexGuard, PoisonError},
     time::{Duration, Instant},
@@ -16,18 +16,14 @@ use super::{
     entry::{NewEntry, Record, Summary, png_of},
     error::HistoryError,
     filter::Filter,
-    hung::HungId,
     news::HistoryEvent,
     open::OpenedHistory,
     retention::{PruneResult, Retention, Usage},
     store::{History, Page},
+    waiting::{wait, waiting_rows},
 };
 use crate::{error::Advice as _, library::Truth, stages::scene::SceneCloud};
 
-/// Inspections that wait at most; the oldest go first.
-const MAX_WAITING: usize = 2000;
-/// Of so many of those the scene waits too: 4 MB each.
-const MAX_SCENES: usize = 4;
 /// After a failure it is tried again this much later.
 const PAUSE: Duration = Duration::from_secs(20);
 /// Frames are swept away at the beginning and after so many inspections.
@@ -117,15 +113,12 @@ impl HistoryBuffer {
     pub fn add(&self, ticket: u64, entry: NewEntry, now: Instant) {
         let mut inner = self.lock();
         inner.last += 1;
-        let number = -inner.last;
-        inner.wait(entry, number);
+        let mut number = -inner.last;
+        inner.num_lost += wait(&mut inner.waiting, entry, number);
         if self.place.is_some() && inner.next_try.is_none_or(|at| at <= now) {
-            let numbers = self.write_waiting(&mut inner, now);
-            if let Some((_, written)) = numbers.iter().find(|(waited, _)| *waited == number) {
-                let number = *written;
-                self.tell(HistoryEvent::Added { ticket, number });
-                return;
-            }
+            let mut numbers = self.write_waiting(&mut inner, now).into_iter();
+            let written = numbers.find(|(waited, _)| *waited == number);
+            number = written.map_or(number, |(_, written)| written);
         }
         self.tell(HistoryEvent::Added { ticket, number });
     }
@@ -197,9 +190,8 @@ impl HistoryBuffer {
     pub fn page(&self, filter: &Filter, offset: usize, most: usize) -> Result<Page, HistoryError> {
         let mut inner = self.lock();
         self.look(&mut inner);
-        let waiting = inner.waiting_rows()?;
-        let num_waiting = waiting.iter().filter(|row| row.parent.is_none()).count();
-        let mut matching = waiting;
+        let mut matching = waiting_rows(&inner.waiting, inner.history.as_ref())?;
+        let num_waiting = matching.iter().filter(|row| row.parent.is_none()).count();
         matching.retain(|row| filter.passes(row));
         let num_above = matching.len();
         let above = matching.into_iter().rev().skip(offset).take(most);
@@ -223,7 +215,9 @@ impl HistoryBuffer {
     pub fn row(&self, number: i64) -> Result<Option<Record>, HistoryError> {
         let mut inner = self.lock();
         self.look(&mut inner);
-        let rows = inner.waiting_rows()?.into_iter().zip(&inner.waiting);
+        let rows = waiting_rows(&inner.waiting, inner.history.as_ref())?
+            .into_iter()
+            .zip(&inner.waiting);
         if let Some((summary, entry)) = rows.into_iter().find(|(row, _)| row.number == number) {
             let mut detail = entry.record.detail.clone();
             detail.thumbnail = entry.picture.as_ref().map_or_else(Vec::new, png_of);
@@ -243,7 +237,7 @@ impl HistoryBuffer {
             Some(history) => history.below(number)?,
             None => Vec::new(),
         };
-        let rows = inner.waiting_rows()?;
+        let rows = waiting_rows(&inner.waiting, inner.history.as_ref())?;
         for (summary, entry) in rows.into_iter().zip(&inner.waiting) {
             if summary.parent == Some(number) {
                 below.push(Record {
@@ -279,7 +273,7 @@ impl HistoryBuffer {
         if let Some(history) = &inner.history {
             history.each(filter, &mut each)?;
         }
-        let rows = inner.waiting_rows()?;
+        let rows = waiting_rows(&inner.waiting, inner.history.as_ref())?;
         for (summary, entry) in rows.into_iter().zip(&inner.waiting) {
             if filter.passes(&summary) {
                 let detail = entry.record.detail.clone();
@@ -388,55 +382,6 @@ impl HistoryBuffer {
 }
 
 impl Inner {
-    fn wait(&mut self, mut entry: NewEntry, number: i64) {
-        entry.record.summary.number = number;
-        self.waiting.push_back(entry);
-        if self.waiting.len() > MAX_WAITING {
-            self.waiting.pop_front();
-            self.num_lost += 1;
-        }
-        let old = self.waiting.len().saturating_sub(MAX_SCENES);
-        if let Some(entry) = old.checked_sub(1).and_then(|i| self.waiting.get_mut(i)) {
-            entry.drop_frames();
-        }
-    }
-
-    /// What waits, the oldest first, each with what stands for its part: as it will be once it is written, but for a
-    /// part whose refusal is written already.
-    fn waiting_rows(&self) -> Result<Vec<Summary>, HistoryError> {
-        let mut rows: Vec<Summary> = Vec::new();
-        let mut heads: BTreeMap<HungId, usize> = BTreeMap::new();
-        for (place, entry) in self.waiting.iter().enumerate() {
-            let mut row = entry.record.summary.clone();
-            match heads.get(&row.hung).copied() {
-                Some(head) if rows[head].gives_way_to(&row) => {
-                    for other in &mut rows {
-                        if other.hung == row.hung {
-                            other.parent = Some(row.number);
-                            other.num_below = 0;
-                            row.num_below += 1;
-                        }
-                    }
-                    heads.insert(row.hung.clone(), place);
-                }
-                Some(head) => {
-                    row.parent = Some(rows[head].number);
-                    rows[head].num_below += 1;
-                }
-                None => {
-                    let written = self.history.as_ref();
-                    let written = written.map(|history| history.head_of(&row.hung));
-                    row.parent = written.transpose()?.flatten().map(|head| head.number);
-                    if row.parent.is_none() {
-                        heads.insert(row.hung.clone(), place);
-                    }
-                }
-            }
-            rows.push(row);
-        }
-        Ok(rows)
-    }
-
     fn waiting_mut(&mut self, number: i64) -> Option<&mut NewEntry> {
         let mut waiting = self.waiting.iter_mut();
         waiting.find(|entry| entry.record.summary.number == number)

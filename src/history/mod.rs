@@ -28,10 +28,12 @@ mod open;
 mod retention;
 mod rows;
 mod schema;
+mod shots;
 mod store;
 mod table;
 #[cfg(test)]
 mod tests;
+mod waiting;
 mod writer;
 
 pub use self::{
@@ -40,14 +42,12 @@ pub use self::{
     entry::{InspectionContext, InspectionDetail, NewEntry, Record, StoredVerdict, Summary},
     error::HistoryError,
     filter::Filter,
-    frames::{
-        FrameError, FrameRecord, ShotRecord, read as read_frame, read_shots,
-        write_as as write_frame,
-    },
+    frames::{FrameError, FrameRecord, read as read_frame, write_as as write_frame},
     hung::{HungId, HungRows},
     news::HistoryEvent,
     open::{FILE, OpenedHistory, SetAside, users_folder},
     retention::{KeepFrames, PruneResult, Retention, Usage},
+    shots::{ShotRecord, read_shots},
     store::{History, Page},
     table::{write_head, write_row},
     writer::Writer,

@@ -15,6 +15,7 @@ use super::{
     open::{FILE, FRAMES, Lock},
     retention::Retention,
     rows::{COLUMNS, head_of, insert, json, record_of, summary_of},
+    shots,
 };
 use crate::{library::Truth, scan::Shot, stages::scene::SceneCloud};
 
@@ -71,7 +72,7 @@ impl History {
             Some(scene) if entry.shots.is_empty() => {
                 frames::write(&self.frames, scene, summary.at)?
             }
-            Some(scene) => frames::write_shots(&self.frames, scene, &entry.shots, summary.at)?,
+            Some(scene) => shots::write_shots(&self.frames, scene, &entry.shots, summary.at)?,
             None => None,
         };
         let written = self.add_row(entry, frame.as_ref());
@@ -238,7 +239,7 @@ impl History {
         let frame = record.detail.frame.as_ref();
         let frame = frame.filter(|frame| !frame.shots.is_empty());
         frame
-            .map(|frame| Ok(frames::read_shots(&self.frames, frame)?))
+            .map(|frame| Ok(shots::read_shots(&self.frames, frame)?))
             .transpose()
     }
 

@@ -109,13 +109,6 @@ pub struct Inspected {
 }
 
 impl Inspected {
-    /// The same, of a part that was inspected before as it hangs there.
-    #[must_use]
-    pub(in crate::app) fn of_hung(mut self, hung: HungId) -> Self {
-        self.entry.record.summary.hung = hung;
-        self
-    }
-
     /// Which part it is as it hangs there.
     pub(in crate::app) fn hung(&self) -> &HungId {
         &self.entry.record.summary.hung

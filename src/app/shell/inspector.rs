@@ -323,7 +323,7 @@ fn run(
     library_cache: &LibraryCache,
     context: &TaskContext<InspectorResult>,
 ) -> Result<InspectorResult, TaskError> {
-    let inspected = match job {
+    let mut inspected = match job {
         InspectJob::Scene(request) => inspect(request, library_cache, context)?,
         InspectJob::Scan(request) => {
             let report = |done, total| context.progress(done, total);
@@ -337,10 +337,9 @@ fn run(
             }
         }
     };
-    let inspected = match hung {
-        Some(hung) => inspected.of_hung(hung),
-        None => inspected,
-    };
+    if let Some(hung) = hung {
+        inspected.entry.record.summary.hung = hung;
+    }
     Ok(InspectorResult::Inspected(Arc::new(inspected)))
 }
 

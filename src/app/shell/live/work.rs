@@ -324,7 +324,7 @@ impl<'a> LiveSession<'a> {
         if self.watch.is_some() {
             let mut hung = lock(self.hung);
             let rows = hung.before(self.spec);
-            inspected = inspected.of_hung(rows.id().clone());
+            inspected.entry.record.summary.hung = rows.id().clone();
             if role == FrameRole::Best {
                 rows.hold(inspected.entry.clone());
             }
