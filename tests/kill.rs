@@ -25,8 +25,8 @@ use partsight::{
         distortion::Distortion,
     },
     history::{
-        Filter, History, InspectionDetail, KeepFrames, NewEntry, Record, Retention, StoredVerdict,
-        Summary,
+        Filter, History, HungId, InspectionDetail, KeepFrames, NewEntry, Record, Retention,
+        StoredVerdict, Summary,
     },
     library::Library,
     pipeline::{self, Inspection, Recipe, Unwatched},
@@ -89,6 +89,9 @@ fn entry(number: i64) -> NewEntry {
                 remark: String::new(),
                 label: None,
                 frame_bytes: None,
+                hung: HungId::new(),
+                parent: None,
+                num_below: 0,
             },
             detail: InspectionDetail {
                 nearest: None,
@@ -106,6 +109,7 @@ fn entry(number: i64) -> NewEntry {
         },
         picture: None,
         scene: Some(Arc::new(scene(number))),
+        shots: Vec::new(),
     }
 }
 

@@ -8,8 +8,8 @@ use serde::Serialize;
 use super::quantile;
 use crate::{
     history::{
-        Filter, History, HistoryError, InspectionDetail, KeepFrames, NewEntry, Record, Retention,
-        StoredVerdict, Summary,
+        Filter, History, HistoryError, HungId, InspectionDetail, KeepFrames, NewEntry, Record,
+        Retention, StoredVerdict, Summary,
     },
     pipeline::Recipe,
     simulate::{CellSetup, PartKind, Side, frame},
@@ -174,6 +174,9 @@ fn entry(
                 remark: String::new(),
                 label: None,
                 frame_bytes: None,
+                hung: HungId::new(),
+                parent: None,
+                num_below: 0,
             },
             detail: InspectionDetail {
                 nearest: Some(part.name().into()),
@@ -192,5 +195,6 @@ fn entry(
         },
         picture: None,
         scene: scene.map(Arc::clone),
+        shots: Vec::new(),
     }
 }

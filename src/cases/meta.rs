@@ -1,16 +1,18 @@
 //! What is written down of a case.
 
 use jiff::Timestamp;
-use serde::{Deserialize, Serialize};
+use serde::{Deserialize, Deserializer, Serialize};
 
 use super::judge::{FoundVerdict, Truth};
 use crate::{
     geometry::{depth_frame::Intrinsics, rigid::RigidTransform, sixteen_numbers},
+    history::FrameRecord,
     stages::scene::PictureEdge,
 };
 
-/// The version of the format that is written; newer ones are refused.
-pub const SCHEMA_VERSION: u32 = 1;
+/// The version of the format that is written; newer ones are refused. The first held every scene as a cloud, this one as
+/// the history does.
+pub const SCHEMA_VERSION: u32 = 2;
 
 /// What a person and an inspection say of a case that is to be kept.
 #[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
@@ -56,51 +58,48 @@ pub struct CaseMeta {
     /// What is said of it.
     #[serde(flatten)]
     pub about: CaseDescription,
-    /// What the cloud alone does not tell of the scene.
-    pub scene: SceneRecord,
+    /// Its scene's file, and what that alone does not tell.
+    #[serde(deserialize_with = "scene_of_any_version")]
+    pub scene: FrameRecord,
 }
 
-/// What `scene.pcd` alone does not tell.
-#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
-pub struct SceneRecord {
-    /// Size of the file.
-    pub bytes: u64,
-    /// CRC-32 (IEEE 802.3) of the file.
-    pub crc32: u32,
-    /// What the edge of the picture is.
-    pub picture_edge: Edge,
-    /// The camera, if a pinhole camera explains the scene.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub camera: Option<Intrinsics>,
-    /// CRC-32 of `empty-cell.pcd`, if the empty cell was known.
-    #[serde(default, skip_serializing_if = "Option::is_none")]
-    pub empty_cell_crc32: Option<u32>,
+/// The scene of a case of the first version: `scene.pcd`, and `empty-cell.pcd` if it has a checksum.
+#[derive(Deserialize)]
+struct FirstScene {
+    bytes: u64,
+    crc32: u32,
+    picture_edge: PictureEdge,
+    camera: Option<Intrinsics>,
+    empty_cell_crc32: Option<u32>,
 }
 
-/// [`PictureEdge`], as it is written.
-#[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]
-#[serde(rename_all = "snake_case")]
-pub enum Edge {
-    /// The camera's view ends there.
-    View,
-    /// The points end there.
-    Points,
-}
-
-impl From<PictureEdge> for Edge {
-    fn from(edge: PictureEdge) -> Self {
-        match edge {
-            PictureEdge::View => Self::View,
-            PictureEdge::Points => Self::Points,
+impl From<FirstScene> for FrameRecord {
+    fn from(first: FirstScene) -> Self {
+        Self {
+            file: "scene.pcd".into(),
+            bytes: first.bytes,
+            crc32: first.crc32,
+            edge: first.picture_edge,
+            camera: first.camera,
+            metres_per_unit: None,
+            block_side: None,
+            is_simulated: false,
+            empty_cell: first.empty_cell_crc32.map(|_| "empty-cell.pcd".into()),
+            empty_cell_crc32: first.empty_cell_crc32,
+            shots: Vec::new(),
         }
     }
 }
 
-impl From<Edge> for PictureEdge {
-    fn from(edge: Edge) -> Self {
-        match edge {
-            Edge::View => Self::View,
-            Edge::Points => Self::Points,
-        }
+fn scene_of_any_version<'de, D: Deserializer<'de>>(written: D) -> Result<FrameRecord, D::Error> {
+    #[derive(Deserialize)]
+    #[serde(untagged)]
+    enum Scene {
+        Now(FrameRecord),
+        First(FirstScene),
     }
+    Ok(match Scene::deserialize(written)? {
+        Scene::Now(scene) => scene,
+        Scene::First(scene) => scene.into(),
+    })
 }

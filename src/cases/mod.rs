@@ -6,13 +6,15 @@
 //! cases/
 //!   simulated_frame_7/
 //!     case.toml     what it truly is, what was found, where it came from (see CaseMeta)
-//!     scene.pcd     the scene in full: binary PCD, metres, camera space, rows and columns kept
-//!     empty-cell.pcd  only if the empty cell was known: its nearest depth around each pixel
+//!     scene.png     the scene as its camera gave it, as the history keeps frames: 16-bit depth; what is none is a
+//!                   scene.pcd: binary, metres, camera space, rows and columns kept
+//!     intrinsics.json  the camera of a depth image, for other programs
+//!     empty-cell-….pcd  only if the empty cell was known: its nearest depth around each pixel
 //!   .trash/         what was removed; moved back by hand it is a case again
 //! ```
 //!
 //! ```toml
-//! schema_version = 1
+//! schema_version = 2
 //! origin = "Simulated frame 7"      # for people
 //! simulated = true                  # no camera was read
 //! kept_at = "2026-11-20T14:07:31Z"
@@ -34,11 +36,14 @@
 //! camera_from_part = [16 numbers]   # row after row, metres
 //! cloud_crc32 = "4d355f87"          # the cloud of the enrolled part whose coordinates these are
 //!
-//! [scene]
-//! bytes = 3686600                   # size and CRC-32 of scene.pcd
+//! [scene]                           # a FrameRecord
+//! file = "scene.png"
+//! bytes = 246310                    # size and CRC-32 of the file
 //! crc32 = 305419896
-//! picture_edge = "view"             # view or points, see PictureEdge
-//! empty_cell_crc32 = 19088743       # of empty-cell.pcd; absent without one
+//! edge = "view"                     # view or points, see PictureEdge
+//! metres_per_unit = 0.001           # of a depth image
+//! empty_cell = "empty-cell-01234567.pcd"  # absent without one
+//! empty_cell_crc32 = 19088743
 //!
 //! [scene.camera]                    # pixels; absent if no pinhole camera explains the scene
 //! width = 640
@@ -48,6 +53,9 @@
 //! cx = 319.5
 //! cy = 239.5
 //! ```
+//!
+//! Cases of the first version are read as well: their scene is always `scene.pcd`, with `picture_edge` and
+//! `empty-cell.pcd`.
 //!
 //! The scene opens again bit for bit, camera and empty cell included, so that the same recipe gives the same verdict. A case is
 //! written whole or not at all: built in a hidden folder (`.new-…`), synced, renamed. A damaged case is named and set
@@ -73,7 +81,7 @@ pub use self::{
     error::CaseError,
     evaluation::{CaseJudge, Evaluation, evaluate},
     judge::{CaseAnswer, CaseOutcome, CaseResult, FoundVerdict, Truth, found_in},
-    meta::{CaseDescription, CaseMeta, Edge, SCHEMA_VERSION, SceneRecord, TruePose},
+    meta::{CaseDescription, CaseMeta, SCHEMA_VERSION, TruePose},
     past::{PastCases, TruthFrom},
     record::{
         CaseRecord, EarlierRun, EvaluationRecord, PoseErrors, PoseOff, RECORD_SCHEMA, RecipeRecord,

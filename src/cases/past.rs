@@ -8,7 +8,7 @@ use super::{
     meta::CaseDescription,
     store::CaseFolder,
 };
-use crate::history::{HistoryError, Record, StoredVerdict, read_frame};
+use crate::history::{FrameError, Record, StoredVerdict, read_frame};
 
 /// What is taken for the truth of a past inspection.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
@@ -44,8 +44,10 @@ pub struct PastCases<'a> {
     pub num_without_truth: usize,
     /// Inspections whose frame is not kept any more, or never was.
     pub num_without_frame: usize,
+    /// Inspections of several frames together: a case has one.
+    pub num_scans: usize,
     /// Frames that cannot be read.
-    pub problems: Vec<HistoryError>,
+    pub problems: Vec<FrameError>,
 }
 
 impl<'a> PastCases<'a> {
@@ -58,6 +60,7 @@ impl<'a> PastCases<'a> {
             num_kept: 0,
             num_without_truth: 0,
             num_without_frame: 0,
+            num_scans: 0,
             problems: Vec::new(),
         }
     }
@@ -72,6 +75,10 @@ impl<'a> PastCases<'a> {
             self.num_without_frame += 1;
             return Ok(());
         };
+        if !frame.shots.is_empty() {
+            self.num_scans += 1;
+            return Ok(());
+        }
         let scene = match read_frame(self.frames, frame) {
             Ok(scene) => scene,
             Err(problem) => {
@@ -107,6 +114,7 @@ impl<'a> PastCases<'a> {
         for (num, why) in [
             (self.num_without_truth, "without a true label"),
             (self.num_without_frame, "whose frame is not kept"),
+            (self.num_scans, "that are scans"),
             (self.problems.len(), "whose frame cannot be read"),
         ] {
             if num > 0 {

@@ -6,25 +6,21 @@ use std::{
     fs::{self, File},
     io::{self, Write as _},
     path::{Path, PathBuf},
-    sync::Arc,
 };
 
 use super::{
     error::CaseError,
-    meta::{CaseDescription, CaseMeta, SCHEMA_VERSION, SceneRecord},
+    meta::{CaseDescription, CaseMeta, SCHEMA_VERSION},
 };
 use crate::{
-    files::{
-        FileContent, FileError, crc32, in_counting_order, open_bytes, open_lock, open_regular,
-        read_bytes, words_of, write_pcd,
-    },
-    geometry::cloud::PointCloud,
-    stages::{scene::SceneCloud, segment::EmptyCell},
+    files::{in_counting_order, open_lock, open_regular, words_of},
+    history::{FrameRecord, read_frame, write_frame},
+    stages::scene::SceneCloud,
 };
 
 const META: &str = "case.toml";
-const SCENE: &str = "scene.pcd";
-const EMPTY_CELL: &str = "empty-cell.pcd";
+/// The name of the scene's file, without its ending.
+const SCENE: &str = "scene";
 const NEW_PREFIX: &str = ".new-";
 const TRASH: &str = ".trash";
 const LOCK: &str = ".lock";
@@ -95,27 +91,12 @@ impl CaseFolder {
             self.writing(|| {
                 self.clear_leftovers()?;
                 let (name, place) = self.free_name(&plain_name(&about.origin))?;
-                let cloud = packed(&scene.cloud)?;
-                let empty_cell = scene.empty_cell.as_ref();
-                let empty_cell = empty_cell
-                    .map(|cell| packed(&cell.to_cloud()))
-                    .transpose()?;
+                let building = new_folder(&self.path)?;
                 let meta = CaseMeta {
                     schema_version: SCHEMA_VERSION,
                     about,
-                    scene: SceneRecord {
-                        bytes: cloud.len() as u64,
-                        crc32: crc32(&cloud),
-                        picture_edge: scene.edge.into(),
-                        camera: scene.intrinsics,
-                        empty_cell_crc32: empty_cell.as_deref().map(crc32),
-                    },
+                    scene: write_frame(building.path(), SCENE, scene)?,
                 };
-                let building = new_folder(&self.path)?;
-                write_file(&building.path().join(SCENE), &cloud)?;
-                if let Some(content) = empty_cell {
-                    write_file(&building.path().join(EMPTY_CELL), &content)?;
-                }
                 let text = toml::to_string(&meta).map_err(io::Error::other)?;
                 write_file(&building.path().join(META), text.as_bytes())?;
                 sync_folder(building.path())?;
@@ -131,34 +112,10 @@ impl CaseFolder {
 
     /// The scene of a case, as it was.
     pub fn read_scene(&self, case: &KeptCase) -> Result<SceneCloud, CaseError> {
-        let damaged = |what: String| CaseError::Damaged {
+        let read = read_frame(&self.path.join(&case.name), &case.meta.scene);
+        read.map_err(|error| CaseError::Damaged {
             name: case.name.clone(),
-            what,
-        };
-        let SceneRecord {
-            crc32,
-            picture_edge,
-            camera,
-            empty_cell_crc32,
-            ..
-        } = case.meta.scene;
-        let folder = self.path.join(&case.name);
-        let cloud = |file, crc32| cloud_of(&folder, file, crc32).map_err(damaged);
-        let cell = |crc32| {
-            EmptyCell::of_cloud(&cloud(EMPTY_CELL, crc32)?)
-                .map(Arc::new)
-                .ok_or_else(|| damaged(format!("{EMPTY_CELL} has no rows and columns")))
-        };
-        let empty_cell = empty_cell_crc32.map(cell).transpose()?;
-        let cloud = cloud(SCENE, crc32)?;
-        let cells = cloud.grid.map(|grid| (grid.width, grid.height));
-        if camera.is_some_and(|camera| cells != Some((camera.width, camera.height))) {
-            return Err(damaged("the camera's picture is not the scene's".into()));
-        }
-        Ok(SceneCloud {
-            edge: picture_edge.into(),
-            empty_cell,
-            ..SceneCloud::new(cloud, camera)
+            what: error.to_string(),
         })
     }
 
@@ -251,11 +208,12 @@ impl CaseFolder {
             name: name.to_owned(),
             what,
         };
-        let (meta, scene) = (folder.join(META), folder.join(SCENE));
+        let meta = folder.join(META);
         if !meta.exists() {
             // Somebody's folder, unless the scene says that it was a case.
             let what = format!("{META} is missing");
-            return if scene.exists() {
+            let mut scenes = ["png", "pcd"].iter();
+            return if scenes.any(|ending| folder.join(format!("{SCENE}.{ending}")).exists()) {
                 Err(damaged(what))
             } else {
                 Ok(None)
@@ -279,14 +237,17 @@ impl CaseFolder {
             });
         }
         let meta: CaseMeta = toml::from_str(&text).map_err(bad)?;
-        let found = fs::metadata(&scene).map(|scene| scene.len());
+        let FrameRecord { file, bytes, .. } = &meta.scene;
+        if !is_plain(file) {
+            return Err(damaged(format!("{META} names no file of its own")));
+        }
+        let found = fs::metadata(folder.join(file)).map(|scene| scene.len());
         match found {
-            Ok(found) if found == meta.scene.bytes => Ok(Some(meta)),
+            Ok(found) if found == *bytes => Ok(Some(meta)),
             Ok(found) => Err(damaged(format!(
-                "{SCENE} has {found} bytes, expected {}",
-                meta.scene.bytes
+                "{file} has {found} bytes, expected {bytes}"
             ))),
-            Err(error) => Err(damaged(format!("{SCENE}: {}", words_of(&error)))),
+            Err(error) => Err(damaged(format!("{file}: {}", words_of(&error)))),
         }
     }
 
@@ -366,27 +327,6 @@ fn new_folder(parent: &Path) -> io::Result<tempfile::TempDir> {
         builder.permissions(fs::Permissions::from_mode(0o777));
     }
     builder.tempdir_in(parent)
-}
-
-/// The bytes of a cloud's file.
-fn packed(cloud: &PointCloud) -> io::Result<Vec<u8>> {
-    let mut content = Vec::new();
-    write_pcd(&mut content, cloud)?;
-    Ok(content)
-}
-
-/// The cloud in a file of a case, or what is wrong with it.
-fn cloud_of(folder: &Path, file: &str, checksum: u32) -> Result<PointCloud, String> {
-    let path = folder.join(file);
-    let of_file = |error: FileError| error.to_string();
-    let bytes = read_bytes(&path).map_err(of_file)?;
-    if crc32(&bytes) != checksum {
-        return Err(format!("{file} does not have its checksum"));
-    }
-    match open_bytes(&path, &bytes).map_err(of_file)? {
-        FileContent::Cloud(cloud) => Ok(cloud),
-        _ => Err(format!("{file} holds no cloud")),
-    }
 }
 
 fn write_file(path: &Path, content: &[u8]) -> io::Result<()> {

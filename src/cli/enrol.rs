@@ -21,6 +21,7 @@ use crate::{
     stages::{
         reference::{Coverage, ReferenceParams},
         scene::{SceneCloud, scene_from_cloud, scene_from_frame},
+        segment::SegmentParams,
     },
 };
 
@@ -173,7 +174,7 @@ fn enrolled_from_scan(
     first: &Path,
     console: &mut Console,
 ) -> anyhow::Result<Enrolled> {
-    let scan = open_scan(&args.scan, &args.poses, console)?;
+    let scan = open_scan(&args.scan, &args.poses, &SegmentParams::default(), console)?;
     let about = about(args, first, scan.cloud.cloud.is_simulated)?;
     enrol_scan(&scan, &about, &EnrolParams::default()).advised()
 }

@@ -39,6 +39,9 @@ Examples:
   partsight history export --verdict not-accepted --cases tried && partsight evaluate tried
   partsight history keep all --days 30 --gigabytes 50
 
+Each row is a part as it hung there once: of a source that is followed the verdict that counted. Inspected again while it
+hung there, with another recipe or library or because its verdict changed, it stays one part; the others lie below it
+(history show NUMBER, or --reinspections). A refusal gives way to an acceptance of the same part, an acceptance stands.
 Times are shown as the clocks here go, in files and JSON as UTC. A frame that is not kept any more can neither be
 inspected again nor become a case; which are kept says `partsight history keep`.")]
 pub(super) struct HistoryArgs {
@@ -97,6 +100,9 @@ struct FilterArgs {
     /// Only simulated ones, or only those of a camera
     #[arg(long, value_name = "BOOL")]
     simulated: Option<bool>,
+    /// Also the other inspections of each part: by themselves they lie below the one that stands for it
+    #[arg(long)]
+    reinspections: bool,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -130,6 +136,7 @@ impl FilterArgs {
             part: self.part.clone(),
             verdict: self.verdict.map(Into::into),
             is_simulated: self.simulated,
+            with_below: self.reinspections,
             text: self.text.clone().unwrap_or_default(),
         }
     }
@@ -303,7 +310,7 @@ fn list(history: &History, asked: &ListArgs, console: &mut Console) -> anyhow::R
         return Ok(Outcome::Accepted);
     }
     let mut table = Table::new(&[
-        "NUMBER", "TIME", "VERDICT", "PART", "SCORE", "SCENE", "FRAME", "LABEL", "REMARK",
+        "NUMBER", "TIME", "VERDICT", "PART", "SCORE", "AGAIN", "SCENE", "FRAME", "LABEL", "REMARK",
     ]);
     for row in &page.rows {
         table.row(cells(row));
@@ -311,13 +318,18 @@ fn list(history: &History, asked: &ListArgs, console: &mut Console) -> anyhow::R
     table.show(console);
     let (num, num_matching) = (page.rows.len(), page.num_matching);
     console.note(&format_args!(
-        "{num} of {num_matching} inspections shown, {} in all",
+        "{num} of {num_matching} {} shown, {} parts in all",
+        if filter.with_below {
+            "inspections"
+        } else {
+            "parts"
+        },
         page.num_all
     ));
     Ok(Outcome::Accepted)
 }
 
-fn cells(row: &Summary) -> [String; 9] {
+fn cells(row: &Summary) -> [String; 10] {
     let simulated = if row.is_simulated { ", simulated" } else { "" };
     [
         row.number.to_string(),
@@ -326,6 +338,11 @@ fn cells(row: &Summary) -> [String; 9] {
         row.part.clone().unwrap_or_else(|| "-".into()),
         row.score
             .map_or_else(|| "-".into(), |[score, _]| format!("{score:.2}")),
+        match (row.parent, row.num_below) {
+            (Some(parent), _) => format!("of {parent}"),
+            (None, 0) => "-".into(),
+            (None, num) => num.to_string(),
+        },
         format!("{}{simulated}", row.scene),
         row.frame_bytes.map_or("-", |_| "kept").to_owned(),
         row.label.as_ref().map_or("-", Truth::name).to_owned(),

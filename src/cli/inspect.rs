@@ -1,5 +1,6 @@
 //! `partsight inspect`: which part is it, and where?
 
+mod hung;
 mod scan;
 mod spray;
 
@@ -12,6 +13,7 @@ use std::{
 
 use clap::Args;
 
+use self::hung::{FollowedFrame, FollowedParts};
 use super::{
     LibraryChoice, Outcome,
     calibrate::CalibrationChoice,
@@ -27,11 +29,13 @@ use super::{
 use crate::{
     capture::{FeedItem, SourceSpec},
     error::{Advice, guarded},
+    history::HungId,
     library::Library,
-    pipeline::{self, MirrorTally, Recipe, Unwatched},
+    pipeline::{self, Inspection, MirrorTally, Recipe, Unwatched},
     report::{CaptureLine, InspectionLine, ReportFolder, stage_pictures},
     robot::RobotFrame,
     stages::{
+        reference::Reference,
         scene::{SceneCloud, scene_from_image},
         segment::EmptyCell,
     },
@@ -65,15 +69,17 @@ camera the newest frame is inspected and those in between are dropped; of a reco
 Exit codes as with files; 1 also if nothing came. What can be a source: partsight capture --help
 With --scan: one verdict on all frames together; partsight help scan says how their poses are given. camera_from_part is
 then the pose before the camera of the first frame that was used, and base_from_part that in the robot's base frame.
-Every inspection but that of a scan is written into the history (partsight history --help) after its verdict is shown; where that cannot be
-written there is a warning, and the exit code is the same.")]
+Every inspection is written into the history (partsight history --help) after its verdict is shown; where that cannot be
+written there is a warning, and the exit code is the same. Of a source that is followed it is one for each part that hung
+there: the verdict that the frames agree on once it hangs still. Files, a watched folder and a folder of single captures
+are taken for a part each.")]
 pub(super) struct InspectArgs {
     /// Captured scenes
     #[arg(required_unless_present_any = ["source", "scan"], value_name = "FILE")]
     files: Vec<PathBuf>,
     /// Instead of files: several frames of one part, each with the pose of its camera, for one verdict and one pose; a
     /// folder, a recording or files
-    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["files", "source", "empty_cell", "spray", "report", "history"])]
+    #[arg(long, value_name = "DIR", num_args = 1.., conflicts_with_all = ["files", "source", "empty_cell", "spray", "report"])]
     scan: Vec<PathBuf>,
     #[command(flatten)]
     poses: PosesChoice,
@@ -151,6 +157,9 @@ fn inspect(
         telling,
         report,
         recording,
+        followed: (args.source.as_ref())
+            .filter(|source| source.is_followed())
+            .map(|_| FollowedParts::new()),
         mirrored: MirrorTally::default(),
     };
     let outcome = match &args.source {
@@ -160,7 +169,10 @@ fn inspect(
     if let Some(suspicion) = one.mirrored.suspicion() {
         console.warn(&suspicion, &suspicion);
     }
-    if let Some(recording) = one.recording {
+    if let Some(mut recording) = one.recording {
+        if let Some(entry) = one.followed.and_then(FollowedParts::end) {
+            recording.add(entry, console);
+        }
         recording.finish(console);
     }
     outcome
@@ -192,6 +204,8 @@ struct InspectSession {
     telling: OutputFormat,
     report: Option<ReportFolder>,
     recording: Option<HistoryRecorder>,
+    /// Of a source whose frames show one part after the other.
+    followed: Option<FollowedParts>,
     mirrored: MirrorTally,
 }
 
@@ -266,6 +280,7 @@ impl InspectSession {
             telling,
             report,
             recording,
+            followed,
             mirrored,
         } = self;
         let name = path.display().to_string();
@@ -279,12 +294,15 @@ impl InspectSession {
             source: capture.as_ref().map_or("file", CaptureLine::source),
             is_simulated: capture.map_or(file_says_simulated, |c| c.is_simulated()),
         };
-        let mut line = InspectionLine::of(&name, &inspection).captured(capture);
-        if file_says_simulated {
-            line = line.of_simulated_file();
-        }
         let robot = robot.as_ref();
-        let line = line.in_robot(robot, &inspection).to_json();
+        let line_of = |inspection: &Inspection| {
+            let mut line = InspectionLine::of(&name, inspection).captured(capture);
+            if file_says_simulated {
+                line = line.of_simulated_file();
+            }
+            line.in_robot(robot, inspection).to_json()
+        };
+        let line = line_of(&inspection);
         // The table has no room for it; its reports and the history say it of each.
         let shown = match telling {
             OutputFormat::Card if file_says_simulated => format!("{name}, simulated"),
@@ -308,8 +326,27 @@ impl InspectSession {
             report.write(path, &line, &pictures).advised()?;
         }
         // Last: it must not keep anybody from the verdict.
-        if let Some(recording) = recording {
-            recording.add(taken, &scene, &inspection, &line, console);
+        let Some(recording) = recording else {
+            return Ok(outcome);
+        };
+        let (Some(followed), Some(capture)) = (followed, capture) else {
+            let entry = recording.entry(taken, &scene, &inspection, &line, HungId::new());
+            recording.add(entry, console);
+            return Ok(outcome);
+        };
+        let frame = FollowedFrame {
+            scene: &scene,
+            taken_at: capture.taken_at(),
+            middle: inspection
+                .best_reference(library)
+                .and_then(Reference::middle),
+            accept: &recipe.accept,
+        };
+        let entries = followed.take(&frame, inspection, |inspection, hung| {
+            recording.entry(taken, &scene, inspection, &line_of(inspection), hung)
+        });
+        for entry in entries.into_iter().flatten() {
+            recording.add(entry, console);
         }
         Ok(outcome)
     }
@@ -381,6 +418,7 @@ mod tests {
             telling: OutputFormat::Card,
             report: Some(ReportFolder::make(folder.path()).expect("made")),
             recording: None,
+            followed: None,
             mirrored: MirrorTally::default(),
         };
         let mut console = Console::new();

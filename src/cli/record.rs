@@ -8,7 +8,7 @@ use jiff::Timestamp;
 use super::console::Console;
 use crate::{
     history::{
-        HistoryBuffer, HistoryError, HistoryEvent, InspectionContext, NewEntry, Writer,
+        HistoryBuffer, HistoryError, HistoryEvent, HungId, InspectionContext, NewEntry, Writer,
         users_folder,
     },
     library::LibraryLoad,
@@ -75,15 +75,15 @@ impl HistoryRecorder {
         })
     }
 
-    /// Hands an inspection over; `line` is what `--json` shows of it.
-    pub(super) fn add(
-        &mut self,
+    /// An inspection to be handed over; `line` is what `--json` shows of it.
+    pub(super) fn entry(
+        &self,
         taken: SceneOrigin<'_>,
         scene: &Arc<SceneCloud>,
         inspection: &Inspection,
         line: &str,
-        console: &Console,
-    ) {
+        hung: HungId,
+    ) -> NewEntry {
         let best = match &inspection.verdict {
             Verdict::Part { part, .. } => self.titles.get(part),
             Verdict::NoPart(_) => None,
@@ -99,8 +99,13 @@ impl HistoryRecorder {
             library: self.library.clone(),
             origin: None,
             picture: picture.as_ref(),
+            hung,
         };
-        let entry = NewEntry::of(about, scene, inspection, &self.recipe);
+        NewEntry::of(about, scene, inspection, &self.recipe)
+    }
+
+    /// Hands an inspection over.
+    pub(super) fn add(&mut self, entry: NewEntry, console: &Console) {
         self.num += 1;
         self.writer.add(self.num, entry);
         self.tell(console);

@@ -17,6 +17,7 @@ use crate::{
     error::Advice as _,
     files::{write_atomically, write_ply_with},
     scan::{FusedCloud, Scan},
+    stages::segment::SegmentParams,
 };
 
 /// Where the camera was for each frame of a scan.
@@ -80,7 +81,8 @@ fn ply_path(text: &str) -> Result<PathBuf, String> {
 }
 
 pub(super) fn run(args: &ScanArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    let scan = open_scan(&args.frames, &args.poses, console)?;
+    let segment = SegmentParams::default();
+    let scan = open_scan(&args.frames, &args.poses, &segment, console)?;
     let part = scan.cloud.part();
     let has_part = !part.cloud.points.is_empty();
     let written = if args.part_only { &part } else { &scan.cloud };

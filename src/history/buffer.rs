@@ -13,20 +13,17 @@ use std::{
 use jiff::Timestamp;
 
 use super::{
-    entry::{NewEntry, Record, png_of},
+    entry::{NewEntry, Record, Summary, png_of},
     error::HistoryError,
     filter::Filter,
     news::HistoryEvent,
     open::OpenedHistory,
     retention::{PruneResult, Retention, Usage},
     store::{History, Page},
+    waiting::{wait, waiting_rows},
 };
 use crate::{error::Advice as _, library::Truth, stages::scene::SceneCloud};
 
-/// Inspections that wait at most; the oldest go first.
-const MAX_WAITING: usize = 2000;
-/// Of so many of those the scene waits too: 4 MB each.
-const MAX_SCENES: usize = 4;
 /// After a failure it is tried again this much later.
 const PAUSE: Duration = Duration::from_secs(20);
 /// Frames are swept away at the beginning and after so many inspections.
@@ -116,15 +113,12 @@ impl HistoryBuffer {
     pub fn add(&self, ticket: u64, entry: NewEntry, now: Instant) {
         let mut inner = self.lock();
         inner.last += 1;
-        let number = -inner.last;
-        inner.wait(entry, number);
+        let mut number = -inner.last;
+        inner.num_lost += wait(&mut inner.waiting, entry, number);
         if self.place.is_some() && inner.next_try.is_none_or(|at| at <= now) {
-            let numbers = self.write_waiting(&mut inner, now);
-            if let Some((_, written)) = numbers.iter().find(|(waited, _)| *waited == number) {
-                let number = *written;
-                self.tell(HistoryEvent::Added { ticket, number });
-                return;
-            }
+            let mut numbers = self.write_waiting(&mut inner, now).into_iter();
+            let written = numbers.find(|(waited, _)| *waited == number);
+            number = written.map_or(number, |(_, written)| written);
         }
         self.tell(HistoryEvent::Added { ticket, number });
     }
@@ -196,12 +190,12 @@ impl HistoryBuffer {
     pub fn page(&self, filter: &Filter, offset: usize, most: usize) -> Result<Page, HistoryError> {
         let mut inner = self.lock();
         self.look(&mut inner);
-        let waiting = inner.waiting.iter().rev();
-        let waiting = waiting.map(|entry| &entry.record.summary);
-        let matching: Vec<_> = waiting.filter(|row| filter.passes(row)).collect();
-        let (num_waiting, num_above) = (inner.waiting.len(), matching.len());
-        let above = matching.into_iter().skip(offset).take(most).cloned();
-        let mut rows: Vec<_> = above.collect();
+        let mut matching = waiting_rows(&inner.waiting, inner.history.as_ref())?;
+        let num_waiting = matching.iter().filter(|row| row.parent.is_none()).count();
+        matching.retain(|row| filter.passes(row));
+        let num_above = matching.len();
+        let above = matching.into_iter().rev().skip(offset).take(most);
+        let mut rows: Vec<Summary> = above.collect();
         let below = match &inner.history {
             Some(history) => {
                 let offset = offset.saturating_sub(num_above);
@@ -221,15 +215,38 @@ impl HistoryBuffer {
     pub fn row(&self, number: i64) -> Result<Option<Record>, HistoryError> {
         let mut inner = self.lock();
         self.look(&mut inner);
-        if let Some(entry) = inner.waiting_mut(number) {
-            let mut record = entry.record.clone();
-            record.detail.thumbnail = entry.picture.as_ref().map_or_else(Vec::new, png_of);
-            return Ok(Some(record));
+        let rows = waiting_rows(&inner.waiting, inner.history.as_ref())?
+            .into_iter()
+            .zip(&inner.waiting);
+        if let Some((summary, entry)) = rows.into_iter().find(|(row, _)| row.number == number) {
+            let mut detail = entry.record.detail.clone();
+            detail.thumbnail = entry.picture.as_ref().map_or_else(Vec::new, png_of);
+            return Ok(Some(Record { summary, detail }));
         }
         match &inner.history {
             Some(history) => history.row(number),
             None => Ok(None),
         }
+    }
+
+    /// The inspections that lie below this one, the oldest first.
+    pub fn below(&self, number: i64) -> Result<Vec<Record>, HistoryError> {
+        let mut inner = self.lock();
+        self.look(&mut inner);
+        let mut below = match &inner.history {
+            Some(history) => history.below(number)?,
+            None => Vec::new(),
+        };
+        let rows = waiting_rows(&inner.waiting, inner.history.as_ref())?;
+        for (summary, entry) in rows.into_iter().zip(&inner.waiting) {
+            if summary.parent == Some(number) {
+                below.push(Record {
+                    summary,
+                    detail: entry.record.detail.clone(),
+                });
+            }
+        }
+        Ok(below)
     }
 
     /// The scene of an inspection, if its frame is kept.
@@ -256,9 +273,12 @@ impl HistoryBuffer {
         if let Some(history) = &inner.history {
             history.each(filter, &mut each)?;
         }
-        let waiting = inner.waiting.iter().map(|entry| &entry.record);
-        for record in waiting.filter(|record| filter.passes(&record.summary)) {
-            each(record.clone())?;
+        let rows = waiting_rows(&inner.waiting, inner.history.as_ref())?;
+        for (summary, entry) in rows.into_iter().zip(&inner.waiting) {
+            if filter.passes(&summary) {
+                let detail = entry.record.detail.clone();
+                each(Record { summary, detail })?;
+            }
         }
         Ok(())
     }
@@ -362,19 +382,6 @@ impl HistoryBuffer {
 }
 
 impl Inner {
-    fn wait(&mut self, mut entry: NewEntry, number: i64) {
-        entry.record.summary.number = number;
-        self.waiting.push_back(entry);
-        if self.waiting.len() > MAX_WAITING {
-            self.waiting.pop_front();
-            self.num_lost += 1;
-        }
-        let old = self.waiting.len().saturating_sub(MAX_SCENES);
-        if let Some(entry) = old.checked_sub(1).and_then(|i| self.waiting.get_mut(i)) {
-            entry.scene = None;
-        }
-    }
-
     fn waiting_mut(&mut self, number: i64) -> Option<&mut NewEntry> {
         let mut waiting = self.waiting.iter_mut();
         waiting.find(|entry| entry.record.summary.number == number)

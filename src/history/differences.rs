@@ -1,11 +1,13 @@
 //! What changed between an inspection and the same scene inspected again.
 
+use std::sync::Arc;
+
 use nalgebra::Point3;
 
 use super::entry::{Record, StoredVerdict};
 use crate::{
     geometry::rigid::{PoseDelta, RigidTransform, pose_error},
-    pipeline::{Inspection, Verdict},
+    pipeline::{Inspection, Recipe, Verdict, parameters::PARAMETERS},
     stages::pose::PoseEstimate,
 };
 
@@ -22,6 +24,8 @@ pub struct InspectionSummary {
     pub camera_from_part: Option<RigidTransform>,
     /// Tells recipes apart.
     pub recipe: String,
+    /// All parameters, if this program can read them.
+    pub parameters: Option<Arc<Recipe>>,
     /// Tells libraries apart.
     pub library: String,
     /// Version of the program.
@@ -30,7 +34,7 @@ pub struct InspectionSummary {
 
 impl InspectionSummary {
     /// Of an inspection of now, with this recipe and library.
-    pub fn of(inspection: &Inspection, recipe: &str, library: &str) -> Self {
+    pub fn of(inspection: &Inspection, recipe: &Arc<Recipe>, library: &str) -> Self {
         let (nearest, score) = match &inspection.verdict {
             Verdict::Part {
                 part,
@@ -46,7 +50,8 @@ impl InspectionSummary {
             nearest,
             score,
             camera_from_part: pose.map(PoseEstimate::camera_from_part),
-            recipe: recipe.to_owned(),
+            recipe: recipe.identity(),
+            parameters: Some(Arc::clone(recipe)),
             library: library.to_owned(),
             program: env!("CARGO_PKG_VERSION").to_owned(),
         }
@@ -61,10 +66,24 @@ impl From<&Record> for InspectionSummary {
             score: summary.score,
             camera_from_part: detail.camera_from_part,
             recipe: detail.recipe_identity.clone(),
+            parameters: detail.recipe.clone(),
             library: detail.library_identity.clone(),
             program: detail.program.clone(),
         }
     }
+}
+
+/// A parameter that has another value.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct ParameterChange {
+    /// Its path in the recipe.
+    pub key: &'static str,
+    /// What a person calls it.
+    pub name: &'static str,
+    /// The value then, with its unit.
+    pub before: String,
+    /// The value now.
+    pub now: String,
 }
 
 /// An inspection and the same scene inspected again.
@@ -111,6 +130,21 @@ impl Differences {
         before.verdict == now.verdict && before.nearest == now.nearest && has_score && has_pose
     }
 
+    /// The parameters that have another value now.
+    pub fn changed_parameters(&self) -> Vec<ParameterChange> {
+        let (Some(before), Some(now)) = (&self.before.parameters, &self.now.parameters) else {
+            return Vec::new();
+        };
+        let changed = PARAMETERS.iter().filter(|p| p.differs(before, now));
+        let change = changed.map(|parameter| ParameterChange {
+            key: parameter.key,
+            name: parameter.name,
+            before: parameter.text(before),
+            now: parameter.text(now),
+        });
+        change.collect()
+    }
+
     /// What else is not as it was, in words; empty if recipe, library and program are the same.
     pub fn changed_inputs(&self) -> Vec<&'static str> {
         let Self { before, now, .. } = self;
@@ -137,6 +171,7 @@ mod tests {
             score: Some([0.97, 0.4]),
             camera_from_part: Some(from_euler_zyx([0.0, 0.0, 0.0, shift, 0.0, 1.4])),
             recipe: "a".into(),
+            parameters: Some(Arc::default()),
             library: "b".into(),
             program: "0.1.0".into(),
         }
@@ -162,5 +197,25 @@ mod tests {
         let found = Differences::between(finding(0.0), other, None);
         assert_eq!((found.pose, found.is_same()), (None, false));
         assert_eq!(found.changed_inputs(), ["library"]);
+        assert_eq!(found.changed_parameters(), []);
+    }
+
+    #[test]
+    fn a_parameter_that_was_changed_is_named_with_both_values() {
+        let mut recipe = Recipe::default();
+        recipe.accept.min_score = 0.75;
+        let other = InspectionSummary {
+            parameters: Some(Arc::new(recipe)),
+            ..finding(0.0)
+        };
+        let changed = Differences::between(finding(0.0), other, None).changed_parameters();
+        let [change] = changed.as_slice() else {
+            panic!("{changed:?}");
+        };
+        assert_eq!(change.key, "accept.min_score");
+        assert_eq!(
+            [&change.before, &change.now].map(String::as_str),
+            ["0.90", "0.75"]
+        );
     }
 }

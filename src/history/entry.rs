@@ -8,12 +8,13 @@ use image::{
 };
 use jiff::Timestamp;
 
-use super::frames::FrameRecord;
+use super::{frames::FrameRecord, hung::HungId};
 use crate::{
     error::Advice as _,
     geometry::rigid::{RigidTransform, row_major},
     library::Truth,
     pipeline::{Inspection, Recipe, Verdict},
+    scan::Shot,
     stages::{pose::PoseEstimate, scene::SceneCloud},
 };
 
@@ -103,8 +104,14 @@ pub struct Summary {
     pub remark: String,
     /// What it truly is, if somebody said so.
     pub label: Option<Truth>,
-    /// Size of the kept frame; `None` if it is not kept.
+    /// Size of what is kept of its frames; `None` if nothing is.
     pub frame_bytes: Option<u64>,
+    /// Which part it is as it hung there.
+    pub hung: HungId,
+    /// The inspection that stands for the same part; `None` of the one that does.
+    pub parent: Option<i64>,
+    /// Of the one that stands for the part: how many others there are.
+    pub num_below: usize,
 }
 
 impl Summary {
@@ -173,6 +180,8 @@ pub struct NewEntry {
     pub picture: Option<RgbImage>,
     /// The scene as it was inspected; `None` if it is not to be kept.
     pub scene: Option<Arc<SceneCloud>>,
+    /// Of a scan: its shots, where the robot says that they were taken; the scene is one of them.
+    pub shots: Vec<Shot>,
 }
 
 /// What an inspection itself does not know.
@@ -196,6 +205,8 @@ pub struct InspectionContext<'a> {
     pub origin: Option<String>,
     /// A picture of the segmentation, of any size.
     pub picture: Option<&'a RgbImage>,
+    /// Which part it is as it hung there.
+    pub hung: HungId,
 }
 
 impl NewEntry {
@@ -245,6 +256,9 @@ impl NewEntry {
             remark: String::new(),
             label: None,
             frame_bytes: None,
+            hung: about.hung,
+            parent: None,
+            num_below: 0,
         };
         let detail = InspectionDetail {
             nearest,
@@ -263,7 +277,29 @@ impl NewEntry {
             record: Record { summary, detail },
             picture: about.picture.map(small),
             scene: Some(Arc::clone(scene)),
+            shots: Vec::new(),
         }
+    }
+
+    /// The same, of a scan of these shots.
+    #[must_use]
+    pub fn of_scan(self, shots: Vec<Shot>) -> Self {
+        Self { shots, ..self }
+    }
+
+    /// Lets go of what its frames are written from.
+    pub(super) fn drop_frames(&mut self) {
+        self.scene = None;
+        self.shots = Vec::new();
+    }
+}
+
+impl Summary {
+    /// True if an inspection of the same part that is written later stands for it in its place: a part that was refused
+    /// and is accepted as it still hangs there is an accepted part. An acceptance stands for good, since a robot may
+    /// have acted on it. Neither verdict is changed.
+    pub(super) fn gives_way_to(&self, later: &Self) -> bool {
+        self.verdict != StoredVerdict::Accepted && later.verdict == StoredVerdict::Accepted
     }
 }
 

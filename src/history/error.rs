@@ -7,9 +7,10 @@ use std::{
 
 use rusqlite::ErrorCode;
 
+use super::frames::FrameError;
 use crate::{
     error::Advice,
-    files::{FileError, advice_on, words_of},
+    files::{advice_on, words_of},
 };
 
 /// Why the history cannot be read or written.
@@ -78,15 +79,7 @@ pub enum HistoryError {
     },
     /// A frame cannot be written or read.
     #[error(transparent)]
-    Frame(#[from] FileError),
-    /// A frame is not as it was written.
-    #[error("{}: the kept frame is damaged: {what}", path.display())]
-    FrameDamaged {
-        /// The file.
-        path: PathBuf,
-        /// What is wrong.
-        what: String,
-    },
+    Frame(#[from] FrameError),
     /// No inspection of that number.
     #[error("there is no inspection {number} in the history")]
     NoSuchInspection {
@@ -146,7 +139,6 @@ impl Advice for HistoryError {
                 "Try again; if it happens again, move the file away: a new one is begun".into()
             }
             Self::Frame(error) => error.advice(),
-            Self::FrameDamaged { .. } => "Inspect the part again: this frame cannot be used".into(),
             Self::NoSuchInspection { .. } => {
                 "Use one of the numbers that `partsight history list` shows".into()
             }

@@ -18,6 +18,8 @@ pub struct Filter {
     pub verdict: Option<StoredVerdict>,
     /// Simulated, or not.
     pub is_simulated: Option<bool>,
+    /// Also the inspections that lie below the one which stands for their part: by itself a list is one of parts.
+    pub with_below: bool,
     /// Each of these words is in the name of part, scene or source, in the remark or in the true label; case does not
     /// matter.
     pub text: String,
@@ -59,6 +61,9 @@ impl Filter {
         for word in self.words() {
             add("instr(search, ?)", word.into());
         }
+        if !self.with_below {
+            parts.push("parent IS NULL");
+        }
         if parts.is_empty() {
             parts.push("1");
         }
@@ -68,7 +73,8 @@ impl Filter {
     /// The same of an inspection that is not in the file yet.
     pub(super) fn passes(&self, row: &Summary) -> bool {
         let search = row.search();
-        self.since.is_none_or(|since| row.at >= since)
+        (self.with_below || row.parent.is_none())
+            && self.since.is_none_or(|since| row.at >= since)
             && self.until.is_none_or(|until| row.at < until)
             && (self.part.is_none() || self.part == row.part)
             && self.verdict.is_none_or(|verdict| row.verdict == verdict)

@@ -5,7 +5,7 @@ use std::{path::Path, sync::Arc};
 use image::RgbImage;
 use jiff::{SignedDuration, Timestamp};
 
-use super::{History, InspectionDetail, NewEntry, Record, StoredVerdict, Summary};
+use super::{History, HungId, InspectionDetail, NewEntry, Record, StoredVerdict, Summary};
 use crate::{
     geometry::{
         depth_frame::{DepthFrame, Intrinsics},
@@ -65,6 +65,9 @@ pub(super) fn entry(seconds: i64, verdict: StoredVerdict, part: &str) -> NewEntr
                 remark: String::new(),
                 label: None,
                 frame_bytes: None,
+                hung: HungId::new(),
+                parent: None,
+                num_below: 0,
             },
             detail: InspectionDetail {
                 nearest: Some(part.to_owned()),
@@ -84,6 +87,7 @@ pub(super) fn entry(seconds: i64, verdict: StoredVerdict, part: &str) -> NewEntr
         },
         picture: Some(RgbImage::from_pixel(16, 12, image::Rgb([200, 150, 40]))),
         scene: Some(scene(seconds as u16)),
+        shots: Vec::new(),
     }
 }
 

@@ -1,4 +1,5 @@
-//! The frames that are kept beside the file: each as its camera gave it, so that the same recipe finds the same again.
+//! Frames that are kept, beside the file of inspections and in a folder of cases: each as its camera gave it, so that
+//! the same recipe finds the same again.
 //!
 //! A depth image is a 16-bit PNG with its camera in the folder's `intrinsics.json`, as in recordings; whatever is none
 //! (bare points, depth averaged over frames) is a PCD. The row in the file says which, how large, with which checksum,
@@ -18,13 +19,14 @@ use jiff::Timestamp;
 use nalgebra::Point3;
 use serde::{Deserialize, Serialize};
 
-use super::error::HistoryError;
+use super::shots::ShotRecord;
 use crate::{
     capture::Image,
+    error::Advice,
     files::{
-        DepthCamera, FileContent, StoredOrientation, crc32,
+        DepthCamera, FileContent, FileError, StoredOrientation, advice_on, crc32,
         depth_png::{FOLDER_CAMERA, read_depths, write_camera, write_depths},
-        open_bytes, read_bytes, write_atomically, write_pcd,
+        open_bytes, read_bytes, words_of, write_atomically, write_pcd,
     },
     geometry::{
         cloud::{Grid, PointCloud},
@@ -62,6 +64,12 @@ pub struct FrameRecord {
     /// The file of the empty cell, if one was known.
     #[serde(default, skip_serializing_if = "Option::is_none")]
     pub empty_cell: Option<String>,
+    /// CRC-32 of that file; frames of earlier versions have none.
+    #[serde(default, skip_serializing_if = "Option::is_none")]
+    pub empty_cell_crc32: Option<u32>,
+    /// Of a scan: all its shots, this frame among them.
+    #[serde(default, skip_serializing_if = "Vec::is_empty")]
+    pub shots: Vec<ShotRecord>,
 }
 
 /// Units that depth cameras count in, metres.
@@ -70,22 +78,81 @@ const UNITS: [f64; 5] = [0.001, 0.0002, 0.0001, 0.00025, 0.000_125];
 /// Counts this program's frames, so that two of one moment have two names.
 static COUNT: AtomicU32 = AtomicU32::new(0);
 
+/// Why a frame cannot be written or read.
+#[derive(Debug, thiserror::Error)]
+pub enum FrameError {
+    /// A file cannot be written or read.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// The folder cannot be written to.
+    #[error("{}: the frame cannot be written: {}", path.display(), words_of(source))]
+    Unwritable {
+        /// The folder or file.
+        path: PathBuf,
+        /// What the system says.
+        source: io::Error,
+    },
+    /// It is not as it was written.
+    #[error("{}: the kept frame is damaged: {what}", path.display())]
+    Damaged {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        what: String,
+    },
+}
+
+impl FrameError {
+    fn io(path: &Path, source: io::Error) -> Self {
+        Self::Unwritable {
+            path: path.to_owned(),
+            source,
+        }
+    }
+}
+
+impl From<FrameError> for io::Error {
+    /// What the system says, where it says something.
+    fn from(error: FrameError) -> Self {
+        match error {
+            FrameError::File(FileError::Write { source, .. })
+            | FrameError::Unwritable { source, .. } => source,
+            error => Self::other(error),
+        }
+    }
+}
+
+impl Advice for FrameError {
+    fn advice(&self) -> String {
+        match self {
+            Self::File(error) => error.advice(),
+            Self::Unwritable { source, .. } => advice_on(source).into(),
+            Self::Damaged { .. } => "Inspect the part again: this frame cannot be used".into(),
+        }
+    }
+}
+
 /// Writes a scene into the folder of frames; `None` for one without a single reading.
 pub(super) fn write(
     folder: &Path,
     scene: &SceneCloud,
     at: Timestamp,
-) -> Result<Option<FrameRecord>, HistoryError> {
+) -> Result<Option<FrameRecord>, FrameError> {
     if scene.cloud.finite().next().is_none() {
         return Ok(None);
     }
-    fs::create_dir_all(folder).map_err(|error| HistoryError::io(folder, error))?;
+    fs::create_dir_all(folder).map_err(|error| FrameError::io(folder, error))?;
     let number = COUNT.fetch_add(1, Ordering::Relaxed);
     let stem = format!(
         "{}-{}-{number}",
         at.strftime("%Y%m%dT%H%M%S%3f"),
         std::process::id()
     );
+    write_as(folder, &stem, scene).map(Some)
+}
+
+/// Writes a scene into a folder under this name; the ending says what it is.
+pub fn write_as(folder: &Path, stem: &str, scene: &SceneCloud) -> Result<FrameRecord, FrameError> {
     let (depth, cloud) = content_of(scene);
     let ending = if depth.is_some() { "png" } else { "pcd" };
     let file = format!("{stem}.{ending}");
@@ -98,10 +165,14 @@ pub(super) fn write(
         }
         None => write_pcd(&mut content, cloud),
     };
-    packed.map_err(|error| HistoryError::io(&path, error))?;
+    packed.map_err(|error| FrameError::io(&path, error))?;
     write_atomically(&path, |writer| writer.write_all(&content))?;
     let empty_cell = scene.empty_cell.as_deref();
-    Ok(Some(FrameRecord {
+    let empty_cell = empty_cell
+        .map(|cell| write_cell(folder, cell))
+        .transpose()?;
+    let (empty_cell, empty_cell_crc32) = empty_cell.unzip();
+    Ok(FrameRecord {
         file,
         bytes: content.len() as u64,
         crc32: crc32(&content),
@@ -112,15 +183,15 @@ pub(super) fn write(
         metres_per_unit: depth.map(|frame| frame.metres_per_unit),
         block_side: scene.reduced.as_ref().map(|reduced| reduced.block_side),
         is_simulated: scene.cloud.is_simulated,
-        empty_cell: empty_cell
-            .map(|cell| write_cell(folder, cell))
-            .transpose()?,
-    }))
+        empty_cell,
+        empty_cell_crc32,
+        shots: Vec::new(),
+    })
 }
 
 /// The first camera is that of the folder; a frame of another has its own beside it. For people and other programs: the
 /// row holds it too.
-fn write_its_camera(path: &Path, camera: &DepthCamera) -> Result<(), HistoryError> {
+fn write_its_camera(path: &Path, camera: &DepthCamera) -> Result<(), FrameError> {
     let shared = path.with_file_name(FOLDER_CAMERA);
     match DepthCamera::read(&shared) {
         Ok(known) if known == *camera => {}
@@ -184,23 +255,24 @@ fn is_same(a: &Point3<f32>, b: &Point3<f32>) -> bool {
 }
 
 /// Where the empty cell lies; written once for as many frames as there are.
-fn write_cell(folder: &Path, cell: &EmptyCell) -> Result<String, HistoryError> {
+fn write_cell(folder: &Path, cell: &EmptyCell) -> Result<(String, u32), FrameError> {
     let mut content = Vec::new();
-    write_pcd(&mut content, &cell.to_cloud()).map_err(|error| HistoryError::io(folder, error))?;
-    let file = format!("empty-cell-{:08x}.pcd", crc32(&content));
+    write_pcd(&mut content, &cell.to_cloud()).map_err(|error| FrameError::io(folder, error))?;
+    let checksum = crc32(&content);
+    let file = format!("empty-cell-{checksum:08x}.pcd");
     let path = folder.join(&file);
     // Its name is its checksum.
     let is_there = fs::metadata(&path).is_ok_and(|found| found.len() == content.len() as u64);
     if !is_there {
         write_atomically(&path, |writer| writer.write_all(&content))?;
     }
-    Ok(file)
+    Ok((file, checksum))
 }
 
 /// The scene of a kept frame, as it was inspected.
-pub fn read(folder: &Path, frame: &FrameRecord) -> Result<SceneCloud, HistoryError> {
+pub fn read(folder: &Path, frame: &FrameRecord) -> Result<SceneCloud, FrameError> {
     let path = folder.join(&frame.file);
-    let damaged = |what: &str| HistoryError::FrameDamaged {
+    let damaged = |what: &str| FrameError::Damaged {
         path: path.clone(),
         what: what.to_owned(),
     };
@@ -230,28 +302,33 @@ pub fn read(folder: &Path, frame: &FrameRecord) -> Result<SceneCloud, HistoryErr
     };
     scene.edge = frame.edge;
     if let Some(file) = &frame.empty_cell {
-        scene.empty_cell = Some(Arc::new(read_cell(&folder.join(file))?));
+        let cell = read_cell(&folder.join(file), frame.empty_cell_crc32)?;
+        scene.empty_cell = Some(Arc::new(cell));
     }
     Ok(scene)
 }
 
-fn cloud_of(path: &Path, bytes: &[u8]) -> Result<PointCloud, HistoryError> {
+fn cloud_of(path: &Path, bytes: &[u8]) -> Result<PointCloud, FrameError> {
     match open_bytes(path, bytes)? {
         FileContent::Cloud(cloud) => Ok(cloud),
-        _ => Err(HistoryError::FrameDamaged {
+        _ => Err(FrameError::Damaged {
             path: path.to_owned(),
             what: "it holds no cloud".into(),
         }),
     }
 }
 
-fn read_cell(path: &Path) -> Result<EmptyCell, HistoryError> {
-    let cloud = cloud_of(path, &read_bytes(path)?)?;
-    let cell = EmptyCell::of_cloud(&cloud);
-    cell.ok_or_else(|| HistoryError::FrameDamaged {
+fn read_cell(path: &Path, checksum: Option<u32>) -> Result<EmptyCell, FrameError> {
+    let damaged = |what: &str| FrameError::Damaged {
         path: path.to_owned(),
-        what: "the empty cell has no rows and columns".into(),
-    })
+        what: what.to_owned(),
+    };
+    let bytes = read_bytes(path)?;
+    if checksum.is_some_and(|checksum| checksum != crc32(&bytes)) {
+        return Err(damaged("it does not have its checksum"));
+    }
+    let cell = EmptyCell::of_cloud(&cloud_of(path, &bytes)?);
+    cell.ok_or_else(|| damaged("the empty cell has no rows and columns"))
 }
 
 /// Removes the files of the folder that nothing speaks of, whatever left them; answers with their number. Only while
@@ -292,12 +369,6 @@ pub(super) fn remove(path: &Path) -> io::Result<()> {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
         _ => Ok(()),
     }
-}
-
-/// A frame's files: itself, and its camera where it has its own.
-pub(super) fn files_of(folder: &Path, file: &str) -> [PathBuf; 2] {
-    let path = folder.join(file);
-    [path.with_extension("json"), path]
 }
 
 #[cfg(test)]

@@ -22,27 +22,32 @@ mod filter;
 #[cfg(test)]
 mod fixtures;
 mod frames;
+mod hung;
 mod news;
 mod open;
 mod retention;
 mod rows;
 mod schema;
+mod shots;
 mod store;
 mod table;
 #[cfg(test)]
 mod tests;
+mod waiting;
 mod writer;
 
 pub use self::{
     buffer::HistoryBuffer,
-    differences::{Differences, InspectionSummary},
+    differences::{Differences, InspectionSummary, ParameterChange},
     entry::{InspectionContext, InspectionDetail, NewEntry, Record, StoredVerdict, Summary},
     error::HistoryError,
     filter::Filter,
-    frames::{FrameRecord, read as read_frame},
+    frames::{FrameError, FrameRecord, read as read_frame, write_as as write_frame},
+    hung::{HungId, HungRows},
     news::HistoryEvent,
     open::{FILE, OpenedHistory, SetAside, users_folder},
     retention::{KeepFrames, PruneResult, Retention, Usage},
+    shots::{ShotRecord, read_shots},
     store::{History, Page},
     table::{write_head, write_row},
     writer::Writer,

@@ -216,8 +216,8 @@ impl History {
         rows.collect()
     }
 
-    /// No row speaks of these frames any more; answers with their files.
-    fn forget(&mut self, numbers: &[i64]) -> rusqlite::Result<Vec<String>> {
+    /// No row speaks of these frames any more; answers with what they were.
+    fn forget(&mut self, numbers: &[i64]) -> rusqlite::Result<Vec<FrameRecord>> {
         let file = self
             .file
             .transaction_with_behavior(TransactionBehavior::Immediate)?;
@@ -225,7 +225,8 @@ impl History {
         for number in numbers {
             let asked = "SELECT frame FROM detail WHERE number = ?";
             let frame: Option<String> = file.query_row(asked, [number], |row| row.get(0))?;
-            files.extend(frame.as_deref().and_then(file_of));
+            let frame = frame.and_then(|frame| serde_json::from_str::<FrameRecord>(&frame).ok());
+            files.extend(frame);
             file.execute("UPDATE detail SET frame = NULL WHERE number = ?", [number])?;
             file.execute(
                 "UPDATE inspection SET frame_bytes = NULL WHERE number = ?",
@@ -236,11 +237,9 @@ impl History {
         Ok(files)
     }
 
-    fn remove_files(&self, files: &[String]) -> Result<(), HistoryError> {
-        for file in files {
-            for path in frames::files_of(&self.frames, file) {
-                frames::remove(&path).map_err(|error| HistoryError::io(&path, error))?;
-            }
+    fn remove_files(&self, leaving: &[FrameRecord]) -> Result<(), HistoryError> {
+        for path in leaving.iter().flat_map(|frame| frame.paths(&self.frames)) {
+            frames::remove(&path).map_err(|error| HistoryError::io(&path, error))?;
         }
         Ok(())
     }
@@ -251,7 +250,7 @@ impl History {
         let kept = self.kept_frames().map_err(|error| self.error(error))?;
         let gone: Vec<i64> = kept
             .iter()
-            .filter(|(_, frame)| !self.frames.join(&frame.file).is_file())
+            .filter(|(_, frame)| frame.files().any(|file| !self.frames.join(file).is_file()))
             .map(|(number, _)| *number)
             .collect();
         if !gone.is_empty() {
@@ -259,8 +258,7 @@ impl History {
         }
         let frames = kept.iter().map(|(_, frame)| frame);
         let names: BTreeSet<&str> = frames
-            .flat_map(|frame| [Some(frame.file.as_str()), frame.empty_cell.as_deref()])
-            .flatten()
+            .flat_map(|frame| frame.files().chain(frame.empty_cell.as_deref()))
             .collect();
         let removed = frames::remove_strays(&self.frames, &|name| names.contains(name));
         removed.map_err(|error| HistoryError::io(&self.frames, error))?;
@@ -279,9 +277,4 @@ impl History {
         })?;
         rows.filter_map(Result::transpose).collect()
     }
-}
-
-fn file_of(frame: &str) -> Option<String> {
-    let frame: FrameRecord = serde_json::from_str(frame).ok()?;
-    Some(frame.file)
 }

@@ -3,17 +3,25 @@
 use std::sync::Arc;
 
 use jiff::Timestamp;
-use rusqlite::{Connection, Row, params};
+use rusqlite::{Connection, OptionalExtension as _, Row, params};
 
 use super::{
     entry::{InspectionDetail, NewEntry, Record, StoredVerdict, Summary, png_of},
     frames::FrameRecord,
+    hung::HungId,
 };
 use crate::{geometry::sixteen_numbers, pipeline::Recipe};
 
 /// What a row of a list is read from.
 pub(super) const COLUMNS: &str = "number, at, scene, source, simulated, verdict, part, title, score, margin, total_ms, remark, \
-    label, frame_bytes";
+    label, frame_bytes, hung, parent, (SELECT count(*) FROM inspection AS other WHERE other.parent = inspection.number)
+    AS num_below";
+
+/// The inspection that stands for a part.
+pub(super) fn head_of(file: &Connection, hung: &HungId) -> rusqlite::Result<Option<Summary>> {
+    let asked = format!("SELECT {COLUMNS} FROM inspection WHERE hung = ? AND parent IS NULL");
+    file.query_row(&asked, [&hung.0], summary_of).optional()
+}
 
 /// Writes both rows of an inspection.
 pub(super) fn insert(
@@ -22,6 +30,18 @@ pub(super) fn insert(
     frame: Option<&FrameRecord>,
 ) -> rusqlite::Result<i64> {
     let Record { summary, detail } = &entry.record;
+    let head = head_of(file, &summary.hung)?;
+    let (parent, gives_way) = match &head {
+        Some(head) if head.gives_way_to(summary) => (None, Some(head)),
+        head => (head.as_ref().map(|head| head.number), None),
+    };
+    // What was said of the part stays with it.
+    let marked = gives_way.map(|head| Summary {
+        remark: head.remark.clone(),
+        label: head.label.clone(),
+        ..summary.clone()
+    });
+    let summary = marked.as_ref().unwrap_or(summary);
     let [score, margin] = summary.score.map_or([None; 2], |both| both.map(Some));
     let [reason, advice] = detail
         .complaint
@@ -30,7 +50,8 @@ pub(super) fn insert(
     let recipe = recipe_key(file, &detail.recipe_identity, detail.recipe.as_deref())?;
     file.execute(
         "INSERT INTO inspection (at, scene, source, simulated, verdict, part, title, score, margin, total_ms,
-            remark, label, frame_bytes, search) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+            remark, label, frame_bytes, search, hung, parent)
+            VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         params![
             summary.at.as_microsecond(),
             summary.scene,
@@ -44,11 +65,19 @@ pub(super) fn insert(
             summary.total_ms,
             summary.remark,
             summary.label.as_ref().and_then(json),
-            frame.map(|frame| frame.bytes as i64),
+            frame.map(|frame| frame.all_bytes() as i64),
             summary.search(),
+            summary.hung.0,
+            parent,
         ],
     )?;
     let number = file.last_insert_rowid();
+    if gives_way.is_some() {
+        file.execute(
+            "UPDATE inspection SET parent = ?1 WHERE hung = ?2 AND number <> ?1",
+            params![number, summary.hung.0],
+        )?;
+    }
     file.execute(
         "INSERT INTO detail (number, nearest, reason, advice, camera_from_part, recipe, library, program, line,
             thumbnail, origin, frame) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
@@ -119,6 +148,9 @@ pub(super) fn summary_of(row: &Row<'_>) -> rusqlite::Result<Summary> {
         remark: row.get("remark")?,
         label: label.and_then(|label| serde_json::from_str(&label).ok()),
         frame_bytes: bytes.map(|bytes| bytes as u64),
+        hung: HungId(row.get("hung")?),
+        parent: row.get("parent")?,
+        num_below: row.get::<_, i64>("num_below")? as usize,
     })
 }
 

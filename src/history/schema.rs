@@ -6,7 +6,7 @@ use rusqlite::{Connection, Transaction, TransactionBehavior};
 type Migration = fn(&Transaction<'_>) -> rusqlite::Result<()>;
 
 /// Every step, in order; the version of a file counts those that it has seen.
-const STEPS: [Migration; 1] = [first];
+const STEPS: [Migration; 2] = [first, parts];
 
 /// The version that is written.
 pub(super) const VERSION: u32 = STEPS.len() as u32;
@@ -65,6 +65,21 @@ fn first(file: &Transaction<'_>) -> rusqlite::Result<()> {
     )
 }
 
+/// Inspections of the same hung part belong together: one stands for the part, the others lie below it. Before, every
+/// inspection was one of a part of its own.
+fn parts(file: &Transaction<'_>) -> rusqlite::Result<()> {
+    file.execute_batch(
+        "ALTER TABLE inspection ADD COLUMN hung TEXT NOT NULL DEFAULT '';       -- the part as it hung there
+        ALTER TABLE inspection ADD COLUMN parent INTEGER REFERENCES inspection; -- the one that stands for the part
+        UPDATE inspection SET hung = 'n' || number;
+        DROP INDEX listed;
+        CREATE INDEX listed ON inspection (parent, at, number, verdict, part, simulated, search);
+        DROP INDEX counted;
+        CREATE INDEX counted ON inspection (parent, simulated);
+        CREATE INDEX hung ON inspection (hung);",
+    )
+}
+
 /// The version of a file; 0 before it has a table.
 pub(super) fn version(file: &Connection) -> rusqlite::Result<u32> {
     file.pragma_query_value(None, "user_version", |row| row.get(0))
@@ -100,6 +115,33 @@ mod tests {
             .expect("asked");
         let names = names.query_map([], |row| row.get(0)).expect("asked");
         names.map(|name| name.expect("text")).collect()
+    }
+
+    #[test]
+    fn every_inspection_of_a_file_of_the_first_version_is_one_of_a_part_of_its_own() {
+        let mut file = Connection::open_in_memory().expect("a file");
+        file.pragma_update(None, "foreign_keys", true).expect("set");
+        migrate_by(&mut file, &[first]).expect("made");
+        let row = "INSERT INTO inspection (at, scene, source, simulated, verdict, title, total_ms, remark, search)
+            VALUES (?, 'a', 'b', 1, 'accepted', 'Fender', 20.0, 'a dent', 'fender a dent')";
+        for at in 0..5 {
+            file.execute(row, [at]).expect("written");
+        }
+        migrate(&mut file).expect("made");
+        assert_eq!(version(&file).expect("asked"), VERSION);
+        let mut rows = file
+            .prepare(
+                "SELECT number, remark, hung FROM inspection WHERE parent IS NULL ORDER BY number",
+            )
+            .expect("asked");
+        let rows = rows.query_map([], |row| Ok((row.get(0)?, row.get(1)?, row.get(2)?)));
+        let rows: Vec<(i64, String, String)> =
+            rows.expect("asked").map(|row| row.expect("read")).collect();
+        assert_eq!(rows.len(), 5);
+        for (number, (of, remark, hung)) in (1..).zip(&rows) {
+            assert_eq!((*of, remark.as_str()), (number, "a dent"));
+            assert_eq!(*hung, format!("n{number}"));
+        }
     }
 
     fn second(file: &Transaction<'_>) -> rusqlite::Result<()> {

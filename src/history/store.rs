@@ -11,11 +11,13 @@ use super::{
     error::HistoryError,
     filter::Filter,
     frames::{self, FrameRecord},
+    hung::HungId,
     open::{FILE, FRAMES, Lock},
     retention::Retention,
-    rows::{COLUMNS, insert, json, record_of, summary_of},
+    rows::{COLUMNS, head_of, insert, json, record_of, summary_of},
+    shots,
 };
-use crate::{library::Truth, stages::scene::SceneCloud};
+use crate::{library::Truth, scan::Shot, stages::scene::SceneCloud};
 
 /// The history: a file of inspections, and a folder of frames beside it.
 #[derive(Debug)]
@@ -31,9 +33,9 @@ pub struct History {
 pub struct Page {
     /// The rows, the newest first.
     pub rows: Vec<Summary>,
-    /// Rows that the filter lets through.
+    /// Rows that the filter lets through: parts, unless it asks for what lies below them too.
     pub num_matching: usize,
-    /// Rows there are.
+    /// Parts there are.
     pub num_all: usize,
 }
 
@@ -65,15 +67,18 @@ impl History {
     /// The frame is there before the row: what is killed between the two leaves a stray, which the next opening removes.
     pub fn add(&mut self, entry: &NewEntry, retention: &Retention) -> Result<i64, HistoryError> {
         let summary = &entry.record.summary;
-        let scene = entry.scene.as_deref();
+        let scene = entry.scene.as_ref();
         let frame = match scene.filter(|_| retention.keep.keeps(summary.verdict)) {
-            Some(scene) => frames::write(&self.frames, scene, summary.at)?,
+            Some(scene) if entry.shots.is_empty() => {
+                frames::write(&self.frames, scene, summary.at)?
+            }
+            Some(scene) => shots::write_shots(&self.frames, scene, &entry.shots, summary.at)?,
             None => None,
         };
         let written = self.add_row(entry, frame.as_ref());
         if let (Err(_), Some(frame)) = (&written, &frame) {
             // Nothing speaks of it.
-            for path in frames::files_of(&self.frames, &frame.file) {
+            for path in frame.paths(&self.frames) {
                 let _ = frames::remove(&path);
             }
         }
@@ -128,7 +133,7 @@ impl History {
     }
 
     fn count_all(&self) -> rusqlite::Result<usize> {
-        let asked = "SELECT count(*) FROM inspection";
+        let asked = "SELECT count(*) FROM inspection WHERE parent IS NULL";
         let num: i64 = self.file.query_row(asked, [], |row| row.get(0))?;
         Ok(num as usize)
     }
@@ -225,8 +230,37 @@ impl History {
     pub fn scene(&self, record: &Record) -> Result<Option<SceneCloud>, HistoryError> {
         let frame = record.detail.frame.as_ref();
         frame
-            .map(|frame| frames::read(&self.frames, frame))
+            .map(|frame| Ok(frames::read(&self.frames, frame)?))
             .transpose()
+    }
+
+    /// The shots of a scan whose frames are kept, as they were put together; `None` if they are not, or it was no scan.
+    pub fn shots(&self, record: &Record) -> Result<Option<Vec<Shot>>, HistoryError> {
+        let frame = record.detail.frame.as_ref();
+        let frame = frame.filter(|frame| !frame.shots.is_empty());
+        frame
+            .map(|frame| Ok(shots::read_shots(&self.frames, frame)?))
+            .transpose()
+    }
+
+    /// The inspections that lie below the one of this number, the oldest first.
+    pub fn below(&self, number: i64) -> Result<Vec<Record>, HistoryError> {
+        let numbers = || -> rusqlite::Result<Vec<i64>> {
+            let asked = "SELECT number FROM inspection WHERE parent = ? ORDER BY at, number";
+            let mut asked = self.file.prepare(asked)?;
+            let numbers = asked.query_map([number], |row| row.get(0))?;
+            numbers.collect()
+        };
+        let mut below = Vec::new();
+        for number in numbers().map_err(|error| self.error(error))? {
+            below.extend(self.row(number)?);
+        }
+        Ok(below)
+    }
+
+    /// The inspection that stands for a part.
+    pub(super) fn head_of(&self, hung: &HungId) -> Result<Option<Summary>, HistoryError> {
+        head_of(&self.file, hung).map_err(|error| self.error(error))
     }
 
     /// The folder of the kept frames.
@@ -254,7 +288,12 @@ impl History {
                 .file
                 .transaction_with_behavior(TransactionBehavior::Immediate)?;
             let asked = format!("SELECT {COLUMNS} FROM inspection WHERE number = ?");
-            let row = file.query_row(&asked, [number], summary_of).optional()?;
+            let row = |number| file.query_row(&asked, [number], summary_of).optional();
+            // What is said of a part is said with the inspection that stands for it.
+            let row = match row(number)? {
+                Some(below) => below.parent.map_or_else(|| Ok(Some(below.clone())), row)?,
+                None => None,
+            };
             let Some(mut row) = row else {
                 return Ok(false);
             };
@@ -265,7 +304,7 @@ impl History {
                     row.remark,
                     row.label.as_ref().and_then(json),
                     row.search(),
-                    number
+                    row.number
                 ],
             )?;
             file.commit()?;

@@ -7,10 +7,11 @@ use crate::library::Truth;
 
 /// The first line.
 const HEAD: &str = "number,time,scene,source,simulated,verdict,part,nearest,score,margin,reason,total_ms,\
-    label,remark,recipe,library,program,\
+    label,remark,recipe,library,program,parent,reinspections,\
     m00,m01,m02,m03,m10,m11,m12,m13,m20,m21,m22,m23,m30,m31,m32,m33";
 
-/// Writes the first line: the names of the columns. Times are UTC; m00..m33 are `camera_from_part`, row after row,
+/// Writes the first line: the names of the columns. Times are UTC; `parent` is the number of
+/// the inspection that stands for the same part, `reinspections` how many others lie below it; m00..m33 are `camera_from_part`, row after row,
 /// metres.
 pub fn write_head(writer: &mut dyn Write) -> io::Result<()> {
     writeln!(writer, "{HEAD}")
@@ -30,7 +31,7 @@ pub fn write_row(writer: &mut dyn Write, record: &Record) -> io::Result<()> {
     let label = summary.label.as_ref().map_or("", Truth::name);
     writeln!(
         writer,
-        "{},{},{},{},{},{},{},{},{score},{margin},{},{:.3},{},{},{},{},{}{pose}",
+        "{},{},{},{},{},{},{},{},{score},{margin},{},{:.3},{},{},{},{},{},{},{}{pose}",
         summary.number,
         summary.at,
         quoted(&summary.scene),
@@ -46,6 +47,10 @@ pub fn write_row(writer: &mut dyn Write, record: &Record) -> io::Result<()> {
         detail.recipe_identity,
         detail.library_identity,
         detail.program,
+        summary
+            .parent
+            .map_or_else(String::new, |number| number.to_string()),
+        summary.num_below,
     )
 }
 

@@ -6,11 +6,11 @@ use rand::{RngExt as _, SeedableRng as _};
 use rusqlite::params_from_iter;
 
 use super::{
-    fixtures::{entry, moment, open, opened},
+    fixtures::{entry, moment, open, opened, scene},
     store::listed_query,
     *,
 };
-use crate::{library::Truth, pipeline::Recipe};
+use crate::{geometry::rigid::from_euler_zyx, library::Truth, pipeline::Recipe, scan::Shot};
 
 const ALL: Retention = Retention {
     keep: KeepFrames::All,
@@ -130,6 +130,7 @@ fn every_filter_lets_through_what_a_plain_look_at_the_rows_does() {
                 .random_bool(0.3)
                 .then(|| StoredVerdict::ALL[random.random_range(0..4)]),
             is_simulated: random.random_bool(0.3).then(|| random.random()),
+            with_below: random.random(),
             text: [
                 "",
                 "",
@@ -385,4 +386,184 @@ fn the_table_has_a_line_for_each_row_and_as_many_fields_as_its_head() {
             .iter()
             .all(|line| num_fields(line) == num_fields(lines[0]))
     );
+}
+
+/// One more inspection of the same part.
+fn again(of: &NewEntry, seconds: i64, verdict: StoredVerdict) -> NewEntry {
+    let mut other = entry(seconds, verdict, "grille");
+    other.record.summary.hung = of.record.summary.hung.clone();
+    other
+}
+
+#[test]
+fn a_part_counts_once_however_often_it_was_inspected_and_nothing_of_it_is_lost() {
+    let (folder, mut history) = opened();
+    let part = entry(1, StoredVerdict::Accepted, "grille");
+    let other = entry(2, StoredVerdict::NotAccepted, "grille");
+    for entry in [
+        &part,
+        &again(&part, 3, StoredVerdict::NotAccepted),
+        &other,
+        &again(&part, 4, StoredVerdict::Accepted),
+    ] {
+        history.add(entry, &ALL).expect("written");
+    }
+    let all = Filter::default();
+    let page = history.page(&all, 0, 10).expect("asked");
+    assert_eq!((page.num_matching, page.num_all), (2, 2));
+    let rows: Vec<_> = page
+        .rows
+        .iter()
+        .map(|row| (row.number, row.num_below))
+        .collect();
+    assert_eq!(rows, [(3, 0), (1, 2)]);
+    let accepted = Filter {
+        verdict: Some(StoredVerdict::Accepted),
+        ..all.clone()
+    };
+    assert_eq!(numbers(&history, &accepted), [1]);
+    let with_below = Filter {
+        with_below: true,
+        ..all.clone()
+    };
+    assert_eq!(numbers(&history, &with_below), [4, 2, 3, 1]);
+    let below = history.below(1).expect("asked");
+    let below: Vec<_> = below
+        .iter()
+        .map(|r| (r.summary.number, r.summary.verdict))
+        .collect();
+    assert_eq!(
+        below,
+        [
+            (2, StoredVerdict::NotAccepted),
+            (4, StoredVerdict::Accepted)
+        ]
+    );
+    let mut exported = 0;
+    let counted = history.each(&all, |_| {
+        exported += 1;
+        Ok(())
+    });
+    counted.expect("listed");
+    assert_eq!(exported, 2);
+    // Each keeps its own frame.
+    assert_eq!(history.usage().expect("asked").num_frames, 4);
+    drop(history);
+    assert_eq!(open(folder.path()).usage().expect("asked").num_frames, 4);
+}
+
+#[test]
+fn a_refusal_gives_way_to_an_acceptance_and_an_acceptance_stands() {
+    let (_folder, mut history) = opened();
+    let part = entry(1, StoredVerdict::Unknown, "grille");
+    history.add(&part, &ALL).expect("written");
+    history.set_remark(1, "a new grille").expect("written");
+    history
+        .add(&again(&part, 2, StoredVerdict::NotAccepted), &ALL)
+        .expect("written");
+    assert_eq!(numbers(&history, &Filter::default()), [1]);
+    history
+        .add(&again(&part, 3, StoredVerdict::Accepted), &ALL)
+        .expect("written");
+    history
+        .add(&again(&part, 4, StoredVerdict::NotAccepted), &ALL)
+        .expect("written");
+    let page = history.page(&Filter::default(), 0, 10).expect("asked");
+    let [row] = page.rows.as_slice() else {
+        panic!("{page:?}");
+    };
+    assert_eq!(
+        (row.number, row.num_below, row.verdict),
+        (3, 3, StoredVerdict::Accepted)
+    );
+    // What a person said of the part is found with it; what was found first is as it was.
+    assert_eq!(row.remark, "a new grille");
+    let text = "new".into();
+    let found = Filter {
+        text,
+        ..Filter::default()
+    };
+    assert_eq!(numbers(&history, &found), [3]);
+    history.set_remark(1, "the new grille").expect("written");
+    assert_eq!(
+        history.known(3).expect("there").summary.remark,
+        "the new grille"
+    );
+    let first = history.known(1).expect("there").summary;
+    assert_eq!(
+        (first.verdict, first.parent),
+        (StoredVerdict::Unknown, Some(3))
+    );
+}
+
+#[test]
+fn a_file_of_the_first_version_is_brought_up_to_date_with_all_that_was_written() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join(FILE);
+    let file = rusqlite::Connection::open(&path).expect("made");
+    file.execute_batch(include_str!("first_version.sql"))
+        .expect("made");
+    drop(file);
+    let mut history = open(folder.path());
+    assert_eq!(numbers(&history, &Filter::default()), [3, 2, 1]);
+    let record = history.known(2).expect("there");
+    assert_eq!(record.summary.title, "Fender, left");
+    assert_eq!(
+        (record.summary.remark.as_str(), record.summary.num_below),
+        ("a dent", 0)
+    );
+    assert_eq!(record.summary.label, Some(Truth::Part("fender".into())));
+    assert_eq!(record.detail.line, "{\"scene\":\"b\"}");
+    // Inspected again it is one part.
+    let mut again = entry(9, StoredVerdict::NotAccepted, "fender");
+    again.record.summary.hung = record.summary.hung;
+    history.add(&again, &ALL).expect("written");
+    assert_eq!(numbers(&history, &Filter::default()), [3, 2, 1]);
+    assert_eq!(history.below(2).expect("asked").len(), 1);
+}
+
+#[test]
+fn the_shots_of_a_scan_are_kept_and_go_together() {
+    let (folder, mut history) = opened();
+    let shots: Vec<Shot> = (0..3)
+        .map(|place: u16| Shot {
+            name: format!("shot {place}"),
+            scene: scene(place),
+            base_from_camera: from_euler_zyx([0.0, 0.1, 0.0, 0.2, f64::from(place), 1.0]),
+        })
+        .collect();
+    let mut scan = entry(1, StoredVerdict::NotAccepted, "grille");
+    scan.scene = Some(Arc::clone(&shots[1].scene));
+    history
+        .add(&scan.of_scan(shots.clone()), &ALL)
+        .expect("written");
+    let single = entry(2, StoredVerdict::NotAccepted, "grille");
+    history.add(&single, &ALL).expect("written");
+    let record = history.known(1).expect("there");
+    assert_eq!(
+        history.scene(&record).expect("read").as_ref(),
+        Some(&*shots[1].scene)
+    );
+    let kept = history.shots(&record).expect("read").expect("kept");
+    for (kept, shot) in kept.iter().zip(&shots) {
+        assert_eq!((&kept.name, &kept.scene), (&shot.name, &shot.scene));
+        let off = kept.base_from_camera.to_matrix() - shot.base_from_camera.to_matrix();
+        assert!(off.norm() < 1e-12);
+    }
+    assert_eq!(kept.len(), 3);
+    let other = history.known(2).expect("there");
+    assert!(history.shots(&other).expect("read").is_none());
+    let files = |history: &History| {
+        let files = std::fs::read_dir(history.frames_folder()).expect("listed");
+        files.count()
+    };
+    // The camera is that of all.
+    assert_eq!(files(&history), 5);
+    drop(history);
+    let mut history = open(folder.path());
+    assert_eq!(files(&history), 5, "none is a stray");
+    history.set_remark(2, "stays").expect("written");
+    history.sweep(&ALL, moment(400 * 24 * 3600)).expect("swept");
+    assert_eq!(files(&history), 2);
+    assert!(history.known(1).expect("there").detail.frame.is_none());
 }

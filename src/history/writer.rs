@@ -85,7 +85,7 @@ impl Writer {
     pub fn add(&self, ticket: u64, mut entry: NewEntry) {
         let counts = &self.counts;
         if entry.scene.is_some() && counts.scenes.load(Ordering::Relaxed) >= MAX_SCENES {
-            entry.scene = None;
+            entry.drop_frames();
             counts.bare.fetch_add(1, Ordering::Relaxed);
         }
         if counts.waiting.load(Ordering::Relaxed) >= MAX_INSPECTIONS {

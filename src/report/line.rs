@@ -95,6 +95,11 @@ impl<'a> CaptureLine<'a> {
         self.source
     }
 
+    /// When it was taken.
+    pub fn taken_at(&self) -> Timestamp {
+        self.taken_at
+    }
+
     /// True if no camera was read.
     pub fn is_simulated(&self) -> bool {
         self.simulated

@@ -153,6 +153,16 @@ pub struct ScannedShot {
 }
 
 impl Scan {
+    /// The shots as they were given, those that were left out among them: put together again they are the same scan.
+    pub fn given(&self) -> Vec<Shot> {
+        let given = |shot: &ScannedShot| Shot {
+            name: shot.name.clone(),
+            scene: Arc::clone(&shot.scene),
+            base_from_camera: shot.given,
+        };
+        self.shots.iter().map(given).collect()
+    }
+
     /// The shots that were used, each with its number among all.
     pub fn used(&self) -> impl Iterator<Item = (usize, &ScannedShot)> {
         let all = self.shots.iter().enumerate();

@@ -8,15 +8,20 @@ use std::{
     time::{Duration, Instant},
 };
 
-use jiff::Timestamp;
+use jiff::{SignedDuration, Timestamp};
+use nalgebra::Translation3;
 use partsight::{
+    capture::{Captured, Image, Recorder},
     history::{
-        Filter, History, HistoryBuffer, HistoryEvent, InspectionContext, KeepFrames, NewEntry,
-        Retention,
+        Filter, History, HistoryBuffer, HistoryEvent, HungId, InspectionContext, KeepFrames,
+        NewEntry, Retention,
     },
     library::Library,
     pipeline::{self, Recipe, Unwatched},
-    simulate::{CellSetup, PartKind, Side, frame},
+    simulate::{
+        CellSetup, PartKind, PartModel, PartPose, PoseRange, SensorNoise, Side, frame,
+        frame_of_mesh,
+    },
     stages::scene::scene_from_frame,
 };
 use serde_json::Value;
@@ -77,7 +82,7 @@ fn what_inspect_saw_is_listed_shown_labelled_inspected_again_and_exported() {
         rows.out
     );
     assert!(
-        rows.err.contains("1 of 1 inspections shown, 2 in all"),
+        rows.err.contains("1 of 1 parts shown, 2 parts in all"),
         "{}",
         rows.err
     );
@@ -153,6 +158,109 @@ fn what_inspect_saw_is_listed_shown_labelled_inspected_again_and_exported() {
         (&newest[0]["number"], &newest[0]["frame_kept"]),
         (&3.into(), &true.into())
     );
+}
+
+/// Parts that come in from the right one after the other, ten frames a second, hang still and leave to the left; where
+/// `rests` is false it does not stop.
+fn record_line(folder: &Path, parts: &[(PartKind, bool)]) {
+    let recorder = Recorder::create(folder, "a line", "simulated", true);
+    let mut recorder = recorder.expect("a folder");
+    let mut number = 0;
+    for (kind, rests) in parts {
+        let model = PartModel::new(*kind, Side::Left, 0);
+        let mut setup = CellSetup::with_part(*kind, Side::Left, 0, 3);
+        let placed = PoseRange::facing().draw(model.mesh(), &setup.intrinsics, 3);
+        let coming = (1..=6).map(|step| 0.4 * f64::from(step)).rev();
+        let resting = (0..if *rests { 26 } else { 2 }).map(|_| 0.0);
+        let leaving = (1..=6).map(|step| -0.4 * f64::from(step));
+        for x in coming.chain(resting).chain(leaving) {
+            number += 1;
+            let aside = Translation3::new(x, 0.0, 0.0);
+            setup.pose = PartPose::Fixed(aside * placed.camera_from_part);
+            setup.noise = SensorNoise::kinect(number);
+            let captured = Captured {
+                number,
+                name: format!("frame {number}"),
+                taken_at: Timestamp::UNIX_EPOCH + SignedDuration::from_millis(100 * number as i64),
+                arrived: Instant::now(),
+                image: Image::Depth(frame_of_mesh(&setup, model.mesh()).frame),
+                is_simulated: true,
+                truth: None,
+                robot_from_flange: None,
+                warnings: Vec::new(),
+            };
+            recorder.write(&captured).expect("written");
+        }
+    }
+}
+
+#[test]
+fn a_followed_source_writes_one_row_for_each_part_that_hung_there() {
+    let place = Workplace::new();
+    let parts = [
+        (PartKind::Fender, true),
+        (PartKind::FrontDoor, true),
+        (PartKind::FrontDoor, true),
+        (PartKind::BackDoor, false),
+    ];
+    record_line(&place.path("monday"), &parts);
+    let mut history = History::open(&place.path(".")).expect("opened").history;
+    let all = Retention {
+        keep: KeepFrames::All,
+        ..Retention::default()
+    };
+    history.set_retention(&all).expect("written");
+    drop(history);
+    let source = [
+        "inspect",
+        "--source",
+        "recording:monday",
+        "--json",
+        "--history",
+        ".",
+    ];
+    let ran = place.run(&source);
+    // Every frame is told as before.
+    assert_eq!(ran.lines().len(), 38 * 3 + 14, "{}", ran.err);
+    let rows = place
+        .accepted(&["history", "list", "--json", "--history", "."])
+        .lines();
+    let found = rows.iter().rev().map(|row| [&row["part"], &row["verdict"]]);
+    let found: Vec<_> = found
+        .map(|both| both.map(|text| text.as_str().unwrap_or("-")))
+        .collect();
+    assert_eq!(
+        found[..3],
+        [
+            ["fender", "accepted"],
+            ["front_door", "accepted"],
+            ["front_door", "accepted"]
+        ]
+    );
+    // The last one never hung still: the frame that showed it best speaks for it.
+    assert_eq!((found.len(), found[3][0]), (4, "back_door"));
+    for row in &rows {
+        assert_eq!(
+            (&row["reinspections"], &row["frame_kept"]),
+            (&0.into(), &true.into())
+        );
+    }
+    // What counted rests on the frame that is kept.
+    let again = [
+        "history",
+        "show",
+        "1",
+        "--again",
+        "--json",
+        "--history",
+        ".",
+    ];
+    let again = place.accepted(&again).lines().remove(0);
+    assert_eq!(again["again"]["verdict"], "accepted");
+    // Followed once more they are other parts: nobody knows that it is the same recording.
+    place.run(&source);
+    let listed = place.accepted(&["history", "list", "--history", "."]);
+    assert!(listed.err.contains("8 of 8 parts shown"), "{}", listed.err);
 }
 
 #[test]
@@ -260,6 +368,7 @@ fn entries() -> impl Iterator<Item = NewEntry> {
             library: "0".into(),
             origin: None,
             picture: None,
+            hung: HungId::new(),
         };
         NewEntry::of(about, &scene, &inspection, &recipe)
     })

@@ -244,3 +244,32 @@ fn a_recording_keeps_the_poses_of_the_arm() {
     assert_eq!(recorded["frames"].as_array().map(Vec::len), Some(3));
     assert!(recorded["after"]["rms_m"].as_f64() < recorded["before"]["rms_m"].as_f64());
 }
+
+#[test]
+fn the_inspection_of_a_scan_is_in_the_history_with_its_shots() {
+    let place = with_scan("3");
+    place.accepted(&["inspect", "frames/frame-01.png"]);
+    place.accepted(&["history", "keep", "all"]);
+    let line = place
+        .accepted(&["inspect", "--scan", "frames", "--json"])
+        .json();
+    let rows = place.accepted(&["history", "list", "--json"]).lines();
+    assert_eq!((rows.len(), &rows[0]["number"]), (2, &2.into()));
+    let shown = ["history", "show", "2", "--again", "--json"];
+    let shown = place.accepted(&shown).lines().remove(0);
+    assert_eq!(shown["line"], line);
+    assert_eq!(shown["shots"].as_array().map(Vec::len), Some(3));
+    assert_eq!(shown["again"]["same"], true);
+    // A case has one frame.
+    place.accepted(&["history", "label", "2", "fender"]);
+    let err = place
+        .coded(2, &["history", "export", "--cases", "cases"])
+        .err;
+    assert!(err.contains("no inspection could be kept"), "{err}");
+    let ran = place.accepted(&["inspect", "--scan", "frames", "--json", "--no-history"]);
+    assert_eq!(ran.json()["part"], "fender");
+    assert_eq!(
+        place.accepted(&["history", "list", "--json"]).lines().len(),
+        2
+    );
+}

@@ -3,6 +3,7 @@
 use std::{
     fs,
     path::Path,
+    sync::Arc,
     thread,
     time::{Duration, Instant},
 };
@@ -15,6 +16,7 @@ use partsight::{
         inspection::{source::CellChoice, unit_system::UnitSystem},
         shell::{
             action::Action,
+            message::Message,
             session::{ThemeChoice, WorkspaceKind},
         },
         workspaces::{
@@ -22,14 +24,18 @@ use partsight::{
             inspect::InspectFile,
         },
     },
-    history::{History, KeepFrames, NewEntry},
+    history::{History, HungId, KeepFrames, NewEntry, Retention},
     library::Truth,
+    pipeline::Recipe,
     simulate::ObjectKind,
 };
 
-use super::set_up::{
-    SMALL, USUAL, WindowHarness, act, act_in, choose_in_inspect, history_of, open, open_with,
-    press, settle,
+use super::{
+    set_up::{
+        SMALL, USUAL, WindowHarness, act, act_in, choose_in_inspect, history_of, open, open_with,
+        press, settle,
+    },
+    shots::ScanFolder,
 };
 
 fn remembering(path: &Path) -> WindowOptions {
@@ -65,7 +71,7 @@ fn an_earlier_inspection_is_found_and_opened_again_with_its_stages() {
     harness.get_by_label("Simulated frame 2");
     harness.get_by_label("History").click();
     settle(&mut harness);
-    harness.get_by_label("2 of 2");
+    harness.get_by_label("2 of 2 parts");
     press(&mut harness, "Inspection 1: Front door, left, Accepted");
     harness.get_by_label("Segmentation of inspection 1");
     press(&mut harness, "Open");
@@ -87,18 +93,18 @@ fn the_list_is_filtered_by_what_is_written_and_keys_do_not_switch_meanwhile() {
     harness.run_steps(2);
     harness.get_by_label("Find").type_text("frame 1");
     settle(&mut harness);
-    harness.get_by_label("1 of 2");
+    harness.get_by_label("1 of 2 parts");
     assert_eq!(harness.state().state().workspace, WorkspaceKind::History);
     // Nor does the Enter that ends the writing, though the field has lost the focus by then.
     harness.key_press(Key::Enter);
     settle(&mut harness);
-    harness.get_by_label("1 of 2");
+    harness.get_by_label("1 of 2 parts");
     assert_eq!(harness.state().state().workspace, WorkspaceKind::History);
     press(&mut harness, "Verdict · All ▼");
     press(&mut harness, "Verdict: No part");
     harness.get_by_label_contains("No inspection is like this");
     press(&mut harness, "Show all");
-    harness.get_by_label("2 of 2");
+    harness.get_by_label("2 of 2 parts");
     press(&mut harness, "Days · All days ▼");
     press(&mut harness, "Days: From … to");
     harness.get_by_label("First day").click();
@@ -106,12 +112,12 @@ fn the_list_is_filtered_by_what_is_written_and_keys_do_not_switch_meanwhile() {
     harness.get_by_label("First day").type_text("2020-01");
     settle(&mut harness);
     harness.get_by_label_contains("Write a day as year-month-day");
-    harness.get_by_label("2 of 2");
+    harness.get_by_label("2 of 2 parts");
     harness.get_by_label("Last day").click();
     harness.run_steps(2);
     harness.get_by_label("Last day").type_text("2020-01-31");
     settle(&mut harness);
-    harness.get_by_label("0 of 2");
+    harness.get_by_label("0 of 2 parts");
 }
 
 #[test]
@@ -123,7 +129,7 @@ fn the_history_outlives_the_window_and_what_a_person_said_of_it() {
         Action::UseCell(CellChoice::Foreign(ObjectKind::Wheel)),
     );
     go_to_history(&mut harness);
-    harness.get_by_label("2 of 2");
+    harness.get_by_label("2 of 2 parts");
     press(&mut harness, "It is · Not said ▼");
     press(&mut harness, "It is: Not enrolled");
     harness.get_by_label("It is · Not enrolled ▼");
@@ -141,12 +147,12 @@ fn the_history_outlives_the_window_and_what_a_person_said_of_it() {
 
     let mut harness = open_with(USUAL, keeping(folder.path()));
     go_to_history(&mut harness);
-    harness.get_by_label("3 of 3");
+    harness.get_by_label("3 of 3 parts");
     harness.get_by_label("Find").click();
     harness.run_steps(2);
     harness.get_by_label("Find").type_text("WHEEL");
     settle(&mut harness);
-    harness.get_by_label("1 of 3");
+    harness.get_by_label("1 of 3 parts");
     let row = history_of(&harness).row(0).expect("listed");
     assert_eq!((row.number, row.remark.as_str()), (2, "a wheel"));
     assert_eq!(row.label, Some(Truth::NotEnrolled));
@@ -184,6 +190,84 @@ fn a_remark_that_is_being_typed_when_the_window_closes_is_kept() {
     let rows = (0..state.num_rows()).filter_map(|place| state.row(place));
     let remarks: Vec<_> = rows.map(|row| (row.number, row.remark.as_str())).collect();
     assert!(remarks.contains(&(1, "dented")), "{remarks:?}");
+}
+
+#[test]
+fn another_recipe_while_the_part_hangs_there_is_no_other_part_and_what_differs_is_shown() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_with(USUAL, keeping(folder.path()));
+    let mut recipe = Recipe::default();
+    recipe.accept.min_score = 1.0;
+    act_in(&mut harness, |_: &mut HistoryWorkspace, cx| {
+        cx.send(Message::UseRecipe(Arc::new(recipe)));
+        let title = "Inspecting with another recipe";
+        cx.send(Message::InspectShown { title });
+    });
+    harness.get_by_label("Not accepted");
+    go_to_history(&mut harness);
+    harness.get_by_label("1 of 1 parts");
+    // The acceptance stands: a robot may have acted on it.
+    harness.get_by_label("Inspection 1: Front door, left, Accepted, inspected again once");
+    harness.get_by_label("Of this part: inspection 1, Accepted · counts");
+    press(&mut harness, "Of this part: inspection 2, Not accepted");
+    harness.get_by_label("Segmentation of inspection 2");
+    harness.get_by_label("Inspection 2 found something else");
+    harness.get_by_label("Accept from");
+    // The row of the part stays the one that is marked.
+    assert_eq!(history_of(&harness).listed(), Some(1));
+    let export = folder.path().join("parts.csv");
+    act_in_history(
+        &mut harness,
+        HistoryAction::Export(HistoryFile::Csv, export.clone()),
+    );
+    let table = fs::read_to_string(export).expect("written");
+    assert_eq!(table.lines().count(), 2, "a table of parts");
+    // One that was looked up again is inspected for nobody: it hangs there no longer.
+    act_in_history(&mut harness, HistoryAction::Open(1));
+    act_in(&mut harness, |_: &mut HistoryWorkspace, cx| {
+        let title = "Inspecting with another recipe";
+        cx.send(Message::InspectShown { title });
+    });
+    go_to_history(&mut harness);
+    harness.get_by_label("1 of 1 parts");
+    assert_eq!(
+        history_of(&harness).row(0).map(|row| row.num_below),
+        Some(1)
+    );
+}
+
+#[test]
+fn a_scan_is_listed_and_opened_again_with_its_shots_though_its_folder_is_gone() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut history = History::open(folder.path()).expect("opened").history;
+    let all = Retention {
+        keep: KeepFrames::All,
+        ..Retention::default()
+    };
+    history.set_retention(&all).expect("written");
+    drop(history);
+    let scan = ScanFolder::new(3);
+    let options = WindowOptions {
+        scene: Some(scan.scan()),
+        ..keeping(folder.path())
+    };
+    let mut harness = open_with(USUAL, options);
+    harness.get_by_label("Fender, left");
+    go_to_history(&mut harness);
+    harness.get_by_label("1 of 1 parts");
+    drop((harness, scan));
+
+    let mut harness = open_with(USUAL, keeping(folder.path()));
+    go_to_history(&mut harness);
+    harness.get_by_label("2 of 2 parts");
+    act_in_history(&mut harness, HistoryAction::Open(1));
+    harness.get_by_label("Fender, left");
+    harness.get_by_label_contains("3 shots · they agree to");
+    harness.get_by_label_contains("From the history");
+    let state = harness.state().state();
+    // It gives what it gave then: nothing is said of another result.
+    assert!(state.notices.is_empty(), "{:?}", state.notices);
+    assert_eq!(history_of(&harness).num_rows(), 2);
 }
 
 #[test]
@@ -235,7 +319,7 @@ fn a_history_that_cannot_be_written_is_said_and_inspections_go_on() {
     assert_eq!(harness.state().state().notices.len(), 1);
     harness.get_by_label_contains("the history cannot be kept there");
     go_to_history(&mut harness);
-    harness.get_by_label("3 of 3");
+    harness.get_by_label("3 of 3 parts");
     harness.get_by_label_contains("Kept in memory only");
     press(&mut harness, "Inspection 1: Front door, left, Accepted");
     press(&mut harness, "Open");
@@ -252,10 +336,12 @@ fn of_a_hundred_thousand_inspections_only_those_in_sight_are_fetched() {
     let many = (0..100_000).map(|i| {
         let mut record = first.clone();
         record.summary.scene = format!("frame {i}");
+        record.summary.hung = HungId::new();
         NewEntry {
             record,
             picture: None,
             scene: None,
+            shots: Vec::new(),
         }
     });
     history.add_all(many).expect("written");
@@ -263,7 +349,7 @@ fn of_a_hundred_thousand_inspections_only_those_in_sight_are_fetched() {
 
     let mut harness = open_with(USUAL, keeping(&path));
     go_to_history(&mut harness);
-    harness.get_by_label("100002 of 100002");
+    harness.get_by_label("100002 of 100002 parts");
     let num_fetched = history_of(&harness).page.rows.len();
     assert!(num_fetched < 400, "{num_fetched}");
     assert_eq!(
@@ -277,7 +363,7 @@ fn of_a_hundred_thousand_inspections_only_those_in_sight_are_fetched() {
         ..ListFilter::default()
     };
     act_in_history(&mut harness, HistoryAction::Filter(filter));
-    harness.get_by_label("1 of 100002");
+    harness.get_by_label("1 of 100002 parts");
     let rows = harness.get_all_by_label_contains("Inspection 54323");
     assert_eq!(rows.count(), 1);
 }

@@ -14,7 +14,7 @@ use jiff::{SignedDuration, Timestamp};
 use nalgebra::Translation3;
 use partsight::{
     app::{
-        WindowOptions,
+        Window, WindowOptions,
         inspection::{camera::Camera, source::CellChoice},
         shell::{
             action::Action,
@@ -22,6 +22,7 @@ use partsight::{
             session::{Source, WorkspaceKind},
             state::State,
         },
+        workspaces::history::HistoryWorkspace,
     },
     capture::{CaptureError, Captured, DepthSource, Image, NextCapture},
     history::StoredVerdict,
@@ -31,7 +32,7 @@ use partsight::{
 };
 
 use super::set_up::{
-    SMALL, USUAL, WindowHarness, act, history_of, open, open_with, settle, wait_until,
+    SMALL, USUAL, WindowHarness, act, history_of, open, open_with, settle, wait_for, wait_until,
 };
 
 /// Between two frames, by the camera's clock: as a slow one.
@@ -195,13 +196,58 @@ fn a_part_counts_once_it_hangs_still_and_no_longer_when_it_moves() {
     let shown = harness.state().state().shown.as_ref().expect("shown");
     assert!(!shown.inspected.inspection.verdict.is_accepted());
 
-    // It hangs still again, elsewhere: another verdict.
+    // It hangs still again, elsewhere: another verdict on the same part, which counts once.
     sees(&mut harness, &wire, [0.06; 22]);
     harness.get_by_label("Accepted");
-    assert_eq!(history_of(&harness).num_rows(), 3);
+    settle_history(&mut harness);
+    let history = history_of(&harness);
+    assert_eq!(history.num_rows(), 2);
+    assert_eq!(history.row(0).map(|row| row.num_below), Some(1));
     toggle(&mut harness);
     settle(&mut harness);
     assert!(!harness.state().state().is_live());
+}
+
+/// Draws until the history shows what was written.
+fn settle_history(harness: &mut WindowHarness) {
+    let is_settled = |window: &Window| {
+        let history = window.workspace::<HistoryWorkspace>();
+        history.is_some_and(|history| history.state().is_settled())
+    };
+    wait_for(harness, is_settled);
+}
+
+#[test]
+fn two_parts_one_after_the_other_are_two_rows_and_one_that_swings_through_is_one_too() {
+    let (mut harness, wire) = wired();
+    toggle(&mut harness);
+    // From the right, at rest, to the left, twice; the third does not stop.
+    let coming = [2.0, 1.2, 0.5];
+    for _ in 0..2 {
+        sees(&mut harness, &wire, coming);
+        sees(&mut harness, &wire, [0.0; 22]);
+        harness.get_by_label("Accepted");
+        sees(&mut harness, &wire, [-0.5, -1.2, -2.0, -2.0, -2.0, -2.0]);
+    }
+    settle_history(&mut harness);
+    let history = history_of(&harness);
+    assert_eq!(history.num_rows(), 3, "with the first frame of the window");
+    assert_eq!(history.row(0).map(|row| row.num_below), Some(0));
+    sees(&mut harness, &wire, [2.0, 1.2, 0.3, 0.0, -0.3, -1.2]);
+    sees(&mut harness, &wire, [-2.0; 5]);
+    settle_history(&mut harness);
+    let history = history_of(&harness);
+    assert_eq!(history.num_rows(), 4);
+    let last = history.row(0).expect("listed");
+    assert_eq!(last.verdict, StoredVerdict::NotAccepted);
+    assert_eq!(last.part.as_deref(), Some("fender"));
+    wire.send(Step::End).expect("the camera is open");
+    settle(&mut harness);
+    let state = harness.state().state();
+    assert_eq!(
+        (state.is_live(), history_of(&harness).num_rows()),
+        (false, 4)
+    );
 }
 
 #[test]

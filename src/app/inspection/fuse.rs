@@ -2,6 +2,7 @@
 
 use std::{
     cell::Cell,
+    collections::BTreeSet,
     ops::ControlFlow,
     panic::resume_unwind,
     path::{Path, PathBuf},
@@ -14,7 +15,7 @@ use std::{
 };
 
 use super::{
-    scan_choice::{ScanOrder, ScanRequest, ShotChoice, ShotSet},
+    scan_choice::{ScanFiles, ScanOrder, ScanRequest, ShotChoice, ShotSet},
     scan_figure::{ScanFigure, ShotRow, rows},
     source::{Origin, file_name},
 };
@@ -22,6 +23,7 @@ use crate::{
     app::user_error::UserError,
     error::Advice,
     geometry::rigid::RigidTransform,
+    history::{FrameError, read_shots},
     pipeline::{ProgressObserver, Stage},
     robot::{
         calibration::CellCalibration,
@@ -62,6 +64,7 @@ impl FusedShots {
         Origin::Scan {
             name: self.title(),
             is_simulated: self.scan.cloud.cloud.is_simulated,
+            files: self.choice.files(),
         }
     }
 
@@ -78,6 +81,9 @@ pub enum FuseError {
     /// The frames or their poses cannot be read.
     #[error(transparent)]
     Frames(#[from] ScanFramesError),
+    /// Those of the history cannot be read.
+    #[error(transparent)]
+    Kept(#[from] FrameError),
     /// They do not fit together.
     #[error(transparent)]
     Scan(#[from] ScanError),
@@ -125,6 +131,7 @@ impl Advice for FuseError {
             }
             Self::Scan(ScanError::TooFewShots { .. }) => "Open the folder that holds the frames".into(),
             Self::Frames(error) => error.advice(),
+            Self::Kept(error) => error.advice(),
             Self::Scan(error) => error.advice(),
             Self::NameTaken { .. } => "Rename the file and its entry among the poses".into(),
         }
@@ -262,6 +269,14 @@ fn read(
     };
     match &request.order {
         ScanOrder::Known(choice) => Ok(choice.clone()),
+        // Only those that were put together are kept.
+        ScanOrder::Kept(kept) => Ok(ShotChoice {
+            dropped: BTreeSet::new(),
+            set: Arc::new(ShotSet {
+                files: ScanFiles::of_past(&kept.origin),
+                shots: read_shots(&kept.folder, &kept.frame)?,
+            }),
+        }),
         ScanOrder::Open(files) => {
             let mut shots = frames_of(&files.frames, files.poses.as_deref())?;
             for (frame, poses) in &files.added {

@@ -24,7 +24,7 @@ use crate::{
     },
     capture::CaptureWarning,
     geometry::{cloud::PointCloud, rigid::RigidTransform},
-    history::{InspectionContext, NewEntry},
+    history::{HungId, InspectionContext, NewEntry},
     library::Library,
     pipeline::{
         self, Inspection, ProgressObserver, Recipe,
@@ -109,6 +109,11 @@ pub struct Inspected {
 }
 
 impl Inspected {
+    /// Which part it is as it hangs there.
+    pub(in crate::app) fn hung(&self) -> &HungId {
+        &self.entry.record.summary.hung
+    }
+
     /// What was inspected, to be inspected once more: all shots of a scan, else the scene.
     pub fn again(&self) -> SceneOrScan {
         match &self.scan {
@@ -361,8 +366,13 @@ impl FinishedInspection {
             picture: figures.segmentation.as_ref(),
             scene: title,
             source,
+            hung: HungId::new(),
         };
         let entry = NewEntry::of(about, &scene, &inspection, &recipe);
+        let entry = match &scan {
+            Some(scan) => entry.of_scan(scan.fused.scan.given()),
+            None => entry,
+        };
         Inspected {
             origin,
             at,

@@ -8,7 +8,7 @@ use std::{
 
 use serde::{Deserialize, Serialize};
 
-use super::source::file_name;
+use super::source::{HistoryFrame, Origin, file_name};
 use crate::{pipeline::Recipe, scan::Shot};
 
 /// The files of a scan, and which of its shots are left out.
@@ -31,6 +31,17 @@ impl ScanFiles {
         Self {
             frames: vec![folder],
             ..Self::default()
+        }
+    }
+
+    /// Those that a past scan came from; of one that a command has written its name alone is known.
+    pub(in crate::app) fn of_past(origin: &Origin) -> Self {
+        match origin {
+            Origin::Scan { files, .. } if !files.frames.is_empty() => Self {
+                dropped: BTreeSet::new(),
+                ..files.clone()
+            },
+            origin => Self::of_folder(origin.title().into()),
         }
     }
 
@@ -92,6 +103,8 @@ pub enum ScanOrder {
     Open(ScanFiles),
     /// These are at hand.
     Known(ShotChoice),
+    /// Those that the history keeps.
+    Kept(Box<HistoryFrame>),
     /// One more, with the file of its pose if a person named one.
     Add(ShotChoice, PathBuf, Option<PathBuf>),
 }
@@ -101,7 +114,7 @@ impl ScanOrder {
     pub fn title(&self) -> String {
         match self {
             Self::Open(files) => format!("Opening {}", files.title()),
-            Self::Known(_) => "Putting the shots together".to_owned(),
+            Self::Known(_) | Self::Kept(_) => "Putting the shots together".to_owned(),
             Self::Add(_, frame, _) => format!("Adding {}", file_name(frame)),
         }
     }
@@ -115,6 +128,7 @@ impl ScanOrder {
                 ..files
             }),
             Self::Known(choice) => Self::Known(choice),
+            Self::Kept(kept) => Self::Kept(kept),
             Self::Add(choice, frame, _) => Self::Add(choice, frame, Some(file)),
         }
     }

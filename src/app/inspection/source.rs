@@ -5,13 +5,17 @@ use std::{
     sync::Arc,
 };
 
-use super::camera::{Camera, CameraError};
+use super::{
+    camera::{Camera, CameraError},
+    inspected::SceneOrScan,
+    scan_choice::{ScanFiles, ScanOrder},
+};
 use crate::{
     app::ui::widgets::sentence,
     capture::{self, CaptureWarning, CellScene, Image, SimulatedSpec, SourceSpec},
     error::Advice,
     files::{self, FileContent, FileError},
-    history::{FrameRecord, HistoryError, read_frame},
+    history::{FrameError, FrameRecord, read_frame},
     simulate::{
         CellSetup, ObjectKind, PartKind, PartPose, PoseRange, Side, SimulatedObject, frame,
     },
@@ -132,6 +136,9 @@ pub enum Origin {
         name: String,
         /// True if no camera was read.
         is_simulated: bool,
+        /// Their files.
+        #[serde(default)]
+        files: ScanFiles,
     },
     /// A frame of a camera, a recording or a watched folder.
     Frame {
@@ -159,6 +166,7 @@ impl Origin {
             Self::Scan {
                 name,
                 is_simulated: true,
+                ..
             } => format!("{name}, simulated"),
             Self::Scan { name, .. } => name.clone(),
             Self::Frame { name, .. } => sentence(name),
@@ -177,15 +185,18 @@ impl Origin {
 }
 
 impl Origin {
-    /// The same scene again: the frame is simulated as before, the file is read once more. `None` for what a camera
+    /// The same scene again: the frame is simulated as before, the files are read once more. `None` for what a camera
     /// saw once.
-    pub fn source(&self) -> Option<SceneSource> {
+    pub fn source(&self) -> Option<SceneOrScan> {
         Some(match self {
-            Self::Simulated { choice, number } => SceneSource::Cell {
+            Self::Simulated { choice, number } => SceneOrScan::Scene(SceneSource::Cell {
                 choice: *choice,
                 number: *number,
-            },
-            Self::File { path, .. } => SceneSource::File(path.clone()),
+            }),
+            Self::File { path, .. } => SceneOrScan::Scene(SceneSource::File(path.clone())),
+            Self::Scan { files, .. } if !files.frames.is_empty() => {
+                SceneOrScan::Scan(ScanOrder::Open(files.clone()))
+            }
             Self::Scan { .. } | Self::Frame { .. } => return None,
         })
     }
@@ -252,7 +263,7 @@ pub enum SceneError {
     Camera(#[from] CameraError),
     /// The history's frame cannot be read.
     #[error(transparent)]
-    Kept(#[from] HistoryError),
+    Kept(#[from] FrameError),
     /// A mesh is nothing that a camera saw.
     #[error("{}: a mesh, expected what a depth camera saw", path.display())]
     MeshIsNoScene {

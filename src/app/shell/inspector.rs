@@ -26,6 +26,7 @@ use crate::{
         user_error::UserError,
     },
     capture::SourceSpec,
+    history::HungId,
     stages::segment::EmptyCell,
 };
 
@@ -147,11 +148,23 @@ impl State {
         job: InspectJob,
         purpose: ReinspectionPurpose,
     ) {
+        self.inspect_hung(title.into(), job, purpose, None);
+    }
+
+    /// The same; `hung` is the part that hangs there, if it was inspected before.
+    fn inspect_hung(
+        &mut self,
+        title: String,
+        job: InspectJob,
+        purpose: ReinspectionPurpose,
+        hung: Option<HungId>,
+    ) {
         live::give_way(self);
-        let title = title.into();
         let library_cache = self.begins(&title, purpose);
         let task = &mut self.inspector.task;
-        task.start(title, move |context| run(&job, &library_cache, context));
+        task.start(title, move |context| {
+            run(&job, hung, &library_cache, context)
+        });
     }
 
     /// Cancels what the inspector is at.
@@ -169,12 +182,38 @@ impl State {
         }
     }
 
-    /// Inspects the scene in front once more, with what holds now.
+    /// Inspects the scene in front once more, with what holds now: another verdict on the same part. One from the history
+    /// hangs there no longer, and gets none.
     pub(in crate::app) fn inspect_shown(&mut self, title: &str, purpose: ReinspectionPurpose) {
         if let Some(shown) = &self.shown {
+            let purpose = if shown.is_past {
+                ReinspectionPurpose::Repeated
+            } else {
+                purpose
+            };
+            let hung = shown.inspected.hung().clone();
             let job = self.inspect_job(shown.inspected.again());
-            self.inspect(title, job, purpose);
+            self.inspect_hung(title.to_owned(), job, purpose, Some(hung));
         }
+    }
+
+    /// The part in front, if this is its scene.
+    fn hung_in(&self, saved: &SceneOrScan) -> Option<HungId> {
+        let inspected = &self
+            .shown
+            .as_ref()
+            .filter(|shown| !shown.is_past)?
+            .inspected;
+        let is_it = match (saved, &inspected.scan) {
+            (SceneOrScan::Scene(SceneSource::AtHand(scene, _)), None) => {
+                Arc::ptr_eq(scene, &inspected.scene)
+            }
+            (SceneOrScan::Scan(ScanOrder::Known(choice)), Some(scan)) => {
+                Arc::ptr_eq(&choice.set, &scan.fused.choice.set)
+            }
+            _ => false,
+        };
+        is_it.then(|| inspected.hung().clone())
     }
 
     /// Uses the library that was changed, and inspects what was saved in it, else the scene in front.
@@ -186,8 +225,9 @@ impl State {
         self.use_library(library);
         let (title, purpose) = ("Inspecting again", ReinspectionPurpose::New);
         if let Some(saved) = saved {
+            let hung = self.hung_in(&saved);
             let job = self.inspect_job(saved);
-            self.inspect(title, job, purpose);
+            self.inspect_hung(title.to_owned(), job, purpose, hung);
         } else if self.inspector.running().is_none() {
             self.inspect_shown(title, purpose);
         }
@@ -279,10 +319,11 @@ impl State {
 /// What the task does.
 fn run(
     job: &InspectJob,
+    hung: Option<HungId>,
     library_cache: &LibraryCache,
     context: &TaskContext<InspectorResult>,
 ) -> Result<InspectorResult, TaskError> {
-    let inspected = match job {
+    let mut inspected = match job {
         InspectJob::Scene(request) => inspect(request, library_cache, context)?,
         InspectJob::Scan(request) => {
             let report = |done, total| context.progress(done, total);
@@ -296,6 +337,9 @@ fn run(
             }
         }
     };
+    if let Some(hung) = hung {
+        inspected.entry.record.summary.hung = hung;
+    }
     Ok(InspectorResult::Inspected(Arc::new(inspected)))
 }
 
@@ -355,7 +399,9 @@ fn show(state: &mut State, inspected: Arc<Inspected>) -> Event {
     let shots = inspected.scan.as_ref();
     if let Origin::File { path, .. } = &inspected.origin {
         remember(&mut state.recent, path);
-    } else if let Some(folder) = shots.and_then(|scan| scan.fused.choice.set.files.folder()) {
+    } else if let Some(folder) = shots.and_then(|scan| scan.fused.choice.set.files.folder())
+        && state.inspector.purpose != ReinspectionPurpose::Past
+    {
         remember(&mut state.recent, folder);
     }
     for warning in shots.map_or(&[][..], |scan| &scan.fused.warnings) {
@@ -366,10 +412,17 @@ fn show(state: &mut State, inspected: Arc<Inspected>) -> Event {
         purpose,
         ..
     } = state.inspector;
+    // One from the history stays one, by whichever recipe or library it is looked at.
+    let was_past = state.shown.as_ref().is_some_and(|shown| shown.is_past);
+    let is_past = match purpose {
+        ReinspectionPurpose::Past => true,
+        ReinspectionPurpose::Repeated | ReinspectionPurpose::Shots => was_past,
+        ReinspectionPurpose::New => false,
+    };
     state.shown = Some(Shown {
         generation,
         inspected: Arc::clone(&inspected),
-        is_past: purpose == ReinspectionPurpose::Past,
+        is_past,
         session: None,
     });
     Event::Inspected { inspected, purpose }

@@ -12,6 +12,7 @@ use crate::{
         library_cache::LibraryView,
         scan_choice::ScanOrder,
     },
+    history::NewEntry,
     pipeline::Recipe,
     robot::{Convention, RobotFrame},
 };
@@ -93,6 +94,8 @@ pub enum Event {
         /// What it was inspected for.
         purpose: ReinspectionPurpose,
     },
+    /// A part left the source that is followed before its verdict counted.
+    Left(Box<NewEntry>),
     /// The poses of these shots were not found: a person has to name their file.
     PosesWanted(ScanOrder),
     /// Ask where the report of the inspection in front goes.

@@ -19,3 +19,4 @@ mod tests;
 
 pub use self::recorder::Recorder;
 pub use self::replay::Replay;
+pub(super) use self::replay::is_sequence;

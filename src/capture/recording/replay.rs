@@ -76,6 +76,11 @@ const LONGEST_PAUSE: Duration = Duration::from_secs(10);
 /// The pause before a frame without a time.
 const PAUSE: Duration = Duration::from_millis(100);
 
+/// True if this folder says when each of its frames was taken.
+pub(in crate::capture) fn is_sequence(folder: &Path) -> bool {
+    folder.join(MANIFEST).is_file() || folder.join(LIST).is_file()
+}
+
 impl Replay {
     /// Finds the frames of a folder; none is read yet.
     pub fn open(spec: &RecordingSpec) -> Result<Self, CaptureError> {

@@ -19,6 +19,7 @@ use serde::{Deserialize, Serialize};
 
 use self::options::{Options, escaped};
 pub use self::simulated::{CellScene, SimulatedPose, SimulatedSpec};
+use super::recording::is_sequence;
 use crate::error::Advice;
 
 /// What can be opened.
@@ -162,6 +163,16 @@ impl SourceSpec {
             Self::Recording(recording) => {
                 matches!(recording.pace, Some(Pace::AsTaken | Pace::PerSecond(_)))
             }
+            Self::Watched(_) => false,
+        }
+    }
+
+    /// True if its captures follow each other in time, so that many of them show the same part; false for a folder of
+    /// captures that stand for themselves.
+    pub fn is_followed(&self) -> bool {
+        match self {
+            Self::Simulated(_) | Self::Kinect(_) => true,
+            Self::Recording(recording) => is_sequence(&recording.folder),
             Self::Watched(_) => false,
         }
     }

@@ -1,3 +1,5 @@
+use std::sync::Arc;
+
 use super::*;
 use crate::{
     cases::{FoundVerdict, Truth, found_in},
@@ -5,7 +7,10 @@ use crate::{
     geometry::depth_frame::{DepthFrame, Intrinsics},
     pipeline::{Recipe, Unwatched},
     simulate::{CellSetup, PartKind, PartPose, PoseRange, Side, SimulatedObject, frame},
-    stages::scene::{PictureEdge, scene_from_cloud, scene_from_frame},
+    stages::{
+        scene::{PictureEdge, scene_from_cloud, scene_from_frame},
+        segment::EmptyCell,
+    },
 };
 
 fn door() -> SceneCloud {
@@ -13,6 +18,9 @@ fn door() -> SceneCloud {
     setup.pose = PartPose::Drawn(PoseRange::facing());
     scene_from_frame(&frame(&setup).frame)
 }
+
+/// The file of such a scene.
+const CRUMB: &str = "scene.pcd";
 
 /// A scene small enough to be written many times.
 fn crumb() -> SceneCloud {
@@ -85,6 +93,8 @@ fn a_kept_scene_opens_again_bit_for_bit_with_the_same_verdict() {
     said.found = before.clone();
     let kept = cases.keep(&scene, said).expect("kept");
     assert_eq!(kept.name, "simulated_frame_4");
+    // The points ended there by themselves, so no depth image says it all.
+    assert_eq!(kept.meta.scene.file, "scene.pcd");
 
     let list = cases.list().expect("listed");
     assert!(list.problems.is_empty());
@@ -100,10 +110,13 @@ fn a_kept_scene_opens_again_bit_for_bit_with_the_same_verdict() {
     assert_eq!(after, before);
     assert_eq!(list.cases[0].meta.about.found, before);
 
-    let cell = cases.path().join("simulated_frame_4").join(EMPTY_CELL);
-    fs::write(cell, "cut off").expect("damaged");
+    let empty_cell = list.cases[0].meta.scene.empty_cell.clone().expect("kept");
+    let cell = cases.path().join("simulated_frame_4").join(&empty_cell);
+    let mut bytes = fs::read(&cell).expect("there");
+    *bytes.last_mut().expect("bytes") ^= 1;
+    fs::write(cell, bytes).expect("damaged");
     let refused = cases.read_scene(&list.cases[0]).expect_err("damaged");
-    assert!(refused.to_string().contains(EMPTY_CELL), "{refused}");
+    assert!(refused.to_string().contains(&empty_cell), "{refused}");
 }
 
 #[test]
@@ -115,16 +128,16 @@ fn a_damaged_case_is_named_and_the_others_load() {
         cases.keep(&crumb(), about(name)).expect("kept");
     }
     let at = |name: &str, file: &str| folder.path().join(name).join(file);
-    let scene = fs::read(at("cut", SCENE)).expect("read");
-    fs::write(at("cut", SCENE), &scene[..scene.len() - 5]).expect("cut");
+    let scene = fs::read(at("cut", CRUMB)).expect("read");
+    fs::write(at("cut", CRUMB), &scene[..scene.len() - 5]).expect("cut");
     fs::write(at("garbled", META), "schema_version = 1\ntruth = 7\n").expect("garbled");
     fs::remove_file(at("gone", META)).expect("removed");
     let text = fs::read_to_string(at("newer", META)).expect("read");
-    let newer = text.replace("schema_version = 1", "schema_version = 2");
+    let newer = text.replace("schema_version = 2", "schema_version = 3");
     fs::write(at("newer", META), newer).expect("written");
     let mut other = scene.clone();
     *other.last_mut().expect("bytes") ^= 1;
-    fs::write(at("swapped", SCENE), other).expect("written");
+    fs::write(at("swapped", CRUMB), other).expect("written");
     fs::create_dir(folder.path().join("holiday pictures")).expect("made");
 
     let list = cases.list().expect("listed");
@@ -152,7 +165,7 @@ fn writing_that_stops_half_way_leaves_no_case_and_is_cleared_up() {
     cases.keep(&crumb(), about("whole")).expect("kept");
     // Wherever it stops before the rename, all there is lies in the hidden folder.
     let whole = folder.path().join("whole");
-    for (place, files) in [&[][..], &[SCENE], &[SCENE, META]].into_iter().enumerate() {
+    for (place, files) in [&[][..], &[CRUMB], &[CRUMB, META]].into_iter().enumerate() {
         let half = folder.path().join(format!("{NEW_PREFIX}{place}"));
         fs::create_dir(&half).expect("made");
         for file in files {
@@ -204,4 +217,59 @@ fn names_follow_from_the_origin_and_count_on() {
     let mut names = ["frame_10", "frame_9", "door", "frame_9_2"].map(str::to_owned);
     names.sort_by_key(|name| in_counting_order(name));
     assert_eq!(names, ["door", "frame_9", "frame_9_2", "frame_10"]);
+}
+
+#[test]
+fn a_scene_is_kept_as_the_history_keeps_it_and_takes_little_room() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let cases = CaseFolder::at(folder.path());
+    let scene = door();
+    let kept = cases.keep(&scene, about("door")).expect("kept");
+    assert_eq!(kept.meta.scene.file, "scene.png");
+    let as_cloud = scene.cloud.points.len() as u64 * 12;
+    assert!(
+        kept.meta.scene.bytes < as_cloud / 5,
+        "{}",
+        kept.meta.scene.bytes
+    );
+    let again = cases.read_scene(&kept).expect("read");
+    assert_eq!(bits(&again), bits(&scene));
+    assert_eq!(again.intrinsics, scene.intrinsics);
+}
+
+#[test]
+fn a_case_of_the_first_version_is_read_with_its_empty_cell() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let case = folder.path().join("old");
+    fs::create_dir(&case).expect("made");
+    let scene = door();
+    let cell = EmptyCell::of(&scene).expect("a picture");
+    let packed = |cloud: &crate::geometry::cloud::PointCloud| {
+        let mut bytes = Vec::new();
+        crate::files::write_pcd(&mut bytes, cloud).expect("written");
+        bytes
+    };
+    let (points, empty) = (packed(&scene.cloud), packed(&cell.to_cloud()));
+    fs::write(case.join("scene.pcd"), &points).expect("written");
+    fs::write(case.join("empty-cell.pcd"), &empty).expect("written");
+    let camera = toml::to_string(&scene.intrinsics.expect("a camera")).expect("text");
+    let camera = camera.replace("[distortion]", "[scene.camera.distortion]");
+    let text = format!(
+        "schema_version = 1\norigin = \"frame 4\"\nsimulated = true\nkept_at = \"2026-11-20T14:07:31Z\"\n\
+        [truth]\nis = \"part\"\npart = \"front_door\"\n[found]\naccepted = true\n\
+        [scene]\nbytes = {}\ncrc32 = {}\npicture_edge = \"view\"\nempty_cell_crc32 = {}\n[scene.camera]\n{camera}",
+        points.len(),
+        crate::files::crc32(&points),
+        crate::files::crc32(&empty),
+    );
+    fs::write(case.join(META), text).expect("written");
+    let cases = CaseFolder::at(folder.path());
+    let list = cases.list().expect("listed");
+    assert!(list.problems.is_empty(), "{:?}", list.problems);
+    let again = cases.read_scene(&list.cases[0]).expect("read");
+    assert_eq!(bits(&again), bits(&scene));
+    assert_eq!(again.intrinsics, scene.intrinsics);
+    assert!(again.empty_cell.as_deref() == Some(&cell));
+    fs::write(case.join("empty-cell.pcd"), &points).expect("another");
+    cases.read_scene(&list.cases[0]).expect_err("another cell");
 }

@@ -1,12 +1,15 @@
 //! `partsight history show --again`: what today's recipe and library make of a kept frame.
 
+use std::sync::Arc;
+
 use serde::Serialize;
 
 use super::ShowArgs;
 use crate::{
     cli::console::{Advised as _, Console, Table, advised_error},
-    history::{Differences, History, InspectionSummary, Record},
-    pipeline::{self, Unwatched},
+    history::{Differences, History, InspectionSummary, ParameterChange, Record},
+    pipeline::{self, Unwatched, scan::run_scan},
+    scan::{self, ScanParams, assemble},
     units::{Metres, Radians},
 };
 
@@ -16,7 +19,9 @@ pub(super) fn run(
     asked: &ShowArgs,
     console: &mut Console,
 ) -> anyhow::Result<Differences> {
-    let Some(scene) = history.scene(record).advised()? else {
+    let scene = history.scene(record).advised()?;
+    let shots = history.shots(record).advised()?;
+    let Some(scene) = scene else {
         return Err(advised_error(
             format!("the frame of inspection {} is not kept", asked.number),
             "Keep more frames from now on: partsight history keep all",
@@ -24,13 +29,23 @@ pub(super) fn run(
     };
     let load = asked.library.load_some(console)?;
     let library = &load.library;
-    let recipe = asked.recipe.recipe();
-    let inspection = pipeline::run(&scene, library, &recipe, &Unwatched)?;
+    let recipe = Arc::new(asked.recipe.recipe());
+    let inspection = match shots {
+        None => pipeline::run(&scene, library, &recipe, &Unwatched)?,
+        Some(shots) => {
+            let params = ScanParams {
+                segment: recipe.segment.clone(),
+                ..ScanParams::default()
+            };
+            let scan = assemble(&shots, &params, &scan::Unwatched).advised()?;
+            run_scan(&scan, library, &recipe, &Unwatched)?.inspection
+        }
+    };
     let best = inspection.ranking.entries.first();
     let best = best.and_then(|entry| library.references.get(entry.reference));
     let bounds = best.and_then(|reference| reference.cloud.bounds());
     let middle = bounds.map(|(low, high)| nalgebra::center(&low, &high).cast::<f64>());
-    let now = InspectionSummary::of(&inspection, &recipe.identity(), &load.identity());
+    let now = InspectionSummary::of(&inspection, &recipe, &load.identity());
     Ok(Differences::between(
         InspectionSummary::from(record),
         now,
@@ -49,11 +64,26 @@ pub(super) struct AgainLine {
     pose_shift_m: Option<f64>,
     pose_turn_rad: Option<f64>,
     changed: Vec<&'static str>,
+    parameters: Vec<ParameterLine>,
+}
+
+/// A parameter that has another value, as `--json` writes it.
+#[derive(Debug, Serialize)]
+struct ParameterLine {
+    key: &'static str,
+    before: String,
+    now: String,
 }
 
 impl AgainLine {
     pub(super) fn of(found: &Differences) -> Self {
         let now = &found.now;
+        let parameters = found.changed_parameters().into_iter();
+        let line = |change: ParameterChange| ParameterLine {
+            key: change.key,
+            before: change.before,
+            now: change.now,
+        };
         Self {
             same: found.is_same(),
             verdict: now.verdict.name(),
@@ -63,13 +93,15 @@ impl AgainLine {
             pose_shift_m: found.pose.map(|off| off.shift.0),
             pose_turn_rad: found.pose.map(|off| off.rotation.0),
             changed: found.changed_inputs(),
+            parameters: parameters.map(line).collect(),
         }
     }
 }
 
-pub(super) fn show(found: &Differences, console: &mut Console) {
+/// A table of the two, under these names.
+pub(super) fn show(found: &Differences, names: [&str; 2], console: &mut Console) {
     let Differences { before, now, pose } = found;
-    let mut table = Table::new(&["", "THEN", "TODAY"]);
+    let mut table = Table::new(&["", names[0], names[1]]);
     let mut row = |what: &str, of: &dyn Fn(&InspectionSummary) -> String| {
         let (then, today) = (of(before), of(now));
         let sign = if then == today { "" } else { "changed" };
@@ -90,6 +122,12 @@ pub(super) fn show(found: &Differences, console: &mut Console) {
     row("recipe", &|of| of.recipe.clone());
     row("library", &|of| of.library.clone());
     row("program", &|of| of.program.clone());
+    for change in found.changed_parameters() {
+        let ParameterChange {
+            key, before, now, ..
+        } = change;
+        table.row([key.to_owned(), before, now, "changed".to_owned()]);
+    }
     table.show(console);
     if let Some(off) = pose {
         let (Metres(shift), Radians(turn)) = (off.shift, off.rotation);

@@ -9,7 +9,7 @@ use crate::{
         Outcome,
         console::{Advised as _, Console, Table, in_columns},
     },
-    history::{History, Record, Summary},
+    history::{Differences, History, InspectionSummary, Record, ShotRecord, Summary},
     library::Truth,
 };
 
@@ -33,6 +33,10 @@ struct RowLine<'a> {
     label: Option<&'a str>,
     remark: &'a str,
     frame_kept: bool,
+    /// The inspection that stands for the same part; null of the one that does.
+    parent: Option<i64>,
+    /// How many others of the same part lie below this one.
+    reinspections: usize,
 }
 
 impl<'a> RowLine<'a> {
@@ -52,6 +56,8 @@ impl<'a> RowLine<'a> {
             label: row.label.as_ref().map(Truth::name),
             remark: &row.remark,
             frame_kept: row.frame_bytes.is_some(),
+            parent: row.parent,
+            reinspections: row.num_below,
         }
     }
 }
@@ -78,11 +84,36 @@ struct RecordLine<'a> {
     library: &'a str,
     program: &'a str,
     frame: Option<String>,
+    /// The files of a scan's shots.
+    #[serde(skip_serializing_if = "Vec::is_empty")]
+    shots: Vec<String>,
+    /// Others of the same part, the oldest first, each held against this one.
+    below: Vec<BelowLine<'a>>,
     /// As it was written when it was inspected.
     #[serde(skip_serializing_if = "Option::is_none")]
     line: Option<Value>,
     #[serde(skip_serializing_if = "Option::is_none")]
     again: Option<again::AgainLine>,
+}
+
+/// An inspection of the same part, as `--json` writes it.
+#[derive(Serialize)]
+struct BelowLine<'a> {
+    #[serde(flatten)]
+    row: RowLine<'a>,
+    recipe: &'a str,
+    library: &'a str,
+    program: &'a str,
+    differs: again::AgainLine,
+}
+
+/// What differs between an inspection and another one of the same part.
+fn differences(record: &Record, other: &Record) -> Differences {
+    Differences::between(
+        InspectionSummary::from(record),
+        InspectionSummary::from(other),
+        None,
+    )
 }
 
 pub(super) fn run(
@@ -95,7 +126,15 @@ pub(super) fn run(
         .again
         .then(|| again::run(history, &record, asked, console))
         .transpose()?;
+    let below = history.below(asked.number).advised()?;
     if asked.json {
+        let below = below.iter().map(|other| BelowLine {
+            row: RowLine::of(&other.summary),
+            recipe: &other.detail.recipe_identity,
+            library: &other.detail.library_identity,
+            program: &other.detail.program,
+            differs: again::AgainLine::of(&differences(&record, other)),
+        });
         let detail = &record.detail;
         let complaint = detail.complaint.as_ref();
         let line = RecordLine {
@@ -108,6 +147,8 @@ pub(super) fn run(
             library: &detail.library_identity,
             program: &detail.program,
             frame: frame_path(history, &record),
+            shots: shot_paths(history, &record),
+            below: below.collect(),
             line: serde_json::from_str(&detail.line).ok(),
             again: again.as_ref().map(again::AgainLine::of),
         };
@@ -115,9 +156,20 @@ pub(super) fn run(
         return Ok(Outcome::Accepted);
     }
     card(history, &record, console);
+    let number = |record: &Record| format!("NUMBER {}", record.summary.number);
+    for other in &below {
+        console.line(&"");
+        console.line(&format_args!(
+            "The same part was inspected again at {}.",
+            here(other.summary.at)
+        ));
+        let names = [number(&record), number(other)];
+        let names = [&*names[0], &*names[1]];
+        again::show(&differences(&record, other), names, console);
+    }
     if let Some(differences) = &again {
         console.line(&"");
-        again::show(differences, console);
+        again::show(differences, ["THEN", "TODAY"], console);
     }
     Ok(Outcome::Accepted)
 }
@@ -126,6 +178,14 @@ fn frame_path(history: &History, record: &Record) -> Option<String> {
     let frame = record.detail.frame.as_ref()?;
     let path = history.frames_folder().join(&frame.file);
     Some(path.display().to_string())
+}
+
+fn shot_paths(history: &History, record: &Record) -> Vec<String> {
+    let frame = record.detail.frame.as_ref();
+    let shots = frame.map_or(&[][..], |frame| &frame.shots);
+    let path = |shot: &ShotRecord| history.frames_folder().join(&shot.frame.file);
+    let paths = shots.iter().map(path);
+    paths.map(|path| path.display().to_string()).collect()
 }
 
 fn card(history: &History, record: &Record, console: &mut Console) {
@@ -184,5 +244,11 @@ fn card(history: &History, record: &Record, console: &mut Console) {
     row("remark", summary.remark.clone());
     let frame = frame_path(history, record);
     row("frame", frame.unwrap_or_else(|| "not kept".into()));
+    for shot in shot_paths(history, record) {
+        row("shot", shot);
+    }
+    if let Some(parent) = summary.parent {
+        row("of a part", format!("inspection {parent} stands for it"));
+    }
     table.show(console);
 }

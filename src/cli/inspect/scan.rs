@@ -2,6 +2,7 @@
 
 use super::InspectArgs;
 use crate::{
+    cli::record::{HistoryRecorder, SceneOrigin},
     cli::{
         Outcome,
         console::Console,
@@ -9,6 +10,7 @@ use crate::{
         verdict::{outcome_of, show_card, show_in_robot},
     },
     geometry::rigid::row_major,
+    history::HungId,
     pipeline::{
         Unwatched,
         scan::{ScanInspection, run_scan},
@@ -19,13 +21,17 @@ use crate::{
 
 pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let (_, load) = args.library.load_placed(console)?;
-    let scan = open_scan(&args.scan, &args.poses, console)?;
+    let recipe = args.recipe.recipe();
+    let scan = open_scan(&args.scan, &args.poses, &recipe.segment, console)?;
+    let recording = (!args.no_history)
+        .then(|| HistoryRecorder::start(&args.history, &load, &recipe, console))
+        .flatten();
     let ScanInspection {
         inspection,
         first,
         base_from_part,
         ..
-    } = run_scan(&scan, &load.library, &args.recipe.recipe(), &Unwatched)?;
+    } = run_scan(&scan, &load.library, &recipe, &Unwatched)?;
     let first = &scan.shots[first];
     let (frames, used) = (scan.shots.len(), scan.used().count());
     // The poses of the scan say where that camera was.
@@ -47,8 +53,9 @@ pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Resu
             .filter(|_| is_accepted)
             .map(|pose| row_major(&pose)),
     });
+    let line = line.to_json();
     if args.json {
-        console.line(&line.to_json());
+        console.line(&line);
     } else {
         let title = format!(
             "{scene}, {used} of {frames} frames, as seen from {}",
@@ -56,6 +63,17 @@ pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Resu
         );
         show_card(&title, &inspection, &load.library, console);
         show_in_robot(&robot, &inspection, &load.library, console);
+    }
+    // Last: it must not keep anybody from the verdict.
+    if let Some(mut recording) = recording {
+        let taken = SceneOrigin {
+            scene: &scene,
+            source: "scan",
+            is_simulated: scan.cloud.cloud.is_simulated,
+        };
+        let entry = recording.entry(taken, &first.scene, &inspection, &line, HungId::new());
+        recording.add(entry.of_scan(scan.given()), console);
+        recording.finish(console);
     }
     Ok(outcome_of(&inspection))
 }

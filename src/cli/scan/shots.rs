@@ -10,12 +10,14 @@ use crate::{
     },
     robot::scan_frames::{FrameNews, read_frames, with_poses},
     scan::{Scan, ScanParams, Unwatched, assemble},
+    stages::segment::SegmentParams,
 };
 
-/// Reads frames with their poses and puts them together; warns of what is left out.
+/// Reads frames with their poses and puts them together, each segmented by these parameters; warns of what is left out.
 pub(in crate::cli) fn open_scan(
     paths: &[PathBuf],
     given: &PosesChoice,
+    segment: &SegmentParams,
     console: &mut Console,
 ) -> anyhow::Result<Scan> {
     let frames = read_frames(paths, &mut |news| {
@@ -38,7 +40,11 @@ pub(in crate::cli) fn open_scan(
     .advised()?;
     let calibration = calibration_if_any(given.calibration.as_deref(), console)?;
     let shots = with_poses(paths, given.poses.as_deref(), frames, calibration.as_ref());
-    let scan = assemble(&shots.advised()?, &ScanParams::default(), &Unwatched).advised()?;
+    let params = ScanParams {
+        segment: segment.clone(),
+        ..ScanParams::default()
+    };
+    let scan = assemble(&shots.advised()?, &params, &Unwatched).advised()?;
     console.end_progress();
     warn_of_excluded(&scan, console);
     Ok(scan)

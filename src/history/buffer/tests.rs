@@ -7,6 +7,7 @@ use crate::history::{
     StoredVerdict,
     fixtures::{entry, moment, scene},
     open::FILE,
+    waiting::MAX_WAITING,
 };
 
 fn numbers(keeper: &HistoryBuffer) -> Vec<i64> {

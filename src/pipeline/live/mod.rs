@@ -1,8 +1,8 @@
 //! Frame after frame of one camera: when a verdict counts, and what it rests on.
 //!
 //! ```text
-//! frame ─► SteadyWatch ─► DepthAverage ─► pipeline::run ─► Consensus ─► Standing
-//!          does it move?   less noise      as ever         one verdict of many
+//! frame ─► MotionDetector ─► DepthAverage ─► pipeline::run ─► Consensus ─► LiveVerdict ─► HungParts
+//!          does it move?      less noise      as ever         one verdict of many         one inspection a part
 //! ```
 //!
 //! A verdict on a part that swings, or that is just being hung, is worth nothing to a robot. So every frame is looked
@@ -10,6 +10,7 @@
 
 mod average;
 mod consensus;
+mod hung;
 mod mean_pose;
 mod steady;
 
@@ -20,6 +21,7 @@ use nalgebra::Point3;
 pub use self::{
     average::{DepthAverage, MAX_AVERAGED},
     consensus::{Consensus, ConsensusParams, ConsensusVerdict},
+    hung::{FrameRole, HungFrame, HungParts, Left},
     mean_pose::{MeanPose, PoseTolerance, mean_pose},
     steady::{MotionDetector, MotionState, SteadyParams},
 };

@@ -1,10 +1,13 @@
 //! What the window knows of the source that it follows, and what can happen to that.
 
-use std::{path::PathBuf, sync::Arc};
+use std::{
+    path::PathBuf,
+    sync::{Arc, Mutex},
+};
 
 use super::{
     status::frames_word,
-    work::{LiveAnswer, LiveStart, LiveStatus, SourceState, follow, rest},
+    work::{FollowedParts, LiveAnswer, LiveStart, LiveStatus, SourceState, follow, rest},
 };
 use crate::{
     app::{
@@ -47,6 +50,8 @@ pub struct Follower {
     session: u64,
     /// The notice that stands while the source is lost.
     lost: Option<Notice>,
+    /// The parts that hang before the source.
+    hung: Arc<Mutex<FollowedParts>>,
 }
 
 impl Follower {
@@ -57,6 +62,7 @@ impl Follower {
             library_cache: library_cache.clone(),
             session: 0,
             lost: None,
+            hung: Arc::default(),
         }
     }
 
@@ -186,6 +192,7 @@ fn follow_source(state: &mut State) {
         params: state.live.params.clone(),
         empty_cell: state.empty_cell.clone(),
         record: state.live.recording.clone(),
+        hung: Arc::clone(&state.follower.hung),
     };
     state.live.is_on = true;
     state.live.status = None;
@@ -274,6 +281,7 @@ fn take_in(state: &mut State, answer: LiveAnswer) -> Option<Event> {
             let purpose = ReinspectionPurpose::New;
             return Some(Event::Inspected { inspected, purpose });
         }
+        LiveAnswer::Left(entry) => return Some(Event::Left(entry)),
         LiveAnswer::NotRecorded(error) => {
             state.live.recording = None;
             notify(state, error.into());

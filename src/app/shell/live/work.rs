@@ -3,7 +3,7 @@
 use std::{
     collections::VecDeque,
     path::{Path, PathBuf},
-    sync::Arc,
+    sync::{Arc, Mutex, MutexGuard, PoisonError},
     time::{Duration, Instant},
 };
 
@@ -20,9 +20,10 @@ use crate::{
     },
     capture::{Captured, Feed, FeedItem, FeedState, FrameRate, SourceSpec},
     error::{Fault, guarded},
+    history::{HungRows, NewEntry},
     pipeline::{
-        self, ProgressObserver, Recipe, Verdict,
-        live::{LiveParams, LiveTracker, LiveVerdict, MotionState},
+        self, ProgressObserver, Recipe,
+        live::{FrameRole, HungFrame, LiveParams, LiveTracker, LiveVerdict, MotionState},
     },
     stages::segment::EmptyCell,
 };
@@ -40,6 +41,29 @@ pub(super) struct LiveStart {
     pub(super) empty_cell: Option<Arc<EmptyCell>>,
     /// The folder that it is recorded in, if it is.
     pub(super) record: Option<PathBuf>,
+    /// The part that hangs there: it outlives this, when the same source is followed with other settings.
+    pub(super) hung: Arc<Mutex<FollowedParts>>,
+}
+
+/// The parts that hang before a source one after the other.
+#[derive(Debug, Default)]
+pub(super) struct FollowedParts {
+    source: String,
+    rows: HungRows,
+}
+
+impl FollowedParts {
+    /// Those before this source: before another one nothing is known yet.
+    fn before(&mut self, source: &SourceSpec) -> &mut HungRows {
+        let source = source.to_string();
+        if self.source != source {
+            *self = Self {
+                source,
+                rows: HungRows::default(),
+            };
+        }
+        &mut self.rows
+    }
 }
 
 /// What the task hands over.
@@ -49,6 +73,8 @@ pub enum LiveAnswer {
     Stands(Box<LiveStatusUpdate>),
     /// A verdict that counts, and was not told before.
     Counts(Arc<Inspected>),
+    /// A part left before its verdict counted.
+    Left(Box<NewEntry>),
     /// It is not recorded any more.
     NotRecorded(UserError),
     /// Something of the source that cannot be read.
@@ -134,6 +160,8 @@ struct LiveSession<'a> {
     record: Option<&'a Path>,
     recorded: Option<Recorded>,
     recipe: &'a Arc<Recipe>,
+    recipe_identity: String,
+    hung: &'a Mutex<FollowedParts>,
     empty_cell: Option<&'a Arc<EmptyCell>>,
     /// `None` of a source whose captures stand for themselves.
     watch: Option<LiveTracker>,
@@ -145,8 +173,6 @@ struct LiveSession<'a> {
     /// Frames that the source had dropped before.
     dropped_before: u64,
     inspected: Option<Arc<Inspected>>,
-    /// The verdict that was told last to count.
-    counted: Option<Verdict>,
     told: Option<LiveStatus>,
 }
 
@@ -174,6 +200,8 @@ impl<'a> LiveSession<'a> {
             record: request.record.as_deref(),
             recorded: None,
             recipe: &request.recipe,
+            recipe_identity: request.recipe.identity(),
+            hung: &request.hung,
             empty_cell: request.empty_cell.as_ref(),
             stillness: watch.as_ref().map(LiveTracker::stillness),
             watch,
@@ -183,7 +211,6 @@ impl<'a> LiveSession<'a> {
             num_inspected: 0,
             dropped_before: 0,
             inspected: None,
-            counted: None,
             told: None,
         }
     }
@@ -206,7 +233,11 @@ impl<'a> LiveSession<'a> {
                     self.context.partial(LiveAnswer::Skipped(error));
                 }
                 None => match feed.status().state {
-                    FeedState::Ended | FeedState::Stopped => return Ok(LiveAnswer::AtItsEnd),
+                    FeedState::Ended | FeedState::Stopped => {
+                        let left = lock(self.hung).before(self.spec).end();
+                        self.tell_left(left);
+                        return Ok(LiveAnswer::AtItsEnd);
+                    }
                     FeedState::Failed(error) => return Err(UserError::of(&*error).into()),
                     FeedState::Opening | FeedState::Running | FeedState::Lost { .. } => {}
                 },
@@ -232,7 +263,6 @@ impl<'a> LiveSession<'a> {
     /// Names a frame at which the program failed, and goes on to the next.
     fn skip(&mut self, name: &str, fault: &Fault) {
         self.standing = LiveVerdict::Open;
-        self.counted = None;
         let UserError { what, advice } = UserError::of(fault);
         let what = format!("{name}: {what}");
         let error = UserError { what, advice };
@@ -262,6 +292,8 @@ impl<'a> LiveSession<'a> {
         }
         let mut inspection = pipeline::run(&scene, &fitted, self.recipe, &watching)?;
         let mut followed = None;
+        // Of a source whose captures stand for themselves each is a part of its own.
+        let mut role = FrameRole::First;
         if let Some(watch) = &mut self.watch {
             let middle = FinishedInspection::middle(&inspection, &fitted);
             self.standing = watch.judge(&mut inspection, middle, &self.recipe.accept);
@@ -271,14 +303,24 @@ impl<'a> LiveSession<'a> {
                 standing: self.standing.clone(),
                 num_averaged: watch.num_averaged(),
             });
+            let frame = HungFrame {
+                scene: &scene,
+                at,
+                inspection: &inspection,
+                verdict: &self.standing,
+                middle,
+                inputs: &format!("{} {}", self.recipe_identity, shelved.shown.identity),
+            };
+            let (left, of_frame) = lock(self.hung).before(self.spec).see(&frame);
+            role = of_frame;
+            self.tell_left(left);
         }
         self.num_inspected += 1;
         self.rate.came(Instant::now());
         self.latencies.push_front(arrived.elapsed());
         self.latencies.truncate(NUM_LATENCIES);
 
-        let is_new_verdict = self.is_new_verdict(&inspection.verdict);
-        if !is_new_verdict && !self.context.is_latest_read() {
+        if role == FrameRole::Nothing && !self.context.is_latest_read() {
             // The window has not even shown the one before.
             return Ok(());
         }
@@ -292,33 +334,28 @@ impl<'a> LiveSession<'a> {
             followed,
             source: self.spec.to_string(),
         };
-        let inspected = Arc::new(found.prepared(&fitted, &shelved.shown));
+        let mut inspected = found.prepared(&fitted, &shelved.shown);
+        if self.watch.is_some() {
+            let mut hung = lock(self.hung);
+            let rows = hung.before(self.spec);
+            inspected.entry.record.summary.hung = rows.id().clone();
+            if role == FrameRole::Best {
+                rows.hold(inspected.entry.clone());
+            }
+        }
+        let inspected = Arc::new(inspected);
         self.inspected = Some(Arc::clone(&inspected));
-        if is_new_verdict {
+        if matches!(role, FrameRole::First | FrameRole::Again) {
             self.context.partial(LiveAnswer::Counts(inspected));
         }
         Ok(())
     }
 
-    /// True if the verdict counts and says something else than the last one that did.
-    fn is_new_verdict(&mut self, verdict: &Verdict) -> bool {
-        if self.watch.is_none() {
-            return true;
+    /// Hands over the inspection of a part that left before its verdict counted.
+    fn tell_left(&self, left: Option<NewEntry>) {
+        if let Some(left) = left {
+            self.context.partial(LiveAnswer::Left(Box::new(left)));
         }
-        let Some(agreed) = self.standing.counted() else {
-            self.counted = None;
-            return false;
-        };
-        let is_same = self.counted.as_ref().is_some_and(|known| {
-            let name = |verdict: &Verdict| match verdict {
-                Verdict::Part { part, rejected, .. } => Some((part.clone(), rejected.is_none())),
-                Verdict::NoPart(_) => None,
-            };
-            name(known) == name(verdict)
-        });
-        self.counted = Some(agreed.verdict.clone());
-        // An empty cell between two parts is no inspection that anybody looks for later.
-        !is_same && !matches!(verdict, Verdict::NoPart(_))
     }
 
     /// Says how things stand, unless nothing has changed.
@@ -332,7 +369,6 @@ impl<'a> LiveSession<'a> {
         if matches!(source, SourceState::Lost(_)) {
             // What hangs there when it comes back was not seen to hang still.
             self.standing = LiveVerdict::Open;
-            self.counted = None;
         }
         let mut latencies: Vec<Duration> = self.latencies.iter().copied().collect();
         latencies.sort_unstable();
@@ -359,6 +395,11 @@ impl<'a> LiveSession<'a> {
             self.context.latest(LiveAnswer::Stands(Box::new(told)));
         }
     }
+}
+
+fn lock(hung: &Mutex<FollowedParts>) -> MutexGuard<'_, FollowedParts> {
+    // A panic leaves at most a part that is told twice.
+    hung.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 /// The camera's time, from whenever it counts.

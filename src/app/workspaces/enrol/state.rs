@@ -266,7 +266,11 @@ impl EnrolState {
                     self.apply(action, cx);
                 }
             }
-            Event::Inspected { .. } | Event::PosesWanted(_) | Event::Export | Event::Escape => {}
+            Event::Inspected { .. }
+            | Event::Left(_)
+            | Event::PosesWanted(_)
+            | Event::Export
+            | Event::Escape => {}
         }
     }
 

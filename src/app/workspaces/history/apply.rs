@@ -135,7 +135,7 @@ impl HistoryState {
             }
             HistoryAction::Select(number) => self.select(number, cx),
             HistoryAction::Step(direction) => {
-                let at = self.selected.and_then(|number| self.place_of(number));
+                let at = self.listed().and_then(|number| self.place_of(number));
                 let to = match (at, direction) {
                     (None, _) => 0,
                     (Some(at), Direction::Up) => at.saturating_sub(1),
@@ -184,7 +184,7 @@ impl HistoryState {
 
     fn select(&mut self, number: i64, cx: &ShellContext<'_>) {
         if self.selected != Some(number) {
-            self.selected = Some(number);
+            self.selects(number);
             self.look(cx);
         }
     }
@@ -193,12 +193,14 @@ impl HistoryState {
     pub fn on_event(&mut self, event: &Event, cx: &mut ShellContext<'_>) {
         match event {
             Event::Inspected { inspected, purpose } => match purpose {
-                // One frame, which is all that the history keeps, would not give the result of a scan again.
-                ReinspectionPurpose::New if inspected.scan.is_some() => {}
-                ReinspectionPurpose::New => self.keep(inspected),
+                ReinspectionPurpose::New => {
+                    let entry = inspected.entry.clone();
+                    self.keep(entry, Some(inspected));
+                }
                 ReinspectionPurpose::Repeated | ReinspectionPurpose::Shots => {}
                 ReinspectionPurpose::Past => self.remade(inspected, cx),
             },
+            Event::Left(entry) => self.keep((**entry).clone(), None),
             Event::EngineerIn => {
                 if let Some(action) = self.held.take() {
                     self.apply(action, cx);
@@ -208,11 +210,10 @@ impl HistoryState {
         }
     }
 
-    /// Hands an inspection over to be written.
-    pub(super) fn keep(&mut self, inspected: &Arc<Inspected>) {
-        let ticket = self.ticket(inspected);
-        let entry = Box::new(inspected.entry.clone());
-        self.jobs.push(HistoryJob::Add(ticket, entry));
+    /// Hands an inspection over to be written, and holds all of it for a while.
+    pub(super) fn keep(&mut self, entry: NewEntry, whole: Option<&Arc<Inspected>>) {
+        let ticket = self.ticket(&entry.record.summary.hung, whole);
+        self.jobs.push(HistoryJob::Add(ticket, Box::new(entry)));
     }
 
     /// Takes in what the tasks and the dialog report.
@@ -307,6 +308,7 @@ impl HistoryState {
     pub fn take_in(&mut self, looked: HistoryResult, cx: &mut ShellContext<'_>) {
         let before = self.selected;
         self.take(looked);
+        self.look_at_part();
         if before == self.selected {
             self.go_on(cx);
         } else {

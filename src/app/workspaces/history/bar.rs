@@ -42,7 +42,7 @@ pub(super) fn ui(
         ui.horizontal(|ui| typed(ui, &mut filter, theme));
     }
     ui.horizontal(|ui| {
-        let counted = format!("{} of {}", history.num_matching(), history.num_rows());
+        let counted = format!("{} of {} parts", history.num_matching(), history.num_rows());
         ui.label(RichText::new(&counted).color(theme.weak_text))
             .widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, &counted));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {

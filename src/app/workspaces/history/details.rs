@@ -4,7 +4,10 @@ use std::sync::Arc;
 
 use egui::{Button, RichText, ScrollArea, Sense, TextureHandle, Ui, Vec2, vec2};
 
-use super::{HistoryAction, HistoryState, OpenedInspection, differences, label, list::when};
+use super::{
+    HistoryAction, HistoryState, OpenedInspection, differences, label,
+    list::{time_of_day, when},
+};
 use crate::{
     app::{
         inspection::unit_system::UnitSystem,
@@ -14,7 +17,7 @@ use crate::{
             widgets::{Mark, fitted, heading, labelled, mark, row, shortened, texture},
         },
     },
-    history::{InspectionDetail, Record, StoredVerdict, Summary},
+    history::{Differences, InspectionDetail, Record, StoredVerdict, Summary},
     pipeline::Recipe,
 };
 
@@ -56,9 +59,13 @@ impl Details {
             let differences = history.differences.as_ref();
             let number = record.summary.number;
             if let Some((_, found)) = differences.filter(|(of, _)| *of == number) {
-                differences::ui(ui, found, session.units, theme);
+                differences::today(ui, found, session.units, theme);
             }
-            self.remark.ui(ui, &record.summary, session, theme, actions);
+            part(ui, past, session.units, theme, actions);
+            // What is said of a part stands with the inspection that stands for it.
+            let of_part = past.part.first().unwrap_or(record);
+            self.remark
+                .ui(ui, &of_part.summary, session, theme, actions);
             heading(ui, theme, &format!("Inspection {}", number.abs()));
             ui.scope(|ui| {
                 // Text lies closer than controls do.
@@ -139,6 +146,60 @@ fn verdict(ui: &mut Ui, record: &Record, theme: &Theme) {
         let advice = RichText::new(advice).font(font::body_strong());
         ui.label(advice.color(theme.warning));
     }
+}
+
+/// The inspections of the part, where there is more than one, and what differs between two of them: the one that stands
+/// for the part and the one that is looked at, else the last.
+fn part(
+    ui: &mut Ui,
+    past: &OpenedInspection,
+    units: UnitSystem,
+    theme: &Theme,
+    actions: &mut Vec<HistoryAction>,
+) {
+    let (Some(head), Some(last)) = (past.part.first(), past.part.last()) else {
+        return;
+    };
+    heading(ui, theme, "Inspections of this part");
+    let number = past.record.summary.number;
+    for record in &past.part {
+        let row = &record.summary;
+        let word = row.verdict.title();
+        let counts = if row.number == head.summary.number {
+            " · counts"
+        } else {
+            ""
+        };
+        let text = format!(
+            "{} · {word} · {}{counts}",
+            row.number.abs(),
+            time_of_day(row.at)
+        );
+        let button = Button::selectable(row.number == number, text)
+            .frame_when_inactive(true)
+            .min_size(vec2(ui.available_width(), space::TARGET));
+        let label = format!(
+            "Of this part: inspection {}, {word}{counts}",
+            row.number.abs()
+        );
+        if labelled(ui, button, &label).clicked() {
+            actions.push(HistoryAction::Select(row.number));
+        }
+    }
+    let other = if number == head.summary.number {
+        last
+    } else {
+        &past.record
+    };
+    let found = Differences::between(head.into(), other.into(), None);
+    let names = [head, other].map(|record| record.summary.number.abs().to_string());
+    let sentence = if found.is_same() {
+        format!("Inspection {} found the same", names[1])
+    } else {
+        format!("Inspection {} found something else", names[1])
+    };
+    let names = [&*names[0], &*names[1]];
+    differences::table(ui, &found, &sentence, names, units, theme);
 }
 
 fn figures(ui: &mut Ui, record: &Record, theme: &Theme) {

@@ -1,4 +1,4 @@
-//! What changed between an inspection and the same scene inspected again.
+//! What differs between two inspections of one part.
 
 use egui::{Grid, RichText, Ui, vec2};
 
@@ -7,7 +7,7 @@ use crate::{
         inspection::unit_system::UnitSystem,
         ui::{
             theme::{Theme, font},
-            widgets::heading,
+            widgets::{heading, shortened},
         },
     },
     history::{Differences, InspectionSummary},
@@ -16,14 +16,26 @@ use crate::{
 /// What a row tells of a finding.
 type FindingText<'a> = &'a dyn Fn(&InspectionSummary) -> String;
 
-/// Draws the table.
-pub(super) fn ui(ui: &mut Ui, found: &Differences, units: UnitSystem, theme: &Theme) {
+/// Draws what another inspection of the same scene finds today.
+pub(super) fn today(ui: &mut Ui, found: &Differences, units: UnitSystem, theme: &Theme) {
     heading(ui, theme, "Inspected again");
     let sentence = if found.is_same() {
         "The same is found today"
     } else {
         "Something else is found today"
     };
+    table(ui, found, sentence, ["then", "today"], units, theme);
+}
+
+/// Draws the table: a sentence above it, and the names of its columns.
+pub(super) fn table(
+    ui: &mut Ui,
+    found: &Differences,
+    sentence: &str,
+    names: [&str; 2],
+    units: UnitSystem,
+    theme: &Theme,
+) {
     let strong = RichText::new(sentence).font(font::body_strong());
     ui.label(strong.color(if found.is_same() {
         theme.text
@@ -42,18 +54,22 @@ pub(super) fn ui(ui: &mut Ui, found: &Differences, units: UnitSystem, theme: &Th
         ("recipe", &|of| of.recipe.clone()),
         ("library", &|of| of.library.clone()),
     ];
-    Grid::new("differences")
+    Grid::new(("differences", names))
         .num_columns(3)
         .spacing(vec2(10.0, 2.0))
         // Text lies closer than controls do.
         .min_row_height(22.0)
         .show(ui, |ui| {
-            for title in ["", "then", "today"] {
+            for title in ["", names[0], names[1]] {
                 ui.label(RichText::new(title).color(theme.weak_text));
             }
             ui.end_row();
-            for (what, of) in rows {
-                let (then, today) = (of(before), of(now));
+            let both =
+                |(what, of): (&str, FindingText<'_>)| (shortened(what, 14), of(before), of(now));
+            let changed = found.changed_parameters().into_iter();
+            let parameters =
+                changed.map(|change| (shortened(change.name, 14), change.before, change.now));
+            for (what, then, today) in rows.into_iter().map(both).chain(parameters) {
                 // Not by colour alone: what changed is set in bold.
                 let text = RichText::new(&today).color(theme.text);
                 let is_same = then == today;

@@ -84,6 +84,7 @@ impl ListFilter {
             part: self.part.clone(),
             verdict: self.verdict,
             is_simulated: None,
+            with_below: false,
             text: self.text.clone(),
         }
     }

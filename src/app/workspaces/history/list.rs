@@ -68,11 +68,12 @@ impl List {
             area = area.vertical_scroll_offset(offset);
         }
         let mut seen = 0..0;
+        let listed = history.listed();
         area.show_rows(ui, ROW, num_rows, |ui, visible| {
             seen = visible.clone();
             for place in visible {
                 match history.row(place) {
-                    Some(past) => row(ui, past, history.selected, &columns, theme, actions),
+                    Some(past) => row(ui, past, listed, &columns, theme, actions),
                     None => {
                         ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
                     }
@@ -85,13 +86,12 @@ impl List {
 
     /// Where to scroll when the keys have led out of sight.
     fn offset_to(&mut self, history: &HistoryState, height: f32) -> Option<f32> {
-        let before = std::mem::replace(&mut self.selected, history.selected);
-        let place = history
-            .selected
-            .and_then(|number| history.place_of(number))?;
+        let listed = history.listed();
+        let before = std::mem::replace(&mut self.selected, listed);
+        let place = listed.and_then(|number| history.place_of(number))?;
         // The last row in sight is often cut off.
         let is_in_sight = self.seen.start < place && place + 2 < self.seen.end;
-        if before == history.selected || before.is_none() || is_in_sight {
+        if before == listed || before.is_none() || is_in_sight {
             return None;
         }
         let top = place as f32 * (ROW + GAP);
@@ -168,8 +168,13 @@ fn row(
     let is_selected = selected == Some(past.number);
     response.widget_info(|| {
         let verdict = past.verdict.title();
+        let again = match past.num_below {
+            0 => String::new(),
+            1 => ", inspected again once".to_owned(),
+            num => format!(", inspected again {num} times"),
+        };
         let label = format!(
-            "Inspection {}: {}, {verdict}",
+            "Inspection {}: {}, {verdict}{again}",
             past.number.abs(),
             past.title
         );
@@ -219,10 +224,15 @@ fn paint(painter: &Painter, rect: Rect, past: &Summary, columns: &Columns, theme
                 colour,
             );
     };
+    // How often it was inspected again.
+    let title = match past.num_below {
+        0 => past.title.clone(),
+        num => format!("{} · again {num}×", past.title),
+    };
     left(
         columns.part,
         columns.scene,
-        &past.title,
+        &title,
         font::body_strong(),
         theme.text,
     );
@@ -258,6 +268,12 @@ fn paint(painter: &Painter, rect: Rect, past: &Summary, columns: &Columns, theme
 fn shortly(at: Timestamp) -> String {
     let here = at.to_zoned(TimeZone::system());
     here.strftime("%m-%d %H:%M").to_string()
+}
+
+/// The time of day alone.
+pub(super) fn time_of_day(at: Timestamp) -> String {
+    let here = at.to_zoned(TimeZone::system());
+    here.strftime("%H:%M:%S").to_string()
 }
 
 /// Day and time of day, as the clocks here go.

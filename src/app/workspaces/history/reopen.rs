@@ -9,7 +9,8 @@ use super::{
 use crate::{
     app::{
         inspection::{
-            inspected::{InspectJob, InspectRequest, Inspected},
+            inspected::{InspectJob, InspectRequest, Inspected, SceneOrScan},
+            scan_choice::{ScanOrder, ScanRequest},
             source::{HistoryFrame, Origin, SceneSource},
         },
         shell::{
@@ -80,25 +81,35 @@ impl HistoryState {
         }
         cx.send(Message::Inspect {
             title,
-            job: InspectJob::Scene(InspectRequest { source, recipe }),
+            job: match source {
+                SceneOrScan::Scene(source) => InspectJob::Scene(InspectRequest { source, recipe }),
+                SceneOrScan::Scan(order) => InspectJob::Scan(ScanRequest {
+                    recipe,
+                    ..cx.session.scan_request(order)
+                }),
+            },
             purpose: ReinspectionPurpose::Past,
         });
         self.remaking = Some(ReinspectionJob { past, purpose });
     }
 
     /// Where its scene can be had: in memory, among the kept frames, or where it came from.
-    fn source_of(&self, record: &Record) -> Option<SceneSource> {
+    fn source_of(&self, record: &Record) -> Option<SceneOrScan> {
         if let Some(whole) = self.whole(record.summary.number) {
-            let scene = Arc::clone(&whole.scene);
-            return Some(SceneSource::AtHand(scene, whole.origin.clone()));
+            return Some(whole.again());
         }
         let origin = origin_of(record);
         if let (Some(frame), Some(folder)) = (&record.detail.frame, &self.frames) {
-            return Some(SceneSource::Kept(Box::new(HistoryFrame {
+            let kept = Box::new(HistoryFrame {
                 folder: folder.clone(),
                 frame: frame.clone(),
                 origin,
-            })));
+            });
+            return Some(if frame.shots.is_empty() {
+                SceneOrScan::Scene(SceneSource::Kept(kept))
+            } else {
+                SceneOrScan::Scan(ScanOrder::Kept(kept))
+            });
         }
         origin.source()
     }
@@ -133,7 +144,7 @@ fn origin_of(record: &Record) -> Origin {
 fn differences(past: &OpenedInspection, inspected: &Inspected) -> Differences {
     let now = InspectionSummary::of(
         &inspected.inspection,
-        &inspected.entry.record.detail.recipe_identity,
+        &inspected.recipe,
         &inspected.library.identity,
     );
     Differences::between(InspectionSummary::from(&past.record), now, inspected.middle)

@@ -19,7 +19,7 @@ use crate::{
         task::{Task, TaskRunner},
         user_error::UserError,
     },
-    history::{Differences, Page, Retention, Summary, Usage},
+    history::{Differences, HungId, Page, Retention, Summary, Usage},
 };
 
 /// Inspections kept whole, with their points and pictures: about 15 MB each. Older ones are inspected again.
@@ -55,7 +55,11 @@ pub struct HistoryState {
     /// What changed since an inspection, once it was inspected again: its number, and what.
     pub differences: Option<(i64, Differences)>,
     /// Inspections handed over to be written, by their ticket.
-    unwritten: BTreeMap<u64, Option<Arc<Inspected>>>,
+    unwritten: BTreeMap<u64, Unwritten>,
+    /// The part that was handed over last.
+    last_hung: Option<HungId>,
+    /// The inspection that is looked at is to be the one that stands for its part.
+    wants_part: bool,
     num_tickets: u64,
     /// Changes handed over to be written.
     num_asked: usize,
@@ -74,6 +78,14 @@ pub struct HistoryState {
     pub(super) looking: Task<Box<HistoryResult>>,
     pub(super) exporting: Task<String>,
     pub(super) dialog: FileDialog<HistoryFile>,
+}
+
+/// An inspection that is handed over to be written.
+#[derive(Debug)]
+struct Unwritten {
+    whole: Option<Arc<Inspected>>,
+    /// False of one more of a part that is counted already.
+    is_part: bool,
 }
 
 /// A past inspection that is being made again.
@@ -111,6 +123,8 @@ impl HistoryState {
             rule: None,
             differences: None,
             unwritten: BTreeMap::new(),
+            last_hung: None,
+            wants_part: false,
             num_tickets: 0,
             num_asked: 0,
             whole: VecDeque::new(),
@@ -170,31 +184,35 @@ impl HistoryState {
         is_written && !self.is_stale && !is_at_work
     }
 
-    /// Takes a ticket for an inspection that is handed over to be written.
-    pub(super) fn ticket(&mut self, inspected: &Arc<Inspected>) -> u64 {
+    /// Takes a ticket for an inspection of this part that is handed over to be written.
+    pub(super) fn ticket(&mut self, hung: &HungId, whole: Option<&Arc<Inspected>>) -> u64 {
         self.num_tickets += 1;
         let ticket = self.num_tickets;
-        self.unwritten.insert(ticket, Some(Arc::clone(inspected)));
+        let last = self.last_hung.replace(hung.clone());
+        let is_part = last.as_ref() != Some(hung);
+        let whole = whole.map(Arc::clone);
+        self.unwritten.insert(ticket, Unwritten { whole, is_part });
         // However slow the disk: only the newest are held whole.
         let old = ticket.checked_sub(MAX_WHOLE as u64);
         if let Some(old) = old.and_then(|old| self.unwritten.get_mut(&old)) {
-            *old = None;
+            old.whole = None;
         }
-        self.page.num_all += 1;
+        self.page.num_all += usize::from(is_part);
         self.is_stale = true;
         ticket
     }
 
     /// An inspection is in the list.
     pub(super) fn added(&mut self, ticket: u64, number: i64) {
-        if let Some(Some(inspected)) = self.unwritten.remove(&ticket) {
-            self.whole.push_front((number, inspected));
+        if let Some(whole) = self.unwritten.remove(&ticket).and_then(|known| known.whole) {
+            self.whole.push_front((number, whole));
             self.whole.truncate(MAX_WHOLE);
         }
-        // Who looks at the newest goes on looking at the newest.
+        // Who looks at the newest goes on looking at the newest: the part, if this is one more of it.
         let newest = self.row(0).map(|row| row.number);
         if self.selected.is_none() || self.selected == newest {
             self.selected = Some(number);
+            self.wants_part = true;
         }
         self.is_stale = true;
     }
@@ -266,7 +284,8 @@ impl HistoryState {
             frames,
         } = looked;
         // Those that are on their way are counted already.
-        let num_unwritten = self.unwritten.len();
+        let unwritten = self.unwritten.values();
+        let num_unwritten = unwritten.filter(|known| known.is_part).count();
         self.page = Page {
             num_all: page.num_all + num_unwritten,
             ..page
@@ -278,6 +297,33 @@ impl HistoryState {
         if self.selected.is_none() {
             self.selected = self.page.rows.first().map(|row| row.number);
         }
+    }
+
+    /// A person looks at this inspection.
+    pub(super) fn selects(&mut self, number: i64) {
+        self.selected = Some(number);
+        self.wants_part = false;
+    }
+
+    /// Goes on to the inspection that stands for the part, where that is wanted.
+    pub(super) fn look_at_part(&mut self) {
+        let Some(past) = self.selected.and_then(|number| self.looked_at_as(number)) else {
+            return;
+        };
+        let parent = past.record.summary.parent;
+        if std::mem::take(&mut self.wants_part) && parent.is_some() {
+            self.selected = parent;
+        }
+    }
+
+    /// The row of the list that is looked at: of a part that was inspected more than once the one that stands for it.
+    pub fn listed(&self) -> Option<i64> {
+        let number = self.selected?;
+        let past = self.looked_at_as(number);
+        Some(
+            past.and_then(|past| past.record.summary.parent)
+                .unwrap_or(number),
+        )
     }
 
     /// Has everything fetched that is shown.

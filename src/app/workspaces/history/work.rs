@@ -44,6 +44,9 @@ pub struct OpenedInspection {
     pub record: Record,
     /// Its small picture.
     pub picture: Option<RgbImage>,
+    /// All inspections of the same part, the one that stands for it first, then the others from the oldest on; empty if
+    /// there is no other.
+    pub part: Vec<Record>,
 }
 
 /// Looks.
@@ -62,18 +65,35 @@ fn looked(request: &HistoryQuery, history: &HistoryBuffer) -> Result<HistoryResu
         Some(number) => history.row(number)?,
         None => None,
     };
-    let record = record.map(|record| {
-        let picture = image::load_from_memory(&record.detail.thumbnail).ok();
-        Arc::new(OpenedInspection {
-            picture: picture.map(DynamicImage::into_rgb8),
-            record,
-        })
-    });
+    let record = match record {
+        Some(record) => Some(Arc::new(opened(record, history)?)),
+        None => None,
+    };
     Ok(HistoryResult {
         asked: request.clone(),
         page,
         record,
         kept: history.kept()?,
         frames: history.frames_folder(),
+    })
+}
+
+fn opened(record: Record, history: &HistoryBuffer) -> Result<OpenedInspection, HistoryError> {
+    let head = match record.summary.parent {
+        Some(parent) => history.row(parent)?,
+        None => Some(record.clone()),
+    };
+    let mut part = Vec::new();
+    if let Some(head) = head {
+        part = history.below(head.summary.number)?;
+        if !part.is_empty() {
+            part.insert(0, head);
+        }
+    }
+    let picture = image::load_from_memory(&record.detail.thumbnail).ok();
+    Ok(OpenedInspection {
+        picture: picture.map(DynamicImage::into_rgb8),
+        record,
+        part,
     })
 }

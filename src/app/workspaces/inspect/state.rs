@@ -237,7 +237,7 @@ impl InspectState {
             }
             Event::Export => self.apply(InspectAction::Ask(InspectFile::Report), cx),
             Event::Escape => self.enlarged = None,
-            Event::EngineerIn | Event::Undo => {}
+            Event::Left(_) | Event::EngineerIn | Event::Undo => {}
         }
     }
 

@@ -3,7 +3,9 @@ use jiff::Timestamp;
 use super::*;
 use crate::{
     app::shell::context::TestShell,
-    cases::{CaseDescription, CaseMeta, Edge, FoundVerdict, SCHEMA_VERSION, SceneRecord},
+    cases::{CaseDescription, CaseMeta, FoundVerdict, SCHEMA_VERSION},
+    history::FrameRecord,
+    stages::scene::PictureEdge,
 };
 
 fn kept(name: &str) -> KeptCase {
@@ -17,12 +19,18 @@ fn kept(name: &str) -> KeptCase {
         found: FoundVerdict::default(),
         pose: None,
     };
-    let scene = SceneRecord {
+    let scene = FrameRecord {
+        file: "scene.pcd".into(),
         bytes: 0,
         crc32: 0,
-        picture_edge: Edge::View,
+        edge: PictureEdge::View,
         camera: None,
+        metres_per_unit: None,
+        block_side: None,
+        is_simulated: true,
+        empty_cell: None,
         empty_cell_crc32: None,
+        shots: Vec::new(),
     };
     KeptCase {
         name: name.into(),

@@ -1,0 +1,81 @@
+//! The parts that hang before a followed source one after the other: an inspection of each goes into the history.
+
+use std::{sync::Arc, time::Duration};
+
+use jiff::Timestamp;
+use nalgebra::Point3;
+
+use crate::{
+    history::{HungId, HungRows, NewEntry},
+    pipeline::{
+        AcceptParams, Inspection,
+        live::{FrameRole, HungFrame, LiveParams, LiveTracker},
+    },
+    stages::scene::SceneCloud,
+};
+
+/// Tells them apart.
+pub(super) struct FollowedParts {
+    tracker: LiveTracker,
+    rows: HungRows,
+}
+
+/// A frame as it was inspected by itself.
+pub(super) struct FollowedFrame<'a> {
+    pub(super) scene: &'a Arc<SceneCloud>,
+    pub(super) taken_at: Timestamp,
+    /// Middle of the named part, part space, metres.
+    pub(super) middle: Option<Point3<f64>>,
+    pub(super) accept: &'a AcceptParams,
+}
+
+impl FollowedParts {
+    /// Before the first frame.
+    pub(super) fn new() -> Self {
+        Self {
+            tracker: LiveTracker::new(&LiveParams::default()),
+            rows: HungRows::default(),
+        }
+    }
+
+    /// Takes in a frame; what is to be written now. The verdict that counts is one of several frames; of a part that
+    /// leaves before one does, the frame that shows it best speaks, as it was told.
+    pub(super) fn take(
+        &mut self,
+        frame: &FollowedFrame<'_>,
+        mut inspection: Inspection,
+        entry: impl Fn(&Inspection, HungId) -> NewEntry,
+    ) -> [Option<NewEntry>; 2] {
+        let at = Duration::try_from(frame.taken_at.as_duration()).unwrap_or_default();
+        self.tracker.look(Arc::clone(frame.scene), at);
+        let own = inspection.verdict.clone();
+        let verdict = self
+            .tracker
+            .judge(&mut inspection, frame.middle, frame.accept);
+        let (left, role) = self.rows.see(&HungFrame {
+            scene: frame.scene,
+            at,
+            inspection: &inspection,
+            verdict: &verdict,
+            middle: frame.middle,
+            // Neither changes from frame to frame.
+            inputs: "",
+        });
+        let id = self.rows.id().clone();
+        let now = match role {
+            FrameRole::Nothing => None,
+            FrameRole::Best => {
+                inspection.verdict = own;
+                self.rows.hold(entry(&inspection, id));
+                None
+            }
+            FrameRole::First | FrameRole::Again => Some(entry(&inspection, id)),
+        };
+        [left, now]
+    }
+
+    /// The source has ended; what is to be written yet.
+    pub(super) fn end(mut self) -> Option<NewEntry> {
+        self.rows.end()
+    }
+}

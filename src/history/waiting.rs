@@ -1,0 +1,66 @@
+//! What waits in memory, and how it is listed.
+
+use std::collections::{BTreeMap, VecDeque};
+
+use super::{
+    entry::{NewEntry, Summary},
+    error::HistoryError,
+    hung::HungId,
+    store::History,
+};
+
+/// Inspections that wait at most; the oldest go first.
+pub(super) const MAX_WAITING: usize = 2000;
+/// Of so many of those the scene waits too: 4 MB each.
+const MAX_SCENES: usize = 4;
+
+/// Lets an inspection wait under this number; how many are lost for it.
+pub(super) fn wait(waiting: &mut VecDeque<NewEntry>, mut entry: NewEntry, number: i64) -> usize {
+    entry.record.summary.number = number;
+    waiting.push_back(entry);
+    let num_lost = waiting.len().saturating_sub(MAX_WAITING);
+    waiting.drain(..num_lost);
+    let old = waiting.len().saturating_sub(MAX_SCENES);
+    if let Some(entry) = old.checked_sub(1).and_then(|i| waiting.get_mut(i)) {
+        entry.drop_frames();
+    }
+    num_lost
+}
+
+/// What waits, the oldest first, each with what stands for its part: as it will be once it is written, but for a part
+/// whose refusal is written already.
+pub(super) fn waiting_rows(
+    waiting: &VecDeque<NewEntry>,
+    history: Option<&History>,
+) -> Result<Vec<Summary>, HistoryError> {
+    let mut rows: Vec<Summary> = Vec::new();
+    let mut heads: BTreeMap<HungId, usize> = BTreeMap::new();
+    for (place, entry) in waiting.iter().enumerate() {
+        let mut row = entry.record.summary.clone();
+        match heads.get(&row.hung).copied() {
+            Some(head) if rows[head].gives_way_to(&row) => {
+                for other in &mut rows {
+                    if other.hung == row.hung {
+                        other.parent = Some(row.number);
+                        other.num_below = 0;
+                        row.num_below += 1;
+                    }
+                }
+                heads.insert(row.hung.clone(), place);
+            }
+            Some(head) => {
+                row.parent = Some(rows[head].number);
+                rows[head].num_below += 1;
+            }
+            None => {
+                let written = history.map(|history| history.head_of(&row.hung));
+                row.parent = written.transpose()?.flatten().map(|head| head.number);
+                if row.parent.is_none() {
+                    heads.insert(row.hung.clone(), place);
+                }
+            }
+        }
+        rows.push(row);
+    }
+    Ok(rows)
+}

@@ -1,0 +1,190 @@
+//! Frames of the simulated cell, each inspected once, as one part after the other would show them.
+
+use std::sync::Arc;
+
+use nalgebra::Translation3;
+
+use super::*;
+use crate::{
+    library::{Library, open_library},
+    pipeline::{Recipe, Unwatched, live::MeanPose, run},
+    simulate::{
+        CellSetup, ObjectKind, PartKind, PartPose, PoseRange, SensorNoise, Side, SimulatedObject,
+        frame,
+    },
+    stages::{reference::ReferenceParams, scene::scene_from_frame},
+    units::{Metres, Radians},
+};
+
+/// A frame as it was inspected by itself.
+struct Seen {
+    scene: Arc<SceneCloud>,
+    inspection: Inspection,
+}
+
+fn shipped() -> Library {
+    let place = open_library(Some(std::path::Path::new("reference_parts"))).expect("shipped");
+    let load = place.load(&ReferenceParams::default()).expect("loaded");
+    load.library
+}
+
+fn seen(library: &Library, subject: SimulatedObject, aside: f64) -> Seen {
+    let mut setup = CellSetup::new(subject, 3);
+    setup.noise = SensorNoise::kinect((aside * 1000.0) as u64 + 5);
+    if subject != SimulatedObject::Nothing {
+        let placed = PoseRange::facing().draw(&subject.mesh(), &setup.intrinsics, 3);
+        let moved = Translation3::new(aside, 0.0, 0.0) * placed.camera_from_part;
+        setup.pose = PartPose::Fixed(moved);
+    }
+    let scene = scene_from_frame(&frame(&setup).frame);
+    Seen {
+        inspection: run(&scene, library, &Recipe::default(), &Unwatched).expect("not cancelled"),
+        scene: Arc::new(scene),
+    }
+}
+
+fn part(kind: PartKind) -> SimulatedObject {
+    SimulatedObject::Part {
+        kind,
+        side: Side::Left,
+        model_seed: 0,
+    }
+}
+
+/// Follows such frames, four a second.
+#[derive(Default)]
+struct Line {
+    parts: HungParts,
+    num_frames: u32,
+}
+
+impl Line {
+    fn open(&mut self, seen: &Seen) -> (Left, FrameRole) {
+        self.see(seen, &LiveVerdict::Open, "")
+    }
+
+    /// A frame after which the verdict of that very frame counts.
+    fn counted(&mut self, seen: &Seen, inputs: &str) -> (Left, FrameRole) {
+        let pose = seen.inspection.pose.as_ref();
+        let pose = pose.and_then(|pose| pose.as_ref().ok());
+        let agreed = ConsensusVerdict {
+            verdict: seen.inspection.verdict.clone(),
+            num_frames: 5,
+            num_agreeing: 5,
+            pose: pose.map(|pose| MeanPose {
+                camera_from_part: pose.camera_from_part(),
+                num_agreeing: 5,
+                shift_rms: Metres(0.001),
+                turn_rms: Radians(0.001),
+            }),
+        };
+        self.see(seen, &LiveVerdict::Counted(Box::new(agreed)), inputs)
+    }
+
+    fn see(&mut self, seen: &Seen, verdict: &LiveVerdict, inputs: &str) -> (Left, FrameRole) {
+        self.num_frames += 1;
+        self.parts.see(&HungFrame {
+            scene: &seen.scene,
+            at: Duration::from_millis(250) * self.num_frames,
+            inspection: &seen.inspection,
+            verdict,
+            middle: None,
+            inputs,
+        })
+    }
+}
+
+const NOTHING: (Left, FrameRole) = (Left::Nothing, FrameRole::Nothing);
+const FIRST: (Left, FrameRole) = (Left::Nothing, FrameRole::First);
+const AGAIN: (Left, FrameRole) = (Left::Nothing, FrameRole::Again);
+
+#[test]
+fn one_part_after_the_other_is_one_inspection_each_also_at_the_same_place() {
+    let library = shipped();
+    let fender = seen(&library, part(PartKind::Fender), 0.0);
+    let empty = seen(&library, SimulatedObject::Nothing, 0.0);
+    assert!(fender.inspection.verdict.is_accepted());
+    let mut line = Line::default();
+    for visit in 1..=3 {
+        assert_eq!(line.open(&fender).1, FrameRole::Best);
+        assert_eq!(line.open(&fender), NOTHING);
+        assert_eq!(line.counted(&fender, ""), FIRST);
+        for _ in 0..20 {
+            assert_eq!(line.counted(&fender, ""), NOTHING);
+        }
+        assert_eq!(line.parts.visit(), visit);
+        for _ in 0..3 {
+            assert_eq!(line.open(&empty), NOTHING);
+        }
+    }
+    // The next one hangs at once where the last did: a frame between them is enough.
+    assert_eq!(line.counted(&fender, ""), FIRST);
+    assert_eq!(line.open(&empty), NOTHING);
+    assert_eq!(line.open(&fender), NOTHING);
+    assert_eq!(line.counted(&fender, ""), FIRST);
+    assert_eq!(line.parts.visit(), 5);
+}
+
+#[test]
+fn another_verdict_recipe_or_place_is_the_same_part_again() {
+    let library = shipped();
+    let fender = seen(&library, part(PartKind::Fender), 0.0);
+    let mut refused = Seen {
+        scene: Arc::clone(&fender.scene),
+        inspection: fender.inspection.clone(),
+    };
+    if let Verdict::Part { part, rejected, .. } = &mut refused.inspection.verdict {
+        let part = part.clone();
+        *rejected = Some(crate::pipeline::Rejection::NotSteady { part });
+    }
+    let aside = seen(&library, part(PartKind::Fender), 0.05);
+    let mut line = Line::default();
+    assert_eq!(
+        line.counted(&refused, "a"),
+        (Left::Nothing, FrameRole::First)
+    );
+    assert_eq!(line.counted(&fender, "a"), AGAIN);
+    // Once said is enough, however often it changes.
+    assert_eq!(line.counted(&refused, "a"), NOTHING);
+    assert_eq!(line.counted(&fender, "a"), NOTHING);
+    assert_eq!(line.counted(&fender, "b"), AGAIN);
+    // Somebody walks by.
+    assert_eq!(line.open(&fender), NOTHING);
+    assert_eq!(line.counted(&fender, "b"), NOTHING);
+    // Somebody pushes it.
+    assert_eq!(line.open(&aside), NOTHING);
+    assert_eq!(line.counted(&aside, "b"), AGAIN);
+    assert_eq!(line.parts.visit(), 1);
+}
+
+#[test]
+fn what_leaves_before_its_verdict_counts_is_told_once_it_has_left_if_it_looked_like_a_part() {
+    let library = shipped();
+    let fender = seen(&library, part(PartKind::Fender), 0.0);
+    let wheel = seen(&library, SimulatedObject::Object(ObjectKind::Wheel), 0.0);
+    let empty = seen(&library, SimulatedObject::Nothing, 0.0);
+    assert!(wheel.inspection.verdict.is_unknown());
+    let mut line = Line::default();
+    assert_eq!(line.open(&wheel).1, FrameRole::Best);
+    // A part says more than what looks like none.
+    assert_eq!(line.open(&fender).1, FrameRole::Best);
+    assert_eq!(line.open(&wheel), NOTHING);
+    assert_eq!(line.open(&empty), NOTHING, "one frame may miss it");
+    assert_eq!(line.open(&empty), NOTHING);
+    assert_eq!(line.open(&empty), (Left::Part, FrameRole::Nothing));
+    assert_eq!(line.open(&empty), NOTHING);
+    assert_eq!(line.open(&wheel).1, FrameRole::Best);
+    let left: Vec<Left> = (0..4).map(|_| line.open(&empty).0).collect();
+    assert_eq!(left.iter().filter(|left| **left == Left::Other).count(), 1);
+    // Captures seconds apart, each of another part.
+    let door = seen(&library, part(PartKind::FrontDoor), 0.0);
+    line.num_frames += 20;
+    assert_eq!(line.open(&fender), (Left::Nothing, FrameRole::Best));
+    line.num_frames += 20;
+    assert_eq!(line.open(&door), (Left::Part, FrameRole::Best));
+    line.num_frames += 20;
+    assert_eq!(line.counted(&door, ""), FIRST);
+    // After a long time without a frame nobody knows whether it is the same.
+    line.num_frames += 100;
+    assert_eq!(line.counted(&door, ""), FIRST);
+}
