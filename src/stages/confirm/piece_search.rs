@@ -36,10 +36,10 @@ const ANGLE_OFF: f32 = 0.24;
 const NORMAL_OFF: f32 = 0.87;
 /// Distances beyond this count as this, metres.
 const FAR: f32 = 0.045;
-/// Points off among those tried first from which on a pose is dropped.
-const MOST_OFF: usize = 4;
+/// Points off among those tried first from which on a pose is dropped: tubes of a stand are taken for the part at times.
+const MOST_OFF: usize = 7;
 /// Share of the border tried first that must find the reference's.
-const LEAST_BORDER: f32 = 0.45;
+const LEAST_BORDER: f32 = 0.3;
 /// Poses of a reference that are scored.
 const MOST_SCORED: usize = 100;
 /// Poses kept of a reference.
