@@ -208,9 +208,9 @@ fn a_header_that_claims_more_than_the_file_has_takes_no_memory() {
         }
     }
     // A block that claims to unpack to more than it can.
-    let mut bytes = header(XYZ, "40000000", "1", "binary_compressed").into_bytes();
+    let mut bytes = header(XYZ, "20000000", "1", "binary_compressed").into_bytes();
     bytes.extend(6_u32.to_le_bytes());
-    bytes.extend(480_000_000_u32.to_le_bytes());
+    bytes.extend(240_000_000_u32.to_le_bytes());
     bytes.extend([0xE0, 255, 0, 0xE0, 255, 0]);
     assert!(matches!(
         read_bytes(&bytes),
