@@ -167,7 +167,7 @@ fn what_is_worse_than_before_is_listed_and_decides_the_exit_code() {
 fn damaged_cases_are_named_and_left_out() {
     let place = Workplace::new();
     with_cases(&place);
-    let scene = place.path("cases/fender_facing_40/scene.pcd");
+    let scene = place.path("cases/fender_facing_40/scene.png");
     let mut bytes = fs::read(&scene).expect("read");
     bytes[9000] ^= 1;
     fs::write(&scene, bytes).expect("written");
@@ -243,7 +243,7 @@ fn the_same_arguments_make_the_same_cases() {
     with_cases(&again);
     assert_eq!(names(&place), names(&again));
     for case in names(&place).iter().filter(|name| name.contains("facing")) {
-        for file in ["case.toml", "scene.pcd"] {
+        for file in ["case.toml", "scene.png", "intrinsics.json"] {
             let path = format!("cases/{case}/{file}");
             let read = |place: &Workplace| fs::read(place.path(&path)).expect("read");
             assert!(read(&place) == read(&again), "{path}");
