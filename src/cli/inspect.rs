@@ -285,6 +285,9 @@ impl InspectSession {
         } = self;
         let name = path.display().to_string();
         before(&mut scene, empty_cell.as_ref(), &name, console);
+        if let Some(followed) = followed {
+            scene.set_known_view(followed.known_view());
+        }
         let scene = Arc::new(scene);
         let inspection = pipeline::run(&scene, library, recipe, &Unwatched)?;
         mirrored.add(&inspection.verdict);

@@ -11,7 +11,7 @@ use crate::{
         AcceptParams, Inspection,
         live::{FrameRole, HungFrame, LiveParams, LiveTracker},
     },
-    stages::scene::SceneCloud,
+    stages::{field_of_view::FieldOfView, scene::SceneCloud},
 };
 
 /// Tells them apart.
@@ -36,6 +36,11 @@ impl FollowedParts {
             tracker: LiveTracker::new(&LiveParams::default()),
             rows: HungRows::default(),
         }
+    }
+
+    /// What the frames so far showed of the camera's field of view.
+    pub(super) fn known_view(&self) -> Option<Arc<FieldOfView>> {
+        self.tracker.known_view()
     }
 
     /// Takes in a frame; what is to be written now. The verdict that counts is one of several frames; of a part that

@@ -110,10 +110,15 @@ impl LiveTracker {
         self.average.len()
     }
 
+    /// What the frames so far showed of the camera's field of view.
+    pub fn known_view(&self) -> Option<Arc<FieldOfView>> {
+        self.field_of_view.clone()
+    }
+
     /// Takes in a frame, and gives the scene to be inspected: the frame as it came, or averaged with the ones before
     /// while nothing moves. `at` is the camera's time, from any moment on.
     pub fn look(&mut self, mut scene: Arc<SceneCloud>, at: Duration) -> Arc<SceneCloud> {
-        if self.field_of_view.is_some() {
+        if self.field_of_view.is_some() && scene.known_view.is_none() {
             Arc::make_mut(&mut scene).set_known_view(self.field_of_view.clone());
         }
         self.field_of_view = FieldOfView::remembered(self.field_of_view.take(), &scene);
