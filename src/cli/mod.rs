@@ -60,7 +60,7 @@ Exit codes: 0 every input accepted, 1 something was not accepted, 2 could not ru
 pub struct Cli {
     #[command(subcommand)]
     command: Option<Command>,
-    /// Without a command: the library's folder, else `reference_parts` in the working directory, else your own
+    /// Without a command: the library's folder; without it your own, which starts with the shipped parts
     // Named apart from the commands' own: that one is global to them, and would come up here.
     #[arg(id = "bare_library", long = "library", value_name = "DIR")]
     library: Option<PathBuf>,
@@ -210,7 +210,7 @@ fn window(
 /// Which library.
 #[derive(Debug, Args)]
 struct LibraryChoice {
-    /// The library's folder; without it `reference_parts` in the working directory, else your own
+    /// The library's folder; without it your own, which starts with the shipped parts
     #[arg(long, value_name = "DIR", global = true)]
     library: Option<PathBuf>,
 }
@@ -272,22 +272,13 @@ impl LibraryChoice {
 
 /// What may be wrong with a folder that holds no parts.
 fn hint(folder: &LibraryFolder) -> Option<String> {
-    let path = folder.path();
-    if folder.is_itself_a_part() {
-        let above = path.canonicalize().ok();
-        let above = above.as_deref().and_then(Path::parent).unwrap_or(path);
-        return Some(format!(
-            "{} is a part, not a library: give the folder it lies in, --library {}",
-            path.display(),
-            above.display()
-        ));
-    }
-    let inner = path.join("reference_parts");
-    inner.is_dir().then(|| {
-        format!(
-            "Give the folder that holds the parts: --library {}",
-            inner.display()
-        )
+    let meant = folder.probably_meant()?;
+    let meant = meant.display();
+    Some(if folder.is_itself_a_part() {
+        let path = folder.path().display();
+        format!("{path} is a part, not a library: give the folder it lies in, --library {meant}")
+    } else {
+        format!("Give the folder that holds the parts: --library {meant}")
     })
 }
 

@@ -82,7 +82,8 @@ impl Advice for LibraryError {
     fn advice(&self) -> String {
         match self {
             Self::NotFound { .. } => {
-                "Check the path and that the drive or stick is connected".into()
+                "Check the path and that the drive or stick is connected, or create the folder"
+                    .into()
             }
             Self::NotAFolder { .. } => "Give the folder that holds the parts' folders".into(),
             Self::Unreadable { .. } => "Ask for access to this folder, or copy it elsewhere".into(),

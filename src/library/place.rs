@@ -18,16 +18,11 @@ use super::{
 };
 use crate::{files::read_picture, stages::reference::ReferenceParams};
 
-/// The folder looked for in the working directory.
-const IN_WORKING_FOLDER: &str = "reference_parts";
-
 /// A library, and why it is this one.
 #[derive(Debug)]
 pub enum LibraryPlace {
     /// Named by the caller.
     Given(LibraryFolder),
-    /// `reference_parts/` in the working directory.
-    WorkingFolder(LibraryFolder),
     /// The user's own, in the folder that the system keeps for a user's data.
     User(LibraryFolder),
     /// The shipped parts inside the program: there is no folder for the user's own, for this reason.
@@ -38,7 +33,7 @@ impl LibraryPlace {
     /// The library's folder, if it has one.
     pub fn folder(&self) -> Option<&LibraryFolder> {
         match self {
-            Self::Given(folder) | Self::WorkingFolder(folder) | Self::User(folder) => Some(folder),
+            Self::Given(folder) | Self::User(folder) => Some(folder),
             Self::Program(_) => None,
         }
     }
@@ -46,7 +41,7 @@ impl LibraryPlace {
     /// The folder to change, or why there is none.
     pub fn into_folder(self) -> Result<LibraryFolder, LibraryError> {
         match self {
-            Self::Given(folder) | Self::WorkingFolder(folder) | Self::User(folder) => Ok(folder),
+            Self::Given(folder) | Self::User(folder) => Ok(folder),
             Self::Program(reason) => Err(reason),
         }
     }
@@ -108,22 +103,17 @@ impl LibraryPlace {
     pub fn describe(&self) -> &'static str {
         match self {
             Self::Given(_) => "given",
-            Self::WorkingFolder(_) => "found in the working directory",
             Self::User(_) => "your own",
             Self::Program(_) => "the shipped parts",
         }
     }
 }
 
-/// The library at `given`, else `reference_parts/` in the working directory if there, else the user's own, which is
-/// filled with the shipped parts the first time. Where that cannot be written, the shipped parts inside the program.
+/// The library at `given`, else the user's own, which is filled with the shipped parts the first time. Where that cannot
+/// be written, the shipped parts inside the program. What lies in the working directory does not count.
 pub fn open_library(given: Option<&Path>) -> Result<LibraryPlace, LibraryError> {
     if let Some(path) = given {
         return LibraryFolder::open(path).map(LibraryPlace::Given);
-    }
-    let here = Path::new(IN_WORKING_FOLDER);
-    if here.is_dir() {
-        return LibraryFolder::open(here).map(LibraryPlace::WorkingFolder);
     }
     let own = user_path().and_then(|path| open_filled(&path));
     Ok(own.map_or_else(LibraryPlace::Program, LibraryPlace::User))

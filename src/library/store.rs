@@ -139,6 +139,16 @@ impl LibraryFolder {
         self.path.join(META).is_file()
     }
 
+    /// The library that was probably meant by this folder without parts: the one that it lies in, if it is a part itself,
+    /// or its `reference_parts`.
+    pub fn probably_meant(&self) -> Option<PathBuf> {
+        if self.is_itself_a_part() {
+            let path = self.path.canonicalize().ok()?;
+            return path.parent().map(Path::to_owned);
+        }
+        Some(self.path.join("reference_parts")).filter(|inner| inner.is_dir())
+    }
+
     /// The folders of all parts in the order of their names; one that was renamed aside and never replaced counts.
     pub(super) fn entries(&self) -> Result<Vec<Entry>, LibraryError> {
         let list = || -> io::Result<Vec<Entry>> {

@@ -105,11 +105,20 @@ fn without_a_library_the_shipped_parts_are_there() {
         "{}",
         first.out
     );
-    // A folder here goes before the user's own.
+}
+
+#[test]
+fn a_part_is_enrolled_into_the_users_library_wherever_that_is_done() {
+    let place = Workplace::new();
+    // As in the checkout: a library that somebody else keeps under version control.
     fs::create_dir(place.path("reference_parts")).expect("made");
+    place.accepted(&["simulate", "--part", "grille", "--out", "grille.pcd"]);
+    place.accepted(&["enrol", "grille.pcd", "--name", "mine"]);
+    let here = fs::read_dir(place.path("reference_parts")).expect("listed");
+    assert_eq!(here.count(), 0, "somebody else's library was changed");
+    assert!(place.path("data/partsight/library/mine/part.toml").exists());
     let list = place.accepted(&["library", "list"]);
-    assert!(list.out.contains("0 parts"), "{}", list.out);
-    assert_eq!(place.run(&["inspect", "x.pcd"]).code, 2);
+    assert!(list.out.contains("(your own): 9 parts"), "{}", list.out);
 }
 
 #[test]

@@ -4,7 +4,6 @@ use egui::{Key, Role, Vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use partsight::{
     app::{
-        WindowOptions,
         shell::{notice::NoticeKind, session::WorkspaceKind},
         workspaces::align::{
             AlignAction, AlignFile, AlignState, AlignWorkspace, Pairing, Playback, Start,
@@ -13,10 +12,12 @@ use partsight::{
     stages::pose::PoseMethod,
 };
 
-use super::set_up::{SMALL, USUAL, WindowHarness, act_in, open_with, settle, wait_for};
+use super::set_up::{
+    SMALL, USUAL, WindowHarness, act_in, open_with, plain_options, settle, wait_for,
+};
 
 fn open_at(size: Vec2) -> WindowHarness {
-    let mut harness = open_with(size, WindowOptions::default());
+    let mut harness = open_with(size, plain_options());
     press_quickly(&mut harness, "Align");
     assert_eq!(harness.state().state().workspace, WorkspaceKind::Align);
     harness

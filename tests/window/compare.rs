@@ -20,12 +20,14 @@ use partsight::{
     stages::scene::scene_from_frame,
 };
 
-use super::set_up::{SMALL, USUAL, WindowHarness, act, act_in, open_with, press, settle};
+use super::set_up::{
+    SMALL, USUAL, WindowHarness, act, act_in, open_with, plain_options, press, settle,
+};
 
 fn open_at(size: Vec2, cases: &Path) -> WindowHarness {
     let options = WindowOptions {
         cases: Some(cases.to_owned()),
-        ..WindowOptions::default()
+        ..plain_options()
     };
     open_with(size, options)
 }

@@ -15,13 +15,14 @@ use partsight::{
 };
 
 use super::set_up::{
-    SMALL, USUAL, WindowHarness, act, drop_file, enrol_of, history_of, open_with, press, settle,
+    SMALL, USUAL, WindowHarness, act, drop_file, enrol_of, history_of, open_with, plain_options,
+    press, settle,
 };
 
 fn open_at(library: &Path, size: Vec2) -> WindowHarness {
     let options = WindowOptions {
         library: Some(library.to_owned()),
-        ..WindowOptions::default()
+        ..plain_options()
     };
     open_with(size, options)
 }
@@ -379,8 +380,10 @@ fn a_library_that_cannot_be_written_is_a_notice_and_the_window_goes_on() {
     capture(&mut harness, PartKind::Grille, Side::Left);
     write(&mut harness, "Title", "Grille");
     press(&mut harness, "Save");
-    assert!(notices(&harness)[0].contains("cannot write to the library"));
-    assert!(!state(&harness).notices[0].advice.is_empty());
+    // Other things lie there.
+    assert!(notices(&harness)[0].contains("holds no library"));
+    assert!(notices(&harness)[1].contains("cannot write to the library"));
+    assert!(!state(&harness).notices[1].advice.is_empty());
     assert!(enrol_of(&harness).draft.is_some());
     press_keys(&mut harness, Modifiers::NONE, Key::Space);
     assert_eq!(enrol_of(&harness).num_drafts, 2);
@@ -483,6 +486,42 @@ fn every_control_is_large_enough_labelled_and_inside_a_small_window() {
 }
 
 #[test]
+fn without_a_library_the_window_says_so_everywhere_and_still_captures() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let missing = folder.path().join("WRONG");
+    let mut harness = open_at(&missing, USUAL);
+    let said = &state(&harness).notices[0];
+    assert!(said.what.contains("could not be loaded"), "{said:?}");
+    assert!(said.what.contains("no such library folder"), "{said:?}");
+    assert!(said.advice.contains("create the folder"), "{said:?}");
+    assert_eq!(notices(&harness).len(), 1);
+    // The scene is there, and called nothing.
+    let shown = state(&harness).shown.as_ref().expect("captured");
+    assert!(!shown.inspected.inspection.verdict.is_accepted());
+    press_keys(&mut harness, Modifiers::NONE, Key::Space);
+    settle(&mut harness);
+    assert_eq!(notices(&harness).len(), 1, "said once");
+    for workspace in [WorkspaceKind::Enrol, WorkspaceKind::Align] {
+        act(&mut harness, Action::GoTo(workspace));
+        settle(&mut harness);
+        assert!(harness.query_by_label_contains("being loaded").is_none());
+        assert!(
+            harness
+                .query_all_by_label_contains("could not be loaded")
+                .count()
+                > 1
+        );
+    }
+    // Made meanwhile: the next capture finds it.
+    std::fs::create_dir(&missing).expect("made");
+    act(&mut harness, Action::GoTo(WorkspaceKind::Inspect));
+    act(&mut harness, Action::Capture);
+    settle(&mut harness);
+    let library = state(&harness).library.as_ref().expect("loaded");
+    assert!(library.unloaded.is_none());
+}
+
+#[test]
 fn a_window_that_starts_in_enrol_has_its_library_an_inspection_and_its_history() {
     let folder = tempfile::tempdir().expect("a folder");
     let settings = folder.path().join("settings.toml");
@@ -490,7 +529,7 @@ fn a_window_that_starts_in_enrol_has_its_library_an_inspection_and_its_history()
         settings: Some(settings.clone()),
         history: Some(folder.path().join("history")),
         scene,
-        ..WindowOptions::default()
+        ..plain_options()
     };
     drop(open_with(USUAL, options(None)));
     let left_in_enrol = "workspace = \"enrol\"\n";

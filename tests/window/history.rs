@@ -33,7 +33,7 @@ use partsight::{
 use super::{
     set_up::{
         SMALL, USUAL, WindowHarness, act, act_in, choose_in_inspect, history_of, open, open_with,
-        press, settle,
+        plain_options, press, settle,
     },
     shots::ScanFolder,
 };
@@ -41,7 +41,7 @@ use super::{
 fn remembering(path: &Path) -> WindowOptions {
     WindowOptions {
         settings: Some(path.to_owned()),
-        ..WindowOptions::default()
+        ..plain_options()
     }
 }
 
@@ -49,7 +49,7 @@ fn remembering(path: &Path) -> WindowOptions {
 fn keeping(path: &Path) -> WindowOptions {
     WindowOptions {
         history: Some(path.to_owned()),
-        ..WindowOptions::default()
+        ..plain_options()
     }
 }
 

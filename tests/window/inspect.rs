@@ -6,7 +6,6 @@ use egui::{Key, Modifiers, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use partsight::{
     app::{
-        WindowOptions,
         inspection::{figures::StagePanel, unit_system::UnitSystem},
         shell::session::ThemeChoice,
     },
@@ -16,7 +15,9 @@ use partsight::{
     stages::scene::scene_from_frame,
 };
 
-use super::set_up::{SMALL, WindowHarness, drop_file, inspect_of, open, open_with, settle};
+use super::set_up::{
+    SMALL, WindowHarness, drop_file, inspect_of, open, open_with, plain_options, settle,
+};
 
 fn generation(harness: &WindowHarness) -> u64 {
     let shown = harness.state().state().shown.as_ref();
@@ -187,7 +188,7 @@ fn a_part_that_is_not_accepted_has_no_numbers_for_a_robot() {
 #[test]
 fn every_control_is_large_enough_labelled_and_inside_a_small_window() {
     let size = SMALL;
-    let mut harness = open_with(size, WindowOptions::default());
+    let mut harness = open_with(size, plain_options());
     for panel in [None, Some("Enlarge ranking")] {
         if let Some(label) = panel {
             harness.get_by_label(label).click();
@@ -216,7 +217,7 @@ fn every_control_is_large_enough_labelled_and_inside_a_small_window() {
 
 #[test]
 fn the_verdict_stays_in_sight_and_large_however_far_the_card_is_scrolled() {
-    let mut harness = open_with(SMALL, WindowOptions::default());
+    let mut harness = open_with(SMALL, plain_options());
     harness.get_by_label("Simulated frame 1").scroll_to_me();
     harness.run_steps(12);
     harness.key_press(Key::Space);

@@ -32,7 +32,8 @@ use partsight::{
 };
 
 use super::set_up::{
-    SMALL, USUAL, WindowHarness, act, history_of, open, open_with, settle, wait_for, wait_until,
+    SMALL, USUAL, WindowHarness, act, history_of, open, open_with, plain_options, settle, wait_for,
+    wait_until,
 };
 
 /// Between two frames, by the camera's clock: as a slow one.
@@ -126,7 +127,7 @@ pub(crate) fn wired_options() -> (WindowOptions, Wire) {
     });
     let options = WindowOptions {
         camera,
-        ..WindowOptions::default()
+        ..plain_options()
     };
     (options, sender)
 }
@@ -440,7 +441,7 @@ fn the_cell_can_be_set_up_and_is_captured_as_it_is() {
 
 #[test]
 fn in_a_small_window_a_long_title_of_the_source_gives_way_to_what_stands_beside_it() {
-    let mut harness = open_with(SMALL, WindowOptions::default());
+    let mut harness = open_with(SMALL, plain_options());
     let longest = CellChoice::all().max_by_key(|choice| choice.title().len());
     let longest = longest.expect("there are choices");
     act(&mut harness, Action::UseCell(longest));

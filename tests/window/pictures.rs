@@ -31,7 +31,7 @@ use partsight::{
 
 use super::{
     live, robot,
-    set_up::{SMALL, USUAL, WindowHarness, act, press, settle},
+    set_up::{SMALL, USUAL, WindowHarness, act, plain_options, press, settle},
     shots::ScanFolder,
 };
 
@@ -58,7 +58,10 @@ fn draws_in_software() -> bool {
 
 /// The first frame of the cell, as if every inspection took the same time at the same moment.
 fn inspected() -> Inspected {
-    inspected_by(&LibraryCache::default())
+    inspected_by(&LibraryCache::new(
+        Some("reference_parts".into()),
+        Camera::default(),
+    ))
 }
 
 fn inspected_by(library_cache: &LibraryCache) -> Inspected {
@@ -100,7 +103,7 @@ fn open_with(size: Vec2, inspected: Inspected) -> WindowHarness {
             let options = WindowOptions {
                 // Of no machine: its name is in the picture.
                 cases: Some("cases of the pictures".into()),
-                ..WindowOptions::default()
+                ..plain_options()
             };
             let mut window =
                 Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), options).expect("threads");

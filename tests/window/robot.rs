@@ -28,8 +28,8 @@ use partsight::{
 };
 
 use super::set_up::{
-    USUAL, WindowHarness, act, act_in, choose_in_inspect, inspect_of, open, open_with, press,
-    settle,
+    USUAL, WindowHarness, act, act_in, choose_in_inspect, inspect_of, open, open_with,
+    plain_options, press, settle,
 };
 
 fn state(harness: &WindowHarness) -> &State {
@@ -40,7 +40,7 @@ fn own(folder: &Path) -> WindowOptions {
     WindowOptions {
         cell: Some(folder.join("cell.toml")),
         settings: Some(folder.join("settings.toml")),
-        ..WindowOptions::default()
+        ..plain_options()
     }
 }
 

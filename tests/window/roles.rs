@@ -12,7 +12,7 @@ use partsight::app::{
     },
 };
 
-use super::set_up::{SMALL, USUAL, WindowHarness, act, open, open_with, press};
+use super::set_up::{SMALL, USUAL, WindowHarness, act, open, open_with, plain_options, press};
 
 fn role(harness: &WindowHarness) -> UserRole {
     harness.state().state().role
@@ -35,7 +35,7 @@ fn set_pin(harness: &mut WindowHarness, digits: &str) {
 
 #[test]
 fn the_operators_view_is_locked_and_unlocked_with_the_pin() {
-    let mut harness = open_with(SMALL, WindowOptions::default());
+    let mut harness = open_with(SMALL, plain_options());
     set_pin(&mut harness, "2580");
     press(&mut harness, "Engineer's view");
     press(&mut harness, "Operator's view");
@@ -92,7 +92,7 @@ fn with_a_pin_the_next_start_is_the_operators() {
     let path = folder.path().join("settings.toml");
     let options = || WindowOptions {
         settings: Some(path.clone()),
-        ..WindowOptions::default()
+        ..plain_options()
     };
     let mut harness = open_with(USUAL, options());
     act(&mut harness, Action::GoTo(WorkspaceKind::Compare));

@@ -36,9 +36,17 @@ pub(crate) fn open_with(size: Vec2, options: WindowOptions) -> WindowHarness {
     harness
 }
 
+/// The shipped parts, whatever library this machine's user has, and nothing remembered.
+pub(crate) fn plain_options() -> WindowOptions {
+    WindowOptions {
+        library: Some("reference_parts".into()),
+        ..WindowOptions::default()
+    }
+}
+
 /// As a newcomer's window opens, remembering nothing.
 pub(crate) fn open() -> WindowHarness {
-    open_with(USUAL, WindowOptions::default())
+    open_with(USUAL, plain_options())
 }
 
 /// Draws until nothing is at work any more.

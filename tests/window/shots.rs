@@ -32,7 +32,7 @@ use serde_json::{Value, json};
 
 use super::set_up::{
     SMALL, USUAL, WindowHarness, act, choose_in_inspect, drop_file, enrol_of, inspect_of,
-    open_with, press, settle,
+    open_with, plain_options, press, settle,
 };
 
 /// A simulated scan of a fender: `num` shots and their poses, and one more that the poses do not name.
@@ -128,8 +128,8 @@ fn coarse(frame: &DepthFrame) -> DepthFrame {
 fn open_at(size: Vec2, scene: &Path, library: Option<&Path>) -> WindowHarness {
     let options = WindowOptions {
         scene: Some(scene.to_owned()),
-        library: library.map(Path::to_owned),
-        ..WindowOptions::default()
+        library: Some(library.unwrap_or(Path::new("reference_parts")).to_owned()),
+        ..plain_options()
     };
     open_with(size, options)
 }

@@ -7,7 +7,7 @@ use egui::{Key, Role, Vec2};
 use egui_kittest::{Harness, kittest::Queryable as _};
 use partsight::{
     app::{
-        Window, WindowOptions,
+        Window,
         inspection::source::CellChoice,
         shell::action::Action,
         ui::viewport::{Colouring, ViewportGpu},
@@ -16,7 +16,9 @@ use partsight::{
     simulate::ObjectKind,
 };
 
-use super::set_up::{SMALL, USUAL, WindowHarness, act, choose_in_inspect, inspect_of, settle};
+use super::set_up::{
+    SMALL, USUAL, WindowHarness, act, choose_in_inspect, inspect_of, plain_options, settle,
+};
 
 /// Whether the window draws for real.
 #[derive(Clone, Copy, PartialEq, Eq)]
@@ -33,12 +35,7 @@ fn open_at(size: Vec2, drawn: Drawn) -> WindowHarness {
         builder = builder.wgpu();
     }
     let mut harness = builder.build_eframe(|cc| {
-        Window::new(
-            &cc.egui_ctx,
-            cc.wgpu_render_state.as_ref(),
-            WindowOptions::default(),
-        )
-        .expect("a thread")
+        Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), plain_options()).expect("a thread")
     });
     settle(&mut harness);
     harness

@@ -5,7 +5,11 @@ use egui::{Key, Modifiers, PointerButton, Pos2};
 use super::*;
 
 fn open() -> Option<HeadlessWindow> {
-    match HeadlessWindow::open([1440, 900], WindowOptions::default()) {
+    let options = WindowOptions {
+        library: Some("reference_parts".into()),
+        ..WindowOptions::default()
+    };
+    match HeadlessWindow::open([1440, 900], options) {
         Ok(mut window) => {
             assert!(window.settle(), "still working after a minute");
             Some(window)

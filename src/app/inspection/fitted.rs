@@ -91,7 +91,7 @@ mod tests {
 
     #[test]
     fn references_have_as_many_rays_as_the_recipe_gives_scenes() {
-        let shelved = LibraryCache::default().get().expect("the shipped parts");
+        let shelved = LibraryCache::default().get();
         let mut recipe = Recipe::default();
         let loaded = shelved.fitting(&recipe, &Unwatched).expect("loaded");
         assert!(matches!(loaded, PreparedLibrary::AsLoaded(_)));

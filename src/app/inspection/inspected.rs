@@ -154,7 +154,7 @@ pub fn inspect(
     library_cache: &LibraryCache,
     watch: &dyn ProgressObserver,
 ) -> Result<Inspected, TaskError> {
-    let shelved = library_cache.get().map_err(|error| UserError::of(&error))?;
+    let shelved = library_cache.get();
     if watch.is_cancelled() {
         return Err(TaskError::Cancelled);
     }
@@ -191,7 +191,7 @@ pub(in crate::app) fn inspect_scan(
     steps: &Steps<'_>,
 ) -> Result<Result<Inspected, FuseError>, TaskError> {
     let begun = Instant::now();
-    let shelved = library_cache.get().map_err(|error| UserError::of(&error))?;
+    let shelved = library_cache.get();
     let fused = match fuse(request, Then::Inspect, steps) {
         Ok(fused) => Arc::new(fused.ok_or(TaskError::Cancelled)?),
         Err(error) => return Ok(Err(error)),

@@ -2,6 +2,7 @@
 //! camera.
 
 use std::{
+    fs,
     path::{Path, PathBuf},
     sync::{Arc, Mutex, MutexGuard, PoisonError},
 };
@@ -14,13 +15,14 @@ use crate::{
     error::Advice as _,
     history::HistoryBuffer,
     library::{
-        Library, LibraryError, LibraryLoad, LibraryPlace, PartMeta, SprayPath, open_library,
+        Library, LibraryError, LibraryFolder, LibraryLoad, LibraryPlace, PartMeta, SprayPath,
+        open_library,
     },
     stages::reference::ReferenceParams,
 };
 
 /// A handle to the library, the camera and the recording in use; clones share them.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
 pub struct LibraryCache {
     choice: Arc<Mutex<Choice>>,
     camera: Camera,
@@ -38,8 +40,8 @@ struct Choice {
 /// A loaded library.
 #[derive(Debug)]
 pub struct LoadedLibrary {
-    /// Where it lies.
-    pub place: LibraryPlace,
+    /// Where it lies; none if it could not be loaded.
+    pub place: Option<LibraryPlace>,
     /// The references, prepared.
     pub library: Library,
     /// What the window shows of it.
@@ -63,6 +65,8 @@ pub struct LibraryView {
     pub spray_paths: Vec<Option<SprayPath>>,
     /// The parts that could not be loaded.
     pub damaged: Vec<Damaged>,
+    /// Why it could not be loaded, if so: then it has no part and cannot be changed.
+    pub unloaded: Option<UserError>,
     /// Why it cannot be changed at all, if so.
     pub is_fixed: Option<UserError>,
     /// What had to be set aside, and what is odd.
@@ -89,6 +93,14 @@ impl LibraryView {
         self.parts
             .iter()
             .position(|part| part.name.as_str() == name)
+    }
+}
+
+/// Of a test: the shipped parts of the checkout, whatever library the user has.
+#[cfg(test)]
+impl Default for LibraryCache {
+    fn default() -> Self {
+        Self::new(Some("reference_parts".into()), Camera::default())
     }
 }
 
@@ -125,13 +137,18 @@ impl LibraryCache {
         &self.camera
     }
 
-    /// The library; loads it if nobody has yet.
-    pub fn get(&self) -> Result<Arc<LoadedLibrary>, LibraryError> {
+    /// The library; loads it if nobody has yet. While it cannot be loaded an empty one takes its place, so that scenes
+    /// are captured and shown all the same, and each call tries again.
+    pub fn get(&self) -> Arc<LoadedLibrary> {
         let mut choice = self.lock();
-        if let Some(shelved) = &choice.loaded {
-            return Ok(Arc::clone(shelved));
+        let is_there = |known: &&Arc<LoadedLibrary>| known.shown.unloaded.is_none();
+        if let Some(shelved) = choice.loaded.as_ref().filter(is_there) {
+            return Arc::clone(shelved);
         }
-        choice.load()
+        match choice.load() {
+            Ok(shelved) => shelved,
+            Err(error) => choice.without(&error),
+        }
     }
 
     /// Loads it anew, after it was changed.
@@ -162,6 +179,37 @@ impl Choice {
         let shelved = Arc::new(load(self.given.as_deref())?);
         self.loaded = Some(Arc::clone(&shelved));
         Ok(shelved)
+    }
+
+    /// What takes the place of a library that could not be loaded; the same one for the same reason.
+    fn without(&mut self, error: &LibraryError) -> Arc<LoadedLibrary> {
+        let trouble = UserError {
+            what: format!("The library could not be loaded: {error}"),
+            advice: format!(
+                "{}, or choose another one at the top right; until then nothing is recognised",
+                error.advice()
+            ),
+        };
+        if let Some(known) = &self.loaded
+            && known.shown.unloaded.as_ref() == Some(&trouble)
+        {
+            return Arc::clone(known);
+        }
+        let shown = LibraryView {
+            path: self.given.clone().unwrap_or_default(),
+            troubles: vec![trouble.clone()],
+            is_fixed: Some(trouble.clone()),
+            unloaded: Some(trouble),
+            ..LibraryView::default()
+        };
+        let shelved = Arc::new(LoadedLibrary {
+            place: None,
+            library: Library::default(),
+            shown: Arc::new(shown),
+            fitted: PreparedLibraryCache::default(),
+        });
+        self.loaded = Some(Arc::clone(&shelved));
+        shelved
     }
 }
 
@@ -203,21 +251,39 @@ fn load(given: Option<&Path>) -> Result<LoadedLibrary, LibraryError> {
         }),
         _ => None,
     };
+    let without_parts = place.folder().filter(|_| parts.is_empty());
+    troubles.extend(without_parts.and_then(no_library));
     let shown = Arc::new(LibraryView {
         path: place.location().into(),
         identity,
         thumbnails: thumbnails.collect(),
         damaged: damaged.collect(),
         spray_paths,
+        unloaded: None,
         is_fixed,
         parts,
         troubles,
     });
     Ok(LoadedLibrary {
-        place,
+        place: Some(place),
         library,
         shown,
         fitted: PreparedLibraryCache::default(),
+    })
+}
+
+/// What to say of a folder without parts: something else lies there, so probably another one was meant.
+fn no_library(folder: &LibraryFolder) -> Option<UserError> {
+    let is_visible = |entry: &fs::DirEntry| !entry.file_name().as_encoded_bytes().starts_with(b".");
+    let mut entries = fs::read_dir(folder.path()).ok()?.flatten();
+    entries.find(is_visible)?;
+    let advice = match folder.probably_meant() {
+        Some(meant) => format!("Choose {} at the top right", meant.display()),
+        None => "Choose another one at the top right, or go on: the first part that is saved is stored there".into(),
+    };
+    Some(UserError {
+        what: format!("{} holds no library of parts", folder.path().display()),
+        advice,
     })
 }
 
@@ -228,15 +294,50 @@ mod tests {
     #[test]
     fn a_library_that_cannot_be_loaded_leaves_the_old_one_in_use() {
         let library_cache = LibraryCache::default();
-        let before = library_cache.get().expect("the shipped parts");
+        let before = library_cache.get();
         assert_eq!(before.shown.place_of("fender"), Some(2));
         assert_eq!(before.shown.title(2), "Fender, left");
         library_cache
             .choose(Some("no/such/library".into()))
             .expect_err("refused");
-        let after = library_cache.get().expect("still there");
+        let after = library_cache.get();
         assert!(Arc::ptr_eq(&before, &after));
         let anew = library_cache.reload().expect("loaded again");
         assert!(!Arc::ptr_eq(&before, &anew));
+    }
+
+    #[test]
+    fn a_library_that_comes_late_is_loaded_when_it_is_there() {
+        let stick = tempfile::tempdir().expect("a folder");
+        let path = stick.path().join("parts");
+        let library_cache = LibraryCache::new(Some(path.clone()), Camera::default());
+        let missing = library_cache.get();
+        let trouble = missing.shown.unloaded.as_ref().expect("not there");
+        assert!(
+            trouble.what.contains("no such library folder"),
+            "{trouble:?}"
+        );
+        assert!(missing.library.references.is_empty() && missing.shown.is_fixed.is_some());
+        // Reported once.
+        assert!(Arc::ptr_eq(&missing, &library_cache.get()));
+        fs::create_dir(&path).expect("made");
+        let found = library_cache.get();
+        assert!(found.shown.unloaded.is_none() && found.shown.troubles.is_empty());
+    }
+
+    #[test]
+    fn a_folder_of_other_things_is_not_silently_taken_for_a_library() {
+        let folder = tempfile::tempdir().expect("a folder");
+        fs::write(folder.path().join("letter.txt"), "").expect("written");
+        let said = |path: &Path| {
+            let loaded = LibraryCache::new(Some(path.to_owned()), Camera::default()).get();
+            loaded.shown.troubles.clone()
+        };
+        let other = said(folder.path());
+        assert!(other[0].what.contains("holds no library"), "{other:?}");
+        let part = said(Path::new("reference_parts/fender"));
+        let above = Path::new("reference_parts").canonicalize().expect("there");
+        let advice = &part[0].advice;
+        assert!(advice.contains(&above.display().to_string()), "{advice}");
     }
 }

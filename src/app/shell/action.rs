@@ -1,6 +1,6 @@
 //! The actions of the window outside the workspaces, and the function that applies them.
 
-use std::path::PathBuf;
+use std::path::{self, PathBuf};
 
 use super::{
     live::{self, LiveAction},
@@ -139,10 +139,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::Chosen(ask, path) => return chosen(state, ask, path),
         Action::Open(path) if path.is_dir() => return chosen(state, DialogRequest::Scan, path),
         Action::Open(path) => return chosen(state, DialogRequest::Scene, path),
-        Action::UseFoundLibrary => {
-            state.chosen_library = None;
-            state.open_library();
-        }
+        Action::UseFoundLibrary => state.open_library(None),
         Action::CancelInspection => state.cancel_inspection(),
         Action::GoTo(workspace) => state.workspace = workspace,
         Action::Export => return Some(Effect::Tell(Event::Export)),
@@ -182,6 +179,8 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
 
 /// What follows from the file or folder that was chosen.
 fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Effect> {
+    // It is remembered, and the next start may be in another folder.
+    let path = path::absolute(&path).unwrap_or(path);
     match ask {
         DialogRequest::Scene | DialogRequest::Part => {
             state.source = Source::File(path);
@@ -208,8 +207,7 @@ fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Effect
         }
         DialogRequest::RecordTo => live::apply(state, LiveAction::Record(path)),
         DialogRequest::Library => {
-            state.chosen_library = Some(path);
-            state.open_library();
+            state.open_library(Some(path));
             None
         }
     }
@@ -243,6 +241,33 @@ mod tests {
                 "{effect:?}"
             );
         }
+    }
+
+    #[test]
+    fn a_relative_path_is_remembered_from_the_root_on() {
+        use crate::app::shell::settings::{RememberedSource, Settings};
+        let here = std::env::current_dir().expect("a folder");
+        let mut state = State::default();
+        apply(&mut state, Action::Open("door.pcd".into()));
+        let remembered = Settings::of(&state, None).source;
+        assert_eq!(remembered, RememberedSource::File(here.join("door.pcd")));
+        apply(&mut state, Action::Open("reference_parts".into()));
+        let scan = ScanFiles::of_folder(here.join("reference_parts"));
+        let remembered = Settings::of(&state, None).source;
+        assert_eq!(remembered, RememberedSource::Scan(scan));
+        let watched = Action::Chosen(DialogRequest::WatchedFolder, "captures".into());
+        apply(&mut state, watched);
+        let remembered = Settings::of(&state, None).source;
+        let RememberedSource::Camera(SourceSpec::Watched(spec)) = remembered else {
+            panic!("{remembered:?}");
+        };
+        assert_eq!(spec.folder, here.join("captures"));
+        let library = Action::Chosen(DialogRequest::Library, "reference_parts".into());
+        apply(&mut state, library);
+        assert!(state.inspector.run_waiting());
+        crate::app::shell::inspector::update(&mut state);
+        let remembered = Settings::of(&state, None).library;
+        assert_eq!(remembered, Some(here.join("reference_parts")));
     }
 
     #[test]

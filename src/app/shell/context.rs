@@ -4,7 +4,8 @@ use super::{file_dialog::DialogLock, message::Message, notice::Notice, session::
 use crate::app::{inspection::library_cache::LibraryCache, ui::theme::Theme};
 
 /// What tasks share. Clones go into jobs.
-#[derive(Clone, Debug, Default)]
+#[derive(Clone, Debug)]
+#[cfg_attr(test, derive(Default))]
 pub struct Services {
     /// The library, the camera, the recording and the history in use.
     pub library_cache: LibraryCache,

@@ -52,8 +52,8 @@ enum InspectorResult {
     Inspected(Arc<Inspected>),
     /// The poses of these shots were not found: a person has to name their file.
     PosesWanted(Box<ScanOrder>, UserError),
-    /// The library that is in use now.
-    Library(Arc<LibraryView>),
+    /// The library that is in use now, and the folder that was chosen for it, if any.
+    Library(Arc<LibraryView>, Option<PathBuf>),
 }
 
 impl Inspector {
@@ -91,8 +91,7 @@ impl State {
         let library_cache = self.inspector.library_cache.clone();
         let loading = &mut self.inspector.loading;
         loading.start("Loading the library", move |_| {
-            let loaded = library_cache.get().map_err(|error| UserError::of(&error))?;
-            Ok(Arc::clone(&loaded.shown))
+            Ok(Arc::clone(&library_cache.get().shown))
         });
     }
 
@@ -233,15 +232,16 @@ impl State {
         }
     }
 
-    /// Loads the library that was chosen.
-    pub(in crate::app) fn open_library(&mut self) {
-        let chosen = self.chosen_library.clone();
+    /// Loads the library in this folder, else the one that is found without choosing; one that cannot be loaded leaves the
+    /// old one in use, and is not remembered.
+    pub(in crate::app) fn open_library(&mut self, chosen: Option<PathBuf>) {
         let title = "Opening the library";
         let library_cache = self.begins(title, ReinspectionPurpose::Repeated);
         self.inspector.task.start(title, move |_| {
-            let loaded = library_cache.choose(chosen);
+            let loaded = library_cache.choose(chosen.clone());
             let loaded = loaded.map_err(|error| UserError::of(&error))?;
-            Ok(InspectorResult::Library(Arc::clone(&loaded.shown)))
+            let shown = Arc::clone(&loaded.shown);
+            Ok(InspectorResult::Library(shown, chosen))
         });
     }
 
@@ -364,7 +364,8 @@ pub(in crate::app) fn update(state: &mut State) -> Option<Event> {
                 notify(state, error.into());
                 return Some(Event::PosesWanted(*order));
             }
-            InspectorResult::Library(library) => {
+            InspectorResult::Library(library, chosen) => {
+                state.chosen_library = chosen;
                 state.use_library(&library);
                 state.inspect_again();
             }

@@ -170,7 +170,9 @@ fn parts_word(num: usize) -> &'static str {
 /// Which library is in use, and others to use.
 fn library_menu(ui: &mut Ui, state: &State, library: &LibraryView, actions: &mut Vec<Action>) {
     let num = library.parts.len();
-    let text = if ui.available_width() > 300.0 {
+    let text = if library.unloaded.is_some() {
+        "No library ▼".to_owned()
+    } else if ui.available_width() > 300.0 {
         let name = shortened(&file_name(&library.path), 20);
         format!("{num} {} · {name} ▼", parts_word(num))
     } else {
@@ -180,12 +182,16 @@ fn library_menu(ui: &mut Ui, state: &State, library: &LibraryView, actions: &mut
         ui.set_min_width(260.0);
         ui.label(RichText::new("Library in use").font(font::heading()));
         ui.label(library.path.display().to_string());
+        if let Some(trouble) = &library.unloaded {
+            ui.label(&trouble.what);
+        }
         ui.separator();
         if ui.button("Use another library…").clicked() {
             actions.push(Action::Ask(DialogRequest::Library));
             ui.close();
         }
-        if state.chosen_library.is_some() && ui.button("Use the usual library").clicked() {
+        let is_other = state.chosen_library.is_some() || library.unloaded.is_some();
+        if is_other && ui.button("Use the usual library").clicked() {
             actions.push(Action::UseFoundLibrary);
             ui.close();
         }

@@ -271,10 +271,7 @@ impl<'a> LiveSession<'a> {
 
     /// Inspects a frame.
     fn take(&mut self, captured: Captured) -> Result<(), TaskError> {
-        let shelved = self
-            .library_cache
-            .get()
-            .map_err(|error| UserError::of(&error))?;
+        let shelved = self.library_cache.get();
         let watching = SilentContext(self.context);
         let fitted = shelved.fitting(self.recipe, &watching);
         let fitted = fitted.ok_or(TaskError::Cancelled)?;

@@ -138,6 +138,11 @@ fn part_menu(ui: &mut Ui, align: &AlignState, session: &Session, actions: &mut V
         ui.label("The library is being loaded");
         return;
     };
+    if let Some(trouble) = &library.unloaded {
+        ui.label("The library could not be loaded")
+            .on_hover_text(format!("{}. {}", trouble.what, trouble.advice));
+        return;
+    }
     let chosen = align.chosen_part(session);
     let place = chosen.and_then(|name| library.place_of(name));
     let title = place.map_or("none", |place| library.title(place));

@@ -92,12 +92,12 @@ impl Pair {
     pub fn of(source: &PairSource, library_cache: &LibraryCache) -> Result<Self, UserError> {
         match source {
             PairSource::MovedCopy { part, start } => {
-                let shelved = library_cache.get().map_err(|error| UserError::of(&error))?;
+                let shelved = library_cache.get();
                 let (reference, title) = find(&shelved, part)?;
                 Ok(Self::moved_copy(reference, title, *start))
             }
             PairSource::Scene { inspected, part } => {
-                let shelved = library_cache.get().map_err(|error| UserError::of(&error))?;
+                let shelved = library_cache.get();
                 let (reference, title) = find(&shelved, part)?;
                 let found = inspected.inspection.segmentation.part.as_ref();
                 let found = found.map_err(UserError::of)?;

@@ -162,8 +162,13 @@ impl AlignState {
     /// What Run would align, or what is missing for it, in words.
     pub fn choice(&self, session: &Session) -> Result<PairSource, String> {
         let part = || {
-            if session.library.is_none() {
-                return Err("The library is being loaded".to_owned());
+            match &session.library {
+                None => return Err("The library is being loaded".to_owned()),
+                Some(library) => {
+                    if let Some(trouble) = &library.unloaded {
+                        return Err(trouble.what.clone());
+                    }
+                }
             }
             let part = self.chosen_part(session).map(str::to_owned);
             part.ok_or_else(|| {

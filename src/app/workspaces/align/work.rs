@@ -44,7 +44,7 @@ pub(super) fn table(
     library_cache: &LibraryCache,
     context: &TaskContext<AlignResult>,
 ) -> Result<AlignResult, TaskError> {
-    let shelved = library_cache.get().map_err(|error| UserError::of(&error))?;
+    let shelved = library_cache.get();
     let references = &shelved.library.references;
     let total = references.len() * Start::NUM_PAPER;
     let clock = Instant::now();

@@ -137,7 +137,7 @@ pub fn study(
     library_cache: &LibraryCache,
     watch: &dyn ProgressObserver,
 ) -> Result<CaseStudy, TaskError> {
-    let shelved = library_cache.get().map_err(|error| UserError::of(&error))?;
+    let shelved = library_cache.get();
     let (scene, title, camera) = opened(&request.case)?;
     if watch.is_cancelled() {
         return Err(TaskError::Cancelled);

@@ -195,7 +195,7 @@ fn run_cases(
     library_cache: &LibraryCache,
     context: &TaskContext<CompareResult>,
 ) -> Result<CompareResult, TaskError> {
-    let shelved = library_cache.get().map_err(|error| UserError::of(&error))?;
+    let shelved = library_cache.get();
     let list = folder.list().map_err(|error| UserError::of(&error))?;
     let library = shelved.fitting(recipe, context);
     let library = library.ok_or(TaskError::Cancelled)?;

@@ -68,6 +68,11 @@ impl Catalogue {
             ui.label(RichText::new("The library is being loaded…").color(theme.weak_text));
             return;
         };
+        if let Some(trouble) = &library.unloaded {
+            ui.label(RichText::new(&trouble.what).color(theme.warning));
+            ui.label(RichText::new(&trouble.advice).color(theme.weak_text));
+            return;
+        }
         self.sort(library);
         let num = library.parts.len();
         let word = if num == 1 { "part" } else { "parts" };

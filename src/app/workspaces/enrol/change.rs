@@ -8,8 +8,8 @@ use crate::{
         user_error::UserError,
     },
     library::{
-        Enrolled, LibraryError, LibraryFolder, Part, PartMeta, PartName, PartNaming, Saved,
-        SprayPath,
+        Enrolled, LibraryError, LibraryFolder, LibraryPlace, Part, PartMeta, PartName, PartNaming,
+        Saved, SprayPath,
     },
 };
 
@@ -48,8 +48,8 @@ pub(super) fn change(
     change: &LibraryChange,
     library_cache: &LibraryCache,
 ) -> Result<Changed, UserError> {
-    let shelved = library_cache.get().map_err(|error| UserError::of(&error))?;
-    let Some(folder) = shelved.place.folder() else {
+    let shelved = library_cache.get();
+    let Some(folder) = shelved.place.as_ref().and_then(LibraryPlace::folder) else {
         return Err(inside_the_program(shelved.shown.is_fixed.as_ref()));
     };
     let title_of = |name: &PartName| {

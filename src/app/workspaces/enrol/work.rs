@@ -159,10 +159,7 @@ fn check(
     context.check()?;
     // It has no name yet: none of the enrolled ones is left out for bearing the same.
     enrolled.reference.name.clear();
-    let shelved = match library_cache.get() {
-        Ok(shelved) => shelved,
-        Err(error) => return Ok(DraftEvent::Checked(Err(UserError::of(&error)))),
-    };
+    let shelved = library_cache.get();
     let coverage = enrolled.part.meta.coverage;
     let likenesses = likenesses(&enrolled.reference, coverage, &shelved.library);
     Ok(DraftEvent::Checked(Ok(Arc::new(Checked {

@@ -2,7 +2,10 @@ use std::sync::Arc;
 
 use super::*;
 use crate::{
-    app::{inspection::library_cache::LibraryCache, shell::context::TestShell},
+    app::{
+        inspection::{camera::Camera, library_cache::LibraryCache},
+        shell::context::TestShell,
+    },
     geometry::{cloud::PointCloud, rigid::RigidTransform},
     stages::pose::PoseMethod,
 };
@@ -25,12 +28,7 @@ impl Bench {
     /// With the shipped library.
     fn with_library() -> Self {
         let mut bench = Self::new();
-        let shelved = bench
-            .shell
-            .services
-            .library_cache
-            .get()
-            .expect("shipped parts");
+        let shelved = bench.shell.services.library_cache.get();
         bench.shell.session.library = Some(Arc::clone(&shelved.shown));
         bench
     }
@@ -127,7 +125,7 @@ fn every_method_runs_on_the_pair_and_a_scrubbed_pose_gives_the_e_of_its_iteratio
 #[test]
 fn the_source_is_the_part_moved_by_the_start_and_the_truth_brings_it_back() {
     let library_cache = LibraryCache::default();
-    let shelved = library_cache.get().expect("shipped parts");
+    let shelved = library_cache.get();
     let reference = &shelved.library.references[0];
     for start in [Start::Paper(4), Start::Random(3)] {
         let pair = Pair::moved_copy(reference, "part", start);
@@ -179,6 +177,9 @@ fn what_is_missing_is_said_in_words() {
     let mut bench = Bench::new();
     let says = |bench: &Bench, words| bench.missing().is_some_and(|text| text.contains(words));
     assert!(says(&bench, "being loaded"));
+    let missing = LibraryCache::new(Some("no/such/library".into()), Camera::default());
+    bench.shell.session.library = Some(Arc::clone(&missing.get().shown));
+    assert!(says(&bench, "no such library folder"));
     bench.act(AlignAction::Run);
     assert!(bench.align.running().is_none());
     bench.shell.session.library = Some(Arc::default());
@@ -276,12 +277,7 @@ fn an_old_result_stays_until_the_first_method_of_the_next_has_run() {
 fn two_files_far_from_the_origin_are_laid_over_each_other() {
     let folder = tempfile::tempdir().expect("a folder");
     let library_cache = LibraryCache::default();
-    let cloud = &library_cache
-        .get()
-        .expect("shipped parts")
-        .library
-        .references[2]
-        .cloud;
+    let cloud = &library_cache.get().library.references[2].cloud;
     let off = nalgebra::Vector3::new(400.0, -300.0, 0.0);
     let turned = Start::Paper(1).transform();
     let mut bench = Bench::new();
