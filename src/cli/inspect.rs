@@ -163,6 +163,9 @@ fn inspect(
     if let Some(recording) = one.recording {
         recording.finish(console);
     }
+    if let Some(folder) = &args.report {
+        console.note(&format_args!("The reports are in {}", folder.display()));
+    }
     outcome
 }
 
