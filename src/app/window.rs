@@ -16,7 +16,7 @@ use super::{
         live::{self, LiveAction},
         message::{Event, Message},
         notice::Notice,
-        notices, rail,
+        notices, path_entry, rail,
         robot::RobotCell,
         roles::{self, RoleAction},
         session::{Source, ThemeChoice, WorkspaceKind},
@@ -340,6 +340,7 @@ impl Window {
         roles::dialog(&ctx, &self.state, theme, &mut actions);
         let of_robot = self.robot.ui(&ctx, &self.state.session, theme);
         actions.extend(of_robot.into_iter().map(Action::Robot));
+        path_entry::ui(&ctx, &self.services.dialogs, theme);
         keys::help(&ctx, &self.state, &keys, theme, &mut actions);
         let is_behind_dialog = self.is_behind_dialog(&ctx);
         keys::shortcuts(

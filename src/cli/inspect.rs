@@ -175,6 +175,9 @@ fn inspect(
         }
         recording.finish(console);
     }
+    if let Some(folder) = &args.report {
+        console.note(&format_args!("The reports are in {}", folder.display()));
+    }
     outcome
 }
 

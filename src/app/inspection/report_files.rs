@@ -116,7 +116,8 @@ fn scene_name(origin: &Origin) -> PathBuf {
 }
 
 /// Writes an inspection as `partsight inspect --report` and `partsight report` do: a line of JSON, the pictures of its
-/// stages, and the pose report as JSON, PDF and a row of CSV; says what was written.
+/// stages, and the pose report as JSON, PDF and a row of CSV; says what was written. Nobody has named the files, so an earlier
+/// report in the folder stays.
 pub(in crate::app) fn report(
     folder: &Path,
     inspected: &Inspected,
@@ -126,6 +127,7 @@ pub(in crate::app) fn report(
     let trouble = |error: ReportError| UserError::of(&error);
     let name = scene_name(&inspected.origin);
     let scene = name.display().to_string();
+    let name = unused_name(folder, &name);
     let line = InspectionLine::of(&scene, &inspected.inspection).to_json();
     let stages = stage_pictures(&inspected.scene, &inspected.inspection);
     let mut out = ReportFolder::make(folder).map_err(trouble)?;
@@ -163,9 +165,46 @@ pub(in crate::app) fn report(
     Ok(what)
 }
 
+/// The name of the scene, with a number behind it where a report of that name lies in the folder.
+fn unused_name(folder: &Path, scene: &Path) -> PathBuf {
+    let stem = scene.file_stem().unwrap_or(scene.as_os_str());
+    let stem = stem.to_string_lossy();
+    let is_taken = |stem: &str| {
+        let mut endings = ["report.json", "pose.json", "pose.pdf"].iter();
+        endings.any(|ending| folder.join(format!("{stem}.{ending}")).exists())
+    };
+    if !is_taken(&stem) {
+        return scene.to_owned();
+    }
+    let mut numbered = (2..10_000).map(|number| format!("{stem}-{number}"));
+    let free = numbered.find(|stem| !is_taken(stem));
+    // Its ending is cut off again where the files are named.
+    free.map_or_else(|| scene.to_owned(), |free| format!("{free}.scene").into())
+}
+
 /// The same view in the colours of paper.
 fn on_paper(shot: &ViewShot) -> ViewShot {
     let mut shot = shot.clone();
     shot.style.colours = ViewColours::light();
     shot
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn an_earlier_report_is_never_written_over() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let at = |name: &str| folder.path().join(name);
+        let named = |scene: &str| unused_name(folder.path(), Path::new(scene));
+        assert_eq!(named("/captures/door.pcd"), Path::new("/captures/door.pcd"));
+        std::fs::write(at("door.pose.pdf"), "mine").expect("written");
+        assert_eq!(named("/captures/door.pcd"), Path::new("door-2.scene"));
+        std::fs::write(at("door-2.report.json"), "mine").expect("written");
+        assert_eq!(named("door"), Path::new("door-3.scene"));
+        let mut out = ReportFolder::make(folder.path()).expect("there");
+        let written = out.write(&named("door.pcd"), "{}", &[]).expect("written");
+        assert_eq!(written, at("door-3.report.json"));
+    }
 }

@@ -1,8 +1,8 @@
 //! The system's file dialogs, asked without waiting for them.
 
 use std::{
-    cell::Cell,
-    fmt,
+    cell::{Cell, RefCell, RefMut},
+    fmt, fs,
     path::{Path, PathBuf},
     pin::Pin,
     rc::Rc,
@@ -11,8 +11,8 @@ use std::{
     time::{Duration, Instant},
 };
 
-use super::notice::Notice;
-use crate::files::POINT_ENDINGS;
+use super::{notice::Notice, path_entry::PathEntry};
+use crate::files::{POINT_ENDINGS, folder_of, words_of};
 
 /// What a file dialog asks for.
 #[derive(Clone, Copy, Debug)]
@@ -48,9 +48,18 @@ pub struct FileDialog<K> {
     open: Option<(K, OpenDialog)>,
 }
 
-/// Keeps a second dialog from opening: it would hide behind the first. Clones share it.
+/// Keeps a second dialog from opening: it would hide behind the first. Clones share it, and the path that is typed where
+/// the system has no dialog.
 #[derive(Clone, Debug, Default)]
-pub struct DialogLock(Rc<Cell<bool>>);
+pub struct DialogLock(Rc<SharedDialog>);
+
+#[derive(Debug, Default)]
+struct SharedDialog {
+    is_open: Cell<bool>,
+    typed: RefCell<Option<PathEntry>>,
+    /// Where the last path was typed: of what is read, and of what is written.
+    folders: RefCell<[Option<PathBuf>; 2]>,
+}
 
 impl<K> Default for FileDialog<K> {
     fn default() -> Self {
@@ -75,7 +84,7 @@ impl<K: Copy> FileDialog<K> {
         egui: &egui::Context,
     ) {
         if let Some(guard) = lock.take() {
-            let dialog = OpenDialog::of(request.choice, answer(request), guard, egui);
+            let dialog = OpenDialog::of(*request, answer(request), guard, egui);
             self.open = Some((asked, dialog));
         }
     }
@@ -95,11 +104,30 @@ impl<K: Copy> FileDialog<K> {
 impl DialogLock {
     /// True while a dialog is open.
     pub fn is_open(&self) -> bool {
-        self.0.get()
+        self.0.is_open.get()
+    }
+
+    /// The path that is being typed, if one is.
+    pub(super) fn typed(&self) -> RefMut<'_, Option<PathEntry>> {
+        self.0.typed.borrow_mut()
+    }
+
+    /// Where the typing of a path begins.
+    fn folder(&self, choice: FileChoice) -> PathBuf {
+        let known = self.0.folders.borrow()[usize::from(choice.is_written())].clone();
+        known.unwrap_or_else(|| usual_folder(choice))
+    }
+
+    fn remember(&self, choice: FileChoice, path: &Path) {
+        let folder = match choice {
+            FileChoice::FolderToWrite => path,
+            _ => folder_of(path),
+        };
+        self.0.folders.borrow_mut()[usize::from(choice.is_written())] = Some(folder.to_owned());
     }
 
     fn take(&self) -> Option<DialogGuard> {
-        (!self.0.replace(true)).then(|| DialogGuard(self.clone()))
+        (!self.0.is_open.replace(true)).then(|| DialogGuard(self.clone()))
     }
 }
 
@@ -108,18 +136,22 @@ struct DialogGuard(DialogLock);
 
 impl Drop for DialogGuard {
     fn drop(&mut self) {
-        self.0.0.set(false);
+        let shared = &self.0.0;
+        shared.is_open.set(false);
+        shared.typed.replace(None);
     }
 }
 
 /// A dialog that is open.
 struct OpenDialog {
-    choice: FileChoice,
+    request: FileRequest,
     answer: Answer<PathBuf>,
     waker: Arc<DialogWaker>,
     /// When it was polled first: only then does it open.
     opened: Option<Instant>,
-    _guard: DialogGuard,
+    /// True once it has failed to open, and a path is typed instead.
+    is_typed: bool,
+    guard: DialogGuard,
 }
 
 /// What a person chose, once they have.
@@ -162,35 +194,69 @@ fn answer(request: &FileRequest) -> Answer<PathBuf> {
 
 impl OpenDialog {
     fn of(
-        choice: FileChoice,
+        request: FileRequest,
         answer: Answer<PathBuf>,
         guard: DialogGuard,
         egui: &egui::Context,
     ) -> Self {
         Self {
-            choice,
+            request,
             answer,
             waker: Arc::new(DialogWaker {
                 egui: egui.clone(),
                 closed: Mutex::new(None),
             }),
             opened: None,
-            _guard: guard,
+            is_typed: false,
+            guard,
         }
     }
 
     /// Ready once it was closed, with what follows from it, if anything.
     fn poll(&mut self) -> Poll<Option<Result<PathBuf, Notice>>> {
-        let opened = *self.opened.get_or_insert_with(Instant::now);
-        let waker = Waker::from(Arc::clone(&self.waker));
-        let answer = self.answer.as_mut();
-        answer
-            .poll(&mut Context::from_waker(&waker))
-            .map(|path| match path {
-                Some(path) => Some(Ok(path)),
-                None if self.open_time(opened) < TOO_QUICK => Some(without_dialog(self.choice)),
-                None => None,
-            })
+        if !self.is_typed {
+            let opened = *self.opened.get_or_insert_with(Instant::now);
+            let waker = Waker::from(Arc::clone(&self.waker));
+            let answer = self.answer.as_mut();
+            let Poll::Ready(path) = answer.poll(&mut Context::from_waker(&waker)) else {
+                return Poll::Pending;
+            };
+            if path.is_some() || self.open_time(opened) >= TOO_QUICK {
+                return Poll::Ready(path.map(Ok));
+            }
+            self.is_typed = true;
+            let lock = &self.guard.0;
+            let folder = lock.folder(self.request.choice);
+            *lock.typed() = Some(PathEntry::new(self.request, folder));
+            self.waker.egui.request_repaint();
+        }
+        let typed = self
+            .guard
+            .0
+            .typed()
+            .as_ref()
+            .map(|typed| typed.outcome.clone());
+        typed
+            .unwrap_or(Poll::Ready(None))
+            .map(|path| path.map(|path| self.made(path)))
+    }
+
+    /// The path that was typed, with the folder to write into: what writes a file does not make it.
+    fn made(&self, path: PathBuf) -> Result<PathBuf, Notice> {
+        let choice = self.request.choice;
+        let folder = match choice {
+            FileChoice::File | FileChoice::Folder => None,
+            FileChoice::NewFile(_) => Some(folder_of(&path)),
+            FileChoice::FolderToWrite => Some(path.as_path()),
+        };
+        if let Some(folder) = folder {
+            fs::create_dir_all(folder).map_err(|error| {
+                let what = format!("{} cannot be made: {}", folder.display(), words_of(&error));
+                Notice::look(what, "Choose another folder")
+            })?;
+        }
+        self.guard.0.remember(choice, &path);
+        Ok(path)
     }
 
     /// How long it was open. The clock of frames would not tell: behind Live, one may take longer than failing does.
@@ -200,42 +266,22 @@ impl OpenDialog {
     }
 }
 
-/// Where nothing can be asked: files to write go to a folder of their own, files to read can be dropped.
-fn without_dialog(choice: FileChoice) -> Result<PathBuf, Notice> {
-    let name = match choice {
-        FileChoice::FolderToWrite => "",
-        FileChoice::NewFile(name) => name,
-        FileChoice::File | FileChoice::Folder => return Err(never_opened()),
+impl FileChoice {
+    fn is_written(self) -> bool {
+        matches!(self, Self::NewFile(_) | Self::FolderToWrite)
+    }
+}
+
+/// Where the first path is typed: what is written goes to a folder of its own.
+fn usual_folder(choice: FileChoice) -> PathBuf {
+    let Some(user) = directories::UserDirs::new() else {
+        return PathBuf::from("/");
     };
-    let folders = directories::UserDirs::new().ok_or_else(never_opened)?;
-    let documents = folders.document_dir();
-    let folder = documents.unwrap_or(folders.home_dir()).join("Partsight");
-    // The folder is made here: what writes a file does not.
-    std::fs::create_dir_all(&folder)
-        .ok()
-        .ok_or_else(never_opened)?;
-    Ok(if name.is_empty() {
-        folder
-    } else {
-        free(&folder, name)
-    })
-}
-
-/// A path of this name in the folder that nothing has yet.
-fn free(folder: &Path, name: &str) -> PathBuf {
-    let (stem, ending) = name.rsplit_once('.').unwrap_or((name, ""));
-    let numbered = (2..1000).map(|number| folder.join(format!("{stem}-{number}.{ending}")));
-    std::iter::once(folder.join(name))
-        .chain(numbered)
-        .find(|path| !path.exists())
-        .unwrap_or_else(|| folder.join(name))
-}
-
-fn never_opened() -> Notice {
-    Notice::look(
-        "The desktop offers no file dialog",
-        "Drop the file onto the window, or install the package xdg-desktop-portal-gtk or zenity",
-    )
+    if !choice.is_written() {
+        return user.home_dir().to_owned();
+    }
+    let documents = user.document_dir().unwrap_or(user.home_dir());
+    documents.join("Partsight")
 }
 
 #[cfg(test)]
@@ -260,11 +306,16 @@ mod tests {
         });
         let guard = DialogLock::default().take().expect("no other dialog");
         let egui = egui::Context::default();
-        OpenDialog::of(FileChoice::File, Box::pin(answer), guard, &egui)
+        let request = FileRequest {
+            title: "Open",
+            filters: &[],
+            choice: FileChoice::File,
+        };
+        OpenDialog::of(request, Box::pin(answer), guard, &egui)
     }
 
     /// What follows where the next frame comes only once the dialog has long closed.
-    fn after_a_slow_frame(mut dialog: OpenDialog) -> Poll<Option<Result<PathBuf, Notice>>> {
+    fn after_a_slow_frame(dialog: &mut OpenDialog) -> Poll<Option<Result<PathBuf, Notice>>> {
         thread::sleep(TOO_QUICK);
         assert!(dialog.poll().is_pending());
         while dialog.waker.closed().is_none() {
@@ -276,10 +327,25 @@ mod tests {
 
     #[test]
     fn a_dialog_that_never_opened_is_told_from_a_cancelled_one_in_slow_frames_too() {
-        let failed = after_a_slow_frame(closing_after(Duration::ZERO));
-        assert!(matches!(failed, Poll::Ready(Some(Err(_)))));
-        let cancelled = after_a_slow_frame(closing_after(2 * TOO_QUICK));
-        assert!(matches!(cancelled, Poll::Ready(None)));
+        let mut failed = closing_after(Duration::ZERO);
+        assert!(after_a_slow_frame(&mut failed).is_pending());
+        let lock = failed.guard.0.clone();
+        assert!(lock.typed().is_some(), "a path can be typed");
+        let typed = PathBuf::from("/captures/door.pcd");
+        if let Some(entry) = lock.typed().as_mut() {
+            entry.outcome = Poll::Ready(Some(typed.clone()));
+        }
+        let answer = failed.poll();
+        assert!(matches!(answer, Poll::Ready(Some(Ok(path))) if path == typed));
+        drop(failed);
+        assert!(lock.typed().is_none() && !lock.is_open());
+        // The next one begins there.
+        assert_eq!(lock.folder(FileChoice::File), Path::new("/captures"));
+        let mut cancelled = closing_after(2 * TOO_QUICK);
+        assert!(matches!(
+            after_a_slow_frame(&mut cancelled),
+            Poll::Ready(None)
+        ));
     }
 
     #[test]

@@ -14,6 +14,7 @@ pub mod live;
 pub mod message;
 pub mod notice;
 pub(in crate::app) mod notices;
+pub(in crate::app) mod path_entry;
 pub(in crate::app) mod rail;
 pub mod robot;
 pub mod roles;

@@ -1,0 +1,251 @@
+//! A path that is typed: it takes the place of the system's file dialog where the desktop offers none.
+
+use std::{
+    path::{self, Path, PathBuf},
+    task::Poll,
+};
+
+use egui::{Button, Context, Key, RichText, TextEdit};
+
+use super::{
+    file_dialog::{DialogLock, FileChoice, FileRequest},
+    top_bar::labelled,
+};
+use crate::app::ui::{
+    theme::{Theme, font, space},
+    widgets,
+};
+
+/// Width of the dialog, logical pixels.
+const WIDTH: f32 = 560.0;
+
+/// A path that is being typed.
+#[derive(Debug)]
+pub(super) struct PathEntry {
+    request: FileRequest,
+    /// The folder it began with.
+    folder: PathBuf,
+    text: String,
+    trouble: Option<String>,
+    /// The file that would be replaced, once a person was told.
+    replaced: Option<PathBuf>,
+    /// What was confirmed; none if it was cancelled.
+    pub(super) outcome: Poll<Option<PathBuf>>,
+    is_new: bool,
+}
+
+impl PathEntry {
+    /// Begins in this folder.
+    pub(super) fn new(request: FileRequest, folder: PathBuf) -> Self {
+        let begun = match request.choice {
+            // With a separator at its end.
+            FileChoice::File | FileChoice::Folder => folder.join(""),
+            FileChoice::NewFile(name) => free(&folder, name),
+            FileChoice::FolderToWrite => folder.clone(),
+        };
+        Self {
+            text: begun.display().to_string(),
+            request,
+            folder,
+            trouble: None,
+            replaced: None,
+            outcome: Poll::Pending,
+            is_new: true,
+        }
+    }
+
+    /// Replaces what is typed.
+    fn write(&mut self, text: &str) {
+        text.clone_into(&mut self.text);
+        (self.trouble, self.replaced) = (None, None);
+    }
+
+    /// Takes what is typed, or says what is wrong with it.
+    fn confirm(&mut self) {
+        let typed = Path::new(self.text.trim());
+        let typed = match (typed.strip_prefix("~"), directories::UserDirs::new()) {
+            (Ok(rest), Some(user)) => user.home_dir().join(rest),
+            _ => typed.to_owned(),
+        };
+        self.trouble = match path::absolute(&typed) {
+            Err(_) => Some("Type a path".to_owned()),
+            Ok(path) => {
+                let trouble = self.trouble_with(&path);
+                if trouble.is_none() {
+                    self.outcome = Poll::Ready(Some(path));
+                }
+                trouble
+            }
+        };
+    }
+
+    fn trouble_with(&mut self, path: &Path) -> Option<String> {
+        let trouble = match self.request.choice {
+            FileChoice::File | FileChoice::NewFile(_) if path.is_dir() => {
+                "This is a folder: add the name of a file"
+            }
+            FileChoice::File if !path.is_file() => "There is no such file",
+            FileChoice::Folder if !path.is_dir() => "There is no such folder",
+            FileChoice::FolderToWrite if path.is_file() => "This is a file, not a folder",
+            FileChoice::NewFile(_) if path.exists() && self.replaced.as_deref() != Some(path) => {
+                self.replaced = Some(path.to_owned());
+                "There is a file of this name: confirm once more to replace it"
+            }
+            FileChoice::NewFile(_)
+                if path
+                    .parent()
+                    .is_none_or(|folder| folder != self.folder && !folder.is_dir()) =>
+            {
+                "The folder of this file does not exist"
+            }
+            _ => return None,
+        };
+        Some(trouble.to_owned())
+    }
+}
+
+/// A path of this name in the folder that nothing has yet.
+fn free(folder: &Path, name: &str) -> PathBuf {
+    let (stem, ending) = name.rsplit_once('.').unwrap_or((name, ""));
+    let numbered = (2..1000).map(|number| folder.join(format!("{stem}-{number}.{ending}")));
+    std::iter::once(folder.join(name))
+        .chain(numbered)
+        .find(|path| !path.exists())
+        .unwrap_or_else(|| folder.join(name))
+}
+
+/// Draws the path that is being typed, if one is.
+pub(in crate::app) fn ui(ctx: &Context, lock: &DialogLock, theme: &Theme) {
+    let mut typed = lock.typed();
+    let Some(entry) = typed.as_mut() else {
+        return;
+    };
+    let modal = widgets::dialog(ctx, "typed path", |ui| {
+        ui.set_max_width(WIDTH);
+        let title = RichText::new(entry.request.title).font(font::verdict());
+        ui.label(title.color(theme.text));
+        let says = "The desktop offers no file dialog (package xdg-desktop-portal-gtk or zenity): type the path";
+        ui.label(RichText::new(says).color(theme.weak_text));
+        let name = ui.label("Path");
+        let mut text = entry.text.clone();
+        let field = ui.add(TextEdit::singleline(&mut text).desired_width(WIDTH));
+        let field = field.labelled_by(name.id);
+        if field.changed() {
+            entry.write(&text);
+        }
+        if std::mem::take(&mut entry.is_new) {
+            field.request_focus();
+        }
+        let is_entered = field.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
+        if let Some(trouble) = &entry.trouble {
+            ui.label(RichText::new(trouble).color(theme.warning));
+        }
+        ui.add_space(space::SMALL);
+        ui.horizontal(|ui| {
+            if labelled(ui, Button::new("OK"), "OK").clicked() || is_entered {
+                entry.confirm();
+                field.request_focus();
+                ui.ctx().request_repaint();
+            }
+            if labelled(ui, Button::new("Cancel"), "Cancel").clicked() {
+                entry.outcome = Poll::Ready(None);
+                ui.ctx().request_repaint();
+            }
+        });
+    });
+    if modal.should_close() && entry.outcome.is_pending() {
+        entry.outcome = Poll::Ready(None);
+        ctx.request_repaint();
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::Role;
+    use egui_kittest::{Harness, kittest::Queryable as _};
+
+    use super::*;
+    use crate::app::ui::theme::ThemeChoice;
+
+    fn entry(choice: FileChoice, folder: &Path) -> PathEntry {
+        let request = FileRequest {
+            title: "Open",
+            filters: &[],
+            choice,
+        };
+        PathEntry::new(request, folder.to_owned())
+    }
+
+    fn confirmed(entry: &mut PathEntry, text: &Path) -> Poll<Option<PathBuf>> {
+        entry.write(&text.display().to_string());
+        entry.confirm();
+        entry.outcome.clone()
+    }
+
+    #[test]
+    fn what_does_not_exist_is_not_taken_and_said_under_the_field() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let (file, missing) = (folder.path().join("door.pcd"), folder.path().join("x"));
+        std::fs::write(&file, "x").expect("written");
+        let mut opened = entry(FileChoice::File, folder.path());
+        for (wrong, says) in [
+            (missing.as_path(), "no such file"),
+            (folder.path(), "a folder"),
+            (Path::new(""), "Type a path"),
+        ] {
+            assert!(confirmed(&mut opened, wrong).is_pending());
+            let said = opened.trouble.as_deref().unwrap_or_default();
+            assert!(said.contains(says), "{said}");
+        }
+        assert_eq!(confirmed(&mut opened, &file), Poll::Ready(Some(file)));
+        let mut opened = entry(FileChoice::Folder, folder.path());
+        assert!(confirmed(&mut opened, &missing).is_pending());
+        let whole = Poll::Ready(Some(folder.path().to_owned()));
+        assert_eq!(confirmed(&mut opened, folder.path()), whole);
+    }
+
+    #[test]
+    fn a_path_is_typed_and_taken_with_enter() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let lock = DialogLock::default();
+        *lock.typed() = Some(entry(FileChoice::File, folder.path()));
+        let shared = lock.clone();
+        let mut harness = Harness::builder().build_ui(move |ui| {
+            super::ui(ui.ctx(), &shared, Theme::of(ThemeChoice::Dark));
+        });
+        harness.run_steps(4);
+        let field = |harness: &Harness<'_>| {
+            let field = harness.get_by_role_and_label(Role::TextInput, "Path");
+            field.value().unwrap_or_default()
+        };
+        assert!(field(&harness).starts_with(&folder.path().display().to_string()));
+        harness.key_press(Key::Enter);
+        harness.run_steps(4);
+        harness.get_by_label_contains("This is a folder");
+        let path = folder.path().join("door.pcd");
+        std::fs::write(&path, "x").expect("written");
+        // The cursor is behind what is there.
+        let input = harness.get_by_role_and_label(Role::TextInput, "Path");
+        input.type_text("door.pcd");
+        harness.run_steps(4);
+        assert_eq!(field(&harness), path.display().to_string());
+        harness.key_press(Key::Enter);
+        harness.run_steps(4);
+        let outcome = lock.typed().as_ref().map(|entry| entry.outcome.clone());
+        assert_eq!(outcome, Some(Poll::Ready(Some(path))));
+    }
+
+    #[test]
+    fn a_file_that_is_there_is_replaced_only_when_confirmed_twice() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let file = folder.path().join("view.png");
+        std::fs::write(&file, "mine").expect("written");
+        let mut saved = entry(FileChoice::NewFile("view.png"), folder.path());
+        let free = folder.path().join("view-2.png");
+        assert_eq!(saved.text, free.display().to_string());
+        assert!(confirmed(&mut saved, &file).is_pending());
+        assert!(saved.trouble.is_some());
+        saved.confirm();
+        assert_eq!(saved.outcome, Poll::Ready(Some(file)));
+    }
+}
