@@ -210,7 +210,13 @@ mod tests {
         let lock = DialogLock::default();
         *lock.typed() = Some(entry(FileChoice::File, folder.path()));
         let shared = lock.clone();
+        let mut has_fonts = false;
         let mut harness = Harness::builder().build_ui(move |ui| {
+            // They are there from the next frame on.
+            if !std::mem::replace(&mut has_fonts, true) {
+                Theme::install_fonts(ui.ctx());
+                return;
+            }
             super::ui(ui.ctx(), &shared, Theme::of(ThemeChoice::Dark));
         });
         harness.run_steps(4);

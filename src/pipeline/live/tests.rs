@@ -127,7 +127,7 @@ fn the_field_of_view_that_earlier_frames_showed_is_known_of_a_part_alone() {
         }
         Arc::new(scene_from_frame(&frame))
     };
-    let is_inner = |scene: &SceneCloud| scene.field_of_view().is_some_and(|view| view.is_inner());
+    let is_inner = |scene: &SceneCloud| scene.field_of_view().is_some_and(FieldOfView::is_inner);
     let mut watch = LiveTracker::new(&LiveParams::default());
     let (whole, alone) = (within([60, 40]), within([230, 150]));
     assert!(is_inner(&whole) && !is_inner(&alone));
