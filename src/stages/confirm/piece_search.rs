@@ -36,8 +36,9 @@ const ANGLE_OFF: f32 = 0.24;
 const NORMAL_OFF: f32 = 0.87;
 /// Distances beyond this count as this, metres.
 const FAR: f32 = 0.045;
-/// Points off among those tried first from which on a pose is dropped: tubes of a stand are taken for the part at times.
-const MOST_OFF: usize = 7;
+/// A pose is dropped as soon as more than this share of the points tried so far is off, and one point more: tubes of a
+/// stand are taken for the part at times, and most wrong poses show after three points.
+const MOST_OFF: f32 = 0.4;
 /// Share of the border tried first that must find the reference's.
 const LEAST_BORDER: f32 = 0.3;
 /// Poses of a reference that are scored.
@@ -313,7 +314,7 @@ fn early_out_cost(
             .map_or(1.0, |n| clipped(n.distance_sq));
         num_off += usize::from(off >= 1.0);
         sum += off;
-        if num_off >= MOST_OFF {
+        if num_off as f32 > 1.0 + MOST_OFF * num as f32 {
             return None;
         }
     }
