@@ -8,6 +8,7 @@ mod mirror;
 pub mod parameters;
 mod rejection;
 pub mod scan;
+mod surface;
 mod unsound;
 mod verdict;
 mod watch;
@@ -16,28 +17,26 @@ use crate::{
     error::{Fault, guarded},
     library::Library,
     stages::{
-        confirm::{ConfirmParams, ConfirmedRanking, Scene, confirm},
-        contour::{Contour, ContourParams, find_contour},
-        pose::{
-            AlignParams, PoseError, PoseEstimate, PoseMethod, icp::IcpParams, icp_ga::IcpGaParams,
-            locate,
-        },
-        project::{PlaneImage, ProjectParams, project},
-        rank::{Matcher, Query, RankParams, place, rank},
+        confirm::{ConfirmParams, ConfirmedRanking},
+        contour::{Contour, ContourParams},
+        pose::{PoseError, PoseEstimate, PoseMethod, icp::IcpParams, icp_ga::IcpGaParams},
+        project::{PlaneImage, ProjectParams},
+        rank::{Matcher, RankParams},
         reference::Reference,
         scene::SceneCloud,
         segment::{
             NoPart, PointLabel, SegmentParams, Segmentation, SegmentedPart, other_segments,
             segment, without_bars,
         },
-        signature::{FanSignature, SignatureParams, describe},
+        signature::{FanSignature, SignatureParams},
         stand_off::StandOffParams,
     },
     units::Metres,
 };
 
 use self::{
-    mirror::check_mirror_image, unsound::refuse_unsound, verdict::verdict, watch::StageClock,
+    mirror::check_mirror_image, surface::inspect_surface, unsound::refuse_unsound,
+    watch::StageClock,
 };
 pub use self::{
     mirror::{MirrorTally, OnlyMirrored},
@@ -232,42 +231,6 @@ fn try_segment(
     Ok(())
 }
 
-/// What the stages after segmentation make of one surface.
-#[derive(Default)]
-struct SurfaceResult {
-    plane: Option<PlaneImage>,
-    contour: Option<Contour>,
-    signature: Option<FanSignature>,
-    ranking: ConfirmedRanking,
-    pose: Option<Result<PoseEstimate, PoseError>>,
-    verdict: Option<Verdict>,
-}
-
-impl SurfaceResult {
-    fn best_score(&self) -> f64 {
-        self.ranking.entries.first().map_or(0.0, |e| e.score)
-    }
-
-    fn keep(self, inspection: &mut Inspection) {
-        let Self {
-            plane,
-            contour,
-            signature,
-            ranking,
-            pose,
-            verdict,
-        } = self;
-        inspection.plane = plane;
-        inspection.contour = contour;
-        inspection.signature = signature;
-        inspection.ranking = ranking;
-        inspection.pose = pose;
-        if let Some(verdict) = verdict {
-            inspection.verdict = verdict;
-        }
-    }
-}
-
 impl Inspection {
     /// Of a scene at which the program itself failed.
     fn broken_off(fault: Fault, num_points: usize) -> Self {
@@ -320,107 +283,4 @@ impl Inspection {
     fn best_score(&self) -> f64 {
         self.ranking.entries.first().map_or(0.0, |e| e.score)
     }
-}
-
-/// The stages after segmentation, on one surface, of which a score below `least_score` is of no use.
-fn inspect_surface(
-    part: &SegmentedPart,
-    scene: &SceneCloud,
-    library: &Library,
-    recipe: &Recipe,
-    least_score: f64,
-    clock: &StageClock<'_>,
-) -> Result<SurfaceResult, Cancelled> {
-    let mut surface = SurfaceResult::default();
-    let recognised = recognise(
-        &mut surface,
-        part,
-        scene,
-        library,
-        recipe,
-        least_score,
-        clock,
-    )?;
-    surface.verdict = Some(match recognised {
-        Ok(()) => verdict(&surface.ranking, surface.pose.as_ref(), recipe),
-        Err(reason) => Verdict::NoPart(reason),
-    });
-    Ok(surface)
-}
-
-/// Each stage leaves its result in the surface.
-fn recognise(
-    inspection: &mut SurfaceResult,
-    part: &SegmentedPart,
-    scene: &SceneCloud,
-    library: &Library,
-    recipe: &Recipe,
-    least_score: f64,
-    clock: &StageClock<'_>,
-) -> Result<Result<(), Unrecognisable>, Cancelled> {
-    let plane = match clock.time(Stage::Project, || project(part, &recipe.project))? {
-        Ok(plane) => inspection.plane.insert(plane),
-        Err(error) => return Ok(Err(error.into())),
-    };
-    let contour = match clock.time(Stage::Contour, || find_contour(plane, &recipe.contour))? {
-        Ok(contour) => inspection.contour.insert(contour),
-        Err(error) => return Ok(Err(error.into())),
-    };
-    let signature = match clock.time(Stage::Signature, || describe(contour, &recipe.signature))? {
-        Ok(signature) => inspection.signature.insert(signature),
-        Err(error) => return Ok(Err(error.into())),
-    };
-    let query = Query {
-        plane,
-        contour,
-        signature,
-    };
-    let references = &library.references;
-    let mut ranking = clock.time(Stage::Rank, || rank(&query, references, &recipe.rank))?;
-    let Some(first) = ranking.entries.first_mut() else {
-        return Ok(Err(Unrecognisable::EmptyLibrary));
-    };
-    match recipe.pose {
-        PoseChoice::Skip => inspection.ranking = ConfirmedRanking::unexamined(&ranking),
-        PoseChoice::By(method @ (PoseMethod::Icp | PoseMethod::IcpGa)) => {
-            let reference = &references[first.reference];
-            let is_cancelled = || clock.is_cancelled();
-            let params = AlignParams {
-                method,
-                icp: recipe.icp.clone(),
-                icp_ga: recipe.icp_ga.clone(),
-            };
-            let pose = clock.time(Stage::Pose, || {
-                locate(part, reference, scene, &params, &is_cancelled)
-            })?;
-            if pose == Err(PoseError::Cancelled) {
-                return Err(Cancelled);
-            }
-            // The order is the matcher's; what the first is worth shows at its pose.
-            let mut confirmed = ConfirmedRanking::unexamined(&ranking);
-            for entry in &mut confirmed.entries {
-                entry.score = 0.0;
-            }
-            confirmed.entries[0].is_examined = true;
-            confirmed.entries[0].score = pose.as_ref().map_or(0.0, |p| p.fit.score());
-            confirmed.entries[0].pose = pose.as_ref().ok().cloned();
-            inspection.ranking = confirmed;
-            inspection.pose = Some(pose);
-        }
-        PoseChoice::By(PoseMethod::Global) => {
-            let mut params = recipe.confirm.clone();
-            if recipe.rank.matcher == Matcher::Paper {
-                // The paper's choice stands: only that one is put in its place.
-                params.num_references = 1;
-                first.placements = place(&query, &references[first.reference], &recipe.rank);
-            }
-            let scene = Scene { scene, part, query };
-            let (ranking, pose) = clock.time(Stage::Pose, || {
-                confirm(&scene, references, &ranking, &params, least_score)
-            })?;
-            inspection.ranking = ranking;
-            inspection.pose = Some(pose);
-        }
-    }
-    Ok(Ok(()))
 }

@@ -144,7 +144,7 @@ impl Window {
             (None, _) => Action::Capture,
         };
         window.state.load_library();
-        // Nobody has asked for a draft: the first scene is inspected, whatever is in front.
+        // At start the first scene is inspected, even if Enrol is in front.
         let front = std::mem::take(&mut window.state.session.workspace);
         window.act(first, ctx);
         window.state.session.workspace = front;

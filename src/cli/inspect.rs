@@ -131,7 +131,7 @@ fn inspect(
     let spray = args
         .spray
         .start(&args.files, robot.as_ref(), place, &load)?;
-    let telling = match (args.json, args.files.as_slice()) {
+    let format = match (args.json, args.files.as_slice()) {
         (true, _) => OutputFormat::Json,
         (false, []) => OutputFormat::Rows(Columns::for_captures(&load.library)),
         (false, [_]) => OutputFormat::Card,
@@ -147,14 +147,14 @@ fn inspect(
     let recording = (!args.no_history)
         .then(|| HistoryRecorder::start(&args.history, &load, &recipe, console))
         .flatten();
-    telling.head(console);
+    format.head(console);
     let mut one = InspectSession {
         library: load.library,
         recipe,
         empty_cell,
         robot,
         spray,
-        telling,
+        format,
         report,
         recording,
         followed: (args.source.as_ref())
@@ -204,7 +204,7 @@ struct InspectSession {
     empty_cell: Option<Arc<EmptyCell>>,
     robot: Option<RobotFrame>,
     spray: Option<spray::SprayFile>,
-    telling: OutputFormat,
+    format: OutputFormat,
     report: Option<ReportFolder>,
     recording: Option<HistoryRecorder>,
     /// Of a source whose frames show one part after the other.
@@ -257,7 +257,7 @@ impl InspectSession {
     ) -> anyhow::Result<Outcome> {
         let name = path.display().to_string();
         let line = InspectionLine::unreadable(&name, shown).to_json();
-        self.telling.unreadable(&name, &line, console);
+        self.format.unreadable(&name, &line, console);
         console.note(&format_args!("error: {shown}"));
         console.note(&format_args!("  to do: {}", error.advice()));
         if let Some(report) = &mut self.report {
@@ -280,7 +280,7 @@ impl InspectSession {
             empty_cell,
             robot,
             spray,
-            telling,
+            format,
             report,
             recording,
             followed,
@@ -310,12 +310,12 @@ impl InspectSession {
         };
         let line = line_of(&inspection);
         // The table has no room for it; its reports and the history say it of each.
-        let shown = match telling {
+        let shown = match format {
             OutputFormat::Card if file_says_simulated => format!("{name}, simulated"),
             _ => name.clone(),
         };
-        telling.inspected(&shown, &line, &inspection, library, console);
-        if let (OutputFormat::Card, Some(robot)) = (telling, robot) {
+        format.inspected(&shown, &line, &inspection, library, console);
+        if let (OutputFormat::Card, Some(robot)) = (format, robot) {
             show_in_robot(robot, &inspection, library, console);
         }
         let mut outcome = outcome_of(&inspection);
@@ -421,7 +421,7 @@ mod tests {
             empty_cell: None,
             robot: None,
             spray: None,
-            telling: OutputFormat::Card,
+            format: OutputFormat::Card,
             report: Some(ReportFolder::make(folder.path()).expect("made")),
             recording: None,
             followed: None,

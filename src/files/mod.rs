@@ -14,7 +14,7 @@
 //! [`FileContent::warnings`] tells when the numbers look like millimetres.
 //!
 //! Every size that a header claims is held against the bytes really there, and against [`MAX_UNPACKED_BYTES`], before
-//! memory is taken for it. Only regular files are opened ([`open_regular`]), up to a limit, and a panic in a reader is an
+//! memory is taken for it. Only regular files are opened (`open_regular`), up to a limit, and a panic in a reader is an
 //! error of its file.
 //!
 //! # Whose readers

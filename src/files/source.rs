@@ -259,7 +259,7 @@ mod tests {
                     thread::sleep(FILE_CLOCK + FILE_CLOCK / 3);
                 }
             });
-            // Nothing may end this before the writer is told to stop.
+            // Assertions come after the writer has been stopped, so that a failure cannot leave it running.
             let results: Vec<_> = (0..80).map(|_| read_bytes(&path)).collect();
             is_over.store(true, Ordering::Relaxed);
             results

@@ -45,7 +45,7 @@ pub fn write_atomically(
 /// How the temporary files are called.
 const PREFIX: &str = ".partsight-";
 const SUFFIX: &str = ".part";
-/// Nobody writes to a temporary file any more that has not changed for so long.
+/// A temporary file unchanged for this long was left behind by an interrupted write.
 const ABANDONED: Duration = Duration::from_mins(10);
 
 /// Removes what programs left in a folder that were killed while they wrote; this one looks there once.
@@ -58,7 +58,7 @@ fn clear_leftovers_once(folder: &Path) {
     }
 }
 
-/// What cannot be removed harms nobody: the names of new files are never those of old ones.
+/// A file that cannot be removed does no harm, because new temporary files have other names.
 fn clear_leftovers(folder: &Path) {
     for entry in fs::read_dir(folder).into_iter().flatten().flatten() {
         let name = entry.file_name();

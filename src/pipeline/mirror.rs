@@ -7,8 +7,9 @@
 use std::collections::BTreeSet;
 
 use super::{
-    Inspection, Recipe, SurfaceResult, inspect_surface,
+    Inspection, Recipe,
     rejection::Rejection,
+    surface::{SurfaceResult, inspect_surface},
     verdict::{Verdict, model_deviation},
     watch::{Cancelled, StageClock},
 };

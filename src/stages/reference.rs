@@ -5,32 +5,30 @@
 //! some 20 to 25 degrees around. A view goes through the same projection, contour and signature as a scene.
 
 pub mod border;
+mod view;
 mod view_cut;
 mod viewpoints;
 
 use std::sync::OnceLock;
 
-use nalgebra::{Isometry2, Point2, Point3, Vector3};
+use nalgebra::{Point3, Vector3};
 
 use self::{
     border::{BorderPoint, ReferenceBorder},
-    viewpoints::{VIEW_DISTANCE, viewpoints, visible_from},
+    viewpoints::{VIEW_DISTANCE, viewpoints},
 };
-pub use self::{view_cut::ViewCut, viewpoints::seen_around};
+pub use self::{view::ReferenceView, view_cut::ViewCut, viewpoints::seen_around};
 use crate::{
     error::Advice,
-    geometry::{
-        cloud::PointCloud, nearest::KdTree, nearest_field::NearestField, raster::PackedImage,
-        rigid::RigidTransform,
-    },
+    geometry::{cloud::PointCloud, nearest::KdTree, nearest_field::NearestField},
     stages::{
-        contour::{Contour, ContourParams, find_contour, lift_oriented},
+        contour::{Contour, ContourParams, lift_oriented},
         correlation::{LiteralReference, RaySpectra},
         pose::{PoseError, PreparedTarget, edge_points::EdgePoints, refine::AlignmentTarget},
-        project::{PlaneImage, ProjectParams, project_weighted},
-        signature::{FanSignature, LiteralSignature, SignatureParams, describe},
+        project::{PlaneImage, ProjectParams},
+        signature::{FanSignature, LiteralSignature, SignatureParams},
     },
-    units::{Metres, Radians},
+    units::Metres,
 };
 
 /// From where the reference cloud was seen.
@@ -118,30 +116,6 @@ pub struct Reference {
     whole: OnceLock<Result<PreparedTarget, PoseError>>,
 }
 
-/// The reference as seen from one side.
-#[derive(Clone, Debug)]
-pub struct ReferenceView {
-    /// Where from, part space.
-    viewpoint: Point3<f64>,
-    /// Takes part space into this view's plane space.
-    pub plane_from_part: RigidTransform,
-    /// The binary image.
-    pub plane: PlaneImage,
-    /// Its pixels alone, no finer than a centimetre.
-    pub pixels: PackedImage,
-    /// Area of its set pixels, square metres.
-    pub image_area: f64,
-    /// Its outline and openings.
-    pub contour: Contour,
-    /// The outline's signature.
-    pub signature: FanSignature,
-    /// Outline and openings on the surface, part space; made when a pose is first tried from this view.
-    edges: OnceLock<EdgePoints>,
-}
-
-/// Side of a pixel of the packed image, metres: finer than the spacing of the points that are looked up in it, and a
-/// quarter of the memory that every inspection reads.
-const PACKED_PIXEL: f64 = 0.01;
 /// Points kept of a view's outline and openings: about one per centimetre and a half around a door.
 const NUM_EDGES: usize = 256;
 /// Cells of the field of nearest points, metres: two to three spacings of a reference cloud.
@@ -362,56 +336,6 @@ impl Reference {
 /// The views' signatures, for the circular correlation.
 pub fn spectra_of(views: &[ReferenceView]) -> RaySpectra {
     RaySpectra::of(views.iter().map(|view| &view.signature.rays[..]))
-}
-
-impl ReferenceView {
-    fn new(
-        viewpoint: Point3<f64>,
-        plane: PlaneImage,
-        contour: Contour,
-        signature: FanSignature,
-    ) -> Self {
-        Self {
-            viewpoint,
-            edges: OnceLock::new(),
-            pixels: plane
-                .image
-                .packed((PACKED_PIXEL / plane.pixel.0).round() as usize),
-            image_area: plane.image.num_set() as f64 * plane.pixel.0.powi(2),
-            plane_from_part: plane.plane_from_camera,
-            plane,
-            contour,
-            signature,
-        }
-    }
-
-    fn from_viewpoint(
-        cloud: &PointCloud,
-        bounds: (Point3<f32>, Point3<f32>),
-        viewpoint: &Point3<f64>,
-        params: &ReferenceParams,
-    ) -> Option<Self> {
-        let visible = visible_from(cloud, bounds, viewpoint);
-        let points: Vec<Point3<f32>> = visible.iter().map(|v| cloud.points[v.0]).collect();
-        // The cloud is even on the surface; a camera sees a tilted surface with fewer pixels.
-        let weight = |i: usize, _: &Point3<f32>| visible[i].1;
-        let plane = project_weighted(&points, weight, viewpoint, &params.project).ok()?;
-        let contour = find_contour(&plane, &params.contour).ok()?;
-        let signature = describe(&contour, &params.signature).ok()?;
-        Some(Self::new(*viewpoint, plane, contour, signature))
-    }
-
-    /// The transform of view-plane space into a scene's plane space, in the plane, that turns by `turn` and carries
-    /// the view's centroid to the scene's.
-    pub fn scene_plane_from_view_plane(
-        &self,
-        turn: Radians,
-        scene_centroid: &Point2<f64>,
-    ) -> Isometry2<f64> {
-        let rotation = nalgebra::UnitComplex::new(turn.0);
-        let shift = scene_centroid - rotation * self.signature.centroid;
-        Isometry2::from_parts(shift.into(), rotation)
-    }
 }
 
 /// The surface at an edge of the sheet is seen at a cosine of at least this; less is where a rounded surface turns

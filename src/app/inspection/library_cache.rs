@@ -137,8 +137,8 @@ impl LibraryCache {
         &self.camera
     }
 
-    /// The library; loads it if nobody has yet. While it cannot be loaded an empty one takes its place, so that scenes
-    /// are captured and shown all the same, and each call tries again.
+    /// The library, loaded on first use. If it cannot be loaded, this is an empty library, so that scenes can still be
+    /// captured and shown, and the next call tries again.
     pub fn get(&self) -> Arc<LoadedLibrary> {
         let mut choice = self.lock();
         let is_there = |known: &&Arc<LoadedLibrary>| known.shown.unloaded.is_none();

@@ -116,8 +116,8 @@ fn scene_name(origin: &Origin) -> PathBuf {
 }
 
 /// Writes an inspection as `partsight inspect --report` and `partsight report` do: a line of JSON, the pictures of its
-/// stages, and the pose report as JSON, PDF and a row of CSV; says what was written. Nobody has named the files, so an earlier
-/// report in the folder stays.
+/// stages, and the pose report as JSON, PDF and a row of CSV; says what was written. The user did not choose the file names, so
+/// an earlier report in the folder is kept.
 pub(in crate::app) fn report(
     folder: &Path,
     inspected: &Inspected,

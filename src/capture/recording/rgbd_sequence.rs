@@ -24,7 +24,7 @@ use crate::{
 
 pub(super) const LIST: &str = "depth.txt";
 
-/// A list has at most so many lines, nine hours of frames, and so many bytes.
+/// Limits of a list: lines (nine hours of frames) and bytes.
 const MAX_LINES: usize = 1_000_000;
 const MAX_LIST_BYTES: u64 = 256 << 20;
 

@@ -395,7 +395,7 @@ impl<'a> LiveSession<'a> {
 }
 
 fn lock(hung: &Mutex<FollowedParts>) -> MutexGuard<'_, FollowedParts> {
-    // A panic leaves at most a part that is told twice.
+    // After a panic at most one part is reported twice.
     hung.lock().unwrap_or_else(PoisonError::into_inner)
 }
 

@@ -3,6 +3,7 @@
 mod action;
 mod card;
 mod controls;
+mod headline;
 mod plots;
 mod ranking;
 mod robot_numbers;

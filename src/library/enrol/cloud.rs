@@ -1,0 +1,102 @@
+//! The cloud of a part that is enrolled: thinned, with normals, and from which sides it was seen.
+
+use nalgebra::{Point3, Vector3};
+
+use super::EnrolParams;
+use crate::{
+    geometry::{cloud::PointCloud, nearest::KdTree, normals::estimate_normals, voxel::downsample},
+    stages::reference::Coverage,
+    units::Metres,
+};
+
+/// The cloud thinned to at most the allowed points, and the cube that did it.
+pub(super) fn thinned(cloud: &PointCloud, params: &EnrolParams) -> (PointCloud, Metres) {
+    let mut voxel = params.voxel;
+    loop {
+        let thin = downsample(cloud, voxel);
+        let excess = thin.points.len() as f64 / params.max_points.max(1) as f64;
+        if excess <= 1.0 {
+            return (thin, voxel);
+        }
+        // A surface's cubes grow fewer with the square of their edge.
+        voxel = Metres(voxel.0 * excess.sqrt().max(1.02));
+    }
+}
+
+/// Three cubes, or three times the distance between points where the cloud is sparser than that.
+pub(super) fn normals_towards(
+    cloud: &PointCloud,
+    voxel: Metres,
+    viewpoint: &Point3<f64>,
+) -> Vec<Vector3<f32>> {
+    let radius = Metres(3.0 * voxel.0.max(spacing(&cloud.points)));
+    let tree = KdTree::new(&cloud.points);
+    estimate_normals(&cloud.points, &tree, radius, viewpoint)
+}
+
+/// The median distance of a point to the next, metres, measured on about a hundred of them.
+fn spacing(points: &[Point3<f32>]) -> f64 {
+    let step = (points.len() / 100).max(1);
+    let mut distances: Vec<f32> = points
+        .iter()
+        .step_by(step)
+        .filter_map(|p| {
+            points
+                .iter()
+                .map(|q| (p - q).norm_squared())
+                .filter(|&d| d > 0.0)
+                .min_by(f32::total_cmp)
+        })
+        .collect();
+    distances.sort_unstable_by(f32::total_cmp);
+    distances
+        .get(distances.len() / 2)
+        .map_or(0.0, |&d| f64::from(d).sqrt())
+}
+
+/// The finite points, with normals only if every one of them has a usable one.
+pub(super) fn finite_only(cloud: &PointCloud) -> PointCloud {
+    let usable = |n: &Vector3<f32>| n.norm().is_finite() && n.norm() > 0.1;
+    let normals = cloud.normals.as_ref().and_then(|normals| {
+        cloud
+            .finite()
+            .map(|(i, _)| usable(&normals[i]).then(|| normals[i].normalize()))
+            .collect()
+    });
+    PointCloud {
+        points: cloud.finite().map(|(_, p)| *p).collect(),
+        normals,
+        ..PointCloud::default()
+    }
+}
+
+/// Nearer than this nothing is captured, metres.
+const NEAREST: f32 = 0.1;
+/// Share of the normals that must look at the camera; edges of a capture may be off.
+const FACING_SHARE: f64 = 0.98;
+
+pub(super) fn coverage_of(cloud: &PointCloud) -> Coverage {
+    let is_before_camera = cloud.points.iter().all(|p| p.z > NEAREST);
+    let faces_camera = cloud.normals.as_ref().is_none_or(|normals| {
+        let facing = cloud
+            .points
+            .iter()
+            .zip(normals)
+            .filter(|(p, n)| n.dot(&p.coords) <= 0.0)
+            .count();
+        facing as f64 >= FACING_SHARE * normals.len() as f64
+    });
+    if is_before_camera && faces_camera {
+        Coverage::OneSide
+    } else {
+        Coverage::AllAround
+    }
+}
+
+pub(super) fn middle(cloud: &PointCloud) -> Point3<f64> {
+    let sum = cloud
+        .points
+        .iter()
+        .fold(Vector3::zeros(), |sum, p| sum + p.coords.cast::<f64>());
+    Point3::from(sum / cloud.points.len().max(1) as f64)
+}
