@@ -25,7 +25,7 @@ use crate::{
         reference::Reference,
         scene::SceneCloud,
         segment::{
-            NoPart, PointLabel, SegmentParams, Segmentation, SegmentedPart, other_segments,
+            Bars, NoPart, PointLabel, SegmentParams, Segmentation, SegmentedPart, other_segments,
             segment, without_bars,
         },
         signature::{FanSignature, SignatureParams},
@@ -161,15 +161,11 @@ fn inspect(
                 if should_try_alternatives(&inspection, recipe) {
                     check_mirror_image(&mut inspection, scene, library, recipe, &clock)?;
                 }
-                if should_try_alternatives(&inspection, recipe) && !inspection.verdict.is_likeness()
+                if should_try_alternatives(&inspection, recipe)
+                    && !inspection.verdict.is_likeness()
+                    && let Ok(likeliest) = &likeliest
                 {
-                    // They may be a stand's.
-                    let bare = |part| without_bars(scene, part);
-                    let bare =
-                        clock.time(Stage::Segment, || likeliest.as_ref().ok().and_then(bare))?;
-                    if let Some(bare) = bare {
-                        try_segment(&mut inspection, bare, scene, library, recipe, &clock)?;
-                    }
+                    try_without_bars(&mut inspection, likeliest, scene, library, recipe, &clock)?;
                 }
             }
         }
@@ -227,6 +223,30 @@ fn try_segment(
     if found.best_score() > least {
         inspection.segmentation.take(part);
         found.keep(inspection);
+    }
+    Ok(())
+}
+
+/// Looks at a surface without any bars: they may be a stand's.
+fn try_without_bars(
+    inspection: &mut Inspection,
+    surface: &SegmentedPart,
+    scene: &SceneCloud,
+    library: &Library,
+    recipe: &Recipe,
+    clock: &StageClock<'_>,
+) -> Result<(), Cancelled> {
+    let mut num_before = 0;
+    for bars in [Bars::All, Bars::AllButSlats] {
+        let bare = clock.time(Stage::Segment, || without_bars(scene, surface, bars))?;
+        let Some(bare) = bare.filter(|bare| bare.indices.len() != num_before) else {
+            continue;
+        };
+        num_before = bare.indices.len();
+        try_segment(inspection, bare, scene, library, recipe, clock)?;
+        if inspection.verdict.is_accepted() {
+            break;
+        }
     }
     Ok(())
 }

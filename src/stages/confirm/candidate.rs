@@ -95,12 +95,18 @@ impl PreparedScene<'_> {
     ) -> Vec<Vec<PoseTrial>> {
         let mut starts: Vec<(usize, Start)> = Vec::new();
         let mut least = f64::INFINITY;
+        // What fits badly is of use only to say how far off it is.
+        let most_cost = if least_score > 0.0 {
+            HOPELESS_START
+        } else {
+            f64::INFINITY
+        };
         for (number, entry) in entries.iter().enumerate() {
             let reference = &references[entry.reference];
             if let Some(piece) = self.piece_for(reference) {
                 let placed = self.distinct_starts(reference, &entry.placements);
                 let placed = placed.into_iter().map(|start| start.1);
-                let limit = least + WORSE_START;
+                let limit = f64::min(least + WORSE_START, most_cost);
                 let of_reference = self.coarse_starts(piece, reference, placed, limit);
                 least = of_reference
                     .first()
@@ -111,8 +117,6 @@ impl PreparedScene<'_> {
         starts.sort_by(|a, b| a.1.cost.total_cmp(&b.1.cost));
         starts.truncate(if least < HOPELESS_START {
             MOST_REFINED
-        } else if least_score > 0.0 {
-            0
         } else {
             FEW_REFINED
         });

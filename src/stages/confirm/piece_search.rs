@@ -21,8 +21,9 @@ use crate::{
 
 /// Points of a piece's border that are paired.
 const NUM_BORDER: usize = 80;
-/// Pairs that are looked up in each reference.
-const NUM_PAIRS: usize = 450;
+/// Pairs that are looked up in each reference: of a piece, and of what looks whole, whose border is nearly all there.
+pub(super) const NUM_PAIRS: usize = 450;
+pub(super) const NUM_PAIRS_OF_A_WHOLE: usize = 150;
 /// Points of the surface that a pose is scored on, and those that it is first tried on.
 const NUM_SURFACE: usize = 56;
 const NUM_TRIED: usize = 16;
@@ -83,7 +84,12 @@ struct OrientedPair {
 
 impl PieceSample {
     /// Any first points of surface and border are spread over the piece.
-    pub(super) fn new(surface: &[Point3<f32>], mut border: Vec<BorderPoint>, seed: u64) -> Self {
+    pub(super) fn new(
+        surface: &[Point3<f32>],
+        mut border: Vec<BorderPoint>,
+        num_pairs: usize,
+        seed: u64,
+    ) -> Self {
         let mut rng = Pcg64::seed_from_u64(seed);
         border.shuffle(&mut rng);
         border.truncate(NUM_BORDER);
@@ -96,7 +102,7 @@ impl PieceSample {
             .filter(|pair| !pair.is_straight())
             .collect();
         pairs.shuffle(&mut rng);
-        pairs.truncate(NUM_PAIRS);
+        pairs.truncate(num_pairs);
         let oriented = |pair: BorderPair| {
             let (middle, axes) = frame_of(pair.of.map(|i| &border[usize::from(i)]))?;
             Some(OrientedPair { pair, middle, axes })

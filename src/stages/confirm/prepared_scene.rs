@@ -10,7 +10,7 @@ use super::{
     local_normal::LocalNormals,
     outline_ends::{Outline, outline_of},
     outline_shift::outline_shift,
-    piece_search::PieceSample,
+    piece_search::{NUM_PAIRS, NUM_PAIRS_OF_A_WHOLE, PieceSample},
 };
 use crate::stages::{
     pose::{
@@ -26,6 +26,8 @@ use crate::stages::{
 /// The scene's side of all comparisons, prepared once.
 pub(super) struct PreparedScene<'a> {
     pub(super) scene: &'a Scene<'a>,
+    /// Whether it is searched for as a piece.
+    pub(super) is_piece: bool,
     pub(super) source: AlignmentSource,
     pub(super) centre: Point3<f64>,
     /// Length of the outline that is the part's own, metres.
@@ -45,6 +47,7 @@ impl<'a> PreparedScene<'a> {
         scene: &'a Scene<'a>,
         references: &[Reference],
         params: &ConfirmParams,
+        is_again: bool,
     ) -> Self {
         let outline = outline_of(scene);
         let source = thinned_source(scene, &outline, params);
@@ -53,15 +56,19 @@ impl<'a> PreparedScene<'a> {
                 .iter()
                 .all(|reference| reference.cut.is_nothing())
         };
-        let is_whole = outline.cut_share < CUT_SHARE && are_whole();
-        let piece = (!is_whole).then(|| {
-            PieceSample::new(
-                &source.surface,
-                oriented_border(scene, &outline),
-                params.seed,
-            )
+        let looks_whole = outline.cut_share < CUT_SHARE;
+        let is_piece = is_again || !looks_whole;
+        let piece = (is_piece || !are_whole()).then(|| {
+            let num_pairs = if is_again && looks_whole {
+                NUM_PAIRS_OF_A_WHOLE
+            } else {
+                NUM_PAIRS
+            };
+            let border = oriented_border(scene, &outline);
+            PieceSample::new(&source.surface, border, num_pairs, params.seed)
         });
         Self {
+            is_piece,
             scene,
             centre: centre_of(&source.surface),
             source,
@@ -77,7 +84,7 @@ impl<'a> PreparedScene<'a> {
 
     /// What is laid onto a reference as a piece; `None` where both are whole.
     pub(super) fn piece_for(&self, reference: &Reference) -> Option<&PieceSample> {
-        let is_piece = self.cut_share >= CUT_SHARE || !reference.cut.is_nothing();
+        let is_piece = self.is_piece || !reference.cut.is_nothing();
         self.piece.as_ref().filter(|_| is_piece)
     }
 
@@ -88,7 +95,7 @@ impl<'a> PreparedScene<'a> {
         references: &[Reference],
         params: &ConfirmParams,
     ) -> usize {
-        if self.cut_share >= CUT_SHARE {
+        if self.is_piece {
             // What a piece looks like from afar says little: all are looked at.
             return params
                 .num_references

@@ -29,6 +29,7 @@ pub use self::{
     noise::noise_of_picture,
     part::{BackgroundSign, SegmentedPart, other_segments, pieces, surfaces, without_bars},
     planes::BackgroundPlane,
+    stand::Bars,
 };
 use crate::{error::Advice, stages::scene::SceneCloud, units::Metres};
 

@@ -259,14 +259,13 @@ const IN_FRONT: f64 = 0.5;
 /// Fewer points than this share more on bars make no other part.
 const LEAST_ON_BARS: f64 = 0.05;
 
-/// The part without any bar, its stand's or its own; `None` where that takes nothing more off.
-pub fn without_bars(scene: &SceneCloud, part: &SegmentedPart) -> Option<SegmentedPart> {
+/// The part without these bars, its stand's or its own; `None` where that takes nothing more off.
+pub fn without_bars(scene: &SceneCloud, part: &SegmentedPart, bars: Bars) -> Option<SegmentedPart> {
     let mut members = part.indices.clone();
     members.extend(&part.stand);
     members.sort_unstable();
     let least = part.indices.len() as f64 * LEAST_ON_BARS;
-    let bare =
-        SegmentedPart::of_surface(scene, members, part.surface?, part.noise_at_1m, Bars::All);
+    let bare = SegmentedPart::of_surface(scene, members, part.surface?, part.noise_at_1m, bars);
     let num_taken = part.indices.len() as f64 - bare.indices.len() as f64;
     (num_taken > least && bare.indices.len() >= MIN_POINTS).then_some(bare)
 }

@@ -36,13 +36,15 @@ const FOLD: f32 = 2.5;
 /// Pixels of the scene per cell of the mask, each way.
 const CELL: usize = 2;
 
-/// Which bars are taken off.
+/// Which bars are taken off a surface.
 #[derive(Clone, Copy, Debug, PartialEq, Eq)]
-pub(super) enum Bars {
+pub enum Bars {
     /// Those that do not go on from the surface they touch.
     OffSurface,
     /// All, even where little is left: whether they are the part's is for the references to say.
     All,
+    /// All but those between narrow slots: the slats of a grille.
+    AllButSlats,
 }
 
 /// Divides a connected surface, by its points' places in the scene in ascending order, into the part and what belongs to
@@ -166,11 +168,16 @@ impl Mask {
     fn stand(&self, bars: Bars) -> Option<Vec<bool>> {
         let (half_width, tip, least_left) = match bars {
             Bars::OffSurface => (RADIUS, TIP, LEAST_LEFT),
-            Bars::All => (WIDE * RADIUS, WIDE * TIP, LEAST_BARE),
+            Bars::All | Bars::AllButSlats => (WIDE * RADIUS, WIDE * TIP, LEAST_BARE),
+        };
+        let closed = self.closed();
+        let filled: &[&Vec<bool>] = match bars {
+            Bars::OffSurface | Bars::All => &[&self.is_set, &closed],
+            Bars::AllButSlats => &[&closed],
         };
         let num = self.is_set.iter().filter(|is_set| **is_set).count() as f64;
-        let (core, left) = [&self.is_set, &self.closed()]
-            .into_iter()
+        let (core, left) = filled
+            .iter()
             .map(|filled| self.opened(filled, half_width))
             .find(|(_, left)| count(left) >= least_left * num)?;
         let pieces = self.components(&left);
@@ -191,7 +198,9 @@ impl Mask {
         for bar in self.components(&off) {
             let reach = bar.iter().map(|&i| from_core[i] * self.size(i));
             let reach = reach.fold(0.0, f32::max);
-            if reach > tip && (bars == Bars::All || self.is_of_a_stand(&bar, &off, &body, reach)) {
+            if reach > tip
+                && (bars != Bars::OffSurface || self.is_of_a_stand(&bar, &off, &body, reach))
+            {
                 for cell in bar {
                     stand[cell] = true;
                 }
