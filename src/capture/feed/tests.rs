@@ -6,11 +6,7 @@ use std::{
 use jiff::Timestamp;
 
 use super::*;
-use crate::{
-    capture::source::Image,
-    files::FileError,
-    geometry::depth_frame::{DepthFrame, Intrinsics},
-};
+use crate::{capture::source::Image, files::FileError, kit::small_frame};
 
 /// Long enough for a machine at work with other things; what is waited for comes at once.
 const PATIENCE: Duration = Duration::from_mins(1);
@@ -21,16 +17,7 @@ fn captured(number: u64) -> Captured {
         name: format!("frame {number}"),
         taken_at: Timestamp::UNIX_EPOCH,
         arrived: Instant::now(),
-        image: Image::Depth(DepthFrame {
-            intrinsics: Intrinsics {
-                width: 1,
-                height: 1,
-                ..Intrinsics::KINECT
-            },
-            metres_per_unit: 0.001,
-            depth: vec![1],
-            is_simulated: false,
-        }),
+        image: Image::Depth(small_frame(1, [1])),
         is_simulated: false,
         truth: None,
         robot_from_flange: None,

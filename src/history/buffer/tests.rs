@@ -3,11 +3,9 @@
 use std::fs;
 
 use super::*;
-use crate::history::{
-    StoredVerdict,
-    fixtures::{entry, moment, scene},
-    open::FILE,
-    waiting::MAX_WAITING,
+use crate::{
+    history::{StoredVerdict, open::FILE, waiting::MAX_WAITING},
+    kit::{history_entry, moment, small_scene},
 };
 
 fn numbers(keeper: &HistoryBuffer) -> Vec<i64> {
@@ -25,7 +23,7 @@ fn failures(news: &[HistoryEvent]) -> usize {
 }
 
 fn not_accepted(seconds: i64) -> NewEntry {
-    entry(seconds, StoredVerdict::NotAccepted, "fender")
+    history_entry(seconds, StoredVerdict::NotAccepted, "fender")
 }
 
 #[test]
@@ -56,7 +54,7 @@ fn without_a_folder_everything_is_kept_in_memory_and_nothing_is_wrong() {
         -2
     );
     // The scenes of the newest wait too.
-    assert_eq!(keeper.scene(-6).expect("asked"), Some(scene(6)));
+    assert_eq!(keeper.scene(-6).expect("asked"), Some(small_scene(6)));
     assert_eq!(keeper.scene(-1).expect("asked"), None);
     assert!(
         !keeper
