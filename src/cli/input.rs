@@ -1,4 +1,4 @@
-//! What the commands read: scenes and clouds.
+//! What the commands read: scenes, clouds and names of conventions.
 
 use std::{
     path::{Path, PathBuf},
@@ -12,10 +12,8 @@ use crate::{
     error::Advice,
     files::{self, FileContent, FileError, FileWarning},
     geometry::cloud::PointCloud,
-    stages::{
-        scene::{SceneCloud, cloud_of, scene_from_image},
-        segment::{EmptyCell, EmptyCellError},
-    },
+    robot::Convention,
+    stages::scene::{EmptyCell, EmptyCellError, SceneCloud, cloud_of, scene_from_image},
 };
 
 /// Why a file is no input for a command.
@@ -83,6 +81,17 @@ pub(super) fn open_scene(path: &Path) -> OpenedScene {
         }
     };
     Ok((scene, warnings))
+}
+
+/// For clap: a convention by its name.
+pub(super) fn parse_convention(name: &str) -> Result<Convention, String> {
+    Convention::by_name(name).ok_or_else(|| {
+        let names: Vec<&str> = Convention::ALL
+            .iter()
+            .map(|convention| convention.name())
+            .collect();
+        format!("expected one of {}", names.join(", "))
+    })
 }
 
 /// Opens what the same camera saw without a part.

@@ -32,10 +32,7 @@ use crate::{
         cloud::{Grid, PointCloud},
         depth_frame::{DepthFrame, Intrinsics},
     },
-    stages::{
-        scene::{PictureEdge, SceneCloud, full_scene, reduced_scene},
-        segment::EmptyCell,
-    },
+    stages::scene::{EmptyCell, PictureEdge, SceneCloud, full_scene, reduced_scene},
 };
 
 /// What is written down of a kept frame.

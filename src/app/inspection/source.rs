@@ -19,10 +19,7 @@ use crate::{
     simulate::{
         CellSetup, ObjectKind, PartKind, PartPose, PoseRange, Side, SimulatedObject, frame,
     },
-    stages::{
-        scene::{SceneCloud, scene_from_frame, scene_from_image},
-        segment::EmptyCell,
-    },
+    stages::scene::{EmptyCell, SceneCloud, scene_from_frame, scene_from_image},
 };
 
 /// What hangs in the simulated cell when a frame is captured.

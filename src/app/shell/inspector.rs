@@ -27,7 +27,7 @@ use crate::{
     },
     capture::SourceSpec,
     history::HungId,
-    stages::segment::EmptyCell,
+    stages::scene::EmptyCell,
 };
 
 /// Captures, opens and inspects scenes, and loads the library.

@@ -7,10 +7,7 @@ use crate::{
     kit::{facing_part, scene_of, shipped_library, small_frame},
     pipeline::{Recipe, Unwatched},
     simulate::{CellSetup, PartKind, Side, SimulatedObject},
-    stages::{
-        scene::{PictureEdge, scene_from_cloud, scene_from_frame},
-        segment::EmptyCell,
-    },
+    stages::scene::{EmptyCell, PictureEdge, scene_from_cloud, scene_from_frame},
 };
 
 /// The file of such a scene.

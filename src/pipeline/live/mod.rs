@@ -121,7 +121,8 @@ impl LiveTracker {
         if self.field_of_view.is_some() && scene.known_view.is_none() {
             Arc::make_mut(&mut scene).set_known_view(self.field_of_view.clone());
         }
-        self.field_of_view = FieldOfView::remembered(self.field_of_view.take(), &scene);
+        self.field_of_view =
+            FieldOfView::remembered(self.field_of_view.take(), scene.field_of_view());
         let run = self.steady.run();
         let stillness = self.steady.see(&scene, at);
         self.last_at = at;

@@ -25,7 +25,7 @@ use crate::{
         self, ProgressObserver, Recipe,
         live::{FrameRole, HungFrame, LiveParams, LiveTracker, LiveVerdict, MotionState},
     },
-    stages::segment::EmptyCell,
+    stages::scene::EmptyCell,
 };
 
 /// Which source to follow, and how.
