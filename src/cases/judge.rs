@@ -5,9 +5,7 @@ use serde::{Deserialize, Serialize};
 pub use crate::library::Truth;
 use crate::{
     geometry::rigid::PoseDelta,
-    library::Library,
-    pipeline::{self, Cancelled, ProgressObserver, Recipe, Timings, Verdict},
-    stages::scene::SceneCloud,
+    pipeline::{Timings, Verdict},
 };
 
 /// What an inspection found, in short.
@@ -133,17 +131,6 @@ impl CaseResult {
         let guess = self.found.part.as_deref()?;
         Some(self.truth.part() == Some(guess))
     }
-}
-
-/// What an inspection of the scene finds.
-pub fn found_in(
-    scene: &SceneCloud,
-    library: &Library,
-    recipe: &Recipe,
-    watch: &dyn ProgressObserver,
-) -> Result<FoundVerdict, Cancelled> {
-    let inspection = pipeline::run(scene, library, recipe, watch)?;
-    Ok(FoundVerdict::from(&inspection.verdict))
 }
 
 #[cfg(test)]

@@ -167,14 +167,14 @@ fn a_session_that_is_over_ends_the_feed_and_stays_over() {
             let mut num_frames = 0;
             while !feed.status().state.is_over() {
                 receiver.recv_timeout(PATIENCE).expect("news");
-                num_frames += usize::from(feed.take().is_some());
+                num_frames += usize::from(feed.wait(Duration::ZERO).is_some());
             }
             assert!(
                 matches!(feed.status().state, FeedState::Ended),
                 "{:?}",
                 feed.status().state
             );
-            num_frames += usize::from(feed.take().is_some());
+            num_frames += usize::from(feed.wait(Duration::ZERO).is_some());
             assert_eq!(num_frames, 1);
             drop(feed);
             let mut again = open_kinect().expect("opens");

@@ -108,8 +108,8 @@ impl Slot {
         }
     }
 
-    pub(super) fn lost(&self, error: Arc<CaptureError>, retry_at: Instant) {
-        self.set_state(FeedState::Lost { error, retry_at });
+    pub(super) fn lost(&self, error: Arc<CaptureError>) {
+        self.set_state(FeedState::Lost { error });
     }
 
     pub(super) fn set_state(&self, state: FeedState) {

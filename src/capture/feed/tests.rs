@@ -1,6 +1,7 @@
 use std::{
     collections::VecDeque,
     sync::atomic::{AtomicUsize, Ordering},
+    time::Instant,
 };
 
 use jiff::Timestamp;
@@ -151,8 +152,8 @@ fn of_a_live_camera_only_the_newest_is_kept_and_the_others_are_counted() {
         Ok(steps)
     });
     wait_until(&feed, |status| status.state.is_over());
-    assert_eq!(number_of(feed.take()), 20);
-    assert!(feed.take().is_none());
+    assert_eq!(number_of(feed.wait(Duration::ZERO)), 20);
+    assert!(feed.wait(Duration::ZERO).is_none());
     assert_eq!(feed.status().num_dropped, 19);
 }
 
@@ -173,7 +174,7 @@ fn what_cannot_be_read_is_named_and_never_dropped_for_a_capture() {
         Ok(steps)
     });
     wait_until(&feed, |status| status.state.is_over());
-    let names: Vec<String> = std::iter::from_fn(|| feed.take())
+    let names: Vec<String> = std::iter::from_fn(|| feed.wait(Duration::ZERO))
         .map(|item| match item {
             FeedItem::Captured(captured) => captured.name,
             FeedItem::Skipped(skipped) => skipped.name,

@@ -2,10 +2,10 @@ use std::sync::Arc;
 
 use super::*;
 use crate::{
-    cases::{FoundVerdict, Truth, found_in},
+    cases::{FoundVerdict, Truth},
     error::Advice as _,
     kit::{facing_part, scene_of, shipped_library, small_frame},
-    pipeline::{Recipe, Unwatched},
+    pipeline::{Recipe, Unwatched, run},
     simulate::{CellSetup, PartKind, Side, SimulatedObject},
     stages::scene::{EmptyCell, PictureEdge, scene_from_cloud, scene_from_frame},
 };
@@ -66,8 +66,11 @@ fn a_kept_scene_opens_again_bit_for_bit_with_the_same_verdict() {
     let cell = EmptyCell::of(&empty).expect("a picture");
     scene.empty_cell = Some(Arc::new(cell));
     let library = shipped_library();
-    let recipe = Recipe::default();
-    let before = found_in(&scene, &library, &recipe, &Unwatched).expect("not cancelled");
+    let found_in = |scene: &SceneCloud| {
+        let inspection = run(scene, &library, &Recipe::default(), &Unwatched);
+        FoundVerdict::from(&inspection.expect("not cancelled").verdict)
+    };
+    let before = found_in(&scene);
     assert!(before.accepted);
     let mut said = about("Simulated frame 4");
     said.found = before.clone();
@@ -86,7 +89,7 @@ fn a_kept_scene_opens_again_bit_for_bit_with_the_same_verdict() {
         (scene.intrinsics, scene.edge, scene.cloud.grid)
     );
     assert!(again.empty_cell.is_some() && again.empty_cell == scene.empty_cell);
-    let after = found_in(&again, &library, &recipe, &Unwatched).expect("not cancelled");
+    let after = found_in(&again);
     assert_eq!(after, before);
     assert_eq!(list.cases[0].meta.about.found, before);
 

@@ -5,7 +5,7 @@ use std::fs;
 use super::*;
 use crate::{
     history::{StoredVerdict, open::FILE, waiting::MAX_WAITING},
-    kit::{history_entry, moment, small_scene},
+    kit::{history_entry, moment, open_history, small_scene},
 };
 
 fn numbers(keeper: &HistoryBuffer) -> Vec<i64> {
@@ -54,8 +54,16 @@ fn without_a_folder_everything_is_kept_in_memory_and_nothing_is_wrong() {
         -2
     );
     // The scenes of the newest wait too.
-    assert_eq!(keeper.scene(-6).expect("asked"), Some(small_scene(6)));
-    assert_eq!(keeper.scene(-1).expect("asked"), None);
+    let scene = |number| {
+        keeper
+            .lock()
+            .waiting_mut(number)
+            .expect("waits")
+            .scene
+            .clone()
+    };
+    assert_eq!(scene(-6), Some(small_scene(6)));
+    assert_eq!(scene(-1), None);
     assert!(
         !keeper
             .row(-6)
@@ -102,9 +110,11 @@ fn a_folder_that_cannot_be_made_is_said_once_and_what_waited_is_written_later() 
     let third = keeper.row(3).expect("asked").expect("there");
     assert_eq!(third.summary.label, Some(Truth::NotEnrolled));
     assert_eq!(third.summary.at, moment(3));
-    assert!(keeper.scene(4).expect("asked").is_some());
     drop(keeper);
     assert!(place.join(FILE).exists());
+    let history = open_history(&place);
+    let fourth = history.known(4).expect("written");
+    assert!(history.scene(&fourth).expect("read").is_some());
 }
 
 #[test]

@@ -107,7 +107,7 @@ impl LiveTracker {
 
     /// Frames that the depth of the next scene is averaged over.
     pub fn num_averaged(&self) -> usize {
-        self.average.len()
+        self.average.num_frames()
     }
 
     /// What the frames so far showed of the camera's field of view.

@@ -298,7 +298,6 @@ impl<'a> LiveSession<'a> {
             followed = Some(LiveFrameContext {
                 stillness: watch.stillness(),
                 standing: self.standing.clone(),
-                num_averaged: watch.num_averaged(),
             });
             let frame = HungFrame {
                 scene: &scene,

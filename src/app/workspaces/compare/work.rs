@@ -100,8 +100,6 @@ pub struct RunChanges {
 /// What came out of all kept cases.
 #[derive(Debug)]
 pub struct CaseRun {
-    /// The folder.
-    pub folder: CaseFolder,
     /// The recipe.
     pub recipe: Arc<Recipe>,
     /// One result per case that could be read.
@@ -207,7 +205,6 @@ fn run_cases(
     let so_far = |results: &[CaseResult], troubles: &[UserError], ended| {
         let confusion = Confusion::of(results, &order);
         Arc::new(CaseRun {
-            folder: folder.clone(),
             recipe: Arc::clone(recipe),
             matrix: Matrix::of(confusion, &shelved.shown),
             calibration: Calibration::of(results),
