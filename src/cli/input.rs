@@ -1,4 +1,4 @@
-//! What the commands read: scenes, clouds and names of conventions.
+//! What the commands read: scenes and clouds, and what robots say as arguments.
 
 use std::{
     path::{Path, PathBuf},
@@ -6,13 +6,13 @@ use std::{
     thread,
 };
 
-use super::console::{Advised as _, Console};
+use super::console::{Advised as _, Console, with_advice};
 use crate::{
     capture::Image,
     error::Advice,
     files::{self, FileContent, FileError, FileWarning},
     geometry::cloud::PointCloud,
-    robot::Convention,
+    robot::{Convention, WrittenPose, parse_written_pose},
     stages::scene::{EmptyCell, EmptyCellError, SceneCloud, cloud_of, scene_from_image},
 };
 
@@ -81,6 +81,11 @@ pub(super) fn open_scene(path: &Path) -> OpenedScene {
         }
     };
     Ok((scene, warnings))
+}
+
+/// For clap: a pose of the arm or the camera in a robot's numbers.
+pub(super) fn parse_robot_pose(text: &str) -> Result<WrittenPose, String> {
+    parse_written_pose(text).map_err(with_advice)
 }
 
 /// For clap: a convention by its name.

@@ -24,17 +24,14 @@ use std::{
 };
 
 use super::{
-    entry::{
-        Entry, META, NEW_PREFIX, copy_files, is_entry, meta_text, new_folder, rewrite_meta,
-        sync_folder, write_file, write_part,
-    },
+    entry::{Entry, META, NEW_PREFIX, copy_files, is_entry, meta_text, rewrite_meta, write_part},
     error::LibraryError,
     load::meta_of,
     name::PartName,
     part::{Part, PartMeta, PartNaming},
     trash,
 };
-use crate::files::open_lock;
+use crate::files::{new_folder, open_lock, sync_folder, write_file};
 
 const OLD_PREFIX: &str = ".old-";
 const LOCK: &str = ".lock";
@@ -203,7 +200,7 @@ impl LibraryFolder {
             self.finish_interrupted_write()?;
             let name = part.meta.name.as_str();
             let former = self.entry(name).ok().and_then(|entry| meta_of(&entry).ok());
-            let building = new_folder(&self.path, name)?;
+            let building = new_folder(&self.path, &format!("{NEW_PREFIX}{name}-"))?;
             write_part(building.path(), part)?;
             let replaced = self.replace_entry(building.path(), name, name)?;
             // Renamed away: nothing is left to be cleared up.
@@ -267,7 +264,7 @@ impl LibraryFolder {
                 rewrite_meta(&folder, &meta)?;
                 (None, 0)
             } else {
-                let building = new_folder(&self.path, words.name.as_str())?;
+                let building = new_folder(&self.path, &format!("{NEW_PREFIX}{}-", words.name))?;
                 copy_files(&folder, building.path())?;
                 write_file(&building.path().join(META), meta_text(&meta)?.as_bytes())?;
                 sync_folder(building.path())?;

@@ -14,7 +14,7 @@ use egui::{
 use super::{
     camera::ViewCamera,
     detail::{MovingDetail, NextRepaint, pixel_side},
-    gpu::{ViewError, ViewportGpu, lock},
+    gpu::{ViewError, ViewportGpu},
     legend,
     measure::{self, Anchor, Measurement},
     navigation::{self, vec2},
@@ -24,7 +24,7 @@ use super::{
     screenshot::ViewShot,
     style::ViewStyle,
 };
-use crate::error::Advice;
+use crate::error::{Advice, lock};
 
 /// What a click on the view does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]

@@ -19,6 +19,7 @@ use crate::{
         Calibration, CaseDescription, CaseError, CaseFolder, CaseJudge, CaseResult, Changes,
         Confusion, EarlierRun, KeptCase, RecordError, TradeOff,
     },
+    files::file_name,
     pipeline::Recipe,
     stages::{rank::Matcher, scene::SceneCloud},
 };
@@ -157,9 +158,8 @@ fn measure_scaling(context: &TaskContext<CompareResult>) -> Result<CompareResult
 
 fn changes(path: &Path, run: &CaseRun) -> Result<RunChanges, RecordError> {
     let earlier = EarlierRun::read(path)?;
-    let file = path.file_name().unwrap_or(path.as_os_str());
     Ok(RunChanges {
-        file: file.to_string_lossy().into_owned(),
+        file: file_name(path),
         changes: Changes::between(&earlier, &run.results),
     })
 }
