@@ -6,7 +6,7 @@
 use std::{
     collections::VecDeque,
     path::PathBuf,
-    sync::{Mutex, MutexGuard, PoisonError},
+    sync::{Mutex, MutexGuard},
     time::{Duration, Instant},
 };
 
@@ -22,7 +22,10 @@ use super::{
     store::{History, Page},
     waiting::{wait, waiting_rows},
 };
-use crate::{error::Advice as _, library::Truth};
+use crate::{
+    error::{Advice as _, lock},
+    library::Truth,
+};
 
 /// After a failure it is tried again this much later.
 const PAUSE: Duration = Duration::from_secs(20);
@@ -69,18 +72,18 @@ impl HistoryBuffer {
 
     /// What happened since this was asked last. Never waits for the disk.
     pub fn take_news(&self) -> Vec<HistoryEvent> {
-        let mut news = self.news.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut news = lock(&self.news);
         std::mem::take(&mut *news)
     }
 
     fn tell(&self, news: HistoryEvent) {
-        let mut all = self.news.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut all = lock(&self.news);
         all.push(news);
     }
 
     fn lock(&self) -> MutexGuard<'_, Inner> {
         // A panic while writing leaves at most a transaction that was not committed.
-        self.inner.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.inner)
     }
 
     /// Opens it, if nobody has yet, and sweeps away what is not kept any longer.

@@ -8,7 +8,10 @@ use std::{
 };
 
 use super::{BackpressurePolicy, FeedItem, FeedState, FeedStatus};
-use crate::capture::{error::CaptureError, rate::FrameRate};
+use crate::{
+    capture::{error::CaptureError, rate::FrameRate},
+    error::lock,
+};
 
 /// So many notes of unreadable things wait at most; the oldest go first.
 const MAX_SKIPPED: usize = 64;
@@ -54,7 +57,7 @@ impl Slot {
 
     /// Nothing panics while the lock is held, so what it guards is whole even if it is poisoned.
     fn lock(&self) -> MutexGuard<'_, Inner> {
-        self.inner.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.inner)
     }
 
     fn tell(&self) {
