@@ -29,24 +29,12 @@ pub struct FoundVerdict {
 
 impl From<&Verdict> for FoundVerdict {
     fn from(verdict: &Verdict) -> Self {
-        match verdict {
-            Verdict::Part {
-                part,
-                score,
-                margin,
-                rejected,
-                ..
-            } => Self {
-                part: Some(part.clone()),
-                score: Some(*score),
-                margin: Some(*margin),
-                accepted: rejected.is_none(),
-                reason: rejected.as_ref().map(ToString::to_string),
-            },
-            Verdict::NoPart(reason) => Self {
-                reason: Some(reason.to_string()),
-                ..Self::default()
-            },
+        Self {
+            part: verdict.guess().map(str::to_owned),
+            score: verdict.score().map(|[score, _]| score),
+            margin: verdict.score().map(|[_, margin]| margin),
+            accepted: verdict.is_accepted(),
+            reason: verdict.complaint().map(|[why, _]| why),
         }
     }
 }
