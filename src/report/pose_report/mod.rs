@@ -16,7 +16,6 @@ use serde::Serialize;
 
 use super::line::{TimingsLine, status_of};
 use crate::{
-    error::Advice,
     pipeline::{Inspection, Recipe},
     robot::{Convention, RobotFrame},
     stages::{
