@@ -22,7 +22,7 @@ pub(super) struct Console {
 }
 
 /// An error as clap shows it: what is wrong with an argument, and what to do about it.
-pub(super) fn with_advice<E: Display + Advice>(error: E) -> String {
+pub(super) fn with_advice<E: Display + Advice>(error: &E) -> String {
     format!("{error}\n  to do: {}", error.advice())
 }
 

@@ -18,7 +18,8 @@ const TURN: Duration = Duration::from_millis(100);
 pub(super) fn parse_source(text: &str) -> Result<SourceSpec, String> {
     let spec = text.parse::<SourceSpec>();
     // A recording gives every frame as fast as it is taken, unless it says its pace: then a replay is exact.
-    spec.map(|spec| spec.paced(Pace::Step)).map_err(with_advice)
+    spec.map(|spec| spec.paced(Pace::Step))
+        .map_err(|error| with_advice(&error))
 }
 
 /// Hands what a source gives to `each` until that breaks off, the source ends, or Ctrl-C. How the feed was at the end.

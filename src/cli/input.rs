@@ -85,7 +85,7 @@ pub(super) fn open_scene(path: &Path) -> OpenedScene {
 
 /// For clap: a pose of the arm or the camera in a robot's numbers.
 pub(super) fn parse_robot_pose(text: &str) -> Result<WrittenPose, String> {
-    parse_written_pose(text).map_err(with_advice)
+    parse_written_pose(text).map_err(|error| with_advice(&error))
 }
 
 /// For clap: a convention by its name.

@@ -60,7 +60,7 @@ fn planned<T: FftNum>(
     direction: FftDirection,
 ) -> Arc<dyn Fft<T>> {
     // A planner that panicked while planning has at worst forgotten a plan.
-    let mut planner = lock(&planner);
+    let mut planner = lock(planner);
     planner.plan_fft(length, direction)
 }
 
