@@ -3,6 +3,7 @@
 use std::{
     any::Any,
     panic::{AssertUnwindSafe, catch_unwind},
+    sync::{Mutex, MutexGuard, PoisonError},
 };
 
 /// One imperative sentence for the person at the machine, kept apart from the error's own message.
@@ -45,6 +46,11 @@ impl Advice for Fault {
 /// replaced whole.
 pub(crate) fn guarded<T>(work: impl FnOnce() -> T) -> Result<T, Fault> {
     catch_unwind(AssertUnwindSafe(work)).map_err(|panic| Fault::of(panic.as_ref()))
+}
+
+/// A lock whose value is whole whatever panicked while it was held: it is only ever replaced whole or added to.
+pub(crate) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
+    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 #[cfg(test)]

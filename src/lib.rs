@@ -66,6 +66,12 @@ pub mod stages;
 #[doc(hidden)]
 pub mod units;
 
+#[cfg(test)]
+extern crate self as partsight;
+#[cfg(test)]
+#[path = "../tests/kit/mod.rs"]
+mod kit;
+
 pub use self::{
     capture::{
         CaptureError, Captured, DepthSource, Image, NextCapture, SourceSpec, open as open_source,

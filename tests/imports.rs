@@ -263,10 +263,10 @@ fn sources(module: &'static [&'static str]) -> Vec<Source> {
                 continue;
             }
             let within = path.strip_prefix(&root).expect("within").to_owned();
-            // Modules of tests outside their file, and what several of them share.
+            // Modules of tests outside their file.
             let is_test = within
                 .iter()
-                .any(|name| name == "tests" || name == "tests.rs" || name == "fixtures.rs");
+                .any(|name| name == "tests" || name == "tests.rs");
             if path.extension().is_some_and(|ending| ending == "rs") && !is_test {
                 let text = code_of(&fs::read_to_string(&path).expect("text"));
                 sources.push(Source {

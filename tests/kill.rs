@@ -4,6 +4,8 @@
 //! row of a table, as fast as it can and says after each that it is written; it is killed at a moment of chance, again
 //! and again in the same folder.
 
+mod kit;
+
 use std::{
     env, fs,
     io::{BufRead as _, BufReader, Write as _},
@@ -18,16 +20,10 @@ use std::{
 };
 
 use jiff::Timestamp;
+use kit::{history_entry, open_history, small_scene};
 use partsight::{
     files::write_atomically,
-    geometry::{
-        depth_frame::{DepthFrame, Intrinsics},
-        distortion::Distortion,
-    },
-    history::{
-        Filter, History, HungId, InspectionDetail, KeepFrames, NewEntry, Record, Retention,
-        StoredVerdict, Summary,
-    },
+    history::{Filter, History, KeepFrames, NewEntry, Retention, StoredVerdict},
     library::Library,
     pipeline::{self, Inspection, Recipe, Unwatched},
     report::{
@@ -35,7 +31,6 @@ use partsight::{
         pose_report::{PdfPictures, PoseReport, ReportSubject, SeenBy, append_csv, pose_pdf},
     },
     robot::Convention,
-    stages::scene::{SceneCloud, scene_from_frame},
 };
 use rand::{RngExt as _, SeedableRng as _};
 
@@ -51,66 +46,13 @@ const ALL: Retention = Retention {
     max_gigabytes: 10.0,
 };
 
-fn scene(number: i64) -> SceneCloud {
-    let intrinsics = Intrinsics {
-        width: 80,
-        height: 60,
-        fx: 65.0,
-        fy: 65.0,
-        cx: 39.5,
-        cy: 29.5,
-        distortion: Distortion::NONE,
-    };
-    let depth = (0..80 * 60).map(|i| 900 + ((i * 31 + number * 17) % 700) as u16);
-    scene_from_frame(&DepthFrame {
-        intrinsics,
-        metres_per_unit: 0.001,
-        depth: depth.collect(),
-        is_simulated: false,
-    })
-}
-
 /// An inspection that can be told from every other.
 fn entry(number: i64) -> NewEntry {
-    let recipe = Recipe::default();
-    NewEntry {
-        record: Record {
-            summary: Summary {
-                number: 0,
-                at: Timestamp::now(),
-                scene: format!("frame {number}"),
-                source: "simulated".into(),
-                is_simulated: true,
-                verdict: StoredVerdict::Unknown,
-                part: None,
-                title: "Unknown".into(),
-                score: Some([0.4, 0.1]),
-                total_ms: 20.0,
-                remark: String::new(),
-                label: None,
-                frame_bytes: None,
-                hung: HungId::new(),
-                parent: None,
-                num_below: 0,
-            },
-            detail: InspectionDetail {
-                nearest: None,
-                complaint: None,
-                camera_from_part: None,
-                recipe_identity: recipe.identity(),
-                recipe: Some(Arc::new(recipe)),
-                library_identity: "0badcafe".into(),
-                program: "0.1.0".into(),
-                line: line_of(number),
-                thumbnail: Vec::new(),
-                origin: None,
-                frame: None,
-            },
-        },
-        picture: None,
-        scene: Some(Arc::new(scene(number))),
-        shots: Vec::new(),
-    }
+    let mut entry = history_entry(number, StoredVerdict::Unknown, "unknown");
+    entry.record.summary.at = Timestamp::now();
+    entry.record.detail.line = line_of(number);
+    entry.picture = None;
+    entry
 }
 
 fn line_of(number: i64) -> String {
@@ -122,7 +64,7 @@ fn line_of(number: i64) -> String {
 
 fn inspection() -> Inspection {
     let library = Library::default();
-    pipeline::run(&scene(1), &library, &Recipe::default(), &Unwatched).expect("not cancelled")
+    pipeline::run(&small_scene(1), &library, &Recipe::default(), &Unwatched).expect("not cancelled")
 }
 
 fn report_of(number: i64, inspection: &Inspection) -> PoseReport {
@@ -149,9 +91,7 @@ fn body() {
         return;
     };
     let folder = Path::new(&folder);
-    let opened = History::open(folder).expect("opened");
-    assert_eq!(opened.set_aside, None, "a kill leaves a sound file");
-    let mut history = opened.history;
+    let mut history = open_history(folder);
     let mut reports = ReportFolder::make(&folder.join("reports")).expect("made");
     let inspection = inspection();
     let mut out = std::io::stdout();
@@ -189,9 +129,7 @@ fn a_kill_at_any_moment_loses_at_most_the_inspection_in_flight() {
         // From before it has opened the file to some inspections later.
         let moment = Duration::from_micros(random.random_range(0..100_000));
         let told = killed_after(moment, folder.path());
-        let opened = History::open(folder.path()).expect("opened");
-        assert_eq!(opened.set_aside, None, "kill {kill}");
-        let history = opened.history;
+        let history = open_history(folder.path());
         let page = history.page(&Filter::default(), 0, 1).expect("asked");
         let newest = page.rows.first().map_or(0, |row| row.number);
         assert_eq!(page.num_all as i64, newest, "kill {kill}: none is missing");
@@ -210,10 +148,8 @@ fn a_kill_at_any_moment_loses_at_most_the_inspection_in_flight() {
             assert_eq!(record.detail.line, line_of(number));
             assert_eq!(record.summary.scene, format!("frame {number}"));
             let kept = history.scene(&record).expect("whole").expect("kept");
-            assert!(
-                kept.cloud.points == scene(number).cloud.points,
-                "another frame"
-            );
+            let written = small_scene(number as u16);
+            assert!(kept.cloud.points == written.cloud.points, "another frame");
         }
         for number in known + 1..=told {
             let path = folder

@@ -2,8 +2,11 @@
 
 #[path = "pipeline/cameras.rs"]
 mod cameras;
+mod kit;
 
 use std::cell::Cell;
+
+use kit::scene_of;
 
 use nalgebra::{Isometry3, Point3, UnitQuaternion, Vector3};
 use partsight::{
@@ -19,12 +22,12 @@ use partsight::{
     },
     simulate::{
         CellSetup, Clutter, FIRST_OTHER_MAKE, ObjectKind, PartKind, PartPose, SensorNoise, Side,
-        SimulatedObject, frame,
+        SimulatedObject,
     },
     stages::{
         pose::PoseMethod,
         rank::Matcher,
-        scene::{SceneCloud, scene_from_cloud, scene_from_frame},
+        scene::{SceneCloud, scene_from_cloud},
     },
 };
 
@@ -48,7 +51,7 @@ fn door_with(roll: f64, shift: [f64; 2], noise: SensorNoise) -> SceneCloud {
         Vector3::new(shift[0], shift[1], 1.7).into(),
         UnitQuaternion::from_axis_angle(&Vector3::z_axis(), roll),
     ));
-    scene_from_frame(&frame(&setup).frame)
+    scene_of(&setup)
 }
 
 #[test]
@@ -84,7 +87,7 @@ fn the_pose_follows_the_part_in_both_directions() {
         );
         let mut setup = CellSetup::with_part(kind, Side::Left, 0, 11);
         setup.pose = PartPose::Fixed(truth);
-        let scene = scene_from_frame(&frame(&setup).frame);
+        let scene = scene_of(&setup);
         let inspection = inspected(&scene, &library, &Recipe::default());
         let pose = inspection.pose.expect("asked for").expect("a pose");
         let camera_from_part = truth * camera_from_model.inverse();
@@ -123,7 +126,7 @@ fn nothing_to_see_is_no_part_whatever_the_recipe() {
     let library = standard();
     let nowhere = Point3::new(f32::NAN, f32::NAN, f32::NAN);
     let cloud = |points: Vec<Point3<f32>>| scene_from_cloud(PointCloud::from_points(points));
-    let empty_cell = scene_from_frame(&frame(&CellSetup::new(SimulatedObject::Nothing, 3)).frame);
+    let empty_cell = scene_of(&CellSetup::new(SimulatedObject::Nothing, 3));
     let all_nan = scene_from_cloud(PointCloud {
         points: vec![nowhere; 640 * 480],
         grid: Some(Grid {
@@ -300,9 +303,7 @@ fn a_capture_saved_as_bare_points_is_recognised_as_well() {
     let library = standard();
     for (i, kind) in (0..).zip(PartKind::ALL) {
         for seed in [i, i + 8] {
-            let scene = scene_from_frame(
-                &frame(&CellSetup::with_part(kind, Side::Left, 0, 60 + seed)).frame,
-            );
+            let scene = scene_of(&CellSetup::with_part(kind, Side::Left, 0, 60 + seed));
             let bare =
                 scene_from_cloud(PointCloud::from_points(scene.cloud.points.iter().copied()));
             let inspection = inspected(&bare, &library, &Recipe::default());
@@ -328,12 +329,7 @@ fn a_right_hand_part_is_refused_as_the_mirror_image_of_the_left_one() {
     let library = standard();
     for kind in [PartKind::FrontDoor, PartKind::BackDoor, PartKind::Fender] {
         let setup = CellSetup::with_part(kind, Side::Right, 0, 41);
-        let verdict = inspected(
-            &scene_from_frame(&frame(&setup).frame),
-            &library,
-            &Recipe::default(),
-        )
-        .verdict;
+        let verdict = inspected(&scene_of(&setup), &library, &Recipe::default()).verdict;
         let mirrored = match &verdict {
             Verdict::Part {
                 rejected: Some(Rejection::Mirrored { part, .. }),
@@ -351,7 +347,7 @@ fn a_part_of_another_model_is_named_and_its_pose_is_marked_as_approximate() {
     let library = standard();
     let verdict_on = |model_seed: u64, kind: PartKind| {
         let setup = CellSetup::with_part(kind, Side::Left, model_seed, 51);
-        let scene = scene_from_frame(&frame(&setup).frame);
+        let scene = scene_of(&setup);
         inspected(&scene, &library, &Recipe::default()).verdict
     };
     let mut num_marked = 0;
@@ -378,7 +374,7 @@ fn a_part_half_out_of_the_picture_is_accepted_from_what_is_in_sight() {
         let mut setup = CellSetup::with_part(kind, Side::Left, 0, 71);
         let hung = Isometry3::translation(right, 0.05, 1.2);
         setup.pose = PartPose::Fixed(hung);
-        let scene = scene_from_frame(&frame(&setup).frame);
+        let scene = scene_of(&setup);
         let inspection = inspected(&scene, &library, &Recipe::default());
         let is_named = matches!(
             &inspection.verdict,
@@ -406,7 +402,7 @@ fn a_part_of_another_make_is_named_as_one_and_never_accepted() {
     let mut num_named = 0;
     for (kind, seed) in PartKind::ALL.into_iter().zip(81..) {
         let setup = CellSetup::with_part(kind, Side::Left, FIRST_OTHER_MAKE + seed, seed);
-        let scene = scene_from_frame(&frame(&setup).frame);
+        let scene = scene_of(&setup);
         let verdict = inspected(&scene, &library, &Recipe::default()).verdict;
         assert!(!verdict.is_accepted(), "{kind}: {verdict:?}");
         num_named += usize::from(matches!(
@@ -430,12 +426,7 @@ fn what_nobody_enrolled_is_unknown() {
         (ObjectKind::Box, 7),
     ] {
         let setup = CellSetup::new(SimulatedObject::Object(object), seed);
-        let verdict = inspected(
-            &scene_from_frame(&frame(&setup).frame),
-            &library,
-            &Recipe::default(),
-        )
-        .verdict;
+        let verdict = inspected(&scene_of(&setup), &library, &Recipe::default()).verdict;
         assert!(
             matches!(
                 verdict,
@@ -459,8 +450,7 @@ fn a_part_behind_a_plank_among_clutter_and_noise_is_named() {
             multiplier: 3.0,
             seed: 23,
         };
-        let shot = frame(&setup);
-        let inspection = inspected(&scene_from_frame(&shot.frame), &library, &Recipe::default());
+        let inspection = inspected(&scene_of(&setup), &library, &Recipe::default());
         let verdict = &inspection.verdict;
         assert!(
             matches!(verdict, Verdict::Part { part, .. } if part == kind.name()),

@@ -4,6 +4,8 @@
 //! that it was skipped; `PARTSIGHT_REQUIRE_WINDOW` makes that a failure. `PARTSIGHT_WINDOW_PICTURES` names a folder that
 //! keeps the pictures.
 
+mod kit;
+
 use std::{
     env, fs,
     io::{BufRead as _, BufReader},
@@ -14,10 +16,10 @@ use std::{
 };
 
 use image::RgbImage;
+use kit::facing_part;
 use partsight::{
     files::save_cloud,
-    simulate::{CellSetup, PartKind, PartPose, PoseRange, Side, frame},
-    stages::scene::scene_from_frame,
+    simulate::{PartKind, Side},
 };
 
 const SIZE: (u32, u32) = (1440, 900);
@@ -170,9 +172,7 @@ fn the_program_opens_a_file_shows_every_workspace_and_closes_with_code_0() {
     }
     let folder = tempfile::tempdir().expect("a folder");
     let scene_path = folder.path().join("captured.pcd");
-    let mut setup = CellSetup::with_part(PartKind::Fender, Side::Left, 0, 5);
-    setup.pose = PartPose::Drawn(PoseRange::facing());
-    let scene = scene_from_frame(&frame(&setup).frame);
+    let scene = facing_part(PartKind::Fender, Side::Left, 5);
     save_cloud(&scene_path, &scene.cloud).expect("written");
 
     let display = Display::start(folder.path()).expect("Xvfb");

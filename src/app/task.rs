@@ -6,7 +6,7 @@
 use std::{
     fmt, io,
     sync::{
-        Arc, Mutex, MutexGuard, PoisonError,
+        Arc, Mutex,
         atomic::{AtomicBool, Ordering},
         mpsc::{Receiver, SyncSender, TryRecvError, TrySendError, sync_channel},
     },
@@ -15,7 +15,7 @@ use std::{
 
 use crate::{
     app::user_error::UserError,
-    error::guarded,
+    error::{guarded, lock},
     pipeline::{Cancelled, ProgressObserver, Stage},
 };
 
@@ -434,10 +434,6 @@ impl Drop for JobQueue {
             let _ = handle.join();
         }
     }
-}
-
-fn lock<V>(mutex: &Mutex<V>) -> MutexGuard<'_, V> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }
 
 #[cfg(test)]

@@ -7,7 +7,7 @@ mod tests;
 use std::{
     sync::Arc,
     thread::{self, JoinHandle},
-    time::{Duration, Instant},
+    time::Duration,
 };
 
 use self::slot::Slot;
@@ -87,8 +87,6 @@ pub enum FeedState {
     Lost {
         /// Why there is nothing.
         error: Arc<CaptureError>,
-        /// When it is looked for again.
-        retry_at: Instant,
     },
     /// The source has no more.
     Ended,
@@ -147,12 +145,8 @@ impl Feed {
         })
     }
 
-    /// What came, if anything did since it was asked last.
-    pub fn take(&self) -> Option<FeedItem> {
-        self.slot.take(Duration::ZERO)
-    }
-
-    /// As [`Feed::take`], waiting for it; `None` after `at_most`, or as soon as nothing will come any more.
+    /// What came since it was asked last, waiting for it; `None` after `at_most`, or as soon as nothing will come any
+    /// more.
     pub fn wait(&self, at_most: Duration) -> Option<FeedItem> {
         self.slot.take(at_most)
     }
@@ -246,7 +240,7 @@ impl Camera<'_> {
         if recovery == Recovery::None {
             return Some(StopReason::Over(FeedState::Failed(error)));
         }
-        self.slot.lost(error, Instant::now() + self.retry);
+        self.slot.lost(error);
         self.slot.sleep(self.retry);
         self.retry = (2 * self.retry).min(LONGEST_RETRY);
         (recovery == Recovery::Reopen).then_some(StopReason::ToReopen)

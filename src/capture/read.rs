@@ -9,7 +9,7 @@ use super::{
     source::Image,
 };
 use crate::{
-    files::{self, FileContent, FileError},
+    files::{self, FileContent, FileError, file_name},
     geometry::cloud::PointCloud,
 };
 
@@ -24,12 +24,6 @@ pub(crate) fn may_be_capture(path: &Path) -> bool {
         endings.any(|ending| *ending != OF_LOGS && found.eq_ignore_ascii_case(ending))
     });
     is_known && !file_name(path).starts_with('.')
-}
-
-/// The last part of a path, for people.
-pub(super) fn file_name(path: &Path) -> String {
-    let name = path.file_name().unwrap_or(path.as_os_str());
-    name.to_string_lossy().into_owned()
 }
 
 /// Reads what a camera saw. A file without a single reading is an image without points: the camera was covered.

@@ -167,21 +167,15 @@ mod tests {
     use super::*;
     use crate::{
         cases::{CaseDescription, TruePose},
+        kit::shipped_library,
         library::shipped_enrolled_at,
         simulate::{CellSetup, PartKind, Side, frame},
         stages::scene::scene_from_frame,
     };
 
-    fn shipped() -> Library {
-        crate::library::open_library(Some(std::path::Path::new("reference_parts")))
-            .and_then(|place| place.load(&crate::stages::reference::ReferenceParams::default()))
-            .expect("the shipped parts")
-            .library
-    }
-
     #[test]
     fn a_pose_is_judged_only_in_the_coordinates_of_the_cloud_that_it_is_of() {
-        let library = shipped();
+        let library = shipped_library();
         let shot = frame(&CellSetup::with_part(PartKind::Fender, Side::Left, 0, 77));
         let at = shipped_enrolled_at("fender").expect("shipped");
         let camera_from_part = shot.truth.camera_from_part * at.part_from_model.inverse();

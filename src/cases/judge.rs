@@ -5,9 +5,7 @@ use serde::{Deserialize, Serialize};
 pub use crate::library::Truth;
 use crate::{
     geometry::rigid::PoseDelta,
-    library::Library,
-    pipeline::{self, Cancelled, ProgressObserver, Recipe, Timings, Verdict},
-    stages::scene::SceneCloud,
+    pipeline::{Timings, Verdict},
 };
 
 /// What an inspection found, in short.
@@ -31,24 +29,12 @@ pub struct FoundVerdict {
 
 impl From<&Verdict> for FoundVerdict {
     fn from(verdict: &Verdict) -> Self {
-        match verdict {
-            Verdict::Part {
-                part,
-                score,
-                margin,
-                rejected,
-                ..
-            } => Self {
-                part: Some(part.clone()),
-                score: Some(*score),
-                margin: Some(*margin),
-                accepted: rejected.is_none(),
-                reason: rejected.as_ref().map(ToString::to_string),
-            },
-            Verdict::NoPart(reason) => Self {
-                reason: Some(reason.to_string()),
-                ..Self::default()
-            },
+        Self {
+            part: verdict.guess().map(str::to_owned),
+            score: verdict.score().map(|[score, _]| score),
+            margin: verdict.score().map(|[_, margin]| margin),
+            accepted: verdict.is_accepted(),
+            reason: verdict.complaint().map(|[why, _]| why),
         }
     }
 }
@@ -133,17 +119,6 @@ impl CaseResult {
         let guess = self.found.part.as_deref()?;
         Some(self.truth.part() == Some(guess))
     }
-}
-
-/// What an inspection of the scene finds.
-pub fn found_in(
-    scene: &SceneCloud,
-    library: &Library,
-    recipe: &Recipe,
-    watch: &dyn ProgressObserver,
-) -> Result<FoundVerdict, Cancelled> {
-    let inspection = pipeline::run(scene, library, recipe, watch)?;
-    Ok(FoundVerdict::from(&inspection.verdict))
 }
 
 #[cfg(test)]

@@ -80,7 +80,7 @@ pub use self::{
     confusion::{Cell, Confusion, Tally},
     error::CaseError,
     evaluation::{CaseJudge, Evaluation, evaluate},
-    judge::{CaseAnswer, CaseOutcome, CaseResult, FoundVerdict, Truth, found_in},
+    judge::{CaseAnswer, CaseOutcome, CaseResult, FoundVerdict, Truth},
     meta::{CaseDescription, CaseMeta, SCHEMA_VERSION, TruePose},
     past::{PastCases, TruthFrom},
     record::{

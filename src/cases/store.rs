@@ -3,8 +3,8 @@
 //! Looking never writes: cases can lie on a medium that is write-protected. Writers take turns by a lock.
 
 use std::{
-    fs::{self, File},
-    io::{self, Write as _},
+    fs::{self},
+    io::{self},
     path::{Path, PathBuf},
 };
 
@@ -13,7 +13,10 @@ use super::{
     meta::{CaseDescription, CaseMeta, SCHEMA_VERSION},
 };
 use crate::{
-    files::{in_counting_order, open_lock, open_regular, words_of},
+    files::{
+        in_counting_order, new_folder, open_lock, open_regular, sync_folder, user_folders,
+        words_of, write_file,
+    },
     history::{FrameRecord, read_frame, write_frame},
     stages::scene::SceneCloud,
 };
@@ -61,8 +64,7 @@ impl CaseFolder {
 
     /// The user's own, in the folder that the system keeps for a user's data.
     pub fn of_user() -> Result<Self, CaseError> {
-        let folders =
-            directories::ProjectDirs::from("", "", "partsight").ok_or(CaseError::NoUserFolder)?;
+        let folders = user_folders().ok_or(CaseError::NoUserFolder)?;
         Ok(Self::at(folders.data_dir().join("cases")))
     }
 
@@ -91,7 +93,7 @@ impl CaseFolder {
             self.writing(|| {
                 self.clear_leftovers()?;
                 let (name, place) = self.free_name(&plain_name(&about.origin))?;
-                let building = new_folder(&self.path)?;
+                let building = new_folder(&self.path, NEW_PREFIX)?;
                 let meta = CaseMeta {
                     schema_version: SCHEMA_VERSION,
                     about,
@@ -314,33 +316,6 @@ fn plain_name(origin: &str) -> String {
     } else {
         name.into()
     }
-}
-
-/// A hidden folder to build a case in; gone when dropped.
-fn new_folder(parent: &Path) -> io::Result<tempfile::TempDir> {
-    let mut builder = tempfile::Builder::new();
-    builder.prefix(NEW_PREFIX);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt as _;
-        // What an ordinary new folder has, less the user's mask: others on the machine may read the cases.
-        builder.permissions(fs::Permissions::from_mode(0o777));
-    }
-    builder.tempdir_in(parent)
-}
-
-fn write_file(path: &Path, content: &[u8]) -> io::Result<()> {
-    let mut file = File::create(path)?;
-    file.write_all(content)?;
-    file.sync_all()
-}
-
-/// Makes renames last. Only Unix lets a folder be opened for that; elsewhere the file system sees to it.
-fn sync_folder(folder: &Path) -> io::Result<()> {
-    if cfg!(unix) {
-        File::open(folder)?.sync_all()?;
-    }
-    Ok(())
 }
 
 #[cfg(test)]

@@ -12,9 +12,9 @@ use jiff::Timestamp;
 use super::{
     Outcome,
     console::{Advised as _, Console, advised_error},
+    input::parse_robot_pose,
 };
 use crate::{
-    error::Advice as _,
     files::FileError,
     robot::{
         RobotFrame, WrittenPose,
@@ -22,7 +22,6 @@ use crate::{
             CalibrationError, CameraPlace, CellCalibration, Loaded, Origin, default_path,
         },
         hand_eye::Mount,
-        parse_written_pose,
     },
 };
 
@@ -63,7 +62,7 @@ The numbers are robot_from_camera (eye to hand) or flange_from_camera (eye in ha
 y down, z forward) stands in the robot's base frame, or in the flange's.")]
 struct SetArgs {
     /// The convention and its numbers, or the 16 numbers of a matrix in metres, row after row
-    #[arg(value_name = "POSE", value_parser = robot_pose, allow_hyphen_values = true)]
+    #[arg(value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true)]
     pose: WrittenPose,
     #[command(flatten)]
     kept: CalibrationOutput,
@@ -81,7 +80,7 @@ Example:
 The numbers are robot_from_flange, as the controller shows it without a tool.")]
 struct CapturePoseArgs {
     /// The convention and its numbers, or the 16 numbers of a matrix in metres, row after row
-    #[arg(value_name = "POSE", value_parser = robot_pose, allow_hyphen_values = true)]
+    #[arg(value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true)]
     pose: WrittenPose,
     /// The calibration to change; without it, your own
     #[arg(long, value_name = "FILE")]
@@ -232,11 +231,6 @@ pub(super) fn calibration_if_any(
     load(given, console).map(|(_, calibration)| Some(calibration))
 }
 
-/// A pose of the arm or the camera on the command line.
-fn robot_pose(text: &str) -> Result<WrittenPose, String> {
-    parse_written_pose(text).map_err(|error| format!("{error}\n  to do: {}", error.advice()))
-}
-
 /// Where the camera sits, for a command that inspects.
 #[derive(Debug, Args)]
 pub(super) struct CalibrationChoice {
@@ -244,7 +238,7 @@ pub(super) struct CalibrationChoice {
     #[arg(long, value_name = "FILE")]
     calibration: Option<PathBuf>,
     /// With a camera on the flange: where the arm stood, as `kuka X Y Z A B C`, or 16 numbers of a matrix
-    #[arg(long, value_name = "POSE", value_parser = robot_pose, allow_hyphen_values = true)]
+    #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true)]
     robot_pose: Option<WrittenPose>,
 }
 

@@ -21,6 +21,11 @@ pub(super) struct Console {
     progress: ProgressBar,
 }
 
+/// An error as clap shows it: what is wrong with an argument, and what to do about it.
+pub(super) fn with_advice<E: Display + Advice>(error: &E) -> String {
+    format!("{error}\n  to do: {}", error.advice())
+}
+
 /// More inputs than this take long enough for a progress bar.
 const MANY: usize = 5;
 

@@ -3,7 +3,7 @@
 use std::{ops::ControlFlow, time::Duration};
 
 use super::{
-    console::{Advised as _, Console, advised_error},
+    console::{Advised as _, Console, advised_error, with_advice},
     interrupt::Interrupt,
 };
 use crate::{
@@ -19,7 +19,7 @@ pub(super) fn parse_source(text: &str) -> Result<SourceSpec, String> {
     let spec = text.parse::<SourceSpec>();
     // A recording gives every frame as fast as it is taken, unless it says its pace: then a replay is exact.
     spec.map(|spec| spec.paced(Pace::Step))
-        .map_err(|error| format!("{error}\n  to do: {}", error.advice()))
+        .map_err(|error| with_advice(&error))
 }
 
 /// Hands what a source gives to `each` until that breaks off, the source ends, or Ctrl-C. How the feed was at the end.

@@ -1,4 +1,4 @@
-//! What the commands read: scenes and clouds.
+//! What the commands read: scenes and clouds, and what robots say as arguments.
 
 use std::{
     path::{Path, PathBuf},
@@ -6,16 +6,14 @@ use std::{
     thread,
 };
 
-use super::console::{Advised as _, Console};
+use super::console::{Advised as _, Console, with_advice};
 use crate::{
     capture::Image,
     error::Advice,
     files::{self, FileContent, FileError, FileWarning},
     geometry::cloud::PointCloud,
-    stages::{
-        scene::{SceneCloud, cloud_of, scene_from_image},
-        segment::{EmptyCell, EmptyCellError},
-    },
+    robot::{Convention, WrittenPose, parse_written_pose},
+    stages::scene::{EmptyCell, EmptyCellError, SceneCloud, cloud_of, scene_from_image},
 };
 
 /// Why a file is no input for a command.
@@ -83,6 +81,22 @@ pub(super) fn open_scene(path: &Path) -> OpenedScene {
         }
     };
     Ok((scene, warnings))
+}
+
+/// For clap: a pose of the arm or the camera in a robot's numbers.
+pub(super) fn parse_robot_pose(text: &str) -> Result<WrittenPose, String> {
+    parse_written_pose(text).map_err(|error| with_advice(&error))
+}
+
+/// For clap: a convention by its name.
+pub(super) fn parse_convention(name: &str) -> Result<Convention, String> {
+    Convention::by_name(name).ok_or_else(|| {
+        let names: Vec<&str> = Convention::ALL
+            .iter()
+            .map(|convention| convention.name())
+            .collect();
+        format!("expected one of {}", names.join(", "))
+    })
 }
 
 /// Opens what the same camera saw without a part.

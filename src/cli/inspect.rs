@@ -36,8 +36,7 @@ use crate::{
     robot::RobotFrame,
     stages::{
         reference::Reference,
-        scene::{SceneCloud, scene_from_image},
-        segment::EmptyCell,
+        scene::{EmptyCell, SceneCloud, scene_from_image},
     },
 };
 

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::{
     console::Console,
-    verdict::{complaint, place_of, show_card},
+    verdict::{place_of, show_card},
 };
 use crate::{
     files::visible,
@@ -133,7 +133,7 @@ impl Columns {
             Verdict::NoPart(_) => ("-", "NOT ACCEPTED", String::new()),
         };
         self.row(scene, part, verdict, &figures, console);
-        if let Some((why, what_to_do)) = complaint(inspection) {
+        if let Some([why, what_to_do]) = inspection.verdict.complaint() {
             console.line(&format_args!("    why not  {why}"));
             console.line(&format_args!("    to do    {what_to_do}"));
         }

@@ -12,7 +12,7 @@ use super::{
     LibraryChoice, Outcome,
     calibrate::CalibrationChoice,
     console::{Advised as _, Console, Table},
-    input::{OpenedScene, Scenes, before, open_ahead, open_empty_cell},
+    input::{OpenedScene, Scenes, before, open_ahead, open_empty_cell, parse_convention},
     recipe::RecipeChoice,
     verdict::outcome_of,
 };
@@ -27,7 +27,11 @@ use crate::{
         stage_pictures,
     },
     robot::{Convention, RobotFrame},
-    stages::{reference::Reference, scene::SceneCloud, segment::EmptyCell, stand_off::stand_off},
+    stages::{
+        reference::Reference,
+        scene::{EmptyCell, SceneCloud},
+        stand_off::stand_off,
+    },
 };
 
 /// Write the pose report of captured scenes: which part, where, and in the robot's numbers
@@ -86,17 +90,6 @@ enum Format {
     Csv,
     /// A page for people
     Pdf,
-}
-
-/// For clap: a convention by its name.
-pub(super) fn parse_convention(name: &str) -> Result<Convention, String> {
-    Convention::by_name(name).ok_or_else(|| {
-        let names: Vec<&str> = Convention::ALL
-            .iter()
-            .map(|convention| convention.name())
-            .collect();
-        format!("expected one of {}", names.join(", "))
-    })
 }
 
 pub(super) fn run(args: &ReportArgs, console: &mut Console) -> anyhow::Result<Outcome> {

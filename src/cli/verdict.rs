@@ -2,7 +2,6 @@
 
 use super::{Outcome, console::Console};
 use crate::{
-    error::Advice,
     files::visible,
     library::Library,
     pipeline::{Inspection, Verdict},
@@ -15,14 +14,6 @@ pub(super) fn outcome_of(inspection: &Inspection) -> Outcome {
     match &inspection.verdict {
         Verdict::Part { rejected: None, .. } => Outcome::Accepted,
         Verdict::Part { .. } | Verdict::NoPart(_) => Outcome::NotAccepted,
-    }
-}
-
-/// Why an inspection was not accepted and what to do, if it was not.
-pub(super) fn complaint(inspection: &Inspection) -> Option<(String, String)> {
-    match &inspection.verdict {
-        Verdict::Part { rejected, .. } => rejected.as_ref().map(|r| (r.to_string(), r.advice())),
-        Verdict::NoPart(reason) => Some((reason.to_string(), reason.advice())),
     }
 }
 
@@ -152,7 +143,7 @@ pub(super) fn show_card(
         "time",
         format!("{:.1} ms", inspection.timings.total.as_secs_f64() * 1000.0),
     );
-    if let Some((why, what_to_do)) = complaint(inspection) {
+    if let Some([why, what_to_do]) = inspection.verdict.complaint() {
         line("why not", why);
         line("to do", what_to_do);
     }

@@ -31,6 +31,7 @@ mod counting_order;
 mod depth_camera;
 pub mod depth_png;
 mod error;
+mod folders;
 mod gltf;
 mod names;
 mod obj;
@@ -54,6 +55,9 @@ pub use self::depth_camera::{DepthCamera, StoredOrientation, Turn};
 pub(crate) use self::depth_png::read_picture;
 pub use self::depth_png::write_depth_png;
 pub use self::error::{Expected, FileError, NoFile};
+#[cfg(feature = "cli")]
+pub(crate) use self::folders::folder_of;
+pub(crate) use self::folders::{file_name, new_folder, sync_folder, user_folders, write_file};
 pub(crate) use self::names::{nearest_name, stays_inside};
 
 pub use self::open::{FileContent, FileWarning, open, open_bytes};
@@ -63,8 +67,6 @@ pub(crate) use self::source::{open_lock, open_regular, read_bytes, read_limited,
 pub(crate) use self::text::read_text;
 #[cfg(feature = "cli")]
 pub(crate) use self::text::visible;
-#[cfg(feature = "cli")]
-pub(crate) use self::write::{folder_of, sync_folder};
 pub use self::write::{save_cloud, write_atomically};
 pub use self::xyz::write_xyz;
 

@@ -1,15 +1,16 @@
 //! Writing a file so that it is complete or not there.
 
 use std::collections::BTreeSet;
-use std::fs::{self, File};
+use std::fs;
 use std::io::{self, BufWriter, Write};
 use std::path::{Path, PathBuf};
-use std::sync::{Mutex, PoisonError};
+use std::sync::Mutex;
 use std::time::Duration;
 
 use super::error::FileError;
+use super::folders::{folder_of, sync_folder};
 use super::{write_pcd, write_ply, write_xyz};
-use crate::geometry::cloud::PointCloud;
+use crate::{error::lock, geometry::cloud::PointCloud};
 
 /// Writes a file through `fill` so that `path` holds either what it held before or all of the new content, even when
 /// the power fails: a temporary file in the same folder is filled, synced and renamed.
@@ -51,7 +52,7 @@ const ABANDONED: Duration = Duration::from_mins(10);
 /// Removes what programs left in a folder that were killed while they wrote; this one looks there once.
 fn clear_leftovers_once(folder: &Path) {
     static CLEARED: Mutex<BTreeSet<PathBuf>> = Mutex::new(BTreeSet::new());
-    let mut cleared = CLEARED.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut cleared = lock(&CLEARED);
     if cleared.insert(folder.to_owned()) {
         drop(cleared);
         clear_leftovers(folder);
@@ -73,23 +74,6 @@ fn clear_leftovers(folder: &Path) {
     }
 }
 
-/// The folder that a file is in.
-pub(crate) fn folder_of(path: &Path) -> &Path {
-    match path.parent() {
-        Some(parent) if !parent.as_os_str().is_empty() => parent,
-        _ => Path::new("."),
-    }
-}
-
-/// Makes what was named anew in a folder last. Only Unix lets a folder be opened for that; elsewhere the file system
-/// sees to it.
-pub(crate) fn sync_folder(folder: &Path) -> io::Result<()> {
-    if cfg!(unix) {
-        File::open(folder)?.sync_all()?;
-    }
-    Ok(())
-}
-
 /// Writes a cloud as its name ends: `.pcd` (all of it), `.ply` (all but the grid) or `.xyz` (positions only).
 pub fn save_cloud(path: &Path, cloud: &PointCloud) -> Result<(), FileError> {
     let ending = path
@@ -107,6 +91,8 @@ pub fn save_cloud(path: &Path, cloud: &PointCloud) -> Result<(), FileError> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs::File;
+
     use super::*;
 
     #[test]

@@ -1,10 +1,11 @@
 //! The ray of every pixel of a camera, computed once per camera.
 
-use std::sync::{Arc, Mutex, PoisonError};
+use std::sync::{Arc, Mutex};
 
 use nalgebra::Point3;
 
 use super::depth_frame::Intrinsics;
+use crate::error::lock;
 
 /// x/z and y/z of the ray of every pixel.
 #[derive(Clone, Debug)]
@@ -81,7 +82,7 @@ impl Rays {
 }
 
 fn known(camera: &Intrinsics) -> Table {
-    let lock = || KNOWN.lock().unwrap_or_else(PoisonError::into_inner);
+    let lock = || lock(&KNOWN);
     let mut tables = lock();
     if let Some(place) = tables.iter().position(|(of, _)| of == camera) {
         tables[..=place].rotate_right(1);

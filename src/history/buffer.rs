@@ -5,8 +5,8 @@
 
 use std::{
     collections::VecDeque,
-    path::{Path, PathBuf},
-    sync::{Arc, Mutex, MutexGuard, PoisonError},
+    path::PathBuf,
+    sync::{Mutex, MutexGuard},
     time::{Duration, Instant},
 };
 
@@ -22,7 +22,10 @@ use super::{
     store::{History, Page},
     waiting::{wait, waiting_rows},
 };
-use crate::{error::Advice as _, library::Truth, stages::scene::SceneCloud};
+use crate::{
+    error::{Advice as _, lock},
+    library::Truth,
+};
 
 /// After a failure it is tried again this much later.
 const PAUSE: Duration = Duration::from_secs(20);
@@ -67,25 +70,20 @@ impl HistoryBuffer {
         self.lock().waiting.len()
     }
 
-    /// The folder, if it is kept in one.
-    pub fn place(&self) -> Option<&Path> {
-        self.place.as_deref()
-    }
-
     /// What happened since this was asked last. Never waits for the disk.
     pub fn take_news(&self) -> Vec<HistoryEvent> {
-        let mut news = self.news.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut news = lock(&self.news);
         std::mem::take(&mut *news)
     }
 
     fn tell(&self, news: HistoryEvent) {
-        let mut all = self.news.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut all = lock(&self.news);
         all.push(news);
     }
 
     fn lock(&self) -> MutexGuard<'_, Inner> {
         // A panic while writing leaves at most a transaction that was not committed.
-        self.inner.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.inner)
     }
 
     /// Opens it, if nobody has yet, and sweeps away what is not kept any longer.
@@ -247,19 +245,6 @@ impl HistoryBuffer {
             }
         }
         Ok(below)
-    }
-
-    /// The scene of an inspection, if its frame is kept.
-    pub fn scene(&self, number: i64) -> Result<Option<Arc<SceneCloud>>, HistoryError> {
-        let mut inner = self.lock();
-        if let Some(entry) = inner.waiting_mut(number) {
-            return Ok(entry.scene.clone());
-        }
-        let Some(history) = &inner.history else {
-            return Ok(None);
-        };
-        let record = history.known(number)?;
-        Ok(history.scene(&record)?.map(Arc::new))
     }
 
     /// Goes through all rows that the filter lets through, the oldest first: those that are written, then those that

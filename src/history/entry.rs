@@ -10,7 +10,6 @@ use jiff::Timestamp;
 
 use super::{frames::FrameRecord, hung::HungId};
 use crate::{
-    error::Advice as _,
     geometry::rigid::{RigidTransform, row_major},
     library::Truth,
     pipeline::{Inspection, Recipe, Verdict},
@@ -218,19 +217,7 @@ impl NewEntry {
         recipe: &Arc<Recipe>,
     ) -> Self {
         let verdict = StoredVerdict::from(&inspection.verdict);
-        let (nearest, score, complaint) = match &inspection.verdict {
-            Verdict::Part {
-                part,
-                score,
-                margin,
-                rejected,
-                ..
-            } => {
-                let complaint = rejected.as_ref().map(|r| [r.to_string(), r.advice()]);
-                (Some(part.clone()), Some([*score, *margin]), complaint)
-            }
-            Verdict::NoPart(reason) => (None, None, Some([reason.to_string(), reason.advice()])),
-        };
+        let nearest = inspection.verdict.guess().map(str::to_owned);
         let name = about.title.or(nearest.as_deref()).unwrap_or_default();
         let title = match verdict {
             StoredVerdict::Accepted => name.to_owned(),
@@ -251,7 +238,7 @@ impl NewEntry {
             verdict,
             part: nearest.clone().filter(|_| is_named),
             title,
-            score,
+            score: inspection.verdict.score(),
             total_ms: inspection.timings.total.as_secs_f64() * 1e3,
             remark: String::new(),
             label: None,
@@ -262,7 +249,7 @@ impl NewEntry {
         };
         let detail = InspectionDetail {
             nearest,
-            complaint,
+            complaint: inspection.verdict.complaint(),
             camera_from_part: pose.map(PoseEstimate::camera_from_part),
             recipe_identity: recipe.identity(),
             recipe: Some(Arc::clone(recipe)),

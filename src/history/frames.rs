@@ -32,10 +32,7 @@ use crate::{
         cloud::{Grid, PointCloud},
         depth_frame::{DepthFrame, Intrinsics},
     },
-    stages::{
-        scene::{PictureEdge, SceneCloud, full_scene, reduced_scene},
-        segment::EmptyCell,
-    },
+    stages::scene::{EmptyCell, PictureEdge, SceneCloud, full_scene, reduced_scene},
 };
 
 /// What is written down of a kept frame.
@@ -376,13 +373,14 @@ mod tests {
     use super::*;
     use crate::{
         geometry::distortion::Distortion,
-        simulate::{CellSetup, PartKind, Side, frame},
+        kit::scene_of,
+        simulate::{CellSetup, PartKind, Side},
         stages::scene::{scene_from_cloud, scene_from_frame},
     };
 
     fn captured() -> SceneCloud {
         let setup = CellSetup::with_part(PartKind::Grille, Side::Left, 0, 3);
-        scene_from_frame(&frame(&setup).frame)
+        scene_of(&setup)
     }
 
     fn ending(record: &FrameRecord) -> Option<&str> {

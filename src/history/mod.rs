@@ -19,8 +19,6 @@ mod differences;
 mod entry;
 mod error;
 mod filter;
-#[cfg(test)]
-mod fixtures;
 mod frames;
 mod hung;
 mod news;

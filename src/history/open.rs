@@ -14,7 +14,7 @@ use std::{
 
 use rusqlite::{Connection, OpenFlags, config::DbConfig};
 
-use crate::files::{open_lock, open_regular};
+use crate::files::{open_lock, open_regular, user_folders};
 
 use super::{
     error::HistoryError,
@@ -53,8 +53,7 @@ pub struct OpenedHistory {
 
 /// The folder of the user's own history.
 pub fn users_folder() -> Result<PathBuf, HistoryError> {
-    let folders =
-        directories::ProjectDirs::from("", "", "partsight").ok_or(HistoryError::NoUserFolder)?;
+    let folders = user_folders().ok_or(HistoryError::NoUserFolder)?;
     Ok(folders.data_dir().to_owned())
 }
 

@@ -53,11 +53,6 @@ impl History {
         self.lock = Some(lock);
     }
 
-    /// The file.
-    pub fn path(&self) -> &Path {
-        &self.path
-    }
-
     pub(super) fn error(&self, source: rusqlite::Error) -> HistoryError {
         HistoryError::of(&self.path, source)
     }

@@ -5,12 +5,14 @@ use std::sync::Arc;
 use rand::{RngExt as _, SeedableRng as _};
 use rusqlite::params_from_iter;
 
-use super::{
-    fixtures::{entry, moment, open, opened, scene},
-    store::listed_query,
-    *,
+use super::{store::listed_query, *};
+use crate::{
+    geometry::rigid::from_euler_zyx,
+    kit::{history_entry, moment, new_history, open_history, small_scene},
+    library::Truth,
+    pipeline::Recipe,
+    scan::Shot,
 };
-use crate::{geometry::rigid::from_euler_zyx, library::Truth, pipeline::Recipe, scan::Shot};
 
 const ALL: Retention = Retention {
     keep: KeepFrames::All,
@@ -26,15 +28,15 @@ fn numbers(history: &History, filter: &Filter) -> Vec<i64> {
 
 #[test]
 fn what_is_written_comes_back_whole_also_after_closing() {
-    let (folder, mut history) = opened();
-    let written = entry(1, StoredVerdict::NotAccepted, "front_door");
+    let (folder, mut history) = new_history();
+    let written = history_entry(1, StoredVerdict::NotAccepted, "front_door");
     assert_eq!(history.add(&written, &ALL).expect("written"), 1);
     history.set_remark(1, " a dent, below ").expect("written");
     let label = Truth::Part("back_door".into());
     history.set_label(1, Some(&label)).expect("written");
     drop(history);
 
-    let history = open(folder.path());
+    let history = open_history(folder.path());
     let record = history.known(1).expect("there");
     let scene = history.scene(&record).expect("read").expect("kept");
     assert_eq!(Some(&scene), written.scene.as_deref());
@@ -80,9 +82,9 @@ fn what_is_written_comes_back_whole_also_after_closing() {
 
 #[test]
 fn the_newest_come_first_page_by_page() {
-    let (_folder, mut history) = opened();
+    let (_folder, mut history) = new_history();
     for seconds in [5, 3, 9, 1, 7] {
-        let entry = entry(seconds, StoredVerdict::Accepted, "fender");
+        let entry = history_entry(seconds, StoredVerdict::Accepted, "fender");
         history.add(&entry, &Retention::default()).expect("written");
     }
     let page = |offset| {
@@ -101,14 +103,14 @@ fn the_newest_come_first_page_by_page() {
 
 #[test]
 fn every_filter_lets_through_what_a_plain_look_at_the_rows_does() {
-    let (_folder, mut history) = opened();
+    let (_folder, mut history) = new_history();
     let mut random = rand_pcg::Pcg64::seed_from_u64(7);
     let parts = ["front_door", "Fender", "back_door"];
     let mut rows = Vec::new();
     for _ in 0..200 {
         let verdict = StoredVerdict::ALL[random.random_range(0..4)];
         let part = parts[random.random_range(0..3)];
-        let mut entry = entry(random.random_range(0..500), verdict, part);
+        let mut entry = history_entry(random.random_range(0..500), verdict, part);
         entry.record.summary.is_simulated = random.random();
         entry.record.summary.remark = ["", "Beule Ö", "dent 50%"][random.random_range(0..3)].into();
         entry.scene = None;
@@ -157,14 +159,14 @@ fn every_filter_lets_through_what_a_plain_look_at_the_rows_does() {
 #[test]
 fn a_hundred_thousand_rows_are_asked_right_and_from_the_index_alone() {
     const NUM: i64 = 100_000;
-    let (_folder, mut history) = opened();
+    let (_folder, mut history) = new_history();
     let entries = (0..NUM).map(|i| {
         let verdict = if i % 10 == 0 {
             StoredVerdict::NotAccepted
         } else {
             StoredVerdict::Accepted
         };
-        let mut entry = entry(i, verdict, if i % 8 == 0 { "grille" } else { "front_door" });
+        let mut entry = history_entry(i, verdict, if i % 8 == 0 { "grille" } else { "front_door" });
         (entry.picture, entry.scene) = (None, None);
         entry
     });
@@ -251,11 +253,11 @@ fn a_hundred_thousand_rows_are_asked_right_and_from_the_index_alone() {
 
 #[test]
 fn frames_go_by_rule_age_and_size_and_marked_ones_stay() {
-    let (folder, mut history) = opened();
+    let (folder, mut history) = new_history();
     let day = 24 * 3600;
     let keep = |keep| Retention { keep, ..ALL };
     let mut add = |days: i64, verdict, keep| {
-        let entry = entry(days * day, verdict, "grille");
+        let entry = history_entry(days * day, verdict, "grille");
         let number = history.add(&entry, &keep).expect("written");
         let frame = history.known(number).expect("there").summary.frame_bytes;
         (number, frame)
@@ -313,12 +315,12 @@ fn frames_go_by_rule_age_and_size_and_marked_ones_stay() {
 
 #[test]
 fn frames_without_a_row_go_and_rows_without_a_frame_say_so() {
-    let (folder, mut history) = opened();
+    let (folder, mut history) = new_history();
     let number = history
-        .add(&entry(1, StoredVerdict::NoPart, "grille"), &ALL)
+        .add(&history_entry(1, StoredVerdict::NoPart, "grille"), &ALL)
         .expect("written");
     let other = history
-        .add(&entry(2, StoredVerdict::NoPart, "grille"), &ALL)
+        .add(&history_entry(2, StoredVerdict::NoPart, "grille"), &ALL)
         .expect("written");
     let frame = history
         .known(number)
@@ -331,11 +333,11 @@ fn frames_without_a_row_go_and_rows_without_a_frame_say_so() {
     let stray = frames.join("20260301T060000000-1-999.png");
     std::fs::write(&stray, "half a frame").expect("written");
     // As long as somebody has it open, nothing is a stray: its row may be about to be written.
-    let second = open(folder.path());
+    let second = open_history(folder.path());
     assert!(stray.exists());
     drop((history, second));
 
-    let history = open(folder.path());
+    let history = open_history(folder.path());
     assert!(!stray.exists());
     assert_eq!(history.known(number).expect("there").detail.frame, None);
     let kept = history.known(other).expect("there");
@@ -345,12 +347,12 @@ fn frames_without_a_row_go_and_rows_without_a_frame_say_so() {
 
 #[test]
 fn two_recipes_with_one_identity_are_both_kept() {
-    let (_folder, mut history) = opened();
-    let mut second = entry(2, StoredVerdict::NoPart, "grille");
+    let (_folder, mut history) = new_history();
+    let mut second = history_entry(2, StoredVerdict::NoPart, "grille");
     let mut recipe = Recipe::default();
     recipe.accept.min_score = 0.5;
     second.record.detail.recipe = Some(Arc::new(recipe.clone()));
-    for entry in [entry(1, StoredVerdict::NoPart, "grille"), second] {
+    for entry in [history_entry(1, StoredVerdict::NoPart, "grille"), second] {
         history.add(&entry, &Retention::default()).expect("written");
     }
     let recipe_of = |number| history.known(number).expect("there").detail.recipe;
@@ -360,11 +362,11 @@ fn two_recipes_with_one_identity_are_both_kept() {
 
 #[test]
 fn the_table_has_a_line_for_each_row_and_as_many_fields_as_its_head() {
-    let (_folder, mut history) = opened();
+    let (_folder, mut history) = new_history();
     for seconds in 1..=3 {
         history
             .add(
-                &entry(seconds, StoredVerdict::NotAccepted, "grille"),
+                &history_entry(seconds, StoredVerdict::NotAccepted, "grille"),
                 &Retention::default(),
             )
             .expect("written");
@@ -390,16 +392,16 @@ fn the_table_has_a_line_for_each_row_and_as_many_fields_as_its_head() {
 
 /// One more inspection of the same part.
 fn again(of: &NewEntry, seconds: i64, verdict: StoredVerdict) -> NewEntry {
-    let mut other = entry(seconds, verdict, "grille");
+    let mut other = history_entry(seconds, verdict, "grille");
     other.record.summary.hung = of.record.summary.hung.clone();
     other
 }
 
 #[test]
 fn a_part_counts_once_however_often_it_was_inspected_and_nothing_of_it_is_lost() {
-    let (folder, mut history) = opened();
-    let part = entry(1, StoredVerdict::Accepted, "grille");
-    let other = entry(2, StoredVerdict::NotAccepted, "grille");
+    let (folder, mut history) = new_history();
+    let part = history_entry(1, StoredVerdict::Accepted, "grille");
+    let other = history_entry(2, StoredVerdict::NotAccepted, "grille");
     for entry in [
         &part,
         &again(&part, 3, StoredVerdict::NotAccepted),
@@ -449,13 +451,19 @@ fn a_part_counts_once_however_often_it_was_inspected_and_nothing_of_it_is_lost()
     // Each keeps its own frame.
     assert_eq!(history.usage().expect("asked").num_frames, 4);
     drop(history);
-    assert_eq!(open(folder.path()).usage().expect("asked").num_frames, 4);
+    assert_eq!(
+        open_history(folder.path())
+            .usage()
+            .expect("asked")
+            .num_frames,
+        4
+    );
 }
 
 #[test]
 fn a_refusal_gives_way_to_an_acceptance_and_an_acceptance_stands() {
-    let (_folder, mut history) = opened();
-    let part = entry(1, StoredVerdict::Unknown, "grille");
+    let (_folder, mut history) = new_history();
+    let part = history_entry(1, StoredVerdict::Unknown, "grille");
     history.add(&part, &ALL).expect("written");
     history.set_remark(1, "a new grille").expect("written");
     history
@@ -504,7 +512,7 @@ fn a_file_of_the_first_version_is_brought_up_to_date_with_all_that_was_written()
     file.execute_batch(include_str!("first_version.sql"))
         .expect("made");
     drop(file);
-    let mut history = open(folder.path());
+    let mut history = open_history(folder.path());
     assert_eq!(numbers(&history, &Filter::default()), [3, 2, 1]);
     let record = history.known(2).expect("there");
     assert_eq!(record.summary.title, "Fender, left");
@@ -515,7 +523,7 @@ fn a_file_of_the_first_version_is_brought_up_to_date_with_all_that_was_written()
     assert_eq!(record.summary.label, Some(Truth::Part("fender".into())));
     assert_eq!(record.detail.line, "{\"scene\":\"b\"}");
     // Inspected again it is one part.
-    let mut again = entry(9, StoredVerdict::NotAccepted, "fender");
+    let mut again = history_entry(9, StoredVerdict::NotAccepted, "fender");
     again.record.summary.hung = record.summary.hung;
     history.add(&again, &ALL).expect("written");
     assert_eq!(numbers(&history, &Filter::default()), [3, 2, 1]);
@@ -524,20 +532,20 @@ fn a_file_of_the_first_version_is_brought_up_to_date_with_all_that_was_written()
 
 #[test]
 fn the_shots_of_a_scan_are_kept_and_go_together() {
-    let (folder, mut history) = opened();
+    let (folder, mut history) = new_history();
     let shots: Vec<Shot> = (0..3)
         .map(|place: u16| Shot {
             name: format!("shot {place}"),
-            scene: scene(place),
+            scene: small_scene(place),
             base_from_camera: from_euler_zyx([0.0, 0.1, 0.0, 0.2, f64::from(place), 1.0]),
         })
         .collect();
-    let mut scan = entry(1, StoredVerdict::NotAccepted, "grille");
+    let mut scan = history_entry(1, StoredVerdict::NotAccepted, "grille");
     scan.scene = Some(Arc::clone(&shots[1].scene));
     history
         .add(&scan.of_scan(shots.clone()), &ALL)
         .expect("written");
-    let single = entry(2, StoredVerdict::NotAccepted, "grille");
+    let single = history_entry(2, StoredVerdict::NotAccepted, "grille");
     history.add(&single, &ALL).expect("written");
     let record = history.known(1).expect("there");
     assert_eq!(
@@ -560,7 +568,7 @@ fn the_shots_of_a_scan_are_kept_and_go_together() {
     // The camera is that of all.
     assert_eq!(files(&history), 5);
     drop(history);
-    let mut history = open(folder.path());
+    let mut history = open_history(folder.path());
     assert_eq!(files(&history), 5, "none is a stray");
     history.set_remark(2, "stays").expect("written");
     history.sweep(&ALL, moment(400 * 24 * 3600)).expect("swept");

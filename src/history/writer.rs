@@ -172,9 +172,9 @@ fn work(keeper: &HistoryBuffer, job: Job, counts: &Counts) {
 #[cfg(test)]
 mod tests {
     use super::*;
-    use crate::history::{
-        Filter, StoredVerdict,
-        fixtures::{entry, scene},
+    use crate::{
+        history::{Filter, StoredVerdict},
+        kit::{history_entry, small_scene},
     };
 
     #[test]
@@ -187,8 +187,8 @@ mod tests {
         };
         let writer = Writer::start(Arc::clone(&keeper), hold).expect("a thread");
         for ticket in 1..=10 {
-            let mut waiting = entry(ticket as i64, StoredVerdict::NotAccepted, "fender");
-            waiting.scene = Some(scene(1));
+            let mut waiting = history_entry(ticket as i64, StoredVerdict::NotAccepted, "fender");
+            waiting.scene = Some(small_scene(1));
             writer.add(ticket, waiting);
         }
         drop(go_on);

@@ -1,8 +1,8 @@
 //! One part's folder: its files, and how they are written.
 
 use std::{
-    fs::{self, File},
-    io::{self, Read as _, Write as _},
+    fs,
+    io::{self, Read as _},
     path::{Path, PathBuf},
 };
 
@@ -11,7 +11,7 @@ use super::{
     part::{Part, PartMeta, cloud_bytes},
 };
 
-use crate::files::open_regular;
+use crate::files::{open_regular, sync_folder, write_file};
 
 /// File names within a part's folder.
 pub(super) const META: &str = "part.toml";
@@ -60,20 +60,6 @@ pub(super) fn is_entry(file_name: &str, path: &Path) -> bool {
     path.is_dir() && (PartName::new(file_name).is_ok() || path.join(META).exists())
 }
 
-/// A hidden folder to build a part in; gone when dropped.
-pub(super) fn new_folder(parent: &Path, name: &str) -> io::Result<tempfile::TempDir> {
-    let mut builder = tempfile::Builder::new();
-    let prefix = format!("{NEW_PREFIX}{name}-");
-    builder.prefix(&prefix);
-    #[cfg(unix)]
-    {
-        use std::os::unix::fs::PermissionsExt as _;
-        // What an ordinary new folder has, less the user's mask: others on the machine may read the library.
-        builder.permissions(fs::Permissions::from_mode(0o777));
-    }
-    builder.tempdir_in(parent)
-}
-
 pub(super) fn write_part(folder: &Path, part: &Part) -> io::Result<()> {
     let Part {
         meta,
@@ -118,18 +104,4 @@ pub(super) fn rewrite_meta(folder: &Path, meta: &PartMeta) -> io::Result<()> {
     write_file(&beside, meta_text(meta)?.as_bytes())?;
     fs::rename(&beside, folder.join(META))?;
     sync_folder(folder)
-}
-
-pub(super) fn write_file(path: &Path, content: &[u8]) -> io::Result<()> {
-    let mut file = File::create(path)?;
-    file.write_all(content)?;
-    file.sync_all()
-}
-
-/// Makes renames last. Only Unix lets a folder be opened for that; elsewhere the file system sees to it.
-pub(super) fn sync_folder(folder: &Path) -> io::Result<()> {
-    if cfg!(unix) {
-        File::open(folder)?.sync_all()?;
-    }
-    Ok(())
 }

@@ -19,6 +19,7 @@ mod enrol;
 mod entry;
 mod error;
 mod identity;
+mod install;
 mod load;
 mod name;
 mod part;

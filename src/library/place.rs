@@ -8,7 +8,7 @@ use std::{
 use image::RgbaImage;
 
 use super::{
-    entry::{THUMBNAIL, new_folder, sync_folder},
+    entry::{NEW_PREFIX, THUMBNAIL},
     error::LibraryError,
     load::{LibraryLoad, StoredPart, load_shipped, read_shipped},
     problem::EntryProblem,
@@ -16,7 +16,10 @@ use super::{
     spray_path::{SprayPath, SprayPathError},
     store::LibraryFolder,
 };
-use crate::{files::read_picture, stages::reference::ReferenceParams};
+use crate::{
+    files::{new_folder, read_picture, sync_folder, user_folders},
+    stages::reference::ReferenceParams,
+};
 
 /// A library, and why it is this one.
 #[derive(Debug)]
@@ -130,8 +133,7 @@ fn open_filled(path: &Path) -> Result<LibraryFolder, LibraryError> {
 }
 
 fn user_path() -> Result<PathBuf, LibraryError> {
-    let folders =
-        directories::ProjectDirs::from("", "", "partsight").ok_or(LibraryError::NoUserFolder)?;
+    let folders = user_folders().ok_or(LibraryError::NoUserFolder)?;
     Ok(folders.data_dir().join("library"))
 }
 
@@ -139,7 +141,7 @@ fn user_path() -> Result<PathBuf, LibraryError> {
 fn fill(path: &Path) -> io::Result<()> {
     let parent = path.parent().unwrap_or(Path::new("."));
     fs::create_dir_all(parent)?;
-    let building = new_folder(parent, "library")?;
+    let building = new_folder(parent, &format!("{NEW_PREFIX}library-"))?;
     write_shipped(building.path())?;
     match fs::rename(building.path(), path) {
         Ok(()) => {

@@ -6,11 +6,11 @@ use std::{
 };
 
 use super::{
-    entry::{CLOUD, Entry, META, SIGNATURE, ShippedFiles, THUMBNAIL, sync_folder, write_file},
+    entry::{CLOUD, Entry, META, SIGNATURE, ShippedFiles, THUMBNAIL},
     part::CloudCheck,
 };
 use crate::{
-    files::{FileContent, open_bytes},
+    files::{FileContent, open_bytes, sync_folder, write_file},
     geometry::rigid::RigidTransform,
 };
 

@@ -6,7 +6,7 @@
 use std::{fs, path::Path};
 
 use super::{
-    entry::{SPRAY_PREFIX, rewrite_meta, sync_folder, write_file},
+    entry::{SPRAY_PREFIX, rewrite_meta},
     error::LibraryError,
     load::meta_of,
     name::PartName,
@@ -14,7 +14,7 @@ use super::{
     spray_path::{MAX_BYTES, SprayPath, SprayPathError},
     store::LibraryFolder,
 };
-use crate::files::read_text;
+use crate::files::{read_text, sync_folder, write_file};
 
 impl LibraryFolder {
     /// The stored spray path of a part; none where none was stored.

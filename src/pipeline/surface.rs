@@ -11,7 +11,8 @@ use crate::{
     stages::{
         confirm::{ConfirmedRanking, Scene, confirm},
         contour::{Contour, find_contour},
-        pose::{AlignParams, PoseError, PoseEstimate, PoseMethod, locate},
+        locate::locate,
+        pose::{AlignParams, PoseError, PoseEstimate, PoseMethod},
         project::{PlaneImage, project},
         rank::{Matcher, Query, place, rank},
         scene::SceneCloud,

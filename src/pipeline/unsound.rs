@@ -57,27 +57,20 @@ mod tests {
     use super::*;
     use crate::{
         error::Advice as _,
-        library::{Library, open_library},
+        kit::{scene_of, shipped_library},
         pipeline::{ProgressObserver, Recipe, Stage, Unrecognisable, Unwatched, run},
-        simulate::{CellSetup, PartKind, Side, frame},
-        stages::{reference::ReferenceParams, scene::scene_from_frame},
+        simulate::{CellSetup, PartKind, Side},
     };
 
-    fn library() -> Library {
-        open_library(Some(std::path::Path::new("reference_parts")))
-            .and_then(|place| place.load(&ReferenceParams::default()))
-            .expect("the shipped parts")
-            .library
-    }
-
     fn fender() -> SceneCloud {
-        scene_from_frame(&frame(&CellSetup::with_part(PartKind::Fender, Side::Left, 0, 1)).frame)
+        scene_of(&CellSetup::with_part(PartKind::Fender, Side::Left, 0, 1))
     }
 
     #[test]
     fn a_part_that_fits_is_refused_in_a_scene_that_cannot_be_right() {
         let (scene, recipe) = (fender(), Recipe::default());
-        let accepted = run(&scene, &library(), &recipe, &Unwatched).expect("nobody cancels");
+        let accepted =
+            run(&scene, &shipped_library(), &recipe, &Unwatched).expect("nobody cancels");
         assert!(accepted.verdict.is_accepted());
         let refused = |inspection: &Inspection, scene: &SceneCloud| {
             let mut inspection = inspection.clone();
@@ -122,7 +115,7 @@ mod tests {
                 assert!(stage != self.0, "no {stage:?} today");
             }
         }
-        let (scene, library, recipe) = (fender(), library(), Recipe::default());
+        let (scene, library, recipe) = (fender(), shipped_library(), Recipe::default());
         for stage in [Stage::Segment, Stage::Rank, Stage::Pose] {
             let found = run(&scene, &library, &recipe, &Fails(stage)).expect("nobody cancels");
             let Verdict::NoPart(Unrecognisable::Fault(fault)) = &found.verdict else {

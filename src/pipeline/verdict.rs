@@ -5,6 +5,7 @@ use super::{
     rejection::{Rejection, Unrecognisable},
 };
 use crate::{
+    error::Advice as _,
     stages::{
         confirm::{ConfirmedMatch, ConfirmedRanking, Evidence},
         pose::{PoseError, PoseEstimate, PoseMethod},
@@ -76,8 +77,35 @@ pub enum Verdict {
 }
 
 impl Verdict {
+    /// Name of the best guess, accepted or not; `None` where there is no part.
+    pub fn guess(&self) -> Option<&str> {
+        match self {
+            Self::Part { part, .. } => Some(part),
+            Self::NoPart(_) => None,
+        }
+    }
+
+    /// The best guess's score and its lead over the next.
+    pub fn score(&self) -> Option<[f64; 2]> {
+        match self {
+            Self::Part { score, margin, .. } => Some([*score, *margin]),
+            Self::NoPart(_) => None,
+        }
+    }
+
+    /// Why it is not accepted, and what to do; `None` if it is.
+    pub fn complaint(&self) -> Option<[String; 2]> {
+        match self {
+            Self::Part { rejected, .. } => {
+                let rejected = rejected.as_ref()?;
+                Some([rejected.to_string(), rejected.advice()])
+            }
+            Self::NoPart(reason) => Some([reason.to_string(), reason.advice()]),
+        }
+    }
+
     /// Why the best guess is not accepted; `None` also where there is no part.
-    fn rejected(&self) -> Option<&Rejection> {
+    pub fn rejected(&self) -> Option<&Rejection> {
         match self {
             Self::Part { rejected, .. } => rejected.as_ref(),
             Self::NoPart(_) => None,

@@ -259,34 +259,19 @@ impl<'a> InspectionLine<'a> {
                 ambiguous: pose.is_ambiguous(),
                 approximate: inspection.verdict.is_approximate(),
             });
-        let line = Self {
-            status: status_of(&inspection.verdict),
+        let verdict = &inspection.verdict;
+        Self {
+            status: status_of(verdict),
+            part: verdict.guess().filter(|_| !verdict.is_unknown()),
+            accepted: verdict.is_accepted(),
+            score: verdict.score().map(|[score, _]| score),
+            margin: verdict.score().map(|[_, margin]| margin),
+            reason: verdict.complaint().map(|[why, _]| why),
             touches_edge: inspection.touches_edge(),
             pose,
             ranking: ranking.collect(),
             timings_ms: Some(TimingsLine::of(&inspection.timings)),
-            reason: None,
             ..Self::unreadable(scene, &"")
-        };
-        match &inspection.verdict {
-            Verdict::Part {
-                part,
-                score,
-                margin,
-                rejected,
-                ..
-            } => Self {
-                part: Some(part.as_str()).filter(|_| !inspection.verdict.is_unknown()),
-                accepted: rejected.is_none(),
-                score: Some(*score),
-                margin: Some(*margin),
-                reason: rejected.as_ref().map(ToString::to_string),
-                ..line
-            },
-            Verdict::NoPart(reason) => Self {
-                reason: Some(reason.to_string()),
-                ..line
-            },
         }
     }
 }

@@ -232,10 +232,10 @@ fn curves(signature: &FanSignature) -> RgbImage {
 mod tests {
     use super::*;
     use crate::{
+        kit::scene_of,
         library::Library,
         pipeline::{Recipe, Unwatched, run},
-        simulate::{CellSetup, PartKind, Side, frame},
-        stages::scene::scene_from_frame,
+        simulate::{CellSetup, PartKind, Side},
     };
 
     fn pictures_of(scene: &SceneCloud) -> Vec<Picture> {
@@ -247,7 +247,7 @@ mod tests {
     #[test]
     fn every_stage_that_ran_has_a_picture_that_shows_something() {
         let setup = CellSetup::with_part(PartKind::BackDoor, Side::Left, 0, 2);
-        let pictures = pictures_of(&scene_from_frame(&frame(&setup).frame));
+        let pictures = pictures_of(&scene_of(&setup));
         let stages: Vec<_> = pictures.iter().map(|p| p.stage).collect();
         assert_eq!(stages, ["segmentation", "binary", "contour", "signature"]);
         for picture in &pictures {

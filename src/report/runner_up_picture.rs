@@ -203,17 +203,17 @@ mod tests {
     use super::*;
     use crate::{
         bench::suites::enrol_standard_parts,
+        kit::scene_of,
         library::EnrolParams,
         pipeline::{Recipe, Unwatched, run},
-        simulate::{CellSetup, PartKind, Side, frame},
-        stages::scene::scene_from_frame,
+        simulate::{CellSetup, PartKind, Side},
     };
 
     #[test]
     fn the_part_that_hangs_there_is_hardly_off_and_the_other_one_is() {
         let library = enrol_standard_parts(&EnrolParams::default()).expect("eight parts");
         let setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 0, 3);
-        let scene = scene_from_frame(&frame(&setup).frame);
+        let scene = scene_of(&setup);
         let inspection =
             run(&scene, &library, &Recipe::default(), &Unwatched).expect("nobody cancels");
         let picture = runner_up_picture(&scene, &inspection, &library).expect("two contenders");
@@ -226,13 +226,10 @@ mod tests {
                 .count()
         };
         assert!(num(true) * 4 < num(false), "{} {}", num(true), num(false));
-        let empty = scene_from_frame(
-            &frame(&CellSetup::new(
-                crate::simulate::SimulatedObject::Nothing,
-                3,
-            ))
-            .frame,
-        );
+        let empty = scene_of(&CellSetup::new(
+            crate::simulate::SimulatedObject::Nothing,
+            3,
+        ));
         let inspection =
             run(&empty, &library, &Recipe::default(), &Unwatched).expect("nobody cancels");
         assert!(runner_up_picture(&empty, &inspection, &library).is_none());

@@ -64,7 +64,6 @@ impl FramePose {
 /// The poses of frames by name.
 #[derive(Clone, Debug, PartialEq)]
 pub struct FramePoses {
-    path: PathBuf,
     frames: BTreeMap<String, FramePose>,
 }
 
@@ -278,15 +277,7 @@ impl FramePoses {
                 num_frames: names.len(),
             });
         }
-        Ok(Self {
-            path: path.to_owned(),
-            frames,
-        })
-    }
-
-    /// The file.
-    pub fn path(&self) -> &Path {
-        &self.path
+        Ok(Self { frames })
     }
 
     /// The pose of a frame, if it was one of those asked for.

@@ -87,8 +87,8 @@ pub fn assemble(
 
 /// All frames are one camera's: what one shows of its field of view, all know.
 fn with_common_view(shots: &[Shot]) -> Vec<Shot> {
-    let scenes = shots.iter().map(|shot| &*shot.scene);
-    let common = scenes.fold(None, FieldOfView::remembered);
+    let views = shots.iter().map(|shot| shot.scene.field_of_view());
+    let common = views.fold(None, FieldOfView::remembered);
     let mut shots = shots.to_vec();
     if common.is_some() {
         for shot in &mut shots {

@@ -1,10 +1,11 @@
 //! Auto- and cross-correlation (eq. 7), circular for the default matcher and linear for the paper's.
 
-use std::sync::{Arc, LazyLock, Mutex, PoisonError};
+use std::sync::{Arc, LazyLock, Mutex};
 
 use nalgebra::Vector2;
 use rustfft::{Fft, FftDirection, FftNum, FftPlanner, num_complex::Complex};
 
+use crate::error::lock;
 use crate::stages::signature::LiteralSignature;
 
 /// The rays of one or several outlines as complex numbers x + iy, ready for the circular correlation.
@@ -59,7 +60,7 @@ fn planned<T: FftNum>(
     direction: FftDirection,
 ) -> Arc<dyn Fft<T>> {
     // A planner that panicked while planning has at worst forgotten a plan.
-    let mut planner = planner.lock().unwrap_or_else(PoisonError::into_inner);
+    let mut planner = lock(planner);
     planner.plan_fft(length, direction)
 }
 

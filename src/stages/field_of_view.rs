@@ -16,7 +16,6 @@
 
 use std::sync::Arc;
 
-use super::scene::SceneCloud;
 use crate::geometry::cloud::Grid;
 
 /// In which pixels of a picture the camera delivers readings.
@@ -72,8 +71,8 @@ impl FieldOfView {
     }
 
     /// What this frame and those before it show together; `None` while the field of view is the whole picture.
-    pub fn remembered(known: Option<Arc<Self>>, scene: &SceneCloud) -> Option<Arc<Self>> {
-        match (known, scene.field_of_view().filter(|view| view.is_inner)) {
+    pub fn remembered(known: Option<Arc<Self>>, seen: Option<&Self>) -> Option<Arc<Self>> {
+        match (known, seen.filter(|view| view.is_inner)) {
             (Some(known), Some(view)) if known.grid == view.grid => {
                 let rows = joined(&known.rows, &view.rows);
                 Some(Arc::new(Self {
@@ -279,7 +278,7 @@ mod tests {
     use nalgebra::Point3;
 
     use super::*;
-    use crate::geometry::cloud::PointCloud;
+    use crate::{geometry::cloud::PointCloud, stages::scene::SceneCloud};
 
     const GRID: Grid = Grid {
         width: 160,
@@ -367,7 +366,8 @@ mod tests {
         let part = |i: usize| (60..100).contains(&(i % 160)) && (45..75).contains(&(i / 160));
         let is_half = |i: usize| is_inside(i) && i % GRID.width > 44;
         let frames = [scene(is_half), scene(part), scene(is_inside)];
-        let remembered = frames.iter().fold(None, FieldOfView::remembered);
+        let views = frames.iter().map(SceneCloud::field_of_view);
+        let remembered = views.fold(None, FieldOfView::remembered);
         let mut alone = scene(part);
         assert!(alone.field_of_view().is_some_and(|view| !view.is_inner()));
         alone.set_known_view(remembered);
@@ -375,6 +375,6 @@ mod tests {
         assert!(view.is_inner() && view.contains(30, 60) && !view.contains(10, 60));
         // Nothing is known of a camera that fills its picture.
         let full = scene(|_| true);
-        assert!(FieldOfView::remembered(None, &full).is_none());
+        assert!(FieldOfView::remembered(None, full.field_of_view()).is_none());
     }
 }

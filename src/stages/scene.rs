@@ -5,18 +5,19 @@
 //! later stages ask the camera what it would have seen at a place. A capture saved as bare points (PLY, XYZ) has lost
 //! its rows and columns, but not its viewpoint: it is put back onto a picture, so that it is inspected as well.
 
+mod empty_cell;
 mod picture;
 
 use std::sync::{Arc, OnceLock};
 
 use nalgebra::Point3;
 
+pub use self::empty_cell::{EmptyCell, EmptyCellError};
 use self::picture::organised;
 pub use super::reduce::SceneParams;
 use super::{
     field_of_view::FieldOfView,
     reduce::{reduced_depths, reduced_points},
-    segment::EmptyCell,
 };
 use crate::{
     capture::Image,

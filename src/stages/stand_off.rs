@@ -102,11 +102,6 @@ impl StandOff {
     pub fn keeps_the_band(&self) -> bool {
         self.in_band >= LEAST_IN_BAND
     }
-
-    /// Share of the rays taught that meet the part, 0..1.
-    pub fn met(&self) -> f64 {
-        self.rays.len() as f64 / self.num_taught.max(1) as f64
-    }
 }
 
 /// Why there is no stand-off.
@@ -212,39 +207,10 @@ mod tests {
     use nalgebra::{Translation3, UnitQuaternion};
 
     use super::*;
-    use crate::{
-        geometry::cloud::PointCloud,
-        stages::reference::{Coverage, ReferenceParams},
-    };
-
-    /// A plate of 0.8 by 0.48 m, square on, 1.2 m before the camera.
-    fn plate() -> Reference {
-        let points: Vec<Point3<f32>> = (0..101 * 61)
-            .map(|i| {
-                let (column, row) = ((i % 101) as f32, (i / 101) as f32);
-                Point3::new(column * 0.008 - 0.4, row * 0.008 - 0.24, 1.2)
-            })
-            .collect();
-        let cloud = PointCloud {
-            normals: Some(vec![-Vector3::z(); points.len()]),
-            points,
-            ..PointCloud::default()
-        };
-        Reference::prepare(
-            "plate",
-            cloud,
-            Coverage::OneSide,
-            &ReferenceParams::default(),
-        )
-        .expect("an outline")
-    }
+    use crate::kit::plate;
 
     fn at(pose: &RigidTransform) -> StandOff {
         stand_off(&plate(), pose, &StandOffParams::default()).expect("a stand-off")
-    }
-
-    fn shifted(x: f64, y: f64, z: f64) -> RigidTransform {
-        RigidTransform::from_parts(Translation3::new(x, y, z), UnitQuaternion::identity())
     }
 
     /// About the vertical through the plate's middle.
@@ -269,7 +235,7 @@ mod tests {
     #[test]
     fn a_shift_along_the_normal_changes_every_distance_by_as_much() {
         for (z, expected) in [(0.03, 180.0), (-0.03, 120.0), (-0.16, -10.0)] {
-            let found = at(&shifted(0.0, 0.0, z));
+            let found = at(&RigidTransform::translation(0.0, 0.0, z));
             assert!((found.mean.mm() - expected).abs() < 0.05, "{}", found.mean);
             assert!((found.worst.distance.mm() - expected).abs() < 0.05);
             // Camera space: the nozzle stays, the surface moved.
@@ -280,14 +246,19 @@ mod tests {
 
     #[test]
     fn the_band_decides_what_is_inside() {
-        assert!((at(&shifted(0.0, 0.0, 0.049)).in_band - 1.0).abs() < 1e-12);
-        let outside = at(&shifted(0.0, 0.0, 0.051));
+        assert!((at(&RigidTransform::translation(0.0, 0.0, 0.049)).in_band - 1.0).abs() < 1e-12);
+        let outside = at(&RigidTransform::translation(0.0, 0.0, 0.051));
         assert!(outside.in_band < 1e-12 && !outside.keeps_the_band());
         let wider = StandOffParams {
             farthest: Metres(0.21),
             ..StandOffParams::default()
         };
-        let found = stand_off(&plate(), &shifted(0.0, 0.0, 0.051), &wider).expect("a stand-off");
+        let found = stand_off(
+            &plate(),
+            &RigidTransform::translation(0.0, 0.0, 0.051),
+            &wider,
+        )
+        .expect("a stand-off");
         assert!(found.keeps_the_band());
     }
 
@@ -310,11 +281,12 @@ mod tests {
     #[test]
     fn a_ray_past_the_part_is_outside_the_band() {
         // A quarter of the plate's width to the side: as many rays meet nothing.
-        let found = at(&shifted(0.2, 0.0, 0.0));
-        assert!((found.met() - 0.75).abs() < 0.03, "{}", found.met());
-        assert!((found.in_band - found.met()).abs() < 1e-12);
+        let found = at(&RigidTransform::translation(0.2, 0.0, 0.0));
+        let met = found.rays.len() as f64 / found.num_taught as f64;
+        assert!((met - 0.75).abs() < 0.03, "{met}");
+        assert!((found.in_band - met).abs() < 1e-12);
         assert!(!found.keeps_the_band());
-        let pose = shifted(2.0, 0.0, 0.0);
+        let pose = RigidTransform::translation(2.0, 0.0, 0.0);
         let error = stand_off(&plate(), &pose, &StandOffParams::default());
         assert!(matches!(error, Err(StandOffError::NoneMeets { num_taught }) if num_taught > 0));
     }

@@ -9,24 +9,23 @@ use std::{
 };
 
 use jiff::{SignedDuration, Timestamp};
-use nalgebra::Translation3;
 use partsight::{
     capture::{Captured, Image, Recorder},
+    geometry::rigid::RigidTransform,
     history::{
         Filter, History, HistoryBuffer, HistoryEvent, HungId, InspectionContext, KeepFrames,
         NewEntry, Retention,
     },
     library::Library,
     pipeline::{self, Recipe, Unwatched},
-    simulate::{
-        CellSetup, PartKind, PartModel, PartPose, PoseRange, SensorNoise, Side, frame,
-        frame_of_mesh,
-    },
-    stages::scene::scene_from_frame,
+    simulate::{CellSetup, PartKind, SensorNoise, Side},
 };
 use serde_json::Value;
 
-use crate::workplace::Workplace;
+use crate::{
+    kit::{HangingPart, scene_of},
+    workplace::Workplace,
+};
 
 /// With a captured fender and a thing that nobody enrolled.
 fn with_captures() -> Workplace {
@@ -167,23 +166,19 @@ fn record_line(folder: &Path, parts: &[(PartKind, bool)]) {
     let mut recorder = recorder.expect("a folder");
     let mut number = 0;
     for (kind, rests) in parts {
-        let model = PartModel::new(*kind, Side::Left, 0);
-        let mut setup = CellSetup::with_part(*kind, Side::Left, 0, 3);
-        let placed = PoseRange::facing().draw(model.mesh(), &setup.intrinsics, 3);
+        let part = HangingPart::new(*kind, 3);
         let coming = (1..=6).map(|step| 0.4 * f64::from(step)).rev();
         let resting = (0..if *rests { 26 } else { 2 }).map(|_| 0.0);
         let leaving = (1..=6).map(|step| -0.4 * f64::from(step));
         for x in coming.chain(resting).chain(leaving) {
             number += 1;
-            let aside = Translation3::new(x, 0.0, 0.0);
-            setup.pose = PartPose::Fixed(aside * placed.camera_from_part);
-            setup.noise = SensorNoise::kinect(number);
+            let aside = RigidTransform::translation(x, 0.0, 0.0);
             let captured = Captured {
                 number,
                 name: format!("frame {number}"),
                 taken_at: Timestamp::UNIX_EPOCH + SignedDuration::from_millis(100 * number as i64),
                 arrived: Instant::now(),
-                image: Image::Depth(frame_of_mesh(&setup, model.mesh()).frame),
+                image: Image::Depth(part.frame(SensorNoise::kinect(number), &aside)),
                 is_simulated: true,
                 truth: None,
                 robot_from_flange: None,
@@ -354,7 +349,7 @@ impl Drop for Disk {
 
 fn entries() -> impl Iterator<Item = NewEntry> {
     let setup = CellSetup::with_part(PartKind::Grille, Side::Left, 0, 3);
-    let scene = Arc::new(scene_from_frame(&frame(&setup).frame));
+    let scene = Arc::new(scene_of(&setup));
     let recipe = Arc::new(Recipe::default());
     let inspection = pipeline::run(&scene, &Library::default(), &recipe, &Unwatched).expect("ran");
     (1..).map(move |number| {

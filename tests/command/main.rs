@@ -8,6 +8,8 @@ mod errors_and_help;
 mod evaluate;
 mod history;
 mod inspect;
+#[path = "../kit/mod.rs"]
+mod kit;
 mod library;
 mod report;
 mod scan;

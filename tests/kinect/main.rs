@@ -9,6 +9,8 @@
 
 mod camera;
 mod cycles;
+#[path = "../kit/mod.rs"]
+mod kit;
 mod own_process;
 mod played;
 mod session;

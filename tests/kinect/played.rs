@@ -9,13 +9,14 @@ use partsight::{
     },
     error::Advice as _,
     geometry::depth_frame::DepthFrame,
-    library::LibraryFolder,
     pipeline::{Recipe, Unwatched, Verdict, run},
-    stages::{reference::ReferenceParams, scene::scene_from_frame},
+    stages::scene::scene_from_frame,
 };
 
 use crate::{
-    PATIENCE, fakenect, next_capture, open_kinect,
+    PATIENCE, fakenect,
+    kit::shipped_library,
+    next_capture, open_kinect,
     own_process::{self, is_own},
     session::{self, CAMERA, step_width},
     trouble,
@@ -108,13 +109,8 @@ fn a_part_is_recognised_in_what_the_library_gives() {
             let mut kinect = open_kinect().expect("a session");
             let captured = next_capture(kinect.as_mut()).expect("a frame");
             let scene = scene_from_frame(depth_of(&captured));
-            let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference_parts");
-            let library = LibraryFolder::open(&shipped)
-                .and_then(|folder| folder.load(&ReferenceParams::default()))
-                .expect("the shipped library")
-                .library;
-            let found =
-                run(&scene, &library, &Recipe::default(), &Unwatched).expect("not cancelled");
+            let found = run(&scene, &shipped_library(), &Recipe::default(), &Unwatched)
+                .expect("not cancelled");
             let Verdict::Part {
                 part,
                 score,
@@ -171,14 +167,14 @@ fn a_session_that_is_over_ends_the_feed_and_stays_over() {
             let mut num_frames = 0;
             while !feed.status().state.is_over() {
                 receiver.recv_timeout(PATIENCE).expect("news");
-                num_frames += usize::from(feed.take().is_some());
+                num_frames += usize::from(feed.wait(Duration::ZERO).is_some());
             }
             assert!(
                 matches!(feed.status().state, FeedState::Ended),
                 "{:?}",
                 feed.status().state
             );
-            num_frames += usize::from(feed.take().is_some());
+            num_frames += usize::from(feed.wait(Duration::ZERO).is_some());
             assert_eq!(num_frames, 1);
             drop(feed);
             let mut again = open_kinect().expect("opens");

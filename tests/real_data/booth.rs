@@ -10,18 +10,17 @@ use partsight::{
         rigid::{RigidTransform, from_row_major, pose_error},
     },
     library::{
-        EnrolError, EnrolParams, EnrolWarning, Library, LibraryFolder, PartDescription, PartName,
-        enrol_captured, enrol_surface, surfaces_to_enrol,
+        EnrolError, EnrolParams, EnrolWarning, Library, PartDescription, PartName, enrol_captured,
+        enrol_surface, surfaces_to_enrol,
     },
     pipeline::{Recipe, Unwatched, Verdict, run},
     stages::{
-        reference::ReferenceParams,
         scene::{SceneCloud, scene_from_frame},
         segment::{PointLabel, SegmentParams, SegmentedPart, segment},
     },
 };
 
-use crate::data_folder;
+use crate::{data_folder, kit::shipped_library};
 
 /// Outlines of the part, drawn by hand on the depth pictures: column and row of each corner.
 #[rustfmt::skip]
@@ -129,12 +128,7 @@ fn about(name: &str) -> PartDescription {
 
 /// The shipped parts, and the fender and the door of the booth, each enrolled from its reference frame.
 fn library(booth: &Path, truth: &Truth) -> Library {
-    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference_parts");
-    let folder = LibraryFolder::open(&shipped).expect("the shipped library");
-    let mut library = folder
-        .load(&ReferenceParams::default())
-        .expect("parts")
-        .library;
+    let mut library = shipped_library();
     for file in truth.reference.values() {
         let about = about(&format!("booth_{}", truth.frames[file].part));
         let enrolled = enrol_captured(&scene(&booth.join(file)), &about, &EnrolParams::default());

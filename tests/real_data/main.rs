@@ -7,6 +7,8 @@ mod booth;
 mod files;
 #[cfg(unix)]
 mod hostile;
+#[path = "../kit/mod.rs"]
+mod kit;
 mod registration;
 mod scan;
 mod scenes;

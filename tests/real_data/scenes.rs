@@ -9,16 +9,13 @@ use partsight::{
         mesh::TriangleMesh,
         rigid::{RigidTransform, pose_error},
     },
-    library::{EnrolParams, Library, LibraryFolder, PartDescription, PartName, enrol_mesh},
+    library::{EnrolParams, Library, PartDescription, PartName, enrol_mesh},
     pipeline::{Inspection, Recipe, Unwatched, Verdict, run},
     simulate::{CellSetup, PoseRange, SimulatedObject, frame_of_mesh},
-    stages::{
-        reference::ReferenceParams,
-        scene::{SceneCloud, scene_from_cloud, scene_from_frame},
-    },
+    stages::scene::{SceneCloud, scene_from_cloud, scene_from_frame},
 };
 
-use crate::data_folder;
+use crate::{data_folder, kit::shipped_library};
 
 fn inspected(scene: &SceneCloud, library: &Library) -> Inspection {
     run(scene, library, &Recipe::default(), &Unwatched).expect("nobody cancels")
@@ -27,11 +24,7 @@ fn inspected(scene: &SceneCloud, library: &Library) -> Inspection {
 #[test]
 fn no_recorded_scene_is_accepted_as_a_car_part() {
     let Some(data) = data_folder() else { return };
-    let shipped = Path::new(env!("CARGO_MANIFEST_DIR")).join("reference_parts");
-    let library = LibraryFolder::open(&shipped)
-        .and_then(|folder| folder.load(&ReferenceParams::default()))
-        .expect("the shipped library")
-        .library;
+    let library = shipped_library();
     assert_eq!(library.references.len(), 8);
     let mut num_scenes = 0;
     for folder in ["frames", "frames_labelled"] {

@@ -2,12 +2,9 @@
 
 use eframe::egui::{Event, Key, Modifiers, Pos2, Theme, Vec2};
 use egui_kittest::{Harness, kittest::Queryable as _, wgpu::WgpuTestRenderer};
-use partsight::{
-    app::ui::viewport::{
-        Colouring, ViewCamera, ViewColours, ViewError, ViewScene, ViewStyle, ViewTool, Viewport,
-        ViewportGpu,
-    },
-    units::Metres,
+use partsight::app::ui::viewport::{
+    Colouring, ViewCamera, ViewColours, ViewError, ViewScene, ViewStyle, ViewTool, Viewport,
+    ViewportGpu,
 };
 
 use crate::{example, keep, render_state};
@@ -17,7 +14,6 @@ struct Shown {
     camera: ViewCamera,
     scene: ViewScene,
     style: ViewStyle,
-    measured: Option<Metres>,
     num_picked: usize,
 }
 
@@ -28,7 +24,6 @@ impl Shown {
             camera: ViewCamera::default(),
             scene,
             style: ViewStyle::new(ViewColours::dark()),
-            measured: None,
             num_picked: 0,
         }
     }
@@ -49,11 +44,9 @@ fn harness<'a>(state: Shown, renderer: Option<WgpuTestRenderer>) -> Harness<'a, 
                 camera,
                 scene,
                 style,
-                measured,
                 num_picked,
             } = state;
             let shown = view.ui(ui, "Scene", camera, scene, style);
-            *measured = shown.measured;
             *num_picked += usize::from(shown.picked.is_some());
         },
         state,
@@ -154,11 +147,16 @@ fn two_clicks_measure_a_distance() {
         click(&mut harness, Pos2::new(x, 400.0));
     }
     assert_eq!(harness.state().num_picked, 2);
-    let measured = harness.state().measured.expect("two points of the part");
+    let measured = harness
+        .state()
+        .view
+        .measure
+        .distance()
+        .expect("two points of the part");
     assert!((100.0..1500.0).contains(&measured.mm()), "{measured}");
     harness.key_press(Key::Escape);
     harness.run();
-    assert_eq!(harness.state().measured, None);
+    assert_eq!(harness.state().view.measure.distance(), None);
 }
 
 #[test]
@@ -174,7 +172,7 @@ fn a_measured_distance_is_drawn_over_the_view() {
     for x in [300.0, 500.0] {
         click(&mut harness, Pos2::new(x, 400.0));
     }
-    assert!(harness.state().measured.is_some());
+    assert!(harness.state().view.measure.distance().is_some());
     keep("widget_measure", &harness.render().expect("a picture"));
 }
 

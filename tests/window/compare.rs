@@ -16,9 +16,10 @@ use partsight::{
     },
     cases::{CaseDescription, CaseFolder, FoundVerdict, Truth},
     pipeline::Recipe,
-    simulate::{CellSetup, ObjectKind, PartKind, Side, frame},
-    stages::scene::scene_from_frame,
+    simulate::{CellSetup, ObjectKind, PartKind, Side},
 };
+
+use crate::kit::scene_of;
 
 use super::set_up::{
     SMALL, USUAL, WindowHarness, act, act_in, open_with, plain_options, press, settle,
@@ -322,7 +323,7 @@ fn an_earlier_run_is_compared_and_what_is_worse_is_listed_first() {
         pose: None,
     };
     let cases = CaseFolder::at(folder.path().join("cases"));
-    let scene = scene_from_frame(&frame(&setup).frame);
+    let scene = scene_of(&setup);
     cases.keep(&scene, about).expect("kept");
     let earlier = folder.path().join("earlier.json");
     let text = r#"{"schema":1,"cases":[

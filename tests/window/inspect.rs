@@ -11,9 +11,10 @@ use partsight::{
     },
     files::save_cloud,
     robot::Convention,
-    simulate::{CellSetup, PartKind, PartPose, PoseRange, Side, frame},
-    stages::scene::scene_from_frame,
+    simulate::{PartKind, Side},
 };
+
+use crate::kit::facing_part;
 
 use super::set_up::{
     SMALL, WindowHarness, drop_file, inspect_of, open, open_with, plain_options, settle,
@@ -49,9 +50,7 @@ fn capture_inspects_the_next_part() {
 fn a_file_dropped_on_the_window_is_inspected() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("captured.pcd");
-    let mut setup = CellSetup::with_part(PartKind::Fender, Side::Left, 0, 5);
-    setup.pose = PartPose::Drawn(PoseRange::facing());
-    let scene = scene_from_frame(&frame(&setup).frame);
+    let scene = facing_part(PartKind::Fender, Side::Left, 5);
     save_cloud(&path, &scene.cloud).expect("written");
     let mut harness = open();
     drop_file(&mut harness, &path);
@@ -171,9 +170,7 @@ fn the_pose_is_shown_in_the_robots_numbers_that_were_chosen() {
 fn a_part_that_is_not_accepted_has_no_numbers_for_a_robot() {
     let folder = tempfile::tempdir().expect("a folder");
     let path = folder.path().join("other.pcd");
-    let mut setup = CellSetup::with_part(PartKind::Fender, Side::Right, 0, 5);
-    setup.pose = PartPose::Drawn(PoseRange::facing());
-    let scene = scene_from_frame(&frame(&setup).frame);
+    let scene = facing_part(PartKind::Fender, Side::Right, 5);
     save_cloud(&path, &scene.cloud).expect("written");
     let mut harness = open();
     drop_file(&mut harness, &path);

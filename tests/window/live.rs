@@ -11,7 +11,6 @@ use std::{
 use egui::Key;
 use egui_kittest::kittest::Queryable as _;
 use jiff::{SignedDuration, Timestamp};
-use nalgebra::Translation3;
 use partsight::{
     app::{
         Window, WindowOptions,
@@ -25,11 +24,12 @@ use partsight::{
         workspaces::history::HistoryWorkspace,
     },
     capture::{CaptureError, Captured, DepthSource, Image, NextCapture},
+    geometry::rigid::RigidTransform,
     history::StoredVerdict,
-    simulate::{
-        CellSetup, PartKind, PartModel, PartPose, PoseRange, SensorNoise, Side, frame_of_mesh,
-    },
+    simulate::{PartKind, SensorNoise, Side},
 };
+
+use crate::kit::HangingPart;
 
 use super::set_up::{
     SMALL, USUAL, WindowHarness, act, history_of, open, open_with, plain_options, settle, wait_for,
@@ -56,7 +56,7 @@ pub(crate) enum Step {
 struct Wired {
     steps: Arc<Mutex<Receiver<Step>>>,
     number: u64,
-    mesh: PartModel,
+    fender: HangingPart,
 }
 
 impl DepthSource for Wired {
@@ -87,19 +87,15 @@ impl DepthSource for Wired {
 
 impl Wired {
     fn frame(&self, x: f64) -> Captured {
-        let mut setup = CellSetup::with_part(PartKind::Fender, Side::Left, 0, 3);
-        let mesh = self.mesh.mesh();
-        let placed = PoseRange::facing().draw(mesh, &setup.intrinsics, 3);
-        let aside = Translation3::new(x, 0.0, 0.0);
-        setup.pose = PartPose::Fixed(aside * placed.camera_from_part);
-        setup.noise = SensorNoise::kinect(self.number);
+        let aside = RigidTransform::translation(x, 0.0, 0.0);
+        let noise = SensorNoise::kinect(self.number);
         let at = SignedDuration::from_millis(APART * self.number as i64);
         Captured {
             number: self.number,
             name: format!("wired frame {}", self.number),
             taken_at: Timestamp::UNIX_EPOCH + at,
             arrived: Instant::now(),
-            image: Image::Depth(frame_of_mesh(&setup, mesh).frame),
+            image: Image::Depth(self.fender.frame(noise, &aside)),
             is_simulated: true,
             truth: None,
             robot_from_flange: None,
@@ -122,7 +118,7 @@ pub(crate) fn wired_options() -> (WindowOptions, Wire) {
         Ok(Box::new(Wired {
             steps: Arc::clone(&steps),
             number: 0,
-            mesh: PartModel::new(PartKind::Fender, Side::Left, 0),
+            fender: HangingPart::new(PartKind::Fender, 3),
         }))
     });
     let options = WindowOptions {

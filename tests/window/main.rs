@@ -6,6 +6,8 @@ mod compare;
 mod enrol;
 mod history;
 mod inspect;
+#[path = "../kit/mod.rs"]
+mod kit;
 mod live;
 mod pictures;
 pub(crate) mod robot;

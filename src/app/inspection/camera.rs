@@ -5,7 +5,7 @@
 
 use std::{
     fmt,
-    sync::{Arc, Mutex, MutexGuard, PoisonError},
+    sync::{Arc, Mutex, MutexGuard},
     time::Duration,
 };
 
@@ -14,7 +14,7 @@ use crate::{
         self, BackpressurePolicy, CaptureError, Captured, DepthSource, Feed, FeedItem, FeedState,
         SourceSpec,
     },
-    error::Advice,
+    error::{Advice, lock},
 };
 
 /// A handle to the camera in use; clones share it.
@@ -132,7 +132,7 @@ impl Camera {
 
     fn lock(&self) -> MutexGuard<'_, Option<OpenedCamera>> {
         // What it holds is only ever replaced whole.
-        self.opened.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.opened)
     }
 }
 

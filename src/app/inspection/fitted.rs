@@ -3,11 +3,12 @@
 
 use std::{
     ops::Deref,
-    sync::{Arc, Mutex, PoisonError},
+    sync::{Arc, Mutex},
 };
 
 use super::library_cache::LoadedLibrary;
 use crate::{
+    error::lock,
     library::Library,
     pipeline::{ProgressObserver, Recipe},
     stages::reference::{Reference, ReferenceParams},
@@ -53,7 +54,7 @@ impl LoadedLibrary {
         if params == ReferenceParams::default() {
             return Some(PreparedLibrary::AsLoaded(&self.library));
         }
-        let lock = || self.fitted.0.lock().unwrap_or_else(PoisonError::into_inner);
+        let lock = || lock(&self.fitted.0);
         if let Some((known, library)) = &*lock()
             && *known == params
         {

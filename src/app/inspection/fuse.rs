@@ -17,11 +17,12 @@ use std::{
 use super::{
     scan_choice::{ScanFiles, ScanOrder, ScanRequest, ShotChoice, ShotSet},
     scan_figure::{ScanFigure, ShotRow, rows},
-    source::{Origin, file_name},
+    source::Origin,
 };
 use crate::{
     app::user_error::UserError,
     error::Advice,
+    files::file_name,
     geometry::rigid::RigidTransform,
     history::{FrameError, read_shots},
     pipeline::{ProgressObserver, Stage},

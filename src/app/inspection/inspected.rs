@@ -91,9 +91,6 @@ pub struct Inspected {
     pub warnings: Vec<CaptureWarning>,
     /// Middle of the best reference's extent, part space, metres.
     pub middle: Option<Point3<f64>>,
-    /// Signed distance of every point of the scene to the best reference at its pose, metres; NaN where there is
-    /// none, empty without a pose.
-    pub deviations: Vec<f32>,
     /// The nozzle's stand-off over the best reference at its pose; `None` where none is accepted.
     pub stand_off: Option<Result<StandOff, StandOffError>>,
     /// The part's stored spray path, carried to where it hangs now; `None` where none is stored or nothing accepted.
@@ -144,8 +141,6 @@ pub struct LiveFrameContext {
     pub stillness: MotionState,
     /// What counts.
     pub standing: LiveVerdict,
-    /// Frames that its depth is averaged over.
-    pub num_averaged: usize,
 }
 
 /// Gets the scene and inspects it.
@@ -383,7 +378,6 @@ impl FinishedInspection {
             library: Arc::clone(shown),
             warnings,
             middle,
-            deviations,
             stand_off,
             spray,
             view,
@@ -399,6 +393,7 @@ mod tests {
     use super::*;
     use crate::{
         app::inspection::source::CellChoice,
+        kit::shipped_library,
         pipeline::{Unwatched, Verdict},
     };
 
@@ -416,7 +411,10 @@ mod tests {
             panic!("no part");
         };
         assert_eq!((part.as_str(), rejected), ("front_door", &None));
-        let known = inspected.deviations.iter().filter(|d| d.is_finite());
+        let library = shipped_library();
+        let best = inspected.inspection.best_reference(&library).expect("one");
+        let found = deviations(&inspected.scene, &inspected.inspection, best);
+        let known = found.iter().filter(|d| d.is_finite());
         let mean = known.clone().sum::<f32>() / known.clone().count() as f32;
         assert!(known.count() > 10_000 && mean.abs() < 0.002, "{mean}");
     }

@@ -4,7 +4,7 @@
 use std::{
     fs,
     path::{Path, PathBuf},
-    sync::{Arc, Mutex, MutexGuard, PoisonError},
+    sync::{Arc, Mutex, MutexGuard},
 };
 
 use image::RgbaImage;
@@ -13,6 +13,7 @@ use super::{camera::Camera, fitted::PreparedLibraryCache, recording::SharedRecor
 use crate::{
     app::user_error::UserError,
     error::Advice as _,
+    error::lock,
     history::HistoryBuffer,
     library::{
         Library, LibraryError, LibraryFolder, LibraryLoad, LibraryPlace, PartMeta, SprayPath,
@@ -170,7 +171,7 @@ impl LibraryCache {
 
     fn lock(&self) -> MutexGuard<'_, Choice> {
         // What it holds is only ever replaced whole.
-        self.choice.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.choice)
     }
 }
 

@@ -2,12 +2,13 @@
 
 use std::{
     path::{Path, PathBuf},
-    sync::{Arc, Mutex, MutexGuard, PoisonError},
+    sync::{Arc, Mutex, MutexGuard},
 };
 
 use jiff::{Timestamp, tz::TimeZone};
 
 use crate::capture::{CaptureError, Captured, FeedStatus, Recorder, SourceSpec};
+use crate::error::lock;
 
 /// The recording in progress, if any; clones share it.
 #[derive(Clone, Debug, Default)]
@@ -81,7 +82,7 @@ impl SharedRecording {
 
     fn lock(&self) -> MutexGuard<'_, Option<Open>> {
         // What it holds is only ever replaced whole.
-        self.0.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.0)
     }
 }
 

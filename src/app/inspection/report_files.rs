@@ -7,16 +7,13 @@ use std::{
 
 use image::{DynamicImage, ImageFormat};
 
-use super::{
-    inspected::Inspected,
-    source::{Origin, file_name},
-};
+use super::{inspected::Inspected, source::Origin};
 use crate::{
     app::{
         ui::viewport::{ViewColours, ViewShot},
         user_error::UserError,
     },
-    files::write_atomically,
+    files::{file_name, write_atomically},
     report::{
         InspectionLine, ReportError, ReportFolder,
         pose_report::{

@@ -8,7 +8,8 @@ use std::{
 
 use serde::{Deserialize, Serialize};
 
-use super::source::{HistoryFrame, Origin, file_name};
+use super::source::{HistoryFrame, Origin};
+use crate::files::file_name;
 use crate::{pipeline::Recipe, scan::Shot};
 
 /// The files of a scan, and which of its shots are left out.

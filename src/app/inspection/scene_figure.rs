@@ -262,6 +262,6 @@ mod tests {
         let found = inspected.stand_off.as_ref().expect("found").as_ref();
         let found = found.expect("a stand-off");
         assert_eq!(middle.distance, found.middle.distance);
-        assert!(found.met() > 0.5);
+        assert!(2 * found.rays.len() > found.num_taught);
     }
 }

@@ -1,9 +1,6 @@
 //! Where scenes come from: the simulated cell, files, and cameras.
 
-use std::{
-    path::{Path, PathBuf},
-    sync::Arc,
-};
+use std::{path::PathBuf, sync::Arc};
 
 use super::{
     camera::{Camera, CameraError},
@@ -19,11 +16,10 @@ use crate::{
     simulate::{
         CellSetup, ObjectKind, PartKind, PartPose, PoseRange, Side, SimulatedObject, frame,
     },
-    stages::{
-        scene::{SceneCloud, scene_from_frame, scene_from_image},
-        segment::EmptyCell,
-    },
+    stages::scene::{EmptyCell, SceneCloud, scene_from_frame, scene_from_image},
 };
+
+pub(in crate::app) use crate::files::file_name;
 
 /// What hangs in the simulated cell when a frame is captured.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq, serde::Serialize, serde::Deserialize)]
@@ -200,12 +196,6 @@ impl Origin {
             Self::Scan { .. } | Self::Frame { .. } => return None,
         })
     }
-}
-
-/// The last part of a path, or all of it where there is none.
-pub fn file_name(path: &Path) -> String {
-    let name = path.file_name().unwrap_or(path.as_os_str());
-    name.to_string_lossy().into_owned()
 }
 
 /// A scene to be had.

@@ -6,12 +6,13 @@ use std::{
     path::{Path, PathBuf},
     pin::Pin,
     rc::Rc,
-    sync::{Arc, Mutex, PoisonError},
+    sync::{Arc, Mutex},
     task::{Context, Poll, Wake, Waker},
     time::{Duration, Instant},
 };
 
 use super::{notice::Notice, path_entry::PathEntry};
+use crate::error::lock;
 use crate::files::{POINT_ENDINGS, folder_of, words_of};
 
 /// What a file dialog asks for.
@@ -168,13 +169,13 @@ struct DialogWaker {
 
 impl DialogWaker {
     fn closed(&self) -> Option<Instant> {
-        *self.closed.lock().unwrap_or_else(PoisonError::into_inner)
+        *lock(&self.closed)
     }
 }
 
 impl Wake for DialogWaker {
     fn wake(self: Arc<Self>) {
-        *self.closed.lock().unwrap_or_else(PoisonError::into_inner) = Some(Instant::now());
+        *lock(&self.closed) = Some(Instant::now());
         self.egui.request_repaint();
     }
 }

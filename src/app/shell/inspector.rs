@@ -27,7 +27,7 @@ use crate::{
     },
     capture::SourceSpec,
     history::HungId,
-    stages::segment::EmptyCell,
+    stages::scene::EmptyCell,
 };
 
 /// Captures, opens and inspects scenes, and loads the library.
@@ -445,7 +445,7 @@ mod tests {
     use crate::{
         app::shell::action::{Action, apply},
         files::write_depth_png,
-        geometry::depth_frame::{DepthFrame, Intrinsics},
+        kit::small_frame,
     };
 
     #[test]
@@ -488,16 +488,7 @@ mod tests {
     #[test]
     fn a_scan_without_poses_asks_for_their_file() {
         let folder = tempfile::tempdir().expect("a folder");
-        let frame = DepthFrame {
-            intrinsics: Intrinsics {
-                width: 8,
-                height: 6,
-                ..Intrinsics::KINECT
-            },
-            metres_per_unit: 0.001,
-            depth: vec![900; 48],
-            is_simulated: true,
-        };
+        let frame = small_frame(8, [900; 48]);
         for name in ["a.png", "b.png"] {
             write_depth_png(&folder.path().join(name), &frame).expect("written");
         }

@@ -17,7 +17,7 @@ use crate::{
     capture::SourceSpec,
     pipeline::Recipe,
     robot::{Convention, RobotFrame},
-    stages::segment::EmptyCell,
+    stages::scene::EmptyCell,
 };
 
 /// What the workspaces share.

@@ -25,7 +25,7 @@ use crate::{
         user_error::UserError,
     },
     capture::SourceSpec,
-    files::{open_regular, write_atomically},
+    files::{open_regular, user_folders, write_atomically},
     pipeline::Recipe,
     robot::Convention,
 };
@@ -201,8 +201,7 @@ impl Settings {
 
 /// The file of the user's settings, if the system has a place for it.
 pub fn users_file() -> Option<PathBuf> {
-    let folders = directories::ProjectDirs::from("", "", "partsight")?;
-    Some(folders.config_dir().join("settings.toml"))
+    Some(user_folders()?.config_dir().join("settings.toml"))
 }
 
 /// Why a settings file was not used.

@@ -6,7 +6,7 @@ use serde::Serialize;
 use super::{SuiteFrame, libraries::enrolment_pose};
 use crate::{
     geometry::rigid::pose_error,
-    pipeline::{Inspection, Timings, Verdict},
+    pipeline::{Inspection, Timings},
     simulate::{FrameTruth, SurfaceLabel},
     stages::{
         confirm::{ConfirmedMatch, Evidence},
@@ -92,32 +92,19 @@ const NUM_CONTENDERS: usize = 3;
 
 impl SuiteCase {
     pub(super) fn of(frame: &SuiteFrame, truth: &FrameTruth, inspection: &Inspection) -> Self {
-        let (found, score, margin, reason) = match &inspection.verdict {
-            Verdict::Part {
-                part,
-                score,
-                margin,
-                rejected,
-                ..
-            } => (
-                Some(part.clone()),
-                *score,
-                *margin,
-                rejected.as_ref().map(ToString::to_string),
-            ),
-            Verdict::NoPart(reason) => (None, 0.0, 0.0, Some(reason.to_string())),
-        };
+        let verdict = &inspection.verdict;
+        let [score, margin] = verdict.score().unwrap_or_default();
         Self {
             subject: frame.subject(),
             expected: frame.expected.clone(),
             seed: frame.setup.seed,
-            found,
+            found: verdict.guess().map(str::to_owned),
             score,
             margin,
-            accepted: reason.is_none(),
-            is_unknown: inspection.verdict.is_unknown(),
-            reason,
-            is_approximate: inspection.verdict.is_approximate(),
+            accepted: verdict.is_accepted(),
+            is_unknown: verdict.is_unknown(),
+            reason: verdict.complaint().map(|[why, _]| why),
+            is_approximate: verdict.is_approximate(),
             visible_share: truth.visible_share,
             part_iou: part_iou(truth, &inspection.segmentation),
             bounds: bounds(frame, truth, inspection),

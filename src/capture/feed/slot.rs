@@ -8,7 +8,10 @@ use std::{
 };
 
 use super::{BackpressurePolicy, FeedItem, FeedState, FeedStatus};
-use crate::capture::{error::CaptureError, rate::FrameRate};
+use crate::{
+    capture::{error::CaptureError, rate::FrameRate},
+    error::lock,
+};
 
 /// So many notes of unreadable things wait at most; the oldest go first.
 const MAX_SKIPPED: usize = 64;
@@ -54,7 +57,7 @@ impl Slot {
 
     /// Nothing panics while the lock is held, so what it guards is whole even if it is poisoned.
     fn lock(&self) -> MutexGuard<'_, Inner> {
-        self.inner.lock().unwrap_or_else(PoisonError::into_inner)
+        lock(&self.inner)
     }
 
     fn tell(&self) {
@@ -108,8 +111,8 @@ impl Slot {
         }
     }
 
-    pub(super) fn lost(&self, error: Arc<CaptureError>, retry_at: Instant) {
-        self.set_state(FeedState::Lost { error, retry_at });
+    pub(super) fn lost(&self, error: Arc<CaptureError>) {
+        self.set_state(FeedState::Lost { error });
     }
 
     pub(super) fn set_state(&self, state: FeedState) {

@@ -1,16 +1,13 @@
 use std::{
     collections::VecDeque,
     sync::atomic::{AtomicUsize, Ordering},
+    time::Instant,
 };
 
 use jiff::Timestamp;
 
 use super::*;
-use crate::{
-    capture::source::Image,
-    files::FileError,
-    geometry::depth_frame::{DepthFrame, Intrinsics},
-};
+use crate::{capture::source::Image, files::FileError, kit::small_frame};
 
 /// Long enough for a machine at work with other things; what is waited for comes at once.
 const PATIENCE: Duration = Duration::from_mins(1);
@@ -21,16 +18,7 @@ fn captured(number: u64) -> Captured {
         name: format!("frame {number}"),
         taken_at: Timestamp::UNIX_EPOCH,
         arrived: Instant::now(),
-        image: Image::Depth(DepthFrame {
-            intrinsics: Intrinsics {
-                width: 1,
-                height: 1,
-                ..Intrinsics::KINECT
-            },
-            metres_per_unit: 0.001,
-            depth: vec![1],
-            is_simulated: false,
-        }),
+        image: Image::Depth(small_frame(1, [1])),
         is_simulated: false,
         truth: None,
         robot_from_flange: None,
@@ -164,8 +152,8 @@ fn of_a_live_camera_only_the_newest_is_kept_and_the_others_are_counted() {
         Ok(steps)
     });
     wait_until(&feed, |status| status.state.is_over());
-    assert_eq!(number_of(feed.take()), 20);
-    assert!(feed.take().is_none());
+    assert_eq!(number_of(feed.wait(Duration::ZERO)), 20);
+    assert!(feed.wait(Duration::ZERO).is_none());
     assert_eq!(feed.status().num_dropped, 19);
 }
 
@@ -186,7 +174,7 @@ fn what_cannot_be_read_is_named_and_never_dropped_for_a_capture() {
         Ok(steps)
     });
     wait_until(&feed, |status| status.state.is_over());
-    let names: Vec<String> = std::iter::from_fn(|| feed.take())
+    let names: Vec<String> = std::iter::from_fn(|| feed.wait(Duration::ZERO))
         .map(|item| match item {
             FeedItem::Captured(captured) => captured.name,
             FeedItem::Skipped(skipped) => skipped.name,

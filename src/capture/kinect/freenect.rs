@@ -19,7 +19,7 @@ use std::{
     ffi::{CStr, OsStr, OsString, c_char, c_double, c_int, c_void},
     ptr::{self, NonNull},
     sync::{
-        Mutex, PoisonError,
+        Mutex,
         atomic::{AtomicUsize, Ordering},
     },
     time::Duration,
@@ -32,6 +32,7 @@ use super::{
         Attributes, DEVICE_CAMERA, FrameMode, INTERRUPTED, LOG_ERROR, OnDepth, OnLog, TimeVal,
     },
 };
+use crate::error::lock;
 
 /// What the library says of one call is a few lines; more is not kept.
 const MOST_SAID: usize = 8;
@@ -109,7 +110,7 @@ impl Library {
     /// Loads the library of that name or path, or says why that cannot be done in the system's own words.
     pub(super) fn load(name: &OsStr) -> Result<&'static Self, String> {
         static LOADED: Mutex<Vec<(OsString, &'static Library)>> = Mutex::new(Vec::new());
-        let mut loaded = LOADED.lock().unwrap_or_else(PoisonError::into_inner);
+        let mut loaded = lock(&LOADED);
         if let Some((_, library)) = loaded.iter().find(|(known, _)| known == name) {
             return Ok(library);
         }

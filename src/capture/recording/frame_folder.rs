@@ -4,11 +4,8 @@ use std::path::Path;
 
 use super::replay::{Content, Frames, RecordedFrame};
 use crate::{
-    capture::{
-        error::CaptureError,
-        read::{file_name, may_be_capture},
-    },
-    files::in_counting_order,
+    capture::{error::CaptureError, read::may_be_capture},
+    files::{file_name, in_counting_order},
 };
 
 pub(super) fn frames(folder: &Path) -> Result<Frames, CaptureError> {

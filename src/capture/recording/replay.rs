@@ -17,11 +17,11 @@ use super::{
 use crate::{
     capture::{
         error::{CaptureError, CaptureWarning},
-        read::{file_name, image_of, read_image, written_at},
+        read::{image_of, read_image, written_at},
         source::{Captured, DepthSource, Image, NextCapture, SkippedCapture},
         spec::{Pace, RecordingSpec},
     },
-    files::{DepthCamera, crc32, depth_png::read_depths, open_bytes, read_bytes},
+    files::{DepthCamera, crc32, depth_png::read_depths, file_name, open_bytes, read_bytes},
     geometry::rigid::RigidTransform,
     simulate::FrameTruth,
 };

@@ -11,13 +11,10 @@ use jiff::Timestamp;
 
 use super::replay::{Content, Frames, RecordedFrame};
 use crate::{
-    capture::{
-        error::{CaptureError, CaptureWarning},
-        read::file_name,
-    },
+    capture::error::{CaptureError, CaptureWarning},
     files::{
-        DepthCamera, StoredOrientation, Turn, depth_png::FOLDER_CAMERA, read_limited, shortened,
-        stays_inside,
+        DepthCamera, StoredOrientation, Turn, depth_png::FOLDER_CAMERA, file_name, read_limited,
+        shortened, stays_inside,
     },
     geometry::depth_frame::Intrinsics,
 };

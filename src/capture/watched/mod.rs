@@ -26,11 +26,11 @@ use jiff::Timestamp;
 use self::look::{FileStamp, look};
 use super::{
     error::CaptureError,
-    read::{file_name, read_image, written_at},
+    read::{read_image, written_at},
     source::{Captured, DepthSource, NextCapture, SkippedCapture},
     spec::{WatchedFrom, WatchedSpec},
 };
-use crate::files::{FileError, in_counting_order};
+use crate::files::{FileError, file_name, in_counting_order};
 
 /// The pause between two looks.
 const LOOK: Duration = Duration::from_millis(300);

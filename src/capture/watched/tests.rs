@@ -4,10 +4,8 @@ use super::*;
 use crate::{
     capture::source::Image,
     files::{depth_png::intrinsics_path, save_cloud, write_depth_png},
-    geometry::{
-        cloud::PointCloud,
-        depth_frame::{DepthFrame, Intrinsics},
-    },
+    geometry::{cloud::PointCloud, depth_frame::DepthFrame},
+    kit::small_frame,
 };
 
 /// A folder whose looks are made by hand, so that no test waits for a clock.
@@ -55,16 +53,7 @@ fn cloud(x: f32) -> PointCloud {
 }
 
 fn frame() -> DepthFrame {
-    DepthFrame {
-        intrinsics: Intrinsics {
-            width: 2,
-            height: 1,
-            ..Intrinsics::KINECT
-        },
-        metres_per_unit: 0.001,
-        depth: vec![900, 901],
-        is_simulated: false,
-    }
+    small_frame(2, [900, 901])
 }
 
 fn save(path: &Path, x: f32) {

@@ -2,22 +2,13 @@ use std::sync::Arc;
 
 use super::*;
 use crate::{
-    cases::{FoundVerdict, Truth, found_in},
+    cases::{FoundVerdict, Truth},
     error::Advice as _,
-    geometry::depth_frame::{DepthFrame, Intrinsics},
-    pipeline::{Recipe, Unwatched},
-    simulate::{CellSetup, PartKind, PartPose, PoseRange, Side, SimulatedObject, frame},
-    stages::{
-        scene::{PictureEdge, scene_from_cloud, scene_from_frame},
-        segment::EmptyCell,
-    },
+    kit::{facing_part, scene_of, shipped_library, small_frame},
+    pipeline::{Recipe, Unwatched, run},
+    simulate::{CellSetup, PartKind, Side, SimulatedObject},
+    stages::scene::{EmptyCell, PictureEdge, scene_from_cloud, scene_from_frame},
 };
-
-fn door() -> SceneCloud {
-    let mut setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 0, 4);
-    setup.pose = PartPose::Drawn(PoseRange::facing());
-    scene_from_frame(&frame(&setup).frame)
-}
 
 /// The file of such a scene.
 const CRUMB: &str = "scene.pcd";
@@ -53,23 +44,15 @@ fn bits(scene: &SceneCloud) -> Vec<[u32; 3]> {
 fn the_lens_of_a_kept_scene_is_kept() {
     let folder = tempfile::tempdir().expect("a folder");
     let cases = CaseFolder::at(folder.path().join("cases"));
-    let mut camera = Intrinsics {
-        width: 8,
-        height: 6,
-        ..Intrinsics::KINECT
-    };
-    (camera.distortion.k1, camera.distortion.p2) = (-0.1 / 3.0, 1e-4);
-    let scene = scene_from_frame(&DepthFrame {
-        intrinsics: camera,
-        metres_per_unit: 0.001,
-        depth: (1000..1048).collect(),
-        is_simulated: false,
-    });
+    let mut frame = small_frame(8, 1000..1048);
+    let lens = &mut frame.intrinsics.distortion;
+    (lens.k1, lens.p2) = (-0.1 / 3.0, 1e-4);
+    let scene = scene_from_frame(&frame);
     let kept = cases.keep(&scene, about("lens")).expect("kept");
     let again = cases.read_scene(&kept).expect("read");
     assert_eq!(
         (bits(&again), again.intrinsics),
-        (bits(&scene), Some(camera))
+        (bits(&scene), Some(frame.intrinsics))
     );
 }
 
@@ -77,17 +60,17 @@ fn the_lens_of_a_kept_scene_is_kept() {
 fn a_kept_scene_opens_again_bit_for_bit_with_the_same_verdict() {
     let folder = tempfile::tempdir().expect("a folder");
     let cases = CaseFolder::at(folder.path().join("cases"));
-    let mut scene = door();
+    let mut scene = facing_part(PartKind::FrontDoor, Side::Left, 4);
     scene.edge = PictureEdge::Points;
-    let empty = scene_from_frame(&frame(&CellSetup::new(SimulatedObject::Nothing, 4)).frame);
+    let empty = scene_of(&CellSetup::new(SimulatedObject::Nothing, 4));
     let cell = EmptyCell::of(&empty).expect("a picture");
     scene.empty_cell = Some(Arc::new(cell));
-    let library = crate::library::open_library(Some(Path::new("reference_parts")))
-        .and_then(|place| place.load(&crate::stages::reference::ReferenceParams::default()))
-        .expect("the shipped parts")
-        .library;
-    let recipe = Recipe::default();
-    let before = found_in(&scene, &library, &recipe, &Unwatched).expect("not cancelled");
+    let library = shipped_library();
+    let found_in = |scene: &SceneCloud| {
+        let inspection = run(scene, &library, &Recipe::default(), &Unwatched);
+        FoundVerdict::from(&inspection.expect("not cancelled").verdict)
+    };
+    let before = found_in(&scene);
     assert!(before.accepted);
     let mut said = about("Simulated frame 4");
     said.found = before.clone();
@@ -106,7 +89,7 @@ fn a_kept_scene_opens_again_bit_for_bit_with_the_same_verdict() {
         (scene.intrinsics, scene.edge, scene.cloud.grid)
     );
     assert!(again.empty_cell.is_some() && again.empty_cell == scene.empty_cell);
-    let after = found_in(&again, &library, &recipe, &Unwatched).expect("not cancelled");
+    let after = found_in(&again);
     assert_eq!(after, before);
     assert_eq!(list.cases[0].meta.about.found, before);
 
@@ -223,7 +206,7 @@ fn names_follow_from_the_origin_and_count_on() {
 fn a_scene_is_kept_as_the_history_keeps_it_and_takes_little_room() {
     let folder = tempfile::tempdir().expect("a folder");
     let cases = CaseFolder::at(folder.path());
-    let scene = door();
+    let scene = facing_part(PartKind::FrontDoor, Side::Left, 4);
     let kept = cases.keep(&scene, about("door")).expect("kept");
     assert_eq!(kept.meta.scene.file, "scene.png");
     let as_cloud = scene.cloud.points.len() as u64 * 12;
@@ -242,7 +225,7 @@ fn a_case_of_the_first_version_is_read_with_its_empty_cell() {
     let folder = tempfile::tempdir().expect("a folder");
     let case = folder.path().join("old");
     fs::create_dir(&case).expect("made");
-    let scene = door();
+    let scene = facing_part(PartKind::FrontDoor, Side::Left, 4);
     let cell = EmptyCell::of(&scene).expect("a picture");
     let packed = |cloud: &crate::geometry::cloud::PointCloud| {
         let mut bytes = Vec::new();

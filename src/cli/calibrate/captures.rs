@@ -12,7 +12,7 @@ use crate::{
         input::open_scene,
     },
     error::Advice as _,
-    files::in_counting_order,
+    files::{file_name, in_counting_order},
     pipeline::{self, Recipe, Unwatched},
     robot::{
         Convention,
@@ -109,13 +109,6 @@ fn files_of(folder: &Path, poses: &[ArmPose]) -> anyhow::Result<Vec<PathBuf>> {
         ));
     }
     Ok(files)
-}
-
-fn file_name(path: &Path) -> String {
-    path.file_name()
-        .unwrap_or_default()
-        .to_string_lossy()
-        .into_owned()
 }
 
 /// The pairs of the reference that most captures show: each reference has a frame of its own.

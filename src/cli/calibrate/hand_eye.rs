@@ -14,7 +14,7 @@ use super::{
 use crate::{
     cli::{
         console::{Advised as _, Table, advised_error},
-        report::parse_convention,
+        input::parse_convention,
     },
     error::Advice as _,
     geometry::rigid::row_major,

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::{Console, Outcome, load};
 use crate::{
-    cli::{console::in_columns, report::parse_convention},
+    cli::{console::in_columns, input::parse_convention},
     geometry::rigid::{RigidTransform, row_major},
     report::SCHEMA,
     robot::{

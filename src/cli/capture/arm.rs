@@ -11,8 +11,10 @@ use clap::Args;
 
 use crate::{
     capture::Captured,
-    cli::console::{Advised as _, Console, advised_error},
-    error::Advice as _,
+    cli::{
+        console::{Advised as _, Console, advised_error},
+        input::parse_robot_pose,
+    },
     geometry::rigid::RigidTransform,
     robot::{WrittenPose, pairs::read_arm_poses, parse_written_pose},
 };
@@ -21,16 +23,12 @@ use crate::{
 #[derive(Debug, Args)]
 pub(super) struct ArmChoice {
     /// With a camera on the flange: where the arm stands for all frames, as `kuka X Y Z A B C`, or 16 numbers of a matrix
-    #[arg(long, value_name = "POSE", value_parser = written_pose, allow_hyphen_values = true, conflicts_with = "robot_poses")]
+    #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true, conflicts_with = "robot_poses")]
     robot_pose: Option<WrittenPose>,
     /// With a camera on the flange: a file with the arm's pose for each frame, a line each, the convention in a line
     /// `# robot: kuka`; or - to read them from standard input, where each line takes one frame: for partsight scan
     #[arg(long, value_name = "FILE")]
     robot_poses: Option<PathBuf>,
-}
-
-fn written_pose(text: &str) -> Result<WrittenPose, String> {
-    parse_written_pose(text).map_err(|error| format!("{error}\n  to do: {}", error.advice()))
 }
 
 /// Gives each frame the arm's pose.

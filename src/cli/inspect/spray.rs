@@ -9,7 +9,7 @@ use crate::{
     cli::{
         Outcome,
         console::{Advised as _, Console, advised_error},
-        report::parse_convention,
+        input::parse_convention,
     },
     library::{Library, LibraryLoad, LibraryPlace, PartName},
     pipeline::Inspection,

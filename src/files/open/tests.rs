@@ -7,6 +7,7 @@ use tempfile::TempDir;
 
 use super::*;
 use crate::files::{Expected, NoFile};
+use crate::kit::small_frame;
 
 /// A folder that holds one file with these bytes.
 fn file(name: &str, bytes: &[u8]) -> (TempDir, PathBuf) {
@@ -75,16 +76,7 @@ fn every_small_file_cut_anywhere_opens_or_fails_by_name() {
             }
         }
     }
-    let frame = DepthFrame {
-        intrinsics: crate::geometry::depth_frame::Intrinsics {
-            width: 2,
-            height: 2,
-            ..crate::geometry::depth_frame::Intrinsics::KINECT
-        },
-        metres_per_unit: 0.001,
-        depth: vec![0, 1, 2, 3],
-        is_simulated: false,
-    };
+    let frame = small_frame(2, [0, 1, 2, 3]);
     let whole = folder.path().join("whole.png");
     super::super::write_depth_png(&whole, &frame).unwrap();
     let bytes = fs::read(&whole).unwrap();

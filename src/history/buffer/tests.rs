@@ -3,11 +3,9 @@
 use std::fs;
 
 use super::*;
-use crate::history::{
-    StoredVerdict,
-    fixtures::{entry, moment, scene},
-    open::FILE,
-    waiting::MAX_WAITING,
+use crate::{
+    history::{StoredVerdict, open::FILE, waiting::MAX_WAITING},
+    kit::{history_entry, moment, open_history, small_scene},
 };
 
 fn numbers(keeper: &HistoryBuffer) -> Vec<i64> {
@@ -25,7 +23,7 @@ fn failures(news: &[HistoryEvent]) -> usize {
 }
 
 fn not_accepted(seconds: i64) -> NewEntry {
-    entry(seconds, StoredVerdict::NotAccepted, "fender")
+    history_entry(seconds, StoredVerdict::NotAccepted, "fender")
 }
 
 #[test]
@@ -56,8 +54,16 @@ fn without_a_folder_everything_is_kept_in_memory_and_nothing_is_wrong() {
         -2
     );
     // The scenes of the newest wait too.
-    assert_eq!(keeper.scene(-6).expect("asked"), Some(scene(6)));
-    assert_eq!(keeper.scene(-1).expect("asked"), None);
+    let scene = |number| {
+        keeper
+            .lock()
+            .waiting_mut(number)
+            .expect("waits")
+            .scene
+            .clone()
+    };
+    assert_eq!(scene(-6), Some(small_scene(6)));
+    assert_eq!(scene(-1), None);
     assert!(
         !keeper
             .row(-6)
@@ -104,9 +110,11 @@ fn a_folder_that_cannot_be_made_is_said_once_and_what_waited_is_written_later() 
     let third = keeper.row(3).expect("asked").expect("there");
     assert_eq!(third.summary.label, Some(Truth::NotEnrolled));
     assert_eq!(third.summary.at, moment(3));
-    assert!(keeper.scene(4).expect("asked").is_some());
     drop(keeper);
     assert!(place.join(FILE).exists());
+    let history = open_history(&place);
+    let fourth = history.known(4).expect("written");
+    assert!(history.scene(&fourth).expect("read").is_some());
 }
 
 #[test]

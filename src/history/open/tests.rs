@@ -3,20 +3,20 @@
 use std::io::{Seek as _, SeekFrom, Write as _};
 
 use super::*;
-use crate::history::{
-    Filter, KeepFrames, Retention, StoredVerdict,
-    fixtures::{entry, open, opened},
+use crate::{
+    history::{Filter, KeepFrames, Retention, StoredVerdict},
+    kit::{history_entry, new_history, open_history},
 };
 
 /// A closed history with so many inspections.
 fn closed(num: i64) -> tempfile::TempDir {
-    let (folder, mut history) = opened();
+    let (folder, mut history) = new_history();
     let retention = Retention {
         keep: KeepFrames::All,
         ..Retention::default()
     };
     for seconds in 0..num {
-        let entry = entry(seconds, StoredVerdict::Accepted, "fender");
+        let entry = history_entry(seconds, StoredVerdict::Accepted, "fender");
         history.add(&entry, &retention).expect("written");
     }
     drop(history);
@@ -61,7 +61,7 @@ fn a_damaged_file_is_set_aside_with_its_frames_and_a_new_one_begun() {
         assert_eq!(fs::read_dir(frames).expect("kept").count(), 41);
         drop(opened.history);
         // It is said once: the new one is sound.
-        assert_eq!(num_rows(&open(folder.path())), 0);
+        assert_eq!(num_rows(&open_history(folder.path())), 0);
     }
 }
 
@@ -158,9 +158,9 @@ fn a_damaged_log_is_set_aside_alone() {
 fn two_write_at_once_and_nothing_is_lost() {
     let folder = closed(0);
     let write = |part: &str| {
-        let mut history = open(folder.path());
+        let mut history = open_history(folder.path());
         for seconds in 0..50 {
-            let entry = entry(seconds, StoredVerdict::NoPart, part);
+            let entry = history_entry(seconds, StoredVerdict::NoPart, part);
             history.add(&entry, &Retention::default()).expect("written");
         }
     };
@@ -168,7 +168,7 @@ fn two_write_at_once_and_nothing_is_lost() {
         scope.spawn(|| write("fender"));
         scope.spawn(|| write("grille"));
     });
-    let history = open(folder.path());
+    let history = open_history(folder.path());
     assert_eq!(num_rows(&history), 100);
     assert_eq!(history.usage().expect("asked").num_frames, 100);
 }

@@ -2,9 +2,9 @@ use nalgebra::Vector3;
 
 use super::*;
 use crate::{
+    kit::scene_of,
     pipeline::{self, Recipe, Unwatched, Verdict},
     simulate::{CellSetup, PartKind, PartModel, Side},
-    stages::scene::scene_from_frame,
 };
 
 fn about(name: &str) -> PartDescription {
@@ -20,7 +20,7 @@ fn about(name: &str) -> PartDescription {
 
 fn captured(seed: u64) -> SceneCloud {
     let setup = CellSetup::with_part(PartKind::Fender, Side::Left, 0, seed);
-    scene_from_frame(&crate::simulate::frame(&setup).frame)
+    scene_of(&setup)
 }
 
 fn unit_ball(num_points: usize) -> Vec<Vector3<f32>> {
@@ -195,7 +195,7 @@ fn a_shape_that_does_not_fix_the_pose_is_warned_of() {
 fn the_shape_of_every_simulated_part_fixes_its_pose() {
     for kind in PartKind::ALL {
         let setup = CellSetup::with_part(kind, Side::Left, 0, 3);
-        let scene = scene_from_frame(&crate::simulate::frame(&setup).frame);
+        let scene = scene_of(&setup);
         let enrolled = enrol_captured(&scene, &about("part"), &EnrolParams::default());
         assert_eq!(enrolled.expect("a part").warnings, [], "{kind:?}");
     }

@@ -45,13 +45,8 @@ impl DepthAverage {
     }
 
     /// Frames that the next mean is taken over.
-    pub fn len(&self) -> usize {
+    pub fn num_frames(&self) -> usize {
         self.frames.len()
-    }
-
-    /// True before the first frame.
-    pub fn is_empty(&self) -> bool {
-        self.frames.is_empty()
     }
 
     /// Takes in a frame; one that is no picture of the same camera starts anew.

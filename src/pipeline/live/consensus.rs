@@ -172,7 +172,7 @@ impl Consensus {
         };
         let rejected = if num_accepting < needed || is_contradicted {
             // What most frames complain about says more than that not all of them agree.
-            let mut complaints = naming.iter().filter_map(|said| complaint(&said.verdict));
+            let mut complaints = naming.iter().filter_map(|said| said.verdict.rejected());
             let num_rejecting = naming.len() - num_accepting;
             let last = complaints.next_back().cloned();
             let is_common = num_rejecting >= needed && !is_contradicted;
@@ -236,13 +236,6 @@ fn named(verdict: &Verdict) -> Option<(&str, f64, f64)> {
             margin,
             ..
         } => Some((part, *score, *margin)),
-        Verdict::NoPart(_) => None,
-    }
-}
-
-fn complaint(verdict: &Verdict) -> Option<&Rejection> {
-    match verdict {
-        Verdict::Part { rejected, .. } => rejected.as_ref(),
         Verdict::NoPart(_) => None,
     }
 }

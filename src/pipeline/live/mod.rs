@@ -107,7 +107,7 @@ impl LiveTracker {
 
     /// Frames that the depth of the next scene is averaged over.
     pub fn num_averaged(&self) -> usize {
-        self.average.len()
+        self.average.num_frames()
     }
 
     /// What the frames so far showed of the camera's field of view.
@@ -121,7 +121,8 @@ impl LiveTracker {
         if self.field_of_view.is_some() && scene.known_view.is_none() {
             Arc::make_mut(&mut scene).set_known_view(self.field_of_view.clone());
         }
-        self.field_of_view = FieldOfView::remembered(self.field_of_view.take(), &scene);
+        self.field_of_view =
+            FieldOfView::remembered(self.field_of_view.take(), scene.field_of_view());
         let run = self.steady.run();
         let stillness = self.steady.see(&scene, at);
         self.last_at = at;

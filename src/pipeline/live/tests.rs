@@ -1,70 +1,32 @@
 //! The whole way, on frames of the simulated cell against the shipped parts.
 
-use nalgebra::{Translation3, UnitQuaternion};
-
 use super::*;
 use crate::{
-    geometry::{
-        depth_frame::{DepthFrame, Intrinsics},
-        mesh::TriangleMesh,
-        rigid::RigidTransform,
-    },
-    library::{Library, open_library},
+    geometry::{depth_frame::DepthFrame, rigid::RigidTransform},
+    kit::{HangingPart, shipped_library},
     pipeline::{Recipe, Unwatched, run},
-    simulate::{CellSetup, PartKind, PartPose, PoseRange, SensorNoise, Side, frame_of_mesh},
-    stages::{reference::ReferenceParams, scene::scene_from_frame},
+    simulate::{PartKind, SensorNoise},
+    stages::scene::scene_from_frame,
 };
 
 const FRAME: Duration = Duration::from_micros(33_333);
 
-struct Cell {
-    setup: CellSetup,
-    mesh: TriangleMesh,
-    rest_pose: RigidTransform,
+fn scene(part: &HangingPart, number: u64, x: f64) -> Arc<SceneCloud> {
+    let noise = SensorNoise::kinect(part.setup.seed * 1000 + number);
+    let moved = RigidTransform::translation(x, 0.0, 0.0);
+    Arc::new(scene_from_frame(&part.frame(noise, &moved)))
 }
 
-impl Cell {
-    fn with(kind: PartKind, seed: u64) -> Self {
-        let setup = CellSetup::with_part(kind, Side::Left, 0, seed);
-        let mesh = setup.subject.mesh();
-        let rest_pose = PoseRange::facing()
-            .draw(&mesh, &Intrinsics::KINECT, seed)
-            .camera_from_part;
-        Self {
-            setup,
-            mesh,
-            rest_pose,
-        }
-    }
-
-    fn depth(&self, noise: SensorNoise, moved: &RigidTransform) -> DepthFrame {
-        let mut setup = self.setup;
-        setup.pose = PartPose::Fixed(moved * self.rest_pose);
-        setup.noise = noise;
-        frame_of_mesh(&setup, &self.mesh).frame
-    }
-
-    fn scene(&self, number: u64, x: f64) -> Arc<SceneCloud> {
-        let noise = SensorNoise::kinect(self.setup.seed * 1000 + number);
-        Arc::new(scene_from_frame(&self.depth(noise, &aside(x))))
-    }
-}
-
-fn aside(x: f64) -> RigidTransform {
-    RigidTransform::from_parts(Translation3::new(x, 0.0, 0.0), UnitQuaternion::identity())
-}
-
-fn shipped() -> Library {
-    let place = open_library(Some(std::path::Path::new("reference_parts"))).expect("shipped");
-    let load = place.load(&ReferenceParams::default()).expect("loaded");
-    load.library
+/// What a camera without noise would see.
+fn truth(part: &HangingPart) -> DepthFrame {
+    part.frame(SensorNoise::none(), &RigidTransform::identity())
 }
 
 #[test]
 fn a_part_is_accepted_once_it_hangs_still_and_no_longer_when_it_moves() {
-    let library = shipped();
+    let library = shipped_library();
     let recipe = Recipe::default();
-    let cell = Cell::with(PartKind::Fender, 3);
+    let part = HangingPart::new(PartKind::Fender, 3);
     let follow = || {
         let mut watch = LiveTracker::new(&LiveParams::default());
         let said = (0..52_u64).map(|number| {
@@ -74,7 +36,7 @@ fn a_part_is_accepted_once_it_hangs_still_and_no_longer_when_it_moves() {
             } else {
                 0.2 / 30.0 * (number - 39) as f64
             };
-            let scene = watch.look(cell.scene(number, x), FRAME * number as u32);
+            let scene = watch.look(scene(&part, number, x), FRAME * number as u32);
             // Every frame is looked at, not every one can be inspected in time.
             if number % 4 != 0 && number < 40 {
                 return None;
@@ -111,9 +73,9 @@ fn a_part_is_accepted_once_it_hangs_still_and_no_longer_when_it_moves() {
 
 #[test]
 fn the_field_of_view_that_earlier_frames_showed_is_known_of_a_part_alone() {
-    let cell = Cell::with(PartKind::FrontDoor, 4);
+    let part = HangingPart::new(PartKind::FrontDoor, 4);
     let within = |margins: [usize; 2]| {
-        let mut frame = cell.depth(SensorNoise::none(), &aside(0.0));
+        let mut frame = truth(&part);
         let [width, height] = [frame.intrinsics.width, frame.intrinsics.height];
         for (i, depth) in frame.depth.iter_mut().enumerate() {
             let (u, v) = (i % width, i / width);
@@ -137,9 +99,9 @@ fn the_field_of_view_that_earlier_frames_showed_is_known_of_a_part_alone() {
 
 #[test]
 fn an_averaged_depth_is_nearer_to_the_truth_and_has_nothing_between_surfaces() {
-    let cell = Cell::with(PartKind::FrontDoor, 4);
-    let truth = cell.depth(SensorNoise::none(), &aside(0.0));
-    let errors = |num: usize| depth_errors(&cell, &truth, num);
+    let part = HangingPart::new(PartKind::FrontDoor, 4);
+    let truth = truth(&part);
+    let errors = |num: usize| depth_errors(&part, &truth, num);
     let [one, four, sixteen] = [1, 4, 16].map(errors);
     // Independent errors fall with the root of their number; half of that is kept in hand.
     assert!(four.rms < 0.62 * one.rms, "{four:?} of {one:?}");
@@ -160,10 +122,10 @@ fn an_averaged_depth_is_nearer_to_the_truth_and_has_nothing_between_surfaces() {
 #[ignore = "a table"]
 fn table_of_averages() {
     for kind in [PartKind::FrontDoor, PartKind::Grille] {
-        let cell = Cell::with(kind, 4);
-        let truth = cell.depth(SensorNoise::none(), &aside(0.0));
+        let part = HangingPart::new(kind, 4);
+        let truth = truth(&part);
         for num in [1, 2, 4, 8, 16] {
-            println!("{kind} {num:>2} {:?}", depth_errors(&cell, &truth, num));
+            println!("{kind} {num:>2} {:?}", depth_errors(&part, &truth, num));
         }
     }
 }
@@ -178,11 +140,11 @@ struct DepthErrors {
     share_read: f64,
 }
 
-fn depth_errors(cell: &Cell, truth: &DepthFrame, num_frames: usize) -> DepthErrors {
+fn depth_errors(part: &HangingPart, truth: &DepthFrame, num_frames: usize) -> DepthErrors {
     /// Further off than this a reading is not on its surface, metres at 1 m.
     const OFF: f64 = 0.012;
     let mut average = DepthAverage::over(num_frames);
-    (0..num_frames as u64).for_each(|number| average.add(&cell.scene(number, 0.0)));
+    (0..num_frames as u64).for_each(|number| average.add(&scene(part, number, 0.0)));
     let mean = average.mean().expect("frames");
     let (mut sum_sq, mut num_on, mut num_off) = (0.0, 0.0, 0.0_f64);
     for (p, units) in mean.cloud.points.iter().zip(&truth.depth) {

@@ -16,8 +16,7 @@ use serde::Serialize;
 
 use super::line::{TimingsLine, status_of};
 use crate::{
-    error::Advice,
-    pipeline::{Inspection, Recipe, Verdict},
+    pipeline::{Inspection, Recipe},
     robot::{Convention, RobotFrame},
     stages::{
         pose::PoseEstimate,
@@ -255,43 +254,21 @@ impl PoseReport {
 impl VerdictBlock {
     fn of(inspection: &Inspection, recipe: &Recipe) -> Self {
         let verdict = &inspection.verdict;
-        let block = Self {
+        let guess = verdict.guess().map(str::to_owned);
+        let is_unknown = verdict.is_unknown();
+        let (reason, advice) = verdict.complaint().map(<(_, _)>::from).unzip();
+        Self {
             status: status_of(verdict),
-            part: None,
-            nearest: None,
+            part: guess.clone().filter(|_| !is_unknown),
+            nearest: guess.filter(|_| is_unknown),
             accepted: verdict.is_accepted(),
-            score: None,
+            score: verdict.score().map(|[score, _]| score),
             threshold: recipe.accept.min_score,
-            margin: None,
-            reason: None,
-            advice: None,
+            margin: verdict.score().map(|[_, margin]| margin),
+            reason,
+            advice,
             approximate: verdict.is_approximate(),
             touches_edge: inspection.touches_edge(),
-        };
-        match verdict {
-            Verdict::Part {
-                part,
-                score,
-                margin,
-                rejected,
-                ..
-            } => {
-                let is_unknown = verdict.is_unknown();
-                Self {
-                    part: Some(part.clone()).filter(|_| !is_unknown),
-                    nearest: Some(part.clone()).filter(|_| is_unknown),
-                    score: Some(*score),
-                    margin: Some(*margin),
-                    reason: rejected.as_ref().map(ToString::to_string),
-                    advice: rejected.as_ref().map(Advice::advice),
-                    ..block
-                }
-            }
-            Verdict::NoPart(reason) => Self {
-                reason: Some(reason.to_string()),
-                advice: Some(reason.advice()),
-                ..block
-            },
         }
     }
 }

@@ -3,20 +3,17 @@ use std::sync::OnceLock;
 use super::*;
 use crate::{
     geometry::rigid::{RigidTransform, from_euler_zyx},
-    library::{LibraryFolder, LibraryLoad},
+    kit::{scene_of, shipped_library},
+    library::Library,
     pipeline::{Unwatched, run},
     report::{Picture, stage_pictures},
-    simulate::{CellSetup, PartKind, Side, SimulatedObject, frame},
-    stages::{
-        reference::{Reference, ReferenceParams},
-        scene::{SceneCloud, scene_from_frame},
-        stand_off::stand_off,
-    },
+    simulate::{CellSetup, PartKind, Side, SimulatedObject},
+    stages::{reference::Reference, scene::SceneCloud, stand_off::stand_off},
 };
 
 /// An inspected scene with all that a report is made from.
 pub(super) struct Inspected {
-    load: LibraryLoad,
+    library: Library,
     scene: SceneCloud,
     pub(super) inspection: Inspection,
     recipe: Recipe,
@@ -25,18 +22,17 @@ pub(super) struct Inspected {
 
 impl Inspected {
     fn of(setup: &CellSetup) -> Self {
-        let folder = LibraryFolder::open("reference_parts".as_ref()).expect("the shipped parts");
-        let load = folder.load(&ReferenceParams::default()).expect("loads");
-        let scene = scene_from_frame(&frame(setup).frame);
+        let library = shipped_library();
+        let scene = scene_of(setup);
         let recipe = Recipe::default();
-        let inspection = run(&scene, &load.library, &recipe, &Unwatched).expect("run");
-        let best = inspection.best_reference(&load.library);
+        let inspection = run(&scene, &library, &recipe, &Unwatched).expect("run");
+        let best = inspection.best_reference(&library);
         let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
         let stand_off = best.zip(pose).map(|(reference, pose)| {
             stand_off(reference, &pose.camera_from_part(), &recipe.stand_off)
         });
         Self {
-            load,
+            library,
             scene,
             inspection,
             recipe,
@@ -49,7 +45,7 @@ impl Inspected {
     }
 
     pub(super) fn report(&self, robot: Option<&RobotFrame>, convention: Convention) -> PoseReport {
-        let best = self.inspection.best_reference(&self.load.library);
+        let best = self.inspection.best_reference(&self.library);
         PoseReport::of(&ReportSubject {
             inspected_at: "2026-03-04T05:06:07.25Z".parse().expect("a time"),
             scene: "shift 2/door, left.pcd",
@@ -60,7 +56,7 @@ impl Inspected {
             stand_off: self.stand_off.as_ref(),
             recipe: &self.recipe,
             library_identity: "01234567",
-            num_references: self.load.library.references.len(),
+            num_references: self.library.references.len(),
             robot,
             convention,
         })

@@ -11,7 +11,7 @@ use serde::Deserialize;
 
 use super::{CalibrationError, CameraPlace, CellCalibration, Origin, numbers_text};
 use crate::{
-    files::{FileError, crc32, read_text, write_atomically},
+    files::{FileError, crc32, read_text, user_folders, write_atomically},
     geometry::rigid::{from_row_major, row_major},
     robot::hand_eye::Mount,
 };
@@ -253,7 +253,6 @@ fn parse(text: &str, path: &Path) -> Result<Loaded, CalibrationError> {
 
 /// Where the cell's calibration is when none is named: `cell.toml` in the user's data folder.
 pub fn default_path() -> Result<PathBuf, CalibrationError> {
-    let folders = directories::ProjectDirs::from("", "", "partsight");
-    let folders = folders.ok_or(CalibrationError::NoUserFolder)?;
+    let folders = user_folders().ok_or(CalibrationError::NoUserFolder)?;
     Ok(folders.data_dir().join("cell.toml"))
 }

@@ -32,6 +32,7 @@
 
 mod closed_form;
 mod doubt;
+mod mistake;
 mod refine;
 mod span;
 mod suspects;
@@ -47,10 +48,7 @@ use crate::{
     units::{Metres, Radians},
 };
 
-pub use self::{
-    doubt::{HandEyeDoubt, LikelyMistake},
-    span::Span,
-};
+pub use self::{doubt::HandEyeDoubt, mistake::LikelyMistake, span::Span};
 
 /// What the camera is fixed to.
 #[derive(Clone, Copy, Debug, PartialEq, Eq, Serialize, Deserialize)]

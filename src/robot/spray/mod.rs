@@ -122,11 +122,6 @@ impl CarriedPath {
             .filter(|point| point.band == band)
             .count()
     }
-
-    /// True if every point is inside.
-    pub fn keeps_the_band(&self) -> bool {
-        self.num_inside() == self.points.len()
-    }
 }
 
 /// The path over a part that hangs at this pose; `seen` is what the camera saw of the part, camera space.

@@ -158,12 +158,12 @@ impl<'a> PartMask<'a> {
 mod tests {
     use super::*;
     use crate::{
-        simulate::{CellSetup, Clutter, PartKind, PoseRange, Side, frame},
+        kit::scene_of,
+        simulate::{CellSetup, Clutter, PartKind, PoseRange, Side},
         stages::{
             contour::{ContourParams, find_contour},
             project::{ProjectParams, project},
             rank::Query,
-            scene::scene_from_frame,
             segment::{SegmentParams, segment},
             signature::{SignatureParams, describe},
         },
@@ -176,7 +176,7 @@ mod tests {
             ..PoseRange::facing()
         });
         setup.clutter = clutter;
-        let scene = scene_from_frame(&frame(&setup).frame);
+        let scene = scene_of(&setup);
         let part = segment(&scene, &SegmentParams::default()).part;
         let part = part.expect("a part");
         let plane = project(&part, &ProjectParams::default()).expect("a plane");

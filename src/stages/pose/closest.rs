@@ -124,19 +124,16 @@ mod tests {
     use super::*;
     use crate::{
         geometry::{cloud::PointCloud, nearest_field::NearestField},
+        kit::any_point,
         stages::pose::edge_points::EdgePoints,
     };
-
-    fn point() -> impl Strategy<Value = Point3<f32>> {
-        prop::array::uniform3(-1.0_f32..1.0).prop_map(Point3::from)
-    }
 
     proptest! {
         #[test]
         fn a_followed_point_has_the_closest_of_a_search_at_every_step(
-            points in prop::collection::vec(point(), 1..60),
-            start in point(),
-            steps in prop::collection::vec(point(), 1..20),
+            points in prop::collection::vec(any_point(), 1..60),
+            start in any_point(),
+            steps in prop::collection::vec(any_point(), 1..20),
             reach in 0.1_f32..2.0,
         ) {
             let cloud = PointCloud::from_points(points);

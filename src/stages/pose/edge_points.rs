@@ -205,10 +205,7 @@ mod tests {
     use proptest::prelude::*;
 
     use super::*;
-
-    fn point() -> impl Strategy<Value = Point3<f32>> {
-        prop::array::uniform3(-1.0_f32..1.0).prop_map(Point3::from)
-    }
+    use crate::kit::any_point;
 
     #[test]
     fn an_outline_runs_along_its_neighbours_and_ends_at_a_gap() {
@@ -263,8 +260,8 @@ mod tests {
     proptest! {
         #[test]
         fn the_closest_edge_point_is_that_of_a_plain_search(
-            points in prop::collection::vec(point(), 0..50),
-            at in point(),
+            points in prop::collection::vec(any_point(), 0..50),
+            at in any_point(),
         ) {
             let slow = points.iter().map(|p| (p - at).norm_squared()).filter(|d| *d < 1.0).min_by(f32::total_cmp);
             let found = EdgePoints::new(&points, 1000).closest(&at, 1.0).map(|c| c.1);

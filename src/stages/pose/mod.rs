@@ -14,7 +14,6 @@ pub mod genetic;
 mod global;
 pub mod icp;
 pub mod icp_ga;
-mod locate;
 mod prepared;
 pub mod quality;
 pub mod refine;
@@ -26,7 +25,6 @@ use crate::{geometry::rigid::RigidTransform, units::Metres};
 
 pub use self::{
     align::{AlignParams, align, align_to, align_with},
-    locate::locate,
     prepared::PreparedTarget,
     quality::{FitQuality, VisibilityShares},
     uncertainty::{Axis, FreeMotion, Uncertainty},

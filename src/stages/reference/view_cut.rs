@@ -115,18 +115,16 @@ mod tests {
     use super::*;
     use crate::{
         geometry::rigid::RigidTransform,
-        simulate::{CellSetup, PartKind, PartPose, Side, frame},
-        stages::{
-            scene::scene_from_frame,
-            segment::{SegmentParams, segment},
-        },
+        kit::scene_of,
+        simulate::{CellSetup, PartKind, PartPose, Side},
+        stages::segment::{SegmentParams, segment},
     };
 
     /// A front door hung so far to the right and down.
     fn door_at(right: f64, down: f64) -> (ViewCut, SegmentedPart) {
         let mut setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 0, 3);
         setup.pose = PartPose::Fixed(RigidTransform::translation(right, down, 1.3));
-        let scene = scene_from_frame(&frame(&setup).frame);
+        let scene = scene_of(&setup);
         let part = segment(&scene, &SegmentParams::default()).part;
         let part = part.expect("a part");
         (ViewCut::of(&part, &scene), part)

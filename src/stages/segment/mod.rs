@@ -9,7 +9,7 @@
 //!   that lie inside it and in front of others. Bars of a stand that touch it are taken off it.
 //!
 //! The noise is measured on the picture before a plane is known, so that a wall is found at any noise. A capture of the
-//! [`EmptyCell`] fixes wall, floor and whatever else always stands there.
+//! [`EmptyCell`](super::scene::EmptyCell) fixes wall, floor and whatever else always stands there.
 //!
 //! Known limits: whatever touches the part, was not there in the empty cell and is no bar joins it.
 
@@ -25,7 +25,6 @@ use nalgebra::Point3;
 
 pub use self::{
     clusters::Cluster,
-    empty_cell::{EmptyCell, EmptyCellError},
     noise::noise_of_picture,
     part::{BackgroundSign, SegmentedPart, other_segments, pieces, surfaces, without_bars},
     planes::BackgroundPlane,

@@ -54,8 +54,8 @@ pub fn noise_of_picture(scene: &SceneCloud) -> Option<Metres> {
 mod tests {
     use super::*;
     use crate::{
-        simulate::{CellSetup, Clutter, PartKind, SensorNoise, Side, frame},
-        stages::scene::scene_from_frame,
+        kit::scene_of,
+        simulate::{CellSetup, Clutter, PartKind, SensorNoise, Side},
     };
 
     #[test]
@@ -67,7 +67,7 @@ mod tests {
                 multiplier,
                 seed: 17,
             };
-            let scene = scene_from_frame(&frame(&setup).frame);
+            let scene = scene_of(&setup);
             let found = noise_of_picture(&scene).expect("a picture").mm();
             assert!(
                 (found / expected - 1.0).abs() < 0.25,

@@ -25,7 +25,7 @@ use crate::{
         self, ProgressObserver, Recipe,
         live::{FrameRole, HungFrame, LiveParams, LiveTracker, LiveVerdict, MotionState},
     },
-    stages::segment::EmptyCell,
+    stages::scene::EmptyCell,
 };
 
 /// Which source to follow, and how.
@@ -298,7 +298,6 @@ impl<'a> LiveSession<'a> {
             followed = Some(LiveFrameContext {
                 stillness: watch.stillness(),
                 standing: self.standing.clone(),
-                num_averaged: watch.num_averaged(),
             });
             let frame = HungFrame {
                 scene: &scene,

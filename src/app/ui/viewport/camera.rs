@@ -118,56 +118,56 @@ impl ViewCamera {
     }
 
     /// Turns about the target: `drag` is how far the pointer moved, logical pixels, y down.
-    pub fn orbit(&mut self, drag: Vec2, size: ViewSize) -> bool {
+    pub fn orbit(&mut self, drag: Vec2, size: ViewSize) {
         let turn = drag * (TURN_PER_HEIGHT / size.y.max(1.0));
-        self.turn(turn.x, turn.y)
+        self.turn(turn.x, turn.y);
     }
 
     /// Turns about the target by angles, radians: `right` about up, `down` towards looking from above.
-    pub fn turn(&mut self, right: f32, down: f32) -> bool {
-        self.changed(|camera| {
+    pub fn turn(&mut self, right: f32, down: f32) {
+        self.change(|camera| {
             camera.yaw = (camera.yaw + right + PI).rem_euclid(2.0 * PI) - PI;
             camera.pitch = (camera.pitch + down).clamp(-FRAC_PI_2, FRAC_PI_2);
-        })
+        });
     }
 
     /// Shifts eye and target so that the target plane follows the pointer, which moved by `drag`.
-    pub fn pan(&mut self, drag: Vec2, size: ViewSize) -> bool {
+    pub fn pan(&mut self, drag: Vec2, size: ViewSize) {
         let metres_per_pixel = self.distance / focal(size);
-        self.changed(|camera| {
+        self.change(|camera| {
             camera.target += (camera.up() * drag.y - camera.right() * drag.x) * metres_per_pixel;
-        })
+        });
     }
 
     /// Comes nearer by `factor` (above 1) or backs off (below 1), keeping what is under the cursor where it is.
     ///
     /// The eye moves along the ray through the cursor, so this holds for whatever depth the cursor is over.
-    pub fn zoom_at(&mut self, factor: f32, cursor: Vec2, size: ViewSize) -> bool {
+    pub fn zoom_at(&mut self, factor: f32, cursor: Vec2, size: ViewSize) {
         if !(factor.is_finite() && factor > 0.0) {
-            return false;
+            return;
         }
         let (least, most) = DISTANCE_RANGE;
         let distance = (self.distance / factor).clamp(least, most);
         let shrink = distance / self.distance;
         let on_target_plane = self.eye() + self.ray(cursor, size) * self.distance;
-        self.changed(|camera| {
+        self.change(|camera| {
             camera.target = on_target_plane + (camera.target - on_target_plane) * shrink;
             camera.distance = distance;
-        })
+        });
     }
 
     /// Turns to a standard direction, keeping target and distance.
-    pub fn look(&mut self, view: StandardView) -> bool {
+    pub fn look(&mut self, view: StandardView) {
         let (yaw, pitch) = match view {
             StandardView::Front => (0.0, 0.0),
             StandardView::Top => (0.0, FRAC_PI_2),
             StandardView::Side => (-FRAC_PI_2, 0.0),
         };
-        self.changed(|camera| (camera.yaw, camera.pitch) = (yaw, pitch))
+        (self.yaw, self.pitch) = (yaw, pitch);
     }
 
     /// Moves eye and target, without turning, so that the box just fills the view.
-    pub fn fit(&mut self, bounds: &PointBounds, size: ViewSize) -> bool {
+    pub fn fit(&mut self, bounds: &PointBounds, size: ViewSize) {
         let (right, up, forward) = (self.right(), self.up(), self.forward());
         let half = size / (2.0 * focal(size)) * (1.0 - FIT_MARGIN);
         let centre = bounds.centre();
@@ -179,11 +179,11 @@ impl ViewCamera {
         });
         let (least, most) = DISTANCE_RANGE;
         let distance = needed.fold(least, f32::max).min(most);
-        self.changed(|camera| {
+        self.change(|camera| {
             camera.target = centre;
             camera.distance = distance;
             camera.pending_fit = None;
-        })
+        });
     }
 
     /// Asks for a fit by the next view shown: the caller need not know its size.
@@ -224,13 +224,13 @@ impl ViewCamera {
         self.forward() + self.right() * seen.x - self.up() * seen.y
     }
 
-    fn changed(&mut self, apply: impl FnOnce(&mut Self)) -> bool {
+    /// Leaves the camera as it was where the change would put it nowhere.
+    fn change(&mut self, apply: impl FnOnce(&mut Self)) {
         let before = *self;
         apply(self);
         if !(self.target.is_finite() && self.distance.is_finite()) {
             *self = before;
         }
-        *self != before
     }
 }
 

@@ -3,7 +3,7 @@
 use std::{
     collections::HashMap,
     sync::{
-        Arc, Mutex, MutexGuard, PoisonError, Weak,
+        Arc, Mutex, Weak,
         atomic::{AtomicU64, Ordering},
     },
 };
@@ -20,7 +20,7 @@ use super::{
     style::Colouring,
     targets::{self, TargetLayouts},
 };
-use crate::error::Advice;
+use crate::error::{Advice, lock};
 
 /// Why a view cannot be drawn.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
@@ -230,9 +230,4 @@ fn held<T>(all: &Mutex<HashMap<u64, Weak<T>>>, number: u64, make: impl FnOnce() 
     let made = Arc::new(make());
     all.insert(number, Arc::downgrade(&made));
     made
-}
-
-/// A thread that panicked while holding the lock leaves a value as good as any other here.
-pub(super) fn lock<T>(mutex: &Mutex<T>) -> MutexGuard<'_, T> {
-    mutex.lock().unwrap_or_else(PoisonError::into_inner)
 }

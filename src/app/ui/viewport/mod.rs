@@ -6,7 +6,7 @@
 //! ViewCamera  from where                                     camera             (pure; share it to link views)
 //!     │
 //!     ▼
-//! Viewport::ui ─► ViewportResponse: moved, picked, measured  widget, navigation, picking, measure, legend
+//! Viewport::ui ─► ViewportResponse: picked                    widget, navigation, picking, measure, legend
 //!     │
 //!     ▼
 //! points ─► eye dome ─► lines ─► picture ─► window           renderer and one file a pass, each with its .wgsl

@@ -17,27 +17,25 @@ const ZOOM_PER_PRESS: f32 = 1.2;
 /// Zoom per logical pixel that the wheel scrolls, as a power of e: one notch of about 50 is a factor 1.28.
 const ZOOM_PER_SCROLL: f32 = 0.005;
 
-/// Does the fit that the camera was asked for, once there is something to fit to; true if it moved.
-pub(super) fn fit_if_pending(camera: &mut ViewCamera, scene: &ViewScene, size: ViewSize) -> bool {
+/// Does the fit that the camera was asked for, once there is something to fit to.
+pub(super) fn fit_if_pending(camera: &mut ViewCamera, scene: &ViewScene, size: ViewSize) {
     let bounds = match camera.pending_fit() {
         Some(FitRequest::Focus) => scene.focus(),
         Some(FitRequest::Everything) => scene.bounds(),
         None => None,
     };
-    bounds.is_some_and(|bounds| camera.fit(&bounds, size))
+    if let Some(bounds) = bounds {
+        camera.fit(&bounds, size);
+    }
 }
 
-/// Moves the camera by what happened over the view since the last frame; true if it moved.
-pub(super) fn navigate(
-    ui: &Ui,
-    response: &Response,
-    camera: &mut ViewCamera,
-    size: ViewSize,
-) -> bool {
-    let by_pointer = drag(ui, response, camera, size);
-    let by_wheel = zoom(ui, response, camera, size);
-    let by_keys = is_listening(ui, response) && keys(ui, response, camera, size);
-    by_pointer || by_wheel || by_keys
+/// Moves the camera by what happened over the view since the last frame.
+pub(super) fn navigate(ui: &Ui, response: &Response, camera: &mut ViewCamera, size: ViewSize) {
+    drag(ui, response, camera, size);
+    zoom(ui, response, camera, size);
+    if is_listening(ui, response) {
+        keys(ui, response, camera, size);
+    }
 }
 
 /// A view hears keys while it has the focus, or while nothing has it and the pointer is over the view.
@@ -46,28 +44,26 @@ pub(super) fn is_listening(ui: &Ui, response: &Response) -> bool {
         || (response.contains_pointer() && ui.memory(egui::Memory::focused).is_none())
 }
 
-fn drag(ui: &Ui, response: &Response, camera: &mut ViewCamera, size: ViewSize) -> bool {
+fn drag(ui: &Ui, response: &Response, camera: &mut ViewCamera, size: ViewSize) {
     let moved = vec2(response.drag_delta());
     // Two fingers pan with the pinch in `zoom`.
     if ui.input(egui::InputState::multi_touch).is_some() {
-        return false;
+        return;
     }
     let shift = ui.input(|input| input.modifiers.shift);
     if response.dragged_by(PointerButton::Primary) && !shift {
-        camera.orbit(moved, size)
+        camera.orbit(moved, size);
     } else if response.dragged() {
-        camera.pan(moved, size)
-    } else {
-        false
+        camera.pan(moved, size);
     }
 }
 
-fn zoom(ui: &Ui, response: &Response, camera: &mut ViewCamera, size: ViewSize) -> bool {
+fn zoom(ui: &Ui, response: &Response, camera: &mut ViewCamera, size: ViewSize) {
     if !response.contains_pointer() {
-        return false;
+        return;
     }
     let Some(cursor) = response.hover_pos() else {
-        return false;
+        return;
     };
     let (scroll, pinch, fingers) = ui.input(|input| {
         let fingers = input
@@ -76,11 +72,11 @@ fn zoom(ui: &Ui, response: &Response, camera: &mut ViewCamera, size: ViewSize) -
         (input.smooth_scroll_delta().y, input.zoom_delta(), fingers)
     });
     let factor = pinch * (scroll * ZOOM_PER_SCROLL).exp();
-    let zoomed = camera.zoom_at(factor, vec2(cursor - response.rect.min), size);
-    camera.pan(vec2(fingers), size) || zoomed
+    camera.zoom_at(factor, vec2(cursor - response.rect.min), size);
+    camera.pan(vec2(fingers), size);
 }
 
-fn keys(ui: &Ui, response: &Response, camera: &mut ViewCamera, size: ViewSize) -> bool {
+fn keys(ui: &Ui, response: &Response, camera: &mut ViewCamera, size: ViewSize) {
     if response.has_focus() {
         // The arrows are ours; Tab still leaves the view.
         let arrows = EventFilter {
@@ -99,7 +95,6 @@ fn keys(ui: &Ui, response: &Response, camera: &mut ViewCamera, size: ViewSize) -
             presses(modifiers, Key::ArrowDown) - presses(modifiers, Key::ArrowUp),
         )
     };
-    let before = *camera;
     let pan = arrows(Modifiers::SHIFT) * PAN_PER_PRESS;
     let turn = arrows(Modifiers::NONE) * TURN_PER_PRESS;
     camera.pan(pan, size);
@@ -123,7 +118,6 @@ fn keys(ui: &Ui, response: &Response, camera: &mut ViewCamera, size: ViewSize) -
     if presses(Modifiers::SHIFT, Key::F) > 0.0 {
         camera.request_fit(FitRequest::Everything);
     }
-    *camera != before
 }
 
 /// egui's vector as glam's.

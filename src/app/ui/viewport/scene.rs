@@ -108,13 +108,6 @@ impl PointSet {
         }
     }
 
-    /// Stands the set elsewhere.
-    #[must_use]
-    pub fn at(mut self, world_from_set: &RigidTransform) -> Self {
-        self.world_from_set = mat4(world_from_set);
-        self
-    }
-
     /// Colours the set in its own way, whatever the view's colouring.
     #[must_use]
     pub fn coloured(mut self, colouring: Colouring) -> Self {

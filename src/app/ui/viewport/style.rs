@@ -80,29 +80,6 @@ impl Role {
             PointLabel::Background(_) => Self::Plane3,
         }
     }
-
-    /// What a person calls it.
-    pub fn title(self) -> &'static str {
-        match self {
-            Self::Rest => "Rest",
-            Self::Part => "Part",
-            Self::Plane0 => "Background 1",
-            Self::Plane1 => "Background 2",
-            Self::Plane2 => "Background 3",
-            Self::Plane3 => "Background 4",
-            Self::Reference => "Reference",
-            Self::Moving => "Moving cloud",
-            Self::AxisX => "x",
-            Self::AxisY => "y",
-            Self::AxisZ => "z",
-            Self::Frustum => "Depth camera",
-            Self::Contour => "Contour",
-            Self::Nozzle => "Nozzle",
-            Self::Measure => "Distance",
-            Self::Unseen => "Not seen",
-            Self::SeenOnce => "Seen by one shot alone",
-        }
-    }
 }
 
 /// What decides the colour of a point. Changing it uploads nothing.

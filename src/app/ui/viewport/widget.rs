@@ -14,7 +14,7 @@ use egui::{
 use super::{
     camera::ViewCamera,
     detail::{MovingDetail, NextRepaint, pixel_side},
-    gpu::{ViewError, ViewportGpu, lock},
+    gpu::{ViewError, ViewportGpu},
     legend,
     measure::{self, Anchor, Measurement},
     navigation::{self, vec2},
@@ -24,7 +24,7 @@ use super::{
     screenshot::ViewShot,
     style::ViewStyle,
 };
-use crate::{error::Advice, units::Metres};
+use crate::error::{Advice, lock};
 
 /// What a click on the view does.
 #[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
@@ -56,12 +56,8 @@ pub struct Viewport {
 pub struct ViewportResponse {
     /// egui's own, for focus, hover and context menus.
     pub response: Response,
-    /// The camera was moved.
-    pub changed: bool,
     /// A point was clicked.
     pub picked: Option<PickedPoint>,
-    /// The distance between the two points measured, as long as they stand.
-    pub measured: Option<Metres>,
 }
 
 impl Viewport {
@@ -96,8 +92,8 @@ impl Viewport {
             response.request_focus();
         }
 
-        let moved = navigation::navigate(ui, &response, camera, size);
-        let fitted = navigation::fit_if_pending(camera, scene, size);
+        navigation::navigate(ui, &response, camera, size);
+        navigation::fit_if_pending(camera, scene, size);
         self.tool_keys(ui, &response);
         let picked = self.click(&response, camera, scene, style);
 
@@ -121,12 +117,7 @@ impl Viewport {
         if self.tool == ViewTool::Measure && response.hovered() {
             ui.set_cursor_icon(CursorIcon::Crosshair);
         }
-        ViewportResponse {
-            response,
-            changed: moved || fitted,
-            picked,
-            measured: self.measure.distance(),
-        }
+        ViewportResponse { response, picked }
     }
 
     /// How often the picture was drawn anew since the view was made: it stands still while nothing changes.

@@ -70,8 +70,6 @@ pub struct Overlay {
     pub turn: f64,
     /// Root mean square distance between the samples, metres.
     pub distance: f64,
-    /// Shared area over joint area of the two images.
-    pub overlap: Option<f64>,
 }
 
 /// A signature's curve of the scene and of the part.
@@ -173,7 +171,6 @@ impl Overlay {
             num_rays,
             turn: placement.turn.0 - circles * std::f64::consts::TAU,
             distance: placement.outline_distance.0,
-            overlap: placement.overlap,
         }
     }
 }

@@ -5,10 +5,7 @@ use std::sync::Arc;
 use super::comparison::OutlineComparison;
 use crate::{
     app::{
-        inspection::{
-            library_cache::{LibraryCache, LibraryView},
-            unit_system::UnitSystem,
-        },
+        inspection::{library_cache::LibraryCache, unit_system::UnitSystem},
         task::TaskError,
         user_error::UserError,
     },
@@ -93,8 +90,6 @@ pub struct CaseStudy {
     pub against: Option<String>,
     /// The figures; without an outline there are none.
     pub comparison: Option<OutlineComparison>,
-    /// The library.
-    pub library: Arc<LibraryView>,
 }
 
 /// How far a part is off, for both matchers.
@@ -166,7 +161,6 @@ pub fn study(
         comparison: None,
         found,
         against,
-        library: Arc::clone(shown),
     };
     let Some(query) = query_of(&inspection) else {
         return Ok(study);
@@ -359,6 +353,7 @@ mod tests {
     use super::*;
     use crate::{
         app::inspection::source::{CellChoice, SceneSource},
+        kit::shipped_library,
         pipeline::Unwatched,
         simulate::{PartKind, Side},
     };
@@ -392,7 +387,7 @@ mod tests {
         let best = studied(&request);
         assert_eq!(best.found.part.as_deref(), Some("fender"));
         assert_eq!(best.against.as_deref(), Some("fender"));
-        assert_eq!(best.distances.len(), best.library.parts.len());
+        assert_eq!(best.distances.len(), shipped_library().references.len());
         let comparison = best.comparison.as_ref().expect("an outline");
         let overlay = comparison.overlay.as_ref().expect("placed");
         let fender = best.distances.iter().find(|d| d.part == "fender");

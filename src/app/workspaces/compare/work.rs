@@ -19,6 +19,7 @@ use crate::{
         Calibration, CaseDescription, CaseError, CaseFolder, CaseJudge, CaseResult, Changes,
         Confusion, EarlierRun, KeptCase, RecordError, TradeOff,
     },
+    files::file_name,
     pipeline::Recipe,
     stages::{rank::Matcher, scene::SceneCloud},
 };
@@ -100,8 +101,6 @@ pub struct RunChanges {
 /// What came out of all kept cases.
 #[derive(Debug)]
 pub struct CaseRun {
-    /// The folder.
-    pub folder: CaseFolder,
     /// The recipe.
     pub recipe: Arc<Recipe>,
     /// One result per case that could be read.
@@ -159,9 +158,8 @@ fn measure_scaling(context: &TaskContext<CompareResult>) -> Result<CompareResult
 
 fn changes(path: &Path, run: &CaseRun) -> Result<RunChanges, RecordError> {
     let earlier = EarlierRun::read(path)?;
-    let file = path.file_name().unwrap_or(path.as_os_str());
     Ok(RunChanges {
-        file: file.to_string_lossy().into_owned(),
+        file: file_name(path),
         changes: Changes::between(&earlier, &run.results),
     })
 }
@@ -207,7 +205,6 @@ fn run_cases(
     let so_far = |results: &[CaseResult], troubles: &[UserError], ended| {
         let confusion = Confusion::of(results, &order);
         Arc::new(CaseRun {
-            folder: folder.clone(),
             recipe: Arc::clone(recipe),
             matrix: Matrix::of(confusion, &shelved.shown),
             calibration: Calibration::of(results),

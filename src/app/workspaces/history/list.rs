@@ -1,6 +1,6 @@
 //! The list of past inspections: however many there are, only the rows in sight are fetched and drawn.
 
-use egui::{Align2, Painter, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
+use egui::{Align2, Color32, FontId, Painter, Rect, RichText, ScrollArea, Sense, Ui, pos2, vec2};
 use jiff::{Timestamp, tz::TimeZone};
 
 use super::{HistoryAction, HistoryState, bar};
@@ -51,8 +51,8 @@ impl List {
             );
         }
         ui.add_space(space::SMALL);
-        let columns = Columns::across(ui.available_width());
-        head(ui, &columns, theme);
+        let layout = Layout::across(ui.available_width());
+        head(ui, &layout, theme);
         let num_rows = history.num_matching();
         if num_rows == 0 {
             ui.add_space(space::LARGE);
@@ -73,7 +73,7 @@ impl List {
             seen = visible.clone();
             for place in visible {
                 match history.row(place) {
-                    Some(past) => row(ui, past, listed, &columns, theme, actions),
+                    Some(past) => row(ui, past, listed, &layout, theme, actions),
                     None => {
                         ui.allocate_exact_size(vec2(ui.available_width(), ROW), Sense::hover());
                     }
@@ -111,56 +111,151 @@ fn see(history: &HistoryState, rows: std::ops::Range<usize>, actions: &mut Vec<H
     }
 }
 
-/// Where the columns lie, from the left edge of the list.
-struct Columns {
-    /// There is no room for a whole moment.
-    is_narrow: bool,
-    part: f32,
-    scene: f32,
-    /// Right edges.
-    score: f32,
-    time: f32,
-    when: f32,
+/// How much room the list has across.
+#[derive(Clone, Copy, PartialEq, Eq)]
+enum Room {
+    Wide,
+    Narrow,
 }
 
-impl Columns {
+/// A column of the list.
+struct Column {
+    name: &'static str,
+    width: Width,
+    text: fn(&Summary, Room) -> String,
+    look: fn(&Theme) -> (FontId, Color32),
+}
+
+/// How wide a column is.
+enum Width {
+    /// A share of what the others leave; the text begins on the left and is cut off on the right.
+    Share(f32),
+    /// Logical pixels, with much room and with little; the text ends on the right.
+    Pixels([f32; 2]),
+}
+
+/// Beside the columns: for the mark on the left, and on the right.
+const MARGINS: [f32; 2] = [40.0, 14.0];
+
+/// The columns from left to right.
+const COLUMNS: [Column; 5] = [
+    Column {
+        name: "Part",
+        width: Width::Share(0.58),
+        text: |past, _| match past.num_below {
+            0 => past.title.clone(),
+            num => format!("{} · again {num}×", past.title),
+        },
+        look: |theme| (font::body_strong(), theme.text),
+    },
+    Column {
+        name: "Scene",
+        width: Width::Share(0.42),
+        // What a person said of it is what others look for first.
+        text: |past, _| match past.remark.as_str() {
+            "" => past.scene.clone(),
+            remark => format!("{remark} · {}", past.scene),
+        },
+        look: |theme| (font::body(), theme.weak_text),
+    },
+    Column {
+        name: "Score",
+        width: Width::Pixels([60.0; 2]),
+        text: |past, _| {
+            let score = past.score.map(|[score, _]| format!("{score:.2}"));
+            score.unwrap_or_default()
+        },
+        look: |theme| (font::body(), theme.text),
+    },
+    Column {
+        name: "ms",
+        width: Width::Pixels([70.0, 52.0]),
+        text: |past, _| format!("{:.0}", past.total_ms),
+        look: |theme| (font::body(), theme.weak_text),
+    },
+    Column {
+        name: "Time",
+        width: Width::Pixels([170.0, 96.0]),
+        text: |past, room| match room {
+            Room::Wide => when(past.at),
+            Room::Narrow => shortly(past.at),
+        },
+        look: |theme| (font::body(), theme.weak_text),
+    },
+];
+
+/// Where the columns begin and end, from the left edge of the list.
+struct Layout {
+    room: Room,
+    spans: [[f32; 2]; COLUMNS.len()],
+}
+
+impl Layout {
     fn across(width: f32) -> Self {
-        let when = width - 14.0;
-        let is_narrow = width < NARROW;
-        let time = when - if is_narrow { 96.0 } else { 170.0 };
-        let score = time - if is_narrow { 52.0 } else { 70.0 };
-        let part = 40.0;
-        Self {
-            is_narrow,
-            part,
-            scene: part + (score - 60.0 - part) * 0.58,
-            score,
-            time,
-            when,
-        }
+        let room = if width < NARROW {
+            Room::Narrow
+        } else {
+            Room::Wide
+        };
+        let pixels = |column: &Column| match column.width {
+            Width::Share(_) => 0.0,
+            Width::Pixels(pixels) => pixels[usize::from(room == Room::Narrow)],
+        };
+        let [mut from, right] = MARGINS;
+        let free = width - from - right - COLUMNS.iter().map(pixels).sum::<f32>();
+        let spans = COLUMNS.each_ref().map(|column| {
+            let begin = from;
+            from += match column.width {
+                Width::Share(share) => share * free,
+                Width::Pixels(_) => pixels(column),
+            };
+            [begin, from]
+        });
+        Self { room, spans }
+    }
+
+    fn columns(&self) -> impl Iterator<Item = (&'static Column, [f32; 2])> {
+        COLUMNS.iter().zip(self.spans)
     }
 }
 
-fn head(ui: &mut Ui, columns: &Columns, theme: &Theme) {
+impl Column {
+    /// Writes a text where the column lies in a row.
+    fn write(
+        &self,
+        painter: &Painter,
+        row: Rect,
+        [from, to]: [f32; 2],
+        text: &str,
+        (font, colour): (FontId, Color32),
+    ) {
+        let [from, to] = [from, to].map(|x| row.left() + x);
+        let y = row.center().y;
+        match self.width {
+            Width::Share(_) => {
+                let span = Rect::from_x_y_ranges(from..=to - space::SMALL, row.y_range());
+                let painter = painter.with_clip_rect(span.intersect(painter.clip_rect()));
+                painter.text(pos2(from, y), Align2::LEFT_CENTER, text, font, colour)
+            }
+            Width::Pixels(_) => painter.text(pos2(to, y), Align2::RIGHT_CENTER, text, font, colour),
+        };
+    }
+}
+
+fn head(ui: &mut Ui, layout: &Layout, theme: &Theme) {
     let size = vec2(ui.available_width(), 22.0);
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
-    let painter = ui.painter();
-    let text = |x: f32, anchor: Align2, text: &str| {
-        let at = pos2(rect.left() + x, rect.center().y);
-        painter.text(at, anchor, text, font::heading(), theme.weak_text);
-    };
-    text(columns.part, Align2::LEFT_CENTER, "Part");
-    text(columns.scene, Align2::LEFT_CENTER, "Scene");
-    text(columns.score, Align2::RIGHT_CENTER, "Score");
-    text(columns.time, Align2::RIGHT_CENTER, "ms");
-    text(columns.when, Align2::RIGHT_CENTER, "Time");
+    for (column, span) in layout.columns() {
+        let look = (font::heading(), theme.weak_text);
+        column.write(ui.painter(), rect, span, column.name, look);
+    }
 }
 
 fn row(
     ui: &mut Ui,
     past: &Summary,
     selected: Option<i64>,
-    columns: &Columns,
+    layout: &Layout,
     theme: &Theme,
     actions: &mut Vec<HistoryAction>,
 ) {
@@ -185,7 +280,7 @@ fn row(
         if is_selected || response.hovered() {
             painter.rect_filled(rect, ROUNDING, theme.control);
         }
-        paint(painter, rect, past, columns, theme);
+        paint(painter, rect, past, layout, theme);
         focus_ring(ui, rect, &response, theme);
     }
     if response.clicked() {
@@ -196,75 +291,20 @@ fn row(
     }
 }
 
-fn paint(painter: &Painter, rect: Rect, past: &Summary, columns: &Columns, theme: &Theme) {
-    let y = rect.center().y;
-    // What a person said of it is what others look for first.
-    let scene = if past.remark.is_empty() {
-        past.scene.clone()
-    } else {
-        format!("{} · {}", past.remark, past.scene)
-    };
+fn paint(painter: &Painter, rect: Rect, past: &Summary, layout: &Layout, theme: &Theme) {
     let sign = match past.verdict {
         StoredVerdict::Accepted => Mark::Good,
         StoredVerdict::NotAccepted | StoredVerdict::Unknown | StoredVerdict::NoPart => Mark::Bad,
     };
-    mark(painter, pos2(rect.left() + 20.0, y), 9.0, sign, theme);
-    let left = |from: f32, to: f32, text: &str, font, colour| {
-        let clip = Rect::from_x_y_ranges(
-            rect.left() + from..=rect.left() + to - space::SMALL,
-            rect.y_range(),
-        );
-        painter
-            .with_clip_rect(clip.intersect(painter.clip_rect()))
-            .text(
-                pos2(rect.left() + from, y),
-                Align2::LEFT_CENTER,
-                text,
-                font,
-                colour,
-            );
-    };
-    // How often it was inspected again.
-    let title = match past.num_below {
-        0 => past.title.clone(),
-        num => format!("{} · again {num}×", past.title),
-    };
-    left(
-        columns.part,
-        columns.scene,
-        &title,
-        font::body_strong(),
-        theme.text,
-    );
-    left(
-        columns.scene,
-        columns.score - 50.0,
-        &scene,
-        font::body(),
-        theme.weak_text,
-    );
-    let right = |x: f32, text: &str, colour| {
-        let at = pos2(rect.left() + x, y);
-        painter.text(at, Align2::RIGHT_CENTER, text, font::body(), colour);
-    };
-    let score = past
-        .score
-        .map_or_else(String::new, |[score, _]| format!("{score:.2}"));
-    right(columns.score, &score, theme.text);
-    right(
-        columns.time,
-        &format!("{:.0}", past.total_ms),
-        theme.weak_text,
-    );
-    let at = if columns.is_narrow {
-        shortly(past.at)
-    } else {
-        when(past.at)
-    };
-    right(columns.when, &at, theme.weak_text);
+    let at = pos2(rect.left() + 20.0, rect.center().y);
+    mark(painter, at, 9.0, sign, theme);
+    for (column, span) in layout.columns() {
+        let text = (column.text)(past, layout.room);
+        column.write(painter, rect, span, &text, (column.look)(theme));
+    }
 }
 
-/// The same without year and seconds.
+/// A moment without year and seconds.
 fn shortly(at: Timestamp) -> String {
     let here = at.to_zoned(TimeZone::system());
     here.strftime("%m-%d %H:%M").to_string()

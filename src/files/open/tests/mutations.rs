@@ -11,7 +11,7 @@ use crate::files::{
     MAX_POINTS, depth_png::read_depths, gltf, pcd, table_rows, write_pcd, write_ply, write_xyz,
 };
 use crate::geometry::cloud::Grid;
-use crate::geometry::depth_frame::Intrinsics;
+use crate::kit::small_frame;
 use crate::stages::scene::scene_from_cloud;
 
 /// Changed files in all; about a second in a build for tests.
@@ -58,16 +58,7 @@ fn seeds() -> Vec<(&'static str, Vec<u8>)> {
         write(&mut bytes, &cloud).unwrap();
         bytes
     };
-    let frame = DepthFrame {
-        intrinsics: Intrinsics {
-            width: 6,
-            height: 4,
-            ..Intrinsics::KINECT
-        },
-        metres_per_unit: 0.001,
-        depth: (900..924).collect(),
-        is_simulated: false,
-    };
+    let frame = small_frame(6, 900..924);
     let mut png = Vec::new();
     depth_png::write_depths(&mut png, &frame).unwrap();
     let ply_mesh = "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n\

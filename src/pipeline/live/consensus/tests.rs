@@ -82,7 +82,7 @@ fn one_frame_that_accepts_another_part_is_enough_to_reject() {
         num_frames: 10,
         needed: 8,
     };
-    assert_eq!(complaint(&found.verdict), Some(&expected));
+    assert_eq!(found.verdict.rejected(), Some(&expected));
     // One that only names it, without accepting it, is a bad frame among good ones.
     let mut frames: Vec<_> = (0..10).map(|_| (part("door", 0.99, None), 0.0)).collect();
     frames[3].0 = part("fender", 0.4, Some(unlike("fender")));
@@ -100,14 +100,14 @@ fn too_many_rejections_are_a_rejection_by_what_most_of_them_say() {
     assert!(agreed(mix(2)).expect("enough").verdict.is_accepted());
     let split = agreed(mix(4)).expect("enough");
     assert!(matches!(
-        complaint(&split.verdict),
+        split.verdict.rejected(),
         Some(Rejection::Undecided {
             num_agreeing: 6,
             ..
         })
     ));
     let most = agreed(mix(9)).expect("enough");
-    assert_eq!(complaint(&most.verdict), Some(&unlike("door")));
+    assert_eq!(most.verdict.rejected(), Some(&unlike("door")));
 }
 
 #[test]
@@ -115,7 +115,7 @@ fn scattered_poses_are_not_accepted() {
     let frames = (0..10).map(|i| (part("door", 0.99, None), 0.01 * f64::from(i % 2)));
     let found = agreed(frames).expect("enough frames");
     assert!(matches!(
-        complaint(&found.verdict),
+        found.verdict.rejected(),
         Some(Rejection::PosesApart {
             num_agreeing: 5,
             num_frames: 10,
@@ -139,7 +139,7 @@ fn poses_of_two_references_are_not_one_pose_though_they_lie_together() {
     // Nine of ten agree, but the frame that would carry their pose is of the other reference.
     for (num_of_other, last, num_agreeing) in [(0, "door_b", 1), (3, "door", 7)] {
         let found = of_last(num_of_other, last);
-        let complaint = complaint(&found.verdict);
+        let complaint = found.verdict.rejected();
         assert!(
             matches!(complaint, Some(Rejection::PosesApart { num_agreeing: num, .. }) if *num == num_agreeing),
             "{complaint:?}"
@@ -182,7 +182,7 @@ fn no_pose_where_none_was_found_rejects_as_the_frames_do() {
         .agreed(Duration::ZERO, &AcceptParams::default())
         .expect("enough");
     assert_eq!(
-        (complaint(&found.verdict), found.pose),
+        (found.verdict.rejected(), found.pose),
         (Some(&no_pose), None)
     );
 }

@@ -6,13 +6,12 @@ use nalgebra::Translation3;
 
 use super::*;
 use crate::{
-    library::{Library, open_library},
+    kit::{scene_of, shipped_library},
+    library::Library,
     pipeline::{Recipe, Unwatched, live::MeanPose, run},
     simulate::{
         CellSetup, ObjectKind, PartKind, PartPose, PoseRange, SensorNoise, Side, SimulatedObject,
-        frame,
     },
-    stages::{reference::ReferenceParams, scene::scene_from_frame},
     units::{Metres, Radians},
 };
 
@@ -20,12 +19,6 @@ use crate::{
 struct Seen {
     scene: Arc<SceneCloud>,
     inspection: Inspection,
-}
-
-fn shipped() -> Library {
-    let place = open_library(Some(std::path::Path::new("reference_parts"))).expect("shipped");
-    let load = place.load(&ReferenceParams::default()).expect("loaded");
-    load.library
 }
 
 fn seen(library: &Library, subject: SimulatedObject, aside: f64) -> Seen {
@@ -36,7 +29,7 @@ fn seen(library: &Library, subject: SimulatedObject, aside: f64) -> Seen {
         let moved = Translation3::new(aside, 0.0, 0.0) * placed.camera_from_part;
         setup.pose = PartPose::Fixed(moved);
     }
-    let scene = scene_from_frame(&frame(&setup).frame);
+    let scene = scene_of(&setup);
     Seen {
         inspection: run(&scene, library, &Recipe::default(), &Unwatched).expect("not cancelled"),
         scene: Arc::new(scene),
@@ -100,7 +93,7 @@ const AGAIN: (Left, FrameRole) = (Left::Nothing, FrameRole::Again);
 
 #[test]
 fn one_part_after_the_other_is_one_inspection_each_also_at_the_same_place() {
-    let library = shipped();
+    let library = shipped_library();
     let fender = seen(&library, part(PartKind::Fender), 0.0);
     let empty = seen(&library, SimulatedObject::Nothing, 0.0);
     assert!(fender.inspection.verdict.is_accepted());
@@ -127,7 +120,7 @@ fn one_part_after_the_other_is_one_inspection_each_also_at_the_same_place() {
 
 #[test]
 fn another_verdict_recipe_or_place_is_the_same_part_again() {
-    let library = shipped();
+    let library = shipped_library();
     let fender = seen(&library, part(PartKind::Fender), 0.0);
     let mut refused = Seen {
         scene: Arc::clone(&fender.scene),
@@ -159,7 +152,7 @@ fn another_verdict_recipe_or_place_is_the_same_part_again() {
 
 #[test]
 fn what_leaves_before_its_verdict_counts_is_told_once_it_has_left_if_it_looked_like_a_part() {
-    let library = shipped();
+    let library = shipped_library();
     let fender = seen(&library, part(PartKind::Fender), 0.0);
     let wheel = seen(&library, SimulatedObject::Object(ObjectKind::Wheel), 0.0);
     let empty = seen(&library, SimulatedObject::Nothing, 0.0);

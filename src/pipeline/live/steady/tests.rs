@@ -6,46 +6,31 @@ use nalgebra::{Translation3, UnitQuaternion, Vector3};
 
 use super::*;
 use crate::{
-    geometry::{depth_frame::Intrinsics, mesh::TriangleMesh, rigid::RigidTransform},
-    simulate::{
-        CellSetup, Clutter, PartKind, PartPose, PoseRange, SensorNoise, Side, frame_of_mesh,
-    },
+    geometry::rigid::RigidTransform,
+    kit::HangingPart,
+    simulate::{Clutter, PartKind, SensorNoise},
     stages::scene::scene_from_frame,
 };
 
 const FRAME: Duration = Duration::from_micros(33_333);
 
-/// A part before the camera, at rest where its seed puts it.
-struct Hanging {
-    setup: CellSetup,
-    mesh: TriangleMesh,
-    rest_pose: RigidTransform,
-}
+struct Hanging(HangingPart);
 
 impl Hanging {
     fn new(kind: PartKind, noise: f64, seed: u64) -> Self {
-        let mut setup = CellSetup::with_part(kind, Side::Left, 0, seed);
-        setup.noise.multiplier = noise;
-        let mesh = setup.subject.mesh();
-        let rest_pose = PoseRange::facing()
-            .draw(&mesh, &Intrinsics::KINECT, seed)
-            .camera_from_part;
-        Self {
-            setup,
-            mesh,
-            rest_pose,
-        }
+        let mut part = HangingPart::new(kind, seed);
+        part.setup.noise.multiplier = noise;
+        Self(part)
     }
 
     /// The frame of this number, the part moved by this from its rest.
     fn frame(&self, number: u64, moved: &RigidTransform) -> SceneCloud {
-        let mut setup = self.setup;
-        setup.pose = PartPose::Fixed(moved * self.rest_pose);
-        setup.noise = SensorNoise {
+        let setup = &self.0.setup;
+        let noise = SensorNoise {
             seed: setup.seed * 10_000 + number,
             ..setup.noise
         };
-        scene_from_frame(&frame_of_mesh(&setup, &self.mesh).frame)
+        scene_from_frame(&self.0.frame(noise, moved))
     }
 
     /// What is said of every frame.
@@ -74,7 +59,7 @@ impl Hanging {
 type Motion = Box<dyn Fn(f64) -> RigidTransform>;
 
 fn shifted(x: f64, y: f64, z: f64) -> RigidTransform {
-    RigidTransform::from_parts(Translation3::new(x, y, z), UnitQuaternion::identity())
+    RigidTransform::translation(x, y, z)
 }
 
 #[test]
@@ -85,7 +70,7 @@ fn noise_alone_is_steady_from_the_first_frame_on() {
         (PartKind::FrontBumper, 3.0, Clutter::OnFloor, 3),
     ] {
         let mut hanging = Hanging::new(kind, noise, seed);
-        hanging.setup.clutter = clutter;
+        hanging.0.setup.clutter = clutter;
         let said = hanging.watched(45, |_| RigidTransform::identity());
         assert!(
             said[..20].iter().all(|s| *s == MotionState::Watching),

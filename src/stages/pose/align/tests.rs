@@ -4,6 +4,7 @@ use rand_pcg::Pcg64;
 use super::*;
 use crate::{
     geometry::rigid::{from_euler_zyx, pose_error},
+    kit::moved,
     stages::pose::PoseWarning,
 };
 
@@ -17,10 +18,6 @@ fn sheet() -> PointCloud {
         .map(|(u, v)| Point3::new(u, v, 0.3 * u * u + 0.1 * (5.0 * v).sin() * u))
         .collect();
     PointCloud::from_points(points)
-}
-
-fn moved(cloud: &PointCloud, by: &RigidTransform) -> PointCloud {
-    PointCloud::from_points(cloud.points.iter().map(|p| (by * p.cast::<f64>()).cast()))
 }
 
 #[test]

@@ -5,6 +5,7 @@ use rand::RngExt as _;
 use super::*;
 use crate::{
     geometry::cloud::PointCloud,
+    kit::moved,
     stages::pose::{AlignParams, PoseMethod, align, align_with},
 };
 
@@ -18,10 +19,6 @@ fn sheet(seed: u64, noise: f32) -> PointCloud {
         (!is_notch).then(|| Point3::new(u, v, 0.3 * u * u + 0.1 * (5.0 * v).sin() * u + off))
     });
     PointCloud::from_points(points)
-}
-
-fn moved(cloud: &PointCloud, by: &RigidTransform) -> PointCloud {
-    PointCloud::from_points(cloud.points.iter().map(|p| (by * p.cast::<f64>()).cast()))
 }
 
 /// T4 and T5 of eq. 15.

@@ -52,7 +52,8 @@ fn the_matrix_and_the_plain_projection_agree() {
 fn orbiting_keeps_target_and_distance() {
     let mut camera = ViewCamera::default();
     let (target, distance) = (camera.target(), camera.distance());
-    assert!(camera.orbit(Vec2::new(120.0, -45.0), SIZE));
+    camera.orbit(Vec2::new(120.0, -45.0), SIZE);
+    assert_ne!(camera, ViewCamera::default());
     assert_eq!(camera.target(), target);
     assert!(((camera.eye() - target).length() - distance).abs() < 1e-5);
     assert!((see(&camera, target) - SIZE / 2.0).length() < 1e-2);
@@ -74,12 +75,15 @@ fn zooming_keeps_the_point_under_the_cursor() {
         let mut camera = turned();
         let cursor = Vec2::new(613.0, 127.0);
         let under_cursor = camera.eye() + camera.ray(cursor, SIZE) * depth;
-        assert!(camera.zoom_at(1.3, cursor, SIZE));
+        let before = camera.distance();
+        camera.zoom_at(1.3, cursor, SIZE);
+        assert!(camera.distance() < before);
         assert!(
             (see(&camera, under_cursor) - cursor).length() < 0.05,
             "at {depth} m"
         );
-        assert!(camera.zoom_at(0.5, cursor, SIZE));
+        camera.zoom_at(0.5, cursor, SIZE);
+        assert!(camera.distance() > before);
         assert!(
             (see(&camera, under_cursor) - cursor).length() < 0.05,
             "at {depth} m"
@@ -91,7 +95,7 @@ fn zooming_keeps_the_point_under_the_cursor() {
 fn panning_moves_the_target_plane_with_the_pointer() {
     let mut camera = turned();
     let target = camera.target();
-    assert!(camera.pan(Vec2::new(50.0, -20.0), SIZE));
+    camera.pan(Vec2::new(50.0, -20.0), SIZE);
     assert!((see(&camera, target) - (SIZE / 2.0 + Vec2::new(50.0, -20.0))).length() < 0.01);
 }
 
@@ -122,7 +126,7 @@ fn a_fit_contains_the_bounds_and_fills_the_view() {
 #[test]
 fn from_above_the_cameras_right_stays_right_and_far_is_up() {
     let mut camera = ViewCamera::default();
-    assert!(camera.look(StandardView::Top));
+    camera.look(StandardView::Top);
     let centre = see(&camera, camera.target());
     assert!(see(&camera, camera.target() + 0.2 * Vec3::X).x > centre.x + 1.0);
     assert!(see(&camera, camera.target() + 0.2 * Vec3::Z).y < centre.y - 1.0);
@@ -133,9 +137,9 @@ fn from_above_the_cameras_right_stays_right_and_far_is_up() {
 fn poison_leaves_the_camera_as_it_was() {
     let mut camera = turned();
     let before = camera;
-    assert!(!camera.zoom_at(f32::NAN, Vec2::ZERO, SIZE));
-    assert!(!camera.zoom_at(0.0, Vec2::ZERO, SIZE));
-    assert!(!camera.pan(Vec2::new(f32::INFINITY, 0.0), SIZE));
+    camera.zoom_at(f32::NAN, Vec2::ZERO, SIZE);
+    camera.zoom_at(0.0, Vec2::ZERO, SIZE);
+    camera.pan(Vec2::new(f32::INFINITY, 0.0), SIZE);
     assert_eq!(camera, before);
     assert!(camera.clip_from_world(Vec2::ZERO).is_finite());
 }

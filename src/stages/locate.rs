@@ -3,15 +3,17 @@
 use nalgebra::Point3;
 
 use super::{
-    AlignParams, PoseError, PoseEstimate, align_to,
-    closest::Correspondence,
-    quality::{FitQuality, NUM_LOOKED_FOR, Tolerance, look_for, measure_fit},
-    refine::Search,
+    pose::{
+        AlignParams, PoseError, PoseEstimate, align_to,
+        closest::Correspondence,
+        quality::{FitQuality, NUM_LOOKED_FOR, Tolerance, look_for, measure_fit},
+        refine::Search,
+    },
+    reference::Reference,
+    scene::SceneCloud,
+    segment::SegmentedPart,
 };
-use crate::{
-    stages::{reference::Reference, scene::SceneCloud, segment::SegmentedPart},
-    units::Metres,
-};
+use crate::units::Metres;
 
 /// Points on which the figures of a fit are taken.
 const NUM_MEASURED: usize = 5000;

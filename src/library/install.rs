@@ -1,0 +1,149 @@
+//! How a part's folder takes its place in a library such that nothing enrolled is ever lost.
+//!
+//! A part is written into a hidden folder beside the others, synced, and renamed into place. One that is there
+//! already is first renamed aside, and moved to the trash once the new one is in place. Whatever moment the power
+//! fails at, the next look finds the old part or the new one:
+//!
+//! ```text
+//! .new-door-x7/                 half written: ignored, cleared away by the next save
+//! .old-door/ without door/      stopped between the two renames: .old-door is read, the next save puts it back
+//! .old-door/ beside door/       stopped before the trash: the next save moves it there
+//! .old-door+gate/               the same for a door that becomes a gate: its successor is gate/
+//! ```
+//!
+//! The references of a part that is renamed are carried along before its former folder goes to the trash: the next
+//! save that finds that folder carries those along that an interrupted rename left behind.
+//!
+//! Writers take turns by a lock.
+
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+};
+
+use super::{entry::NEW_PREFIX, error::LibraryError, name::PartName, store::LibraryFolder, trash};
+use crate::files::{open_lock, sync_folder};
+
+const OLD_PREFIX: &str = ".old-";
+const LOCK: &str = ".lock";
+
+impl LibraryFolder {
+    /// Puts a folder in place as the part `name`, which succeeds `former`: that one goes to the trash once the new one
+    /// is in place. Says where it lies then.
+    pub(super) fn replace_entry(
+        &self,
+        coming: &Path,
+        name: &str,
+        former: &str,
+    ) -> io::Result<Option<PathBuf>> {
+        let aside = self.install_entry(coming, name, former)?;
+        self.trash_replaced(aside, former)
+    }
+
+    /// As [`Self::replace_entry`], but leaves the former one where it was renamed aside to, and says where, if there is
+    /// one.
+    pub(super) fn install_entry(
+        &self,
+        coming: &Path,
+        name: &str,
+        former: &str,
+    ) -> io::Result<Option<PathBuf>> {
+        let leaving = self.path().join(former);
+        let aside = self.path().join(RenamedFolder::file_name(former, name));
+        let is_succeeding = leaving.exists();
+        if is_succeeding {
+            fs::rename(&leaving, &aside)?;
+        }
+        if let Err(error) = fs::rename(coming, self.path().join(name)) {
+            if is_succeeding {
+                fs::rename(&aside, &leaving)?;
+            }
+            return Err(error);
+        }
+        sync_folder(self.path())?;
+        Ok(is_succeeding.then_some(aside))
+    }
+
+    /// Moves what was renamed aside to the trash and says where it lies there.
+    pub(super) fn trash_replaced(
+        &self,
+        aside: Option<PathBuf>,
+        former: &str,
+    ) -> io::Result<Option<PathBuf>> {
+        aside
+            .map(|aside| trash::take_in(self.path(), &aside, former))
+            .transpose()
+    }
+
+    /// Runs one change while no other writer is at work.
+    pub(super) fn writing<T>(
+        &self,
+        change: impl FnOnce() -> io::Result<T>,
+    ) -> Result<T, LibraryError> {
+        let locked = || -> io::Result<T> {
+            let lock = open_lock(&self.path().join(LOCK))?;
+            match lock.lock() {
+                // Some network file systems have no locks; a shop with one writer needs none.
+                Err(error) if error.kind() == io::ErrorKind::Unsupported => {}
+                taken => taken?,
+            }
+            change()
+        };
+        locked().map_err(|source| LibraryError::Unwritable {
+            path: self.path().to_owned(),
+            source,
+        })
+    }
+
+    /// Finishes what an interrupted writer left. Only under the lock: another writer's folders are not leftovers.
+    pub(super) fn finish_interrupted_write(&self) -> io::Result<()> {
+        for found in fs::read_dir(self.path())? {
+            let path = found?.path();
+            let Some(file_name) = path.file_name().and_then(|n| n.to_str()) else {
+                continue;
+            };
+            if let Some(RenamedFolder { name, successor }) = RenamedFolder::of(file_name) {
+                if self.path().join(successor).exists() {
+                    if let (Ok(from), Ok(to)) = (PartName::new(name), PartName::new(successor))
+                        && from != to
+                    {
+                        self.carry_references(&from, &to)?;
+                    }
+                    trash::take_in(self.path(), &path, name)?;
+                } else {
+                    fs::rename(&path, self.path().join(name))?;
+                }
+            } else if file_name.starts_with(NEW_PREFIX) {
+                fs::remove_dir_all(&path)?;
+            }
+        }
+        Ok(())
+    }
+}
+
+/// A part that was renamed aside, by its folder's name.
+pub(super) struct RenamedFolder<'a> {
+    /// The part.
+    pub(super) name: &'a str,
+    /// The part that takes its place; as a rule of the same name.
+    pub(super) successor: &'a str,
+}
+
+impl<'a> RenamedFolder<'a> {
+    /// Between the two names: cannot stand in one.
+    const SEPARATOR: char = '+';
+
+    pub(super) fn of(file_name: &'a str) -> Option<Self> {
+        let name = file_name.strip_prefix(OLD_PREFIX)?;
+        let (name, successor) = name.split_once(Self::SEPARATOR).unwrap_or((name, name));
+        Some(Self { name, successor })
+    }
+
+    fn file_name(name: &str, successor: &str) -> String {
+        if name == successor {
+            format!("{OLD_PREFIX}{name}")
+        } else {
+            format!("{OLD_PREFIX}{name}{}{successor}", Self::SEPARATOR)
+        }
+    }
+}

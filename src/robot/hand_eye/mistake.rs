@@ -1,0 +1,129 @@
+//! Why pairs do not agree: each usual mistake is undone, and the one named that makes them agree.
+
+use nalgebra::{Isometry3, Point3, Translation3};
+
+use super::{Equation, closed_form, doubt::HandEyeDoubt, refine};
+use crate::{
+    geometry::rigid::{PoseDelta, RigidTransform},
+    units::{Metres, Radians},
+};
+
+/// A pair's angles agree to what the camera errs by, and never by so much.
+const TURNS_AGREE: Radians = Radians(0.05);
+/// Pairs of a working cell agree better than this.
+const AGREE: PoseDelta = PoseDelta {
+    rotation: Radians(0.026),
+    shift: Metres(0.015),
+};
+/// A mistake is named if the pairs agree so much better without it.
+const MUCH_BETTER: f64 = 0.25;
+
+/// What a person may have meant otherwise.
+#[derive(Clone, Copy, Debug, PartialEq, Eq, thiserror::Error)]
+pub enum LikelyMistake {
+    /// The robot's poses the other way round, or the other mount.
+    #[error(
+        "the robot's poses went the other way (flange_from_robot), or the camera sat on the other mount"
+    )]
+    RobotInverted,
+    /// The camera's poses the other way round, or the other mount: both solve the same equations.
+    #[error(
+        "the camera sat on the other mount, or its poses went the other way (target_from_camera)"
+    )]
+    CameraInverted,
+    /// Millimetres that were read as metres.
+    #[error("the camera's lengths were a thousandth of what was read")]
+    CameraInMillimetres,
+    /// Metres that were read as millimetres.
+    #[error("the camera's lengths were a thousand times what was read")]
+    CameraInMetres,
+}
+
+/// Why the pairs do not agree, if they do not.
+pub(super) fn disagreement(equations: &[Equation], rms: PoseDelta) -> Option<HandEyeDoubt> {
+    if rms.shift <= AGREE.shift && rms.rotation <= AGREE.rotation {
+        return None;
+    }
+    // However the poses were turned round, robot and camera turn by the same angle.
+    let apart = turns_apart(equations);
+    if apart > TURNS_AGREE {
+        return Some(HandEyeDoubt::TurnsDisagree { apart });
+    }
+    let as_given = quality(equations, rms);
+    let tried = LikelyMistake::ALL.iter().filter_map(|&mistake| {
+        let equations = mistake.undone(equations);
+        let fit = refine::refine(&equations, closed_form::solve(&equations)?.unknowns).unknowns;
+        let off: Vec<PoseDelta> = equations.iter().map(|e| e.off(&fit)).collect();
+        let then = super::rms(&off);
+        Some((quality(&equations, then), mistake, then))
+    });
+    let best = tried.min_by(|a, b| a.0.total_cmp(&b.0));
+    Some(match best {
+        Some((quality, mistake, then)) if quality < MUCH_BETTER * as_given => {
+            HandEyeDoubt::Mistaken { mistake, rms, then }
+        }
+        _ => HandEyeDoubt::Disagree { rms },
+    })
+}
+
+/// Median difference of the angles by which robot and camera turned between two captures.
+fn turns_apart(equations: &[Equation]) -> Radians {
+    let angle = |a: &RigidTransform, b: &RigidTransform| a.rotation.angle_to(&b.rotation);
+    let mut apart: Vec<f64> = Vec::new();
+    for (i, a) in equations.iter().enumerate() {
+        for b in &equations[i + 1..] {
+            let robot = angle(&a.anchor_from_mount, &b.anchor_from_mount);
+            let camera = angle(&a.camera_from_target, &b.camera_from_target);
+            apart.push((robot - camera).abs());
+        }
+    }
+    apart.sort_by(f64::total_cmp);
+    Radians(apart.get(apart.len() / 2).copied().unwrap_or(0.0))
+}
+
+/// How badly equations agree, whatever their unit of length: beside how far apart the targets stood.
+fn quality(equations: &[Equation], rms: PoseDelta) -> f64 {
+    let positions = || {
+        equations
+            .iter()
+            .map(|e| Point3::from(e.camera_from_target.translation.vector))
+    };
+    let middle = positions().fold(nalgebra::Vector3::zeros(), |sum, p| sum + p.coords)
+        / equations.len().max(1) as f64;
+    let spread_sq = positions()
+        .map(|p| (p.coords - middle).norm_squared())
+        .sum::<f64>();
+    let spread = (spread_sq / equations.len().max(1) as f64).sqrt();
+    rms.shift.0 / spread.max(f64::MIN_POSITIVE) + rms.rotation.0
+}
+
+impl LikelyMistake {
+    const ALL: [Self; 4] = [
+        Self::RobotInverted,
+        Self::CameraInverted,
+        Self::CameraInMillimetres,
+        Self::CameraInMetres,
+    ];
+
+    /// The equations as they were probably meant.
+    fn undone(self, equations: &[Equation]) -> Vec<Equation> {
+        let scaled = |pose: &RigidTransform, factor: f64| {
+            let shift = Translation3::from(pose.translation.vector * factor);
+            Isometry3::from_parts(shift, pose.rotation)
+        };
+        let undone = |e: &Equation| {
+            let (g, b) = (&e.anchor_from_mount, &e.camera_from_target);
+            let (g, b) = match self {
+                Self::RobotInverted => (g.inverse(), *b),
+                Self::CameraInverted => (*g, b.inverse()),
+                Self::CameraInMillimetres => (*g, scaled(b, 0.001)),
+                Self::CameraInMetres => (*g, scaled(b, 1000.0)),
+            };
+            Equation {
+                anchor_from_mount: g,
+                camera_from_target: b,
+            }
+        };
+        equations.iter().map(undone).collect()
+    }
+}
