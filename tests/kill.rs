@@ -97,6 +97,7 @@ fn entry(number: i64) -> NewEntry {
                 nearest: None,
                 complaint: None,
                 camera_from_part: None,
+                recipe_label: None,
                 recipe_identity: recipe.identity(),
                 recipe: Some(Arc::new(recipe)),
                 library_identity: "0badcafe".into(),

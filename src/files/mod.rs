@@ -63,7 +63,6 @@ pub(crate) use self::source::{open_lock, open_regular, read_bytes, read_limited,
 pub(crate) use self::text::read_text;
 #[cfg(feature = "cli")]
 pub(crate) use self::text::visible;
-#[cfg(feature = "cli")]
 pub(crate) use self::write::{folder_of, sync_folder};
 pub use self::write::{save_cloud, write_atomically};
 pub use self::xyz::write_xyz;

@@ -12,7 +12,7 @@ use crate::{
         distortion::Distortion,
         rigid::from_euler_zyx,
     },
-    pipeline::Recipe,
+    pipeline::{Recipe, RecipeLabel},
     stages::scene::{SceneCloud, scene_from_frame},
 };
 
@@ -74,6 +74,7 @@ pub(super) fn entry(seconds: i64, verdict: StoredVerdict, part: &str) -> NewEntr
                 complaint: Some(["too low".into(), "look again".into()])
                     .filter(|_| verdict != StoredVerdict::Accepted),
                 camera_from_part: Some(from_euler_zyx([0.1, 0.2, 0.3, 0.01, 0.02, 1.4])),
+                recipe_label: Some(RecipeLabel::default()),
                 recipe_identity: recipe.identity(),
                 recipe: Some(Arc::new(recipe)),
                 library_identity: "0badcafe".into(),

@@ -9,6 +9,7 @@ mod evaluate;
 mod history;
 mod inspect;
 mod library;
+mod recipe;
 mod report;
 mod scan;
 mod simulate;

@@ -19,7 +19,7 @@ pub(super) struct Inspected {
     load: LibraryLoad,
     scene: SceneCloud,
     pub(super) inspection: Inspection,
-    recipe: Recipe,
+    recipe: NamedRecipe,
     stand_off: Option<Result<StandOff, StandOffError>>,
 }
 
@@ -39,7 +39,7 @@ impl Inspected {
             load,
             scene,
             inspection,
-            recipe,
+            recipe: recipe.into(),
             stand_off,
         }
     }

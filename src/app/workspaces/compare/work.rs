@@ -19,7 +19,7 @@ use crate::{
         Calibration, CaseDescription, CaseError, CaseFolder, CaseJudge, CaseResult, Changes,
         Confusion, EarlierRun, KeptCase, RecordError, TradeOff,
     },
-    pipeline::Recipe,
+    pipeline::NamedRecipe,
     stages::{rank::Matcher, scene::SceneCloud},
 };
 
@@ -103,7 +103,7 @@ pub struct CaseRun {
     /// The folder.
     pub folder: CaseFolder,
     /// The recipe.
-    pub recipe: Arc<Recipe>,
+    pub recipe: Arc<NamedRecipe>,
     /// One result per case that could be read.
     pub results: Vec<CaseResult>,
     /// Those that could not.
@@ -191,7 +191,7 @@ fn cases(folder: Option<&Path>, change: CaseChange) -> Result<CompareResult, Cas
 
 fn run_cases(
     folder: &CaseFolder,
-    recipe: &Arc<Recipe>,
+    recipe: &Arc<NamedRecipe>,
     library_cache: &LibraryCache,
     context: &TaskContext<CompareResult>,
 ) -> Result<CompareResult, TaskError> {
