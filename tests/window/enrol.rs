@@ -332,8 +332,8 @@ fn a_part_that_is_enrolled_already_is_named_as_hard_to_tell_from() {
     harness.get_by_label("Replace Door");
     capture(&mut harness, PartKind::Fender, Side::Right);
     harness.get_by_label("The two can be told apart");
-    harness.get_by_label_contains("Hardest to tell from Door: 0.");
-    harness.get_by_label_contains(" alike (1 is the same)");
+    harness.get_by_label_contains("Most similar: Door (");
+    harness.get_by_label_contains(" % alike)");
 }
 
 #[test]
