@@ -179,7 +179,9 @@ fn list(json: bool, console: &mut Console) -> anyhow::Result<()> {
             line.notes.to_owned(),
         ]);
     }
-    table.show(console);
+    if !json {
+        table.show(console);
+    }
     Ok(())
 }
 

@@ -134,7 +134,7 @@ impl RecipeFolder {
         recipe.write(&path)
     }
 
-    /// Removes a recipe, and gives back what it was; if it was the default, the program's own is that again.
+    /// Removes a recipe; if it was the default, the program's own is that again.
     pub fn remove(&self, name: &PartName) -> Result<(), RecipeError> {
         let path = self.changeable(name)?;
         match fs::remove_file(&path) {
@@ -173,6 +173,12 @@ impl RecipeFolder {
         match read_text(&self.path.join(DEFAULT), 1000) {
             Ok(text) => Ok(text.trim().to_owned()),
             Err(FileError::NotFound { .. }) => Ok(BUILT_IN.into()),
+            // A file lies where the folder could be.
+            Err(FileError::Read { source, .. })
+                if source.kind() == io::ErrorKind::NotADirectory =>
+            {
+                Ok(BUILT_IN.into())
+            }
             Err(error) => Err(error.into()),
         }
     }
@@ -302,6 +308,17 @@ mod tests {
         saved.expect("saved");
         assert!(folder.rename(&name("x"), &own).is_err());
         assert_eq!(names(&folder), ["x"]);
+    }
+
+    #[test]
+    fn where_a_file_lies_in_place_of_the_folder_the_programs_own_recipe_is_used() {
+        let data = tempfile::tempdir().expect("a folder");
+        fs::write(data.path().join("data"), "x").expect("written");
+        let folder = RecipeFolder::at(data.path().join("data").join("recipes"));
+        let opened = open_recipe(Ok(folder.clone()), None).expect("opened");
+        assert_eq!(opened, RecipeFile::built_in());
+        let refused = folder.save(&recipe("glossy", 0.8), Replace::No);
+        assert!(matches!(refused, Err(RecipeError::File(_))));
     }
 
     #[test]

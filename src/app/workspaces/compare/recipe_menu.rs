@@ -43,7 +43,8 @@ pub(super) fn ui(
         menu(ui, compare, session, theme, acts);
     });
     if let Some(naming) = &compare.recipes.naming {
-        name_ui(ui, compare, naming, theme, acts);
+        let current = &compare.tried_recipe(session).label.name;
+        name_ui(ui, compare, naming, current, theme, acts);
     }
     changes(ui, compare, compare.tried_recipe(session), theme, acts);
 }
@@ -133,6 +134,7 @@ fn name_ui(
     ui: &mut Ui,
     compare: &CompareState,
     naming: &Naming,
+    current: &str,
     theme: &Theme,
     acts: &mut Vec<CompareAction>,
 ) {
@@ -142,6 +144,7 @@ fn name_ui(
     let is_taken = checked
         .as_ref()
         .is_ok_and(|name| compare.recipes.has(name.as_str()));
+    let is_same = text.trim() == current;
     let can_take = checked.is_ok() && !is_taken;
     ui.horizontal(|ui| {
         let take = match naming.purpose {
@@ -160,8 +163,9 @@ fn name_ui(
             info.label = Some("Name of the recipe".into());
             info
         });
-        if ui.memory(|memory| memory.focused().is_none()) && !response.lost_focus() {
+        if naming.is_new {
             response.request_focus();
+            act(RecipeAction::Write(text.clone()));
         }
         let is_entered = response.lost_focus() && ui.input(|input| input.key_pressed(Key::Enter));
         let button = Button::new(take).min_size(vec2(64.0, space::TARGET));
@@ -178,7 +182,7 @@ fn name_ui(
     });
     let complaint = match (&checked, is_taken) {
         (Err(error), _) if !text.trim().is_empty() => Some(error.advice()),
-        (Ok(name), true) => Some(format!("There is a recipe named {name} already")),
+        (Ok(name), true) if !is_same => Some(format!("There is a recipe named {name} already")),
         _ => None,
     };
     if let Some(complaint) = complaint {
@@ -210,7 +214,10 @@ fn changes(
     ui.horizontal(|ui| {
         let sign = if is_open { "▲" } else { "▼" };
         let shown = RichText::new(format!("{text} {sign}")).color(theme.accent);
-        let button = Button::selectable(is_open, shown).min_size(vec2(0.0, space::TARGET));
+        // Both fit a narrow panel.
+        ui.spacing_mut().button_padding.x = 4.0;
+        let button = Button::new(shown).frame_when_inactive(false);
+        let button = button.min_size(vec2(0.0, space::TARGET));
         if labelled(ui, button, &text)
             .on_hover_text("List them")
             .clicked()

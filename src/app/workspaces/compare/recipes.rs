@@ -42,6 +42,8 @@ pub struct Naming {
     pub purpose: NamingPurpose,
     /// What is written so far.
     pub text: String,
+    /// True until its line was shown, which then has the keys.
+    pub is_new: bool,
 }
 
 /// What a name is written for.
@@ -57,10 +59,10 @@ pub enum NamingPurpose {
 #[derive(Debug)]
 enum RecipeChange {
     List,
-    Save(RecipeFile, Replace),
+    Save(Box<RecipeFile>, Replace),
     /// Puts a removed one back.
     Restore {
-        file: RecipeFile,
+        file: Box<RecipeFile>,
         was_default: bool,
     },
     Rename(PartName, PartName),
@@ -68,7 +70,7 @@ enum RecipeChange {
     MakeDefault(PartName),
     /// Under its own name, or the next that is free.
     Import(PathBuf),
-    Export(RecipeFile, PathBuf),
+    Export(Box<RecipeFile>, PathBuf),
 }
 
 /// What was done, and the recipes after it.
@@ -86,7 +88,7 @@ enum RecipeDone {
     Restored(PartName),
     Renamed(PartName, PartName),
     Removed {
-        file: RecipeFile,
+        file: Box<RecipeFile>,
         was_default: bool,
     },
     Default(PartName),
@@ -104,13 +106,14 @@ impl KeptRecipes {
             },
             naming: None,
             is_listing_changes: false,
-            waiting: VecDeque::new(),
+            // In the first frame: the recipe in use may differ from its file by now.
+            waiting: VecDeque::from([RecipeChange::List]),
             task: Task::new("recipes", runner),
         }
     }
 
     pub(super) fn is_idle(&self) -> bool {
-        self.task.running().is_none()
+        self.task.running().is_none() && (self.folder.is_none() || self.waiting.is_empty())
     }
 
     fn of_name(&self, name: &str) -> Option<&RecipeFile> {
@@ -146,7 +149,7 @@ impl KeptRecipes {
     }
 
     fn start(&mut self, change: RecipeChange, cx: &mut ShellContext<'_>) {
-        if self.folder.is_none() && !matches!(change, RecipeChange::List) {
+        if self.folder.is_none() {
             return cx.notify(UserError::of(&RecipeError::NoUserFolder));
         }
         self.waiting.push_back(change);
@@ -155,7 +158,7 @@ impl KeptRecipes {
 
     /// One after the other: no file is given up for the next.
     fn start_next(&mut self) {
-        if let (true, Some(folder)) = (self.is_idle(), &self.folder)
+        if let (None, Some(folder)) = (self.task.running(), &self.folder)
             && let Some(change) = self.waiting.pop_front()
         {
             let folder = folder.clone();
@@ -190,7 +193,7 @@ fn carry_out(folder: &RecipeFolder, change: RecipeChange) -> Result<Changed, Rec
             RecipeDone::Renamed(from, to)
         }
         RecipeChange::Remove(name) => {
-            let file = folder.read(&name)?;
+            let file = Box::new(folder.read(&name)?);
             let was_default = folder.default_name()? == name.as_str();
             folder.remove(&name)?;
             RecipeDone::Removed { file, was_default }
@@ -222,11 +225,6 @@ fn carry_out(folder: &RecipeFolder, change: RecipeChange) -> Result<Changed, Rec
 }
 
 impl CompareState {
-    /// Lists the kept recipes.
-    pub(super) fn list_recipes(&mut self, cx: &mut ShellContext<'_>) {
-        self.recipes.start(RecipeChange::List, cx);
-    }
-
     /// Does something with the kept recipes.
     pub(super) fn apply_to_recipes(&mut self, action: RecipeAction, cx: &mut ShellContext<'_>) {
         let tried = Arc::clone(self.tried_recipe(cx.session));
@@ -243,15 +241,20 @@ impl CompareState {
                 .and_then(|copy| self.save_recipe(copy.as_str(), Replace::No, cx)),
             RecipeAction::Name(purpose) => {
                 let text = match purpose {
-                    NamingPurpose::SaveAs if name == BUILT_IN => String::new(),
-                    NamingPurpose::SaveAs | NamingPurpose::Rename => name.to_owned(),
+                    NamingPurpose::SaveAs => String::new(),
+                    NamingPurpose::Rename => name.to_owned(),
                 };
-                self.recipes.naming = Some(Naming { purpose, text });
+                self.recipes.naming = Some(Naming {
+                    purpose,
+                    text,
+                    is_new: true,
+                });
                 Ok(())
             }
             RecipeAction::Write(text) => {
                 if let Some(naming) = &mut self.recipes.naming {
                     naming.text = text;
+                    naming.is_new = false;
                 }
                 Ok(())
             }
@@ -301,12 +304,13 @@ impl CompareState {
             notes: from.map(|file| file.notes.clone()).unwrap_or_default(),
             recipe: Recipe::clone(tried),
         };
-        self.recipes.start(RecipeChange::Save(file, replace), cx);
+        self.recipes
+            .start(RecipeChange::Save(Box::new(file), replace), cx);
         Ok(())
     }
 
     fn take_name(&mut self, from: &str, cx: &mut ShellContext<'_>) -> Result<(), RecipeError> {
-        let Some(Naming { purpose, text }) = self.recipes.naming.clone() else {
+        let Some(Naming { purpose, text, .. }) = self.recipes.naming.clone() else {
             return Ok(());
         };
         let to = PartName::new(text.trim())?;
@@ -344,7 +348,8 @@ impl CompareState {
                 .unwrap_or_default(),
             recipe: Recipe::clone(tried),
         };
-        self.recipes.start(RecipeChange::Export(file, path), cx);
+        self.recipes
+            .start(RecipeChange::Export(Box::new(file), path), cx);
         Ok(())
     }
 
@@ -391,8 +396,10 @@ impl CompareState {
                 }
                 TaskEvent::Failed(error) => cx.notify(error),
             }
-            self.recipes.start_next();
+            // An imported recipe is tried.
+            self.start_next(cx);
         }
+        self.recipes.start_next();
     }
 
     fn take_in_recipes(&mut self, changed: Changed, cx: &mut ShellContext<'_>) {
@@ -457,9 +464,10 @@ impl CompareState {
         }
     }
 
+    /// Keeps a recipe again that was removed.
     pub(super) fn put_recipe_back(
         &mut self,
-        file: RecipeFile,
+        file: Box<RecipeFile>,
         was_default: bool,
         cx: &mut ShellContext<'_>,
     ) {

@@ -102,7 +102,7 @@ pub enum Undo {
     /// The removal of a recipe.
     Recipe {
         /// What it was.
-        file: RecipeFile,
+        file: Box<RecipeFile>,
         /// True if it was used where no recipe is named.
         was_default: bool,
     },
@@ -253,7 +253,6 @@ impl CompareState {
             None => {}
         }
         self.update_recipes(cx);
-        self.start_next(cx);
     }
 
     fn take_in(&mut self, result: CompareResult, cx: &mut ShellContext<'_>) {
@@ -337,10 +336,9 @@ impl CompareState {
         self.remark.clear();
     }
 
-    fn follow(&mut self, cx: &mut ShellContext<'_>) {
+    fn follow(&mut self, cx: &ShellContext<'_>) {
         if !self.is_listed {
             self.is_listed = true;
-            self.list_recipes(cx);
             self.change_cases("Listing the kept cases", CaseChange::List);
         }
         if self.has_new_scene(cx.session) {

@@ -218,7 +218,8 @@ pub(super) fn foot(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
         [
             (
                 "Recipe",
-                format!("{}{changed}, {}", recipe.name, recipe.identity),
+                // The name may be long, and is cut where there is no room.
+                format!("{}, {}{changed}", recipe.identity, recipe.name),
             ),
             (
                 "Library",
