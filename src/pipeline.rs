@@ -5,7 +5,10 @@
 mod identity;
 pub mod live;
 mod mirror;
+mod named_recipe;
 pub mod parameters;
+mod recipe_error;
+mod recipe_folder;
 mod rejection;
 pub mod scan;
 mod surface;
@@ -22,7 +25,7 @@ use crate::{
         pose::{PoseError, PoseEstimate, PoseMethod, icp::IcpParams, icp_ga::IcpGaParams},
         project::{PlaneImage, ProjectParams},
         rank::{Matcher, RankParams},
-        reference::Reference,
+        reference::{Reference, ReferenceParams},
         scene::SceneCloud,
         segment::{
             Bars, NoPart, PointLabel, SegmentParams, Segmentation, SegmentedPart, other_segments,
@@ -40,6 +43,9 @@ use self::{
 };
 pub use self::{
     mirror::{MirrorTally, OnlyMirrored},
+    named_recipe::{BUILT_IN, MAX_NOTES, NamedRecipe, RecipeBlock, RecipeFile, RecipeLabel},
+    recipe_error::RecipeError,
+    recipe_folder::{RecipeFolder, RecipeList, Replace, open_recipe},
     rejection::{Rejection, Unrecognisable},
     verdict::{AcceptParams, Verdict},
     watch::{Cancelled, ProgressObserver, Stage, Timings, Unwatched},
@@ -71,6 +77,18 @@ pub struct Recipe {
     pub stand_off: StandOffParams,
     /// How the pose is estimated.
     pub pose: PoseChoice,
+}
+
+impl Recipe {
+    /// What references are prepared with: they are compared fairly only with scenes that were projected, outlined and
+    /// described with the same parameters.
+    pub fn reference_params(&self) -> ReferenceParams {
+        ReferenceParams {
+            project: self.project.clone(),
+            contour: self.contour.clone(),
+            signature: self.signature.clone(),
+        }
+    }
 }
 
 /// Whether and how an inspection estimates the pose.

@@ -76,7 +76,7 @@ fn report_of(number: i64, inspection: &Inspection) -> PoseReport {
         inspection,
         middle: None,
         stand_off: None,
-        recipe: &Recipe::default(),
+        recipe: &NamedRecipe::default(),
         library_identity: "0badcafe",
         num_references: 0,
         robot: None,

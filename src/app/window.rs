@@ -42,6 +42,7 @@ use super::{
 };
 use crate::{
     history::{HistoryBuffer, Writer},
+    pipeline::{RecipeFolder, open_recipe},
     robot::frame_poses::FRAME_POSES,
 };
 
@@ -58,6 +59,8 @@ pub struct WindowOptions {
     pub settings: Option<PathBuf>,
     /// The folder of kept cases; without it the user's own.
     pub cases: Option<PathBuf>,
+    /// The folder of the user's recipes; without it none are kept.
+    pub recipes: Option<PathBuf>,
     /// The folder of the history; without it inspections are kept in memory alone.
     pub history: Option<PathBuf>,
     /// Where the user's own calibration of the robot's cell is; without it none is looked for.
@@ -95,10 +98,12 @@ impl Window {
             scene,
             settings,
             cases,
+            recipes,
             history,
             cell,
             camera,
         } = options;
+        let is_first_start = settings.as_ref().is_some_and(|path| !path.exists());
         let (remembered, trouble) = settings.as_deref().map(settings::load).unwrap_or_default();
         let kept = Arc::new(HistoryBuffer::new(history));
         let repaint = ctx.clone();
@@ -125,7 +130,7 @@ impl Window {
             workspaces: vec![
                 Box::new(InspectWorkspace::new(&gpu, &runner)),
                 Box::new(EnrolWorkspace::new(gpu.clone(), &runner)),
-                Box::new(CompareWorkspace::new(cases, &runner)),
+                Box::new(CompareWorkspace::new(cases, recipes.clone(), &runner)),
                 Box::new(AlignWorkspace::new(&gpu, &runner)),
                 Box::new(HistoryWorkspace::new(history_writer, kept, &runner)),
             ],
@@ -135,6 +140,9 @@ impl Window {
             touched: ctx.input(|input| input.time),
         };
         window.state.notices.extend(trouble.map(Notice::from));
+        if let (true, Some(recipes)) = (is_first_start, recipes) {
+            window.use_default_recipe(recipes);
+        }
         window.forget_a_vanished_file();
         window.state.session.usual_cell = cell;
         window.with_robot(ctx, RobotCell::load_remembered);
@@ -149,6 +157,14 @@ impl Window {
         window.act(first, ctx);
         window.state.session.workspace = front;
         Ok(window)
+    }
+
+    /// Starts with the user's default recipe, where no recipe is remembered.
+    fn use_default_recipe(&mut self, recipes: PathBuf) {
+        match open_recipe(Ok(RecipeFolder::at(recipes)), None) {
+            Ok(file) => self.state.session.recipe = Arc::new(file.into()),
+            Err(error) => self.state.notices.push(UserError::of(&error).into()),
+        }
     }
 
     /// What the window knows.

@@ -11,7 +11,7 @@ use crate::{
         Filter, History, HistoryError, HungId, InspectionDetail, KeepFrames, NewEntry, Record,
         Retention, StoredVerdict, Summary,
     },
-    pipeline::Recipe,
+    pipeline::{Recipe, RecipeLabel},
     simulate::{CellSetup, PartKind, Side, frame},
     stages::scene::{SceneCloud, scene_from_frame},
 };
@@ -182,6 +182,7 @@ fn entry(
                 nearest: Some(part.name().into()),
                 complaint: None,
                 camera_from_part: None,
+                recipe_label: Some(RecipeLabel::default()),
                 recipe_identity: recipe.identity(),
                 recipe: Some(Arc::clone(recipe)),
                 library_identity: "0badcafe".into(),

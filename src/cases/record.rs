@@ -31,6 +31,7 @@ use super::{
 use crate::{
     error::Advice,
     files::{FileError, read_bytes},
+    pipeline::RecipeBlock,
 };
 
 /// The version that is written; newer ones are refused.
@@ -58,6 +59,8 @@ pub struct EvaluationRecord<'a, T> {
 /// By which recipe a run was made.
 #[derive(Clone, Copy, Debug, Serialize)]
 pub struct RecipeRecord<'a> {
+    /// Its name and identity.
+    pub recipe: &'a RecipeBlock,
     /// The matcher.
     pub matcher: &'a str,
     /// The way to the pose.

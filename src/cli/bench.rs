@@ -24,7 +24,7 @@ use serde::Serialize;
 use super::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console, advised_error},
-    recipe::Settings,
+    recipe::RecipeSource,
 };
 use crate::{files::write_atomically, stages::rank::Matcher};
 
@@ -96,7 +96,7 @@ pub(super) struct BenchArgs {
     #[arg(long, value_name = "NAME")]
     part: Vec<String>,
     #[command(flatten)]
-    set: Settings,
+    recipe: RecipeSource,
     #[command(flatten)]
     library: LibraryChoice,
 }
@@ -175,9 +175,9 @@ fn check(args: &BenchArgs) -> anyhow::Result<()> {
             "Ask for it: partsight bench registration --condition outside",
         ));
     }
-    if bench != Bench::Recognition && !args.set.is_empty() {
+    if bench != Bench::Recognition && args.recipe.is_given() {
         return Err(advised_error(
-            "--set goes with recognition",
+            "--recipe and --set go with recognition",
             "Ask for it: partsight bench recognition --set NAME=VALUE",
         ));
     }

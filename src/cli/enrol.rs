@@ -7,6 +7,7 @@ use clap::Args;
 use super::{
     LibraryChoice, Outcome,
     console::{Advised as _, Console, advised_error},
+    recipe::RecipeSource,
     scan::{PosesChoice, open_scan},
 };
 use crate::{
@@ -21,7 +22,6 @@ use crate::{
     stages::{
         reference::{Coverage, ReferenceParams},
         scene::{SceneCloud, scene_from_cloud, scene_from_frame},
-        segment::SegmentParams,
     },
 };
 
@@ -57,6 +57,8 @@ pub(super) struct EnrolArgs {
     part: Option<PartName>,
     #[command(flatten)]
     library: LibraryChoice,
+    #[command(flatten)]
+    recipe: RecipeSource,
     /// Take everything in the file
     #[arg(long, conflicts_with = "segment")]
     whole: bool,
@@ -172,16 +174,21 @@ fn about(args: &EnrolArgs, from: &Path, simulated: bool) -> anyhow::Result<PartD
 fn enrolled_from_scan(
     args: &EnrolArgs,
     first: &Path,
+    params: &EnrolParams,
     console: &mut Console,
 ) -> anyhow::Result<Enrolled> {
-    let scan = open_scan(&args.scan, &args.poses, &SegmentParams::default(), console)?;
+    let scan = open_scan(&args.scan, &args.poses, &params.segment, console)?;
     let about = about(args, first, scan.cloud.cloud.is_simulated)?;
-    enrol_scan(&scan, &about, &EnrolParams::default()).advised()
+    enrol_scan(&scan, &about, params).advised()
 }
 
 fn enrolled_from(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Enrolled> {
+    let params = EnrolParams {
+        segment: args.recipe.recipe()?.segment.clone(),
+        ..EnrolParams::default()
+    };
     if let [first, ..] = args.scan.as_slice() {
-        return enrolled_from_scan(args, first, console);
+        return enrolled_from_scan(args, first, &params, console);
     }
     let Some(file) = &args.file else {
         return Err(advised_error(
@@ -194,7 +201,6 @@ fn enrolled_from(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Enro
         console.warn(&format_args!("{}: {warning}", file.display()), &warning);
     }
     let about = about(args, file, opened.is_simulated())?;
-    let params = EnrolParams::default();
     let path = file.display();
     let captured = |scene: &SceneCloud| match args.segment.filter(|number| *number > 0) {
         Some(number) => enrol_surface(scene, number, &about, &params),

@@ -20,7 +20,7 @@ use crate::{
     },
     files::write_atomically,
     geometry::parallel::num_cores,
-    pipeline::Timings,
+    pipeline::{RecipeBlock, Timings},
     report::{evaluation_picture, write_png},
 };
 
@@ -72,7 +72,11 @@ pub(super) fn run(args: &EvaluateArgs, console: &mut Console) -> anyhow::Result<
     // Before the work, so that a wrong file does not cost it.
     let earlier = args.against.as_deref().map(EarlierRun::read);
     let earlier = earlier.transpose().advised()?;
-    let library = args.library.load_some(console)?.library;
+    let recipe = args.recipe.recipe()?;
+    let library = args
+        .library
+        .load_some(&recipe.reference_params(), console)?
+        .library;
     let folder = CaseFolder::at(&args.folder);
     let list = folder.list().advised()?;
     if list.cases.is_empty() && list.problems.is_empty() {
@@ -89,7 +93,6 @@ pub(super) fn run(args: &EvaluateArgs, console: &mut Console) -> anyhow::Result<
             ),
         ));
     }
-    let recipe = args.recipe.recipe();
     let num_threads = args.threads.map_or_else(num_cores, usize::from);
     console.start_progress(list.cases.len());
     let judge = CaseJudge::new(&library, &recipe);
@@ -113,6 +116,7 @@ pub(super) fn run(args: &EvaluateArgs, console: &mut Console) -> anyhow::Result<
     let changed = changed_parameters(&recipe, &NAMED);
     if let Some(path) = &args.json {
         let recipe = RecipeRecord {
+            recipe: &RecipeBlock::from(&recipe),
             matcher: &matcher,
             pose: &pose,
             changed: &changed,
@@ -126,7 +130,11 @@ pub(super) fn run(args: &EvaluateArgs, console: &mut Console) -> anyhow::Result<
         .with_context(|| format!("{} was not written", path.display()))?;
     }
     if let Some(path) = &args.report {
-        let mut title = format!("{}, matcher {matcher}, pose {pose}", args.folder.display());
+        let label = &recipe.label;
+        let mut title = format!(
+            "{}, recipe {label}, matcher {matcher}, pose {pose}",
+            args.folder.display()
+        );
         for change in &changed {
             title.push_str(", ");
             title.push_str(change);

@@ -8,14 +8,14 @@ use super::{
 use crate::{
     pipeline::{self, Recipe, Unwatched},
     simulate::{CellSetup, PartKind, PartPose, PoseRange, Side, frame},
-    stages::scene::scene_from_frame,
+    stages::{reference::ReferenceParams, scene::scene_from_frame},
 };
 
 /// The frame's seed.
 const SEED: u64 = 1;
 
 pub(super) fn run(library: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome> {
-    let load = library.load_some(console)?;
+    let load = library.load_some(&ReferenceParams::default(), console)?;
     let mut setup = CellSetup::with_part(PartKind::FrontDoor, Side::Left, 0, SEED);
     setup.pose = PartPose::Drawn(PoseRange::facing());
     let scene = scene_from_frame(&frame(&setup).frame);

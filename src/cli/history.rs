@@ -22,6 +22,7 @@ use super::{
 use crate::{
     history::{Filter, History, HistoryError, KeepFrames, Retention, StoredVerdict, Summary},
     library::Truth,
+    stages::reference::ReferenceParams,
 };
 
 /// List, show and export what was inspected, here and in the window
@@ -247,7 +248,7 @@ pub(super) fn run(args: &HistoryArgs, console: &mut Console) -> anyhow::Result<O
 
 /// A name may be right that is not enrolled any more, or not yet; more often it is mistyped.
 fn note_if_unknown(part: &str, library: &LibraryChoice, console: &mut Console) {
-    let Ok(load) = library.load_some(console) else {
+    let Ok(load) = library.load_some(&ReferenceParams::default(), console) else {
         return;
     };
     let enrolled: BTreeSet<&str> = load

@@ -21,7 +21,7 @@ use super::{
     follow::{follow, parse_source},
     input::{OpenedScene, Scenes, before, open_ahead, open_empty_cell},
     output::{Columns, OutputFormat},
-    recipe::RecipeChoice,
+    recipe::{RecipeChoice, show_recipe},
     record::{HistoryChoice, HistoryRecorder, SceneOrigin},
     scan::PosesChoice,
     verdict::{outcome_of, show_in_robot},
@@ -31,7 +31,7 @@ use crate::{
     error::{Advice, guarded},
     history::HungId,
     library::Library,
-    pipeline::{self, Inspection, MirrorTally, Recipe, Unwatched},
+    pipeline::{self, Inspection, MirrorTally, NamedRecipe, Unwatched},
     report::{CaptureLine, InspectionLine, ReportFolder, stage_pictures},
     robot::RobotFrame,
     stages::{
@@ -124,8 +124,8 @@ fn inspect(
     scenes: Scenes<'_>,
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
-    let (place, load) = args.library.load_placed(console)?;
-    let recipe = args.recipe.recipe();
+    let recipe = args.recipe.recipe()?;
+    let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
     let robot = args.calibration.frame(console)?;
     let spray = args
         .spray
@@ -199,7 +199,7 @@ fn inspect_files(
 /// What stays the same from file to file.
 struct InspectSession {
     library: Library,
-    recipe: Recipe,
+    recipe: NamedRecipe,
     empty_cell: Option<Arc<EmptyCell>>,
     robot: Option<RobotFrame>,
     spray: Option<spray::SprayFile>,
@@ -301,7 +301,9 @@ impl InspectSession {
         };
         let robot = robot.as_ref();
         let line_of = |inspection: &Inspection| {
-            let mut line = InspectionLine::of(&name, inspection).captured(capture);
+            let mut line = InspectionLine::of(&name, inspection)
+                .by(recipe)
+                .captured(capture);
             if file_says_simulated {
                 line = line.of_simulated_file();
             }
@@ -314,6 +316,9 @@ impl InspectSession {
             _ => name.clone(),
         };
         format.inspected(&shown, &line, &inspection, library, console);
+        if let OutputFormat::Card = format {
+            show_recipe(recipe, console);
+        }
         if let (OutputFormat::Card, Some(robot)) = (format, robot) {
             show_in_robot(robot, &inspection, library, console);
         }
@@ -416,7 +421,7 @@ mod tests {
         let folder = tempfile::tempdir().expect("a folder");
         let mut session = InspectSession {
             library: Library::default(),
-            recipe: Recipe::default(),
+            recipe: NamedRecipe::default(),
             empty_cell: None,
             robot: None,
             spray: None,

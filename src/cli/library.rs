@@ -88,7 +88,7 @@ pub(super) fn run(args: &LibraryArgs, console: &mut Console) -> anyhow::Result<O
 }
 
 fn list(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome> {
-    let (place, load) = choice.load(console)?;
+    let (place, load) = choice.load(&ReferenceParams::default(), console)?;
     console.line(&format_args!(
         "{} ({}): {} parts",
         place.location(),

@@ -19,6 +19,7 @@ mod interrupt;
 mod library;
 mod output;
 mod recipe;
+mod recipes;
 mod record;
 mod report;
 mod scan;
@@ -81,6 +82,7 @@ enum Command {
     Scan(scan::ScanArgs),
     Enrol(enrol::EnrolArgs),
     Library(library::LibraryArgs),
+    Recipe(recipes::RecipeArgs),
     Align(align::AlignArgs),
     Calibrate(calibrate::CalibrateArgs),
     Simulate(simulate::SimulateArgs),
@@ -132,6 +134,7 @@ pub fn run(cli: Cli) -> Outcome {
         Some(Command::Scan(args)) => scan::run(&args, &mut console),
         Some(Command::Enrol(args)) => enrol::run(&args, &mut console),
         Some(Command::Library(args)) => library::run(&args, &mut console),
+        Some(Command::Recipe(args)) => recipes::run(&args, &mut console),
         Some(Command::Align(args)) => align::run(&args, &mut console),
         Some(Command::Calibrate(args)) => calibrate::run(&args, &mut console),
         Some(Command::Simulate(args)) => simulate::run(&args, &mut console),
@@ -190,6 +193,9 @@ fn window(
         settings: app::shell::settings::users_file(),
         // Without such a folder the window keeps it in memory.
         history: crate::history::users_folder().ok(),
+        recipes: crate::pipeline::RecipeFolder::of_user()
+            .ok()
+            .map(|folder| folder.path().to_owned()),
         cell: crate::robot::calibration::default_path().ok(),
         scene,
         ..app::WindowOptions::default()
@@ -235,10 +241,14 @@ impl LibraryChoice {
             .advised()
     }
 
-    /// Loads the library and names what had to be set aside.
-    fn load(&self, console: &mut Console) -> anyhow::Result<(LibraryPlace, LibraryLoad)> {
+    /// Loads the library, prepared with these parameters, and names what had to be set aside.
+    fn load(
+        &self,
+        params: &ReferenceParams,
+        console: &mut Console,
+    ) -> anyhow::Result<(LibraryPlace, LibraryLoad)> {
         let place = self.open(console)?;
-        let load = place.load(&ReferenceParams::default()).advised()?;
+        let load = place.load(params).advised()?;
         for problem in &load.problems {
             console.warn(&format_args!("set aside {problem}"), problem);
         }
@@ -249,13 +259,21 @@ impl LibraryChoice {
     }
 
     /// The parts of a library; one without parts is an error.
-    fn load_some(&self, console: &mut Console) -> anyhow::Result<LibraryLoad> {
-        self.load_placed(console).map(|(_, load)| load)
+    fn load_some(
+        &self,
+        params: &ReferenceParams,
+        console: &mut Console,
+    ) -> anyhow::Result<LibraryLoad> {
+        self.load_placed(params, console).map(|(_, load)| load)
     }
 
     /// As [`Self::load`]; a library without parts is an error.
-    fn load_placed(&self, console: &mut Console) -> anyhow::Result<(LibraryPlace, LibraryLoad)> {
-        let (place, load) = self.load(console)?;
+    fn load_placed(
+        &self,
+        params: &ReferenceParams,
+        console: &mut Console,
+    ) -> anyhow::Result<(LibraryPlace, LibraryLoad)> {
+        let (place, load) = self.load(params, console)?;
         if load.parts.is_empty() {
             let advice = place
                 .folder()

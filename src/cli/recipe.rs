@@ -1,27 +1,31 @@
 //! The recipe, as options.
 
+use std::sync::Arc;
+
 use clap::{Args, ValueEnum};
 
+use super::console::{Advised as _, Console};
 use crate::{
     error::Advice as _,
     pipeline::{
-        PoseChoice, Recipe,
-        parameters::{Kind, Parameter, Setting, changed},
+        BUILT_IN, NamedRecipe, PoseChoice, Recipe, RecipeFile, RecipeFolder, RecipeLabel,
+        open_recipe,
+        parameters::{Parameter, Setting, changed},
     },
     stages::{pose::PoseMethod, rank::Matcher},
 };
 
-/// The parts of a recipe that the command line can change.
+/// The recipe of an inspection.
 #[derive(Clone, Debug, Args)]
 pub(super) struct RecipeChoice {
-    /// What ranks the enrolled parts
-    #[arg(long, value_enum, default_value_t = MatcherChoice::Default)]
-    matcher: MatcherChoice,
-    /// What finds the pose
-    #[arg(long, value_enum, default_value_t = PoseArg::Global)]
-    pose: PoseArg,
     #[command(flatten)]
-    set: Settings,
+    from: RecipeSource,
+    /// What ranks the enrolled parts; without it what the recipe says
+    #[arg(long, value_enum)]
+    matcher: Option<MatcherChoice>,
+    /// What finds the pose; without it what the recipe says
+    #[arg(long, value_enum)]
+    pose: Option<PoseArg>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
@@ -45,27 +49,42 @@ enum PoseArg {
 }
 
 impl RecipeChoice {
-    /// The default recipe with what is asked for.
-    pub(super) fn recipe(&self) -> Recipe {
-        let mut recipe = Recipe::default();
-        recipe.rank.matcher = match self.matcher {
-            MatcherChoice::Default => Matcher::Default,
-            MatcherChoice::Paper => Matcher::Paper,
-        };
-        recipe.pose = match self.pose {
-            PoseArg::Global => PoseChoice::By(PoseMethod::Global),
-            PoseArg::Icp => PoseChoice::By(PoseMethod::Icp),
-            PoseArg::IcpGa => PoseChoice::By(PoseMethod::IcpGa),
-            PoseArg::None => PoseChoice::Skip,
-        };
-        self.set.apply(&mut recipe);
-        recipe
+    /// The recipe, with what is asked for.
+    pub(super) fn recipe(&self) -> anyhow::Result<NamedRecipe> {
+        Ok(self.changed(&self.from.file()?))
+    }
+
+    /// The file that it comes from, and the recipe with what is asked for.
+    pub(super) fn file(&self) -> anyhow::Result<(RecipeFile, NamedRecipe)> {
+        let file = self.from.file()?;
+        let recipe = self.changed(&file);
+        Ok((file, recipe))
+    }
+
+    fn changed(&self, file: &RecipeFile) -> NamedRecipe {
+        self.from.changed(file, |recipe| {
+            match self.matcher {
+                None => {}
+                Some(MatcherChoice::Default) => recipe.rank.matcher = Matcher::Default,
+                Some(MatcherChoice::Paper) => recipe.rank.matcher = Matcher::Paper,
+            }
+            match self.pose {
+                None => {}
+                Some(PoseArg::Global) => recipe.pose = PoseChoice::By(PoseMethod::Global),
+                Some(PoseArg::Icp) => recipe.pose = PoseChoice::By(PoseMethod::Icp),
+                Some(PoseArg::IcpGa) => recipe.pose = PoseChoice::By(PoseMethod::IcpGa),
+                Some(PoseArg::None) => recipe.pose = PoseChoice::Skip,
+            }
+        })
     }
 }
 
-/// Parameters that are given another value than the default.
+/// A recipe, and parameters that are given another value.
 #[derive(Clone, Debug, Default, Args)]
-pub(super) struct Settings {
+pub(super) struct RecipeSource {
+    /// The recipe, by its name (partsight recipe list) or as a file; without it your default recipe
+    #[arg(long, value_name = "NAME|FILE")]
+    recipe: Option<String>,
     #[arg(long, value_name = "NAME=VALUE", value_parser = parse_setting, help = SET_HELP)]
     set: Vec<Setting>,
 }
@@ -73,17 +92,54 @@ pub(super) struct Settings {
 const SET_HELP: &str = "Give a parameter another value, in its own unit, such as segment.plane_distance=12; may be given \
     several times. docs/guide/parameters.md lists names, units and ranges";
 
-impl Settings {
-    /// True if all parameters keep their values.
-    pub(super) fn is_empty(&self) -> bool {
-        self.set.is_empty()
+impl RecipeSource {
+    /// True if something is asked for.
+    pub(super) fn is_given(&self) -> bool {
+        self.recipe.is_some() || !self.set.is_empty()
     }
 
-    /// Changes the recipe, in the order given.
-    pub(super) fn apply(&self, recipe: &mut Recipe) {
+    /// The recipe; without one the user's default.
+    pub(super) fn recipe(&self) -> anyhow::Result<NamedRecipe> {
+        Ok(self.changed(&self.file()?, |_| ()))
+    }
+
+    /// The recipe; without one the program's own, whatever the user's default is.
+    pub(super) fn recipe_or_built_in(&self) -> anyhow::Result<NamedRecipe> {
+        let file = open_named(Some(self.recipe.as_deref().unwrap_or(BUILT_IN)))?;
+        Ok(self.changed(&file, |_| ()))
+    }
+
+    fn file(&self) -> anyhow::Result<RecipeFile> {
+        open_named(self.recipe.as_deref())
+    }
+
+    /// With `change`, and then the values of `--set` in the order given.
+    fn changed(&self, file: &RecipeFile, change: impl FnOnce(&mut Recipe)) -> NamedRecipe {
+        let mut recipe = file.recipe.clone();
+        change(&mut recipe);
         for setting in &self.set {
-            setting.apply(recipe);
+            setting.apply(&mut recipe);
         }
+        NamedRecipe {
+            label: RecipeLabel {
+                name: file.name.to_string(),
+                is_changed: recipe != file.recipe,
+            },
+            parameters: Arc::new(recipe),
+        }
+    }
+}
+
+/// A recipe by its name or as a file; without one the user's default.
+pub(super) fn open_named(given: Option<&str>) -> anyhow::Result<RecipeFile> {
+    open_recipe(RecipeFolder::of_user(), given).advised()
+}
+
+/// Names the recipe, unless it is the program's own.
+pub(super) fn show_recipe(recipe: &NamedRecipe, console: &mut Console) {
+    if recipe.label != RecipeLabel::default() {
+        let text = format!("{}, {}", recipe.label, recipe.identity());
+        console.entry("recipe", &text);
     }
 }
 
@@ -96,14 +152,7 @@ fn parse_setting(text: &str) -> Result<Setting, String> {
 pub(super) fn changed_parameters(recipe: &Recipe, left_out: &[&str]) -> Vec<String> {
     let listed = changed(recipe).filter(|parameter| !left_out.contains(&parameter.key));
     listed
-        .map(|parameter| match &parameter.kind {
-            // All digits, so that it can be set again.
-            Kind::Number(number) => {
-                let value = parameter.value(recipe);
-                format!("{}={value}{}", parameter.key, number.unit.sign())
-            }
-            Kind::Choice(_) => format!("{}={}", parameter.key, parameter.text(recipe)),
-        })
+        .map(|parameter| format!("{}={}", parameter.key, parameter.setting_text(recipe)))
         .collect()
 }
 

@@ -12,7 +12,7 @@ use crate::{
         users_folder,
     },
     library::LibraryLoad,
-    pipeline::{Inspection, Recipe, Verdict},
+    pipeline::{Inspection, NamedRecipe, Verdict},
     report::segmentation_picture,
     stages::scene::SceneCloud,
 };
@@ -38,7 +38,7 @@ pub(super) struct HistoryRecorder {
     writer: Writer,
     library: String,
     titles: BTreeMap<String, String>,
-    recipe: Arc<Recipe>,
+    recipe: NamedRecipe,
     num: u64,
 }
 
@@ -47,7 +47,7 @@ impl HistoryRecorder {
     pub(super) fn start(
         choice: &HistoryChoice,
         library: &LibraryLoad,
-        recipe: &Recipe,
+        recipe: &NamedRecipe,
         console: &Console,
     ) -> Option<Self> {
         let folder = match choice.folder() {
@@ -70,7 +70,7 @@ impl HistoryRecorder {
             writer,
             library: library.identity(),
             titles: titles.collect(),
-            recipe: Arc::new(recipe.clone()),
+            recipe: recipe.clone(),
             num: 0,
         })
     }

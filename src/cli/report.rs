@@ -18,7 +18,7 @@ use super::{
 };
 use crate::{
     library::{LibraryLoad, PartMeta},
-    pipeline::{self, Inspection, Recipe, Unwatched},
+    pipeline::{self, Inspection, NamedRecipe, Unwatched},
     report::{
         ReportFolder,
         pose_report::{
@@ -105,14 +105,15 @@ pub(super) fn run(args: &ReportArgs, console: &mut Console) -> anyhow::Result<Ou
 }
 
 fn report(args: &ReportArgs, scenes: Scenes<'_>, console: &mut Console) -> anyhow::Result<Outcome> {
-    let load = args.library.load_some(console)?;
+    let recipe = args.recipe.recipe()?;
+    let load = (args.library).load_some(&recipe.reference_params(), console)?;
     let empty_cell = args
         .empty_cell
         .as_deref()
         .map(|path| open_empty_cell(path, console));
     let out = args.out.as_deref().unwrap_or(Path::new("."));
     let mut one = Reporter {
-        recipe: args.recipe.recipe(),
+        recipe,
         library_identity: load.identity(),
         load,
         empty_cell: empty_cell.transpose()?,
@@ -144,7 +145,7 @@ struct Reporter<'a> {
     args: &'a ReportArgs,
     load: LibraryLoad,
     library_identity: String,
-    recipe: Recipe,
+    recipe: NamedRecipe,
     empty_cell: Option<Arc<EmptyCell>>,
     robot: Option<RobotFrame>,
     folder: ReportFolder,

@@ -266,7 +266,7 @@ const ENDINGS: &str = ".pcd, .ply, .xyz, or .png for a depth image";
 
 impl FileError {
     /// The variant for what the system said on reading.
-    pub(super) fn reading(path: &Path, source: io::Error) -> Self {
+    pub(crate) fn reading(path: &Path, source: io::Error) -> Self {
         let path = path.to_owned();
         let inner = source.get_ref().and_then(|inner| inner.downcast_ref());
         if let Some(found) = inner.copied() {
@@ -284,7 +284,7 @@ impl FileError {
     }
 
     /// The variant for what the system said on writing.
-    pub(super) fn writing(path: &Path, source: io::Error) -> Self {
+    pub(crate) fn writing(path: &Path, source: io::Error) -> Self {
         Self::Write {
             path: path.to_owned(),
             source,

@@ -12,7 +12,7 @@ use super::{frames::FrameRecord, hung::HungId};
 use crate::{
     geometry::rigid::{RigidTransform, row_major},
     library::Truth,
-    pipeline::{Inspection, Recipe, Verdict},
+    pipeline::{Inspection, NamedRecipe, Recipe, RecipeLabel, Verdict},
     scan::Shot,
     stages::{pose::PoseEstimate, scene::SceneCloud},
 };
@@ -140,6 +140,8 @@ pub struct InspectionDetail {
     pub complaint: Option<[String; 2]>,
     /// The pose, if there is one.
     pub camera_from_part: Option<RigidTransform>,
+    /// By which name the recipe went; `None` of an inspection that an earlier program wrote.
+    pub recipe_label: Option<RecipeLabel>,
     /// Tells recipes apart.
     pub recipe_identity: String,
     /// All parameters; `None` if this program cannot read them. Those that it has more are its own.
@@ -214,7 +216,7 @@ impl NewEntry {
         about: InspectionContext<'_>,
         scene: &Arc<SceneCloud>,
         inspection: &Inspection,
-        recipe: &Arc<Recipe>,
+        recipe: &NamedRecipe,
     ) -> Self {
         let verdict = StoredVerdict::from(&inspection.verdict);
         let nearest = inspection.verdict.guess().map(str::to_owned);
@@ -251,8 +253,9 @@ impl NewEntry {
             nearest,
             complaint: inspection.verdict.complaint(),
             camera_from_part: pose.map(PoseEstimate::camera_from_part),
+            recipe_label: Some(recipe.label.clone()),
             recipe_identity: recipe.identity(),
-            recipe: Some(Arc::clone(recipe)),
+            recipe: Some(Arc::clone(&recipe.parameters)),
             library_identity: about.library,
             program: env!("CARGO_PKG_VERSION").to_owned(),
             line: about.line,
@@ -307,6 +310,30 @@ pub(super) fn png_of(picture: &RgbImage) -> Vec<u8> {
     // Into memory, and of a size that every PNG can have.
     let written = picture.write_to(&mut png, ImageFormat::Png);
     written.map_or_else(|_| Vec::new(), |()| png.into_inner())
+}
+
+impl InspectionDetail {
+    /// The recipe, if this program can read it. One whose name was not written down goes by its identity.
+    pub fn named_recipe(&self) -> Option<NamedRecipe> {
+        let parameters = Arc::clone(self.recipe.as_ref()?);
+        let label = self.recipe_label.clone();
+        Some(NamedRecipe {
+            label: label.unwrap_or_else(|| RecipeLabel {
+                name: self.recipe_identity.clone(),
+                is_changed: false,
+            }),
+            parameters,
+        })
+    }
+
+    /// The recipe for people: its name, if it is known, and its identity.
+    pub fn recipe_text(&self) -> String {
+        let identity = &self.recipe_identity;
+        match &self.recipe_label {
+            Some(label) => format!("{label}, {identity}"),
+            None => identity.clone(),
+        }
+    }
 }
 
 impl Record {

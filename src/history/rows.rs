@@ -10,7 +10,10 @@ use super::{
     frames::FrameRecord,
     hung::HungId,
 };
-use crate::{geometry::sixteen_numbers, pipeline::Recipe};
+use crate::{
+    geometry::sixteen_numbers,
+    pipeline::{Recipe, RecipeLabel},
+};
 
 /// What a row of a list is read from.
 pub(super) const COLUMNS: &str = "number, at, scene, source, simulated, verdict, part, title, score, margin, total_ms, remark, \
@@ -80,7 +83,7 @@ pub(super) fn insert(
     }
     file.execute(
         "INSERT INTO detail (number, nearest, reason, advice, camera_from_part, recipe, library, program, line,
-            thumbnail, origin, frame) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+            thumbnail, origin, frame, recipe_name, recipe_changed) VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         params![
             number,
             detail.nearest,
@@ -94,6 +97,8 @@ pub(super) fn insert(
             entry.picture.as_ref().map(png_of),
             detail.origin,
             frame.and_then(json),
+            detail.recipe_label.as_ref().map(|label| &label.name),
+            detail.recipe_label.as_ref().is_some_and(|label| label.is_changed),
         ],
     )?;
     Ok(number)
@@ -163,6 +168,8 @@ pub(super) fn record_of(row: &Row<'_>) -> rusqlite::Result<Record> {
         sixteen_numbers::deserialize(&mut numbers).ok()
     });
     let recipe: String = row.get("json")?;
+    let recipe_name: Option<String> = row.get("recipe_name")?;
+    let is_changed = row.get("recipe_changed")?;
     let thumbnail: Option<Vec<u8>> = row.get("thumbnail")?;
     Ok(Record {
         summary: summary_of(row)?,
@@ -170,6 +177,7 @@ pub(super) fn record_of(row: &Row<'_>) -> rusqlite::Result<Record> {
             nearest: row.get("nearest")?,
             complaint: reason.map(|reason| [reason, advice.unwrap_or_default()]),
             camera_from_part: pose,
+            recipe_label: recipe_name.map(|name| RecipeLabel { name, is_changed }),
             recipe_identity: row.get("identity")?,
             recipe: serde_json::from_str(&recipe).ok().map(Arc::new),
             library_identity: row.get("library")?,

@@ -6,10 +6,13 @@ use rusqlite::{Connection, Transaction, TransactionBehavior};
 type Migration = fn(&Transaction<'_>) -> rusqlite::Result<()>;
 
 /// Every step, in order; the version of a file counts those that it has seen.
-const STEPS: [Migration; 2] = [first, parts];
+const STEPS: [Migration; 3] = [first, parts, recipe_names];
 
 /// The version that is written.
 pub(super) const VERSION: u32 = STEPS.len() as u32;
+
+/// The version from which on recipes have names.
+pub(super) const WITH_RECIPE_NAMES: u32 = 3;
 
 /// Tells our files from other programs': `PsHi`.
 pub(super) const APPLICATION: i32 = i32::from_be_bytes(*b"PsHi");
@@ -77,6 +80,14 @@ fn parts(file: &Transaction<'_>) -> rusqlite::Result<()> {
         DROP INDEX counted;
         CREATE INDEX counted ON inspection (parent, simulated);
         CREATE INDEX hung ON inspection (hung);",
+    )
+}
+
+/// By which name a recipe went, and whether it was changed since it was kept under it.
+fn recipe_names(file: &Transaction<'_>) -> rusqlite::Result<()> {
+    file.execute_batch(
+        "ALTER TABLE detail ADD COLUMN recipe_name TEXT;                           -- NULL: not written down
+        ALTER TABLE detail ADD COLUMN recipe_changed INTEGER NOT NULL DEFAULT 0;",
     )
 }
 

@@ -15,6 +15,7 @@ use super::{
     open::{FILE, FRAMES, Lock},
     retention::Retention,
     rows::{COLUMNS, head_of, insert, json, record_of, summary_of},
+    schema::{WITH_RECIPE_NAMES, version},
     shots,
 };
 use crate::{library::Truth, scan::Shot, stages::scene::SceneCloud};
@@ -205,8 +206,15 @@ impl History {
 
     /// An inspection in full.
     pub fn row(&self, number: i64) -> Result<Option<Record>, HistoryError> {
+        // A file that cannot be written is not brought to the version of today.
+        let found = version(&self.file).map_err(|error| self.error(error))?;
+        let recipe = if found >= WITH_RECIPE_NAMES {
+            "recipe_name, recipe_changed"
+        } else {
+            "NULL AS recipe_name, 0 AS recipe_changed"
+        };
         let asked = format!(
-            "SELECT {COLUMNS}, nearest, reason, advice, camera_from_part, recipe.identity, recipe.json, library,
+            "SELECT {COLUMNS}, nearest, reason, advice, camera_from_part, recipe.identity, recipe.json, {recipe}, library,
                 program, line, thumbnail, origin, frame
             FROM inspection JOIN detail USING (number) JOIN recipe ON recipe.identity = detail.recipe
             WHERE number = ?"

@@ -10,7 +10,7 @@ use crate::{
     geometry::rigid::from_euler_zyx,
     kit::{history_entry, moment, new_history, open_history, small_scene},
     library::Truth,
-    pipeline::Recipe,
+    pipeline::{Recipe, RecipeLabel},
     scan::Shot,
 };
 
@@ -352,12 +352,20 @@ fn two_recipes_with_one_identity_are_both_kept() {
     let mut recipe = Recipe::default();
     recipe.accept.min_score = 0.5;
     second.record.detail.recipe = Some(Arc::new(recipe.clone()));
+    let label = RecipeLabel {
+        name: "glossy".into(),
+        is_changed: true,
+    };
+    second.record.detail.recipe_label = Some(label.clone());
     for entry in [history_entry(1, StoredVerdict::NoPart, "grille"), second] {
         history.add(&entry, &Retention::default()).expect("written");
     }
     let recipe_of = |number| history.known(number).expect("there").detail.recipe;
     assert_eq!(recipe_of(1).as_deref(), Some(&Recipe::default()));
     assert_eq!(recipe_of(2).as_deref(), Some(&recipe));
+    let label_of = |number| history.known(number).expect("there").detail.recipe_label;
+    assert_eq!(label_of(1), Some(RecipeLabel::default()));
+    assert_eq!(label_of(2), Some(label));
 }
 
 #[test]
@@ -522,12 +530,27 @@ fn a_file_of_the_first_version_is_brought_up_to_date_with_all_that_was_written()
     );
     assert_eq!(record.summary.label, Some(Truth::Part("fender".into())));
     assert_eq!(record.detail.line, "{\"scene\":\"b\"}");
+    assert_eq!(record.detail.recipe_label, None);
     // Inspected again it is one part.
     let mut again = history_entry(9, StoredVerdict::NotAccepted, "fender");
     again.record.summary.hung = record.summary.hung;
     history.add(&again, &ALL).expect("written");
     assert_eq!(numbers(&history, &Filter::default()), [3, 2, 1]);
     assert_eq!(history.below(2).expect("asked").len(), 1);
+}
+
+#[test]
+fn a_file_of_the_second_version_that_cannot_be_written_is_read_as_it_is() {
+    let (_folder, mut history) = new_history();
+    let written = history_entry(1, StoredVerdict::Accepted, "fender");
+    history.add(&written, &ALL).expect("written");
+    let former = "ALTER TABLE detail DROP COLUMN recipe_name;
+        ALTER TABLE detail DROP COLUMN recipe_changed;
+        PRAGMA user_version = 2;";
+    history.file.execute_batch(former).expect("changed");
+    let record = history.known(1).expect("there");
+    assert_eq!(record.detail.recipe_label, None);
+    assert_eq!(record.detail.recipe, written.record.detail.recipe);
 }
 
 #[test]

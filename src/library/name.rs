@@ -1,4 +1,4 @@
-//! The name of a part, which is also the name of its folder.
+//! The name of a part, which is also the name of its folder. Recipes are named by the same rules.
 
 use std::fmt;
 
@@ -22,14 +22,14 @@ const RESERVED: [&str; 22] = [
     "com9", "lpt1", "lpt2", "lpt3", "lpt4", "lpt5", "lpt6", "lpt7", "lpt8", "lpt9",
 ];
 
-/// Why a text is no name of a part.
+/// Why a text is no name.
 #[derive(Clone, Debug, PartialEq, Eq, thiserror::Error)]
 pub enum BadName {
     /// Nothing at all.
-    #[error("a part's name is empty")]
+    #[error("the name is empty")]
     Empty,
     /// Too many characters.
-    #[error("a part's name has {found} characters, at most {limit} are allowed")]
+    #[error("the name has {found} characters, at most {limit} are allowed")]
     TooLong {
         /// Characters given.
         found: usize,
@@ -37,7 +37,7 @@ pub enum BadName {
         limit: usize,
     },
     /// A character that is not allowed, or not at the beginning.
-    #[error("{name:?} is no name for a part: {character:?} cannot stand there")]
+    #[error("{name:?} is no name: {character:?} cannot stand there")]
     BadCharacter {
         /// The name given.
         name: String,
@@ -45,7 +45,7 @@ pub enum BadName {
         character: char,
     },
     /// A device name of Windows.
-    #[error("{name:?} is no name for a part: Windows keeps it for a device")]
+    #[error("{name:?} is no name: Windows keeps it for a device")]
     Reserved {
         /// The name given.
         name: String,

@@ -261,6 +261,16 @@ impl Parameter {
     }
 }
 
+impl Parameter {
+    /// Its value as a [`Setting`] takes it, with all digits.
+    pub fn setting_text(&self, recipe: &Recipe) -> String {
+        match &self.kind {
+            Kind::Number(number) => format!("{}{}", self.value(recipe), number.unit.sign()),
+            Kind::Choice(_) => self.text(recipe),
+        }
+    }
+}
+
 impl Number {
     /// A value with its unit.
     pub fn text(&self, value: f64) -> String {

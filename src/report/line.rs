@@ -7,7 +7,7 @@ use serde::Serialize;
 use crate::{
     capture::Captured,
     geometry::rigid::row_major,
-    pipeline::{Inspection, Timings, Verdict},
+    pipeline::{Inspection, NamedRecipe, RecipeBlock, Timings, Verdict},
     robot::RobotFrame,
     stages::pose::{PoseEstimate, Uncertainty},
 };
@@ -39,6 +39,8 @@ pub struct InspectionLine<'a> {
     robot: Option<RobotLine<'a>>,
     ranking: Vec<RankLine<'a>>,
     timings_ms: Option<TimingsLine>,
+    #[serde(skip_serializing_if = "Option::is_none")]
+    recipe: Option<RecipeBlock>,
     /// Of several frames inspected together.
     #[serde(skip_serializing_if = "Option::is_none")]
     scan: Option<ScanLine<'a>>,
@@ -185,7 +187,17 @@ impl<'a> InspectionLine<'a> {
             robot: None,
             ranking: Vec::new(),
             timings_ms: None,
+            recipe: None,
             scan: None,
+        }
+    }
+
+    /// The same line, with the recipe that it was inspected by.
+    #[must_use]
+    pub fn by(self, recipe: &NamedRecipe) -> Self {
+        Self {
+            recipe: Some(recipe.into()),
+            ..self
         }
     }
 

@@ -17,7 +17,7 @@ use partsight::{
         NewEntry, Retention,
     },
     library::Library,
-    pipeline::{self, Recipe, Unwatched},
+    pipeline::{self, NamedRecipe, Unwatched},
     simulate::{CellSetup, PartKind, SensorNoise, Side},
 };
 use serde_json::Value;
@@ -350,7 +350,7 @@ impl Drop for Disk {
 fn entries() -> impl Iterator<Item = NewEntry> {
     let setup = CellSetup::with_part(PartKind::Grille, Side::Left, 0, 3);
     let scene = Arc::new(scene_of(&setup));
-    let recipe = Arc::new(Recipe::default());
+    let recipe = NamedRecipe::default();
     let inspection = pipeline::run(&scene, &Library::default(), &recipe, &Unwatched).expect("ran");
     (1..).map(move |number| {
         let about = InspectionContext {

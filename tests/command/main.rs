@@ -11,6 +11,7 @@ mod inspect;
 #[path = "../kit/mod.rs"]
 mod kit;
 mod library;
+mod recipe;
 mod report;
 mod scan;
 mod simulate;

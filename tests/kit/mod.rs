@@ -18,7 +18,7 @@ use partsight::{
     },
     history::{History, HungId, InspectionDetail, NewEntry, Record, StoredVerdict, Summary},
     library::{Library, LibraryFolder},
-    pipeline::Recipe,
+    pipeline::{Recipe, RecipeLabel},
     simulate::{CellSetup, PartKind, PartPose, PoseRange, SensorNoise, Side, frame, frame_of_mesh},
     stages::{
         reference::{Coverage, Reference, ReferenceParams},
@@ -161,6 +161,7 @@ pub(crate) fn history_entry(seconds: i64, verdict: StoredVerdict, part: &str) ->
                 complaint: Some(["too low".into(), "look again".into()])
                     .filter(|_| verdict != StoredVerdict::Accepted),
                 camera_from_part: Some(from_euler_zyx([0.1, 0.2, 0.3, 0.01, 0.02, 1.4])),
+                recipe_label: Some(RecipeLabel::default()),
                 recipe_identity: recipe.identity(),
                 recipe: Some(Arc::new(recipe)),
                 library_identity: "0badcafe".into(),

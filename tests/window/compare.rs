@@ -12,10 +12,11 @@ use partsight::{
         WindowOptions,
         inspection::source::CellChoice,
         shell::action::Action,
-        workspaces::compare::{CompareAction, CompareState, CompareWorkspace, Front},
+        workspaces::compare::{CompareAction, CompareState, CompareWorkspace, Front, RecipeAction},
     },
     cases::{CaseDescription, CaseFolder, FoundVerdict, Truth},
-    pipeline::Recipe,
+    library::PartName,
+    pipeline::{Recipe, RecipeFolder},
     simulate::{CellSetup, ObjectKind, PartKind, Side},
 };
 
@@ -231,7 +232,7 @@ fn a_changed_parameter_shows_at_once_and_can_be_used_undone_and_reset() {
     assert!((study(&harness).recipe.accept.min_score - 1.0).abs() < 1e-9);
     harness.get_by_label_contains("Not accepted · ");
     // The scene in front of Inspect is as it was.
-    assert_eq!(*harness.state().state().recipe, Recipe::default());
+    assert_eq!(**harness.state().state().recipe, Recipe::default());
 
     press(&mut harness, "Use this recipe");
     let state = harness.state().state();
@@ -239,7 +240,7 @@ fn a_changed_parameter_shows_at_once_and_can_be_used_undone_and_reset() {
     let shown = state.shown.as_ref().expect("a result");
     assert!((shown.inspected.recipe.accept.min_score - 1.0).abs() < 1e-9);
     press(&mut harness, "Undo use");
-    assert_eq!(*harness.state().state().recipe, Recipe::default());
+    assert_eq!(**harness.state().state().recipe, Recipe::default());
 
     press(&mut harness, "Reset accept from");
     harness.get_by_label("0 changed from default");
@@ -254,6 +255,108 @@ fn a_changed_parameter_shows_at_once_and_can_be_used_undone_and_reset() {
     harness.get_by_label_contains("Auto- and cross-correlation: paper:");
     press(&mut harness, "Reset all");
     harness.get_by_label_contains("Auto- and cross-correlation: default:");
+}
+
+#[test]
+fn a_recipe_is_saved_used_renamed_removed_and_put_back() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let recipes = RecipeFolder::at(folder.path().join("recipes"));
+    let mut harness = open_with(
+        USUAL,
+        WindowOptions {
+            cases: Some(folder.path().join("cases")),
+            recipes: Some(recipes.path().to_owned()),
+            ..plain_options()
+        },
+    );
+    press(&mut harness, "Compare");
+    harness.get_by_label("Recipe built-in");
+    act_in_compare(&mut harness, CompareAction::Set("accept.min_score", 0.95));
+    press(&mut harness, "Recipe built-in (changed)");
+    press(&mut harness, "Save as…");
+    let write_name = |harness: &mut WindowHarness, name: &str| {
+        let field = harness.get_by_role_and_label(Role::TextInput, "Name of the recipe");
+        field.type_text(name);
+        settle(harness);
+    };
+    write_name(&mut harness, "Strict one");
+    harness.get_by_label_contains("for example strict_one");
+    press(&mut harness, "Cancel the name");
+    press(&mut harness, "Recipe built-in (changed)");
+    press(&mut harness, "Save as…");
+    write_name(&mut harness, "strict");
+    press(&mut harness, "Save under this name");
+    harness.get_by_label("Recipe strict");
+    harness.get_by_label("Saved recipe strict");
+    let kept = |name: &str| recipes.read(&PartName::new(name).expect("a name"));
+    assert!((kept("strict").expect("kept").recipe.accept.min_score - 0.95).abs() < 1e-12);
+
+    // On trial until it is used; then the result, and all that is written of it, has its name.
+    assert_eq!(harness.state().state().recipe.label.name, "built-in");
+    press(&mut harness, "Use this recipe");
+    let state = harness.state().state();
+    let shown = state.shown.as_ref().expect("a result");
+    assert_eq!(shown.inspected.recipe.label.to_string(), "strict");
+    assert!(
+        shown
+            .inspected
+            .entry
+            .record
+            .detail
+            .line
+            .contains("\"name\":\"strict\"")
+    );
+
+    // Changed, it is marked; what differs from the defaults is listed.
+    act_in_compare(&mut harness, CompareAction::Set("accept.min_score", 0.5));
+    act_in_compare(&mut harness, CompareAction::Set("project.pixel", 4.0));
+    press(&mut harness, "2 changed from default");
+    harness.get_by_label("Accept from: 0.50, default 0.90");
+    harness.get_by_label("Pixel: 4.0 mm, default 5.0 mm");
+    press(&mut harness, "Recipe strict (changed)");
+    press(&mut harness, "Duplicate");
+    harness.get_by_label("Recipe strict_2");
+    let copy = kept("strict_2").expect("kept");
+    assert!((copy.recipe.project.pixel.mm() - 4.0).abs() < 1e-9);
+    press(&mut harness, "Recipe strict_2");
+    press(&mut harness, "strict");
+    harness.get_by_label("Recipe strict");
+    assert!(own(&harness).tried.is_none());
+
+    press(&mut harness, "Recipe strict");
+    press(&mut harness, "Set as default");
+    assert_eq!(recipes.default_name().expect("read"), "strict");
+    press(&mut harness, "Recipe strict");
+    press(&mut harness, "Rename…");
+    write_name(&mut harness, "er");
+    press(&mut harness, "Rename under this name");
+    harness.get_by_label("Recipe stricter");
+    assert_eq!(harness.state().state().recipe.label.to_string(), "stricter");
+    assert_eq!(recipes.default_name().expect("read"), "stricter");
+
+    press(&mut harness, "Recipe stricter");
+    press(&mut harness, "Delete");
+    harness.get_by_label("Recipe stricter (changed)");
+    assert!(kept("stricter").is_err());
+    press(&mut harness, "Put recipe back");
+    harness.get_by_label("Recipe stricter");
+    assert_eq!(recipes.default_name().expect("read"), "stricter");
+
+    // To another machine and back: the name is taken there by another.
+    let file = folder.path().join("stick.toml");
+    let act = |harness: &mut WindowHarness, action| {
+        act_in_compare(harness, CompareAction::Recipe(action));
+    };
+    act(&mut harness, RecipeAction::Export(file.clone()));
+    harness.get_by_label_contains("Wrote ");
+    act_in_compare(&mut harness, CompareAction::Set("accept.min_score", 0.6));
+    act(&mut harness, RecipeAction::Save);
+    act(&mut harness, RecipeAction::Import(file.clone()));
+    harness.get_by_label("Recipe stricter_2");
+    assert!((kept("stricter_2").expect("kept").recipe.accept.min_score - 0.95).abs() < 1e-12);
+    std::fs::write(&file, "schema = 1\nname = \"x\"\n[parameters]\nno.such = 1").expect("written");
+    act(&mut harness, RecipeAction::Import(file));
+    harness.get_by_label_contains("there is no parameter no.such");
 }
 
 #[test]

@@ -332,8 +332,8 @@ fn a_part_that_is_enrolled_already_is_named_as_hard_to_tell_from() {
     harness.get_by_label("Replace Door");
     capture(&mut harness, PartKind::Fender, Side::Right);
     harness.get_by_label("The two can be told apart");
-    harness.get_by_label_contains("Hardest to tell from Door: 0.");
-    harness.get_by_label_contains(" alike (1 is the same)");
+    harness.get_by_label_contains("Most similar: Door (");
+    harness.get_by_label_contains(" % alike)");
 }
 
 #[test]
@@ -342,11 +342,11 @@ fn a_bad_name_is_said_while_typing_and_when_saving() {
     let mut harness = open(library.path());
     capture(&mut harness, PartKind::Grille, Side::Left);
     write(&mut harness, "Name", "Grille 7");
-    harness.get_by_label_contains("is no name for a part");
+    harness.get_by_label_contains("is no name:");
     harness.get_by_label_contains("for example grille_7");
     press_keys(&mut harness, Modifiers::COMMAND, Key::S);
     assert!(names(library.path()).is_empty());
-    assert!(notices(&harness)[0].contains("is no name for a part"));
+    assert!(notices(&harness)[0].contains("is no name:"));
     press(&mut harness, "Dismiss");
     write(&mut harness, "Name", "grille_7");
     assert!(harness.query_by_label_contains("for example").is_none());

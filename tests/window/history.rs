@@ -199,7 +199,7 @@ fn another_recipe_while_the_part_hangs_there_is_no_other_part_and_what_differs_i
     let mut recipe = Recipe::default();
     recipe.accept.min_score = 1.0;
     act_in(&mut harness, |_: &mut HistoryWorkspace, cx| {
-        cx.send(Message::UseRecipe(Arc::new(recipe)));
+        cx.send(Message::UseRecipe(Arc::new(recipe.into())));
         let title = "Inspecting with another recipe";
         cx.send(Message::InspectShown { title });
     });

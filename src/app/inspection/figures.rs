@@ -369,7 +369,7 @@ mod tests {
         let num_tried = recipe.confirm.num_references;
         let request = InspectRequest {
             source: SceneSource::Cell { choice, number: 1 },
-            recipe: std::sync::Arc::new(recipe),
+            recipe: std::sync::Arc::new(recipe.into()),
         };
         let inspected = inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected");
         let candidates = &inspected.figures.candidates;

@@ -46,11 +46,7 @@ impl LoadedLibrary {
         recipe: &Recipe,
         watch: &dyn ProgressObserver,
     ) -> Option<PreparedLibrary<'_>> {
-        let params = ReferenceParams {
-            project: recipe.project.clone(),
-            contour: recipe.contour.clone(),
-            signature: recipe.signature.clone(),
-        };
+        let params = recipe.reference_params();
         if params == ReferenceParams::default() {
             return Some(PreparedLibrary::AsLoaded(&self.library));
         }

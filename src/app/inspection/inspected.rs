@@ -27,7 +27,7 @@ use crate::{
     history::{HungId, InspectionContext, NewEntry},
     library::Library,
     pipeline::{
-        self, Inspection, ProgressObserver, Recipe,
+        self, Inspection, NamedRecipe, ProgressObserver, Recipe,
         live::{LiveVerdict, MotionState},
         scan::{ScanInspection, run_scan, unseen_points},
     },
@@ -67,7 +67,7 @@ pub struct InspectRequest {
     /// The scene.
     pub source: SceneSource,
     /// All parameters.
-    pub recipe: Arc<Recipe>,
+    pub recipe: Arc<NamedRecipe>,
 }
 
 /// A scene with everything that was found in it.
@@ -80,7 +80,7 @@ pub struct Inspected {
     /// The scene.
     pub scene: Arc<SceneCloud>,
     /// With which parameters.
-    pub recipe: Arc<Recipe>,
+    pub recipe: Arc<NamedRecipe>,
     /// What was found.
     pub inspection: Inspection,
     /// What the panels draw.
@@ -226,7 +226,7 @@ pub(in crate::app) struct FinishedInspection {
     pub(in crate::app) scene: Arc<SceneCloud>,
     pub(in crate::app) origin: Origin,
     pub(in crate::app) warnings: Vec<CaptureWarning>,
-    pub(in crate::app) recipe: Arc<Recipe>,
+    pub(in crate::app) recipe: Arc<NamedRecipe>,
     pub(in crate::app) inspection: Inspection,
     pub(in crate::app) followed: Option<LiveFrameContext>,
     /// Where the scene came from, as the history has it.
@@ -352,7 +352,9 @@ impl FinishedInspection {
         let title = origin.title();
         let about = InspectionContext {
             at,
-            line: InspectionLine::of(&title, &inspection).to_json(),
+            line: InspectionLine::of(&title, &inspection)
+                .by(&recipe)
+                .to_json(),
             is_simulated: origin.is_simulated(),
             title: figures.candidates.first().map(|best| best.title.as_str()),
             library: shown.identity.clone(),

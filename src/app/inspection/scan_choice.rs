@@ -9,8 +9,7 @@ use std::{
 use serde::{Deserialize, Serialize};
 
 use super::source::{HistoryFrame, Origin};
-use crate::files::file_name;
-use crate::{pipeline::Recipe, scan::Shot};
+use crate::{files::file_name, pipeline::NamedRecipe, scan::Shot};
 
 /// The files of a scan, and which of its shots are left out.
 #[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
@@ -143,5 +142,5 @@ pub struct ScanRequest {
     /// The file of the hand-eye calibration: poses of the flange need it.
     pub calibration: Option<PathBuf>,
     /// All parameters.
-    pub recipe: Arc<Recipe>,
+    pub recipe: Arc<NamedRecipe>,
 }

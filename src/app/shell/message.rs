@@ -13,7 +13,7 @@ use crate::{
         scan_choice::ScanOrder,
     },
     history::NewEntry,
-    pipeline::Recipe,
+    pipeline::NamedRecipe,
     robot::{Convention, RobotFrame},
 };
 
@@ -35,7 +35,7 @@ pub enum Message {
     /// Have a person choose the folder of a scan, and take it as if it were captured.
     OpenScan,
     /// Inspect scenes with this recipe from now on.
-    UseRecipe(Arc<Recipe>),
+    UseRecipe(Arc<NamedRecipe>),
     /// Use this calibration of the robot's cell, with where the camera stands by it.
     UseCalibration(RememberedCell, Option<Arc<RobotFrame>>),
     /// Tell the robot poses in these numbers.

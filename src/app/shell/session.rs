@@ -15,7 +15,7 @@ use crate::{
         unit_system::UnitSystem,
     },
     capture::SourceSpec,
-    pipeline::Recipe,
+    pipeline::NamedRecipe,
     robot::{Convention, RobotFrame},
     stages::scene::EmptyCell,
 };
@@ -40,7 +40,7 @@ pub struct Session {
     /// The library's folder that a person chose in the window.
     pub chosen_library: Option<PathBuf>,
     /// The parameters that scenes are inspected with.
-    pub recipe: Arc<Recipe>,
+    pub recipe: Arc<NamedRecipe>,
     /// In which numbers the robot is told a pose.
     pub convention: Convention,
     /// Where the camera stands in the robot's base frame, if the cell is calibrated.

@@ -26,7 +26,7 @@ use crate::{
     },
     capture::SourceSpec,
     files::{open_regular, user_folders, write_atomically},
-    pipeline::Recipe,
+    pipeline::{BUILT_IN, NamedRecipe, Recipe, RecipeLabel},
     robot::Convention,
 };
 
@@ -61,6 +61,8 @@ pub struct Settings {
     pub source: RememberedSource,
     /// Parameters of the inspection; none: the program's own, whatever they are in its version.
     pub recipe: Option<Recipe>,
+    /// By which name the parameters go.
+    pub recipe_label: RecipeLabel,
     /// Frames that depth is averaged over while a source is followed.
     pub average: usize,
     /// Minutes without a hand on the window until it is the operator's again.
@@ -104,6 +106,7 @@ impl Default for Settings {
             window: None,
             source: RememberedSource::default(),
             recipe: None,
+            recipe_label: RecipeLabel::default(),
             average: 1,
             lock_after: LOCK_AFTER[1],
             pin: None,
@@ -130,7 +133,8 @@ impl Settings {
                 Source::Scan(files) => RememberedSource::Scan(files.clone()),
                 Source::Camera(spec) => RememberedSource::Camera((**spec).clone()),
             },
-            recipe: (*state.recipe != Recipe::default()).then(|| (*state.recipe).clone()),
+            recipe: (**state.recipe != Recipe::default()).then(|| Recipe::clone(&state.recipe)),
+            recipe_label: state.recipe.label.clone(),
             average: state.live.params.average,
             lock_after: state.roles.lock_after,
             pin: state.roles.pin.clone(),
@@ -148,9 +152,9 @@ impl Settings {
             _ => false,
         };
         let has_recipe = match &self.recipe {
-            Some(recipe) => *recipe == *state.recipe,
-            None => *state.recipe == Recipe::default(),
-        };
+            Some(recipe) => *recipe == **state.recipe,
+            None => **state.recipe == Recipe::default(),
+        } && self.recipe_label == state.recipe.label;
         has_source
             && has_recipe
             && self.theme == state.theme
@@ -185,7 +189,15 @@ impl Settings {
                 RememberedSource::Scan(files) => Source::Scan(files),
                 RememberedSource::Camera(spec) => Source::Camera(Box::new(spec)),
             },
-            recipe: Arc::new(self.recipe.unwrap_or_default()),
+            recipe: Arc::new(NamedRecipe {
+                label: RecipeLabel {
+                    // Of settings from before recipes had names.
+                    is_changed: self.recipe_label.is_changed
+                        || self.recipe_label.name == BUILT_IN && self.recipe.is_some(),
+                    ..self.recipe_label
+                },
+                parameters: Arc::new(self.recipe.unwrap_or_default()),
+            }),
             role: roles.first_role(),
             cell: self.cell,
             live: LiveState::averaging(self.average),
@@ -318,6 +330,10 @@ mod tests {
             window: Some([1024.0, 768.0]),
             source: RememberedSource::Camera("recording,pace=step:a b".parse().expect("a source")),
             recipe: Some(recipe),
+            recipe_label: RecipeLabel {
+                name: "glossy".into(),
+                is_changed: true,
+            },
             average: 4,
             lock_after: 15,
             pin: Some(Pin::of("4711")),

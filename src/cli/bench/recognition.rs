@@ -18,10 +18,10 @@ use crate::{
     cli::{
         Outcome,
         console::{Advised as _, Console, Table},
-        recipe::changed_parameters,
+        recipe::{changed_parameters, show_recipe},
     },
     library::EnrolParams,
-    pipeline::{Inspection, Recipe, Unwatched},
+    pipeline::{Inspection, Recipe, RecipeBlock, Unwatched},
     stages::scene::SceneCloud,
 };
 
@@ -85,6 +85,7 @@ struct RecognitionFile<'a> {
     schema: u32,
     simulated: bool,
     first_seed: u64,
+    recipe: RecipeBlock,
     /// Parameters that are not at their default.
     #[serde(skip_serializing_if = "Vec::is_empty")]
     changed: Vec<String>,
@@ -97,8 +98,7 @@ struct RecognitionFile<'a> {
 
 pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let frames = Frames::of(args, &Suite::ALL, NUM_POSES);
-    let mut recipe = Recipe::default();
-    args.set.apply(&mut recipe);
+    let recipe = args.recipe.recipe_or_built_in()?;
     let libraries = SuiteLibraries::enrol(&EnrolParams::default()).advised()?;
     let systems = if args.only_ours {
         None
@@ -129,6 +129,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         frames.words()
     ));
     let changed = changed_parameters(&recipe, &[]);
+    show_recipe(&recipe, console);
     if !changed.is_empty() {
         console.line(&format_args!("Changed: {}", changed.join(", ")));
     }
@@ -147,6 +148,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
             schema: 2,
             simulated: true,
             first_seed: frames.first_seed,
+            recipe: RecipeBlock::from(&recipe),
             changed,
             suites: &results,
             figures: &figures,

@@ -14,7 +14,10 @@ use crate::{
     },
     files::write_atomically,
     library::Library,
-    stages::pose::{AlignParams, PoseMethod, displacements::DISPLACEMENTS},
+    stages::{
+        pose::{AlignParams, PoseMethod, displacements::DISPLACEMENTS},
+        reference::ReferenceParams,
+    },
 };
 
 /// What `--json` writes.
@@ -44,7 +47,10 @@ struct AttemptLine {
 }
 
 pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    let mut library = args.library.load_some(console)?.library;
+    let mut library = args
+        .library
+        .load_some(&ReferenceParams::default(), console)?
+        .library;
     keep_asked_for(&mut library, &args.part)?;
     console.start_progress(library.references.len() * DISPLACEMENTS.len());
     let mut after_row = |_: &Row| console.done();

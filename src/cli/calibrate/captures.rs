@@ -20,6 +20,7 @@ use crate::{
         pairs::{ArmPose, read_arm_poses},
         part_target::{ObservedTarget, seen_part},
     },
+    stages::reference::ReferenceParams,
 };
 
 /// What the camera saw, where it is not in the file of pairs.
@@ -42,7 +43,10 @@ pub(super) fn pairs_of_captures(
 ) -> anyhow::Result<Vec<PosePair>> {
     let (poses, convention) = read_arm_poses(poses, convention).advised()?;
     let files = files_of(folder, &poses)?;
-    let library = targets.library.load_some(console)?.library;
+    let library = targets
+        .library
+        .load_some(&ReferenceParams::default(), console)?
+        .library;
     console.note(&format_args!(
         "{} poses of the robot in {}",
         poses.len(),

@@ -1,7 +1,5 @@
 //! `partsight history show --again`: what today's recipe and library make of a kept frame.
 
-use std::sync::Arc;
-
 use serde::Serialize;
 
 use super::ShowArgs;
@@ -27,9 +25,9 @@ pub(super) fn run(
             "Keep more frames from now on: partsight history keep all",
         ));
     };
-    let load = asked.library.load_some(console)?;
+    let recipe = asked.recipe.recipe()?;
+    let load = (asked.library).load_some(&recipe.reference_params(), console)?;
     let library = &load.library;
-    let recipe = Arc::new(asked.recipe.recipe());
     let inspection = match shots {
         None => pipeline::run(&scene, library, &recipe, &Unwatched)?,
         Some(shots) => {
@@ -45,7 +43,7 @@ pub(super) fn run(
     let best = best.and_then(|entry| library.references.get(entry.reference));
     let bounds = best.and_then(|reference| reference.cloud.bounds());
     let middle = bounds.map(|(low, high)| nalgebra::center(&low, &high).cast::<f64>());
-    let now = InspectionSummary::of(&inspection, &recipe, &load.identity());
+    let now = InspectionSummary::of(&inspection, &recipe.parameters, &load.identity());
     Ok(Differences::between(
         InspectionSummary::from(record),
         now,

@@ -9,7 +9,9 @@ use crate::{
         Outcome,
         console::{Advised as _, Console, Table, in_columns},
     },
-    history::{Differences, History, InspectionSummary, Record, ShotRecord, Summary},
+    history::{
+        Differences, History, InspectionDetail, InspectionSummary, Record, ShotRecord, Summary,
+    },
     library::Truth,
 };
 
@@ -81,6 +83,8 @@ struct RecordLine<'a> {
     advice: Option<&'a str>,
     camera_from_part: Option<[f64; 16]>,
     recipe: &'a str,
+    recipe_name: Option<&'a str>,
+    recipe_changed: bool,
     library: &'a str,
     program: &'a str,
     frame: Option<String>,
@@ -102,6 +106,8 @@ struct BelowLine<'a> {
     #[serde(flatten)]
     row: RowLine<'a>,
     recipe: &'a str,
+    recipe_name: Option<&'a str>,
+    recipe_changed: bool,
     library: &'a str,
     program: &'a str,
     differs: again::AgainLine,
@@ -131,6 +137,8 @@ pub(super) fn run(
         let below = below.iter().map(|other| BelowLine {
             row: RowLine::of(&other.summary),
             recipe: &other.detail.recipe_identity,
+            recipe_name: recipe_name(&other.detail),
+            recipe_changed: recipe_changed(&other.detail),
             library: &other.detail.library_identity,
             program: &other.detail.program,
             differs: again::AgainLine::of(&differences(&record, other)),
@@ -144,6 +152,8 @@ pub(super) fn run(
             advice: complaint.map(|[_, advice]| advice.as_str()),
             camera_from_part: record.matrix(),
             recipe: &detail.recipe_identity,
+            recipe_name: recipe_name(detail),
+            recipe_changed: recipe_changed(detail),
             library: &detail.library_identity,
             program: &detail.program,
             frame: frame_path(history, &record),
@@ -172,6 +182,20 @@ pub(super) fn run(
         again::show(differences, ["THEN", "TODAY"], console);
     }
     Ok(Outcome::Accepted)
+}
+
+fn recipe_name(detail: &InspectionDetail) -> Option<&str> {
+    detail
+        .recipe_label
+        .as_ref()
+        .map(|label| label.name.as_str())
+}
+
+fn recipe_changed(detail: &InspectionDetail) -> bool {
+    detail
+        .recipe_label
+        .as_ref()
+        .is_some_and(|label| label.is_changed)
 }
 
 fn frame_path(history: &History, record: &Record) -> Option<String> {
@@ -234,7 +258,7 @@ fn card(history: &History, record: &Record, console: &mut Console) {
         .map(|(stage, ms)| format!("{stage} {ms:.1}"))
         .collect();
     row("times, ms", times.join("  "));
-    row("recipe", detail.recipe_identity.clone());
+    row("recipe", detail.recipe_text());
     row("library", detail.library_identity.clone());
     row("program", detail.program.clone());
     row(

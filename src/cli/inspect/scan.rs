@@ -6,6 +6,7 @@ use crate::{
     cli::{
         Outcome,
         console::Console,
+        recipe::show_recipe,
         scan::open_scan,
         verdict::{outcome_of, show_card, show_in_robot},
     },
@@ -20,8 +21,8 @@ use crate::{
 };
 
 pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    let (_, load) = args.library.load_placed(console)?;
-    let recipe = args.recipe.recipe();
+    let recipe = args.recipe.recipe()?;
+    let load = (args.library).load_some(&recipe.reference_params(), console)?;
     let scan = open_scan(&args.scan, &args.poses, &recipe.segment, console)?;
     let recording = (!args.no_history)
         .then(|| HistoryRecorder::start(&args.history, &load, &recipe, console))
@@ -44,7 +45,9 @@ pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Resu
         _ => format!("{frames} frames from {}", first.name),
     };
     let is_accepted = inspection.verdict.is_accepted();
-    let line = InspectionLine::of(&scene, &inspection).in_robot(Some(&robot), &inspection);
+    let line = InspectionLine::of(&scene, &inspection)
+        .by(&recipe)
+        .in_robot(Some(&robot), &inspection);
     let line = line.of_scan(ScanLine {
         frames,
         used,
@@ -62,6 +65,7 @@ pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Resu
             first.name
         );
         show_card(&title, &inspection, &load.library, console);
+        show_recipe(&recipe, console);
         show_in_robot(&robot, &inspection, &load.library, console);
     }
     // Last: it must not keep anybody from the verdict.

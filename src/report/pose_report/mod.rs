@@ -16,7 +16,7 @@ use serde::Serialize;
 
 use super::line::{TimingsLine, status_of};
 use crate::{
-    pipeline::{Inspection, Recipe},
+    pipeline::{Inspection, NamedRecipe, Recipe, RecipeBlock},
     robot::{Convention, RobotFrame},
     stages::{
         pose::PoseEstimate,
@@ -134,15 +134,6 @@ pub struct RankBlock {
     pub score: f64,
 }
 
-/// The recipe.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
-pub struct RecipeBlock {
-    /// Eight hexadecimal digits, the same for the same parameters.
-    pub identity: String,
-    /// True if these are the program's own parameters.
-    pub is_default: bool,
-}
-
 /// The library.
 #[derive(Clone, Debug, Serialize, JsonSchema)]
 pub struct LibraryBlock {
@@ -170,7 +161,7 @@ pub struct ReportSubject<'a> {
     /// The stand-off over the best reference at its pose.
     pub stand_off: Option<&'a Result<StandOff, StandOffError>>,
     /// With which parameters.
-    pub recipe: &'a Recipe,
+    pub recipe: &'a NamedRecipe,
     /// [`LibraryLoad::identity`](crate::library::LibraryLoad::identity).
     pub library_identity: &'a str,
     /// Enrolled references.
@@ -223,10 +214,7 @@ impl PoseReport {
                 .take(NUM_RANKED)
                 .collect(),
             timings_ms: TimingsLine::of(&inspection.timings),
-            recipe: RecipeBlock {
-                identity: subject.recipe.identity(),
-                is_default: *subject.recipe == Recipe::default(),
-            },
+            recipe: subject.recipe.into(),
             library: LibraryBlock {
                 identity: subject.library_identity.to_owned(),
                 num_references: subject.num_references,

@@ -16,7 +16,7 @@ pub(super) struct Inspected {
     library: Library,
     scene: SceneCloud,
     pub(super) inspection: Inspection,
-    recipe: Recipe,
+    recipe: NamedRecipe,
     stand_off: Option<Result<StandOff, StandOffError>>,
 }
 
@@ -35,7 +35,7 @@ impl Inspected {
             library,
             scene,
             inspection,
-            recipe,
+            recipe: recipe.into(),
             stand_off,
         }
     }

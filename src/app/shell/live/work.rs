@@ -22,7 +22,7 @@ use crate::{
     error::{Fault, guarded},
     history::{HungRows, NewEntry},
     pipeline::{
-        self, ProgressObserver, Recipe,
+        self, NamedRecipe, ProgressObserver,
         live::{FrameRole, HungFrame, LiveParams, LiveTracker, LiveVerdict, MotionState},
     },
     stages::scene::EmptyCell,
@@ -34,7 +34,7 @@ pub(super) struct LiveStart {
     /// The source.
     pub(super) spec: SourceSpec,
     /// All parameters.
-    pub(super) recipe: Arc<Recipe>,
+    pub(super) recipe: Arc<NamedRecipe>,
     /// When a verdict counts.
     pub(super) params: LiveParams,
     /// What its camera saw without a part.
@@ -159,7 +159,7 @@ struct LiveSession<'a> {
     /// Where it is recorded; not any more after a failure.
     record: Option<&'a Path>,
     recorded: Option<Recorded>,
-    recipe: &'a Arc<Recipe>,
+    recipe: &'a Arc<NamedRecipe>,
     recipe_identity: String,
     hung: &'a Mutex<FollowedParts>,
     empty_cell: Option<&'a Arc<EmptyCell>>,

@@ -2,6 +2,7 @@
 
 use std::path::PathBuf;
 
+use super::recipes::NamingPurpose;
 use crate::{
     app::shell::file_dialog::{FileChoice, FileRequest},
     cases::{Cell, Truth},
@@ -46,8 +47,39 @@ pub enum CompareAction {
     ResetAll,
     /// Inspect with the recipe on trial from now on.
     Use,
+    /// Do something with the kept recipes.
+    Recipe(RecipeAction),
     /// Take back what was done last.
     Undo,
+}
+
+/// What can be done with the kept recipes. Without a name it is about the recipe on trial.
+#[derive(Clone, Debug)]
+pub enum RecipeAction {
+    /// Try the recipe of this name.
+    Open(String),
+    /// Keep it under its name.
+    Save,
+    /// Keep a copy of it under the next free name, which is then on trial.
+    Duplicate,
+    /// Begin to write a name.
+    Name(NamingPurpose),
+    /// This is written so far.
+    Write(String),
+    /// The name is written: do what it is for.
+    TakeName,
+    /// Leave the name.
+    CancelName,
+    /// Remove it.
+    Delete,
+    /// Use it where no recipe is named.
+    MakeDefault,
+    /// Keep the recipe in this file, and try it.
+    Import(PathBuf),
+    /// Write it to this file.
+    Export(PathBuf),
+    /// List the parameters that differ from their defaults, or no longer.
+    ListChanges,
 }
 
 /// What a person is asked to choose.
@@ -57,7 +89,13 @@ pub enum CompareFile {
     Cases,
     /// What an earlier run of all cases has written.
     EarlierRun,
+    /// A recipe to keep.
+    ImportRecipe,
+    /// Where the recipe on trial is written to.
+    ExportRecipe,
 }
+
+const RECIPES: (&str, &[&str]) = ("Recipes", &["toml"]);
 
 impl CompareFile {
     pub(super) fn request(self) -> FileRequest {
@@ -71,6 +109,16 @@ impl CompareFile {
                 title: "What partsight evaluate --json has written",
                 filters: &[("Evaluations", &["json"])],
                 choice: FileChoice::File,
+            },
+            Self::ImportRecipe => FileRequest {
+                title: "Recipe to import",
+                filters: &[RECIPES],
+                choice: FileChoice::File,
+            },
+            Self::ExportRecipe => FileRequest {
+                title: "Export the recipe",
+                filters: &[RECIPES],
+                choice: FileChoice::NewFile("recipe.toml"),
             },
         }
     }

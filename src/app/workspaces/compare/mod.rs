@@ -12,7 +12,9 @@ mod keeping;
 mod kept_cases;
 pub mod matrix;
 mod pictures;
+mod recipe_menu;
 mod recipe_panel;
+mod recipes;
 mod scaling_plot;
 mod schedule;
 mod score_plots;
@@ -26,7 +28,8 @@ use std::path::PathBuf;
 use egui::{Frame, Key, Margin, Modifiers, Panel, Rect, Ui, UiBuilder, pos2, vec2};
 
 pub use self::{
-    action::{CompareAction, CompareFile},
+    action::{CompareAction, CompareFile, RecipeAction},
+    recipes::{KeptRecipes, Naming, NamingPurpose},
     state::{Cases, CompareState, Front, Undo},
     work::{CaseChange, CaseDone, CaseRun, CompareResult, RunChanges},
 };
@@ -61,7 +64,7 @@ const SHORTCUTS: [Shortcut<CompareAction>; 3] = [
         modifiers: Modifiers::COMMAND,
         key: Key::Z,
         keys: "Ctrl Z",
-        does: "Take back the removal of a case or the use of a recipe",
+        does: "Take back the removal of a case or recipe, or the use of a recipe",
         action: || CompareAction::Undo,
     },
 ];
@@ -75,10 +78,10 @@ pub struct CompareWorkspace {
 }
 
 impl CompareWorkspace {
-    /// With this folder of cases; without one the user's own.
-    pub fn new(folder: Option<PathBuf>, runner: &TaskRunner) -> Self {
+    /// With this folder of cases, without one the user's own; and this folder of recipes, without one none are kept.
+    pub fn new(folder: Option<PathBuf>, recipes: Option<PathBuf>, runner: &TaskRunner) -> Self {
         Self {
-            state: CompareState::new(folder, runner),
+            state: CompareState::new(folder, recipes, runner),
         }
     }
 

@@ -7,7 +7,7 @@ use egui::{
     Ui, Vec2, WidgetInfo, vec2,
 };
 
-use super::{CompareAction, CompareState, case_bar::judged, scaling_plot};
+use super::{CompareAction, CompareState, case_bar::judged, recipe_menu, scaling_plot};
 use crate::{
     app::{
         shell::session::Session,
@@ -19,7 +19,7 @@ use crate::{
     cases::CaseOutcome,
     pipeline::{
         Recipe,
-        parameters::{Choice, Group, Kind, Number, PARAMETERS, Parameter, Place, num_changed},
+        parameters::{Choice, Group, Kind, Number, PARAMETERS, Parameter, Place},
     },
 };
 
@@ -47,7 +47,7 @@ pub(super) fn ui(
     Panel::top("recipe head")
         .resizable(false)
         .frame(frame(8, 4))
-        .show(ui, |ui| head(ui, recipe, theme, acts));
+        .show(ui, |ui| recipe_menu::ui(ui, compare, session, theme, acts));
     egui::CentralPanel::default()
         .frame(frame(0, 4))
         .show(ui, |ui| {
@@ -65,33 +65,6 @@ pub(super) fn ui(
                         .show(ui, |ui| scaling_plot::ui(ui, compare, theme, acts));
                 });
         });
-}
-
-fn head(ui: &mut Ui, recipe: &Recipe, theme: &Theme, acts: &mut Vec<CompareAction>) {
-    ui.label(
-        RichText::new("Recipe")
-            .font(font::verdict())
-            .color(theme.text),
-    );
-    ui.horizontal(|ui| {
-        let num = num_changed(recipe);
-        let text = format!("{num} changed from default");
-        let colour = if num == 0 {
-            theme.weak_text
-        } else {
-            theme.accent
-        };
-        ui.label(RichText::new(text).color(colour));
-        if num > 0 {
-            let reset = labelled(ui, Button::new("Reset all"), "Reset all");
-            if reset
-                .on_hover_text("Every parameter back to its default")
-                .clicked()
-            {
-                acts.push(CompareAction::ResetAll);
-            }
-        }
-    });
 }
 
 fn group_ui(

@@ -15,7 +15,7 @@ use crate::{
         session::{Session, Shown, WorkspaceKind},
     },
     cases::CaseFolder,
-    pipeline::Recipe,
+    pipeline::NamedRecipe,
 };
 
 /// Whether the case in front has to be studied.
@@ -44,7 +44,7 @@ pub(super) enum Job {
         /// The folder.
         folder: CaseFolder,
         /// The recipe on trial.
-        recipe: Arc<Recipe>,
+        recipe: Arc<NamedRecipe>,
     },
     /// Measure from how many references on several workers pay.
     Scaling,
@@ -87,7 +87,7 @@ impl CompareState {
     }
 
     /// The recipe on trial.
-    pub fn tried_recipe<'a>(&'a self, session: &'a Session) -> &'a Arc<Recipe> {
+    pub fn tried_recipe<'a>(&'a self, session: &'a Session) -> &'a Arc<NamedRecipe> {
         self.tried.as_ref().unwrap_or(&session.recipe)
     }
 
@@ -115,7 +115,7 @@ impl CompareState {
     /// True while nothing is at work or waits to be, as far as it is in front.
     pub(super) fn is_idle(&self, session: &Session) -> bool {
         let is_front = session.workspace == WorkspaceKind::Compare;
-        self.running().is_none() && !(is_front && self.is_behind(session))
+        self.running().is_none() && self.recipes.is_idle() && !(is_front && self.is_behind(session))
     }
 
     /// True if another scene was inspected since.

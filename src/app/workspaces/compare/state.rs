@@ -3,7 +3,8 @@
 use std::{collections::VecDeque, path::PathBuf, sync::Arc};
 
 use super::{
-    action::{CompareAction, CompareFile},
+    action::{CompareAction, CompareFile, RecipeAction},
+    recipes::KeptRecipes,
     schedule::{Job, JobKind, StudyNeed},
     study::CaseStudy,
     work::{CaseChange, CaseDone, CaseRun, CompareResult, RunChanges},
@@ -19,7 +20,7 @@ use crate::{
     },
     bench::scaling::Scaling,
     cases::{CaseFolder, Cell, KeptCase, Truth},
-    pipeline::{Recipe, parameters::Parameter},
+    pipeline::{NamedRecipe, Recipe, RecipeFile, parameters::Parameter},
 };
 
 /// What the workspace knows.
@@ -36,7 +37,7 @@ pub struct CompareState {
     /// The remark that the case is kept with.
     pub remark: String,
     /// The recipe on trial; without one that in use.
-    pub tried: Option<Arc<Recipe>>,
+    pub tried: Option<Arc<NamedRecipe>>,
     /// The case under the glass; while another is prepared it is old.
     pub study: Option<Arc<CaseStudy>>,
     /// The kept cases, once listed.
@@ -51,6 +52,8 @@ pub struct CompareState {
     pub changes: Option<Arc<RunChanges>>,
     /// What can be taken back.
     pub undo: Option<Undo>,
+    /// The kept recipes.
+    pub recipes: KeptRecipes,
     /// True while the study is of what was asked for last.
     pub(super) is_current: bool,
     pub(super) due: StudyNeed,
@@ -96,8 +99,17 @@ pub enum Undo {
         /// Where it lies.
         trash: PathBuf,
     },
+    /// The removal of a recipe.
+    Recipe {
+        /// What it was.
+        file: Box<RecipeFile>,
+        /// True if it was used where no recipe is named.
+        was_default: bool,
+    },
     /// The use of a recipe: the one before.
-    Use(Arc<Recipe>),
+    Use(Arc<NamedRecipe>),
+    /// The opening of a recipe: what was on trial and not saved.
+    Trial(Arc<NamedRecipe>),
 }
 
 impl Undo {
@@ -105,14 +117,16 @@ impl Undo {
     pub fn title(&self) -> &'static str {
         match self {
             Self::Removal { .. } => "Put case back",
+            Self::Recipe { .. } => "Put recipe back",
             Self::Use(_) => "Undo use",
+            Self::Trial(_) => "Undo open",
         }
     }
 }
 
 impl CompareState {
-    /// With this folder of cases; without one the user's own.
-    pub fn new(folder: Option<PathBuf>, runner: &TaskRunner) -> Self {
+    /// With this folder of cases, without one the user's own; and this folder of recipes, without one none are kept.
+    pub fn new(folder: Option<PathBuf>, recipes: Option<PathBuf>, runner: &TaskRunner) -> Self {
         Self {
             folder,
             front: Front::default(),
@@ -127,6 +141,7 @@ impl CompareState {
             scaling: None,
             changes: None,
             undo: None,
+            recipes: KeptRecipes::new(recipes, runner),
             is_current: false,
             due: StudyNeed::No,
             queue: VecDeque::new(),
@@ -206,6 +221,7 @@ impl CompareState {
                 };
                 self.change_recipe(reset, cx);
             }
+            CompareAction::Recipe(action) => self.apply_to_recipes(action, cx),
             // The session does not have the recipe yet that what is next would be done with.
             CompareAction::Use => return self.use_recipe(cx),
             CompareAction::Undo => return self.take_back(cx),
@@ -227,9 +243,16 @@ impl CompareState {
             Some((CompareFile::EarlierRun, Ok(path))) => {
                 self.apply(CompareAction::Earlier(path), cx);
             }
+            Some((CompareFile::ImportRecipe, Ok(path))) => {
+                self.apply(CompareAction::Recipe(RecipeAction::Import(path)), cx);
+            }
+            Some((CompareFile::ExportRecipe, Ok(path))) => {
+                self.apply(CompareAction::Recipe(RecipeAction::Export(path)), cx);
+            }
             Some((_, Err(notice))) => cx.notify(notice),
             None => {}
         }
+        self.update_recipes(cx);
     }
 
     fn take_in(&mut self, result: CompareResult, cx: &mut ShellContext<'_>) {

@@ -12,7 +12,7 @@ use crate::{
     cases::{CaseFolder, FoundVerdict, KeptCase, Truth},
     error::Advice,
     library::Library,
-    pipeline::{self, Inspection, ProgressObserver, Recipe, Rejection, Verdict},
+    pipeline::{self, Inspection, NamedRecipe, ProgressObserver, Rejection, Verdict},
     stages::{
         rank::{MatchRanking, Matcher, Query, RankParams, rank},
         scene::SceneCloud,
@@ -56,7 +56,7 @@ pub struct StudyRequest {
     /// The case.
     pub case: CaseScene,
     /// The recipe on trial.
-    pub recipe: Arc<Recipe>,
+    pub recipe: Arc<NamedRecipe>,
     /// What it truly is, if somebody said so.
     pub truth: Option<Truth>,
     /// The part to compare with, if somebody chose one.
@@ -73,7 +73,7 @@ pub struct CaseStudy {
     /// Whether a camera was read.
     pub camera: CameraKind,
     /// The recipe on trial.
-    pub recipe: Arc<Recipe>,
+    pub recipe: Arc<NamedRecipe>,
     /// What was found with it.
     pub found: FoundVerdict,
     /// The found part's name for people.
@@ -354,7 +354,7 @@ mod tests {
     use crate::{
         app::inspection::source::{CellChoice, SceneSource},
         kit::shipped_library,
-        pipeline::Unwatched,
+        pipeline::{Recipe, Unwatched},
         simulate::{PartKind, Side},
     };
 
@@ -417,7 +417,7 @@ mod tests {
         let mut request = request(door);
         let mut recipe = Recipe::default();
         recipe.accept.min_score = 1.0;
-        request.recipe = Arc::new(recipe.clone());
+        request.recipe = Arc::new(recipe.clone().into());
         let study = studied(&request);
         let apart = study.distances.iter().find(|d| d.part == "front_door");
         let apart = apart.and_then(|d| d.outline).expect("placed");
@@ -430,7 +430,7 @@ mod tests {
         assert_eq!(study.refusal(units), Some(expected));
         recipe.accept.min_score = 0.0;
         recipe.accept.min_margin = 1.0;
-        request.recipe = Arc::new(recipe);
+        request.recipe = Arc::new(recipe.into());
         let refusal = studied(&request).refusal(units).expect("refused");
         assert!(
             refusal.starts_with("Refused: its lead over ") && refusal.contains("below 1.00"),
@@ -444,7 +444,7 @@ mod tests {
         let mut recipe = Recipe::default();
         recipe.rank.matcher = Matcher::Paper;
         recipe.signature.num_rays = 128;
-        request.recipe = Arc::new(recipe);
+        request.recipe = Arc::new(recipe.into());
         let study = studied(&request);
         let paper: Vec<f64> = study.distances.iter().map(|d| d.paper).collect();
         assert!(paper.is_sorted());

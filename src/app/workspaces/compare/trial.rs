@@ -12,7 +12,7 @@ use crate::{
         shell::{context::ShellContext, message::Message},
         user_error::UserError,
     },
-    pipeline::{Recipe, parameters::num_changed},
+    pipeline::{NamedRecipe, Recipe, parameters::num_changed},
 };
 
 impl CompareState {
@@ -25,10 +25,9 @@ impl CompareState {
         let before = self.tried_recipe(cx.session);
         let mut recipe = Recipe::clone(before);
         match change(&mut recipe) {
-            Ok(()) if recipe == **before => {}
+            Ok(()) if recipe == ***before => {}
             Ok(()) => {
-                let is_in_use = recipe == *cx.session.recipe;
-                self.tried = (!is_in_use).then(|| Arc::new(recipe));
+                self.try_parameters(recipe, cx);
                 self.due = StudyNeed::Now;
             }
             Err(error) => cx.notify(error),
@@ -41,11 +40,9 @@ impl CompareState {
             return;
         };
         let num = num_changed(&tried);
-        let text = match num {
-            0 => "Scenes are inspected with the default recipe now".to_owned(),
-            1 => "Scenes are inspected with this recipe now: 1 changed from default".to_owned(),
-            _ => format!("Scenes are inspected with this recipe now: {num} changed from default"),
-        };
+        let label = &tried.label;
+        let text =
+            format!("Scenes are inspected with recipe {label} now: {num} changed from default");
         self.say(text, cx);
         self.undo = Some(Undo::Use(Arc::clone(&cx.session.recipe)));
         inspect_with(tried, cx);
@@ -57,6 +54,14 @@ impl CompareState {
             Some(Undo::Removal { name, trash }) => {
                 let change = CaseChange::Restore { name, from: trash };
                 self.change_cases("Putting the case back", change);
+                self.start_next(cx);
+            }
+            Some(Undo::Recipe { file, was_default }) => {
+                self.put_recipe_back(file, was_default, cx);
+            }
+            Some(Undo::Trial(before)) => {
+                self.put_on_trial(NamedRecipe::clone(&before), cx);
+                self.due = StudyNeed::Now;
                 self.start_next(cx);
             }
             Some(Undo::Use(before)) => {
@@ -72,7 +77,7 @@ impl CompareState {
 }
 
 /// Has scenes inspected with this recipe, the one in front of the Inspect workspace first.
-fn inspect_with(recipe: Arc<Recipe>, cx: &mut ShellContext<'_>) {
+fn inspect_with(recipe: Arc<NamedRecipe>, cx: &mut ShellContext<'_>) {
     cx.send(Message::UseRecipe(recipe));
     cx.send(Message::InspectShown {
         title: "Inspecting with another recipe",

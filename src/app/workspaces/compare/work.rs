@@ -20,7 +20,7 @@ use crate::{
         Confusion, EarlierRun, KeptCase, RecordError, TradeOff,
     },
     files::file_name,
-    pipeline::Recipe,
+    pipeline::NamedRecipe,
     stages::{rank::Matcher, scene::SceneCloud},
 };
 
@@ -102,7 +102,7 @@ pub struct RunChanges {
 #[derive(Debug)]
 pub struct CaseRun {
     /// The recipe.
-    pub recipe: Arc<Recipe>,
+    pub recipe: Arc<NamedRecipe>,
     /// One result per case that could be read.
     pub results: Vec<CaseResult>,
     /// Those that could not.
@@ -189,7 +189,7 @@ fn cases(folder: Option<&Path>, change: CaseChange) -> Result<CompareResult, Cas
 
 fn run_cases(
     folder: &CaseFolder,
-    recipe: &Arc<Recipe>,
+    recipe: &Arc<NamedRecipe>,
     library_cache: &LibraryCache,
     context: &TaskContext<CompareResult>,
 ) -> Result<CompareResult, TaskError> {

@@ -203,10 +203,7 @@ fn likeness(
         return;
     };
     let title = title_of(session, &likeness.other);
-    let text = format!(
-        "Hardest to tell from {title}: {:.2} alike (1 is the same)",
-        likeness.score
-    );
+    let text = format!("Most similar: {title} ({})", likeness.in_words());
     ui.add_space(space::MEDIUM);
     ui.label(RichText::new(text).color(theme.text));
     if likeness.is_distinguishable() {

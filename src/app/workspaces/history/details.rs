@@ -18,7 +18,6 @@ use crate::{
         },
     },
     history::{Differences, InspectionDetail, Record, StoredVerdict, Summary},
-    pipeline::Recipe,
 };
 
 /// What the details keep between frames.
@@ -223,19 +222,11 @@ fn figures(ui: &mut Ui, record: &Record, theme: &Theme) {
         row("margin", &format!("{margin:.2}"));
     }
     let InspectionDetail {
-        recipe,
-        recipe_identity,
         library_identity,
         program,
         ..
     } = detail;
-    let is_own = recipe.as_deref() == Some(&Recipe::default());
-    let whose = if is_own {
-        "the program's own"
-    } else {
-        "changed"
-    };
-    row("recipe", &format!("{recipe_identity}, {whose}"));
+    row("recipe", &detail.recipe_text());
     row("library", library_identity);
     row("program", program);
     let frame = frame_bytes.map_or_else(

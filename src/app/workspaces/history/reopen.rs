@@ -67,7 +67,7 @@ impl HistoryState {
             ),
             RemakeFor::Open => (
                 format!("Opening {scene}"),
-                past.record.detail.recipe.clone(),
+                past.record.detail.named_recipe().map(Arc::new),
             ),
         };
         let Some(recipe) = recipe else {
@@ -144,7 +144,7 @@ fn origin_of(record: &Record) -> Origin {
 fn differences(past: &OpenedInspection, inspected: &Inspected) -> Differences {
     let now = InspectionSummary::of(
         &inspected.inspection,
-        &inspected.recipe,
+        &inspected.recipe.parameters,
         &inspected.library.identity,
     );
     Differences::between(InspectionSummary::from(&past.record), now, inspected.middle)

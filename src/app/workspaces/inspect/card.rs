@@ -13,11 +13,14 @@ use super::{
 use crate::{
     app::{
         inspection::{inspected::Inspected, unit_system::UnitSystem},
-        shell::{live, session::Session},
+        shell::{
+            live,
+            session::{Session, UserRole},
+        },
         shots::summary,
         ui::{
             theme::{ROUNDING, Theme, font, space},
-            widgets::{focus_ring, heading, row},
+            widgets::{focus_ring, heading, row, shortened},
         },
     },
     geometry::rigid::RigidTransform,
@@ -85,7 +88,7 @@ pub(super) fn ui(
         if let Some(scan) = &inspected.scan {
             summary(ui, &scan.fused, session.units, theme);
         }
-        footer(ui, inspected, theme);
+        footer(ui, inspected, session.role, theme);
     });
 }
 
@@ -275,12 +278,16 @@ fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem, theme: &Theme) {
     }
 }
 
-fn footer(ui: &mut Ui, inspected: &Inspected, theme: &Theme) {
+fn footer(ui: &mut Ui, inspected: &Inspected, role: UserRole, theme: &Theme) {
     heading(ui, theme, "Inspection");
     let ms = inspected.inspection.timings.total.as_secs_f64() * 1000.0;
     row(ui, theme, "time", &format!("{ms:.1} ms"));
     row(ui, theme, "scene", &inspected.origin.title());
     if inspected.origin.is_simulated() {
         row(ui, theme, "camera", "simulated");
+    }
+    if role == UserRole::Engineer {
+        let label = inspected.recipe.label.to_string();
+        row(ui, theme, "recipe", &shortened(&label, 28));
     }
 }

@@ -195,11 +195,8 @@ pub(super) fn foot(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
         height: bottom - top,
     };
     sheet.fill(area, PALE);
-    let recipe = if report.recipe.is_default {
-        " (the program's own)"
-    } else {
-        " (changed)"
-    };
+    let recipe = &report.recipe;
+    let changed = if recipe.is_changed { " (changed)" } else { "" };
     let library = &report.library;
     let timings = &report.timings_ms;
     let facts = [
@@ -219,7 +216,11 @@ pub(super) fn foot(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
             ),
         ],
         [
-            ("Recipe", format!("{}{recipe}", report.recipe.identity)),
+            (
+                "Recipe",
+                // The name may be long, and is cut where there is no room.
+                format!("{}, {}{changed}", recipe.identity, recipe.name),
+            ),
             (
                 "Library",
                 format!(

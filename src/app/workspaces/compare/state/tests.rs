@@ -60,7 +60,7 @@ struct Bench {
 impl Bench {
     fn new() -> Self {
         Self {
-            compare: CompareState::new(None, &TaskRunner::without_threads()),
+            compare: CompareState::new(None, None, &TaskRunner::without_threads()),
             shell: TestShell::default(),
         }
     }

@@ -30,7 +30,7 @@ fn inspected(number: u64) -> Arc<Inspected> {
             choice: CellChoice::Empty,
             number,
         },
-        recipe: Arc::new(recipe),
+        recipe: Arc::new(recipe.into()),
     };
     Arc::new(inspect(&request, &LibraryCache::default(), &Unwatched).expect("inspected"))
 }

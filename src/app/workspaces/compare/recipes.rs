@@ -1,0 +1,477 @@
+//! The recipes that are kept: opening one to try it, saving what was tried, renaming, removing, importing and exporting.
+
+use std::{collections::VecDeque, path::PathBuf, sync::Arc};
+
+use super::{
+    action::RecipeAction,
+    schedule::StudyNeed,
+    state::{CompareState, Undo},
+};
+use crate::{
+    app::{
+        shell::{context::ShellContext, message::Message},
+        task::{Task, TaskEvent, TaskRunner},
+        user_error::UserError,
+    },
+    library::PartName,
+    pipeline::{
+        BUILT_IN, NamedRecipe, Recipe, RecipeError, RecipeFile, RecipeFolder, RecipeLabel,
+        RecipeList, Replace,
+    },
+};
+
+/// The recipes that are kept, and what is being done with them.
+#[derive(Debug)]
+pub struct KeptRecipes {
+    /// Where they are; without it none can be kept.
+    folder: Option<RecipeFolder>,
+    /// The recipes, once listed.
+    pub list: RecipeList,
+    /// The name that is being written.
+    pub naming: Option<Naming>,
+    /// True while the parameters that differ from their defaults are listed.
+    pub is_listing_changes: bool,
+    waiting: VecDeque<RecipeChange>,
+    task: Task<Changed>,
+}
+
+/// A name that is being written.
+#[derive(Clone, Debug)]
+pub struct Naming {
+    /// What for.
+    pub purpose: NamingPurpose,
+    /// What is written so far.
+    pub text: String,
+    /// True until its line was shown, which then has the keys.
+    pub is_new: bool,
+}
+
+/// What a name is written for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NamingPurpose {
+    /// Keep the recipe on trial under it.
+    SaveAs,
+    /// Call the recipe on trial by it.
+    Rename,
+}
+
+/// What is done with the files.
+#[derive(Debug)]
+enum RecipeChange {
+    List,
+    Save(Box<RecipeFile>, Replace),
+    /// Puts a removed one back.
+    Restore {
+        file: Box<RecipeFile>,
+        was_default: bool,
+    },
+    Rename(PartName, PartName),
+    Remove(PartName),
+    MakeDefault(PartName),
+    /// Under its own name, or the next that is free.
+    Import(PathBuf),
+    Export(Box<RecipeFile>, PathBuf),
+}
+
+/// What was done, and the recipes after it.
+#[derive(Debug)]
+struct Changed {
+    list: RecipeList,
+    done: RecipeDone,
+}
+
+#[derive(Debug)]
+enum RecipeDone {
+    Listed,
+    /// The recipe on trial goes by this name.
+    Saved(PartName),
+    Restored(PartName),
+    Renamed(PartName, PartName),
+    Removed {
+        file: Box<RecipeFile>,
+        was_default: bool,
+    },
+    Default(PartName),
+    Imported(PartName),
+    Exported(PathBuf),
+}
+
+impl KeptRecipes {
+    pub(super) fn new(folder: Option<PathBuf>, runner: &TaskRunner) -> Self {
+        Self {
+            folder: folder.map(RecipeFolder::at),
+            list: RecipeList {
+                default: BUILT_IN.into(),
+                ..RecipeList::default()
+            },
+            naming: None,
+            is_listing_changes: false,
+            // In the first frame: the recipe in use may differ from its file by now.
+            waiting: VecDeque::from([RecipeChange::List]),
+            task: Task::new("recipes", runner),
+        }
+    }
+
+    pub(super) fn is_idle(&self) -> bool {
+        self.task.running().is_none() && (self.folder.is_none() || self.waiting.is_empty())
+    }
+
+    fn of_name(&self, name: &str) -> Option<&RecipeFile> {
+        let mut recipes = self.list.recipes.iter();
+        recipes.find(|file| file.name.as_str() == name)
+    }
+
+    /// True if a recipe is kept under this name.
+    pub(super) fn has(&self, name: &str) -> bool {
+        name == BUILT_IN || self.of_name(name).is_some()
+    }
+
+    /// These parameters under this name, marked where they are not what is kept under it.
+    fn named(&self, name: &str, parameters: Arc<Recipe>) -> NamedRecipe {
+        let is_kept = if name == BUILT_IN {
+            *parameters == Recipe::default()
+        } else {
+            self.of_name(name)
+                .is_some_and(|file| file.recipe == *parameters)
+        };
+        NamedRecipe {
+            label: RecipeLabel {
+                name: name.to_owned(),
+                is_changed: !is_kept,
+            },
+            parameters,
+        }
+    }
+
+    /// The first of `name_2`, `name_3` and so on that is free.
+    fn free_name(&self, name: &str) -> Result<PartName, RecipeError> {
+        Ok(free_name(name, |name| self.has(name))?)
+    }
+
+    fn start(&mut self, change: RecipeChange, cx: &mut ShellContext<'_>) {
+        if self.folder.is_none() {
+            return cx.notify(UserError::of(&RecipeError::NoUserFolder));
+        }
+        self.waiting.push_back(change);
+        self.start_next();
+    }
+
+    /// One after the other: no file is given up for the next.
+    fn start_next(&mut self) {
+        if let (None, Some(folder)) = (self.task.running(), &self.folder)
+            && let Some(change) = self.waiting.pop_front()
+        {
+            let folder = folder.clone();
+            self.task.start("Changing recipes", move |_| {
+                carry_out(&folder, change).map_err(|error| UserError::of(&error).into())
+            });
+        }
+    }
+}
+
+fn free_name(
+    name: &str,
+    is_taken: impl Fn(&str) -> bool,
+) -> Result<PartName, crate::library::BadName> {
+    let number = (2..).find(|number| !is_taken(&format!("{name}_{number}")));
+    PartName::new(&format!("{name}_{}", number.unwrap_or(2)))
+}
+
+fn carry_out(folder: &RecipeFolder, change: RecipeChange) -> Result<Changed, RecipeError> {
+    let done = match change {
+        RecipeChange::List => RecipeDone::Listed,
+        RecipeChange::Save(file, replace) => RecipeDone::Saved(folder.save(&file, replace)?.name),
+        RecipeChange::Restore { file, was_default } => {
+            let name = folder.save(&file, Replace::No)?.name;
+            if was_default {
+                folder.set_default(&name)?;
+            }
+            RecipeDone::Restored(name)
+        }
+        RecipeChange::Rename(from, to) => {
+            folder.rename(&from, &to)?;
+            RecipeDone::Renamed(from, to)
+        }
+        RecipeChange::Remove(name) => {
+            let file = Box::new(folder.read(&name)?);
+            let was_default = folder.default_name()? == name.as_str();
+            folder.remove(&name)?;
+            RecipeDone::Removed { file, was_default }
+        }
+        RecipeChange::MakeDefault(name) => {
+            folder.set_default(&name)?;
+            RecipeDone::Default(name)
+        }
+        RecipeChange::Import(path) => {
+            let mut file = RecipeFile::read(&path)?;
+            let list = folder.list()?;
+            let same = list.recipes.iter().find(|kept| kept.name == file.name);
+            let is_there = same.is_some_and(|kept| *kept == file);
+            let is_taken = |name: &str| {
+                name == BUILT_IN || list.recipes.iter().any(|kept| kept.name.as_str() == name)
+            };
+            if is_taken(file.name.as_str()) && !is_there {
+                file.name = free_name(file.name.as_str(), is_taken)?;
+            }
+            RecipeDone::Imported(folder.save(&file, Replace::Yes)?.name)
+        }
+        RecipeChange::Export(file, path) => {
+            file.write(&path)?;
+            RecipeDone::Exported(path)
+        }
+    };
+    let list = folder.list()?;
+    Ok(Changed { list, done })
+}
+
+impl CompareState {
+    /// Does something with the kept recipes.
+    pub(super) fn apply_to_recipes(&mut self, action: RecipeAction, cx: &mut ShellContext<'_>) {
+        let tried = Arc::clone(self.tried_recipe(cx.session));
+        let name = tried.label.name.as_str();
+        let done = match action {
+            RecipeAction::Open(name) => {
+                self.open_recipe(&name, cx);
+                Ok(())
+            }
+            RecipeAction::Save => self.save_recipe(name, Replace::Yes, cx),
+            RecipeAction::Duplicate => self
+                .recipes
+                .free_name(name)
+                .and_then(|copy| self.save_recipe(copy.as_str(), Replace::No, cx)),
+            RecipeAction::Name(purpose) => {
+                let text = match purpose {
+                    NamingPurpose::SaveAs => String::new(),
+                    NamingPurpose::Rename => name.to_owned(),
+                };
+                self.recipes.naming = Some(Naming {
+                    purpose,
+                    text,
+                    is_new: true,
+                });
+                Ok(())
+            }
+            RecipeAction::Write(text) => {
+                if let Some(naming) = &mut self.recipes.naming {
+                    naming.text = text;
+                    naming.is_new = false;
+                }
+                Ok(())
+            }
+            RecipeAction::CancelName => {
+                self.recipes.naming = None;
+                Ok(())
+            }
+            RecipeAction::TakeName => self.take_name(name, cx),
+            RecipeAction::Delete => self.with_name(name, RecipeChange::Remove, cx),
+            RecipeAction::MakeDefault => self.with_name(name, RecipeChange::MakeDefault, cx),
+            RecipeAction::Import(path) => {
+                self.recipes.start(RecipeChange::Import(path), cx);
+                Ok(())
+            }
+            RecipeAction::Export(path) => self.export(&tried, path, cx),
+            RecipeAction::ListChanges => {
+                self.recipes.is_listing_changes ^= true;
+                Ok(())
+            }
+        };
+        if let Err(error) = done {
+            cx.notify(UserError::of(&error));
+        }
+    }
+
+    fn with_name(
+        &mut self,
+        name: &str,
+        change: fn(PartName) -> RecipeChange,
+        cx: &mut ShellContext<'_>,
+    ) -> Result<(), RecipeError> {
+        self.recipes.start(change(PartName::new(name)?), cx);
+        Ok(())
+    }
+
+    /// Keeps the recipe on trial under this name, with the notes of the one that it was.
+    fn save_recipe(
+        &mut self,
+        name: &str,
+        replace: Replace,
+        cx: &mut ShellContext<'_>,
+    ) -> Result<(), RecipeError> {
+        let tried = self.tried_recipe(cx.session);
+        let from = self.recipes.of_name(&tried.label.name);
+        let file = RecipeFile {
+            name: PartName::new(name)?,
+            notes: from.map(|file| file.notes.clone()).unwrap_or_default(),
+            recipe: Recipe::clone(tried),
+        };
+        self.recipes
+            .start(RecipeChange::Save(Box::new(file), replace), cx);
+        Ok(())
+    }
+
+    fn take_name(&mut self, from: &str, cx: &mut ShellContext<'_>) -> Result<(), RecipeError> {
+        let Some(Naming { purpose, text, .. }) = self.recipes.naming.clone() else {
+            return Ok(());
+        };
+        let to = PartName::new(text.trim())?;
+        match purpose {
+            NamingPurpose::SaveAs => self.save_recipe(to.as_str(), Replace::No, cx)?,
+            NamingPurpose::Rename if to.as_str() == from => {}
+            NamingPurpose::Rename => {
+                let change = RecipeChange::Rename(PartName::new(from)?, to);
+                self.recipes.start(change, cx);
+            }
+        }
+        self.recipes.naming = None;
+        Ok(())
+    }
+
+    fn export(
+        &mut self,
+        tried: &NamedRecipe,
+        path: PathBuf,
+        cx: &mut ShellContext<'_>,
+    ) -> Result<(), RecipeError> {
+        let name = &tried.label.name;
+        let stem = path.file_stem().map(|stem| stem.to_string_lossy());
+        let of_file = stem.and_then(|stem| PartName::proposed(&stem));
+        let file = RecipeFile {
+            // The program's own name stays with its own parameters.
+            name: match of_file {
+                Some(of_file) if name == BUILT_IN => of_file,
+                _ => PartName::new(name)?,
+            },
+            notes: self
+                .recipes
+                .of_name(name)
+                .map(|file| file.notes.clone())
+                .unwrap_or_default(),
+            recipe: Recipe::clone(tried),
+        };
+        self.recipes
+            .start(RecipeChange::Export(Box::new(file), path), cx);
+        Ok(())
+    }
+
+    /// Tries a kept recipe on the case in front.
+    fn open_recipe(&mut self, name: &str, cx: &mut ShellContext<'_>) {
+        let parameters = match self.recipes.of_name(name) {
+            Some(file) => Arc::new(file.recipe.clone()),
+            None if name == BUILT_IN => Arc::default(),
+            None => return,
+        };
+        let before = Arc::clone(self.tried_recipe(cx.session));
+        let recipe = self.recipes.named(name, parameters);
+        if recipe == *before {
+            return;
+        }
+        if *recipe != **before {
+            self.due = StudyNeed::Now;
+        }
+        if before.label.is_changed {
+            self.undo = Some(Undo::Trial(before));
+        }
+        self.recipes.naming = None;
+        self.put_on_trial(recipe, cx);
+    }
+
+    /// This recipe is on trial, unless it is the one in use.
+    pub(super) fn put_on_trial(&mut self, recipe: NamedRecipe, cx: &ShellContext<'_>) {
+        self.tried = (recipe != *cx.session.recipe).then(|| Arc::new(recipe));
+    }
+
+    /// These parameters are on trial, under the name of those before.
+    pub(super) fn try_parameters(&mut self, parameters: Recipe, cx: &ShellContext<'_>) {
+        let name = &self.tried_recipe(cx.session).label.name;
+        let recipe = self.recipes.named(name, Arc::new(parameters));
+        self.put_on_trial(recipe, cx);
+    }
+
+    /// Takes in what was done with the files.
+    pub(super) fn update_recipes(&mut self, cx: &mut ShellContext<'_>) {
+        while let Some(event) = self.recipes.task.poll() {
+            match event {
+                TaskEvent::Partial(changed) | TaskEvent::Done(changed) => {
+                    self.take_in_recipes(changed, cx);
+                }
+                TaskEvent::Failed(error) => cx.notify(error),
+            }
+            // An imported recipe is tried.
+            self.start_next(cx);
+        }
+        self.recipes.start_next();
+    }
+
+    fn take_in_recipes(&mut self, changed: Changed, cx: &mut ShellContext<'_>) {
+        let Changed { list, done } = changed;
+        if matches!(done, RecipeDone::Listed) {
+            for problem in &list.problems {
+                cx.notify(UserError::of(problem));
+            }
+        }
+        self.recipes.list = list;
+        // The recipe on trial, and the one in use, may go by another name or differ from what is kept now.
+        let in_use = &cx.session.recipe;
+        let mut names = [self.tried.as_ref(), Some(in_use)].map(|recipe| {
+            let recipe = recipe.unwrap_or(in_use);
+            recipe.label.name.clone()
+        });
+        match &done {
+            RecipeDone::Saved(name) => {
+                names[0] = name.to_string();
+                if self.tried.is_none() {
+                    names[1] = name.to_string();
+                }
+            }
+            RecipeDone::Renamed(from, to) => {
+                for name in names.iter_mut().filter(|name| *name == from.as_str()) {
+                    *name = to.to_string();
+                }
+            }
+            _ => {}
+        }
+        let now = self
+            .recipes
+            .named(&names[1], Arc::clone(&in_use.parameters));
+        let tried = self
+            .tried
+            .as_ref()
+            .map(|tried| self.recipes.named(&names[0], Arc::clone(&tried.parameters)));
+        self.tried = tried.filter(|tried| *tried != now).map(Arc::new);
+        if now.label != in_use.label {
+            cx.send(Message::UseRecipe(Arc::new(now)));
+        }
+        match done {
+            RecipeDone::Listed => {}
+            RecipeDone::Saved(name) => self.say(format!("Saved recipe {name}"), cx),
+            RecipeDone::Restored(name) => self.say(format!("Recipe {name} is back"), cx),
+            RecipeDone::Renamed(from, to) => {
+                self.say(format!("Recipe {from} is named {to} now"), cx);
+            }
+            RecipeDone::Removed { file, was_default } => {
+                self.say(format!("Removed recipe {}", file.name), cx);
+                self.undo = Some(Undo::Recipe { file, was_default });
+            }
+            RecipeDone::Default(name) => {
+                let text = format!("Commands without --recipe use {name} now");
+                self.say(text, cx);
+            }
+            RecipeDone::Imported(name) => {
+                self.say(format!("Imported recipe {name}"), cx);
+                self.open_recipe(name.as_str(), cx);
+            }
+            RecipeDone::Exported(path) => self.say(format!("Wrote {}", path.display()), cx),
+        }
+    }
+
+    /// Keeps a recipe again that was removed.
+    pub(super) fn put_recipe_back(
+        &mut self,
+        file: Box<RecipeFile>,
+        was_default: bool,
+        cx: &mut ShellContext<'_>,
+    ) {
+        let change = RecipeChange::Restore { file, was_default };
+        self.recipes.start(change, cx);
+    }
+}

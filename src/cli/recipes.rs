@@ -1,0 +1,320 @@
+//! `partsight recipe`: recipes as files.
+
+use std::path::{Path, PathBuf};
+
+use clap::{Args, Subcommand};
+use serde::Serialize;
+
+use super::{
+    Outcome,
+    console::{Advised as _, Console, Table, advised_error},
+    recipe::{RecipeChoice, open_named},
+};
+use crate::{
+    library::PartName,
+    pipeline::{
+        BUILT_IN, MAX_NOTES, Recipe, RecipeError, RecipeFile, RecipeFolder, Replace,
+        parameters::{PARAMETERS, Parameter, num_changed},
+    },
+};
+
+/// List, show, save, remove, export and import recipes: named sets of parameters
+#[derive(Debug, Args)]
+#[command(after_help = "\
+Examples:
+  partsight recipe save glossy --set accept.min_score=0.85 --notes \"clear coat\"
+  partsight recipe save glossy_2 --recipe glossy --set segment.plane_distance=12
+  partsight recipe list
+  partsight recipe show glossy
+  partsight recipe show glossy_2 --against glossy
+  partsight recipe default glossy
+  partsight recipe export glossy /media/stick/glossy.toml
+  partsight recipe import /media/stick/glossy.toml
+  partsight inspect door.pcd --recipe glossy
+
+A recipe is a file with the parameters that differ from the program's own. Yours lie in your data folder, beside the
+library; the window saves and opens the same ones. built-in is the program's own recipe: every parameter at its default.
+What looks like a name is one; a file is named with its folder or ending: ./glossy or glossy.toml.")]
+pub(super) struct RecipeArgs {
+    #[command(subcommand)]
+    command: RecipeCommand,
+}
+
+#[derive(Debug, Subcommand)]
+enum RecipeCommand {
+    /// Show all recipes
+    List {
+        /// Write a line of JSON per recipe
+        #[arg(long)]
+        json: bool,
+    },
+    /// Show the parameters that differ from their defaults, or from another recipe
+    Show {
+        /// The recipe, by its name or as a file
+        #[arg(value_name = "NAME|FILE")]
+        recipe: String,
+        /// Compare with this recipe
+        #[arg(long, value_name = "NAME|FILE", default_value = BUILT_IN)]
+        against: String,
+        /// Write one line of JSON
+        #[arg(long)]
+        json: bool,
+    },
+    Save(SaveArgs),
+    /// Remove a recipe
+    Remove {
+        /// Name of the recipe
+        name: PartName,
+    },
+    /// Show or choose the recipe that is used without --recipe
+    Default {
+        /// Name of the recipe
+        name: Option<PartName>,
+    },
+    /// Keep a recipe file among yours
+    Import {
+        /// The file
+        file: PathBuf,
+        /// Keep it under another name
+        #[arg(long)]
+        name: Option<PartName>,
+        /// Replace a recipe of the same name
+        #[arg(long)]
+        replace: bool,
+    },
+    /// Write a recipe to a file, to take it along
+    Export {
+        /// Name of the recipe
+        name: PartName,
+        /// The file
+        file: PathBuf,
+    },
+}
+
+/// Save a recipe: the one named by --recipe, or your default, with the changes given
+#[derive(Debug, Args)]
+struct SaveArgs {
+    /// Name of the recipe: lowercase letters, digits, _ and -
+    name: PartName,
+    #[command(flatten)]
+    recipe: RecipeChoice,
+    /// Anything worth remembering; without it the notes of the recipe that it is made from
+    #[arg(long, value_name = "TEXT", value_parser = parse_notes)]
+    notes: Option<String>,
+    /// Replace a recipe of the same name
+    #[arg(long)]
+    replace: bool,
+}
+
+fn parse_notes(text: &str) -> Result<String, String> {
+    match text.chars().count() {
+        0..=MAX_NOTES => Ok(text.to_owned()),
+        found => Err(RecipeError::LongNotes { found }.to_string()),
+    }
+}
+
+pub(super) fn run(args: &RecipeArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    match &args.command {
+        RecipeCommand::List { json } => list(*json, console),
+        RecipeCommand::Show {
+            recipe,
+            against,
+            json,
+        } => {
+            let [recipe, against] = [recipe, against].map(|given| open_named(Some(given)));
+            show(&recipe?, &against?, *json, console);
+            Ok(())
+        }
+        RecipeCommand::Save(asked) => save(asked, console),
+        RecipeCommand::Remove { name } => remove(name, console),
+        RecipeCommand::Default { name } => default(name.as_ref(), console),
+        RecipeCommand::Import {
+            file,
+            name,
+            replace,
+        } => import(file, name.as_ref(), *replace, console),
+        RecipeCommand::Export { name, file } => export(name, file, console),
+    }?;
+    Ok(Outcome::Accepted)
+}
+
+fn folder() -> anyhow::Result<RecipeFolder> {
+    RecipeFolder::of_user().advised()
+}
+
+/// A recipe of the list, as `--json` writes it.
+#[derive(Serialize)]
+struct ListLine<'a> {
+    name: &'a str,
+    identity: String,
+    is_default: bool,
+    num_changed: usize,
+    notes: &'a str,
+}
+
+fn list(json: bool, console: &mut Console) -> anyhow::Result<()> {
+    let mut list = folder()?.list().advised()?;
+    for problem in &list.problems {
+        console.warn(&format_args!("set aside {problem}"), problem);
+    }
+    list.recipes.insert(0, RecipeFile::built_in());
+    let mut table = Table::new(&["NAME", "IDENTITY", "CHANGED", "DEFAULT", "NOTES"]);
+    for file in &list.recipes {
+        let line = ListLine {
+            name: file.name.as_str(),
+            identity: file.recipe.identity(),
+            is_default: list.default == file.name.as_str(),
+            num_changed: num_changed(&file.recipe),
+            notes: &file.notes,
+        };
+        if json {
+            console.line(&serde_json::to_string(&line)?);
+            continue;
+        }
+        table.row([
+            line.name.to_owned(),
+            line.identity,
+            line.num_changed.to_string(),
+            if line.is_default { "default" } else { "" }.to_owned(),
+            line.notes.to_owned(),
+        ]);
+    }
+    if !json {
+        table.show(console);
+    }
+    Ok(())
+}
+
+/// A recipe, as `show --json` writes it.
+#[derive(Serialize)]
+struct ShowLine<'a> {
+    name: &'a str,
+    identity: String,
+    notes: &'a str,
+    against: &'a str,
+    changed: Vec<ChangeLine>,
+}
+
+/// A parameter that differs, in words.
+#[derive(Serialize)]
+struct ChangeLine {
+    parameter: &'static str,
+    value: String,
+    against: String,
+}
+
+fn show(file: &RecipeFile, against: &RecipeFile, json: bool, console: &mut Console) {
+    let differ = |a: &Recipe, b: &Recipe| {
+        let all = PARAMETERS.iter().filter(|p| p.differs(a, b));
+        let change = |p: &Parameter| ChangeLine {
+            parameter: p.key,
+            value: p.setting_text(a),
+            against: p.setting_text(b),
+        };
+        all.map(change).collect::<Vec<_>>()
+    };
+    let line = ShowLine {
+        name: file.name.as_str(),
+        identity: file.recipe.identity(),
+        notes: &file.notes,
+        against: against.name.as_str(),
+        changed: differ(&file.recipe, &against.recipe),
+    };
+    if json {
+        let line = serde_json::to_string(&line).expect("texts have a JSON form");
+        return console.line(&line);
+    }
+    console.entry("recipe", &format_args!("{}, {}", line.name, line.identity));
+    if !line.notes.is_empty() {
+        console.entry("notes", &line.notes);
+    }
+    let num = line.changed.len();
+    console.entry("differs", &format_args!("in {num} from {}", line.against));
+    let mut table = Table::new(&["PARAMETER", "VALUE", &line.against.to_uppercase()]);
+    for change in &line.changed {
+        table.row([
+            change.parameter.to_owned(),
+            change.value.clone(),
+            change.against.clone(),
+        ]);
+    }
+    if num > 0 {
+        table.show(console);
+    }
+}
+
+fn replacing(replace: bool) -> Replace {
+    if replace { Replace::Yes } else { Replace::No }
+}
+
+/// Keeps a recipe, or says how it can be.
+fn keep(file: &RecipeFile, replace: bool, console: &mut Console) -> anyhow::Result<()> {
+    let folder = folder()?;
+    let kept = match folder.save(file, replacing(replace)) {
+        Err(error @ RecipeError::Exists { .. }) => Err(advised_error(
+            error.to_string(),
+            "Give another name, or add --replace",
+        )),
+        kept => kept.advised(),
+    }?;
+    console.line(&format_args!(
+        "Saved {}, {}: {} changed from default",
+        kept.name,
+        kept.recipe.identity(),
+        num_changed(&kept.recipe)
+    ));
+    console.line(&format_args!(
+        "  it lies in  {}",
+        folder.file(&kept.name).display()
+    ));
+    Ok(())
+}
+
+fn save(asked: &SaveArgs, console: &mut Console) -> anyhow::Result<()> {
+    let (from, recipe) = asked.recipe.file()?;
+    let file = RecipeFile {
+        name: asked.name.clone(),
+        notes: asked.notes.clone().unwrap_or(from.notes),
+        recipe: Recipe::clone(&recipe),
+    };
+    keep(&file, asked.replace, console)
+}
+
+fn remove(name: &PartName, console: &mut Console) -> anyhow::Result<()> {
+    let folder = folder()?;
+    let was_default = folder.default_name().advised()? == name.as_str();
+    folder.remove(name).advised()?;
+    console.line(&format_args!("Removed {name}"));
+    if was_default {
+        console.note(&format_args!("The default recipe is {BUILT_IN} again"));
+    }
+    Ok(())
+}
+
+fn default(name: Option<&PartName>, console: &mut Console) -> anyhow::Result<()> {
+    let folder = folder()?;
+    if let Some(name) = name {
+        folder.set_default(name).advised()?;
+    }
+    let text = folder.default_name().advised()?;
+    console.line(&text);
+    Ok(())
+}
+
+fn import(
+    path: &Path,
+    name: Option<&PartName>,
+    replace: bool,
+    console: &mut Console,
+) -> anyhow::Result<()> {
+    let file = RecipeFile::read(path).advised()?;
+    let name = name.unwrap_or(&file.name).clone();
+    keep(&RecipeFile { name, ..file }, replace, console)
+}
+
+fn export(name: &PartName, path: &Path, console: &mut Console) -> anyhow::Result<()> {
+    let file = open_named(Some(name.as_str()))?;
+    file.write(path).advised()?;
+    console.line(&format_args!("Wrote {}", path.display()));
+    Ok(())
+}

@@ -1,0 +1,115 @@
+//! What can go wrong with recipe files.
+
+use std::path::PathBuf;
+
+use super::{
+    named_recipe::{BUILT_IN, MAX_NOTES, SCHEMA},
+    parameters::SettingError,
+};
+use crate::{
+    error::Advice,
+    files::{FileError, nearest_name},
+    library::BadName,
+};
+
+/// Why a recipe cannot be read, written or used.
+#[derive(Debug, thiserror::Error)]
+pub enum RecipeError {
+    /// The file cannot be read or written.
+    #[error(transparent)]
+    File(#[from] FileError),
+    /// Not what a recipe file looks like.
+    #[error("{} is no recipe: {reason}", path.display())]
+    Garbled {
+        /// The file.
+        path: PathBuf,
+        /// What the reader said.
+        reason: String,
+    },
+    /// Another version of the format.
+    #[error("{}: the recipe has schema {found}, this program reads {SCHEMA}", path.display())]
+    OtherSchema {
+        /// The file.
+        path: PathBuf,
+        /// Its schema.
+        found: u32,
+    },
+    /// A parameter that does not exist, or a value that it cannot have.
+    #[error("{}: {source}", path.display())]
+    BadParameter {
+        /// The file.
+        path: PathBuf,
+        /// What is wrong.
+        source: SettingError,
+    },
+    /// No name for a recipe.
+    #[error(transparent)]
+    BadName(#[from] BadName),
+    /// Notes too long to keep.
+    #[error("the notes have {found} characters, at most {MAX_NOTES} are kept")]
+    LongNotes {
+        /// Characters given.
+        found: usize,
+    },
+    /// No recipe of this name.
+    #[error("there is no recipe named {name}")]
+    NotFound {
+        /// The name given.
+        name: String,
+        /// Those that are there.
+        available: Vec<String>,
+    },
+    /// The recipe that is used by default is gone.
+    #[error("the default recipe {name} cannot be used: {reason}")]
+    NoDefault {
+        /// Its name.
+        name: String,
+        /// Why.
+        reason: String,
+    },
+    /// Another recipe has the name.
+    #[error("there is a recipe named {name} already")]
+    Exists {
+        /// The name.
+        name: String,
+    },
+    /// The program's own recipe cannot be changed.
+    #[error("{BUILT_IN} is the program's own recipe and stays as it is")]
+    BuiltIn,
+    /// No place for the user's recipes.
+    #[error("the system names no folder for your data")]
+    NoUserFolder,
+}
+
+impl Advice for RecipeError {
+    fn advice(&self) -> String {
+        match self {
+            Self::File(error) => error.advice(),
+            Self::Garbled { .. } => {
+                "Give a file that Partsight exported, or write one as docs/guide/files.md shows".into()
+            }
+            Self::OtherSchema { .. } => {
+                "Use the version of Partsight that wrote it, or export the recipe again from this one".into()
+            }
+            Self::BadParameter { .. } => {
+                "Correct the file, nothing of it was used; docs/guide/parameters.md lists names, units and ranges".into()
+            }
+            Self::BadName(error) => error.advice(),
+            Self::LongNotes { .. } => "Shorten the notes".into(),
+            Self::NotFound { name, available } => {
+                let nearest = nearest_name(available.iter().map(String::as_str), name);
+                let file = format!("to name a file, write ./{name}");
+                match nearest {
+                    Some(nearest) => format!("The nearest name is {nearest}; {file}"),
+                    None => format!("There are no recipes yet: save one, or use {BUILT_IN}; {file}"),
+                }
+            }
+            Self::NoDefault { .. } => {
+                format!("Choose another: partsight recipe default {BUILT_IN}; or name one with --recipe")
+            }
+            Self::Exists { .. } => "Choose another name, or replace it".into(),
+            Self::BuiltIn => "Choose another name".into(),
+            Self::NoUserFolder => "Set HOME, or give the recipe as a file".into(),
+        }
+    }
+}

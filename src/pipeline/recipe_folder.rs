@@ -1,0 +1,387 @@
+//! The folder of named recipes: a file each, and which of them is used where none is named.
+
+use std::{
+    fs, io,
+    path::{Path, PathBuf},
+};
+
+use super::{
+    named_recipe::{BUILT_IN, RecipeFile},
+    recipe_error::RecipeError,
+};
+use crate::{
+    files::{FileError, folder_of, read_text, sync_folder, write_atomically},
+    library::PartName,
+};
+
+const ENDING: &str = "toml";
+/// The file that names the default recipe.
+const DEFAULT: &str = "default";
+
+/// A folder of recipes; it need not be there until the first is saved.
+#[derive(Clone, Debug, PartialEq, Eq)]
+pub struct RecipeFolder {
+    path: PathBuf,
+}
+
+/// What lies in a folder of recipes.
+#[derive(Debug, Default)]
+pub struct RecipeList {
+    /// The recipes, in the order of their names, the program's own left out.
+    pub recipes: Vec<RecipeFile>,
+    /// What is used where no recipe is named.
+    pub default: String,
+    /// What could not be read.
+    pub problems: Vec<RecipeError>,
+}
+
+/// Whether a recipe may take the place of another of the same name.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum Replace {
+    /// It is an error if there is one.
+    No,
+    /// It is replaced.
+    Yes,
+}
+
+impl RecipeFolder {
+    /// The folder at this path.
+    pub fn at(path: impl Into<PathBuf>) -> Self {
+        Self { path: path.into() }
+    }
+
+    /// The user's own, beside the library in the folder that the system keeps for a user's data.
+    pub fn of_user() -> Result<Self, RecipeError> {
+        let folders =
+            directories::ProjectDirs::from("", "", "partsight").ok_or(RecipeError::NoUserFolder)?;
+        Ok(Self::at(folders.data_dir().join("recipes")))
+    }
+
+    /// Where it is.
+    pub fn path(&self) -> &Path {
+        &self.path
+    }
+
+    /// Where the recipe of this name is kept.
+    pub fn file(&self, name: &PartName) -> PathBuf {
+        self.path.join(format!("{name}.{ENDING}"))
+    }
+
+    /// The recipes; what is damaged is named, the others are there.
+    pub fn list(&self) -> Result<RecipeList, RecipeError> {
+        let mut list = RecipeList {
+            default: self.default_name()?,
+            ..RecipeList::default()
+        };
+        for name in self.names()? {
+            match self.read(&name) {
+                Ok(recipe) => list.recipes.push(recipe),
+                Err(problem) => list.problems.push(problem),
+            }
+        }
+        Ok(list)
+    }
+
+    /// The names, in their order. A folder that is not there holds none.
+    fn names(&self) -> Result<Vec<PartName>, RecipeError> {
+        let reading = |error| FileError::reading(&self.path, error);
+        let entries = match fs::read_dir(&self.path) {
+            Err(error) if error.kind() == io::ErrorKind::NotFound => return Ok(Vec::new()),
+            entries => entries.map_err(reading)?,
+        };
+        let mut names = Vec::new();
+        for entry in entries {
+            let path = PathBuf::from(entry.map_err(reading)?.file_name());
+            let stem = path.file_stem().and_then(|stem| stem.to_str());
+            if path.extension().is_some_and(|ending| ending == ENDING) {
+                let name = stem.and_then(|stem| PartName::new(stem).ok());
+                names.extend(name.filter(|name| name.as_str() != BUILT_IN));
+            }
+        }
+        names.sort();
+        Ok(names)
+    }
+
+    /// The recipe of this name. The name of its file counts, not the one inside: the file may have been copied.
+    pub fn read(&self, name: &PartName) -> Result<RecipeFile, RecipeError> {
+        if name.as_str() == BUILT_IN {
+            return Ok(RecipeFile::built_in());
+        }
+        match RecipeFile::read(&self.file(name)) {
+            Ok(file) => Ok(RecipeFile {
+                name: name.clone(),
+                ..file
+            }),
+            Err(RecipeError::File(FileError::NotFound { .. })) => {
+                let available = self.names()?.into_iter().map(String::from);
+                Err(RecipeError::NotFound {
+                    name: name.to_string(),
+                    available: available.collect(),
+                })
+            }
+            Err(error) => Err(error),
+        }
+    }
+
+    /// Keeps a recipe under its name, and gives it back as its file holds it.
+    pub fn save(&self, recipe: &RecipeFile, replace: Replace) -> Result<RecipeFile, RecipeError> {
+        let path = self.changeable(&recipe.name)?;
+        if replace == Replace::No && path.symlink_metadata().is_ok() {
+            let name = recipe.name.to_string();
+            return Err(RecipeError::Exists { name });
+        }
+        self.make()?;
+        recipe.write(&path)
+    }
+
+    /// Removes a recipe; if it was the default, the program's own is that again.
+    pub fn remove(&self, name: &PartName) -> Result<(), RecipeError> {
+        let path = self.changeable(name)?;
+        match fs::remove_file(&path) {
+            Ok(()) => {}
+            // Names those that are there.
+            Err(error) if error.kind() == io::ErrorKind::NotFound => {
+                self.read(name)?;
+            }
+            Err(error) => return Err(FileError::writing(&path, error).into()),
+        }
+        sync_folder(&self.path).map_err(|error| FileError::writing(&path, error))?;
+        if self.default_name()? == name.as_str() {
+            self.set_default(&RecipeFile::built_in().name)?;
+        }
+        Ok(())
+    }
+
+    /// Gives a recipe another name; if it was the default, it stays that.
+    pub fn rename(&self, from: &PartName, to: &PartName) -> Result<RecipeFile, RecipeError> {
+        self.changeable(from)?;
+        let was_default = self.default_name()? == from.as_str();
+        let renamed = RecipeFile {
+            name: to.clone(),
+            ..self.read(from)?
+        };
+        let renamed = self.save(&renamed, Replace::No)?;
+        if was_default {
+            self.set_default(to)?;
+        }
+        self.remove(from)?;
+        Ok(renamed)
+    }
+
+    /// The recipe that is used where none is named.
+    pub fn default_name(&self) -> Result<String, RecipeError> {
+        match read_text(&self.path.join(DEFAULT), 1000) {
+            Ok(text) => Ok(text.trim().to_owned()),
+            Err(FileError::NotFound { .. }) => Ok(BUILT_IN.into()),
+            // A file lies where the folder could be.
+            Err(FileError::Read { source, .. })
+                if source.kind() == io::ErrorKind::NotADirectory =>
+            {
+                Ok(BUILT_IN.into())
+            }
+            Err(error) => Err(error.into()),
+        }
+    }
+
+    /// Uses this recipe where none is named.
+    pub fn set_default(&self, name: &PartName) -> Result<(), RecipeError> {
+        self.read(name)?;
+        self.make()?;
+        write_atomically(&self.path.join(DEFAULT), |writer| {
+            writeln!(writer, "{name}")
+        })?;
+        Ok(())
+    }
+
+    /// The recipe that is used where none is named, read.
+    fn read_default(&self) -> Result<RecipeFile, RecipeError> {
+        let name = self.default_name()?;
+        let recipe = PartName::new(&name)
+            .map_err(RecipeError::from)
+            .and_then(|name| self.read(&name));
+        recipe.map_err(|error| RecipeError::NoDefault {
+            name,
+            reason: error.to_string(),
+        })
+    }
+
+    /// The file of a recipe that may be changed.
+    fn changeable(&self, name: &PartName) -> Result<PathBuf, RecipeError> {
+        if name.as_str() == BUILT_IN {
+            return Err(RecipeError::BuiltIn);
+        }
+        Ok(self.file(name))
+    }
+
+    fn make(&self) -> Result<(), RecipeError> {
+        let made = fs::create_dir_all(&self.path);
+        let made = made.and_then(|()| sync_folder(folder_of(&self.path)));
+        made.map_err(|error| FileError::writing(&self.path, error).into())
+    }
+}
+
+/// The recipe of a name in this folder, or in a file: whatever cannot be a name is a path. Without either the one that
+/// is used by default; where the system has no folder for it, the program's own.
+pub fn open_recipe(
+    folder: Result<RecipeFolder, RecipeError>,
+    given: Option<&str>,
+) -> Result<RecipeFile, RecipeError> {
+    let Some(given) = given else {
+        return match folder {
+            Ok(folder) => folder.read_default(),
+            Err(_) => Ok(RecipeFile::built_in()),
+        };
+    };
+    match PartName::new(given) {
+        Ok(name) if name.as_str() == BUILT_IN => Ok(RecipeFile::built_in()),
+        Ok(name) => folder?.read(&name),
+        Err(_) => RecipeFile::read(Path::new(given)),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::{error::Advice as _, pipeline::Recipe};
+
+    fn name(text: &str) -> PartName {
+        PartName::new(text).expect("a name")
+    }
+
+    fn recipe(text: &str, min_score: f64) -> RecipeFile {
+        let mut recipe = Recipe::default();
+        recipe.accept.min_score = min_score;
+        RecipeFile {
+            name: name(text),
+            notes: String::new(),
+            recipe,
+        }
+    }
+
+    fn folder() -> (tempfile::TempDir, RecipeFolder) {
+        let data = tempfile::tempdir().expect("a folder");
+        let folder = RecipeFolder::at(data.path().join("new").join("recipes"));
+        (data, folder)
+    }
+
+    fn names(folder: &RecipeFolder) -> Vec<String> {
+        let list = folder.list().expect("listed");
+        list.recipes.iter().map(|r| r.name.to_string()).collect()
+    }
+
+    #[test]
+    fn recipes_are_saved_renamed_and_removed() {
+        let (_data, folder) = folder();
+        assert!(names(&folder).is_empty());
+        let glossy = recipe("glossy", 0.8);
+        let save = |recipe: &RecipeFile, replace| folder.save(recipe, replace);
+        assert_eq!(save(&glossy, Replace::No).expect("saved"), glossy);
+        save(&recipe("matt", 0.95), Replace::No).expect("saved");
+        let again = save(&recipe("glossy", 0.7), Replace::No);
+        assert!(matches!(again, Err(RecipeError::Exists { .. })));
+        assert_eq!(folder.read(&name("glossy")).expect("kept"), glossy);
+        save(&recipe("glossy", 0.7), Replace::Yes).expect("replaced");
+        folder
+            .rename(&name("glossy"), &name("shiny"))
+            .expect("renamed");
+        assert!(folder.rename(&name("shiny"), &name("matt")).is_err());
+        assert_eq!(names(&folder), ["matt", "shiny"]);
+        assert_eq!(
+            folder.read(&name("shiny")).expect("kept").recipe,
+            recipe("x", 0.7).recipe
+        );
+        folder.remove(&name("matt")).expect("removed");
+        assert_eq!(names(&folder), ["shiny"]);
+        let missing = folder.remove(&name("shine")).expect_err("none");
+        assert!(missing.advice().contains("shiny"), "{}", missing.advice());
+    }
+
+    #[test]
+    fn the_programs_own_recipe_is_read_and_never_changed() {
+        let (_data, folder) = folder();
+        let own = name(BUILT_IN);
+        assert_eq!(folder.read(&own).expect("there").recipe, Recipe::default());
+        assert!(folder.save(&recipe(BUILT_IN, 0.5), Replace::Yes).is_err());
+        assert!(folder.remove(&own).is_err());
+        assert!(folder.rename(&own, &name("x")).is_err());
+        let saved = folder.save(&recipe("x", 0.5), Replace::No);
+        saved.expect("saved");
+        assert!(folder.rename(&name("x"), &own).is_err());
+        assert_eq!(names(&folder), ["x"]);
+    }
+
+    #[test]
+    fn where_a_file_lies_in_place_of_the_folder_the_programs_own_recipe_is_used() {
+        let data = tempfile::tempdir().expect("a folder");
+        fs::write(data.path().join("data"), "x").expect("written");
+        let folder = RecipeFolder::at(data.path().join("data").join("recipes"));
+        let opened = open_recipe(Ok(folder.clone()), None).expect("opened");
+        assert_eq!(opened, RecipeFile::built_in());
+        let refused = folder.save(&recipe("glossy", 0.8), Replace::No);
+        assert!(matches!(refused, Err(RecipeError::File(_))));
+    }
+
+    #[test]
+    fn the_default_is_chosen_follows_its_name_and_ends_with_the_recipe() {
+        let (_data, folder) = folder();
+        let default = || {
+            let opened = open_recipe(Ok(folder.clone()), None).expect("opened");
+            opened.name.to_string()
+        };
+        assert_eq!(default(), BUILT_IN);
+        assert!(folder.set_default(&name("glossy")).is_err());
+        folder
+            .save(&recipe("glossy", 0.8), Replace::No)
+            .expect("saved");
+        folder.set_default(&name("glossy")).expect("chosen");
+        assert_eq!(default(), "glossy");
+        folder
+            .rename(&name("glossy"), &name("shiny"))
+            .expect("renamed");
+        assert_eq!(default(), "shiny");
+        folder.remove(&name("shiny")).expect("removed");
+        assert_eq!(default(), BUILT_IN);
+        // Removed by hand, or damaged: nothing is inspected with other parameters than were chosen.
+        for contents in ["glossy\n", "../glossy", "\u{0}"] {
+            fs::write(folder.path().join(DEFAULT), contents).expect("written");
+            let error = open_recipe(Ok(folder.clone()), None).expect_err(contents);
+            assert!(matches!(error, RecipeError::NoDefault { .. }), "{error}");
+            let named = open_recipe(Ok(folder.clone()), Some(BUILT_IN));
+            assert!(named.is_ok());
+        }
+    }
+
+    #[test]
+    fn a_damaged_recipe_is_named_and_the_others_are_there() {
+        let (_data, folder) = folder();
+        folder
+            .save(&recipe("glossy", 0.8), Replace::No)
+            .expect("saved");
+        fs::copy(folder.file(&name("glossy")), folder.file(&name("copy"))).expect("copied");
+        fs::write(folder.file(&name("bad")), "schema = 7").expect("written");
+        for other in ["note.txt", "No Name.toml", "built-in.toml"] {
+            fs::write(folder.path().join(other), "x").expect("written");
+        }
+        let list = folder.list().expect("listed");
+        assert_eq!(names(&folder), ["copy", "glossy"]);
+        assert_eq!(list.problems.len(), 1);
+        assert!(list.problems[0].to_string().contains("bad.toml"));
+    }
+
+    #[test]
+    fn whatever_cannot_be_a_name_is_a_file() {
+        let (data, folder) = folder();
+        let path = data.path().join("other.toml");
+        recipe("glossy", 0.8).write(&path).expect("written");
+        let given = path.to_str().expect("text");
+        let opened = open_recipe(Ok(folder.clone()), Some(given)).expect("opened");
+        assert_eq!(opened, recipe("glossy", 0.8));
+        let unknown = open_recipe(Ok(folder), Some("glossy")).expect_err("not kept");
+        assert!(unknown.advice().contains("./glossy"));
+        let nowhere = open_recipe(Err(RecipeError::NoUserFolder), None);
+        assert_eq!(
+            nowhere.expect("the program's own").recipe,
+            Recipe::default()
+        );
+    }
+}

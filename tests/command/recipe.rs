@@ -1,0 +1,209 @@
+//! Recipes as files: made, used, taken along, and refused.
+
+use std::fs;
+
+use crate::workplace::Workplace;
+
+#[test]
+fn a_saved_recipe_is_used_by_name_by_file_and_by_default() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    let inspect = |code: i32, more: &[&str]| {
+        let args = [
+            &["inspect", "fender.pcd", "--json", "--library", "parts"],
+            more,
+        ]
+        .concat();
+        place.coded(code, &args).json()
+    };
+    let plain = inspect(0, &[]);
+    assert_eq!(plain["recipe"]["name"], "built-in");
+    assert_eq!(plain["recipe"]["is_changed"], false);
+    let changed = inspect(1, &["--set", "accept.min_score=1"]);
+    assert_eq!(changed["recipe"]["is_changed"], true);
+
+    let strict = ["--set", "accept.min_score=1", "--set", "project.pixel=4 mm"];
+    let save = [
+        &["recipe", "save", "strict", "--notes", "no doubt"],
+        &strict[..],
+    ]
+    .concat();
+    let saved = place.accepted(&save);
+    assert!(
+        saved.out.contains("2 changed from default"),
+        "{}",
+        saved.out
+    );
+    let by_name = inspect(1, &["--recipe", "strict"]);
+    assert_eq!(by_name["recipe"]["name"], "strict");
+    assert_eq!(by_name["recipe"]["is_changed"], false);
+    assert_ne!(by_name["recipe"]["identity"], plain["recipe"]["identity"]);
+    // The references are prepared as the scene is.
+    assert_eq!(by_name["part"], "fender");
+    assert_eq!(inspect(1, &strict)["score"], by_name["score"]);
+    assert_eq!(
+        inspect(1, &strict)["recipe"]["identity"],
+        by_name["recipe"]["identity"]
+    );
+    let loosened = inspect(0, &["--recipe", "strict", "--set", "accept.min_score=0.9"]);
+    assert_eq!(loosened["recipe"]["name"], "strict");
+    assert_eq!(loosened["recipe"]["is_changed"], true);
+
+    place.accepted(&["recipe", "export", "strict", "stick.toml"]);
+    place.accepted(&["recipe", "remove", "strict"]);
+    let by_file = inspect(1, &["--recipe", "stick.toml"]);
+    assert_eq!(by_file["recipe"], by_name["recipe"]);
+    place.accepted(&["recipe", "import", "stick.toml"]);
+    place.accepted(&["recipe", "default", "strict"]);
+    assert_eq!(inspect(1, &[])["recipe"]["name"], "strict");
+    assert_eq!(
+        inspect(0, &["--recipe", "built-in"])["recipe"]["name"],
+        "built-in"
+    );
+
+    // The history and the reports know the name.
+    let history = place.accepted(&["history", "show", "1", "--json"]).json();
+    assert_eq!(history["recipe_name"], "built-in");
+    place.accepted(&["history", "export", "--csv", "all.csv"]);
+    let csv = place.read("all.csv");
+    assert!(
+        csv.lines().any(|line| line.ends_with(",strict,true")),
+        "{csv}"
+    );
+    place.coded(
+        1,
+        &[
+            "report",
+            "fender.pcd",
+            "--library",
+            "parts",
+            "--out",
+            "out",
+            "--format",
+            "json",
+        ],
+    );
+    let report = fs::read_dir(place.path("out")).expect("written").next();
+    let report = place.json(report.expect("a report").expect("a report").path());
+    assert_eq!(report["recipe"]["name"], "strict");
+    assert_eq!(report["recipe"]["identity"], by_name["recipe"]["identity"]);
+
+    let list = place.accepted(&["recipe", "list", "--json"]).lines();
+    let names: Vec<_> = list.iter().map(|line| line["name"].clone()).collect();
+    assert_eq!(names, ["built-in", "strict"]);
+    assert_eq!(list[1]["is_default"], true);
+    assert_eq!(list[1]["notes"], "no doubt");
+    let show = place
+        .accepted(&["recipe", "show", "strict", "--json"])
+        .json();
+    let changed = show["changed"].as_array().expect("a list");
+    assert_eq!(changed.len(), 2);
+    assert_eq!(changed[0]["parameter"], "project.pixel");
+    assert_eq!(changed[0]["value"], "4 mm");
+    assert_eq!(changed[0]["against"], "5 mm");
+}
+
+#[test]
+fn a_recipe_segments_what_is_enrolled_and_evaluated() {
+    let place = Workplace::new();
+    place.accepted(&["simulate", "--part", "fender", "--out", "fender.pcd"]);
+    let enrol = [
+        "enrol",
+        "fender.pcd",
+        "--name",
+        "fender",
+        "--library",
+        "parts",
+    ];
+    let refused = place.coded(
+        2,
+        &[&enrol[..], &["--set", "segment.min_part_area=10000"]].concat(),
+    );
+    assert!(refused.err.contains("fender.pcd"), "{}", refused.err);
+    place.accepted(&[
+        "recipe",
+        "save",
+        "large",
+        "--set",
+        "segment.min_part_area=10000",
+    ]);
+    place.coded(2, &[&enrol[..], &["--recipe", "large"]].concat());
+    place.accepted(&enrol);
+    place.accepted(&[
+        "simulate", "--cases", "cases", "--part", "fender", "--num", "1",
+    ]);
+    let evaluate = [
+        "evaluate",
+        "cases",
+        "--library",
+        "parts",
+        "--recipe",
+        "large",
+        "--json",
+        "e.json",
+    ];
+    place.accepted(&evaluate);
+    let record = place.json("e.json");
+    assert_eq!(record["recipe"]["name"], "large");
+    assert_eq!(
+        record["tally"]["accepted"].as_u64().unwrap_or(0),
+        0,
+        "{}",
+        record["tally"]
+    );
+}
+
+#[test]
+fn a_recipe_that_cannot_be_used_stops_the_command_with_advice() {
+    let place = Workplace::new();
+    let with = |recipe: &str| {
+        let ran = place.coded(2, &["inspect", "none.pcd", "--recipe", recipe]);
+        assert_eq!(ran.out, "");
+        assert!(ran.err.contains("to do: "), "{}", ran.err);
+        ran.err
+    };
+    place.accepted(&["recipe", "save", "glossy"]);
+    assert!(with("glosy").contains("nearest name is glossy"));
+    place.write(
+        "bad.toml",
+        "schema = 1\nname = \"x\"\n[parameters]\naccept.min_score = 7\n",
+    );
+    assert!(with("bad.toml").contains("from 0 to 1"));
+    place.write("new.toml", "schema = 9\nname = \"x\"\n");
+    assert!(with("new.toml").contains("schema 9"));
+    fs::create_dir(place.path("folder.toml")).expect("made");
+    with("folder.toml");
+    place.write("large.toml", &"# \n".repeat(1 << 16));
+    with("large.toml");
+
+    let refused = |args: &[&str], words: &str| {
+        let ran = place.coded(2, &[&["recipe"], args].concat());
+        assert!(ran.err.contains(words), "{args:?}: {}", ran.err);
+    };
+    refused(&["save", "glossy"], "--replace");
+    refused(&["save", "built-in"], "stays as it is");
+    refused(&["save", "Glossy"], "is no name");
+    refused(&["remove", "built-in"], "stays as it is");
+    refused(&["default", "matt"], "no recipe named matt");
+    refused(&["import", "bad.toml"], "from 0 to 1");
+    refused(&["export", "glossy", "no/such/folder/x.toml"], "to do: ");
+    place.accepted(&[
+        "recipe",
+        "save",
+        "glossy",
+        "--replace",
+        "--set",
+        "pose=none",
+    ]);
+
+    // The default is gone: nothing is inspected by other parameters than were chosen.
+    place.accepted(&["recipe", "default", "glossy"]);
+    fs::remove_file(place.path("data/partsight/recipes/glossy.toml")).expect("there");
+    let ran = place.coded(2, &["inspect", "none.pcd"]);
+    assert!(
+        ran.err.contains("the default recipe glossy cannot be used"),
+        "{}",
+        ran.err
+    );
+    place.accepted(&["recipe", "default", "built-in"]);
+}
