@@ -7,6 +7,7 @@ mod enrol;
 mod history;
 mod inspect;
 mod live;
+mod operator;
 mod pictures;
 pub(crate) mod robot;
 mod roles;
