@@ -17,6 +17,7 @@ use crate::{
     },
     history::StoredVerdict,
     pipeline::{Rejection, Unrecognisable, Verdict},
+    stages::pose::PoseEstimate,
 };
 
 /// Height of the banner, logical pixels, and in a low window.
@@ -160,7 +161,7 @@ impl Banner {
             let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
             let next = if inspected.origin.is_simulated() {
                 "Choose a camera: this frame is simulated"
-            } else if pose.is_some_and(|pose| pose.is_ambiguous()) {
+            } else if pose.is_some_and(PoseEstimate::is_ambiguous) {
                 "Check which way round the part hangs, then start the robot"
             } else {
                 "Start the robot"
