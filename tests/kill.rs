@@ -25,7 +25,7 @@ use partsight::{
     files::write_atomically,
     history::{Filter, History, KeepFrames, NewEntry, Retention, StoredVerdict},
     library::Library,
-    pipeline::{self, Inspection, Recipe, Unwatched},
+    pipeline::{self, Inspection, NamedRecipe, Recipe, Unwatched},
     report::{
         ReportFolder,
         pose_report::{PdfPictures, PoseReport, ReportSubject, SeenBy, append_csv, pose_pdf},

@@ -9,6 +9,7 @@ use super::{
     inspection::{camera::Camera, inspected::Inspected, library_cache::LibraryCache},
     shell::{
         action::{Action, DialogRequest, Effect, apply},
+        closing::{self, Closing},
         context::Services,
         dialogs,
         file_dialog::{DialogLock, FileDialog},
@@ -16,12 +17,13 @@ use super::{
         live::{self, LiveAction},
         message::{Event, Message},
         notice::Notice,
-        notices, path_entry, rail,
+        notices, operator_bars, path_entry, rail,
         robot::RobotCell,
         roles::{self, RoleAction},
         session::{Source, ThemeChoice, WorkspaceKind},
         settings,
         settings_file::Memory,
+        shift,
         state::{HelpPage, State},
         top_bar,
         workspace::Workspace,
@@ -210,8 +212,24 @@ impl Window {
                     workspace.on_event(&Event::EngineerIn, cx);
                 });
             }
-            Effect::Close => ctx.send_viewport_cmd(egui::ViewportCommand::Close),
+            Effect::Close => {
+                if self.may_close() {
+                    ctx.send_viewport_cmd(egui::ViewportCommand::Close);
+                }
+            }
         }
+    }
+
+    /// True if nothing would be lost, or that was agreed to; else a person is asked.
+    fn may_close(&mut self) -> bool {
+        if self.state.closing == Closing::Confirmed {
+            return true;
+        }
+        let mut all = self.workspaces.iter();
+        let unsaved = all.find_map(|workspace| workspace.unsaved());
+        let may_close = unsaved.is_none();
+        self.state.closing = unsaved.map_or(Closing::No, Closing::Asked);
+        may_close
     }
 
     /// Tells every workspace.
@@ -256,8 +274,8 @@ impl Window {
             && !path.exists()
         {
             let gone = UserError {
-                what: format!("{} is not there any more", path.display()),
-                advice: "The simulated cell takes its place".into(),
+                what: format!("{} no longer exists", path.display()),
+                advice: "The simulated cell is used instead".into(),
             };
             session.recent.retain(|known| known != path);
             session.source = Source::default();
@@ -305,6 +323,10 @@ impl Window {
         if self.is_lost() {
             ctx.send_viewport_cmd(egui::ViewportCommand::Close);
         }
+        let is_closed = ctx.input(|input| input.viewport().close_requested());
+        if is_closed && !self.is_lost() && !self.may_close() {
+            ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
+        }
         let inspected = inspector::update(&mut self.state);
         let counted = live::update(&mut self.state);
         for event in inspected.into_iter().chain(counted) {
@@ -313,6 +335,7 @@ impl Window {
         for kind in WorkspaceKind::ALL {
             self.lend(kind, ctx, Workspace::update);
         }
+        shift::update(&mut self.state, self.services.library_cache.history(), ctx);
         if let Some(action) = self.with_robot(ctx, RobotCell::update) {
             self.act(Action::Robot(action), ctx);
         }
@@ -337,8 +360,13 @@ impl Window {
         let theme = Theme::of(self.state.theme);
         let mut actions = Vec::new();
         let work = self.work();
-        top_bar::ui(ui, &self.state, &self.robot, work, theme, &mut actions);
-        rail::ui(ui, &self.state, theme, &mut actions);
+        if self.state.is_operator_view() {
+            operator_bars::ui(ui, &self.state, work, theme, &mut actions);
+        } else {
+            top_bar::ui(ui, &self.state, &self.robot, work, theme, &mut actions);
+            rail::ui(ui, &self.state, theme, &mut actions);
+        }
+        let room = notices::room(ui, &self.state, theme);
         let front = self.state.workspace;
         let canvas = match front {
             // Its view covers everything: a software driver paints what is beneath all the same.
@@ -351,13 +379,14 @@ impl Window {
         let hosted = self.hosted(front);
         let view_has_focus = hosted.is_some_and(Workspace::has_key_focus);
         let keys = hosted.map_or_else(Vec::new, Workspace::key_bindings);
-        notices::ui(&ctx, &self.state, theme, &mut actions);
         live::set_up(&ctx, &self.state, theme, &mut actions);
         roles::dialog(&ctx, &self.state, theme, &mut actions);
+        closing::dialog(&ctx, &self.state, theme, &mut actions);
         let of_robot = self.robot.ui(&ctx, &self.state.session, theme);
         actions.extend(of_robot.into_iter().map(Action::Robot));
         path_entry::ui(&ctx, &self.services.dialogs, theme);
         keys::help(&ctx, &self.state, &keys, theme, &mut actions);
+        notices::ui(&ctx, room, &self.state, theme, &mut actions);
         let is_behind_dialog = self.is_behind_dialog(&ctx);
         keys::shortcuts(
             &ctx,
@@ -379,6 +408,7 @@ impl Window {
         let is_own = state.help == HelpPage::Open
             || state.live.setup.is_some()
             || state.roles.asked.is_some()
+            || matches!(state.closing, Closing::Asked(_))
             || self.robot.dialog().is_some();
         let is_beneath =
             |memory: &egui::Memory| !memory.is_above_modal_layer(LayerId::background());

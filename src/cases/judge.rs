@@ -86,7 +86,7 @@ impl CaseOutcome {
         match self {
             Self::Right => "right",
             Self::Refused => "refused",
-            Self::WrongAccepted => "wrong and accepted",
+            Self::WrongAccepted => "false accept",
         }
     }
 }

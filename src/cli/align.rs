@@ -22,7 +22,7 @@ use crate::{
     units::Metres,
 };
 
-/// Lay one cloud over another and say by what turn and shift
+/// Align one cloud with another and print the rotation and translation
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:

@@ -62,37 +62,37 @@ pub(super) struct BenchArgs {
     /// Seed of the first frame. Parameters are chosen on frames from 3000000 on, and measured on those from 9000000 on
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..=1_000_000_000))]
     seed: Option<u64>,
-    /// Of recognition and speed: these sets of frames; may be given several times
+    /// For recognition and speed: these sets of frames; may be given several times
     #[arg(long, value_enum, value_name = "NAME")]
     suite: Vec<recognition::SuiteChoice>,
-    /// Of recognition: leave out the other systems of the paper's Table I, which take most of the time
+    /// For recognition: leave out the other systems of the paper's Table I, which take most of the time
     #[arg(long)]
     only_ours: bool,
-    /// Of recognition: draw into this folder what went wrong, the first of each subject, and of each part the frame in which another came nearest
+    /// For recognition: draw into this folder what went wrong, the first of each subject, and of each part the frame in which another came nearest
     #[arg(long, value_name = "DIR")]
     pictures: Option<PathBuf>,
     /// Write every case to this file as JSON
     #[arg(long, value_name = "FILE")]
     json: Option<PathBuf>,
-    /// Of table1: write every attempt to this file as comma-separated values
+    /// For table1: write every attempt to this file as comma-separated values
     #[arg(long, value_name = "FILE")]
     csv: Option<PathBuf>,
-    /// Of bounds and registration: take this mesh instead of the simulated parts, with its outside towards the camera; may be given several times
+    /// For bounds and registration: take this mesh instead of the simulated parts, with its outside towards the camera; may be given several times
     #[arg(long, value_name = "FILE#NAME")]
     mesh: Vec<PathBuf>,
-    /// Of registration: only sources of this kind; may be given several times
+    /// For registration: only sources of this kind; may be given several times
     #[arg(long, value_enum, value_name = "NAME")]
     condition: Vec<registration::ConditionChoice>,
-    /// Of scaling: draw the times into this file
+    /// For scaling: draw the times into this file
     #[arg(long, value_name = "PNG")]
     plot: Option<PathBuf>,
-    /// Of scaling: references at most; ten thousand take below 3 GB
+    /// For scaling: references at most; ten thousand take below 3 GB
     #[arg(long, value_name = "N", default_value_t = crate::bench::scaling::MOST as u64, value_parser = clap::value_parser!(u64).range(8..=100_000))]
     most: u64,
-    /// Of live: how long
+    /// For live: how long
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1440))]
     minutes: u64,
-    /// Of table1: only this part; may be given several times
+    /// For table1: only this part; may be given several times
     #[arg(long, value_name = "NAME")]
     part: Vec<String>,
     #[command(flatten)]

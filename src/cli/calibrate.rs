@@ -25,7 +25,7 @@ use crate::{
     },
 };
 
-/// Say where the camera sits in the robot's cell: by hand, or from pairs of robot and camera poses
+/// Calibrate where the camera sits in the robot's cell: by hand, or from pairs of robot and camera poses
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -51,7 +51,7 @@ enum CalibrateCommand {
     Show(show::ShowArgs),
 }
 
-/// Enter the camera's place by hand
+/// Enter the camera's pose by hand
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -71,7 +71,7 @@ struct SetArgs {
     mount: MountChoice,
 }
 
-/// Store where the arm stands at every capture, for a camera on the flange
+/// Store the flange pose of every capture, for a camera on the flange
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Example:
@@ -90,10 +90,10 @@ struct CapturePoseArgs {
 /// Where a new calibration goes, and what it is called.
 #[derive(Debug, Args)]
 struct CalibrationOutput {
-    /// The file to write; without it, your own cell.toml. What was there is kept beside it
+    /// The file to write; without it, your own cell.toml. an existing file is kept beside it
     #[arg(long, value_name = "FILE")]
     out: Option<PathBuf>,
-    /// What people call the cell
+    /// Name of the cell
     #[arg(long, value_name = "TEXT", default_value = "")]
     name: String,
     /// Anything worth remembering
@@ -154,7 +154,7 @@ fn capture_pose(args: &CapturePoseArgs, console: &mut Console) -> anyhow::Result
                     "{}: the camera stands in the cell, and does not move with the arm",
                     path.display()
                 ),
-                "Leave the arm's pose out, or calibrate the cell anew with --mount eye-in-hand",
+                "Leave the arm's pose out, or calibrate the cell again with --mount eye-in-hand",
             ));
         }
     }
@@ -237,7 +237,7 @@ pub(super) struct CalibrationChoice {
     /// Where the camera sits in the robot's cell, as written by `calibrate`; without it your own, if there is one
     #[arg(long, value_name = "FILE")]
     calibration: Option<PathBuf>,
-    /// With a camera on the flange: where the arm stood, as `kuka X Y Z A B C`, or 16 numbers of a matrix
+    /// With a camera on the flange: the flange pose at the capture, as `kuka X Y Z A B C`, or 16 numbers of a matrix
     #[arg(long, value_name = "POSE", value_parser = parse_robot_pose, allow_hyphen_values = true)]
     robot_pose: Option<WrittenPose>,
 }

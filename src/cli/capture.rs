@@ -27,10 +27,10 @@ pub(super) struct CaptureArgs {
     /// What to record, see below
     #[arg(long, value_name = "SOURCE", value_parser = parse_source, required_unless_present = "list")]
     source: Option<SourceSpec>,
-    /// Frames to record; without it, until Ctrl-C or the source's end
+    /// Number of frames to record; default: until Ctrl-C or the end of the source
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u64).range(1..))]
     frames: Option<u64>,
-    /// Folder of the recording, which is empty or not there yet
+    /// Folder of the recording; must be empty or not exist yet
     #[arg(long, value_name = "DIR", required_unless_present = "list")]
     out: Option<PathBuf>,
     #[command(flatten)]

@@ -1,12 +1,12 @@
 //! Where text goes: answers to standard output, messages to standard error, a progress bar between them.
 
 use std::{
-    fmt::Display,
+    fmt::{self, Display},
     io::{self, IsTerminal as _, Write},
     time::Duration,
 };
 
-use indicatif::{ProgressBar, ProgressStyle};
+use indicatif::{ProgressBar, ProgressState, ProgressStyle};
 
 use crate::{error::Advice, files::visible};
 
@@ -28,6 +28,8 @@ pub(super) fn with_advice<E: Display + Advice>(error: &E) -> String {
 
 /// More inputs than this take long enough for a progress bar.
 const MANY: usize = 5;
+/// Whoever waits longer than this is told that something is at work.
+const PATIENCE: Duration = Duration::from_secs(2);
 
 impl Console {
     pub(super) fn new() -> Self {
@@ -86,9 +88,26 @@ impl Console {
         }
     }
 
+    /// Shows on a terminal that a call is at work, if it takes long and shows no bar.
+    pub(super) fn start_waiting(&mut self) {
+        if io::stderr().is_terminal() {
+            let late = |state: &ProgressState, out: &mut dyn fmt::Write| {
+                let text = waiting(state.elapsed()).unwrap_or_default();
+                // Nobody reads it if this fails.
+                let _ = out.write_str(&text);
+            };
+            let style = ProgressStyle::with_template("{late}");
+            let style = style.map(|style| style.with_key("late", late));
+            self.progress = ProgressBar::no_length()
+                .with_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
+            self.progress.enable_steady_tick(Duration::from_millis(200));
+        }
+    }
+
     /// Shows how far a long call has come, on a terminal.
     pub(super) fn start_progress(&mut self, num_inputs: usize) {
         if num_inputs > MANY && io::stderr().is_terminal() {
+            self.progress.finish_and_clear();
             let style = ProgressStyle::with_template("{bar:30} {pos}/{len} {msg}  {eta} left");
             self.progress = ProgressBar::new(num_inputs as u64)
                 .with_style(style.unwrap_or_else(|_| ProgressStyle::default_bar()));
@@ -99,6 +118,7 @@ impl Console {
     /// Counts on a terminal what comes, where nobody can say how much that will be.
     pub(super) fn start_counting(&mut self) {
         if io::stderr().is_terminal() {
+            self.progress.finish_and_clear();
             let style = ProgressStyle::with_template("{spinner} {pos} {msg}");
             self.progress = ProgressBar::no_length()
                 .with_style(style.unwrap_or_else(|_| ProgressStyle::default_spinner()));
@@ -127,6 +147,11 @@ impl Console {
         self.progress.finish_and_clear();
         self.failed.take().map_or(Ok(()), Err)
     }
+}
+
+/// What is shown of a call that has been at work for so long; nothing of a short one.
+fn waiting(elapsed: Duration) -> Option<String> {
+    (elapsed >= PATIENCE).then(|| format!("Working, {} s", elapsed.as_secs()))
 }
 
 /// An error that brings its advice along.
@@ -220,5 +245,17 @@ impl Table {
             let line = padded.join("  ");
             console.line(&line.trim_end());
         }
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_call_that_takes_more_than_two_seconds_says_that_it_works() {
+        assert_eq!(waiting(Duration::from_millis(1900)), None);
+        let late = waiting(Duration::from_secs(62));
+        assert_eq!(late.as_deref(), Some("Working, 62 s"));
     }
 }

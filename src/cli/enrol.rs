@@ -16,8 +16,8 @@ use crate::{
     geometry::cloud::Grid,
     library::{
         EnrolError, EnrolParams, Enrolled, LibraryError, LibraryFolder, MAX_TITLE, PartDescription,
-        PartName, enrol_captured, enrol_mesh, enrol_scan, enrol_surface, enrol_whole, most_similar,
-        surfaces_to_enrol,
+        PartName, SharedTitle, enrol_captured, enrol_mesh, enrol_scan, enrol_surface, enrol_whole,
+        most_similar, surfaces_to_enrol,
     },
     stages::{
         reference::{Coverage, ReferenceParams},
@@ -37,7 +37,7 @@ Examples:
   partsight enrol car.gltf#Door_FL --name door_left --library /media/stick/parts
 
 An organised cloud or a depth image is a captured scene: the part before the wall is taken out of it. Anything
-else is taken whole. A part of the same name is replaced; the former one is kept in the library's .trash folder.
+else is taken whole. A part of the same name is replaced; the previous version is kept in the library's .trash folder.
 With --scan the frames are put together as partsight scan does it. The part's frame is then that of the camera at the
 first frame that was used, and it can be recognised from every side that most of its surface was seen from.")]
 pub(super) struct EnrolArgs {
@@ -52,7 +52,7 @@ pub(super) struct EnrolArgs {
     /// Name of the part: lowercase letters, digits, _ and -
     #[arg(long)]
     name: PartName,
-    /// The part that this is one more reference of, such as another view or another car model: a verdict names that part
+    /// Enrol as one more reference of this part, such as another view or car model; verdicts name that part
     #[arg(long = "as", value_name = "PART")]
     part: Option<PartName>,
     #[command(flatten)]
@@ -62,16 +62,16 @@ pub(super) struct EnrolArgs {
     /// Take everything in the file
     #[arg(long, conflicts_with = "segment")]
     whole: bool,
-    /// Take the part that stands before the background; with a number, that one of the surfaces found, the likeliest first
+    /// Take the part in front of the background; with a number, that one of the surfaces found, likeliest first
     #[arg(long, value_name = "N", num_args = 0..=1, default_missing_value = "0")]
     segment: Option<usize>,
-    /// Name for people, such as "Front door, left"; at most 80 characters
+    /// Title shown to people, such as "Front door, left"; at most 80 characters
     #[arg(long, value_name = "TEXT", default_value = "", value_parser = parse_title)]
     title: String,
     /// Anything worth remembering
     #[arg(long, value_name = "TEXT", default_value = "")]
     notes: String,
-    /// Record that no real camera saw the part; files of partsight simulate say so themselves
+    /// Mark the part as simulated; files of partsight simulate are marked already
     #[arg(long)]
     simulated: bool,
 }
@@ -110,7 +110,7 @@ pub(super) fn run(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Out
         saved.folder.display()
     ));
     if let Some(former) = saved.replaced {
-        console.line(&format_args!("  the former one in  {}", former.display()));
+        console.line(&format_args!("  previous version in {}", former.display()));
         if saved.left_path {
             console.note(&format_args!(
                 "note: its spray path stays with it, since it is in the former one's frame. To store one: partsight library path {} path.csv",
@@ -118,7 +118,13 @@ pub(super) fn run(args: &EnrolArgs, console: &mut Console) -> anyhow::Result<Out
             ));
         }
     }
-    let others = folder.load(&ReferenceParams::default()).advised()?.library;
+    let load = folder.load(&ReferenceParams::default()).advised()?;
+    let name = part.meta.name.as_str();
+    let of = part.meta.part_name().as_str();
+    if let Some(shared) = SharedTitle::among(&part.meta.title, name, of, &load.parts) {
+        console.warn(&shared, &shared);
+    }
+    let others = load.library;
     if let Some(likeness) = most_similar(&enrolled.reference, part.meta.coverage, &others) {
         console.warn(&likeness, &likeness);
     }

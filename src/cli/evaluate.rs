@@ -48,7 +48,7 @@ pub(super) struct EvaluateArgs {
     library: LibraryChoice,
     #[command(flatten)]
     recipe: RecipeChoice,
-    /// Inspections at the same time; all cores without it. More than one disturb each other's times, nothing else
+    /// Inspections in parallel; default: all cores. More than one affects the measured times alone
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u16).range(1..=256))]
     threads: Option<u16>,
     /// Write everything to this file as JSON
@@ -128,6 +128,7 @@ pub(super) fn run(args: &EvaluateArgs, console: &mut Console) -> anyhow::Result<
         })
         .advised()
         .with_context(|| format!("{} was not written", path.display()))?;
+        console.note(&format_args!("The results are in {}", path.display()));
     }
     if let Some(path) = &args.report {
         let label = &recipe.label;
@@ -143,6 +144,7 @@ pub(super) fn run(args: &EvaluateArgs, console: &mut Console) -> anyhow::Result<
         write_png(path, &evaluation_picture(&title, &evaluation, threshold))
             .advised()
             .with_context(|| format!("{} was not written", path.display()))?;
+        console.note(&format_args!("The report is in {}", path.display()));
     }
     Ok(outcome(&evaluation, changes.as_ref()))
 }

@@ -60,14 +60,14 @@ enum HistoryCommand {
     Show(ShowArgs),
     /// Write inspections to a table, or as cases for `partsight evaluate`
     Export(ExportArgs),
-    /// Write down a remark; an empty one takes it away
+    /// Set a remark; an empty one removes it
     Remark {
         /// Number of the inspection
         number: i64,
         /// The remark
         text: String,
     },
-    /// Write down what it truly is
+    /// Set which part it actually is
     Label {
         /// Number of the inspection
         number: i64,
@@ -83,10 +83,10 @@ enum HistoryCommand {
 /// Which inspections.
 #[derive(Debug, Args)]
 struct FilterArgs {
-    /// From then on: a day (2026-11-20), a moment (2026-11-20T14:00), `today`, or so many days back (`7d`)
+    /// Not before: a day (2026-11-20), a moment (2026-11-20T14:00), `today`, or a number of days back (`7d`)
     #[arg(long, value_name = "DATE", value_parser = parse_since)]
     since: Option<Timestamp>,
-    /// Until then, the day or moment included
+    /// Not after this day or moment
     #[arg(long, value_name = "DATE", value_parser = parse_until)]
     until: Option<Timestamp>,
     /// Recognised as this part, accepted or not
@@ -101,7 +101,7 @@ struct FilterArgs {
     /// Only simulated ones, or only those of a camera
     #[arg(long, value_name = "BOOL")]
     simulated: Option<bool>,
-    /// Also the other inspections of each part: by themselves they lie below the one that stands for it
+    /// Also re-inspections, which otherwise lie below the inspection that stands for their part
     #[arg(long)]
     reinspections: bool,
 }
@@ -147,7 +147,7 @@ impl FilterArgs {
 struct ListArgs {
     #[command(flatten)]
     filter: FilterArgs,
-    /// So many at most, the newest; 0 for all
+    /// Maximum number, newest first; 0 for all
     #[arg(long, value_name = "N", default_value_t = 50)]
     limit: usize,
     /// Write one line of JSON per inspection, and nothing else, to standard output
@@ -162,7 +162,7 @@ struct ShowArgs {
     /// Write one line of JSON, and nothing else, to standard output
     #[arg(long)]
     json: bool,
-    /// Inspect its frame again, with today's recipe and library, and say what changed
+    /// Inspect its frame again with the current recipe and library, and show what changed
     #[arg(long)]
     again: bool,
     #[command(flatten)]
@@ -181,7 +181,7 @@ struct ExportArgs {
     /// Keep those with a kept frame and a true label as cases in this folder
     #[arg(long, value_name = "DIR")]
     cases: Option<PathBuf>,
-    /// Of cases: where nobody gave a true label, take the accepted part for it
+    /// With --cases: use the accepted part where no true label is set
     #[arg(long, requires = "cases")]
     accepted_as_truth: bool,
 }
@@ -191,17 +191,17 @@ struct KeepArgs {
     /// Of which inspections the frame is kept
     #[arg(value_enum)]
     keep: Option<KeepChoice>,
-    /// Older frames go
+    /// Days after which frames are removed
     #[arg(long, value_name = "N", value_parser = clap::value_parser!(u32).range(1..=3650))]
     days: Option<u32>,
-    /// Beyond this size the oldest frames go; those with a remark or a true label stay
+    /// Size beyond which the oldest frames are removed; those with a remark or a true label are kept
     #[arg(long, value_name = "N")]
     gigabytes: Option<f64>,
 }
 
 #[derive(Clone, Copy, Debug, PartialEq, Eq, ValueEnum)]
 enum KeepChoice {
-    /// Of every one
+    /// Of all inspections
     All,
     /// Of those that were not accepted
     NotAccepted,

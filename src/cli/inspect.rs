@@ -82,17 +82,17 @@ pub(super) struct InspectArgs {
     scan: Vec<PathBuf>,
     #[command(flatten)]
     poses: PosesChoice,
-    /// Instead of files: what a camera, a recording or a folder gives, as it comes
+    /// Instead of files: the frames of a camera, a recording or a watched folder as they arrive
     #[arg(long, value_name = "SOURCE", value_parser = parse_source, conflicts_with = "files")]
     source: Option<SourceSpec>,
-    /// Of a source: captures to inspect; without it, until Ctrl-C or the source's end
+    /// With --source: number of captures to inspect; default: until Ctrl-C or the end of the source
     #[arg(long, value_name = "N", requires = "source", value_parser = clap::value_parser!(u64).range(1..))]
     frames: Option<u64>,
     #[command(flatten)]
     library: LibraryChoice,
     #[command(flatten)]
     recipe: RecipeChoice,
-    /// What the same camera saw without a part: what stood there then is not taken for one
+    /// Capture of the empty cell by the same camera: nothing in it is taken for a part
     #[arg(long, value_name = "FILE")]
     empty_cell: Option<PathBuf>,
     #[command(flatten)]
@@ -102,12 +102,12 @@ pub(super) struct InspectArgs {
     /// Write one line of JSON per file, and nothing else, to standard output
     #[arg(long)]
     json: bool,
-    /// Write into this folder, per file: the line of JSON, and a picture of every stage
+    /// Write the JSON line and a picture of every stage of each file to this folder
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
     #[command(flatten)]
     history: HistoryChoice,
-    /// Leave the history alone: nothing of this call is written there
+    /// Do not write to the history
     #[arg(long, conflicts_with = "history")]
     no_history: bool,
 }

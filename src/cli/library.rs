@@ -9,7 +9,10 @@ use super::{
     console::{Advised as _, Console, Table, advised_error},
 };
 use crate::{
-    library::{EntryError, LibraryError, LibraryFolder, PartName, PartNaming, StoredPart},
+    library::{
+        EntryError, LibraryError, LibraryFolder, PartMeta, PartName, PartNaming, SharedTitle,
+        StoredPart,
+    },
     stages::reference::{Coverage, Reference, ReferenceParams},
     units::Metres,
 };
@@ -45,14 +48,14 @@ enum LibraryCommand {
     },
     /// Check every file of every part; exit code 1 if something is damaged
     Verify,
-    /// Call a part otherwise; what is not given stays
+    /// Rename a part, or change its title or notes; what is not given is kept
     Rename(RenameArgs),
     /// Move a part to the library's .trash folder
     Remove {
         /// Name of the part
         name: PartName,
     },
-    /// Bring back what was removed or replaced last under this name
+    /// Restore what was removed or replaced last under this name
     Restore {
         /// Name of the part
         name: PartName,
@@ -67,7 +70,7 @@ struct RenameArgs {
     /// Its new name: lowercase letters, digits, _ and -
     #[arg(long, value_name = "NAME")]
     to: Option<PartName>,
-    /// Name for people; at most 80 characters
+    /// Title shown to people; at most 80 characters
     #[arg(long, value_name = "TEXT", value_parser = super::enrol::parse_title)]
     title: Option<String>,
     /// Anything worth remembering
@@ -215,7 +218,7 @@ fn verify(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outco
     for meta in &load.parts {
         let is_odd = load.warnings.iter().any(|w| w.entry == meta.name.as_str());
         if !is_odd {
-            console.line(&format_args!("sound    {}", meta.name));
+            console.line(&format_args!("OK       {}", meta.name));
         }
     }
     for warning in &load.warnings {
@@ -307,6 +310,14 @@ fn rename(
         Some("") => console.line(&format_args!("{} has no title now", words.name)),
         Some(title) => console.line(&format_args!("The title of {} is now: {title}", words.name)),
         None => {}
+    }
+    if let Some(title) = &title {
+        let parts = folder.load(&ReferenceParams::default()).advised()?.parts;
+        let renamed = parts.iter().find(|part| part.name == words.name);
+        let of = renamed.map_or(&words.name, PartMeta::part_name).as_str();
+        if let Some(shared) = SharedTitle::among(title, words.name.as_str(), of, &parts) {
+            console.warn(&shared, &shared);
+        }
     }
     if notes.is_some() {
         console.line(&format_args!("The notes of {} were changed", words.name));

@@ -115,6 +115,9 @@ impl From<Outcome> for ExitCode {
 /// Runs the command, and shows an error with its advice.
 pub fn run(cli: Cli) -> Outcome {
     let mut console = Console::new();
+    if cli.command.is_some() {
+        console.start_waiting();
+    }
     let ran = match cli.command {
         Some(_) if cli.library.is_some() => Err(advised_error(
             "--library stands before the command",

@@ -129,7 +129,7 @@ impl HistoryRecorder {
                 HistoryEvent::Works { numbers, .. } => {
                     let num = numbers.len();
                     console.note(&format_args!(
-                        "The history is written again, with the {num} inspections that waited"
+                        "The history is writable again: {num} waiting inspections were saved"
                     ));
                 }
                 HistoryEvent::Added { .. }

@@ -34,7 +34,7 @@ use crate::{
     },
 };
 
-/// Write the pose report of captured scenes: which part, where, and in the robot's numbers
+/// Write the pose report of captured scenes: which part, where, and in the robot's convention
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -53,25 +53,25 @@ pub(super) struct ReportArgs {
     /// Captured scenes
     #[arg(required_unless_present_any = ["schema", "conventions"], value_name = "FILE")]
     files: Vec<PathBuf>,
-    /// The folder to write into; it is made where it is missing
+    /// Output folder; created if missing
     #[arg(long, value_name = "DIR", required_unless_present_any = ["schema", "conventions"])]
     out: Option<PathBuf>,
     /// What to write
     #[arg(long, value_enum, value_delimiter = ',', default_values_t = [Format::Json, Format::Pdf])]
     format: Vec<Format>,
-    /// The numbers that the robot's controller wants; --conventions explains them all
+    /// Robot convention of the pose; --conventions explains all of them
     #[arg(long, value_name = "NAME", default_value = "matrix", value_parser = parse_convention)]
     convention: Convention,
     #[command(flatten)]
     library: LibraryChoice,
     #[command(flatten)]
     recipe: RecipeChoice,
-    /// What the same camera saw without a part: what stood there then is not taken for one
+    /// Capture of the empty cell by the same camera: nothing in it is taken for a part
     #[arg(long, value_name = "FILE")]
     empty_cell: Option<PathBuf>,
     #[command(flatten)]
     calibration: CalibrationChoice,
-    /// No real camera saw these scenes: say so in the reports; files of partsight simulate say so themselves
+    /// Mark the scenes as simulated in the reports; files of partsight simulate are marked already
     #[arg(long)]
     simulated: bool,
     /// Print the JSON schema of a report, and nothing else
@@ -86,7 +86,7 @@ pub(super) struct ReportArgs {
 enum Format {
     /// Everything, for programs
     Json,
-    /// A row in a table that grows
+    /// A row appended to a table
     Csv,
     /// A page for people
     Pdf,

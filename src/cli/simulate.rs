@@ -22,7 +22,7 @@ use crate::{
     stages::scene::scene_from_frame,
 };
 
-/// Take a frame of a simulated cell: one part before wall and floor, with a Kinect's noise
+/// Take a frame of a simulated cell: one part in front of a wall and a floor, with a Kinect's noise
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -44,13 +44,13 @@ pub(super) struct SimulateArgs {
     /// Side of the car, for doors and fenders
     #[arg(long, value_enum, default_value_t = SideChoice::Left)]
     side: SideChoice,
-    /// Draws the pose, the cell and the noise
+    /// Seed of the pose, the cell and the noise
     #[arg(long, default_value_t = 1)]
     seed: u64,
     /// Model of the car; 0 is the standard one
     #[arg(long, default_value_t = 0)]
     model: u64,
-    /// Exact place: three angles (radians, or 15deg) and the part's middle before the camera (metres, or 1200mm); R = Rz·Ry·Rx
+    /// Exact pose: three angles (radians, or 15deg) and the part's middle in front of the camera (metres, or 1200mm); R = Rz·Ry·Rx
     #[arg(
         long,
         value_name = "\"rx ry rz x y z\"",
@@ -65,13 +65,13 @@ pub(super) struct SimulateArgs {
     /// What else is in the cell
     #[arg(long, value_enum, default_value_t = ClutterChoice::None)]
     clutter: ClutterChoice,
-    /// What holds it
+    /// What holds the part
     #[arg(long, value_enum, default_value_t = StandChoice::None)]
     stand: StandChoice,
-    /// A paint booth before a camera on the robot's flange: cut by the picture, readings that end inside it, tubes and clamps that touch the part. The seed draws the pose, the stand and the walls
+    /// A paint booth in front of a camera on the robot's flange: cut by the picture, readings that end inside it, tubes and clamps that touch the part. The seed draws the pose, the stand and the walls
     #[arg(long, conflicts_with_all = ["placement", "clutter", "stand"])]
     booth: bool,
-    /// Noise of the camera: 1 is a Kinect's, 0 none, 3 a bad day
+    /// Camera noise as a multiple of a Kinect's; 0 is none
     #[arg(long, value_name = "FACTOR", default_value_t = 1.0, value_parser = parse_noise)]
     noise: f64,
     /// The file: .pcd (organised), .png (16-bit depth, intrinsics in a .json beside it), .ply or .xyz (points only)
@@ -83,7 +83,7 @@ pub(super) struct SimulateArgs {
     /// Instead of one file: write cases with their truth into this folder
     #[arg(long, value_name = "DIR", conflicts_with_all = ["out", "truth", "pose"])]
     cases: Option<PathBuf>,
-    /// Instead of one file: write frames from several sides into this folder, with the poses that a robot would tell, for
+    /// Instead of one file: write frames from several sides into this folder, with the poses that a robot would report, for
     /// partsight scan; the cell is another one
     #[arg(long, value_name = "DIR", conflicts_with_all = ["out", "truth", "pose", "cases"])]
     scan: Option<PathBuf>,
@@ -210,7 +210,7 @@ enum SideChoice {
 pub(super) enum PlacementChoice {
     /// Hung with care: up to 10 degrees off
     Facing,
-    /// Hung anyhow: up to 30 degrees off, any roll
+    /// Hung carelessly: up to 30 degrees off, any roll
     Placed,
     /// Up to 45 degrees off, any roll
     Hard,

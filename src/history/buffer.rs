@@ -6,7 +6,10 @@
 use std::{
     collections::VecDeque,
     path::PathBuf,
-    sync::{Mutex, MutexGuard},
+    sync::{
+        Mutex, MutexGuard,
+        atomic::{AtomicU64, Ordering},
+    },
     time::{Duration, Instant},
 };
 
@@ -39,6 +42,7 @@ pub struct HistoryBuffer {
     inner: Mutex<Inner>,
     /// Apart from the rest: who looks for news never waits for the disk.
     news: Mutex<Vec<HistoryEvent>>,
+    num_events: AtomicU64,
 }
 
 #[derive(Debug, Default)]
@@ -62,6 +66,7 @@ impl HistoryBuffer {
             place,
             inner: Mutex::default(),
             news: Mutex::default(),
+            num_events: AtomicU64::default(),
         }
     }
 
@@ -76,7 +81,14 @@ impl HistoryBuffer {
         std::mem::take(&mut *news)
     }
 
+    /// Events so far: what was read when there were fewer may have changed since. Never waits for the disk.
+    pub fn num_events(&self) -> u64 {
+        self.num_events.load(Ordering::Acquire)
+    }
+
     fn tell(&self, news: HistoryEvent) {
+        // Before the event itself: whoever has taken that also finds the new number.
+        self.num_events.fetch_add(1, Ordering::Release);
         let mut all = lock(&self.news);
         all.push(news);
     }

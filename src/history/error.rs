@@ -127,7 +127,7 @@ impl Advice for HistoryError {
             }
             Self::Busy { .. } => "Close other windows of Partsight, or wait for them".into(),
             Self::Damaged { .. } => {
-                "Close every other window of Partsight and start it again: the file is set aside then, and a new one begun".into()
+                "Close every other window of Partsight and start it again: the file is then set aside and a new one started".into()
             }
             Self::Newer { .. } => {
                 "Update Partsight on this computer, or keep the history in another folder (--history)".into()
@@ -136,7 +136,7 @@ impl Advice for HistoryError {
                 "Inspect something first, or name the folder with --history".into()
             }
             Self::Database { .. } => {
-                "Try again; if it happens again, move the file away: a new one is begun".into()
+                "Try again; if it happens again, move the file away: a new one was started".into()
             }
             Self::Frame(error) => error.advice(),
             Self::NoSuchInspection { .. } => {

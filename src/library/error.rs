@@ -91,7 +91,7 @@ impl Advice for LibraryError {
                 format!("{}, or name another with --library", advice_on(source))
             }
             Self::NoSuchPart { available, .. } if available.is_empty() => {
-                "Enrol a part first: partsight enrol FILE --name NAME".into()
+                "Enrol a part first, in the Enrol workspace or with partsight enrol FILE --name NAME".into()
             }
             Self::NoSuchPart { .. } => {
                 "Use one of the names that `partsight library list` shows".into()

@@ -26,6 +26,7 @@ mod part;
 mod place;
 mod problem;
 mod references;
+mod shared_title;
 mod shipped;
 mod similarity;
 mod spray_path;
@@ -51,6 +52,7 @@ pub use self::{
     },
     place::{LibraryPlace, open_library},
     problem::{EntryError, EntryIssue, EntryProblem, EntryWarning},
+    shared_title::SharedTitle,
     shipped::{EnrolledAt, shipped_enrolled_at},
     similarity::{Similarity, likenesses, most_similar},
     spray_path::{MAX_PATH_POINTS, PathLineProblem, PathPoint, SprayPath, SprayPathError},

@@ -90,7 +90,7 @@ pub enum Rejection {
         threshold: f64,
     },
     /// What is in sight fits as well at places beside this one.
-    #[error("nothing in sight holds the pose of {part}: {freedom}")]
+    #[error("the pose of {part} is unconstrained by what is in sight: {freedom}")]
     Unconstrained {
         /// Best match.
         part: String,
@@ -235,6 +235,44 @@ pub enum Rejection {
     },
 }
 
+impl Rejection {
+    /// The same with other words for the parts, such as their titles.
+    #[must_use]
+    pub fn renamed(mut self, word_of: impl Fn(&str) -> String) -> Self {
+        let [first, second] = self.names_mut();
+        for name in first.into_iter().chain(second) {
+            *name = word_of(name);
+        }
+        self
+    }
+
+    fn names_mut(&mut self) -> [Option<&mut String>; 2] {
+        match self {
+            Self::LowScore { part, .. }
+            | Self::Piece { part, .. }
+            | Self::HardlySeen { part, .. }
+            | Self::AnotherModel { part, .. }
+            | Self::AnotherMake { part, .. }
+            | Self::AmbiguousPose { part, .. }
+            | Self::Unconstrained { part, .. }
+            | Self::Uncertain { part, .. }
+            | Self::Unknown { nearest: part, .. }
+            | Self::Mirrored { part, .. }
+            | Self::MirroredImage { part, .. }
+            | Self::Unconfirmed { part }
+            | Self::OutOfRange { part, .. }
+            | Self::BehindCamera { part, .. }
+            | Self::SurplusBytes { part, .. }
+            | Self::NotSteady { part }
+            | Self::FewFrames { part, .. }
+            | Self::Undecided { part, .. }
+            | Self::PosesApart { part, .. } => [Some(part), None],
+            Self::SmallMargin { part, other, .. } => [Some(part), Some(other)],
+            Self::NoPose(_) => [None, None],
+        }
+    }
+}
+
 /// Why nothing could be recognised.
 #[derive(Clone, Debug, PartialEq, thiserror::Error)]
 pub enum Unrecognisable {
@@ -270,7 +308,7 @@ impl Advice for Rejection {
                     .into()
             }
             Self::Piece { .. } => {
-                "Take away what stands before the part, or hang it further inside the picture, and capture again".into()
+                "Take away what stands in front of the part, or hang it further inside the picture, and capture again".into()
             }
             Self::HardlySeen { .. } => {
                 "Turn the part so that its face looks at the camera, all of it inside the picture, and capture again".into()
@@ -302,7 +340,7 @@ impl Advice for Rejection {
             Self::NotSteady { .. } => "Let the part hang still for a second".into(),
             Self::FewFrames { .. } => "Wait a moment".into(),
             Self::Undecided { .. } => {
-                "Wait a moment; if it stays so, turn the part's face to the camera and take away what stands before it".into()
+                "Wait a moment; if it stays so, turn the part's face to the camera and take away what stands in front of it".into()
             }
             Self::PosesApart { .. } => {
                 "Hang the part so that nothing can swing, and wait a moment; if it stays so, turn its face to the camera".into()
@@ -319,7 +357,7 @@ impl Advice for Unrecognisable {
             Self::Contour(error) => error.advice(),
             Self::Signature(error) => error.advice(),
             Self::Fault(fault) => fault.advice(),
-            Self::EmptyLibrary => "Enrol a part first: partsight enrol FILE --name NAME".into(),
+            Self::EmptyLibrary => "Enrol a part first, in the Enrol workspace or with partsight enrol FILE --name NAME".into(),
         }
     }
 }

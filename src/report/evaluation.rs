@@ -43,7 +43,7 @@ pub fn evaluation_picture(title: &str, evaluation: &Evaluation, threshold: f64) 
     canvas.write(title, 20.0, [EDGE, EDGE + 18.0], Anchor::Left, LIGHT);
     let tally = &confusion.tally;
     let text = format!(
-        "{} cases: {} right, {} wrong and accepted, {} refused",
+        "{} cases: {} right, {} false accepts, {} refused",
         tally.total, tally.right, tally.wrong_accepted, tally.refused
     );
     let at = [EDGE, EDGE + 44.0];

@@ -86,7 +86,7 @@ pub(super) fn draw_trade_off(
     let refused = curve(&|step| share(step.num_refused, *num_enrolled));
     let wrong = curve(&|step| share(step.num_wrong_accepted, *num_cases));
     let looks: [(&str, &[f64], Rgb<u8>); 2] = [
-        ("wrong and accepted, of all cases", &[], PART),
+        ("false accepts, of all cases", &[], PART),
         ("refused, of the enrolled parts", &DASHES, OPENING),
     ];
     for (row, ((words, pattern, colour), curve)) in

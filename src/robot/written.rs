@@ -46,7 +46,7 @@ impl Advice for WrittenPoseError {
                 "Write the convention first, for example \"kuka 1450 -310 890 10 20 30\": {}",
                 Convention::ALL.map(Convention::name).join(", ")
             ),
-            Self::NoNumber { .. } => "Write numbers with a point, parted by spaces".into(),
+            Self::NoNumber { .. } => "Write numbers with a point, separated by spaces".into(),
             Self::Numbers(error) => error.advice(),
         }
     }

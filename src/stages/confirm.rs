@@ -215,9 +215,10 @@ fn confirm_drawn(
     let costs = trials.iter().flatten().filter(|trial| !trial.is_piece);
     let least = costs.map(|trial| trial.cost).fold(f64::INFINITY, f64::min);
     let mut of_pieces = trials.iter().flatten().filter(|trial| trial.is_piece);
-    let is_worth_another = match seen.is_piece {
-        true => of_pieces.any(|trial| trial.cost < NEARLY),
-        false => least_score <= 0.0,
+    let is_worth_another = if seen.is_piece {
+        of_pieces.any(|trial| trial.cost < NEARLY)
+    } else {
+        least_score <= 0.0
     };
     let mut trials = trials.into_iter();
     let mut tried: Vec<Tried<'_>> = entries

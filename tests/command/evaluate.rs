@@ -49,9 +49,11 @@ fn simulated_cases_are_evaluated_with_the_same_results_on_any_number_of_threads(
     let place = Workplace::new();
     with_cases(&place);
     let evaluate = ["evaluate", "cases", "--json"];
-    let out = place
-        .accepted(&[&evaluate[..], &["a.json", "--report", "a.png"]].concat())
-        .out;
+    let out = place.accepted(&[&evaluate[..], &["a.json", "--report", "a.png"]].concat());
+    for place in ["The results are in a.json", "The report is in a.png"] {
+        assert!(out.err.contains(place), "{}", out.err);
+    }
+    let out = out.out;
     for expected in [
         "fender",
         "not_enrolled",
@@ -158,7 +160,7 @@ fn what_is_worse_than_before_is_listed_and_decides_the_exit_code() {
     fs::write(&toml, text).expect("written");
     let out = place.coded(1, &["evaluate", "cases"]).out;
     assert!(
-        out.contains("grille_placed_44: wrong and accepted, it is not_enrolled"),
+        out.contains("grille_placed_44: false accept, it is not_enrolled"),
         "{out}"
     );
 }

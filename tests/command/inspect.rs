@@ -258,6 +258,8 @@ fn a_report_holds_the_line_and_a_picture_of_every_stage() {
     ];
     let ran = place.run(&[&inspect[..], &files].concat());
     assert_eq!(ran.code, 2);
+    let said = "The reports are in why/deep";
+    assert!(ran.err.contains(said), "{}", ran.err);
     let read = |name: &str| fs::read_to_string(place.path("why/deep").join(name)).expect("there");
     let written = [
         "fender.report.json",

@@ -67,7 +67,7 @@ fn a_library_is_listed_shown_verified_and_cleared() {
         "{}",
         verify.out
     );
-    assert!(verify.out.contains("sound    grille"), "{}", verify.out);
+    assert!(verify.out.contains("OK       grille"), "{}", verify.out);
     let ran = place.accepted(&["inspect", "grille.pcd", "--json", "--library", "parts"]);
     assert!(ran.err.contains("set aside fender"), "{}", ran.err);
 
@@ -182,7 +182,7 @@ fn a_damaged_cloud_is_set_aside_by_its_checksum() {
 fn the_shipped_parts_are_sound() {
     let shipped = concat!(env!("CARGO_MANIFEST_DIR"), "/reference_parts");
     let verify = Workplace::new().accepted(&["library", "verify", "--library", shipped]);
-    assert_eq!(verify.out.matches("sound ").count(), 8, "{}", verify.out);
+    assert_eq!(verify.out.matches("OK  ").count(), 8, "{}", verify.out);
 }
 
 #[test]
@@ -399,6 +399,35 @@ fn a_rename_without_a_new_name_says_what_it_changed() {
     );
     let titled = place.accepted(&[&rename[..], &["--title", "Left wing"]].concat());
     assert_eq!(titled.out, "The title of fender is now: Left wing\n");
+}
+
+#[test]
+fn a_title_that_another_part_has_is_warned_about() {
+    let place = Workplace::new();
+    place.with_part("fender");
+    place.with_part("grille");
+    let rename = ["library", "rename", "--library", "parts", "--title"];
+    let titled = |title: &str, name: &str| {
+        let ran = place.accepted(&[&rename[..], &[title, name]].concat());
+        ran.err.contains("fender has the title")
+    };
+    assert!(!titled("Left wing", "fender"), "its own");
+    assert!(titled("left wing", "grille"));
+    assert!(!titled("Grille", "grille"));
+    let enrol = ["enrol", "grille-reference.pcd", "--library", "parts"];
+    let more = ["--name", "grille_b", "--title", "Left wing"];
+    let enrolled = place.accepted(&[&enrol[..], &more].concat());
+    assert!(
+        enrolled
+            .err
+            .contains("fender has the title \"Left wing\" too"),
+        "{}",
+        enrolled.err
+    );
+    // References of one part may.
+    let of = ["--as", "fender"];
+    let again = place.accepted(&[&enrol[..], &more, &of].concat());
+    assert!(!again.err.contains("has the title"), "{}", again.err);
 }
 
 #[test]

@@ -4,16 +4,18 @@ use egui::{Key, Role, Vec2};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use partsight::{
     app::{
-        shell::{notice::NoticeKind, session::WorkspaceKind},
+        inspection::source::CellChoice,
+        shell::{action::Action, notice::NoticeKind, session::WorkspaceKind},
         workspaces::align::{
             AlignAction, AlignFile, AlignState, AlignWorkspace, Pairing, Playback, Start,
         },
     },
+    simulate::{PartKind, Side},
     stages::pose::PoseMethod,
 };
 
 use super::set_up::{
-    SMALL, USUAL, WindowHarness, act_in, open_with, plain_options, settle, wait_for,
+    SMALL, USUAL, WindowHarness, act, act_in, open_with, plain_options, settle, wait_for,
 };
 
 fn open_at(size: Vec2) -> WindowHarness {
@@ -41,6 +43,19 @@ fn press_quickly(harness: &mut WindowHarness, label: &str) {
 /// The iteration shown, as it stands in the text.
 fn place(harness: &WindowHarness) -> usize {
     own(harness).place.round() as usize
+}
+
+#[test]
+fn a_scene_is_aligned_to_the_part_that_it_was_recognised_as() {
+    let mut harness = open_with(USUAL, plain_options());
+    act(
+        &mut harness,
+        Action::UseCell(CellChoice::Part(PartKind::Fender, Side::Left)),
+    );
+    press_quickly(&mut harness, "Align");
+    harness.get_by_label_contains("Part · Back bumper");
+    press_quickly(&mut harness, "Scene");
+    harness.get_by_label_contains("Part · Fender, left");
 }
 
 #[test]
@@ -168,7 +183,7 @@ fn the_part_of_the_scene_in_front_is_aligned_to_the_reference() {
     harness.key_press(Key::R);
     settle(&mut harness);
     harness.get_by_label("Simulated frame 1 onto Front door, left");
-    harness.get_by_label("Off by less than, in 95 of 100 cases");
+    harness.get_by_label("Uncertainty (95 %)");
     let align = own(&harness);
     let shown = align.shown.as_ref().expect("a result");
     let global = shown

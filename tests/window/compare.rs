@@ -57,7 +57,7 @@ fn show(harness: &mut WindowHarness, choice: CellChoice) {
 fn keep(harness: &mut WindowHarness, choice: CellChoice, truth: &str) {
     show(harness, choice);
     press(harness, "Choose… ▼");
-    press(harness, &format!("It is: {truth}"));
+    press(harness, &format!("Actual part: {truth}"));
     press(harness, "Keep case");
 }
 
@@ -99,7 +99,7 @@ fn a_case_is_kept_run_and_opened_again_from_its_cell() {
     // Said to be another part: accepted as what it is not.
     show(&mut harness, FENDER);
     press(&mut harness, "Choose… ▼");
-    press(&mut harness, "It is: Back door, left");
+    press(&mut harness, "Actual part: Back door, left");
     harness.key_press(Key::K);
     settle(&mut harness);
     let list = CaseFolder::at(folder.path()).list().expect("listed");
@@ -122,7 +122,7 @@ fn a_case_is_kept_run_and_opened_again_from_its_cell() {
     settle(&mut harness);
     let run = own(&harness).run.clone().expect("run");
     assert!(run.ended.is_some() && run.results.len() == 3);
-    harness.get_by_label("1 wrong and accepted");
+    harness.get_by_label("1 false accept");
     harness.get_by_label_contains("of 3 right");
     harness.get_by_label_contains("Calibration: expected error 0.");
     // The same recipe gives what was found when the case was kept, to the last bit.
@@ -130,7 +130,7 @@ fn a_case_is_kept_run_and_opened_again_from_its_cell() {
         assert_eq!(result.found, case.meta.about.found);
     }
 
-    let cell = "Back door, left taken for Fender, left: 1, wrong and accepted";
+    let cell = "Back door, left taken for Fender, left: 1, false accept";
     harness.get_by_label(cell).focus();
     harness.run_steps(1);
     harness.key_press(Key::Enter);
@@ -169,9 +169,9 @@ fn what_is_refused_is_said_to_be_so_and_why_and_only_the_judgement_is_good() {
     let mut harness = open_at(SMALL, folder.path());
     press(&mut harness, "Compare");
     show(&mut harness, DOOR);
-    harness.get_by_label("accepted · what is it truly?");
+    harness.get_by_label("accepted · which part is it actually?");
     show(&mut harness, CellChoice::Foreign(ObjectKind::Hood));
-    harness.get_by_label("not accepted · what is it truly?");
+    harness.get_by_label("not accepted · which part is it actually?");
     harness.get_by_label_contains("Not accepted · nearest ");
     harness.get_by_label_contains("Whether rightly is not known · ");
     harness.get_by_label_contains("Refused: score 0.");
@@ -181,16 +181,20 @@ fn what_is_refused_is_said_to_be_so_and_why_and_only_the_judgement_is_good() {
 
     press(&mut harness, "Choose… ▼");
     let top_of = |label: &str| harness.get_by_label(label).rect().min.y;
-    let none = ["It is: Not enrolled", "It is: Nothing (empty cell)"].map(top_of);
-    assert!(none[0] < none[1] && none[1] < top_of("It is: Front bumper"));
-    press(&mut harness, "It is: Not enrolled");
+    let none = [
+        "Actual part: Not enrolled",
+        "Actual part: Nothing (empty cell)",
+    ]
+    .map(top_of);
+    assert!(none[0] < none[1] && none[1] < top_of("Actual part: Front bumper"));
+    press(&mut harness, "Actual part: Not enrolled");
     harness.get_by_label("not accepted, and it is");
     harness.get_by_label_contains("Not accepted · nearest ");
     harness.get_by_label_contains("Rightly refused · ");
     press(&mut harness, "Keep case");
     keep(&mut harness, CellChoice::Empty, "Nothing (empty cell)");
     press(&mut harness, "Run all cases");
-    harness.get_by_label("none wrong and accepted");
+    harness.get_by_label("no false accepts");
     harness.get_by_label("· 2 of 2 right · none wrongly refused");
     harness.get_by_label("Not enrolled, not accepted: 1, right");
     press(&mut harness, "Empty cell, not accepted: 1, right");
@@ -198,7 +202,7 @@ fn what_is_refused_is_said_to_be_so_and_why_and_only_the_judgement_is_good() {
 
     show(&mut harness, DOOR);
     press(&mut harness, "Choose… ▼");
-    press(&mut harness, "It is: Fender, left");
+    press(&mut harness, "Actual part: Fender, left");
     harness.get_by_label("accepted, but it is");
 }
 
@@ -443,7 +447,7 @@ fn an_earlier_run_is_compared_and_what_is_worse_is_listed_first() {
     };
     // Before a run there is nothing to compare.
     compare(&mut harness);
-    harness.get_by_label("There is no run to compare with an earlier one");
+    harness.get_by_label("There is no run to compare with an earlier one.");
     press(&mut harness, "Run all cases");
     harness.get_by_label("Compare with an earlier run…");
     compare(&mut harness);
@@ -515,7 +519,7 @@ fn it_is_drawn_in_both_sizes_and_colours() {
         shot(&mut harness, "case");
         press(&mut harness, "Run all cases");
         shot(&mut harness, "run");
-        let cell = "Back door, left taken for Fender, left: 1, wrong and accepted";
+        let cell = "Back door, left taken for Fender, left: 1, false accept";
         press(&mut harness, cell);
         harness.get_by_label_contains("Open simulated").click();
         settle(&mut harness);

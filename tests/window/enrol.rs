@@ -11,6 +11,7 @@ use partsight::{
         shell::{action::Action, session::WorkspaceKind, state::State},
     },
     library::{LibraryFolder, PartName},
+    pipeline::Verdict,
     simulate::{PartKind, PartModel, Side},
 };
 
@@ -217,7 +218,7 @@ fn a_part_enrolled_anew_replaces_the_former_one_and_undo_brings_that_back() {
     let first = from(&harness);
     press(&mut harness, "Enrolled: Trunk lid");
     press(&mut harness, "Enrol anew");
-    harness.get_by_label("Show what shall replace Trunk lid");
+    harness.get_by_label("Capture the replacement for Trunk lid");
     press_keys(&mut harness, Modifiers::NONE, Key::Space);
     harness.get_by_label("Replaces Trunk lid");
     press(&mut harness, "Save and replace");
@@ -235,24 +236,20 @@ fn what_shall_be_replaced_is_followed_when_renamed_and_forgotten_when_removed() 
     enrol(&mut harness, PartKind::Grille, "Grille");
     press(&mut harness, "Enrolled: Grille");
     press(&mut harness, "Enrol anew");
-    harness.get_by_label("Show what shall replace Grille");
+    harness.get_by_label("Capture the replacement for Grille");
     harness.get_by_label("Replaces Grille");
     press(&mut harness, "Enrolled: Grille");
     write(&mut harness, "Title", "Radiator grille");
     write(&mut harness, "Name", "radiator_grille");
     press(&mut harness, "Rename");
     press(&mut harness, "Close");
-    harness.get_by_label("Show what shall replace Radiator grille");
+    harness.get_by_label("Capture the replacement for Radiator grille");
     press(&mut harness, "Enrolled: Radiator grille");
     press(&mut harness, "Remove");
     harness.get_by_label("Show the part to enrol");
     harness.get_by_label("New part");
     assert!(enrol_of(&harness).replacing.is_none());
     press(&mut harness, "Undo");
-    // The notices of all that lie over the parts.
-    while !state(&harness).notices.is_empty() {
-        act(&mut harness, Action::Dismiss(0));
-    }
     press(&mut harness, "Enrolled: Radiator grille");
     press(&mut harness, "Enrol anew");
     press(&mut harness, "Enrol as a new part instead");
@@ -271,7 +268,7 @@ fn why_a_part_cannot_be_saved_yet_is_said_beside_the_button() {
     assert!(harness.query_by_label("Give it a title first").is_none());
     assert!(!harness.get_by_label("Save").accesskit_node().is_disabled());
     write(&mut harness, "Name", "Grille 7");
-    harness.get_by_label("Mend the name first");
+    harness.get_by_label("Fix the name first");
 }
 
 #[test]
@@ -362,7 +359,7 @@ fn a_dropped_mesh_is_enrolled_whole() {
     write_mesh(&path, PartKind::Grille);
     let mut harness = open(library.path());
     drop_file(&mut harness, &path);
-    harness.get_by_label("A mesh is enrolled whole: cut it where it was made");
+    harness.get_by_label("A mesh is enrolled whole: crop it in the program that made it");
     harness.get_by_label("Seen from all around");
     write(&mut harness, "Title", "Grille of the maker");
     press(&mut harness, "Save");
@@ -414,7 +411,7 @@ fn the_inspected_scene_is_taken_at_one_press_and_captures_stay_with_the_workspac
     let library = library();
     let mut harness = open(library.path());
     let shown = state(&harness).shown.as_ref().expect("a result").generation;
-    press(&mut harness, "Take the inspected scene");
+    press(&mut harness, "Use the inspected scene");
     assert!(num_kept(&harness) > 1000);
     press_keys(&mut harness, Modifiers::NONE, Key::Space);
     assert_eq!(enrol_of(&harness).num_drafts, 2);
@@ -436,10 +433,6 @@ fn a_damaged_part_is_shown_and_can_be_removed() {
     enrol(&mut harness, PartKind::Grille, "Grille");
     std::fs::write(library.path().join("grille").join("part.toml"), "x").expect("written");
     enrol(&mut harness, PartKind::Fender, "Fender");
-    // The notices that lie over the strip, the one about the damaged part among them.
-    while !state(&harness).notices.is_empty() {
-        act(&mut harness, Action::Dismiss(0));
-    }
     press(&mut harness, "Enrolled: grille");
     press(&mut harness, "Remove");
     assert_eq!(names(library.path()), ["fender"]);
@@ -538,7 +531,7 @@ fn a_window_that_starts_in_enrol_has_its_library_an_inspection_and_its_history()
     let harness = open_with(USUAL, options(None));
     assert_eq!(state(&harness).workspace, WorkspaceKind::Enrol);
     harness.get_by_label("Enrolled: Front door, left");
-    harness.get_by_label("Take the inspected scene");
+    harness.get_by_label("Use the inspected scene");
     assert_eq!(history_of(&harness).num_rows(), 2);
     drop(harness);
 
@@ -551,4 +544,58 @@ fn a_window_that_starts_in_enrol_has_its_library_an_inspection_and_its_history()
     assert_eq!(notices(&harness).len(), 1);
     harness.get_by_label("Enrolled: Front door, left");
     assert_eq!(history_of(&harness).num_rows(), 2);
+}
+
+#[test]
+fn a_title_that_another_part_has_is_warned_about_unless_it_is_one_more_reference() {
+    let library = library();
+    let mut harness = open(library.path());
+    enrol(&mut harness, PartKind::Fender, "Wing");
+    capture(&mut harness, PartKind::Fender, Side::Right);
+    write(&mut harness, "Title", " wing");
+    write(&mut harness, "Name", "wing_b");
+    let warning = "Wing has the title \"wing\" too";
+    harness.get_by_label(warning);
+    press(&mut harness, "One more reference of: No other part");
+    press(&mut harness, "Reference of: Wing");
+    assert!(harness.query_by_label(warning).is_none());
+    assert!(
+        harness
+            .query_by_label("The two cannot be told apart")
+            .is_none()
+    );
+    press(&mut harness, "Save");
+    let folder = LibraryFolder::open(library.path()).expect("there");
+    let name = |name: &str| PartName::new(name).expect("a name");
+    let references = folder.references_of(&name("wing")).expect("listed");
+    assert_eq!(references, [name("wing_b")]);
+    // Inspected, it is called by the part's name.
+    let shown = state(&harness).shown.as_ref().expect("inspected");
+    let verdict = &shown.inspected.inspection.verdict;
+    assert!(
+        matches!(verdict, Verdict::Part { part, .. } if part == "wing"),
+        "{verdict:?}"
+    );
+    press(&mut harness, "Undo");
+    assert_eq!(folder.references_of(&name("wing")).expect("listed"), []);
+}
+
+#[test]
+fn a_window_with_an_unsaved_draft_asks_before_it_closes() {
+    let library = library();
+    let mut harness = open(library.path());
+    capture(&mut harness, PartKind::Grille, Side::Right);
+    act(&mut harness, Action::Quit);
+    assert!(harness.query_by_label("Close without saving?").is_none());
+    write(&mut harness, "Title", "Grille");
+    for _ in 0..2 {
+        act(&mut harness, Action::Quit);
+        harness.get_by_label("Close without saving?");
+        harness.get_by_label("Grille, the part in Enrol, is not saved");
+        press(&mut harness, "Keep the window open");
+        assert!(harness.query_by_label("Close without saving?").is_none());
+    }
+    press(&mut harness, "Save");
+    act(&mut harness, Action::Quit);
+    assert!(harness.query_by_label("Close without saving?").is_none());
 }

@@ -102,7 +102,7 @@ fn the_list_is_filtered_by_what_is_written_and_keys_do_not_switch_meanwhile() {
     assert_eq!(harness.state().state().workspace, WorkspaceKind::History);
     press(&mut harness, "Verdict · All ▼");
     press(&mut harness, "Verdict: No part");
-    harness.get_by_label_contains("No inspection is like this");
+    harness.get_by_label_contains("No matching inspections");
     press(&mut harness, "Show all");
     harness.get_by_label("2 of 2 parts");
     press(&mut harness, "Days · All days ▼");
@@ -130,9 +130,9 @@ fn the_history_outlives_the_window_and_what_a_person_said_of_it() {
     );
     go_to_history(&mut harness);
     harness.get_by_label("2 of 2 parts");
-    press(&mut harness, "It is · Not said ▼");
-    press(&mut harness, "It is: Not enrolled");
-    harness.get_by_label("It is · Not enrolled ▼");
+    press(&mut harness, "Actual part · Not set ▼");
+    press(&mut harness, "Actual part: Not enrolled");
+    harness.get_by_label("Actual part · Not enrolled ▼");
     harness.get_by_label("Your remark").click();
     harness.run_steps(2);
     harness.get_by_label("Your remark").type_text("a wheel");
@@ -276,7 +276,7 @@ fn inspected_again_it_says_what_changed() {
     let mut harness = open_with(USUAL, keeping(folder.path()));
     go_to_history(&mut harness);
     press(&mut harness, "Inspect again");
-    harness.get_by_label("The same is found today");
+    harness.get_by_label("Same result today");
     assert_eq!(harness.state().state().workspace, WorkspaceKind::History);
     assert_eq!(history_of(&harness).num_rows(), 1);
 }
@@ -289,8 +289,8 @@ fn frames_are_kept_by_the_rule_that_a_person_sets() {
     press(&mut harness, "Frames…");
     harness.get_by_label_contains("Now: 0 frames");
     press(&mut harness, "All");
-    press(&mut harness, "Keep so");
-    assert!(harness.query_by_label("Keep so").is_none());
+    press(&mut harness, "Apply");
+    assert!(harness.query_by_label("Apply").is_none());
     let rule = |harness: &WindowHarness| history_of(harness).kept.0.keep;
     assert_eq!(rule(&harness), KeepFrames::All);
     act(&mut harness, Action::Capture);
@@ -443,7 +443,7 @@ fn broken_settings_are_set_aside_with_a_notice() {
     fs::write(&path, "theme = \"lig").expect("written");
     let harness = open_with(USUAL, remembering(&path));
     harness.get_by_label_contains("are not used");
-    harness.get_by_label_contains("set aside as");
+    harness.get_by_label_contains("were moved to");
     harness.get_by_label("Accepted");
     let aside = folder.path().join("settings.broken-1.toml");
     assert_eq!(fs::read_to_string(aside).expect("kept"), "theme = \"lig");

@@ -7,9 +7,10 @@ use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use partsight::{
     app::{
         inspection::{figures::StagePanel, unit_system::UnitSystem},
-        shell::session::ThemeChoice,
+        shell::{action::Action, notice::Notice, session::ThemeChoice},
     },
     files::save_cloud,
+    pipeline::Verdict,
     robot::Convention,
     simulate::{PartKind, Side},
 };
@@ -17,7 +18,7 @@ use partsight::{
 use crate::kit::facing_part;
 
 use super::set_up::{
-    SMALL, WindowHarness, drop_file, inspect_of, open, open_with, plain_options, settle,
+    SMALL, WindowHarness, act, drop_file, inspect_of, open, open_with, plain_options, settle,
 };
 
 fn generation(harness: &WindowHarness) -> u64 {
@@ -88,7 +89,7 @@ fn cancel_gives_up_at_once_and_keeps_the_last_result() {
     harness.step();
     // On a quick machine the result may be there already; then there is nothing to cancel.
     if let Some(cancel) = harness.query_by_label("Cancel") {
-        harness.get_by_label_contains("Old result");
+        harness.get_by_label_contains("Previous result");
         cancel.click();
         harness.run_steps(2);
         assert_eq!(generation(&harness), before);
@@ -163,7 +164,7 @@ fn the_pose_is_shown_in_the_robots_numbers_that_were_chosen() {
     harness.get_by_label("Convention: ABB q1 q2 q3 q4");
     harness.key_press_modifiers(Modifiers::COMMAND | Modifiers::SHIFT, Key::C);
     harness.run_steps(4);
-    harness.get_by_label("Copied camera_from_part in the numbers of ABB q1 q2 q3 q4");
+    harness.get_by_label("Copied camera_from_part in the convention ABB q1 q2 q3 q4");
 }
 
 #[test]
@@ -236,4 +237,66 @@ fn the_verdict_stays_in_sight_and_large_however_far_the_card_is_scrolled() {
         "{name:?}, {word:?}"
     );
     assert!(name.max.x <= SMALL.x, "{name:?}");
+}
+
+#[test]
+fn a_notice_covers_nothing_and_is_dismissed_under_a_dialog() {
+    for size in [SMALL, super::set_up::USUAL] {
+        let mut harness = open_with(size, plain_options());
+        let notice = Notice::look("The disk is nearly full", "Keep fewer frames");
+        act(&mut harness, Action::Notify(notice));
+        // A full stop stands between the two sentences.
+        let what = harness.get_by_label("The disk is nearly full.").rect();
+        harness.get_by_label("Keep fewer frames");
+        let dismiss = harness.get_by_label("Dismiss").rect();
+        let covered = what.union(dismiss);
+        for role in [Role::Button, Role::Tab] {
+            for node in harness.get_all_by_role(role) {
+                let label = node.accesskit_node().label().unwrap_or_default();
+                let is_free = label == "Dismiss" || !node.rect().intersects(covered);
+                assert!(is_free, "{label}: {:?}, {covered:?}", node.rect());
+            }
+        }
+        // What has the focus keeps it.
+        let focused = |harness: &WindowHarness| harness.ctx.memory(egui::Memory::focused);
+        harness.get_by_label("Enlarge contour").focus();
+        harness.run_steps(2);
+        let stage = focused(&harness);
+        assert!(stage.is_some());
+        act(&mut harness, Action::Dismiss(0));
+        assert_eq!(focused(&harness), stage, "without a notice");
+        act(
+            &mut harness,
+            Action::Notify(Notice::look("Another", "Look")),
+        );
+        assert_eq!(focused(&harness), stage, "with one");
+        act(&mut harness, Action::ToggleHelp);
+        harness.get_by_label("Shortcuts");
+        harness.get_by_label("Dismiss").click();
+        harness.run_steps(4);
+        assert!(harness.state().state().notices.is_empty());
+        harness.get_by_label("Shortcuts");
+    }
+}
+
+#[test]
+fn a_part_is_called_by_its_title_where_it_is_refused() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("other.pcd");
+    let scene = facing_part(PartKind::Fender, Side::Right, 5);
+    save_cloud(&path, &scene.cloud).expect("written");
+    let mut harness = open();
+    drop_file(&mut harness, &path);
+    let shown = harness.state().state().shown.as_ref().expect("a result");
+    let Verdict::Part {
+        rejected: Some(why),
+        ..
+    } = &shown.inspected.inspection.verdict
+    else {
+        panic!("it is not enrolled");
+    };
+    assert!(why.to_string().contains("fender"), "{why}");
+    let reason = why.to_string().replace("fender", "Fender, left");
+    let reason = reason[..1].to_uppercase() + &reason[1..];
+    harness.get_by_label(&reason);
 }

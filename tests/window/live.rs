@@ -286,11 +286,11 @@ fn a_lost_source_is_a_notice_until_it_comes_back_by_itself() {
     wait_until(&mut harness, is_lost);
     harness.run_steps(2);
     assert_eq!(harness.state().state().notices.len(), 1);
-    assert!(says(&harness, "lost, looking for it"));
+    assert!(says(&harness, "lost, reconnecting"));
     assert!(says(&harness, "the folder is not there"));
 
     sees(&mut harness, &wire, [0.0]);
-    assert!(says(&harness, "The source is there again"));
+    assert!(says(&harness, "The source is back"));
     assert!(!says(&harness, "the folder is not there"));
     assert!(harness.state().state().is_live());
 }

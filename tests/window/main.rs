@@ -9,6 +9,7 @@ mod inspect;
 #[path = "../kit/mod.rs"]
 mod kit;
 mod live;
+mod operator;
 mod pictures;
 pub(crate) mod robot;
 mod roles;

@@ -9,7 +9,7 @@ use eframe::{egui_wgpu::RendererOptions, wgpu::DeviceType};
 use egui::Vec2;
 use egui_kittest::{
     Harness, SnapshotOptions,
-    kittest::Queryable as _,
+    kittest::{AccessKitNode, By, Queryable as _},
     wgpu::{create_render_state, default_wgpu_setup},
 };
 use image::{Rgba, RgbaImage, imageops};
@@ -22,7 +22,7 @@ use partsight::{
             library_cache::LibraryCache,
             source::{CellChoice, SceneSource},
         },
-        shell::{action::Action, robot::RobotAction, session::WorkspaceKind},
+        shell::{action::Action, robot::RobotAction, roles::RoleAction, session::WorkspaceKind},
         workspaces::align::{AlignWorkspace, MethodRun},
     },
     library::{LibraryFolder, PartName},
@@ -152,6 +152,9 @@ fn compare_as_it_is(harness: &mut WindowHarness, name: &str) {
         rect.max.x = rect.max.x.max(rect.min.x + 200.0);
         paint_over(&mut picture, rect);
     }
+    for node in harness.query_all(By::new().predicate(is_time_of_day)) {
+        paint_over(&mut picture, node.rect());
+    }
     if harness.state().state().is_live() {
         // The strip's times are today's, too: elsewhere a test puts others in their place.
         for cell in harness.query_all_by_label_contains("Enlarge ") {
@@ -162,6 +165,13 @@ fn compare_as_it_is(harness: &mut WindowHarness, name: &str) {
     let half = imageops::thumbnail(&picture, picture.width() / 2, picture.height() / 2);
     let options = SnapshotOptions::new().max_failed_pixels(MAX_DIFFERENT);
     egui_kittest::image_snapshot_options(&half, name, &options);
+}
+
+/// True for what ends in hours and minutes.
+fn is_time_of_day(node: &AccessKitNode<'_>) -> bool {
+    let label = node.value().or_else(|| node.label()).unwrap_or_default();
+    let last = label.rsplit(' ').next().unwrap_or_default();
+    label.len() < 20 && last.len() == 5 && jiff::civil::Time::strptime("%H:%M", last).is_ok()
 }
 
 /// Where a picture of the strip has its time: below in a narrow one, else at the right of the title.
@@ -195,6 +205,27 @@ fn inspect_looks_as_it_did() {
     let mut harness = open_drawn(SMALL);
     act(&mut harness, Action::SwitchTheme);
     compare(&mut harness, "inspect_small_light");
+}
+
+#[test]
+fn the_operators_view_looks_as_it_did() {
+    if !draws_in_software() {
+        return;
+    }
+    for (size, is_light, name) in [
+        (USUAL, false, "operator"),
+        (SMALL, true, "operator_small_light"),
+    ] {
+        let mut found = inspected();
+        // In this shift, whenever that is.
+        found.entry.record.summary.at = jiff::Timestamp::now();
+        let mut harness = open_with(size, found);
+        if is_light {
+            act(&mut harness, Action::SwitchTheme);
+        }
+        act(&mut harness, Action::Role(RoleAction::Switch));
+        compare(&mut harness, name);
+    }
 }
 
 #[test]

@@ -181,7 +181,7 @@ fn pairs_that_do_not_span_are_used_only_by_insisting() {
     harness.get_by_label_contains("another axis by at least 30°");
     act(&mut harness, Action::Robot(RobotAction::UseSolved));
     assert!(state(&harness).robot.is_none());
-    press(&mut harness, "Use it although it must not be used");
+    press(&mut harness, "Use it anyway");
     press(&mut harness, "Use it");
     assert!(state(&harness).robot.is_some());
     // A bad file is said where it was chosen.
@@ -265,11 +265,11 @@ fn behind_a_dialog_no_key_is_a_shortcut_and_escape_closes_its_list_first() {
 
     act(&mut harness, Action::GoTo(WorkspaceKind::History));
     press(&mut harness, "Frames…");
-    harness.get_by_label("Frames that are kept");
+    harness.get_by_label("Frames to keep");
     assert_eq!(typed(&mut harness), WorkspaceKind::History);
     harness.key_press(Key::Escape);
     harness.run_steps(4);
-    assert!(harness.query_by_label("Frames that are kept").is_none());
+    assert!(harness.query_by_label("Frames to keep").is_none());
     // And with nothing over it, keys are shortcuts again.
     harness.key_press(Key::Num1);
     harness.run_steps(4);

@@ -45,7 +45,7 @@ fn the_operators_view_is_locked_and_unlocked_with_the_pin() {
     harness.run_steps(4);
     assert_eq!(harness.state().state().workspace, WorkspaceKind::Inspect);
     write(&mut harness, "2589", "Unlock");
-    assert!(harness.query_by_label("That is not the PIN").is_some());
+    assert!(harness.query_by_label("Wrong PIN").is_some());
     for digit in "2580".chars() {
         harness.event(Event::Text(digit.into()));
         harness.run_steps(2);
@@ -61,11 +61,12 @@ fn the_operators_view_is_locked_and_unlocked_with_the_pin() {
 fn without_a_pin_a_yes_is_enough() {
     let mut harness = open();
     act(&mut harness, Action::Role(RoleAction::Switch));
-    press(&mut harness, "Enrol");
+    harness.key_press(Key::Num2);
+    harness.run_steps(4);
     assert_eq!(harness.state().state().workspace, WorkspaceKind::Inspect);
     press(&mut harness, "Not now");
-    press(&mut harness, "Operator's view");
-    press(&mut harness, "Change to it");
+    press(&mut harness, "Engineer's view");
+    press(&mut harness, "Switch");
     assert_eq!(role(&harness), UserRole::Engineer);
 }
 

@@ -247,7 +247,7 @@ fn what_is_enrolled_from_a_scan_is_what_the_command_line_stores() {
     fs::create_dir(&library).expect("made");
     let mut harness = open_at(USUAL, &scan.scan(), Some(&library));
     press(&mut harness, "Enrol");
-    press(&mut harness, "Take the inspected scene");
+    press(&mut harness, "Use the inspected scene");
     assert_eq!(used(&harness), [0, 1, 2]);
     harness.get_by_label("Seen from several sides");
     // A shot dropped and taken back, as a step among the corrections.

@@ -89,6 +89,11 @@ impl LibraryView {
         self.parts.get(place).map_or("", PartMeta::shown_title)
     }
 
+    /// Name for people of the part that is enrolled under this name; that itself if none is.
+    pub fn title_of<'a>(&'a self, name: &'a str) -> &'a str {
+        self.place_of(name).map_or(name, |place| self.title(place))
+    }
+
     /// The place of a part.
     pub fn place_of(&self, name: &str) -> Option<usize> {
         self.parts

@@ -3,6 +3,7 @@
 use std::path::{self, PathBuf};
 
 use super::{
+    closing::Closing,
     live::{self, LiveAction},
     message::Event,
     notice::Notice,
@@ -56,6 +57,10 @@ pub enum Action {
     Notify(Notice),
     /// Close the window.
     Quit,
+    /// Close it, whatever is not saved.
+    CloseAnyway,
+    /// Leave it open after all.
+    StayOpen,
     /// Tell the robot poses in these numbers.
     UseConvention(Convention),
     /// Of the source and of following it.
@@ -129,7 +134,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::TakeEmptyCell => state.take_empty_cell(),
         Action::ForgetEmptyCell => {
             state.empty_cell = None;
-            notify(state, Notice::done("The empty cell is forgotten"));
+            notify(state, Notice::done("Empty cell discarded"));
             live::restart_consensus(state);
         }
         Action::Ask(DialogRequest::Scene) if state.workspace == WorkspaceKind::Enrol => {
@@ -166,6 +171,11 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         }
         Action::Notify(notice) => notify(state, notice),
         Action::Quit => return Some(Effect::Close),
+        Action::CloseAnyway => {
+            state.closing = Closing::Confirmed;
+            return Some(Effect::Close);
+        }
+        Action::StayOpen => state.closing = Closing::No,
         Action::Role(action) => return roles::apply(state, action),
         Action::Live(action) => return live::apply(state, action),
         Action::Undo => return Some(Effect::Tell(Event::Undo)),

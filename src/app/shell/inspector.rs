@@ -248,6 +248,7 @@ impl State {
     /// Writes down that a run begins, and hands over what it works with.
     fn begins(&mut self, title: &str, purpose: ReinspectionPurpose) -> LibraryCache {
         self.generation += 1;
+        self.session.failed = None;
         self.session.inspecting = Some(Inspecting {
             title: title.to_owned(),
             purpose,
@@ -268,6 +269,7 @@ impl State {
             session: None,
         });
         self.workspace = WorkspaceKind::Inspect;
+        self.failed = None;
         live::give_way(self);
     }
 
@@ -292,8 +294,8 @@ impl State {
         let cell = match EmptyCell::of(&shown.inspected.scene) {
             _ if inspection.verdict.is_accepted() => {
                 let hangs_there = Notice::look(
-                    "This is no empty cell: a part hangs in it, and would not be found any more",
-                    "Take the part away, capture, and take the empty cell then",
+                    "The cell is not empty: a part hangs in it",
+                    "Remove the part, capture, then press Capture empty cell",
                 );
                 return notify(self, hangs_there);
             }
@@ -303,12 +305,12 @@ impl State {
         self.empty_cell = Some(Arc::new(cell));
         let taken = if stands_there {
             Notice::look(
-                "The empty cell is taken, with something as large as a part in it",
-                "If that is a part: Source, Forget the empty cell; then take it away and capture first",
+                "Empty cell captured, but something as large as a part is in it",
+                "If that is a part: Source, Discard empty cell; then remove the part and capture first",
             )
         } else {
             Notice::done(
-                "The empty cell is taken: from the next capture on, what stands in it is not taken for a part",
+                "Empty cell captured: from the next capture on, nothing in it is taken for a part",
             )
         };
         notify(self, taken);
@@ -371,6 +373,7 @@ pub(in crate::app) fn update(state: &mut State) -> Option<Event> {
             }
         },
         TaskEvent::Failed(error) => {
+            state.session.failed = Some(error.clone());
             notify(state, error.into());
             // A file that could not be inspected is no recent one.
             let session = &mut state.session;
@@ -413,6 +416,7 @@ fn show(state: &mut State, inspected: Arc<Inspected>) -> Event {
         purpose,
         ..
     } = state.inspector;
+    state.failed = None;
     // One from the history stays one, by whichever recipe or library it is looked at.
     let was_past = state.shown.as_ref().is_some_and(|shown| shown.is_past);
     let is_past = match purpose {
@@ -459,7 +463,7 @@ mod tests {
         apply(&mut state, Action::TakeEmptyCell);
         assert!(state.empty_cell.is_none(), "a part hangs there");
         let said = state.notices.last().map(|notice| notice.what.clone());
-        assert!(said.is_some_and(|said| said.contains("no empty cell")));
+        assert!(said.is_some_and(|said| said.contains("not empty")));
 
         apply(&mut state, Action::Capture);
         assert!(state.is_old());

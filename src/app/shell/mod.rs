@@ -4,6 +4,7 @@
 //! A control outside the workspaces causes an [`action`], which changes the window's [`state`].
 
 pub mod action;
+pub mod closing;
 pub mod context;
 pub(in crate::app) mod dialogs;
 pub mod file_dialog;
@@ -14,6 +15,7 @@ pub mod live;
 pub mod message;
 pub mod notice;
 pub(in crate::app) mod notices;
+pub(in crate::app) mod operator_bars;
 pub(in crate::app) mod path_entry;
 pub(in crate::app) mod rail;
 pub mod robot;
@@ -21,6 +23,7 @@ pub mod roles;
 pub mod session;
 pub mod settings;
 pub(in crate::app) mod settings_file;
+pub mod shift;
 mod source_menu;
 pub mod state;
 pub(in crate::app) mod top_bar;

@@ -1,4 +1,4 @@
-//! What a person should know: the notices over the lower edge of the window.
+//! What a person should know: the notices in the strip below the work.
 
 use crate::app::user_error::UserError;
 

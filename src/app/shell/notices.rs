@@ -1,8 +1,8 @@
-//! What a person should know, over the lower edge of the window: nothing moves when a notice comes or goes.
+//! What a person should know, in a strip below the work: it makes way while there are notices, and nothing is covered.
 
 use egui::{
-    Align, Align2, Area, Button, Context, Frame, Id, Layout, Margin, Order, RichText, Sense, Ui,
-    Vec2,
+    Align, Area, Button, Context, Frame, Id, Layout, Margin, Order, Panel, Rect, RichText, Sense,
+    Ui, Vec2, pos2,
 };
 
 use super::{
@@ -16,12 +16,10 @@ use crate::app::ui::{
     widgets::{Mark, mark},
 };
 
-/// Greatest width, logical pixels.
-const WIDTH: f32 = 620.0;
-/// Left free on the right, logical pixels: there every workspace has the buttons that matter most.
-const RIGHT: f32 = 340.0;
-/// Between the notices and the edges of the window, logical pixels.
-const EDGE: f32 = 14.0;
+/// Between the notices and what is beside them, logical pixels.
+const EDGE: f32 = 6.0;
+/// The pointer is at rest once it has not moved for so long, seconds.
+const REST: f32 = 0.6;
 
 /// How long a notice stays, seconds; what deserves a look stays until it was looked at.
 fn display_seconds(kind: NoticeKind) -> Option<f64> {
@@ -32,28 +30,102 @@ fn display_seconds(kind: NoticeKind) -> Option<f64> {
     }
 }
 
-/// Draws them, and takes away what has been there long enough.
-pub(in crate::app) fn ui(ctx: &Context, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+/// Leaves room for them at the foot of what is left of the window; [`ui`] draws them there.
+pub(in crate::app) fn room(ui: &mut Ui, state: &State, theme: &Theme) -> Option<Rect> {
+    let wanted = if state.notices.is_empty() {
+        0.0
+    } else {
+        height(ui.ctx())
+    };
+    let height = unhurried(ui.ctx(), wanted);
+    // There with and without notices: what comes after it keeps its ids, and a text its focus.
+    let room = Panel::bottom("room for notices")
+        .exact_size(height)
+        .resizable(false)
+        .show_separator_line(false)
+        .frame(Frame::new().fill(theme.canvas))
+        .show(ui, |ui| ui.max_rect());
+    (!state.notices.is_empty()).then(|| room.inner.shrink(EDGE))
+}
+
+/// This height, unless it is less than before while a hand is at the pointer: nothing moves away under it.
+fn unhurried(ctx: &Context, wanted: f32) -> f32 {
+    let id = Id::unique("room for notices");
+    let before: f32 = ctx.data(|data| data.get_temp(id)).unwrap_or_default();
+    let is_at_rest = ctx.input(|input| {
+        let pointer = &input.pointer;
+        !pointer.any_down() && pointer.time_since_last_movement() > REST
+    });
+    let height = if wanted < before && !is_at_rest {
+        ctx.request_repaint_after_secs(REST);
+        before
+    } else {
+        wanted
+    };
+    ctx.data_mut(|data| data.insert_temp(id, height));
+    height
+}
+
+/// The height that they took when they were drawn last.
+fn height(ctx: &Context) -> f32 {
+    let known = ctx.data(|data| data.get_temp(Id::unique("height of notices")));
+    known.unwrap_or(space::TARGET + 2.0 * EDGE)
+}
+
+/// Draws them in this room, and takes away what has been there long enough.
+pub(in crate::app) fn ui(
+    ctx: &Context,
+    room: Option<Rect>,
+    state: &State,
+    theme: &Theme,
+    actions: &mut Vec<Action>,
+) {
     expire(ctx, &state.notices, actions);
-    if state.notices.is_empty() {
+    let Some(room) = room else {
         return;
+    };
+    if ctx.memory(|memory| memory.top_modal_layer().is_some()) {
+        return over_dialog(ctx, room, state, theme, actions);
     }
-    let room = ctx.content_rect().width() - space::RAIL - RIGHT - 2.0 * EDGE;
-    let width = WIDTH.min(room).max(300.0);
-    Area::new(Id::unique("notices"))
-        .order(Order::Foreground)
-        .anchor(Align2::LEFT_BOTTOM, Vec2::new(space::RAIL + EDGE, -EDGE))
+    // Menus lie over them.
+    let drawn = Area::new(Id::unique("notices"))
+        .order(Order::Middle)
+        .fixed_pos(room.min)
         .show(ctx, |ui| {
-            ui.set_width(width);
+            ui.set_width(room.width());
+            ui.spacing_mut().item_spacing.y = EDGE;
             for (place, notice) in state.notices.iter().enumerate() {
-                Frame::new()
-                    .fill(theme.control)
-                    .stroke(theme.edge_stroke())
-                    .corner_radius(ROUNDING)
-                    .inner_margin(Margin::symmetric(14, 4))
-                    .show(ui, |ui| line(ui, place, notice, theme, actions));
+                plate(ui, place, notice, theme, actions);
             }
         });
+    let wanted = drawn.response.rect.height() + 2.0 * EDGE;
+    if (wanted - height(ctx)).abs() > 0.5 {
+        ctx.data_mut(|data| data.insert_temp(Id::unique("height of notices"), wanted));
+        ctx.request_discard("the notices have another height");
+    }
+}
+
+/// The newest, over the top bar and the dialog: dialogs are tall, and what one has caused must be read and dismissed.
+fn over_dialog(ctx: &Context, room: Rect, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+    let Some((place, notice)) = state.notices.iter().enumerate().next_back() else {
+        return;
+    };
+    Area::new(Id::unique("notice over a dialog"))
+        .order(Order::Tooltip)
+        .fixed_pos(pos2(room.left(), ctx.content_rect().top() + 2.0))
+        .show(ctx, |ui| {
+            ui.set_width(room.width());
+            plate(ui, place, notice, theme, actions);
+        });
+}
+
+fn plate(ui: &mut Ui, place: usize, notice: &Notice, theme: &Theme, actions: &mut Vec<Action>) {
+    Frame::new()
+        .fill(theme.control)
+        .stroke(theme.edge_stroke())
+        .corner_radius(ROUNDING)
+        .inner_margin(Margin::symmetric(14, 4))
+        .show(ui, |ui| line(ui, place, notice, theme, actions));
 }
 
 fn line(ui: &mut Ui, place: usize, notice: &Notice, theme: &Theme, actions: &mut Vec<Action>) {
@@ -75,8 +147,11 @@ fn line(ui: &mut Ui, place: usize, notice: &Notice, theme: &Theme, actions: &mut
             }
             let words = Layout::left_to_right(Align::Center).with_main_wrap(true);
             ui.with_layout(words, |ui| {
-                ui.label(RichText::new(&notice.what).color(theme.text));
-                if !notice.advice.is_empty() {
+                if notice.advice.is_empty() {
+                    ui.label(RichText::new(&notice.what).color(theme.text));
+                } else {
+                    let what = format!("{}.", notice.what.trim_end_matches('.'));
+                    ui.label(RichText::new(what).color(theme.text));
                     ui.label(RichText::new(&notice.advice).color(theme.warning));
                 }
             });

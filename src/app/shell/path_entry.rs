@@ -89,7 +89,7 @@ impl PathEntry {
             FileChoice::FolderToWrite if path.is_file() => "This is a file, not a folder",
             FileChoice::NewFile(_) if path.exists() && self.replaced.as_deref() != Some(path) => {
                 self.replaced = Some(path.to_owned());
-                "There is a file of this name: confirm once more to replace it"
+                "A file of this name exists: confirm again to replace it"
             }
             FileChoice::NewFile(_)
                 if path

@@ -4,15 +4,18 @@ use std::{path::PathBuf, sync::Arc};
 
 use serde::{Deserialize, Serialize};
 
-use super::{live::LiveState, message::ReinspectionPurpose};
+use super::{live::LiveState, message::ReinspectionPurpose, shift::ShiftParts};
 pub use crate::app::ui::theme::ThemeChoice;
 use crate::{
-    app::inspection::{
-        inspected::{InspectJob, InspectRequest, Inspected, SceneOrScan},
-        library_cache::LibraryView,
-        scan_choice::{ScanFiles, ScanOrder, ScanRequest},
-        source::CellChoice,
-        unit_system::UnitSystem,
+    app::{
+        inspection::{
+            inspected::{InspectJob, InspectRequest, Inspected, SceneOrScan},
+            library_cache::LibraryView,
+            scan_choice::{ScanFiles, ScanOrder, ScanRequest},
+            source::CellChoice,
+            unit_system::UnitSystem,
+        },
+        user_error::UserError,
     },
     capture::SourceSpec,
     pipeline::NamedRecipe,
@@ -33,6 +36,8 @@ pub struct Session {
     pub shown: Option<Shown>,
     /// What the inspector is at.
     pub inspecting: Option<Inspecting>,
+    /// Why the last run of the inspector came to no result.
+    pub failed: Option<UserError>,
     /// Of the source that is followed.
     pub live: LiveState,
     /// The library in use, once loaded.
@@ -55,6 +60,8 @@ pub struct Session {
     pub theme: ThemeChoice,
     /// Whose window it is.
     pub role: UserRole,
+    /// The parts of this shift, while it is the operator's.
+    pub shift: ShiftParts,
     /// The workspace in front.
     pub workspace: WorkspaceKind,
 }
@@ -78,6 +85,11 @@ impl Session {
             calibration: self.calibration_path(),
             recipe: Arc::clone(&self.recipe),
         }
+    }
+
+    /// True while the operator's view takes the place of the bars, the rail and the panels of Inspect.
+    pub fn is_operator_view(&self) -> bool {
+        self.role == UserRole::Operator && self.workspace == WorkspaceKind::Inspect
     }
 
     /// True while the result shown is not what was asked for last.
@@ -197,7 +209,8 @@ impl WorkspaceKind {
 }
 
 /// Who stands before the window.
-#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
 pub enum UserRole {
     /// Watches verdicts, captures, exports.
     Operator,

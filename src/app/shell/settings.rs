@@ -12,7 +12,8 @@ use serde::{Deserialize, Serialize};
 use super::{
     live::LiveState,
     roles::{LOCK_AFTER, Pin, RoleState, is_operators},
-    session::{RememberedCell, Session, Source, ThemeChoice, WorkspaceKind},
+    session::{RememberedCell, Session, Source, ThemeChoice, UserRole, WorkspaceKind},
+    shift::ShiftStarts,
     state::State,
 };
 use crate::{
@@ -26,7 +27,7 @@ use crate::{
     },
     capture::SourceSpec,
     files::{open_regular, user_folders, write_atomically},
-    pipeline::{BUILT_IN, NamedRecipe, Recipe, RecipeLabel},
+    pipeline::{NamedRecipe, Recipe, RecipeLabel},
     robot::Convention,
 };
 
@@ -69,6 +70,10 @@ pub struct Settings {
     pub lock_after: u32,
     /// What the engineer's view asks for; none: nothing.
     pub pin: Option<Pin>,
+    /// Whose the window was last; with a PIN it starts as the operator's all the same.
+    pub role: UserRole,
+    /// When shifts start, such as 06:00; the operator's view counts the parts since.
+    pub shifts: ShiftStarts,
     /// Which calibration of the robot's cell is used.
     pub cell: RememberedCell,
 }
@@ -110,6 +115,8 @@ impl Default for Settings {
             average: 1,
             lock_after: LOCK_AFTER[1],
             pin: None,
+            role: UserRole::default(),
+            shifts: ShiftStarts::default(),
             cell: RememberedCell::default(),
         }
     }
@@ -138,6 +145,8 @@ impl Settings {
             average: state.live.params.average,
             lock_after: state.roles.lock_after,
             pin: state.roles.pin.clone(),
+            role: state.role,
+            shifts: state.shift_watch.starts.clone(),
             cell: state.cell.clone(),
         }
     }
@@ -166,6 +175,8 @@ impl Settings {
             && self.average == state.live.params.average
             && self.lock_after == state.roles.lock_after
             && self.pin == state.roles.pin
+            && self.role == state.role
+            && self.shifts == state.shift_watch.starts
             && self.cell == state.cell
             && self.window == window
     }
@@ -173,11 +184,12 @@ impl Settings {
     /// The state to start in; its tasks are run by `runner` and share `library_cache`.
     pub fn into_state(self, runner: &TaskRunner, library_cache: &LibraryCache) -> State {
         let roles = RoleState::starting(self.pin.clone(), self.lock_after);
+        let role = roles.first_role(self.role);
         let session = Session {
             theme: self.theme,
             units: self.units,
-            workspace: match &self.pin {
-                Some(_) if !is_operators(self.workspace) => WorkspaceKind::Inspect,
+            workspace: match role {
+                UserRole::Operator if !is_operators(self.workspace) => WorkspaceKind::Inspect,
                 _ => self.workspace,
             },
             convention: self.convention,
@@ -190,24 +202,21 @@ impl Settings {
                 RememberedSource::Camera(spec) => Source::Camera(Box::new(spec)),
             },
             recipe: Arc::new(NamedRecipe {
-                label: RecipeLabel {
-                    // Of settings from before recipes had names.
-                    is_changed: self.recipe_label.is_changed
-                        || self.recipe_label.name == BUILT_IN && self.recipe.is_some(),
-                    ..self.recipe_label
-                },
+                label: self.recipe_label,
                 parameters: Arc::new(self.recipe.unwrap_or_default()),
             }),
-            role: roles.first_role(),
+            role,
             cell: self.cell,
             live: LiveState::averaging(self.average),
             ..Session::default()
         };
-        State {
+        let mut state = State {
             session,
             roles,
             ..State::new(runner, library_cache)
-        }
+        };
+        state.shift_watch.starts = self.shifts;
+        state
     }
 }
 
@@ -247,7 +256,7 @@ pub fn load(path: &Path) -> (Settings, Option<UserError>) {
             let what = format!("The settings in {} are not used: {bad}", path.display());
             let advice = match set_aside(path) {
                 Ok(aside) => format!(
-                    "They were set aside as {}; the window starts as it comes",
+                    "They were moved to {}; the window starts with default settings",
                     aside.display()
                 ),
                 Err(error) => format!(
@@ -302,7 +311,7 @@ fn set_aside(path: &Path) -> io::Result<PathBuf> {
 pub fn save(path: &Path, settings: &Settings) -> Result<(), UserError> {
     let not_kept = |why: String| UserError {
         what: format!("The settings are not remembered: {why}"),
-        advice: "Make its folder writable; the program goes on without".into(),
+        advice: "Make its folder writable; until then settings are not remembered".into(),
     };
     let text = toml::to_string(settings).map_err(|error| not_kept(error.to_string()))?;
     let folder = path.parent().unwrap_or(Path::new("."));
@@ -337,6 +346,11 @@ mod tests {
             average: 4,
             lock_after: 15,
             pin: Some(Pin::of("4711")),
+            role: UserRole::Operator,
+            shifts: ["05:30".to_owned(), "17:30".to_owned()]
+                .to_vec()
+                .try_into()
+                .expect("times of day"),
             cell: RememberedCell::File("/media/stick/cell.toml".into()),
             ..Settings::default()
         }
@@ -377,12 +391,13 @@ mod tests {
     fn a_bad_file_is_set_aside_and_never_lost() {
         let folder = tempfile::tempdir().expect("a folder");
         let path = folder.path().join("settings.toml");
-        let bad: [&[u8]; 5] = [
+        let bad: [&[u8]; 6] = [
             b"theme = [",
             b"theme = \"Purple\"",
             b"schema = 99\nnew = 1",
             b"\xff\xfe\x00",
             b"window = [\"wide\", 3]",
+            b"shifts = [\"six\"]",
         ];
         for (number, contents) in bad.into_iter().enumerate() {
             fs::write(&path, contents).expect("written");

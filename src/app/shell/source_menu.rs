@@ -59,7 +59,8 @@ fn column(ui: &mut Ui, height: f32, name: &str, content: impl FnOnce(&mut Ui)) {
 }
 
 /// The source in use, shortly.
-fn now(source: &Source) -> String {
+/// What the source in use is called.
+pub(super) fn now(source: &Source) -> String {
     match source {
         Source::Cell(CellChoice::InTurn) => "Simulated cell".to_owned(),
         Source::Cell(choice) => format!("Simulated · {}", choice.title()),
@@ -193,15 +194,15 @@ fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
 /// Taking and forgetting the empty cell.
 fn empty_cell(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     heading(ui, "Empty cell");
-    let take = Button::new("Take the empty cell");
+    let take = Button::new("Capture empty cell");
     let take = ui.add_enabled(state.shown.is_some(), take).on_hover_text(
-        "The scene in front shows the cell without a part: what stands in it is not taken for a part from now on",
+        "The scene in front becomes the empty cell: nothing in it is taken for a part from now on",
     );
     if take.clicked() {
         actions.push(Action::TakeEmptyCell);
         ui.close();
     }
-    let forget = Button::new("Forget the empty cell");
+    let forget = Button::new("Discard empty cell");
     if ui.add_enabled(state.empty_cell.is_some(), forget).clicked() {
         actions.push(Action::ForgetEmptyCell);
         ui.close();

@@ -3,7 +3,8 @@
 use std::ops::{Deref, DerefMut};
 
 use super::{
-    inspector::Inspector, live::Follower, notice::Notice, roles::RoleState, session::Session,
+    closing::Closing, inspector::Inspector, live::Follower, notice::Notice, roles::RoleState,
+    session::Session, shift::ShiftWatch,
 };
 use crate::app::{inspection::library_cache::LibraryCache, task::TaskRunner};
 
@@ -20,10 +21,14 @@ pub struct State {
     pub notices: Vec<Notice>,
     /// Whether the list of shortcuts is open.
     pub help: HelpPage,
+    /// Whether the window may close.
+    pub closing: Closing,
     /// Counts runs of the inspector and results shown.
     pub generation: u64,
     /// Whose window it is.
     pub roles: RoleState,
+    /// Counts the parts of this shift.
+    pub shift_watch: ShiftWatch,
 }
 
 impl Deref for State {
@@ -56,8 +61,10 @@ impl State {
             follower: Follower::new(runner, library_cache),
             notices: Vec::new(),
             help: HelpPage::default(),
+            closing: Closing::default(),
             generation: 0,
             roles: RoleState::default(),
+            shift_watch: ShiftWatch::new(runner),
         }
     }
 }

@@ -24,8 +24,8 @@ pub(in crate::app) const NARROW: f32 = 1100.0;
 pub(in crate::app) struct Progress {
     /// The work.
     pub(in crate::app) running: Running,
-    /// What cancels it.
-    pub(in crate::app) cancel: Action,
+    /// What cancels it, if it can be.
+    pub(in crate::app) cancel: Option<Action>,
 }
 
 /// The bar at the top.
@@ -97,7 +97,7 @@ fn live_button(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Acti
     let says = if is_live {
         "Stop following the source (L)"
     } else {
-        "Follow the source: every frame that can be is inspected (L)"
+        "Follow the source and inspect as many frames as possible (L)"
     };
     if response.on_hover_text(says).clicked() {
         actions.push(Action::Live(LiveAction::Toggle));
@@ -119,7 +119,7 @@ fn robot_button(
     }
     let says = match (&state.robot, robot.in_use()) {
         (Some(frame), _) => format!("Calibrated by {} (B)", frame.name),
-        (None, Some(_)) => "Where the arm stands at a capture is not known (B)".into(),
+        (None, Some(_)) => "The flange pose at a capture is not known (B)".into(),
         (None, None) => "Where the camera sits in the robot's cell: not calibrated (B)".into(),
     };
     if labelled(ui, button, "Robot…").on_hover_text(says).clicked() {
@@ -143,7 +143,7 @@ fn settings(
     let other = state.theme.other().title().to_lowercase();
     let colours = labelled(ui, Button::new(state.theme.title()), state.theme.title());
     if colours
-        .on_hover_text(format!("Change to {other} (T)"))
+        .on_hover_text(format!("Switch to {other} (T)"))
         .clicked()
     {
         actions.push(Action::SwitchTheme);
@@ -151,7 +151,7 @@ fn settings(
     let units = labelled(ui, Button::new(state.units.title()), state.units.title());
     let other = state.units.other().title();
     if units
-        .on_hover_text(format!("Change to {other} (U)"))
+        .on_hover_text(format!("Switch to {other} (U)"))
         .clicked()
     {
         actions.push(Action::SwitchUnits);
@@ -199,7 +199,7 @@ fn library_menu(ui: &mut Ui, state: &State, library: &LibraryView, actions: &mut
 }
 
 /// What is being worked on, and the way out.
-fn progress(
+pub(super) fn progress(
     ui: &mut Ui,
     state: &State,
     work: Option<Progress>,
@@ -214,7 +214,9 @@ fn progress(
         return;
     };
     ui.add_space(space::SMALL);
-    if labelled(ui, Button::new("Cancel"), "Cancel").clicked() {
+    if let Some(cancel) = cancel
+        && labelled(ui, Button::new("Cancel"), "Cancel").clicked()
+    {
         actions.push(cancel);
     }
     ui.add(egui::Spinner::new().size(18.0).color(theme.accent));

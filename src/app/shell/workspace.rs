@@ -53,6 +53,16 @@ pub trait Workspace: Any {
     /// Cancels that run.
     fn cancel(&mut self) {}
 
+    /// A file being written, which the top bar shows while nothing else runs; it cannot be cancelled.
+    fn writing(&self) -> Option<&Running> {
+        None
+    }
+
+    /// What would be lost if the window closed now, in words.
+    fn unsaved(&self) -> Option<String> {
+        None
+    }
+
     /// True while keys go to one of its 3-D views.
     fn has_key_focus(&self) -> bool {
         false

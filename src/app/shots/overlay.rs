@@ -76,7 +76,7 @@ impl Overlay<'_> {
                     percent(share)
                 ),
                 None => format!(
-                    "Unseen: the part may go on here · {} of the outline",
+                    "Unseen: the part may continue here · {} of the outline",
                     percent(self.figure().open_share)
                 ),
             };

@@ -64,6 +64,10 @@ pub struct Theme {
     pub accepted: Color32,
     /// A verdict that is not accepted.
     pub rejected: Color32,
+    /// Behind an accepted verdict across the window.
+    pub accepted_back: Color32,
+    /// Behind a verdict across the window that is not accepted.
+    pub rejected_back: Color32,
     /// What deserves a look.
     pub warning: Color32,
     /// The scene's curve or outline.
@@ -87,6 +91,8 @@ const DARK: Theme = Theme {
     on_accent: rgb(0x08_1a17),
     accepted: rgb(0x5b_c46c),
     rejected: rgb(0xf0_7d6d),
+    accepted_back: rgb(0x15_3a22),
+    rejected_back: rgb(0x41_1d1a),
     warning: rgb(0xe8_b04d),
     first_series: rgb(0x4f_c4b2),
     second_series: rgb(0xe3_a73f),
@@ -106,6 +112,8 @@ const LIGHT: Theme = Theme {
     on_accent: rgb(0xff_ffff),
     accepted: rgb(0x1a_7431),
     rejected: rgb(0xb3_2d1f),
+    accepted_back: rgb(0xdf_f3e3),
+    rejected_back: rgb(0xfb_e5e1),
     warning: rgb(0x8a_5a00),
     first_series: rgb(0x0b_7a6b),
     second_series: rgb(0x98_6100),
@@ -160,6 +168,26 @@ pub mod font {
     /// Why it is not accepted, to be read from there.
     pub fn far_reason() -> FontId {
         FontId::new(18.0, strong_family())
+    }
+    /// The name of the part across the window, the largest first.
+    pub fn banner_names() -> [FontId; 5] {
+        [76.0, 64.0, 52.0, 42.0, 32.0].map(|size| FontId::new(size, strong_family()))
+    }
+    /// The verdict across the window.
+    pub fn banner_word() -> FontId {
+        FontId::new(40.0, strong_family())
+    }
+    /// Why, across the window.
+    pub fn banner_reason() -> FontId {
+        FontId::new(22.0, FontFamily::Proportional)
+    }
+    /// What to do next, in the operator's view.
+    pub fn next_step() -> FontId {
+        FontId::new(26.0, strong_family())
+    }
+    /// Lists and long sentences of the operator's view.
+    pub fn far_list() -> FontId {
+        FontId::new(18.0, FontFamily::Proportional)
     }
     /// The verdict in a list, and the headings of an enlarged stage.
     pub fn verdict() -> FontId {
@@ -313,13 +341,18 @@ mod tests {
             let theme = Theme::of(choice);
             let Theme { canvas, panel, .. } = *theme;
             let (control, hovered) = (theme.control, theme.control_hovered);
+            let (good, bad) = (theme.accepted_back, theme.rejected_back);
             let pairs = [
-                ("text", theme.text, vec![canvas, panel, control, hovered]),
+                (
+                    "text",
+                    theme.text,
+                    vec![canvas, panel, control, hovered, good, bad],
+                ),
                 ("weak", theme.weak_text, vec![canvas, panel, control]),
                 ("on accent", theme.on_accent, vec![theme.accent]),
                 ("accent", theme.accent, vec![panel, canvas]),
-                ("accepted", theme.accepted, vec![panel, canvas]),
-                ("rejected", theme.rejected, vec![panel, canvas]),
+                ("accepted", theme.accepted, vec![panel, canvas, good]),
+                ("rejected", theme.rejected, vec![panel, canvas, bad]),
                 ("warning", theme.warning, vec![panel, canvas, control]),
                 ("first", theme.first_series, vec![canvas]),
                 ("second", theme.second_series, vec![canvas]),

@@ -17,6 +17,8 @@ pub(in crate::app) enum Mark {
     Bad,
     /// An exclamation mark.
     Look,
+    /// Three dots: not known yet.
+    Open,
 }
 
 /// A filled disc with a sign in it.
@@ -31,6 +33,7 @@ pub(in crate::app) fn mark(
         Mark::Good => theme.accepted,
         Mark::Bad => theme.rejected,
         Mark::Look => theme.warning,
+        Mark::Open => theme.weak_text,
     };
     painter.circle_filled(centre, radius, fill);
     let at = |x: f32, y: f32| centre + vec2(x, y) * radius;
@@ -49,6 +52,11 @@ pub(in crate::app) fn mark(
         Mark::Look => {
             painter.line_segment([at(0.0, -0.52), at(0.0, 0.14)], stroke);
             painter.circle_filled(at(0.0, 0.44), radius * 0.14, theme.panel);
+        }
+        Mark::Open => {
+            for x in [-0.42, 0.0, 0.42] {
+                painter.circle_filled(at(x, 0.0), radius * 0.13, theme.panel);
+            }
         }
     }
 }

@@ -130,18 +130,26 @@ impl Window {
     pub(super) fn work(&self) -> Option<Progress> {
         let of_hosted = |workspace: &dyn Workspace| {
             let running = workspace.running()?.clone();
-            let cancel = Action::CancelTask(workspace.kind());
+            let cancel = Some(Action::CancelTask(workspace.kind()));
             Some(Progress { running, cancel })
         };
         let own = self.hosted(self.state.workspace).and_then(of_hosted);
         let inspector = || {
             let running = self.state.inspector.running()?.clone();
-            let cancel = Action::CancelInspection;
+            let cancel = Some(Action::CancelInspection);
             Some(Progress { running, cancel })
         };
         own.or_else(inspector).or_else(|| {
             let mut all = self.workspaces.iter().map(Box::as_ref);
-            all.find_map(of_hosted)
+            let written = || {
+                let mut all = self.workspaces.iter();
+                let running = all.find_map(|workspace| workspace.writing())?.clone();
+                Some(Progress {
+                    running,
+                    cancel: None,
+                })
+            };
+            all.find_map(of_hosted).or_else(written)
         })
     }
 
@@ -149,8 +157,10 @@ impl Window {
     pub fn is_idle(&self) -> bool {
         let mut all = self.workspaces.iter();
         let session = &self.state.session;
-        let is_shell_idle =
-            self.state.inspector.is_idle() && self.state.follower.is_idle() && self.robot.is_idle();
+        let is_shell_idle = self.state.inspector.is_idle()
+            && self.state.follower.is_idle()
+            && self.state.shift_watch.is_idle()
+            && self.robot.is_idle();
         is_shell_idle && all.all(|workspace| workspace.is_idle(session))
     }
 }

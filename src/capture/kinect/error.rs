@@ -231,7 +231,7 @@ impl Advice for KinectError {
                 "Plug that one in, or choose the source without a serial number to take whichever is there".into()
             }
             Self::NoPermission { rule: Some(rule) } => format!(
-                "Add your user to the group plugdev, log in anew and plug the Kinect in again, so that {rule} applies to it"
+                "Add your user to the group plugdev, log in again and plug the Kinect in again, so that {rule} applies to it"
             ),
             Self::NoPermission { rule: None } => format!(
                 "Install the udev rule that permits it ({INSTALL}), then plug the Kinect in again"

@@ -122,6 +122,9 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
     )?;
     if let Some(pictures) = pictures {
         pictures.write()?;
+        if let Some(folder) = &args.pictures {
+            console.note(&format_args!("The pictures are in {}", folder.display()));
+        }
     }
     let closest = NearestMistake::per_part(&results);
     console.line(&format_args!(
@@ -239,7 +242,7 @@ fn show(results: &[SuiteResult], console: &mut Console) {
         "frames",
         "right",
         "right and accepted",
-        "wrong and accepted",
+        "false accepts",
         "not accepted",
         "of these unknown",
         "approximate",
@@ -308,7 +311,7 @@ fn show_figures(figures: &[SuiteFigures], console: &mut Console) {
         "40 % in sight",
         "right",
         "right and accepted",
-        "wrong and accepted",
+        "false accepts",
         "pose within 2° and 10 mm",
         "with bounds",
         "bounds hold",

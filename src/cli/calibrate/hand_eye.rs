@@ -27,7 +27,7 @@ use crate::{
     },
 };
 
-/// Calculate the camera's place from pairs of robot and camera poses
+/// Calculate the camera's pose from pairs of robot and camera poses
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -72,7 +72,7 @@ pub(super) struct HandEyeArgs {
     /// Only calculate and show: write nothing
     #[arg(long)]
     dry_run: bool,
-    /// Write the calibration even if the poses leave it open or do not agree
+    /// Write the calibration even if the poses do not determine it or disagree
     #[arg(long)]
     even_if_doubtful: bool,
     /// Write one line of JSON, and nothing else, to standard output

@@ -16,7 +16,7 @@ use crate::{
     },
 };
 
-/// Show where the camera sits, and how that is known
+/// Show the calibration: where the camera sits, and how that is known
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:

@@ -68,7 +68,7 @@ fn show_tallies<'a>(
         heading,
         "cases",
         "right",
-        "wrong and accepted",
+        "false accepts",
         "refused",
         "best guess right",
     ]);

@@ -40,7 +40,7 @@ pub(super) struct PathArgs {
     /// The path; without it, the stored one is shown
     #[arg(value_name = "FILE", conflicts_with = "remove")]
     file: Option<PathBuf>,
-    /// Take the stored path away
+    /// Remove the stored path
     #[arg(long)]
     remove: bool,
 }

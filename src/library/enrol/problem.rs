@@ -44,7 +44,9 @@ impl Advice for EnrolWarning {
         match self {
             Self::TouchesEdge => "Move the camera back or centre the part, then enrol it again",
             Self::Background(_) => "Check the picture, and take the part instead if it is not",
-            Self::Unconstrained(_) => "Enrol more of the part, so that corners or openings hold it",
+            Self::Unconstrained(_) => {
+                "Enrol more of the part, so that corners or openings constrain its pose"
+            }
             Self::Symmetric { .. } => {
                 "Paint it with a path that suits both poses, or hang it so that it cannot be turned"
             }

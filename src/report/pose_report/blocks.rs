@@ -303,9 +303,7 @@ impl RobotBlock {
         let unavailable = match (accepted, camera_from_part, robot) {
             (false, ..) => Some("the part was not accepted: there is nothing to move by"),
             (_, None, _) => Some("no pose was estimated"),
-            (_, _, None) => {
-                Some("the cell is not calibrated, so nobody knows where the camera stands")
-            }
+            (_, _, None) => Some("the cell is not calibrated, so the camera's pose is not known"),
             _ => None,
         };
         Self {

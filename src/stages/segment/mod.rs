@@ -120,7 +120,7 @@ pub enum NoPart {
     },
     /// Nothing of a part's size is left once the background is gone.
     #[error(
-        "nothing the size of a part stands before the background ({planes} planes removed, largest rest {found:.3} m², needed {needed:.3} m²)"
+        "nothing the size of a part stands in front of the background ({planes} planes removed, largest rest {found:.3} m², needed {needed:.3} m²)"
     )]
     OnlyBackground {
         /// Planes taken away.

@@ -11,7 +11,7 @@ mod work;
 pub(in crate::app) use self::{
     set_up::set_up,
     state::{apply, give_way, restart_consensus, source_changed, update},
-    status::{card, chip},
+    status::{card, chip, words},
 };
 pub use self::{
     state::{Follower, LiveAction, LiveState},

@@ -164,8 +164,8 @@ pub(in crate::app) fn source_changed(state: &mut State) -> Option<Effect> {
 fn start(state: &mut State) {
     if state.source.followed().is_none() {
         let what = match state.source {
-            Source::Scan(_) => "A scan cannot be followed: nothing in it changes",
-            _ => "A single file cannot be followed: nothing in it changes",
+            Source::Scan(_) => "A scan cannot be followed: it does not change",
+            _ => "A single file cannot be followed: it does not change",
         };
         let notice = Notice {
             kind: NoticeKind::Look,
@@ -308,6 +308,7 @@ fn show(state: &mut State, inspected: Arc<Inspected>) {
         return;
     }
     state.use_library(&inspected.library);
+    state.failed = None;
     state.generation += 1;
     state.shown = Some(Shown {
         generation: state.generation,
@@ -331,7 +332,7 @@ fn watch_source(state: &mut State, source: &SourceState) {
         SourceState::Opening => {}
         SourceState::Running => {
             if dismiss_lost_notice(state) {
-                notify(state, Notice::done("The source is there again"));
+                notify(state, Notice::done("The source is back"));
             }
         }
     }

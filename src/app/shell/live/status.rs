@@ -54,7 +54,7 @@ fn record(ui: &mut Ui, session: &Session) -> bool {
     let size = Vec2::new(ui.available_width(), space::TARGET);
     if session.live.recording.is_none() {
         let text = RichText::new("Record…").font(font::small());
-        let says = "Keep every frame that is taken from the source, as it came (Ctrl L)";
+        let says = "Save every frame of the source unchanged (Ctrl L)";
         let button = ui.add(Button::new(text).min_size(size));
         return button.on_hover_text(says).clicked();
     }
@@ -89,21 +89,21 @@ pub(in crate::app) fn chip(ui: &mut Ui, session: &Session, theme: &Theme) {
 }
 
 /// What matters most, and a sign for it.
-fn words(session: &Session) -> (Mark, String) {
+pub(in crate::app) fn words(session: &Session) -> (Mark, String) {
     let name = match &session.source {
         Source::Camera(spec) if matches!(**spec, SourceSpec::Recording(_)) => "Playing",
         Source::Camera(spec) if matches!(**spec, SourceSpec::Watched(_)) => "Watching the folder",
         Source::Camera(_) | Source::Cell(_) | Source::File(_) | Source::Scan(_) => "Live",
     };
     let Some(status) = &session.live.status else {
-        return (Mark::Look, format!("{name} · opening"));
+        return (Mark::Open, format!("{name} · opening"));
     };
     let (sign, what) = match (&status.source, status.stillness) {
-        (SourceState::Lost(_), _) => (Mark::Bad, "lost, looking for it".into()),
-        (SourceState::Opening, _) => (Mark::Look, "opening".into()),
+        (SourceState::Lost(_), _) => (Mark::Bad, "lost, reconnecting".into()),
+        (SourceState::Opening, _) => (Mark::Open, "opening".into()),
         (SourceState::Running, None) => (Mark::Good, "each capture counts".into()),
-        (SourceState::Running, Some(MotionState::Watching)) => (Mark::Look, "looking".into()),
-        (SourceState::Running, Some(MotionState::Moving)) => (Mark::Look, "moving".into()),
+        (SourceState::Running, Some(MotionState::Watching)) => (Mark::Open, "looking".into()),
+        (SourceState::Running, Some(MotionState::Moving)) => (Mark::Open, "moving".into()),
         (SourceState::Running, Some(MotionState::Steady { lasting, .. })) => (
             Mark::Good,
             format!("steady for {:.1} s", lasting.as_secs_f64()),
@@ -119,8 +119,8 @@ fn evidence_text(status: &LiveStatus) -> String {
         num => format!(" · depth of {num}"),
     };
     match (&status.standing, status.stillness) {
-        (_, None) => "Every new file is inspected by itself".into(),
-        (LiveVerdict::Open, _) => "No verdict counts until it hangs still".into(),
+        (_, None) => "Every new file is inspected on its own".into(),
+        (LiveVerdict::Open, _) => "No verdict until the part hangs still".into(),
         (LiveVerdict::Gathering { num_frames, needed }, _) => {
             format!(
                 "{num_frames} of {needed} {}{averaged}",

@@ -89,7 +89,7 @@ pub(super) fn ui(
     ui.add_space(space::SMALL);
     name(ui, dialog);
     if !solved.is_usable() {
-        let text = "Use it although it must not be used";
+        let text = "Use it anyway";
         ui.add(Checkbox::new(&mut dialog.insists, text));
     }
     ui.add_space(space::SMALL);
@@ -154,14 +154,14 @@ fn figures(ui: &mut Ui, found: &SolvedPairs, theme: &Theme) {
     let bounds = &solved.bounds;
     let text = if bounds.shift.0.is_finite() {
         format!(
-            "{:.2} mm and {:.3}° in 95 of 100 cases",
+            "{:.2} mm and {:.3}°",
             bounds.shift.mm(),
             bounds.turn.degrees()
         )
     } else {
-        "the pairs leave it open".into()
+        "not determined by the pairs".into()
     };
-    row(ui, theme, "off by less than", &text);
+    row(ui, theme, "uncertainty (95 %)", &text);
     let span = &solved.span;
     let text = format!(
         "{:.0}° at most, {:.0}° about other axes; target moved {:.0} mm",

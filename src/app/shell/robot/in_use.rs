@@ -33,7 +33,7 @@ pub(super) fn ui(
     let in_use = robot.in_use();
     match in_use {
         None => {
-            let text = "The cell is not calibrated: poses are shown in the camera's frame, and there is nothing to move a robot by";
+            let text = "The cell is not calibrated: poses are in the camera's frame, and a robot cannot use them";
             ui.label(RichText::new(text).color(theme.text));
         }
         Some(in_use) => {
@@ -102,8 +102,8 @@ fn figures(ui: &mut Ui, calibration: &CellCalibration, theme: &Theme) {
             );
             row(ui, theme, "residuals", &rms);
             if let (Some(mm), Some(degrees)) = (fit.bound_mm, fit.bound_degrees) {
-                let bounds = format!("{mm:.2} mm and {degrees:.3}° in 95 of 100 cases");
-                row(ui, theme, "off by less than", &bounds);
+                let bounds = format!("{mm:.2} mm and {degrees:.3}°");
+                row(ui, theme, "uncertainty (95 %)", &bounds);
             }
             for doubt in &fit.doubts {
                 ui.label(RichText::new(sentence(doubt)).color(theme.warning));
@@ -155,7 +155,7 @@ fn arm(
         pose(ui, name, stored, convention, theme);
     } else {
         let unknown = UserError {
-            what: "where the arm stands at a capture is not known: there is no pose for the robot"
+            what: "the flange pose at a capture is not known: there is no pose for the robot"
                 .into(),
             advice: "Type the flange's pose as the controller shows it, and store it".into(),
         };

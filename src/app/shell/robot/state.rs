@@ -259,7 +259,7 @@ impl RobotCell {
             RobotAction::Forget => {
                 self.in_use = None;
                 cx.send(Message::UseCalibration(RememberedCell::Forgotten, None));
-                let what = "The calibration is not used any more; its file stays where it is";
+                let what = "The calibration is no longer used; its file is kept";
                 cx.notify(Notice::done(what));
             }
         }

@@ -37,7 +37,7 @@ pub(in crate::app) fn chip(ui: &mut Ui, state: &State, theme: &Theme, actions: &
         match role {
             UserRole::Operator => {
                 if response
-                    .on_hover_text("Change to the engineer's view (Ctrl K)")
+                    .on_hover_text("Switch to the engineer's view (Ctrl K)")
                     .clicked()
                 {
                     actions.push(Action::Role(RoleAction::Switch));
@@ -62,7 +62,7 @@ fn menu(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
     ui.separator();
     if state.roles.pin.is_none() {
         entry(ui, "Set a PIN…", RoleAction::SetPin);
-        let says = "With one the window starts as the operator's";
+        let says = "With a PIN the window starts in the operator's view";
         ui.label(
             RichText::new(says)
                 .font(font::small())
@@ -73,7 +73,7 @@ fn menu(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
     entry(ui, "Change the PIN…", RoleAction::SetPin);
     entry(ui, "Remove the PIN", RoleAction::RemovePin);
     ui.separator();
-    ui.label(RichText::new("The operator's again, untouched for").font(font::heading()));
+    ui.label(RichText::new("Lock after").font(font::heading()));
     for minutes in LOCK_AFTER {
         let word = if minutes == 1 { "minute" } else { "minutes" };
         let is_so = state.roles.lock_after == minutes;

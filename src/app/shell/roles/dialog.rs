@@ -28,20 +28,20 @@ pub(in crate::app) fn dialog(
     let (title, says, done) = match asked.question {
         RoleQuestion::MayI(_) if asks_pin => (
             "Engineer's view",
-            "Write the PIN: recipe, thresholds, library and cell can be changed then",
+            "Enter the PIN to change recipe, thresholds, library and cell",
             "Unlock",
         ),
         RoleQuestion::MayI(_) => (
             "Engineer's view",
-            "Recipe, thresholds, library and cell can be changed in it",
-            "Change to it",
+            "In this view recipe, thresholds, library and cell can be changed",
+            "Switch",
         ),
         RoleQuestion::NewPin => (
             "New PIN",
-            "Four to eight digits that the engineer's view asks for from now on",
+            "Four to eight digits that protect the engineer's view",
             "Next",
         ),
-        RoleQuestion::NewPinAgain(_) => ("New PIN", "The same digits once more", "Set the PIN"),
+        RoleQuestion::NewPinAgain(_) => ("New PIN", "Enter the same digits again", "Set the PIN"),
     };
     let modal = widgets::dialog(ctx, "role", |ui| {
         ui.set_max_width(3.0 * DIGIT[0] + 2.0 * ui.spacing().item_spacing.x);
@@ -56,7 +56,7 @@ pub(in crate::app) fn dialog(
             let text = RichText::new(wrong).font(font::body_strong());
             ui.label(text.color(theme.warning));
             if state.roles.pin.is_some() {
-                let forgotten = "Forgotten: close Partsight and take the lines below [pin] out of its settings.toml";
+                let forgotten = "Forgotten? Close Partsight and delete the lines below [pin] in its settings.toml";
                 ui.label(
                     RichText::new(forgotten)
                         .font(font::small())

@@ -55,11 +55,11 @@ impl RoleState {
         }
     }
 
-    /// Whose the window is when it starts.
-    pub fn first_role(&self) -> UserRole {
+    /// Whose the window is when it starts: without a PIN whose it was last.
+    pub fn first_role(&self, last: UserRole) -> UserRole {
         match self.pin {
             Some(_) => UserRole::Operator,
-            None => UserRole::Engineer,
+            None => last,
         }
     }
 
@@ -152,13 +152,13 @@ pub(in crate::app) fn apply(state: &mut State, action: RoleAction) -> Option<Eff
         },
         RoleAction::Lock => {
             switch_to_operator(state);
-            let what = "Nobody was at the window for a while: it is the operator's again";
+            let what = "Locked: the window was not used for a while";
             notify(state, Notice::done(what));
         }
         RoleAction::SetPin => own.asked = Some(OpenQuestion::about(RoleQuestion::NewPin)),
         RoleAction::RemovePin => {
             own.pin = None;
-            notify(state, Notice::done("No PIN is asked for any more"));
+            notify(state, Notice::done("PIN removed"));
         }
         RoleAction::LockAfter(minutes) => own.lock_after = minutes,
         RoleAction::Digit(digit) => {
@@ -204,24 +204,24 @@ fn enter(state: &mut State) -> Option<Effect> {
     match question {
         RoleQuestion::MayI(then) => {
             if own.pin.as_ref().is_some_and(|pin| !pin.is(&digits)) {
-                own.asked = again(RoleQuestion::MayI(then), "That is not the PIN");
+                own.asked = again(RoleQuestion::MayI(then), "Wrong PIN");
                 return None;
             }
             state.role = UserRole::Engineer;
             return apply_any(state, *then?);
         }
         RoleQuestion::NewPin if digits.len() < pin::LEAST_DIGITS => {
-            own.asked = again(RoleQuestion::NewPin, "Four digits at least");
+            own.asked = again(RoleQuestion::NewPin, "At least four digits");
         }
         RoleQuestion::NewPin => {
             own.asked = Some(OpenQuestion::about(RoleQuestion::NewPinAgain(digits)));
         }
         RoleQuestion::NewPinAgain(first) if first != digits => {
-            own.asked = again(RoleQuestion::NewPin, "The two differ: write a PIN anew");
+            own.asked = again(RoleQuestion::NewPin, "The two differ: enter a new PIN");
         }
         RoleQuestion::NewPinAgain(_) => {
             own.pin = Some(Pin::of(&digits));
-            let what = "The PIN is set: the window starts as the operator's from now on";
+            let what = "PIN set: the window now starts in the operator's view";
             notify(state, Notice::done(what));
         }
     }

@@ -44,6 +44,8 @@ pub(super) fn needs_engineer(action: &Action) -> bool {
         | Action::Dismiss(_)
         | Action::Notify(_)
         | Action::Quit
+        | Action::CloseAnyway
+        | Action::StayOpen
         | Action::Undo => false,
     }
 }

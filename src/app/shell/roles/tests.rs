@@ -100,7 +100,7 @@ fn with_a_pin_the_window_starts_as_the_operators_and_locks_again() {
         roles: RoleState::starting(state.roles.pin, 15),
         ..State::default()
     };
-    state.role = state.roles.first_role();
+    state.role = state.roles.first_role(UserRole::Engineer);
     assert_eq!(state.role, UserRole::Operator);
     assert_eq!(state.roles.lock_timeout(state.role), None);
     apply(&mut state, RoleAction::Switch);

@@ -1,4 +1,4 @@
-//! Measuring the distance between two picked points.
+//! Measuring the distance between two picked points, and its components along the axes of the view's space.
 
 use egui::{Align2, FontId, Painter, Pos2, Rect, Shape, Stroke, StrokeKind, Vec2 as ScreenVec};
 use glam::Vec3;
@@ -33,6 +33,23 @@ impl Measurement {
         Some(Metres(f64::from(a.distance(b))))
     }
 
+    /// From the first point to the second: the distance, and its components below it.
+    fn words(&self) -> Option<String> {
+        let [Some(a), Some(b)] = self.points else {
+            return None;
+        };
+        let axes = [("X", b.x - a.x), ("Y", b.y - a.y), ("Z", b.z - a.z)];
+        let along = axes.map(|(axis, metres)| {
+            let mm = Metres(f64::from(metres)).mm();
+            // No sign before what is shown as zero.
+            let mm = if mm.abs() < 0.05 { 0.0 } else { mm };
+            format!("Δ{axis} {mm:+.1}")
+                .replace("+0.0", "0.0")
+                .replace('-', "\u{2212}")
+        });
+        Some(format!("{}\n{} mm", self.distance()?, along.join("  ")))
+    }
+
     /// What a person is to do next; nothing once there is a distance.
     pub(super) fn next_step(&self) -> Option<&'static str> {
         match self.points {
@@ -57,14 +74,8 @@ impl Measurement {
         for at in seen.into_iter().flatten() {
             painter.circle(at, 4.0, colours.background, stroke);
         }
-        if let ([Some(a), Some(b)], Some(distance)) = (seen, self.distance()) {
-            plate(
-                painter,
-                a + (b - a) / 2.0,
-                &distance.to_string(),
-                style,
-                Anchor::Middle,
-            );
+        if let ([Some(a), Some(b)], Some(words)) = (seen, self.words()) {
+            plate(painter, a + (b - a) / 2.0, &words, style, Anchor::Middle);
         }
     }
 }
@@ -126,7 +137,12 @@ mod tests {
         let distance = measure.distance().expect("two points");
         assert!((distance.mm() - 500.0).abs() < 1e-3);
         assert_eq!(measure.next_step(), None);
+        let words = "500.0 mm\nΔX +300.0  ΔY +400.0  ΔZ 0.0 mm";
+        assert_eq!(measure.words().as_deref(), Some(words));
         measure.add(Vec3::ONE);
         assert_eq!(measure.distance(), None);
+        measure.add(Vec3::new(0.5, 1.0, 1.2));
+        let words = "538.5 mm\nΔX \u{2212}500.0  ΔY 0.0  ΔZ +200.0 mm";
+        assert_eq!(measure.words().as_deref(), Some(words));
     }
 }

@@ -292,7 +292,7 @@ fn true_error(ui: &mut Ui, align: &AlignState, session: &Session, theme: &Theme)
     let title = if is_known {
         "True error at this start"
     } else {
-        "Off by less than, in 95 of 100 cases"
+        "Uncertainty (95 %)"
     };
     heading(ui, theme, title);
     ui.spacing_mut().interact_size.y = 20.0;
@@ -350,7 +350,7 @@ fn export(ui: &mut Ui, theme: &Theme, actions: &mut Vec<AlignAction>) {
         let copy = Button::new("Copy").min_size(vec2(ui.available_width(), space::TARGET));
         if ui
             .add(copy)
-            .on_hover_text("Table I as text, cells parted by tabs")
+            .on_hover_text("Table I as text, cells separated by tabs")
             .clicked()
         {
             actions.push(AlignAction::CopyTable);

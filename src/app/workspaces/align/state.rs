@@ -22,6 +22,7 @@ use crate::{
         task::{Running, Task, TaskEvent, TaskRunner},
     },
     geometry::written_pose::parse_pose,
+    pipeline::Verdict,
 };
 
 /// What the workspace knows.
@@ -209,7 +210,14 @@ impl AlignState {
     /// Carries out an action.
     pub fn apply(&mut self, action: AlignAction, cx: &mut ShellContext<'_>) {
         match action {
-            AlignAction::Choose(pairing) => self.pairing = pairing,
+            AlignAction::Choose(pairing) => {
+                if pairing == Pairing::Scene
+                    && let Some(recognised) = recognised(cx.session)
+                {
+                    self.part = Some(recognised);
+                }
+                self.pairing = pairing;
+            }
             AlignAction::ChoosePart(part) => self.part = Some(part),
             AlignAction::ChooseStart(start) => self.start = start,
             AlignAction::DrawStart => {
@@ -362,6 +370,15 @@ impl AlignState {
         self.task.cancel();
         self.coming = Some(pair);
         runs.into_iter().for_each(|run| self.add_run(run));
+    }
+}
+
+/// The enrolled part that the scene in front was recognised as, accepted or not.
+fn recognised(session: &Session) -> Option<String> {
+    let inspected = &session.shown.as_ref()?.inspected;
+    match &inspected.inspection.verdict {
+        Verdict::Part { part, .. } => Some(part.clone()),
+        Verdict::NoPart(_) => None,
     }
 }
 

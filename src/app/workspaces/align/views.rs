@@ -115,7 +115,7 @@ impl LinkedViews {
         }
         if align.is_pair_at_work() && align.coming.is_some() {
             let at = all.center_bottom() - vec2(0.0, 12.0);
-            let text = "Old result: a new one is on its way";
+            let text = "Previous result: a new inspection is running";
             ui.painter().text(
                 at,
                 Align2::CENTER_BOTTOM,

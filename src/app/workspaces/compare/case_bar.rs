@@ -19,7 +19,7 @@ use crate::{
 const WIDE: f32 = 800.0;
 
 /// What is asked while nobody said what the case is.
-const ASKED: &str = "what is it truly?";
+const ASKED: &str = "which part is it actually?";
 
 /// Draws the bar.
 pub(super) fn ui(
@@ -167,29 +167,34 @@ fn truth_menu(
         || "Choose… ▼".to_owned(),
         |truth| format!("{} ▼", chosen_title(truth, library)),
     );
-    menu(ui, &title, "What truly hung before the camera", &mut |ui| {
-        let parts = library.parts.iter();
-        let parts = parts.map(|part| Truth::Part(part.name.as_str().to_owned()));
-        // However many parts there are, what is none of them comes in sight first.
-        let others = [Truth::NotEnrolled, Truth::Nothing];
-        let num_others = others.len();
-        for (place, truth) in others.into_iter().chain(parts).enumerate() {
-            if place == num_others {
-                ui.separator();
+    menu(
+        ui,
+        &title,
+        "What actually hung in front of the camera",
+        &mut |ui| {
+            let parts = library.parts.iter();
+            let parts = parts.map(|part| Truth::Part(part.name.as_str().to_owned()));
+            // However many parts there are, what is none of them comes in sight first.
+            let others = [Truth::NotEnrolled, Truth::Nothing];
+            let num_others = others.len();
+            for (place, truth) in others.into_iter().chain(parts).enumerate() {
+                if place == num_others {
+                    ui.separator();
+                }
+                let title = chosen_title(&truth, library);
+                let response = ui.selectable_label(chosen == Some(&truth), &title);
+                // Other lists name the same parts.
+                response.widget_info(|| {
+                    let label = format!("Actual part: {title}");
+                    WidgetInfo::labeled(egui::Role::Button, true, label)
+                });
+                if response.clicked() {
+                    acts.push(CompareAction::SetTruth(truth));
+                    ui.close();
+                }
             }
-            let title = chosen_title(&truth, library);
-            let response = ui.selectable_label(chosen == Some(&truth), &title);
-            // Other lists name the same parts.
-            response.widget_info(|| {
-                let label = format!("It is: {title}");
-                WidgetInfo::labeled(egui::Role::Button, true, label)
-            });
-            if response.clicked() {
-                acts.push(CompareAction::SetTruth(truth));
-                ui.close();
-            }
-        }
-    });
+        },
+    );
 }
 
 fn against_menu(
@@ -257,7 +262,7 @@ fn case_buttons(
             }
             let keep = Button::new("Keep case").shortcut_text(key("K").color(theme.weak_text));
             let hover = if compare.truth.is_some() {
-                "Keep this scene with what it truly is"
+                "Keep this scene with its actual part"
             } else {
                 "Choose first what it is"
             };

@@ -21,7 +21,7 @@ impl CompareState {
         let Some(study) = study else {
             return cx.notify(Notice::look(
                 "There is no case to keep yet",
-                "Capture or open a scene, and wait until it was inspected",
+                "Capture or open a scene, and wait until it is inspected",
             ));
         };
         if matches!(self.front, Front::Kept(_)) {

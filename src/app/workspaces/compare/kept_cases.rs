@@ -155,8 +155,9 @@ fn header(
         let tally = &run.matrix.tally;
         // The worst is said first.
         let wrong = match tally.wrong_accepted {
-            0 => RichText::new("none wrong and accepted").color(theme.accepted),
-            num => RichText::new(format!("{num} wrong and accepted")).color(theme.rejected),
+            0 => RichText::new("no false accepts").color(theme.accepted),
+            1 => RichText::new("1 false accept").color(theme.rejected),
+            num => RichText::new(format!("{num} false accepts")).color(theme.rejected),
         };
         ui.label(wrong.font(font::body_strong()));
         let refused = match tally.refused {
@@ -342,7 +343,7 @@ fn matrix(ui: &mut Ui, matrix: &Matrix, theme: &Theme, acts: &mut Vec<CompareAct
         let num = cell.results.len();
         let (colour, word) = match cell.judgement {
             CaseOutcome::Right => (theme.accepted, "right"),
-            CaseOutcome::WrongAccepted => (theme.rejected, "wrong and accepted"),
+            CaseOutcome::WrongAccepted => (theme.rejected, "false accept"),
             CaseOutcome::Refused => (theme.warning, "wrongly refused"),
         };
         let label = match &cell.cell.1 {

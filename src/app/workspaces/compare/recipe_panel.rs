@@ -320,7 +320,7 @@ fn outcome(
             let (word, colour) = match (judgement, found.accepted) {
                 (Some(CaseOutcome::Right), true) => ("Right and accepted", theme.accepted),
                 (Some(CaseOutcome::Right), false) => ("Rightly refused", theme.accepted),
-                (Some(CaseOutcome::WrongAccepted), _) => ("Wrong and accepted", theme.rejected),
+                (Some(CaseOutcome::WrongAccepted), _) => ("False accept", theme.rejected),
                 (Some(CaseOutcome::Refused), _) => ("Wrongly refused", theme.warning),
                 (None, true) => ("Accepted", theme.text),
                 (None, false) => ("Whether rightly is not known", theme.text),

@@ -173,7 +173,7 @@ fn free_name(
     name: &str,
     is_taken: impl Fn(&str) -> bool,
 ) -> Result<PartName, crate::library::BadName> {
-    let number = (2..).find(|number| !is_taken(&format!("{name}_{number}")));
+    let number = (2..10_000).find(|number| !is_taken(&format!("{name}_{number}")));
     PartName::new(&format!("{name}_{}", number.unwrap_or(2)))
 }
 

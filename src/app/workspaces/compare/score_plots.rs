@@ -126,7 +126,7 @@ pub(super) fn trade_off(ui: &mut Ui, trade_off: &TradeOff, threshold: f64, theme
         plot.vline(VLine::new("", threshold).color(theme.text));
     });
     let curves = [
-        ("wrong and accepted", theme.rejected, LineStyle::Solid),
+        ("false accepts", theme.rejected, LineStyle::Solid),
         ("parts refused", theme.first_series, REFUSED),
     ];
     legend(ui.painter(), &shown, curves);

@@ -59,6 +59,7 @@ pub(super) fn ui(
                 if let Some(field) = fields::ui(ui, &open.form, theme) {
                     actions.push(EnrolAction::WriteOpen(field));
                 }
+                super::form::shared_title(ui, &open.form, session, theme);
                 let words = open.form.words();
                 let has_changed = words.is_ok_and(|words| words != part.words());
                 ui.add_enabled_ui(has_changed, |ui| {
@@ -70,7 +71,7 @@ pub(super) fn ui(
                 if button(ui, "Spray path…") {
                     actions.push(EnrolAction::Ask(EnrolFile::SprayPath));
                 }
-                if part.spray.is_some() && button(ui, "Take the spray path away") {
+                if part.spray.is_some() && button(ui, "Remove the spray path") {
                     let name = open.name.clone();
                     actions.push(EnrolAction::RemovePath(name));
                 }
@@ -102,7 +103,7 @@ pub(super) fn ui(
 fn origin(ui: &mut Ui, part: &PartMeta, theme: &Theme) {
     let at = part.enrolled.at.to_zoned(jiff::tz::TimeZone::system());
     let seen = if part.simulated {
-        "simulated: no camera saw it"
+        "simulated, not from a camera"
     } else {
         "seen by a camera"
     };

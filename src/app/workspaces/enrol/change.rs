@@ -16,8 +16,8 @@ use crate::{
 /// A change of the library.
 #[derive(Clone, Debug)]
 pub enum LibraryChange {
-    /// Save what was prepared; a part of the same name is replaced.
-    Save(Arc<Enrolled>, PartNaming),
+    /// Save what was prepared, as one more reference of another part if there is one; a part of the same name is replaced.
+    Save(Arc<Enrolled>, PartNaming, Option<PartName>),
     /// Call a part otherwise.
     Rename(PartName, PartNaming),
     /// Move a part to the trash.
@@ -85,8 +85,8 @@ fn make(
     title_of: &dyn Fn(&PartName) -> String,
 ) -> Result<(String, LibraryChange, Option<PartName>), LibraryError> {
     Ok(match change {
-        LibraryChange::Save(enrolled, words) => {
-            let part = described(&enrolled.part, words);
+        LibraryChange::Save(enrolled, words, of) => {
+            let part = described(&enrolled.part, words, of.as_ref());
             let Saved {
                 replaced,
                 left_path,
@@ -95,9 +95,11 @@ fn make(
             let title = part.meta.shown_title();
             let what = match &replaced {
                 Some(_) if left_path => format!(
-                    "Saved {title}; the former one is kept in the library's trash, and its spray path with it: store one for the new frame"
+                    "Saved {title}; the previous version is kept in the library's trash, and its spray path with it: store one for the new frame"
                 ),
-                Some(_) => format!("Saved {title}; the former one is kept in the library's trash"),
+                Some(_) => {
+                    format!("Saved {title}; the previous version is kept in the library's trash")
+                }
                 None => format!("Saved {title}"),
             };
             let name = words.name.clone();
@@ -111,7 +113,7 @@ fn make(
         LibraryChange::Rename(name, words) => {
             let before = folder.rename(name, words)?.before;
             let what = if before.name == words.name {
-                format!("Changed what {name} is called")
+                format!("Changed the title of {name}")
             } else {
                 format!("Renamed {} to {}", before.name, words.name)
             };
@@ -141,7 +143,7 @@ fn make(
                     "Stored a spray path of {} points with {title}",
                     path.points().len()
                 ),
-                None => format!("Took the spray path of {title} away"),
+                None => format!("Removed the spray path of {title}"),
             };
             let back = LibraryChange::SetPath(name.clone(), former);
             (what, back, Some(name.clone()))
@@ -151,12 +153,14 @@ fn make(
 }
 
 /// The part under the words that a person found for it.
-fn described(part: &Part, words: &PartNaming) -> Part {
+fn described(part: &Part, words: &PartNaming, of: Option<&PartName>) -> Part {
     Part {
         meta: PartMeta {
             name: words.name.clone(),
             title: words.title.clone(),
             notes: words.notes.clone(),
+            // One that replaces the part's own stays that.
+            part: of.filter(|of| **of != words.name).cloned(),
             ..part.meta.clone()
         },
         ..part.clone()

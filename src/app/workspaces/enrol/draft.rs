@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     app::{inspection::library_cache::LibraryView, user_error::UserError},
-    library::{BadName, MAX_TITLE, PartName, PartNaming, Similarity},
+    library::{BadName, MAX_TITLE, PartMeta, PartName, PartNaming, SharedTitle, Similarity},
 };
 
 /// The part that is about to be enrolled.
@@ -38,7 +38,9 @@ impl Draft {
     /// The enrolled part that it is hardest to tell from, the one that it replaces left out.
     pub fn hardest(&self) -> Option<&Similarity> {
         let mut all = self.ready()?.likenesses.iter();
-        all.find(|likeness| likeness.other != self.form.name)
+        let of = self.form.reference_of.as_ref().map(PartName::as_str);
+        // References of one part are alike.
+        all.find(|likeness| likeness.other != self.form.name && Some(likeness.other.as_str()) != of)
     }
 }
 
@@ -53,6 +55,8 @@ pub struct Form {
     pub notes: String,
     /// Who wrote the name.
     pub named_by: NamedBy,
+    /// The part that it is one more reference of, if it is none of its own.
+    pub reference_of: Option<PartName>,
 }
 
 /// Who wrote a name.
@@ -74,12 +78,16 @@ pub enum Field {
     Name(String),
     /// Notes.
     Notes(String),
+    /// The part that it is one more reference of.
+    ReferenceOf(Option<PartName>),
 }
 
 impl Form {
     /// What an enrolled part is called.
-    pub fn of(words: PartNaming) -> Self {
+    pub fn of(part: &PartMeta) -> Self {
+        let words = part.words();
         Self {
+            reference_of: part.reference_of().cloned(),
             title: words.title,
             name: words.name.to_string(),
             notes: words.notes,
@@ -107,6 +115,7 @@ impl Form {
                 self.name = name;
             }
             Field::Notes(notes) => self.notes = notes,
+            Field::ReferenceOf(part) => self.reference_of = part,
         }
     }
 
@@ -117,6 +126,13 @@ impl Form {
             title: self.title.trim().to_owned(),
             notes: self.notes.trim().to_owned(),
         })
+    }
+
+    /// Another part that has the title.
+    pub fn shared_title(&self, library: &LibraryView) -> Option<SharedTitle> {
+        let of = self.reference_of.as_ref().map(PartName::as_str);
+        let of = of.unwrap_or(&self.name);
+        SharedTitle::among(&self.title, &self.name, of, &library.parts)
     }
 
     /// The enrolled part of this name.

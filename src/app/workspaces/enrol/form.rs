@@ -6,7 +6,7 @@ use egui::{
 
 use super::{
     EnrolAction, EnrolState,
-    draft::Draft,
+    draft::{Draft, Field, Form},
     fields::{self, complaint, said},
     thumbnails::Thumbnails,
     title_of,
@@ -20,6 +20,7 @@ use crate::{
             widgets::{Mark, fitted, grouped, labelled, shortened},
         },
     },
+    error::Advice as _,
     library::PartName,
     stages::reference::Coverage,
 };
@@ -61,14 +62,16 @@ pub(super) fn ui(
         let title = what_save_does(enrol, session);
         ui.label(RichText::new(title).font(font::verdict()).color(theme.text));
         if enrol.is_taking_another() {
-            let text = RichText::new("Old: another one is on its way");
+            let text = RichText::new("Previous draft: a new one is being prepared");
             ui.label(text.font(font::body_strong()).color(theme.warning));
         }
         stored(ui, draft, enrol, session, thumbnails, theme, actions);
         if let Some(field) = fields::ui(ui, &draft.form, theme) {
             actions.push(EnrolAction::Write(field));
         }
+        reference_menu(ui, draft, session, theme, actions);
         namesake(ui, draft, enrol, session, theme);
+        shared_title(ui, &draft.form, session, theme);
         if let Some(fused) = draft.subject.scan() {
             summary(ui, fused, session.units, theme);
         }
@@ -102,7 +105,7 @@ fn unready(draft: &Draft) -> Option<&'static str> {
     match &draft.checked {
         Some(Err(_)) => Some("Nothing can be saved yet: see above"),
         _ if has_no_words => Some("Give it a title first"),
-        _ if draft.form.words().is_err() => Some("Mend the name first"),
+        _ if draft.form.words().is_err() => Some("Fix the name first"),
         None => Some("What will be stored is not known yet"),
         Some(Ok(_)) => None,
     }
@@ -145,7 +148,7 @@ fn stored(
         };
         small(ui, shortened(&draft.subject.origin.title(), 40));
         if draft.subject.origin.is_simulated() {
-            small(ui, "Simulated: no camera saw it".into());
+            small(ui, "Simulated".into());
         }
         let num_kept = draft.selection.indices.len();
         small(ui, format!("{} points kept", grouped(num_kept)));
@@ -156,7 +159,7 @@ fn stored(
             small(ui, format!("Openings {}", part.signature.openings_m.len()));
             small(ui, seen_from(part.meta.coverage).into());
         } else if is_working {
-            small(ui, "Looking at the part…".into());
+            small(ui, "Examining the part…".into());
         }
     }
     match &draft.checked {
@@ -179,6 +182,61 @@ fn seen_from(coverage: Coverage) -> &'static str {
     }
 }
 
+/// The part that it becomes one more reference of; by itself a part of its own.
+fn reference_menu(
+    ui: &mut Ui,
+    draft: &Draft,
+    session: &Session,
+    theme: &Theme,
+    actions: &mut Vec<EnrolAction>,
+) {
+    let Some(library) = session.library.as_ref().filter(|all| !all.parts.is_empty()) else {
+        return;
+    };
+    let chosen = draft.form.reference_of.as_ref();
+    let name = RichText::new("One more reference of").font(font::small());
+    ui.label(name.color(theme.weak_text));
+    let title = |of: Option<&PartName>| match of {
+        Some(of) => library.title_of(of.as_str()).to_owned(),
+        None => "No other part".to_owned(),
+    };
+    let menu = ui.menu_button(format!("{} ▼", shortened(&title(chosen), 30)), |ui| {
+        let own = library
+            .parts
+            .iter()
+            .filter(|part| part.reference_of().is_none() && part.name.as_str() != draft.form.name);
+        let choices = std::iter::once(None).chain(own.map(|part| Some(&part.name)));
+        ScrollArea::vertical().max_height(420.0).show(ui, |ui| {
+            for of in choices {
+                let title = title(of);
+                let response = ui.selectable_label(of == chosen, &title);
+                response.widget_info(|| {
+                    let label = format!("Reference of: {title}");
+                    egui::WidgetInfo::labeled(egui::Role::Button, true, label)
+                });
+                if response.clicked() {
+                    let field = Field::ReferenceOf(of.cloned());
+                    actions.push(EnrolAction::Write(field));
+                    ui.close();
+                }
+            }
+        });
+    });
+    let label = format!("One more reference of: {}", title(chosen));
+    let button = menu.response;
+    button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &label));
+    button
+        .on_hover_text("Another view or model of a part that is enrolled: verdicts name that part");
+}
+
+/// Says that another part has this title.
+pub(super) fn shared_title(ui: &mut Ui, form: &Form, session: &Session, theme: &Theme) {
+    let library = session.library.as_deref();
+    if let Some(shared) = library.and_then(|library| form.shared_title(library)) {
+        complaint(ui, &shared.to_string(), &shared.advice(), theme);
+    }
+}
+
 /// Says that a part of this name is there already.
 fn namesake(ui: &mut Ui, draft: &Draft, enrol: &EnrolState, session: &Session, theme: &Theme) {
     let library = session.library.as_deref();
@@ -186,7 +244,7 @@ fn namesake(ui: &mut Ui, draft: &Draft, enrol: &EnrolState, session: &Session, t
     let is_chosen = enrol.replacing.as_ref().map(PartName::as_str) == Some(&draft.form.name);
     if let Some(title) = namesake.filter(|_| !is_chosen) {
         let what = format!("{title} has this name already");
-        let advice = "Saving replaces it; the former one can be brought back";
+        let advice = "Saving replaces it; the previous version can be restored";
         complaint(ui, &what, advice, theme);
     }
 }

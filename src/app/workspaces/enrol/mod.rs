@@ -67,7 +67,7 @@ const SHORTCUTS: [Shortcut<EnrolAction>; 3] = [
         modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
         key: Key::Z,
         keys: "Ctrl Shift Z",
-        does: "Do again what was undone last",
+        does: "Redo the last undone change",
         action: || EnrolAction::Redo,
     },
     Shortcut {
@@ -170,6 +170,10 @@ impl Workspace for EnrolWorkspace {
         if let Some(shortcut) = SHORTCUTS.get(place) {
             self.state.apply((shortcut.action)(), cx);
         }
+    }
+
+    fn unsaved(&self) -> Option<String> {
+        self.state.unsaved()
     }
 
     fn running(&self) -> Option<&Running> {
@@ -336,11 +340,11 @@ fn empty(
         }
         let replaced = enrol.replaced_title(session);
         let title = match replaced {
-            Some(title) => format!("Show what shall replace {title}"),
+            Some(title) => format!("Capture the replacement for {title}"),
             None => "Show the part to enrol".to_owned(),
         };
         ui.label(RichText::new(title).font(font::title()).color(theme.text));
-        let how = "Hang it before the camera and press Capture, open a capture, a cloud or a mesh, or drop its file here";
+        let how = "Hang it in front of the camera and press Capture, open a capture, a cloud or a mesh, or drop its file here";
         let how = RichText::new(how).color(theme.weak_text);
         ui.scope(|ui| {
             ui.set_max_width(460.0);
@@ -350,7 +354,7 @@ fn empty(
         if let Some(shown) = &session.shown {
             let origin = shown.inspected.origin.title();
             let text = format!("Take {origin}, which Inspect shows");
-            let label = "Take the inspected scene";
+            let label = "Use the inspected scene";
             let button = Button::new(RichText::new(text).color(theme.on_accent));
             let button = ui.add(button.fill(theme.accent).min_size(vec2(260.0, 48.0)));
             button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, label));

@@ -24,7 +24,7 @@ use crate::{
         task::{Running, Task, TaskContext, TaskError, TaskEvent, TaskRunner},
         user_error::UserError,
     },
-    library::{PartName, PartNaming},
+    library::PartName,
 };
 
 /// What the workspace knows.
@@ -137,6 +137,18 @@ impl EnrolState {
         self.running().is_some() && self.job == DraftJob::Take
     }
 
+    /// The draft, if a person has put work into it.
+    pub fn unsaved(&self) -> Option<String> {
+        let draft = self.draft.as_ref()?;
+        let Form { title, notes, .. } = &draft.form;
+        let is_worked_on =
+            !(title.is_empty() && notes.is_empty() && draft.corrections.edits.is_empty());
+        is_worked_on.then(|| match title.trim() {
+            "" => "The part in Enrol is not saved".to_owned(),
+            title => format!("{title}, the part in Enrol, is not saved"),
+        })
+    }
+
     /// True while the library is being changed.
     pub fn is_changing_library(&self) -> bool {
         self.change_task.running().is_some()
@@ -199,9 +211,9 @@ impl EnrolState {
                 self.change(LibraryChange::Remove(name), DraftEffect::Stays, cx);
             }
             EnrolAction::Replace(name) => {
-                if let Some(words) = words_of(&name, library) {
+                if let Some(form) = form_of(&name, library) {
                     if let Some(draft) = &mut self.draft {
-                        draft.form = Form::of(words);
+                        draft.form = form;
                     }
                     self.replacing = Some(name);
                     self.open = None;
@@ -339,12 +351,9 @@ impl EnrolState {
             Arc::clone(&cx.session.recipe),
             cx.services.library_cache.clone(),
         );
-        self.start(
-            "Looking at the part",
-            DraftJob::Look,
-            None,
-            move |context| work::look(&subject, &corrections, &recipe, &library_cache, context),
-        );
+        self.start("Examining the part", DraftJob::Look, None, move |context| {
+            work::look(&subject, &corrections, &recipe, &library_cache, context)
+        });
     }
 
     fn save(&mut self, cx: &mut ShellContext<'_>) {
@@ -358,7 +367,8 @@ impl EnrolState {
                 "Save once the picture of what will be stored is there",
             )),
             (Ok(words), Some(checked)) => {
-                let save = LibraryChange::Save(Arc::clone(&checked.enrolled), words);
+                let of = draft.form.reference_of.clone();
+                let save = LibraryChange::Save(Arc::clone(&checked.enrolled), words, of);
                 self.change(save, DraftEffect::MakesWay(None), cx);
             }
         }
@@ -378,17 +388,16 @@ impl EnrolState {
     }
 
     pub(super) fn look_at(&mut self, name: PartName, library: Option<&LibraryView>) {
-        let words = words_of(&name, library);
         // A damaged one cannot be described; it can be removed.
-        let form = words.map_or_else(Form::default, Form::of);
+        let form = form_of(&name, library).unwrap_or_default();
         self.open = Some(OpenedPart { name, form });
     }
 }
 
-pub(super) fn words_of(name: &PartName, library: Option<&LibraryView>) -> Option<PartNaming> {
+pub(super) fn form_of(name: &PartName, library: Option<&LibraryView>) -> Option<Form> {
     let library = library?;
     let part = library.parts.get(library.place_of(name.as_str())?)?;
-    Some(part.words())
+    Some(Form::of(part))
 }
 
 #[cfg(test)]

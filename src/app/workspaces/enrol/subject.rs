@@ -36,7 +36,7 @@ impl InitialSelection {
     /// What a person calls it.
     pub fn title(self) -> &'static str {
         match self {
-            Self::Segmented => "Before the background",
+            Self::Segmented => "In front of background",
             Self::Whole => "Everything",
         }
     }

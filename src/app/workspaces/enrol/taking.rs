@@ -6,7 +6,7 @@ use super::{
     action::{EnrolAction, EnrolFile},
     draft::{Draft, Form},
     selection::{Corrections, Selection},
-    state::{DraftJob, EnrolState, words_of},
+    state::{DraftJob, EnrolState, form_of},
     subject::EnrolInput,
     undo::UndoStep,
     work,
@@ -112,9 +112,9 @@ impl EnrolState {
         let former = self.draft.take();
         let library = cx.session.library.as_deref();
         let replaced = self.replacing.as_ref();
-        let replaced = replaced.and_then(|name| words_of(name, library));
+        let replaced = replaced.and_then(|name| form_of(name, library));
         let form = match (replaced, &former) {
-            (Some(words), _) => Form::of(words),
+            (Some(form), _) => form,
             (None, Some(former)) => former.form.clone(),
             (None, None) => Form::default(),
         };

@@ -57,7 +57,7 @@ pub(super) fn ui(
         ui.horizontal(|ui| steps(ui, draft, enrol, actions));
     }
     if !can_correct {
-        let text = "A mesh is enrolled whole: cut it where it was made";
+        let text = "A mesh is enrolled whole: crop it in the program that made it";
         ui.label(
             RichText::new(text)
                 .font(font::small())

@@ -6,7 +6,7 @@ use super::{
     change::{self, Changed, LibraryChange},
     draft::Draft,
     selection::Corrections,
-    state::{EnrolState, words_of},
+    state::{EnrolState, form_of},
 };
 use crate::{
     app::{
@@ -229,7 +229,7 @@ impl EnrolState {
                 draft.form.name = words.name.to_string();
                 draft.form.title.clone_from(&words.title);
             }
-        } else if words_of(replaced, Some(library)).is_none() {
+        } else if form_of(replaced, Some(library)).is_none() {
             self.replacing = None;
         }
     }

@@ -244,8 +244,8 @@ impl HistoryState {
         // Once is enough: it will not become quicker by being said again.
         if !std::mem::replace(&mut self.is_crowded, true) {
             cx.notify(Notice::look(
-                "The history cannot keep up: the frames of some inspections are not kept",
-                "Keep fewer frames (Frames… in History), or use a quicker disk",
+                "The history cannot keep up: the frames of some inspections were not saved",
+                "Keep fewer frames (Frames… in History), or use a faster disk",
             ));
         }
         self.refresh_if_stale(cx);
@@ -259,7 +259,7 @@ impl HistoryState {
                 let aside = aside.display();
                 cx.notify(Notice::look(
                     format!("The history: {what}"),
-                    format!("It was set aside as {aside}; a new one is begun"),
+                    format!("It was set aside as {aside}; a new one was started"),
                 ));
             }
             HistoryEvent::Failed { what, advice } => {
@@ -268,18 +268,18 @@ impl HistoryState {
                 let mut notice = Notice::from(error);
                 notice
                     .advice
-                    .push_str("; inspections go on, and are kept in memory until then");
+                    .push_str("; until then inspections are kept in memory");
                 cx.notify(notice);
             }
             HistoryEvent::Works { numbers, num_lost } => {
                 self.trouble = None;
                 self.renumber(&numbers);
                 let mut what = format!(
-                    "The history is written again: {} that waited",
+                    "The history is writable again: saved {} that waited",
                     inspections(numbers.len())
                 );
                 if num_lost > 0 {
-                    what = format!("{what}, {} were too many", inspections(num_lost));
+                    what = format!("{what}, lost {}", inspections(num_lost));
                 }
                 cx.notify(Notice::done(what));
             }
@@ -293,7 +293,7 @@ impl HistoryState {
             }) => {
                 let megabytes = num_bytes as f64 / 1e6;
                 let what = format!(
-                    "The history let go of {}, {megabytes:.1} MB, by the rule for frames",
+                    "The retention rule removed {}, {megabytes:.1} MB, from the history",
                     frames(num_frames)
                 );
                 cx.notify(Notice::done(what));

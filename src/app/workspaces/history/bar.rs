@@ -63,7 +63,7 @@ fn action_buttons(ui: &mut Ui, history: &HistoryState, actions: &mut Vec<History
         ),
         (
             "Export cases…",
-            "Keep the listed inspections that have a frame and a true label as cases, for Compare and partsight evaluate",
+            "Save the listed inspections that have a frame and an actual part as cases, for Compare and partsight evaluate",
             HistoryFile::Cases,
         ),
     ];

@@ -137,7 +137,7 @@ fn verdict(ui: &mut Ui, record: &Record, theme: &Theme) {
         ui.label(word.color(colour));
     });
     if summary.is_simulated {
-        let text = "Simulated: no camera saw it";
+        let text = "Simulated, not from a camera";
         ui.label(RichText::new(text).color(theme.warning));
     }
     if let Some([reason, advice]) = &record.detail.complaint {
@@ -271,7 +271,7 @@ fn buttons(ui: &mut Ui, record: &Record, theme: &Theme, actions: &mut Vec<Histor
             .shortcut_text(key.color(theme.on_accent))
             .fill(theme.accent);
         if labelled(ui, open, "Open")
-            .on_hover_text("With every stage, by its own recipe")
+            .on_hover_text("Open with every stage, using its own recipe")
             .clicked()
         {
             actions.push(HistoryAction::Open(number));
@@ -279,7 +279,7 @@ fn buttons(ui: &mut Ui, record: &Record, theme: &Theme, actions: &mut Vec<Histor
         let key = RichText::new("A").font(font::small());
         let again = Button::new("Inspect again").shortcut_text(key.color(theme.weak_text));
         if labelled(ui, again, "Inspect again")
-            .on_hover_text("With the recipe and the library now in use: what changed is shown here")
+            .on_hover_text("Use the current recipe and library; changes are shown here")
             .clicked()
         {
             actions.push(HistoryAction::InspectAgain(number));

@@ -20,9 +20,9 @@ type FindingText<'a> = &'a dyn Fn(&InspectionSummary) -> String;
 pub(super) fn today(ui: &mut Ui, found: &Differences, units: UnitSystem, theme: &Theme) {
     heading(ui, theme, "Inspected again");
     let sentence = if found.is_same() {
-        "The same is found today"
+        "Same result today"
     } else {
-        "Something else is found today"
+        "Different result today"
     };
     table(ui, found, sentence, ["then", "today"], units, theme);
 }

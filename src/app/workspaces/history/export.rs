@@ -74,7 +74,7 @@ fn write_cases(
     if kept.num_kept == 0 {
         return Err(UserError {
             what: format!("No inspection became a case: {}", kept.in_words()),
-            advice: "Say of some what they truly are, and keep their frames".into(),
+            advice: "Set the actual part of some inspections, and keep their frames".into(),
         });
     }
     Ok(format!("{} in {}", kept.in_words(), folder.display()))

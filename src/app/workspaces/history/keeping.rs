@@ -24,7 +24,7 @@ pub(super) fn ui(
     let mut rule = known;
     let modal = widgets::dialog(ctx, "frames that are kept", |ui| {
         ui.set_max_width(520.0);
-        let title = RichText::new("Frames that are kept").font(font::verdict());
+        let title = RichText::new("Frames to keep").font(font::verdict());
         ui.label(title.color(theme.text));
         ui.add_space(space::SMALL);
         let why = "With its frame an inspection can be opened again with every stage. The inspections themselves are kept for good.";
@@ -39,8 +39,8 @@ pub(super) fn ui(
         ui.add_space(space::MEDIUM);
         let mut closing = None;
         ui.horizontal(|ui| {
-            let text = RichText::new("Keep so").color(theme.on_accent);
-            if labelled(ui, Button::new(text).fill(theme.accent), "Keep so").clicked() {
+            let text = RichText::new("Apply").color(theme.on_accent);
+            if labelled(ui, Button::new(text).fill(theme.accent), "Apply").clicked() {
                 closing = Some(true);
             }
             if labelled(ui, Button::new("Close"), "Close").clicked() {
@@ -61,7 +61,7 @@ pub(super) fn ui(
 }
 
 fn rows(ui: &mut Ui, rule: &mut Retention) {
-    ui.label("Of which inspections");
+    ui.label("From which inspections");
     ui.horizontal(|ui| {
         for keep in KeepFrames::ALL {
             let button = Button::selectable(rule.keep == keep, keep.title());
@@ -98,7 +98,7 @@ fn used(ui: &mut Ui, usage: Usage, theme: &Theme) {
     );
     ui.label(RichText::new(text).color(theme.text));
     let text = format!(
-        "Those with a remark or a true label stay: {}",
+        "Those with a remark or an actual part stay: {}",
         gigabytes(usage.num_bytes_marked)
     );
     ui.label(RichText::new(text).color(theme.weak_text));

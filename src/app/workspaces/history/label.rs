@@ -32,7 +32,7 @@ impl Remark {
         theme: &Theme,
         actions: &mut Vec<HistoryAction>,
     ) {
-        heading(ui, theme, "Truly");
+        heading(ui, theme, "Actual part");
         truth_menu(ui, row, session, actions);
         heading(ui, theme, "Remark");
         // Another inspection, or somebody else has written another remark.
@@ -77,7 +77,7 @@ impl Remark {
 /// What a truth is called where it is chosen.
 fn title_of(truth: Option<&Truth>, library: Option<&LibraryView>) -> String {
     match truth {
-        None => "Not said".into(),
+        None => "Not set".into(),
         Some(Truth::NotEnrolled) => "Not enrolled".into(),
         Some(Truth::Nothing) => "Nothing (empty cell)".into(),
         Some(Truth::Part(name)) => {
@@ -93,7 +93,10 @@ fn title_of(truth: Option<&Truth>, library: Option<&LibraryView>) -> String {
 fn truth_menu(ui: &mut Ui, row: &Summary, session: &Session, actions: &mut Vec<HistoryAction>) {
     let library = session.library.as_deref();
     let chosen = row.label.as_ref();
-    let title = format!("It is · {} ▼", shortened(&title_of(chosen, library), 24));
+    let title = format!(
+        "Actual part · {} ▼",
+        shortened(&title_of(chosen, library), 24)
+    );
     ui.menu_button(&title, |ui| {
         ui.set_min_width(200.0);
         ScrollArea::vertical().max_height(420.0).show(ui, |ui| {
@@ -104,7 +107,7 @@ fn truth_menu(ui: &mut Ui, row: &Summary, session: &Session, actions: &mut Vec<H
                 let title = title_of(truth.as_ref(), library);
                 let response = ui.selectable_label(row.label == truth, &title);
                 response.widget_info(|| {
-                    let label = format!("It is: {title}");
+                    let label = format!("Actual part: {title}");
                     WidgetInfo::labeled(egui::Role::Button, true, label)
                 });
                 if response.clicked() {

@@ -56,7 +56,7 @@ impl List {
         let num_rows = history.num_matching();
         if num_rows == 0 {
             ui.add_space(space::LARGE);
-            let text = "No inspection is like this: change the filter";
+            let text = "No matching inspections: change the filter";
             ui.label(RichText::new(text).color(theme.weak_text));
             // What comes next is fetched with its neighbours.
             see(history, 0..1, actions);

@@ -34,7 +34,7 @@ use crate::{
             session::{Session, WorkspaceKind},
             workspace::Workspace,
         },
-        task::TaskRunner,
+        task::{Running, TaskRunner},
         ui::theme::{Theme, font, space},
     },
     history::{HistoryBuffer, Writer},
@@ -70,7 +70,7 @@ const SHORTCUTS: [Shortcut<HistoryAction>; 4] = [
         modifiers: Modifiers::NONE,
         key: Key::A,
         keys: "A",
-        does: "Inspect it again, with today's recipe and library",
+        does: "Inspect it again with the current recipe and library",
         action: || HistoryAction::AgainSelected,
     },
 ];
@@ -205,6 +205,10 @@ impl Workspace for HistoryWorkspace {
         }
     }
 
+    fn writing(&self) -> Option<&Running> {
+        self.state.exporting.running()
+    }
+
     fn is_idle(&self, _session: &Session) -> bool {
         self.state.is_settled()
     }
@@ -221,7 +225,7 @@ fn empty(ui: &mut Ui, theme: &Theme) {
         );
         ui.add_space(space::SMALL);
         let advice =
-            "Press Capture: every inspection is listed here, also after the window was closed";
+            "Press Capture: every inspection is listed here and kept when the window closes";
         ui.label(RichText::new(advice).color(theme.weak_text));
     });
 }

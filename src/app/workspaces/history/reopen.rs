@@ -73,7 +73,7 @@ impl HistoryState {
         let Some(recipe) = recipe else {
             return cx.notify(Notice::look(
                 format!("The recipe of {scene} was written by another version of Partsight"),
-                "Press Inspect again to use the recipe of today",
+                "Press Inspect again to use the current recipe",
             ));
         };
         if purpose == RemakeFor::Open {
@@ -158,7 +158,7 @@ fn other_result(record: &Record, differences: &Differences) -> Notice {
     };
     let scene = &record.summary.scene;
     Notice::look(
-        format!("{scene} gives another result than it did: {cause} has changed since"),
+        format!("{scene} now gives a different result: {cause} has changed since"),
         "The history keeps the first result",
     )
 }

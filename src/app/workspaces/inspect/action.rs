@@ -32,7 +32,7 @@ pub enum InspectAction {
     NextConvention,
     /// Put the pose on the clipboard, in the convention that was chosen.
     CopyPose,
-    /// See in Compare why it was taken for this.
+    /// See in Compare why it was recognised as this part.
     Compare,
     /// Record the source that is followed, or no longer.
     ToggleRecording,

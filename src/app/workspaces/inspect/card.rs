@@ -38,14 +38,14 @@ pub(super) fn ui(
 ) {
     if session.is_old() {
         ui.label(
-            RichText::new("Old result: a new one is on its way")
+            RichText::new("Previous result: a new inspection is running")
                 .font(font::body_strong())
                 .color(theme.warning),
         );
         ui.multiply_opacity(0.55);
     }
     if session.shown.as_ref().is_some_and(|shown| shown.is_past) {
-        let text = "From the history: not what hangs there now";
+        let text = "From the history, not the current part";
         let text = RichText::new(text).font(font::body_strong());
         ui.label(text.color(theme.warning));
     }
@@ -71,7 +71,7 @@ pub(super) fn ui(
     headline::ui(ui, &headline, theme);
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         if inspection.touches_edge() && inspected.scan.is_none() {
-            let text = "It reaches the picture's edge: some of it may be missing";
+            let text = "The part reaches the edge of the picture: some of it may be missing";
             ui.label(RichText::new(text).color(theme.warning));
         }
         score(ui, inspected, &headline, theme);
@@ -107,12 +107,12 @@ fn action_buttons(
         ),
         (
             "Wrong part?",
-            "See in Compare why it was taken for this",
+            "See in Compare why it was recognised as this part",
             InspectAction::Compare,
         ),
         (
             "Copy pose",
-            "In the robot's numbers, with a line that says which (Ctrl Shift C)",
+            "In the robot's convention, named on the first line (Ctrl Shift C)",
             InspectAction::CopyPose,
         ),
     ];
@@ -221,10 +221,11 @@ fn offset(
         ui.spacing_mut().item_spacing.x = space::SMALL;
     }
     if let Some(other) = inspected.inspection.other_reference() {
-        let text = format!("From where {other} was enrolled, one more reference of this part");
-        ui.label(RichText::new(text).color(theme.warning));
+        let other = inspected.library.title_of(other);
+        let text = format!("Measured from {other}, another reference of this part");
+        ui.label(RichText::new(text).color(theme.weak_text));
     }
-    let note = "Part's middle, camera axes · R = Rz·Ry·Rx";
+    let note = "Part's centre, camera axes · R = Rz·Ry·Rx";
     ui.label(
         RichText::new(note)
             .font(font::small())
@@ -253,7 +254,13 @@ fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem, theme: &Theme) {
             ui.label(RichText::new(text).color(theme.warning));
         } else {
             let (shift, turn) = (units.length(bounds.shift.0), units.angle(bounds.turn.0));
-            row(ui, theme, "off by, 95 %", &format!("< {shift} · {turn}"));
+            // In a narrow card there is no room for more.
+            let name = if ui.available_width() > 280.0 {
+                "pose uncertainty (95 %)"
+            } else {
+                "uncertainty (95 %)"
+            };
+            row(ui, theme, name, &format!("{shift} · {turn}"));
         }
     }
     if let Some(runner_up) = pose.runner_up {

@@ -16,14 +16,14 @@ use crate::{
 
 /// What the card says first.
 pub(super) struct Headline {
-    title: String,
+    pub(super) title: String,
     /// The part that comes nearest, where none is accepted.
     nearest: Option<String>,
     pub(super) is_accepted: bool,
     /// True if it is too early to say.
     pub(super) is_open: bool,
     /// Why not, and what to do.
-    complaint: Option<(String, String)>,
+    pub(super) complaint: Option<(String, String)>,
 }
 
 impl Headline {
@@ -37,7 +37,9 @@ impl Headline {
             Verdict::Part { part, rejected, .. } => {
                 let best = inspected.figures.candidates.first();
                 let nearest = best.map_or_else(|| part.clone(), |best| best.title.clone());
-                match rejected {
+                let title_of = |name: &str| inspected.library.title_of(name).to_owned();
+                let rejected = rejected.clone().map(|reason| reason.renamed(title_of));
+                match &rejected {
                     None => Self {
                         title: nearest,
                         nearest: None,
@@ -90,12 +92,15 @@ impl Headline {
             MotionState::Moving => (
                 "Moving",
                 (
-                    "something moves before the camera",
+                    "something is moving in front of the camera",
                     "Let the part hang still for a second",
                 ),
             ),
-            MotionState::Watching => ("Looking", ("it was not seen long enough", "Wait a moment")),
-            MotionState::Steady { .. } => ("Looking", ("it hangs still", "Wait a moment")),
+            MotionState::Watching => (
+                "Looking",
+                ("it was not seen for long enough", "Wait a moment"),
+            ),
+            MotionState::Steady { .. } => ("Looking", ("it is steady", "Wait a moment")),
         };
         Self {
             title: title.into(),
@@ -111,7 +116,7 @@ impl Headline {
 pub(super) fn ui(ui: &mut Ui, headline: &Headline, theme: &Theme) {
     ui.label(
         RichText::new(&headline.title)
-            .font(name_font(ui, &headline.title))
+            .font(fitting_font(ui, &headline.title, &font::far_names(), 2))
             .color(theme.text),
     );
     let (sign, word, colour) = if headline.is_accepted {
@@ -142,9 +147,8 @@ pub(super) fn ui(ui: &mut Ui, headline: &Headline, theme: &Theme) {
     ui.add_space(space::SMALL);
 }
 
-/// The largest in which the name takes at most two lines, and none of its words is broken.
-fn name_font(ui: &Ui, name: &str) -> FontId {
-    let [sizes @ .., smallest] = font::far_names();
+/// The first of these in which the name takes at most so many lines, and none of its words is broken; else the last.
+pub(super) fn fitting_font(ui: &Ui, name: &str, fonts: &[FontId], max_lines: usize) -> FontId {
     let (width, colour) = (ui.available_width(), ui.visuals().text_color());
     let fits = |font: &FontId| {
         let size = |text: &str, width: f32| {
@@ -153,7 +157,8 @@ fn name_font(ui: &Ui, name: &str) -> FontId {
             (galley.rows.len(), galley.size().x)
         };
         let mut words = name.split_whitespace();
-        words.all(|word| size(word, f32::INFINITY).1 <= width) && size(name, width).0 <= 2
+        words.all(|word| size(word, f32::INFINITY).1 <= width) && size(name, width).0 <= max_lines
     };
-    sizes.into_iter().find(fits).unwrap_or(smallest)
+    let fitting = fonts.iter().find(|font| fits(font)).or(fonts.last());
+    fitting.cloned().unwrap_or_else(font::title)
 }

@@ -4,6 +4,7 @@ mod action;
 mod card;
 mod controls;
 mod headline;
+mod operator;
 mod plots;
 mod ranking;
 mod robot_numbers;
@@ -32,7 +33,7 @@ use crate::app::{
         workspace::Workspace,
     },
     shots::{ShotList, ShotsAction, ShotsFile, ShownShots, StripTab},
-    task::TaskRunner,
+    task::{Running, TaskRunner},
     ui::{
         theme::{Theme, font, space},
         viewport::{ViewError, ViewportGpu},
@@ -51,7 +52,7 @@ const SHORTCUTS: [Shortcut<InspectAction>; 7] = [
         modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
         key: Key::Z,
         keys: "Ctrl Shift Z",
-        does: "Do again what was undone last with the shots",
+        does: "Redo the last undone change of the shots",
         action: || InspectAction::Shots(ShotsAction::Redo),
     },
     Shortcut {
@@ -86,14 +87,14 @@ const SHORTCUTS: [Shortcut<InspectAction>; 7] = [
         modifiers: Modifiers::NONE,
         key: Key::K,
         keys: "K",
-        does: "The pose in the next robot's numbers",
+        does: "Show the pose in the next robot convention",
         action: || InspectAction::NextConvention,
     },
     Shortcut {
         modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
         key: Key::C,
         keys: "Ctrl Shift C",
-        does: "Copy the pose in those numbers",
+        does: "Copy the pose in that convention",
         action: || InspectAction::CopyPose,
     },
 ];
@@ -146,6 +147,14 @@ impl InspectWorkspace {
     /// Share of the points that the view drew last, 0..1.
     pub fn detail(&self) -> f32 {
         self.view.viewport.detail()
+    }
+
+    /// Hands the view over as it is now, if its picture is waited for.
+    fn hand_over_picture(&mut self, ui: &Ui, cx: &mut ShellContext<'_>) {
+        if self.state.wants_picture() {
+            let shot = self.view.shot(ui.pixels_per_point());
+            self.state.take_picture(shot, cx);
+        }
     }
 
     /// The strip: the stages, or the list of shots of a scan.
@@ -241,6 +250,18 @@ impl Workspace for InspectWorkspace {
 
     fn ui(&mut self, ui: &mut Ui, cx: &mut ShellContext<'_>) {
         let (session, theme) = (cx.session, cx.theme);
+        if session.is_operator_view() {
+            if let Some(shown) = &session.shown {
+                self.make(ui.ctx(), shown);
+            }
+            operator::ui(ui, session, theme, |ui| {
+                if let Some(shown) = &session.shown {
+                    self.view.plain_ui(ui, session, &shown.inspected);
+                }
+            });
+            self.hand_over_picture(ui, cx);
+            return;
+        }
         let Some(shown) = &session.shown else {
             ui.painter().rect_filled(ui.max_rect(), 0.0, theme.canvas);
             empty(ui, session, theme);
@@ -274,10 +295,7 @@ impl Workspace for InspectWorkspace {
             let Self { state, view, .. } = self;
             view.ui(ui, state, session, inspected, &mut actions);
         }
-        if self.state.wants_picture() {
-            let shot = self.view.shot(ui.pixels_per_point());
-            self.state.take_picture(shot, cx);
-        }
+        self.hand_over_picture(ui, cx);
         for action in actions {
             self.state.apply(action, cx);
         }
@@ -316,8 +334,12 @@ impl Workspace for InspectWorkspace {
         self.view.has_focus()
     }
 
+    fn writing(&self) -> Option<&Running> {
+        self.state.writing()
+    }
+
     fn is_idle(&self, _session: &Session) -> bool {
-        !self.state.is_writing()
+        self.state.writing().is_none()
     }
 }
 

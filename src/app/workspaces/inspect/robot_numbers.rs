@@ -150,7 +150,7 @@ fn choice(ui: &mut Ui, chosen: Convention, actions: &mut Vec<InspectAction>) {
         let text = format!("Convention: {}", chosen.title());
         egui::WidgetInfo::labeled(egui::Role::ComboBox, true, text)
     });
-    response.on_hover_text("In which numbers the robot is told the pose (K for the next)");
+    response.on_hover_text("Robot convention of the pose (K for the next)");
     if convention != chosen {
         actions.push(InspectAction::UseConvention(convention));
     }

@@ -7,7 +7,7 @@ use crate::{
         inspection::{inspected::Inspected, unit_system::UnitSystem},
         ui::{
             theme::{ROUNDING, Theme, font, space},
-            widgets::{Mark, Scale, heading, mark, row, sentence},
+            widgets::{Scale, heading, row, sentence},
         },
     },
     stages::stand_off::{StandOff, StandOffParams},
@@ -54,16 +54,17 @@ fn figures(
         units.angle(found.worst_angle.0)
     );
     row(ui, theme, "angle", &pair);
-    let (sign, text, colour) = if found.keeps_the_band() {
-        (Mark::Good, "The path can run as taught", theme.accepted)
+    // Parts rarely hang as they were taught: a path that follows the pose is the usual case, and no fault of the part.
+    let text = if found.keeps_the_band() {
+        "The path fits without the pose"
     } else {
-        (Mark::Look, "Move the path by the pose first", theme.warning)
+        "The robot program must apply the pose to the path"
     };
-    ui.horizontal(|ui| {
-        let (rect, _) = ui.allocate_exact_size(egui::Vec2::splat(16.0), Sense::hover());
-        mark(ui.painter(), rect.center(), 7.0, sign, theme);
-        ui.label(RichText::new(text).color(colour));
-    });
+    ui.label(
+        RichText::new(text)
+            .font(font::small())
+            .color(theme.weak_text),
+    );
 }
 
 /// A stretch of distances with the band in its middle third; the mean a full tick, the worst a short one.
@@ -94,7 +95,7 @@ fn bar(ui: &mut Ui, found: &StandOff, params: &StandOffParams, units: UnitSystem
         let line = Rect::from_center_size(pos2(x, bar.center().y), vec2(width, BAR + over));
         painter.rect_filled(line, 0.0, colour);
     };
-    tick(found.worst.distance.0, 2.0, -4.0, theme.warning);
+    tick(found.worst.distance.0, 2.0, -4.0, theme.weak_text);
     tick(found.mean.0, 3.0, 5.0, theme.text);
     for (at, align) in [(near, Align2::CENTER_TOP), (far, Align2::CENTER_TOP)] {
         let text = units.length(f64::from(at));

@@ -23,7 +23,7 @@ use crate::{
             session::{Session, Source, WorkspaceKind},
         },
         shots::{Asked, ShotsAction, ShotsFile, ShotsState, source_of},
-        task::{Task, TaskEvent, TaskRunner},
+        task::{Running, Task, TaskEvent, TaskRunner},
         ui::viewport::{Colouring, ViewShot},
         user_error::UserError,
     },
@@ -144,9 +144,9 @@ impl InspectState {
         Some(asked.unwrap_or(&scan.fused.choice))
     }
 
-    /// True while a file is being written.
-    pub fn is_writing(&self) -> bool {
-        self.writing.running().is_some()
+    /// The file that is being written, if any.
+    pub fn writing(&self) -> Option<&Running> {
+        self.writing.running()
     }
 
     /// True if a picture of the view is waited for.
@@ -365,11 +365,11 @@ fn copy_pose(cx: &mut ShellContext<'_>) {
     let Some(numbered) = numbered(cx.session, &shown.inspected) else {
         return cx.notify(Notice::look(
             "There is no pose to copy: the part was not accepted",
-            "Do as the card says, and capture again",
+            "Follow the advice on the card, then capture again",
         ));
     };
     let title = numbered.pose.convention.title();
-    let what = format!("Copied {} in the numbers of {title}", numbered.name);
+    let what = format!("Copied {} in the convention {title}", numbered.name);
     cx.notify(Notice::done(what));
     cx.send(Message::CopyText(clipboard_text(&numbered)));
 }
@@ -421,7 +421,7 @@ mod tests {
             (shell.notices(), state.wants_picture()),
             (vec!["no view"], false)
         );
-        assert!(!state.is_writing());
+        assert!(state.writing().is_none());
     }
 
     #[test]

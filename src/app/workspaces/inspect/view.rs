@@ -53,6 +53,7 @@ struct SceneAnnotation {
     units: UnitSystem,
     camera_from_robot: Option<RigidTransform>,
     looked_at: Option<usize>,
+    has_overlay: bool,
 }
 
 /// The view of the last result.
@@ -142,16 +143,9 @@ impl SceneView {
         inspected: &Inspected,
         actions: &mut Vec<InspectAction>,
     ) {
-        if self.styled != session.theme {
-            self.style = style(session.theme);
-            self.styled = session.theme;
-        }
-        self.place(state, session, inspected);
-        self.style.colouring = self.colouring(state);
-        self.style.point_size = match &inspected.scan {
-            Some(_) => POINT_SIZE,
-            None => self.usual_size,
-        };
+        let overlay = overlay(state, inspected);
+        self.place(&state.parts, overlay.as_ref(), session, inspected);
+        self.restyle(session, inspected, self.colouring(state));
         let theme = Theme::of(session.theme);
         let rect = ui.available_rect_before_wrap();
         self.size = rect.size();
@@ -161,11 +155,7 @@ impl SceneView {
         } else {
             Legend::Shown
         };
-        let label = "3-D view of the scene";
-        let seen = self
-            .viewport
-            .ui(ui, label, &mut self.camera, &self.scene, &self.style);
-        self.has_focus = seen.response.has_focus();
+        self.paint(ui);
         let bar = Rect::from_min_size(
             rect.min + Vec2::splat(space::MEDIUM),
             vec2(rect.width() - 2.0 * space::MEDIUM, space::TARGET),
@@ -175,10 +165,47 @@ impl SceneView {
         });
         let painter = ui.painter_at(rect);
         let top = self.captions(&painter, rect, theme);
-        if let Some(overlay) = overlay(state, inspected) {
+        if let Some(overlay) = overlay {
             let corner = pos2(rect.left() + space::MEDIUM, top - 4.0);
             overlay.legend(&painter, corner, &self.style.colours, theme);
         }
+    }
+
+    /// The part alone, as the operator sees it: an accepted one with its outline.
+    pub(super) fn plain_ui(&mut self, ui: &mut Ui, session: &Session, inspected: &Inspected) {
+        let is_accepted = inspected.inspection.verdict.is_accepted();
+        let parts = is_accepted.then_some(ViewPart::Outline);
+        self.place(&parts.into_iter().collect(), None, session, inspected);
+        self.restyle(session, inspected, Colouring::Segment);
+        let rect = ui.available_rect_before_wrap();
+        self.size = rect.size();
+        self.paint(ui);
+        if let Some(origin) = &self.origin {
+            let corner = pos2(rect.left() + space::MEDIUM, rect.bottom() - space::MEDIUM);
+            let theme = Theme::of(session.theme);
+            let anchor = egui::Align2::LEFT_BOTTOM;
+            plate(&ui.painter_at(rect), corner, anchor, origin, theme);
+        }
+    }
+
+    fn restyle(&mut self, session: &Session, inspected: &Inspected, colouring: Colouring) {
+        if self.styled != session.theme {
+            self.style = style(session.theme);
+            self.styled = session.theme;
+        }
+        self.style.colouring = colouring;
+        self.style.point_size = match &inspected.scan {
+            Some(_) => POINT_SIZE,
+            None => self.usual_size,
+        };
+    }
+
+    fn paint(&mut self, ui: &mut Ui) {
+        let label = "3-D view of the scene";
+        let seen = self
+            .viewport
+            .ui(ui, label, &mut self.camera, &self.scene, &self.style);
+        self.has_focus = seen.response.has_focus();
     }
 
     /// True while keys go to the view; the space bar then still captures.
@@ -209,19 +236,26 @@ impl SceneView {
     }
 
     /// Chooses the lines and words, if what they are chosen by is not what it was.
-    fn place(&mut self, state: &InspectState, session: &Session, inspected: &Inspected) {
+    fn place(
+        &mut self,
+        parts: &BTreeSet<ViewPart>,
+        overlay: Option<&Overlay<'_>>,
+        session: &Session,
+        inspected: &Inspected,
+    ) {
         let figure = &inspected.view;
         let robot = session.robot_of(inspected);
         let by = SceneAnnotation {
-            parts: state.parts.clone(),
+            parts: parts.clone(),
             units: session.units,
             camera_from_robot: robot.map(|robot| robot.robot_from_camera.inverse()),
-            looked_at: state.shots.looked_at,
+            looked_at: overlay.and_then(|overlay| overlay.looked_at),
+            has_overlay: overlay.is_some(),
         };
         if self.placed.as_ref() == Some(&by) {
             return;
         }
-        let (parts, units) = (&by.parts, by.units);
+        let units = by.units;
         let mut lines = Vec::new();
         let mut labels = Vec::new();
         let nozzles = figure.nozzles.as_ref();
@@ -272,7 +306,7 @@ impl SceneView {
         self.scene.lines = lines;
         self.scene.labels = labels;
         self.scene.points.truncate(1);
-        if let Some(overlay) = overlay(state, inspected) {
+        if let Some(overlay) = overlay {
             overlay.add_to(&mut self.scene);
         }
         self.placed = Some(by);

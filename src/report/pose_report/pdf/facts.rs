@@ -147,9 +147,9 @@ impl Rows<'_, '_> {
                     bounds.shift_m * 1000.0,
                     bounds.turn_deg
                 );
-                self.row("off by, 95 %", &text);
+                self.row("pose uncertainty (95 %)", &text);
             }
-            None => self.row("off by, 95 %", "unconstrained, or not worked out"),
+            None => self.row("pose uncertainty (95 %)", "unconstrained, or not computed"),
         }
         if let Some(ratio) = fit.runner_up_ratio {
             self.row("next best pose", &format!("{ratio:.1}× worse"));

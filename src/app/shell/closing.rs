@@ -1,0 +1,54 @@
+//! The question before the window closes over something that was not saved.
+
+use egui::{Button, Context, RichText};
+
+use super::{action::Action, state::State, top_bar::labelled};
+use crate::app::ui::{
+    theme::{Theme, font, space},
+    widgets,
+};
+
+/// Whether the window may close.
+#[derive(Clone, Debug, Default, PartialEq, Eq)]
+pub enum Closing {
+    /// Nobody has asked to close it.
+    #[default]
+    No,
+    /// This would be lost, in words: a person is asked.
+    Asked(String),
+    /// It closes, whatever is lost.
+    Confirmed,
+}
+
+/// Draws the question while it is open.
+pub(in crate::app) fn dialog(
+    ctx: &Context,
+    state: &State,
+    theme: &Theme,
+    actions: &mut Vec<Action>,
+) {
+    let Closing::Asked(what) = &state.closing else {
+        return;
+    };
+    let modal = widgets::dialog(ctx, "closing", |ui| {
+        ui.set_max_width(420.0);
+        let title = RichText::new("Close without saving?").font(font::verdict());
+        ui.label(title.color(theme.text));
+        ui.label(RichText::new(what).color(theme.weak_text));
+        ui.add_space(space::MEDIUM);
+        ui.horizontal(|ui| {
+            let stay = RichText::new("Keep the window open").color(theme.on_accent);
+            let stay = Button::new(stay).fill(theme.accent);
+            if labelled(ui, stay, "Keep the window open").clicked() {
+                actions.push(Action::StayOpen);
+            }
+            let close = "Close without saving";
+            if labelled(ui, Button::new(close), close).clicked() {
+                actions.push(Action::CloseAnyway);
+            }
+        });
+    });
+    if modal.should_close() {
+        actions.push(Action::StayOpen);
+    }
+}

@@ -1,0 +1,181 @@
+//! Above and below the operator's view: the parts of this shift, what is at work, and the few things that an operator does.
+
+use egui::{
+    Align, Button, Frame, Layout, Margin, Panel, RichText, Sense, Ui, Vec2, WidgetInfo, vec2,
+};
+
+use super::{
+    action::Action,
+    live::{self, LiveAction},
+    roles::RoleAction,
+    session::{Session, WorkspaceKind},
+    shift::ShiftParts,
+    source_menu,
+    state::State,
+    top_bar::{Progress, labelled, progress},
+};
+use crate::app::ui::{
+    theme::{ROUNDING, Theme, font, space},
+    widgets::{Mark, mark},
+};
+
+/// Height of the lower bar, logical pixels.
+pub(in crate::app) const LOWER: f32 = 76.0;
+/// Height of its buttons.
+const BUTTON: f32 = 52.0;
+
+/// Draws both.
+pub(in crate::app) fn ui(
+    ui: &mut Ui,
+    state: &State,
+    work: Option<Progress>,
+    theme: &Theme,
+    actions: &mut Vec<Action>,
+) {
+    let frame = Frame::new()
+        .fill(theme.panel)
+        .inner_margin(Margin::symmetric(14, 0));
+    Panel::top("operator's upper bar")
+        .exact_size(space::TOP_BAR)
+        .resizable(false)
+        .frame(frame)
+        .show(ui, |ui| {
+            ui.horizontal_centered(|ui| upper(ui, state, work, theme, actions));
+        });
+    Panel::bottom("operator's lower bar")
+        .exact_size(LOWER)
+        .resizable(false)
+        .frame(frame)
+        .show(ui, |ui| {
+            ui.horizontal_centered(|ui| lower(ui, state, theme, actions));
+        });
+}
+
+fn upper(
+    ui: &mut Ui,
+    state: &State,
+    work: Option<Progress>,
+    theme: &Theme,
+    actions: &mut Vec<Action>,
+) {
+    ui.label(RichText::new("Partsight").font(font::body_strong()));
+    ui.add_space(space::LARGE);
+    // Not as high as the bar.
+    ui.horizontal(|ui| counts(ui, &state.shift, theme));
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        let key = RichText::new("Ctrl K").font(font::small());
+        let engineer = Button::new("Engineer's view").shortcut_text(key.color(theme.weak_text));
+        let says = match state.roles.pin {
+            Some(_) => "Locked: asks for the PIN (Ctrl K)",
+            None => "Switch to the engineer's view (Ctrl K)",
+        };
+        if labelled(ui, engineer, "Engineer's view")
+            .on_hover_text(says)
+            .clicked()
+        {
+            actions.push(Action::Role(RoleAction::Switch));
+        }
+        if labelled(ui, Button::new("History"), "History")
+            .on_hover_text("All parts that were inspected")
+            .clicked()
+        {
+            actions.push(Action::GoTo(WorkspaceKind::History));
+        }
+        ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+            progress(ui, state, work, theme, actions);
+        });
+    });
+}
+
+/// How many parts this shift has had, and how many were accepted.
+fn counts(ui: &mut Ui, shift: &ShiftParts, theme: &Theme) {
+    let Some(since) = &shift.since else {
+        return;
+    };
+    let since = format!("Shift since {}", since.strftime("%H:%M"));
+    ui.label(RichText::new(since).color(theme.weak_text));
+    let num = shift.num_ok + shift.num_not_ok;
+    let word = if num == 1 { "part" } else { "parts" };
+    let chips = [
+        (None, format!("{num} {word}")),
+        (Some(Mark::Good), format!("{} OK", shift.num_ok)),
+        (Some(Mark::Bad), format!("{} NOK", shift.num_not_ok)),
+    ];
+    for (sign, text) in chips {
+        Frame::new()
+            .fill(theme.control)
+            .stroke(theme.edge_stroke())
+            .corner_radius(ROUNDING)
+            .inner_margin(Margin::symmetric(10, 5))
+            .show(ui, |ui| {
+                ui.spacing_mut().interact_size.y = 0.0;
+                if let Some(sign) = sign {
+                    let (rect, _) = ui.allocate_exact_size(Vec2::splat(16.0), Sense::hover());
+                    mark(ui.painter(), rect.center(), 8.0, sign, theme);
+                }
+                ui.label(RichText::new(text).font(font::body_strong()));
+            });
+    }
+}
+
+fn lower(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
+    let text = |text: &str| RichText::new(text).font(font::verdict());
+    let key = |text: &str| RichText::new(text).font(font::small());
+    let inspect = Button::new(text("Inspect").color(theme.on_accent))
+        .shortcut_text(key("Space").color(theme.on_accent))
+        .fill(theme.accent)
+        .min_size(vec2(200.0, BUTTON));
+    if labelled_large(ui, inspect, "Inspect").clicked() {
+        actions.push(Action::Capture);
+    }
+    let is_live = state.is_live();
+    let [strong, weak] = if is_live {
+        [theme.on_accent; 2]
+    } else {
+        [theme.text, theme.weak_text]
+    };
+    let live = Button::selectable(is_live, text("Live").color(strong))
+        .frame_when_inactive(true)
+        .shortcut_text(key("L").color(weak))
+        .min_size(vec2(110.0, BUTTON));
+    let live = ui.add(live);
+    live.widget_info(|| WidgetInfo::selected(egui::Role::Button, true, is_live, "Live"));
+    let says = if is_live {
+        "Stop inspecting every part by itself (L)"
+    } else {
+        "Inspect every part by itself as it comes to hang still (L)"
+    };
+    if live.on_hover_text(says).clicked() {
+        actions.push(Action::Live(LiveAction::Toggle));
+    }
+    let wrong = Button::new(text("Wrong part?")).min_size(vec2(150.0, BUTTON));
+    if labelled_large(ui, wrong, "Wrong part?")
+        .on_hover_text("Open the history, to say which part it is")
+        .clicked()
+    {
+        actions.push(Action::GoTo(WorkspaceKind::History));
+    }
+    ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+        source(ui, state, theme);
+    });
+}
+
+fn labelled_large(ui: &mut Ui, button: Button<'_>, label: &str) -> egui::Response {
+    let response = ui.add(button);
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Button, true, label));
+    response
+}
+
+/// Where frames come from, and whether they do.
+fn source(ui: &mut Ui, session: &Session, theme: &Theme) {
+    let text = |text: String| egui::Label::new(RichText::new(text).color(theme.weak_text));
+    if session.is_live() {
+        let (sign, words) = live::words(session);
+        ui.add(text(words).truncate());
+        let (rect, _) = ui.allocate_exact_size(Vec2::splat(16.0), Sense::hover());
+        mark(ui.painter(), rect.center(), 8.0, sign, theme);
+    } else {
+        let source = format!("Source: {}", source_menu::now(&session.source));
+        ui.add(text(source).truncate());
+    }
+}

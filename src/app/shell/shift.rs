@@ -1,0 +1,213 @@
+//! The parts of this shift, counted in the history for the operator's view.
+
+use std::{cmp::Reverse, sync::Arc, time::Duration};
+
+use jiff::{Timestamp, Zoned, civil};
+use serde::{Deserialize, Serialize};
+
+use super::{session::UserRole, state::State};
+use crate::{
+    app::{
+        task::{Task, TaskEvent, TaskRunner},
+        user_error::UserError,
+    },
+    history::{Filter, HistoryBuffer, HistoryError, StoredVerdict, Summary},
+};
+
+/// Parts that are listed at most.
+const MAX_LISTED: usize = 12;
+
+/// The times of day at which shifts start, by the local clock; without any a shift is a day.
+#[derive(Clone, Debug, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(try_from = "Vec<String>", into = "Vec<String>")]
+pub struct ShiftStarts(Vec<civil::Time>);
+
+impl Default for ShiftStarts {
+    fn default() -> Self {
+        Self([6, 14, 22].map(|hour| civil::time(hour, 0, 0, 0)).into())
+    }
+}
+
+impl TryFrom<Vec<String>> for ShiftStarts {
+    type Error = String;
+
+    fn try_from(written: Vec<String>) -> Result<Self, String> {
+        let times = written.iter().map(|text| {
+            civil::Time::strptime("%H:%M", text)
+                .map_err(|_no_time| format!("\"{text}\" is no time of day such as 06:00"))
+        });
+        times.collect::<Result<_, _>>().map(Self)
+    }
+}
+
+impl From<ShiftStarts> for Vec<String> {
+    fn from(starts: ShiftStarts) -> Self {
+        let times = starts.0.iter();
+        times
+            .map(|time| time.strftime("%H:%M").to_string())
+            .collect()
+    }
+}
+
+impl ShiftStarts {
+    /// When the shift of this moment began, and when it ends. A start that the clock skips on a day comes as much later.
+    fn around(&self, now: &Zoned) -> [Option<Zoned>; 2] {
+        let midnight = [civil::Time::midnight()];
+        let times = if self.0.is_empty() {
+            &midnight[..]
+        } else {
+            &self.0
+        };
+        let today = now.date();
+        let days = [today.yesterday().ok(), Some(today), today.tomorrow().ok()];
+        let starts = days.into_iter().flatten().flat_map(|day| {
+            let zone = now.time_zone();
+            times
+                .iter()
+                .filter_map(move |time| day.to_datetime(*time).to_zoned(zone.clone()).ok())
+        });
+        let (past, coming): (Vec<Zoned>, Vec<Zoned>) = starts.partition(|start| start <= now);
+        [past.into_iter().max(), coming.into_iter().min()]
+    }
+}
+
+/// The parts of this shift.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct ShiftParts {
+    /// When it began; `None` until they were counted.
+    pub since: Option<Zoned>,
+    /// Accepted parts.
+    pub num_ok: usize,
+    /// Parts that were not accepted.
+    pub num_not_ok: usize,
+    /// The last of both, the newest first.
+    pub last: Vec<Summary>,
+}
+
+/// Counts the parts whenever the history has changed.
+#[derive(Debug)]
+pub struct ShiftWatch {
+    /// When shifts start.
+    pub starts: ShiftStarts,
+    counting: Task<ShiftParts>,
+    /// The state of the history and the shift that were counted last.
+    counted: Option<(u64, Timestamp)>,
+}
+
+impl ShiftWatch {
+    /// Nothing is counted yet.
+    pub fn new(runner: &TaskRunner) -> Self {
+        Self {
+            starts: ShiftStarts::default(),
+            counting: Task::new("shift", runner),
+            counted: None,
+        }
+    }
+
+    /// True while nothing is counted.
+    pub fn is_idle(&self) -> bool {
+        self.counting.running().is_none()
+    }
+}
+
+/// Takes in what was counted, and counts anew in the operator's view if it is out of date.
+pub(in crate::app) fn update(state: &mut State, history: &Arc<HistoryBuffer>, ctx: &egui::Context) {
+    // Why the history cannot be read is reported by the History workspace.
+    if let Some(TaskEvent::Done(parts) | TaskEvent::Partial(parts)) =
+        state.shift_watch.counting.poll()
+    {
+        state.session.shift = parts;
+    }
+    if state.role != UserRole::Operator {
+        return;
+    }
+    let now = Zoned::now();
+    let [Some(since), end] = state.shift_watch.starts.around(&now) else {
+        return;
+    };
+    if let Some(left) = end.and_then(|end| Duration::try_from(now.duration_until(&end)).ok()) {
+        ctx.request_repaint_after(left + Duration::from_secs(1));
+    }
+    let wanted = (history.num_events(), since.timestamp());
+    if state.shift_watch.counted != Some(wanted) {
+        state.shift_watch.counted = Some(wanted);
+        let history = Arc::clone(history);
+        let count = move |_: &_| {
+            count(&history, since.clone()).map_err(|error| UserError::of(&error).into())
+        };
+        state.shift_watch.counting.start("Counting parts", count);
+    }
+}
+
+/// An empty cell is no part; inspections of one hung part are one part.
+fn count(history: &HistoryBuffer, since: Zoned) -> Result<ShiftParts, HistoryError> {
+    let mut parts = ShiftParts::default();
+    for verdict in StoredVerdict::ALL {
+        let num = match verdict {
+            StoredVerdict::Accepted => &mut parts.num_ok,
+            StoredVerdict::NotAccepted | StoredVerdict::Unknown => &mut parts.num_not_ok,
+            StoredVerdict::NoPart => continue,
+        };
+        let filter = Filter {
+            since: Some(since.timestamp()),
+            verdict: Some(verdict),
+            ..Filter::default()
+        };
+        let page = history.page(&filter, 0, MAX_LISTED)?;
+        *num += page.num_matching;
+        parts.last.extend(page.rows);
+    }
+    parts.last.sort_by_key(|row| Reverse(row.at));
+    parts.last.truncate(MAX_LISTED);
+    parts.since = Some(since);
+    Ok(parts)
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    fn around(starts: &[&str], now: &str) -> [String; 2] {
+        let starts: Vec<String> = starts.iter().map(|time| (*time).to_owned()).collect();
+        let starts = ShiftStarts::try_from(starts).expect("times of day");
+        let now: Zoned = now.parse().expect("a moment");
+        starts.around(&now).map(|at| {
+            let at = at.expect("a start").timestamp();
+            at.to_string()
+        })
+    }
+
+    #[test]
+    fn a_shift_lasts_from_one_start_to_the_next() {
+        let three = ["14:00", "22:00", "06:00"];
+        let at = |time: &str| around(&three, &format!("2026-11-21T{time}+01:00[Europe/Berlin]"));
+        let early = ["2026-11-21T05:00:00Z", "2026-11-21T13:00:00Z"];
+        assert_eq!(at("06:00:00"), early);
+        assert_eq!(at("13:59:59"), early);
+        let late = ["2026-11-20T21:00:00Z", "2026-11-21T05:00:00Z"];
+        assert_eq!(at("05:59:59"), late, "it began yesterday");
+        assert_eq!(
+            at("22:30:00"),
+            ["2026-11-21T21:00:00Z", "2026-11-22T05:00:00Z"]
+        );
+        // Without starts a shift is a day.
+        let day = around(&[], "2026-11-21T15:00:00+01:00[Europe/Berlin]");
+        assert_eq!(day, ["2026-11-20T23:00:00Z", "2026-11-21T23:00:00Z"]);
+    }
+
+    #[test]
+    fn a_start_that_the_clock_skips_comes_later_that_day() {
+        let night = around(&["02:30"], "2026-03-29T12:00:00+02:00[Europe/Berlin]");
+        assert_eq!(night, ["2026-03-29T01:30:00Z", "2026-03-30T00:30:00Z"]);
+    }
+
+    #[test]
+    fn starts_are_written_as_times_of_day() {
+        let written: Vec<String> = ShiftStarts::default().into();
+        assert_eq!(written, ["06:00", "14:00", "22:00"]);
+        for bad in ["25:00", "noon", ""] {
+            let refused = ShiftStarts::try_from(vec![bad.to_owned()]);
+            assert!(refused.is_err_and(|why| why.contains("06:00")), "{bad}");
+        }
+    }
+}

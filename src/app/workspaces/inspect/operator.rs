@@ -1,0 +1,389 @@
+//! The operator's view: which part, OK or not, and what to do next, to be read across the shop.
+
+use egui::{
+    Align, CentralPanel, Color32, FontId, Frame, Label, Layout, Margin, Panel, RichText,
+    ScrollArea, Sense, Ui, Vec2, vec2,
+};
+
+use super::headline::{Headline, fitting_font};
+use crate::{
+    app::{
+        inspection::inspected::Inspected,
+        shell::{live::SourceState, session::Session, shift::ShiftParts},
+        ui::{
+            theme::{Theme, font, space},
+            widgets::{Mark, mark, sentence},
+        },
+    },
+    history::StoredVerdict,
+    pipeline::{Rejection, Unrecognisable, Verdict},
+    stages::pose::PoseEstimate,
+};
+
+/// Height of the banner, logical pixels, and in a low window.
+const BANNER: [f32; 2] = [190.0, 156.0];
+/// Width of the column on the right, logical pixels, and in a narrow window.
+const COLUMN: [f32; 2] = [400.0, 320.0];
+/// Height of a line of the list of parts.
+const LINE: f32 = 40.0;
+/// Letters of a reason or an advice that fit in the large type.
+const LONG: usize = 60;
+
+/// What the banner is about.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+enum Tone {
+    /// An accepted part.
+    Ok,
+    /// A part that is not accepted.
+    NotOk,
+    /// Nothing is known of a part, or not yet.
+    Open,
+    /// There is no result, and somebody has to see to it.
+    Trouble,
+}
+
+impl Tone {
+    fn word(self) -> &'static str {
+        match self {
+            Self::Ok => "OK",
+            Self::NotOk => "NOK",
+            Self::Open | Self::Trouble => "",
+        }
+    }
+
+    fn mark(self) -> Mark {
+        match self {
+            Self::Ok => Mark::Good,
+            Self::NotOk => Mark::Bad,
+            Self::Open => Mark::Open,
+            Self::Trouble => Mark::Look,
+        }
+    }
+
+    /// The colour of the word, and of what lies behind it.
+    fn colours(self, theme: &Theme) -> [Color32; 2] {
+        match self {
+            Self::Ok => [theme.accepted, theme.accepted_back],
+            Self::NotOk => [theme.rejected, theme.rejected_back],
+            Self::Open => [theme.weak_text, theme.panel],
+            Self::Trouble => [theme.warning, theme.panel],
+        }
+    }
+}
+
+/// What the operator is told.
+#[derive(Debug)]
+struct Banner {
+    tone: Tone,
+    title: String,
+    reason: String,
+    next: String,
+    /// True if the picture shows what hangs there now.
+    is_current: bool,
+}
+
+impl Banner {
+    fn new(tone: Tone, title: &str, reason: impl Into<String>, next: impl Into<String>) -> Self {
+        Self {
+            tone,
+            title: title.to_owned(),
+            reason: reason.into(),
+            next: next.into(),
+            is_current: false,
+        }
+    }
+
+    fn of(session: &Session) -> Self {
+        let wait = "Wait a moment";
+        if session.is_live() {
+            match session.live.status.as_ref().map(|status| &status.source) {
+                None | Some(SourceState::Opening) => {
+                    return Self::new(Tone::Open, "Opening the camera…", "", wait);
+                }
+                Some(SourceState::Lost(trouble)) => {
+                    let (what, advice) = (&trouble.what, &trouble.advice);
+                    return Self::new(Tone::Trouble, "No camera", sentence(what), advice);
+                }
+                Some(SourceState::Running) => {}
+            }
+        } else if let Some(run) = &session.inspecting {
+            return Self::new(Tone::Open, "Inspecting…", &run.title, wait);
+        } else if let Some(trouble) = &session.failed {
+            let (what, advice) = (&trouble.what, &trouble.advice);
+            return Self::new(Tone::Trouble, "No result", sentence(what), advice);
+        }
+        if let Some(library) = &session.library {
+            let ask = "Ask the engineer to enrol the parts";
+            if let Some(trouble) = &library.unloaded {
+                return Self::new(Tone::Trouble, "No library", sentence(&trouble.what), ask);
+            }
+            if library.parts.is_empty() {
+                let why = "No part is enrolled in the library";
+                return Self::new(Tone::Trouble, "No parts enrolled", why, ask);
+            }
+        }
+        // Until its first frame is inspected, what is followed has nothing to show.
+        let shown = session.shown.as_ref();
+        let shown = shown.filter(|shown| shown.session.is_some() || !session.is_live());
+        let Some(shown) = shown else {
+            return if session.is_live() {
+                Self::new(Tone::Open, "Looking", "Nothing was captured yet", wait)
+            } else {
+                let next = "Hang a part and press Inspect";
+                Self::new(Tone::Open, "Ready", "Nothing was inspected yet", next)
+            };
+        };
+        let verdict = Self {
+            is_current: true,
+            ..Self::of_result(&shown.inspected)
+        };
+        if shown.is_past {
+            return Self {
+                tone: Tone::Open,
+                reason: "From the history, not the current part".into(),
+                next: "Press Inspect for the current part".into(),
+                ..verdict
+            };
+        }
+        verdict
+    }
+
+    fn of_result(inspected: &Inspected) -> Self {
+        let Headline {
+            title,
+            is_accepted,
+            is_open,
+            complaint,
+            ..
+        } = Headline::of(inspected);
+        let inspection = &inspected.inspection;
+        if is_accepted {
+            let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
+            let next = if inspected.origin.is_simulated() {
+                "Choose a camera: this frame is simulated"
+            } else if pose.is_some_and(PoseEstimate::is_ambiguous) {
+                "Check which way round the part hangs, then start the robot"
+            } else {
+                "Start the robot"
+            };
+            return Self::new(Tone::Ok, &title, "Recognised, and its pose is known", next);
+        }
+        let (reason, advice) = complaint.unwrap_or_default();
+        if is_open {
+            return Self::new(Tone::Open, &title, sentence(&reason), advice);
+        }
+        let best = inspected.figures.candidates.first();
+        let nearest = best.map_or("an enrolled part", |best| best.title.as_str());
+        match &inspection.verdict {
+            Verdict::NoPart(Unrecognisable::EmptyLibrary) => Self::new(
+                Tone::Trouble,
+                "No parts enrolled",
+                sentence(&reason),
+                "Ask the engineer to enrol the parts",
+            ),
+            // An empty cell is no bad part.
+            Verdict::NoPart(_) => Self::new(Tone::Open, &title, sentence(&reason), advice),
+            Verdict::Part {
+                rejected: Some(why),
+                ..
+            } => Self::new(Tone::NotOk, &title, in_short(why, nearest), advice),
+            Verdict::Part { rejected: None, .. } => {
+                Self::new(Tone::NotOk, &title, sentence(&reason), advice)
+            }
+        }
+    }
+}
+
+/// Why a part is not accepted, without the figures that belong to the engineer.
+fn in_short(why: &Rejection, nearest: &str) -> String {
+    match why {
+        Rejection::LowScore { .. } => format!("It does not match {nearest} well enough"),
+        Rejection::Piece { .. } => format!("Only a piece of {nearest} is in sight"),
+        Rejection::HardlySeen { .. } => "Too little of it is in sight".into(),
+        Rejection::AnotherModel { .. } => format!("It resembles {nearest}, but its shape differs"),
+        Rejection::AnotherMake { .. } => {
+            format!("It resembles {nearest}, but its dimensions differ")
+        }
+        Rejection::AmbiguousPose { .. }
+        | Rejection::Unconstrained { .. }
+        | Rejection::Uncertain { .. } => format!("It may be {nearest}, but its pose is uncertain"),
+        Rejection::Unknown { .. } => "No enrolled part resembles it".into(),
+        Rejection::Mirrored { .. } => {
+            format!("It looks like {nearest} from the other side of the car")
+        }
+        Rejection::MirroredImage { .. } => "The camera's picture is mirrored".into(),
+        Rejection::SmallMargin { .. } => "Two enrolled parts match almost equally well".into(),
+        Rejection::Unconfirmed { .. } => "Only its outline was compared".into(),
+        Rejection::OutOfRange { .. } => "It is too near to the camera or too far away".into(),
+        Rejection::BehindCamera { .. } | Rejection::SurplusBytes { .. } => {
+            "The captured file is damaged".into()
+        }
+        Rejection::NoPose(_) => format!("It may be {nearest}, but no pose was found"),
+        Rejection::NotSteady { .. } => "It does not hang still yet".into(),
+        Rejection::FewFrames { .. } => "Too few frames were inspected so far".into(),
+        Rejection::Undecided { .. } | Rejection::PosesApart { .. } => {
+            "The frames do not agree".into()
+        }
+    }
+}
+
+/// Draws it; `picture` draws the part, once anything was inspected.
+pub(super) fn ui(ui: &mut Ui, session: &Session, theme: &Theme, picture: impl FnOnce(&mut Ui)) {
+    let banner = Banner::of(session);
+    let size = ui.available_size();
+    let [_, back] = banner.tone.colours(theme);
+    Panel::top("banner")
+        .exact_size(if size.y > 700.0 { BANNER[0] } else { BANNER[1] })
+        .resizable(false)
+        .frame(
+            Frame::new()
+                .fill(back)
+                .inner_margin(Margin::symmetric(36, 0)),
+        )
+        .show(ui, |ui| banner_ui(ui, &banner, theme));
+    Panel::right("next step")
+        .exact_size(if size.x > 1100.0 {
+            COLUMN[0]
+        } else {
+            COLUMN[1]
+        })
+        .resizable(false)
+        .frame(
+            Frame::new()
+                .fill(theme.panel)
+                .inner_margin(Margin::symmetric(24, 20)),
+        )
+        .show(ui, |ui| column(ui, &banner, &session.shift, theme));
+    CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
+        let rect = ui.max_rect();
+        if session.shown.is_none() {
+            ui.painter().rect_filled(rect, 0.0, theme.canvas);
+            return;
+        }
+        picture(ui);
+        if !banner.is_current {
+            let veil = theme.canvas.gamma_multiply(0.7);
+            ui.painter().rect_filled(rect, 0.0, veil);
+        }
+    });
+}
+
+fn banner_ui(ui: &mut Ui, banner: &Banner, theme: &Theme) {
+    let [colour, _] = banner.tone.colours(theme);
+    let height = ui.available_height();
+    ui.horizontal_centered(|ui| {
+        let radius = height * 0.33;
+        let (rect, _) = ui.allocate_exact_size(Vec2::splat(2.0 * radius), Sense::hover());
+        mark(
+            ui.painter(),
+            rect.center(),
+            radius,
+            banner.tone.mark(),
+            theme,
+        );
+        ui.add_space(32.0);
+        let size = vec2(ui.available_width(), height);
+        ui.allocate_ui_with_layout(size, Layout::left_to_right(Align::Center), |ui| {
+            ui.vertical(|ui| {
+                ui.spacing_mut().item_spacing.y = 0.0;
+                ui.spacing_mut().interact_size.y = 0.0;
+                let row_height = |font: &FontId| ui.ctx().fonts_mut(|fonts| fonts.row_height(font));
+                // A long reason takes two lines of the height, and the name makes way.
+                let is_long = banner.tone.word().is_empty() && banner.reason.chars().count() > LONG;
+                let (names, reason_font) = if is_long {
+                    (&font::banner_names()[2..], font::far_list())
+                } else {
+                    (&font::banner_names()[..], font::banner_reason())
+                };
+                let name = fitting_font(ui, &banner.title, names, 1);
+                let (line, word_line) = (row_height(&name), row_height(&font::banner_word()));
+                ui.add_space(((height - line - word_line - 4.0) / 2.0).max(0.0));
+                let title = RichText::new(&banner.title).font(name).color(theme.text);
+                ui.add(Label::new(title).truncate());
+                ui.add_space(4.0);
+                ui.horizontal(|ui| {
+                    ui.set_min_height(word_line);
+                    let word = banner.tone.word();
+                    if !word.is_empty() {
+                        ui.label(RichText::new(word).font(font::banner_word()).color(colour));
+                        ui.add_space(space::MEDIUM);
+                    }
+                    let reason = RichText::new(&banner.reason).font(reason_font);
+                    ui.add(Label::new(reason.color(theme.text)).wrap());
+                });
+            });
+        });
+    });
+    let line = ui.max_rect().expand2(vec2(36.0, 0.0));
+    ui.painter().rect_filled(
+        line.with_min_y(line.bottom() - 3.0),
+        0.0,
+        match banner.tone {
+            Tone::Ok | Tone::NotOk => colour,
+            Tone::Open | Tone::Trouble => theme.edge,
+        },
+    );
+}
+
+/// What to do next, and the last parts.
+fn column(ui: &mut Ui, banner: &Banner, shift: &ShiftParts, theme: &Theme) {
+    ui.spacing_mut().interact_size.y = 0.0;
+    let heading = |ui: &mut Ui, text: &str| {
+        ui.label(RichText::new(text).color(theme.weak_text));
+    };
+    heading(ui, "Next");
+    let is_long = banner.next.chars().count() > LONG;
+    let next = if is_long {
+        font::far_reason()
+    } else {
+        font::next_step()
+    };
+    ui.label(RichText::new(&banner.next).font(next).color(theme.text));
+    ui.add_space(24.0);
+    heading(ui, "Last parts of this shift");
+    ui.add_space(space::SMALL);
+    if shift.last.is_empty() {
+        let text = match shift.since {
+            Some(_) => "None yet",
+            None => "Counting…",
+        };
+        ui.label(
+            RichText::new(text)
+                .font(font::far_list())
+                .color(theme.weak_text),
+        );
+        return;
+    }
+    ui.spacing_mut().item_spacing.y = 0.0;
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        for row in &shift.last {
+            let is_ok = row.verdict == StoredVerdict::Accepted;
+            let (sign, colour) = if is_ok {
+                (Mark::Good, theme.accepted)
+            } else {
+                (Mark::Bad, theme.rejected)
+            };
+            // What was nearest belongs to the engineer.
+            let name = row.title.split(" · ").next().unwrap_or_default();
+            let at = row.at.to_zoned(jiff::tz::TimeZone::system());
+            let at = at.strftime("%H:%M").to_string();
+            let line = ui.horizontal(|ui| {
+                ui.set_min_height(LINE);
+                let (rect, _) = ui.allocate_exact_size(Vec2::splat(20.0), Sense::hover());
+                mark(ui.painter(), rect.center(), 9.0, sign, theme);
+                ui.add_space(space::SMALL);
+                ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
+                    let at = RichText::new(at).font(font::far_list());
+                    ui.label(at.color(theme.weak_text));
+                    ui.with_layout(Layout::left_to_right(Align::Center), |ui| {
+                        let name = RichText::new(name).font(font::far_list()).color(colour);
+                        ui.add(Label::new(name).truncate());
+                    });
+                });
+            });
+            let rect = line.response.rect;
+            ui.painter()
+                .hline(rect.x_range(), rect.bottom(), theme.edge_stroke());
+        }
+    });
+}

@@ -1,0 +1,216 @@
+//! The operator's view: the part, OK or not, what to do next, and the parts of this shift.
+
+use std::path::Path;
+
+use egui::Key;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
+use partsight::{
+    app::{
+        WindowOptions,
+        shell::{action::Action, roles::RoleAction, session::UserRole, settings},
+    },
+    files::save_cloud,
+    simulate::{CellSetup, PartKind, PartPose, PoseRange, Side, frame},
+    stages::scene::scene_from_frame,
+};
+
+use super::{
+    live::{Step, sees, toggle, wired_options},
+    set_up::{
+        SMALL, USUAL, WindowHarness, act, drop_file, open, open_with, plain_options, press,
+        wait_until,
+    },
+};
+
+/// A window in the operator's view.
+pub(crate) fn open_operators(options: WindowOptions) -> WindowHarness {
+    let mut harness = open_with(SMALL, options);
+    act(&mut harness, Action::Role(RoleAction::Switch));
+    assert_eq!(harness.state().state().role, UserRole::Operator);
+    harness
+}
+
+fn shows(harness: &WindowHarness, text: &str) -> bool {
+    harness.query_all_by_label_contains(text).next().is_some()
+}
+
+/// A capture of a part of the other side, which is not enrolled.
+fn write_unknown(path: &Path) {
+    let mut setup = CellSetup::with_part(PartKind::Fender, Side::Right, 0, 5);
+    setup.pose = PartPose::Drawn(PoseRange::facing());
+    let scene = scene_from_frame(&frame(&setup).frame);
+    save_cloud(path, &scene.cloud).expect("written");
+}
+
+#[test]
+fn the_operator_sees_part_verdict_and_next_step_and_no_figures() {
+    let mut harness = open();
+    harness.key_press_modifiers(egui::Modifiers::COMMAND, Key::K);
+    harness.run_steps(12);
+    // In the banner; the list has it smaller.
+    let names = harness.query_all_by_label("Front door, left");
+    let heights: Vec<f32> = names.map(|node| node.rect().height()).collect();
+    assert!(heights.iter().any(|height| *height > 60.0), "{heights:?}");
+    assert!(harness.get_by_label("OK").rect().height() > 40.0);
+    harness.get_by_label("Next");
+    harness.get_by_label("Choose a camera: this frame is simulated");
+    harness.get_by_label("3-D view of the scene");
+    for figure in [
+        "rms",
+        "overlap",
+        "iterations",
+        "Score",
+        "Convention",
+        "Enlarge",
+    ] {
+        assert!(!shows(&harness, figure), "{figure}");
+    }
+    press(&mut harness, "Engineer's view");
+    press(&mut harness, "Switch");
+    for figure in [
+        "rms",
+        "overlap",
+        "iterations",
+        "Score",
+        "Convention",
+        "Enlarge",
+    ] {
+        assert!(shows(&harness, figure), "{figure}");
+    }
+}
+
+#[test]
+fn a_good_part_carries_no_warning_in_either_view() {
+    let mut harness = open();
+    harness.get_by_label("Accepted");
+    harness.get_by_label("The robot program must apply the pose to the path");
+    assert!(!shows(&harness, "Move the path by the pose first"));
+    act(&mut harness, Action::Role(RoleAction::Switch));
+    assert!(!shows(&harness, "the pose to the path"));
+}
+
+#[test]
+fn the_parts_of_this_shift_are_counted_and_the_last_are_listed() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let options = || WindowOptions {
+        history: Some(folder.path().join("history")),
+        ..plain_options()
+    };
+    let mut harness = open_operators(options());
+    harness.get_by_label("1 part");
+    harness.get_by_label("1 OK");
+    harness.get_by_label("0 NOK");
+    press(&mut harness, "Inspect");
+    harness.get_by_label("2 parts");
+    let path = folder.path().join("other.pcd");
+    write_unknown(&path);
+    drop_file(&mut harness, &path);
+    harness.get_by_label("NOK");
+    for count in ["3 parts", "2 OK", "1 NOK"] {
+        harness.get_by_label(count);
+    }
+    assert!(shows(&harness, "Shift since "));
+    // The banner and the list name it.
+    let titles = harness.query_all_by_label("Not recognised").count()
+        + harness.query_all_by_label("Unknown").count()
+        + harness.query_all_by_label("Unknown part").count();
+    assert_eq!(titles, 2);
+    drop(harness);
+    // They are the history's, not the window's.
+    let mut harness = open_operators(options());
+    harness.get_by_label("4 parts");
+    press(&mut harness, "History");
+    harness.get_by_label("4 of 4 parts");
+    harness.get_by_label("Inspect").click();
+    harness.run_steps(4);
+    harness.get_by_label("OK");
+}
+
+#[test]
+fn the_view_is_remembered_without_a_pin_too() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("settings.toml");
+    let options = || WindowOptions {
+        settings: Some(path.clone()),
+        ..plain_options()
+    };
+    let harness = open_operators(options());
+    let remembered = settings::Settings::of(harness.state().state(), None);
+    settings::save(&path, &remembered).expect("saved");
+    drop(harness);
+    let harness = open_with(USUAL, options());
+    assert_eq!(harness.state().state().role, UserRole::Operator);
+    harness.get_by_label("OK");
+}
+
+#[test]
+fn without_a_result_the_operator_is_told_what_to_do() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let empty = WindowOptions {
+        library: Some(folder.path().to_owned()),
+        ..WindowOptions::default()
+    };
+    let harness = open_operators(empty);
+    harness.get_by_label("Ask the engineer to enrol the parts");
+    assert!(!shows(&harness, "NOK") || shows(&harness, "0 NOK"));
+
+    // The last part was good; this capture came to nothing.
+    let mut harness = open_operators(plain_options());
+    harness.get_by_label("OK");
+    let broken = folder.path().join("broken.pcd");
+    std::fs::write(&broken, "no cloud").expect("written");
+    drop_file(&mut harness, &broken);
+    harness.get_by_label("No result");
+    assert!(harness.query_by_label("OK").is_none());
+    harness.key_press(Key::T);
+    harness.run_steps(2);
+    harness.get_by_label("No result");
+}
+
+#[test]
+fn what_is_followed_is_good_only_while_its_verdict_counts() {
+    let (options, wire) = wired_options();
+    let mut harness = open_operators(options);
+    toggle(&mut harness);
+    sees(&mut harness, &wire, [0.0; 4]);
+    harness.get_by_label("Looking");
+    assert!(harness.query_by_label("OK").is_none());
+    sees(&mut harness, &wire, [0.0; 12]);
+    harness.get_by_label("OK");
+    assert!(shows(&harness, "Live · steady"));
+    sees(&mut harness, &wire, [0.03, 0.06]);
+    harness.get_by_label("Moving");
+    assert!(harness.query_by_label("OK").is_none());
+    wire.send(Step::Unplugged).expect("the camera is open");
+    wait_until(&mut harness, |state| {
+        let status = state.live.status.as_ref();
+        status.is_some_and(|status| {
+            matches!(
+                status.source,
+                partsight::app::shell::live::SourceState::Lost(_)
+            )
+        })
+    });
+    harness.run_steps(2);
+    harness.get_by_label("No camera");
+}
+
+#[test]
+fn its_controls_are_large_labelled_and_inside_a_small_window() {
+    let mut harness = open_operators(plain_options());
+    harness.run_steps(4);
+    let mut num_controls = 0;
+    for node in harness.get_all_by_role(egui::Role::Button) {
+        let label = node.accesskit_node().label().unwrap_or_default();
+        let rect = node.rect();
+        assert!(!label.is_empty(), "a control at {rect:?} has no label");
+        assert!(
+            rect.width() >= 35.9 && rect.height() >= 35.9,
+            "{label}: {rect:?}"
+        );
+        let window = egui::Rect::from_min_size(egui::Pos2::ZERO, SMALL);
+        assert!(window.expand(0.5).contains_rect(rect), "{label}: {rect:?}");
+        num_controls += 1;
+    }
+    assert!(num_controls >= 5, "{num_controls} controls");
+}
