@@ -20,7 +20,7 @@ use crate::{
     error::{Fault, guarded},
     library::Library,
     stages::{
-        confirm::{ConfirmParams, ConfirmedRanking},
+        confirm::{CUT_SHARE, ConfirmParams, ConfirmedRanking},
         contour::{Contour, ContourParams},
         pose::{PoseError, PoseEstimate, PoseMethod, icp::IcpParams, icp_ga::IcpGaParams},
         project::{PlaneImage, ProjectParams},
@@ -173,17 +173,32 @@ fn inspect(
     match first.map_err(|no_part| *no_part) {
         Ok(first) => {
             first?.keep(&mut inspection);
+            let evidence = inspection.ranking.entries.first().and_then(|e| e.evidence);
+            let looks_whole = evidence.is_some_and(|evidence| evidence.cut < CUT_SHARE);
             if should_try_alternatives(&inspection, recipe) {
                 let likeliest = inspection.segmentation.part.clone();
                 try_other_segments(&mut inspection, scene, library, recipe, &clock)?;
                 if should_try_alternatives(&inspection, recipe) {
                     check_mirror_image(&mut inspection, scene, library, recipe, &clock)?;
                 }
-                if should_try_alternatives(&inspection, recipe)
-                    && !inspection.verdict.is_likeness()
-                    && let Ok(likeliest) = &likeliest
-                {
-                    try_without_bars(&mut inspection, likeliest, scene, library, recipe, &clock)?;
+                if let Ok(likeliest) = &likeliest {
+                    if is_nothing_like_it(&inspection, recipe) && looks_whole {
+                        let piece = SegmentedPart {
+                            is_piece: true,
+                            ..likeliest.clone()
+                        };
+                        try_segment(&mut inspection, piece, scene, library, recipe, &clock)?;
+                    }
+                    if is_nothing_like_it(&inspection, recipe) {
+                        try_without_bars(
+                            &mut inspection,
+                            likeliest,
+                            scene,
+                            library,
+                            recipe,
+                            &clock,
+                        )?;
+                    }
                 }
             }
         }
@@ -205,6 +220,11 @@ fn should_try_alternatives(inspection: &Inspection, recipe: &Recipe) -> bool {
         && recipe.pose == PoseChoice::By(PoseMethod::Global);
     let is_accepted = matches!(inspection.verdict, Verdict::Part { rejected: None, .. });
     is_ours && !is_accepted && !inspection.ranking.entries.is_empty()
+}
+
+/// True if neither an enrolled part nor one that is like it, such as its mirror image, was found.
+fn is_nothing_like_it(inspection: &Inspection, recipe: &Recipe) -> bool {
+    should_try_alternatives(inspection, recipe) && !inspection.verdict.is_likeness()
 }
 
 /// Looks at the next largest surfaces too, and keeps the one that is most likely an enrolled part.

@@ -343,6 +343,34 @@ fn a_right_hand_part_is_refused_as_the_mirror_image_of_the_left_one() {
 }
 
 #[test]
+fn a_part_whose_outline_its_stand_changes_is_found() {
+    let library = standard();
+    // A clamp holds the fender; the bars of the grille are as wide as the tubes that it hangs on.
+    for (kind, seed) in [(PartKind::Fender, 5_800_519), (PartKind::Grille, 5_800_302)] {
+        let subject = SimulatedObject::Part {
+            kind,
+            side: Side::Left,
+            model_seed: 0,
+        };
+        let scene = scene_of(&CellSetup::booth(subject, seed));
+        let inspection = inspected(&scene, &library, &Recipe::default());
+        assert_eq!(
+            inspection.reference(),
+            Some(kind.name()),
+            "{kind}, seed {seed}"
+        );
+        assert!(
+            inspection
+                .verdict
+                .score()
+                .is_some_and(|[score, _]| score > 0.7),
+            "{:?}",
+            inspection.verdict
+        );
+    }
+}
+
+#[test]
 fn a_part_of_another_model_is_named_and_its_pose_is_marked_as_approximate() {
     let library = standard();
     let verdict_on = |model_seed: u64, kind: PartKind| {

@@ -20,6 +20,7 @@ use self::{candidate::ReferenceCandidate, prepared_scene::PreparedScene};
 pub use self::{
     confirmed_match::{ConfirmedMatch, ConfirmedRanking},
     evidence::{Evidence, FEATURES, NUM_FEATURES, NUM_TYPE_FEATURES, TYPE_FEATURES},
+    prepared_scene::CUT_SHARE,
 };
 use crate::{
     stages::{
@@ -152,14 +153,12 @@ type Confirmed = (ConfirmedRanking, Result<PoseEstimate, PoseError>);
 const MOST_DRAWS: u64 = 3;
 /// A best score below this says that a draw may have missed the part.
 const MISSED_BELOW: f64 = 0.1;
-/// A piece is drawn again only where a start cost less than this: 0.6 is a good fit, and where nothing is enrolled they
-/// cost more.
+/// It is drawn again only where a start cost less than this: 0.6 is a good fit, and where nothing is enrolled they cost more.
 const NEARLY: f64 = 1.3;
 
 /// Orders the matches by their confirmed scores, and gives the pose of the first.
 ///
-/// Poses that cannot reach `least_score` are not refined to the end; at 0 the best is, however badly it fits, and what
-/// looks whole and is not found is searched for once more as a piece: a clamp on it, or a hole in it, changes its outline.
+/// Poses that cannot reach `least_score` are not refined to the end; at 0 the best is, however badly it fits.
 pub fn confirm(
     scene: &Scene<'_>,
     references: &[Reference],
@@ -174,9 +173,10 @@ pub fn confirm(
             seed: params.seed + draw,
             ..params.clone()
         };
-        let (confirmed, is_worth_another) =
-            confirm_drawn(scene, references, ranking, &params, least_score, draw > 0);
-        let may_be_missed = score(&confirmed) < MISSED_BELOW && is_worth_another;
+        let (confirmed, least_cost) =
+            confirm_drawn(scene, references, ranking, &params, least_score);
+        let may_be_missed =
+            score(&confirmed) < MISSED_BELOW && least_cost.is_some_and(|cost| cost < NEARLY);
         if best
             .as_ref()
             .is_none_or(|best| score(&confirmed) > score(best))
@@ -190,36 +190,30 @@ pub fn confirm(
     best.expect("there is a first draw")
 }
 
-/// Confirms with one draw of a piece's border points, `is_again` after one that found nothing; also whether another draw
-/// may find more.
+/// Confirms with one draw of a piece's border points; also the least cost of a piece on any reference.
 fn confirm_drawn(
     scene: &Scene<'_>,
     references: &[Reference],
     ranking: &MatchRanking,
     params: &ConfirmParams,
     least_score: f64,
-    is_again: bool,
-) -> (Confirmed, bool) {
-    let seen = PreparedScene::new(scene, references, params, is_again);
+) -> (Confirmed, Option<f64>) {
+    let seen = PreparedScene::new(scene, references, params);
     if seen.source.surface.len() < 20 {
         let error = PoseError::TooFewPoints {
             which: "source",
             found: seen.source.surface.len(),
             needed: 20,
         };
-        return ((ConfirmedRanking::unexamined(ranking), Err(error)), false);
+        return ((ConfirmedRanking::unexamined(ranking), Err(error)), None);
     }
     let mut entries: Vec<&MatchEntry> = ranking.entries.iter().collect();
     let num_looked_at = seen.select_entries(&mut entries, references, params);
     let trials = seen.trials(&entries[..num_looked_at], references, least_score);
     let costs = trials.iter().flatten().filter(|trial| !trial.is_piece);
     let least = costs.map(|trial| trial.cost).fold(f64::INFINITY, f64::min);
-    let mut of_pieces = trials.iter().flatten().filter(|trial| trial.is_piece);
-    let is_worth_another = if seen.is_piece {
-        of_pieces.any(|trial| trial.cost < NEARLY)
-    } else {
-        least_score <= 0.0
-    };
+    let of_pieces = trials.iter().flatten().filter(|trial| trial.is_piece);
+    let least_of_pieces = of_pieces.map(|trial| trial.cost).min_by(f64::total_cmp);
     let mut trials = trials.into_iter();
     let mut tried: Vec<Tried<'_>> = entries
         .into_iter()
@@ -265,7 +259,7 @@ fn confirm_drawn(
         ConfirmedRanking { entries },
         pose.ok_or(PoseError::NoReferenceCloud),
     );
-    (confirmed, is_worth_another)
+    (confirmed, least_of_pieces)
 }
 
 /// A match on its way through the confirmation.

@@ -47,7 +47,6 @@ impl<'a> PreparedScene<'a> {
         scene: &'a Scene<'a>,
         references: &[Reference],
         params: &ConfirmParams,
-        is_again: bool,
     ) -> Self {
         let outline = outline_of(scene);
         let source = thinned_source(scene, &outline, params);
@@ -56,10 +55,9 @@ impl<'a> PreparedScene<'a> {
                 .iter()
                 .all(|reference| reference.cut.is_nothing())
         };
-        let looks_whole = outline.cut_share < CUT_SHARE;
-        let is_piece = is_again || !looks_whole;
+        let is_piece = scene.part.is_piece || outline.cut_share >= CUT_SHARE;
         let piece = (is_piece || !are_whole()).then(|| {
-            let num_pairs = if is_again && looks_whole {
+            let num_pairs = if scene.part.is_piece {
                 NUM_PAIRS_OF_A_WHOLE
             } else {
                 NUM_PAIRS
@@ -167,7 +165,7 @@ fn thinned_source(scene: &Scene<'_>, outline: &Outline, params: &ConfirmParams) 
 }
 
 /// An outline of which more than this share is not the part's own is that of a piece.
-const CUT_SHARE: f64 = 0.04;
+pub const CUT_SHARE: f64 = 0.04;
 /// References that a piece is laid onto.
 const NUM_FOR_A_PIECE: usize = 16;
 /// Points of the border that get a normal.

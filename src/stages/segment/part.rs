@@ -27,6 +27,8 @@ pub struct SegmentedPart {
     pub noise_at_1m: Metres,
     /// True if the part reaches the edge of the picture, so that some of it may be missing.
     pub touches_edge: bool,
+    /// True if it is to be looked for as a piece, whatever its outline: a clamp on it, or a hole in it, changes that.
+    pub is_piece: bool,
     /// What is known of the surface; `None` of a cloud that holds nothing but the part.
     pub surface: Option<Cluster>,
 }
@@ -154,6 +156,7 @@ impl SegmentedPart {
             stand: Vec::new(),
             noise_at_1m,
             touches_edge,
+            is_piece: false,
             surface: None,
         }
     }
