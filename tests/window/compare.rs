@@ -173,7 +173,7 @@ fn what_is_refused_is_said_to_be_so_and_why_and_only_the_judgement_is_good() {
     show(&mut harness, CellChoice::Foreign(ObjectKind::Hood));
     harness.get_by_label("not accepted · which part is it actually?");
     harness.get_by_label_contains("Not accepted · nearest ");
-    harness.get_by_label_contains("Whether rightly is not known · ");
+    harness.get_by_label_contains("The actual part is not set · ");
     harness.get_by_label_contains("Refused: score 0.");
     harness.get_by_label_contains(": unknown; the outlines lie ");
     // Of both matchers, in the smallest window too.

@@ -230,6 +230,30 @@ fn a_part_enrolled_anew_replaces_the_former_one_and_undo_brings_that_back() {
 }
 
 #[test]
+fn a_part_that_another_program_saved_meanwhile_is_not_replaced_unasked() {
+    let library = library();
+    let mut harness = open(library.path());
+    let mut other = open(library.path());
+    enrol(&mut other, PartKind::Grille, "Grille");
+    enrol(&mut harness, PartKind::Grille, "Grille");
+    let trash = || {
+        library
+            .path()
+            .join(".trash")
+            .read_dir()
+            .map_or(0, Iterator::count)
+    };
+    assert!(
+        notices(&harness)[0].contains("Another program has saved a part named grille"),
+        "{:?}",
+        notices(&harness)
+    );
+    assert_eq!(trash(), 0);
+    press(&mut harness, "Save");
+    assert_eq!(trash(), 1);
+}
+
+#[test]
 fn what_shall_be_replaced_is_followed_when_renamed_and_forgotten_when_removed() {
     let library = library();
     let mut harness = open(library.path());

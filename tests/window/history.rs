@@ -64,6 +64,24 @@ fn act_in_history(harness: &mut WindowHarness, action: HistoryAction) {
 }
 
 #[test]
+fn a_new_inspection_is_looked_at_whatever_row_was_selected_before() {
+    let mut harness = open();
+    harness.key_press(Key::Space);
+    settle(&mut harness);
+    go_to_history(&mut harness);
+    settle(&mut harness);
+    press(&mut harness, "Inspection 1: Front door, left, Accepted");
+    // Below zero, because nothing is written.
+    assert_eq!(history_of(&harness).listed(), Some(-1));
+    act(&mut harness, Action::GoTo(WorkspaceKind::Inspect));
+    harness.key_press(Key::Space);
+    settle(&mut harness);
+    go_to_history(&mut harness);
+    settle(&mut harness);
+    assert_eq!(history_of(&harness).listed(), Some(-3));
+}
+
+#[test]
 fn an_earlier_inspection_is_found_and_opened_again_with_its_stages() {
     let mut harness = open();
     harness.key_press(Key::Space);

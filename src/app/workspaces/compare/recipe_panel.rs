@@ -323,7 +323,7 @@ fn outcome(
                 (Some(CaseOutcome::WrongAccepted), _) => ("False accept", theme.rejected),
                 (Some(CaseOutcome::Refused), _) => ("Wrongly refused", theme.warning),
                 (None, true) => ("Accepted", theme.text),
-                (None, false) => ("Whether rightly is not known", theme.text),
+                (None, false) => ("The actual part is not set", theme.text),
             };
             let word = format!("{word} · {:.0} ms", study.time_ms);
             ui.label(RichText::new(word).color(colour));

@@ -453,7 +453,7 @@ impl CompareState {
                 self.undo = Some(Undo::Recipe { file, was_default });
             }
             RecipeDone::Default(name) => {
-                let text = format!("Commands without --recipe use {name} now");
+                let text = format!("Commands without --recipe now use \"{name}\"");
                 self.say(text, cx);
             }
             RecipeDone::Imported(name) => {

@@ -57,6 +57,20 @@ pub(super) fn change(
         let title = place.map(|place| shelved.shown.title(place));
         title.map_or_else(|| name.to_string(), str::to_owned)
     };
+    if let LibraryChange::Save(_, words, _) = change
+        && shelved.shown.place_of(words.name.as_str()).is_none()
+        && folder.path().join(words.name.as_str()).exists()
+    {
+        let reloaded = library_cache.reload();
+        reloaded.map_err(|error| UserError::of(&error))?;
+        return Err(UserError {
+            what: format!(
+                "Another program has saved a part named {} since this library was opened",
+                words.name
+            ),
+            advice: "Save again to replace it, or give this one another name".into(),
+        });
+    }
     let read = match change {
         LibraryChange::ReadPath(name, file) => {
             let path = SprayPath::read(file).map_err(|error| UserError::of(&error))?;

@@ -18,7 +18,7 @@ use crate::{
             file_dialog::{FileChoice, FileRequest},
             message::{Event, Message, ReinspectionPurpose},
             notice::Notice,
-            session::UserRole,
+            session::{UserRole, WorkspaceKind},
         },
         task::TaskEvent,
         user_error::UserError,
@@ -194,6 +194,10 @@ impl HistoryState {
         match event {
             Event::Inspected { inspected, purpose } => match purpose {
                 ReinspectionPurpose::New => {
+                    // Whoever comes here from the view of a part looks for that one.
+                    if cx.session.workspace != WorkspaceKind::History {
+                        self.selected = None;
+                    }
                     let entry = inspected.entry.clone();
                     self.keep(entry, Some(inspected));
                 }
