@@ -25,7 +25,9 @@ pub use self::feed::{BackpressurePolicy, Feed, FeedItem, FeedState, FeedStatus};
 pub use self::kinect::{KinectError, KinectWarning};
 pub use self::open::{SourceListing, list, open};
 pub use self::rate::FrameRate;
-pub(crate) use self::read::{may_be_capture, read_image};
+#[cfg(feature = "cli")]
+pub(crate) use self::read::may_be_capture;
+pub(crate) use self::read::read_image;
 pub use self::recording::{Recorder, Replay};
 pub use self::simulated::SimulatedCell;
 pub use self::source::{Captured, DepthSource, Image, NextCapture, SkippedCapture};

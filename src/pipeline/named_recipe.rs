@@ -19,7 +19,6 @@ use std::{
     sync::Arc,
 };
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 use super::{
@@ -110,7 +109,8 @@ impl From<RecipeFile> for NamedRecipe {
 }
 
 /// By which recipe something was inspected, as reports and JSON lines have it.
-#[derive(Clone, Debug, Serialize, JsonSchema)]
+#[derive(Clone, Debug, Serialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 pub struct RecipeBlock {
     /// Eight hexadecimal digits, the same for the same parameters.
     pub identity: String,
