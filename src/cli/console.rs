@@ -28,7 +28,7 @@ pub(super) fn with_advice<E: Display + Advice>(error: &E) -> String {
 
 /// More inputs than this take long enough for a progress bar.
 const MANY: usize = 5;
-/// Whoever waits longer than this is told that something is at work.
+/// After this much silence a terminal shows that the command is still working.
 const PATIENCE: Duration = Duration::from_secs(2);
 
 impl Console {
@@ -69,7 +69,7 @@ impl Console {
     /// A remark beside the answer, on one line.
     pub(super) fn note(&self, text: &dyn Display) {
         let text = text.to_string();
-        // Nobody reads it if this fails.
+        // If stderr is gone, there is nobody to tell.
         self.progress
             .suspend(|| drop(writeln!(io::stderr(), "{}", visible(&text))));
     }
@@ -93,7 +93,7 @@ impl Console {
         if io::stderr().is_terminal() {
             let late = |state: &ProgressState, out: &mut dyn fmt::Write| {
                 let text = waiting(state.elapsed()).unwrap_or_default();
-                // Nobody reads it if this fails.
+                // If stderr is gone, there is nobody to tell.
                 let _ = out.write_str(&text);
             };
             let style = ProgressStyle::with_template("{late}");

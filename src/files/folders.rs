@@ -40,7 +40,7 @@ pub(crate) fn new_folder(parent: &Path, prefix: &str) -> io::Result<tempfile::Te
     builder.tempdir_in(parent)
 }
 
-/// Writes a file that nobody looks for yet.
+/// Writes a new file in place and syncs it: for folders that are renamed once they are complete.
 pub(crate) fn write_file(path: &Path, content: &[u8]) -> io::Result<()> {
     let mut file = File::create(path)?;
     file.write_all(content)?;

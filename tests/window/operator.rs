@@ -10,9 +10,10 @@ use partsight::{
         shell::{action::Action, roles::RoleAction, session::UserRole, settings},
     },
     files::save_cloud,
-    simulate::{CellSetup, PartKind, PartPose, PoseRange, Side, frame},
-    stages::scene::scene_from_frame,
+    simulate::{PartKind, Side},
 };
+
+use crate::kit::facing_part;
 
 use super::{
     live::{Step, sees, toggle, wired_options},
@@ -36,9 +37,7 @@ fn shows(harness: &WindowHarness, text: &str) -> bool {
 
 /// A capture of a part of the other side, which is not enrolled.
 fn write_unknown(path: &Path) {
-    let mut setup = CellSetup::with_part(PartKind::Fender, Side::Right, 0, 5);
-    setup.pose = PartPose::Drawn(PoseRange::facing());
-    let scene = scene_from_frame(&frame(&setup).frame);
+    let scene = facing_part(PartKind::Fender, Side::Right, 5);
     save_cloud(path, &scene.cloud).expect("written");
 }
 
@@ -55,26 +54,20 @@ fn the_operator_sees_part_verdict_and_next_step_and_no_figures() {
     harness.get_by_label("Next");
     harness.get_by_label("Choose a camera: this frame is simulated");
     harness.get_by_label("3-D view of the scene");
-    for figure in [
+    let figures = [
         "rms",
         "overlap",
         "iterations",
         "Score",
         "Convention",
         "Enlarge",
-    ] {
+    ];
+    for figure in figures {
         assert!(!shows(&harness, figure), "{figure}");
     }
     press(&mut harness, "Engineer's view");
     press(&mut harness, "Switch");
-    for figure in [
-        "rms",
-        "overlap",
-        "iterations",
-        "Score",
-        "Convention",
-        "Enlarge",
-    ] {
+    for figure in figures {
         assert!(shows(&harness, figure), "{figure}");
     }
 }

@@ -11,7 +11,7 @@ use crate::app::ui::{
 /// Whether the window may close.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
 pub enum Closing {
-    /// Nobody has asked to close it.
+    /// No close was requested.
     #[default]
     No,
     /// This would be lost, in words: a person is asked.

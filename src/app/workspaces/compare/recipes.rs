@@ -392,7 +392,7 @@ impl CompareState {
         while let Some(event) = self.recipes.task.poll() {
             match event {
                 TaskEvent::Partial(changed) | TaskEvent::Done(changed) => {
-                    self.take_in_recipes(changed, cx);
+                    self.on_changed(changed, cx);
                 }
                 TaskEvent::Failed(error) => cx.notify(error),
             }
@@ -402,7 +402,7 @@ impl CompareState {
         self.recipes.start_next();
     }
 
-    fn take_in_recipes(&mut self, changed: Changed, cx: &mut ShellContext<'_>) {
+    fn on_changed(&mut self, changed: Changed, cx: &mut ShellContext<'_>) {
         let Changed { list, done } = changed;
         if matches!(done, RecipeDone::Listed) {
             for problem in &list.problems {

@@ -147,7 +147,7 @@ pub(super) fn ui(ui: &mut Ui, headline: &Headline, theme: &Theme) {
     ui.add_space(space::SMALL);
 }
 
-/// The first of these in which the name takes at most so many lines, and none of its words is broken; else the last.
+/// The first font in which the name fits into `max_lines` without breaking a word; the last one if none does.
 pub(super) fn fitting_font(ui: &Ui, name: &str, fonts: &[FontId], max_lines: usize) -> FontId {
     let (width, colour) = (ui.available_width(), ui.visuals().text_color());
     let fits = |font: &FontId| {

@@ -149,7 +149,7 @@ impl InspectWorkspace {
         self.view.viewport.detail()
     }
 
-    /// Hands the view over as it is now, if its picture is waited for.
+    /// Hands over the picture of the current view, if one was requested.
     fn hand_over_picture(&mut self, ui: &Ui, cx: &mut ShellContext<'_>) {
         if self.state.wants_picture() {
             let shot = self.view.shot(ui.pixels_per_point());

@@ -71,7 +71,7 @@ impl Tone {
     }
 }
 
-/// What the operator is told.
+/// The verdict, its reason and the next step, in the operator's words.
 #[derive(Debug)]
 struct Banner {
     tone: Tone,
