@@ -371,6 +371,44 @@ fn a_part_whose_outline_its_stand_changes_is_found() {
 }
 
 #[test]
+fn a_half_that_two_doors_share_is_accepted_as_neither() {
+    let library = standard();
+    // Each was once accepted as the other door, whose pose fits the half in sight a little better.
+    let halves = [
+        (PartKind::FrontDoor, 17_800_500),
+        (PartKind::FrontDoor, 17_800_596),
+        (PartKind::BackDoor, 13_800_467),
+    ];
+    for (kind, seed) in halves {
+        let subject = SimulatedObject::Part {
+            kind,
+            side: Side::Left,
+            model_seed: 0,
+        };
+        let scene = scene_of(&CellSetup::booth(subject, seed));
+        let verdict = inspected(&scene, &library, &Recipe::default()).verdict;
+        assert!(
+            matches!(verdict.rejected(), Some(Rejection::SmallMargin { .. })),
+            "{kind}, seed {seed}: {verdict:?}"
+        );
+    }
+}
+
+#[test]
+fn a_piece_is_found_whose_pose_first_stops_farther_along_the_sheet() {
+    let library = standard();
+    let subject = SimulatedObject::Part {
+        kind: PartKind::Grille,
+        side: Side::Left,
+        model_seed: 0,
+    };
+    let scene = scene_of(&CellSetup::booth(subject, 15_800_198));
+    let verdict = inspected(&scene, &library, &Recipe::default()).verdict;
+    assert_eq!(verdict.guess(), Some("grille"));
+    assert!(verdict.is_accepted(), "{verdict:?}");
+}
+
+#[test]
 fn a_part_of_another_model_is_named_and_its_pose_is_marked_as_approximate() {
     let library = standard();
     let verdict_on = |model_seed: u64, kind: PartKind| {

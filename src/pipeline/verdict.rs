@@ -20,7 +20,8 @@ use crate::{
 pub struct AcceptParams {
     /// Least score, 0..1. Raising it turns wrong verdicts into rejections, and some right ones too.
     pub min_score: f64,
-    /// Least lead over the next part of another name, 0..1.
+    /// Least lead over the next part of another name, and over another pose of the same part, 0..1. The lead is the
+    /// difference of their probabilities where only one of the two can be right: 0.6 is four times as probable.
     pub min_margin: f64,
     /// A best guess below this score, 0..1, is not named: what hangs there is more likely unknown. Raising it names
     /// fewer parts that are half hidden.
@@ -45,7 +46,7 @@ impl Default for AcceptParams {
     fn default() -> Self {
         Self {
             min_score: 0.9,
-            min_margin: 0.05,
+            min_margin: 0.6,
             unknown_below: 0.5,
             min_likeness: 0.6,
             max_relief: Metres::from_mm(4.0),
@@ -65,7 +66,7 @@ pub enum Verdict {
         part: String,
         /// Its score, 0..1.
         score: f64,
-        /// Lead over the next part's score.
+        /// Lead over the next part, 0..1: the difference of their probabilities where only one of them can hang there.
         margin: f64,
         /// `None` when accepted, else why not.
         rejected: Option<Rejection>,
@@ -165,7 +166,7 @@ pub(super) fn verdict(
     };
     let accept = &recipe.accept;
     let next = ranking.runner_up();
-    let margin = best.score - next.map_or(0.0, |n| n.score);
+    let margin = lead(best.score, next.map_or(0.0, |n| n.score));
     let unlike = best.evidence.map_or(0.0, |e| model_deviation(&e, accept));
     let other_model = best.evidence.filter(|_| unlike > 1.0);
     // The other methods' bounds do without the outline, and are wider than need be.
@@ -187,10 +188,10 @@ pub(super) fn verdict(
             margin,
             threshold: accept.min_margin,
         }),
-        (_, Some(evidence)) if best.score - evidence.rival < accept.min_margin => {
+        (_, Some(evidence)) if lead(best.score, evidence.rival) < accept.min_margin => {
             Some(Rejection::AmbiguousPose {
                 part: best.part.clone(),
-                margin: best.score - evidence.rival,
+                margin: lead(best.score, evidence.rival),
                 threshold: accept.min_margin,
             })
         }
@@ -217,6 +218,13 @@ pub(super) fn verdict(
         rejected,
         is_approximate: unlike > APPROXIMATE_FROM,
     }
+}
+
+/// How much more probable the first of two is if only one of them can be right, from the probability of each alone.
+fn lead(score: f64, next: f64) -> f64 {
+    let odds = |score: f64| score / (1.0 - score).max(f64::EPSILON);
+    let (first, second) = (odds(score), odds(next));
+    (first - second) / (1.0 + first + second)
 }
 
 /// From this share of what another model is refused at, a pose is called approximate: four fifths of the other models
@@ -271,5 +279,21 @@ fn too_low(best: &ConfirmedMatch, accept: &AcceptParams) -> Rejection {
             score,
             threshold,
         },
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_lead_is_the_difference_of_probabilities_of_which_one_is_right() {
+        // Alone it is the score.
+        assert!((lead(0.97, 0.0) - 0.97).abs() < 1e-12);
+        assert!(lead(0.9, 0.9).abs() < 1e-12);
+        // Odds of 32 and 9 to 1: three times in four it is the first.
+        assert!((lead(0.97, 0.9) - (32.333 - 9.0) / 42.333).abs() < 1e-4);
+        assert!(lead(1.0, 0.99) > 0.99);
+        assert!(lead(0.5, 0.9) < 0.0);
     }
 }

@@ -296,8 +296,8 @@ fn sort_by_score(tried: &mut [Tried<'_>]) {
     tried.sort_by(|a, b| b.score.total_cmp(&a.score));
 }
 
-/// Whose score is more than this share of the best one's is refined to the end.
-const CONTENDS: f64 = 0.6;
+/// Whose score is more than this share of the best one's is refined to the end: it may become as good.
+const CONTENDS: f64 = 1.0 / MOST_GAINED;
 /// What scores less will not be accepted however exactly it is placed.
 const HOPELESS_SCORE: f64 = 1e-4;
 /// And what comes second with less than this will not become the first.

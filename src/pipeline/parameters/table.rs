@@ -242,7 +242,7 @@ pub const PARAMETERS: &[Parameter] = &[
         "A part that is not an enrolled one is named as another make of it from this likeness on. Raising it calls more of them unknown."),
     number!("accept.min_margin", "Margin at least", Acceptance, Front, None, [0.0, 1.0], 2,
         |r| r.accept.min_margin, |r, v| r.accept.min_margin = v,
-        "Minimum lead over the next part. Raising it rejects parts that are alike."),
+        "Minimum lead over the next part and over another pose: the difference of their probabilities where only one can be right. Raising it rejects parts that are alike."),
     number!("accept.unknown_below", "Unknown below", Acceptance, Fold, None, [0.0, 1.0], 2,
         |r| r.accept.unknown_below, |r, v| r.accept.unknown_below = v,
         "A best match below this score is reported as unknown. Raising it names fewer parts that are half hidden."),

@@ -127,11 +127,7 @@ impl PreparedScene<'_> {
                 Some(piece) => starts
                     .iter()
                     .filter(|start| start.0 == number)
-                    .filter_map(|(_, start)| {
-                        let pose = &start.target_from_source;
-                        let view = facing_view(reference, pose);
-                        self.attempt(reference, view, pose, &FIRST_OF_A_PIECE, Some(piece))
-                    })
+                    .filter_map(|(_, start)| self.attempt_piece(piece, reference, start))
                     .collect(),
                 None => self
                     .distinct_starts(reference, &entry.placements)
@@ -143,10 +139,22 @@ impl PreparedScene<'_> {
             trials
         };
         let mut trials: Vec<Vec<PoseTrial>> = entries.iter().enumerate().map(of_entry).collect();
-        let of_pieces = trials.iter().flatten().filter(|trial| trial.is_piece);
-        let least = of_pieces
-            .map(|trial| trial.cost)
-            .fold(f64::INFINITY, f64::min);
+        let least = least_piece_cost(&trials);
+        for (entry, trials) in entries.iter().zip(&mut trials) {
+            let reference = &references[entry.reference];
+            let Some(piece) = self.piece_for(reference) else {
+                continue;
+            };
+            let best = trials.first();
+            if let Some(best) = best.filter(|best| best.cost < least + WORSE_POSE) {
+                let pose = best.refined.target_from_source;
+                for start in self.slides(piece, reference, &pose, best.cost) {
+                    trials.extend(self.attempt_piece(piece, reference, &start));
+                }
+                trials.sort_by(|a, b| a.cost.total_cmp(&b.cost));
+            }
+        }
+        let least = least_piece_cost(&trials);
         for trials in &mut trials {
             trials.retain(|trial| !trial.is_piece || trial.cost < least + WORSE_POSE);
         }
@@ -269,6 +277,17 @@ impl PreparedScene<'_> {
         starts
     }
 
+    fn attempt_piece(
+        &self,
+        piece: &PieceSample,
+        reference: &Reference,
+        start: &Start,
+    ) -> Option<PoseTrial> {
+        let pose = &start.target_from_source;
+        let view = facing_view(reference, pose);
+        self.attempt(reference, view, pose, &FIRST_OF_A_PIECE, Some(piece))
+    }
+
     fn attempt(
         &self,
         reference: &Reference,
@@ -321,6 +340,13 @@ impl PreparedScene<'_> {
         let apart = pose_error(a, b, &self.centre);
         apart.rotation.degrees() > limits.0 || apart.shift.mm() > limits.1
     }
+}
+
+fn least_piece_cost(trials: &[Vec<PoseTrial>]) -> f64 {
+    let of_pieces = trials.iter().flatten().filter(|trial| trial.is_piece);
+    of_pieces
+        .map(|trial| trial.cost)
+        .fold(f64::INFINITY, f64::min)
 }
 
 /// Turn (degrees) and shift (millimetres) below which two starts lead to the same pose.

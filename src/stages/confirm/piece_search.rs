@@ -6,7 +6,7 @@
 //! reference, and by where the camera looks past the reference. Only what both views show is compared: nothing that
 //! lies outside one of them speaks against a pose.
 
-use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, UnitQuaternion, Vector3};
+use nalgebra::{Isometry3, Matrix3, Point3, Rotation3, Translation3, UnitQuaternion, Vector3};
 use rand::{SeedableRng as _, seq::SliceRandom as _};
 use rand_pcg::Pcg64;
 
@@ -48,6 +48,12 @@ const MOST_SCORED: usize = 100;
 const MOST_KEPT: usize = 6;
 /// Poses that lie this close, turn (degrees) and shift (millimetres), lead to the same one.
 const SAME: (f64, f64) = (12.0, 45.0);
+/// Step along the sheet around a refined pose, metres, and how many are taken each way.
+const SLIDE: f64 = 0.03;
+const NUM_SLIDES: i32 = 4;
+/// Other places are tried that cost this much more than the refined pose at most, so many of them.
+const WORSE_SLIDE: f64 = 0.3;
+const MOST_SLID: usize = 3;
 /// A point this close to where the reference's view ends, metres, may lie beyond it.
 const AT_CUT: f64 = 0.01;
 /// What the camera looks past is farther than the reference by at least this, metres, plus the noise.
@@ -135,7 +141,7 @@ impl PreparedScene<'_> {
             poses.select_nth_unstable_by(MOST_SCORED, |a, b| a.0.total_cmp(&b.0));
             poses.truncate(MOST_SCORED);
         }
-        let mut starts: Vec<Start> = poses
+        let starts: Vec<Start> = poses
             .iter()
             .map(|(_, pose)| pose.cast())
             .chain(others)
@@ -147,18 +153,45 @@ impl PreparedScene<'_> {
                 })
             })
             .collect();
+        self.best_distinct(starts, MOST_KEPT)
+    }
+
+    /// Other places along the sheet around a pose that cost hardly more than the pose does, the cheapest first: a smooth
+    /// sheet is held by its border alone, and a refinement stops at the first place that fits a little.
+    pub(super) fn slides(
+        &self,
+        piece: &PieceSample,
+        reference: &Reference,
+        target_from_source: &RigidTransform,
+        cost: f64,
+    ) -> Vec<Start> {
+        let camera_from_plane = self.scene.query.plane.plane_from_camera.inverse();
+        let steps = || (-NUM_SLIDES..=NUM_SLIDES).map(|step| f64::from(step) * SLIDE);
+        let along = steps().flat_map(|x| steps().map(move |y| Vector3::new(x, y, 0.0)));
+        let starts = along
+            .filter(|along| *along != Vector3::zeros())
+            .filter_map(|along| {
+                let shift = Translation3::from(camera_from_plane.rotation * along);
+                let target_from_source = target_from_source * shift;
+                let limit = cost + WORSE_SLIDE;
+                let cost = self.coarse_cost(piece, reference, &target_from_source, limit)?;
+                Some(Start {
+                    cost,
+                    target_from_source,
+                })
+            });
+        self.best_distinct(starts.collect(), MOST_SLID)
+    }
+
+    /// The cheapest of some starts that lead to different poses.
+    fn best_distinct(&self, mut starts: Vec<Start>, most: usize) -> Vec<Start> {
         starts.sort_by(|a, b| a.cost.total_cmp(&b.cost));
-        let mut kept: Vec<Start> = Vec::with_capacity(MOST_KEPT);
+        let mut kept: Vec<Start> = Vec::with_capacity(most);
         for start in starts {
             let pose = &start.target_from_source;
-            if kept
-                .iter()
-                .all(|k| self.is_apart(&k.target_from_source, pose, SAME))
-            {
+            let is_apart = |k: &Start| self.is_apart(&k.target_from_source, pose, SAME);
+            if kept.len() < most && kept.iter().all(is_apart) {
                 kept.push(start);
-            }
-            if kept.len() == MOST_KEPT {
-                break;
             }
         }
         kept
