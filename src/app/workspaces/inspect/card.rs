@@ -67,7 +67,7 @@ pub(super) fn ui(
     ui.spacing_mut().item_spacing.y = 3.0;
     ui.spacing_mut().scroll = ScrollStyle::thin();
     // However far the rest is scrolled, the verdict stays in sight.
-    let headline = Headline::of(inspected);
+    let headline = Headline::of(inspected, session);
     headline::ui(ui, &headline, theme);
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         if inspection.touches_edge() && inspected.scan.is_none() {
