@@ -276,7 +276,7 @@ fn a_recipe_is_saved_used_renamed_removed_and_put_back() {
     press(&mut harness, "Compare");
     harness.get_by_label("Recipe built-in");
     act_in_compare(&mut harness, CompareAction::Set("accept.min_score", 0.95));
-    press(&mut harness, "Recipe built-in (changed)");
+    press(&mut harness, "Recipe built-in (modified)");
     press(&mut harness, "Save as…");
     let write_name = |harness: &mut WindowHarness, name: &str| {
         let field = harness.get_by_role_and_label(Role::TextInput, "Name of the recipe");
@@ -286,7 +286,7 @@ fn a_recipe_is_saved_used_renamed_removed_and_put_back() {
     write_name(&mut harness, "Strict one");
     harness.get_by_label_contains("for example strict_one");
     press(&mut harness, "Cancel the name");
-    press(&mut harness, "Recipe built-in (changed)");
+    press(&mut harness, "Recipe built-in (modified)");
     press(&mut harness, "Save as…");
     write_name(&mut harness, "strict");
     press(&mut harness, "Save under this name");
@@ -317,7 +317,7 @@ fn a_recipe_is_saved_used_renamed_removed_and_put_back() {
     press(&mut harness, "2 changed from default");
     harness.get_by_label("Accept from: 0.50, default 0.90");
     harness.get_by_label("Pixel: 4.0 mm, default 5.0 mm");
-    press(&mut harness, "Recipe strict (changed)");
+    press(&mut harness, "Recipe strict (modified)");
     press(&mut harness, "Duplicate");
     harness.get_by_label("Recipe strict_2");
     let copy = kept("strict_2").expect("kept");
@@ -340,7 +340,7 @@ fn a_recipe_is_saved_used_renamed_removed_and_put_back() {
 
     press(&mut harness, "Recipe stricter");
     press(&mut harness, "Delete");
-    harness.get_by_label("Recipe stricter (changed)");
+    harness.get_by_label("Recipe stricter (modified)");
     assert!(kept("stricter").is_err());
     press(&mut harness, "Put recipe back");
     harness.get_by_label("Recipe stricter");
@@ -564,7 +564,7 @@ fn recipes_that_a_command_saves_are_listed_and_what_is_on_trial_stays() {
         list.is_some_and(|list| list.recipes.len() == 1)
     });
     settle(&mut harness);
-    press(&mut harness, "Recipe built-in (changed)");
+    press(&mut harness, "Recipe built-in (modified)");
     harness.get_by_label("strict").click();
     settle(&mut harness);
     harness.get_by_label("Recipe strict");

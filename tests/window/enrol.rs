@@ -366,11 +366,11 @@ fn a_bad_name_is_said_while_typing_and_when_saving() {
     let mut harness = open(library.path());
     capture(&mut harness, PartKind::Grille, Side::Left);
     write(&mut harness, "Name", "Grille 7");
-    harness.get_by_label_contains("is no name:");
+    harness.get_by_label_contains("is not a valid name:");
     harness.get_by_label_contains("for example grille_7");
     press_keys(&mut harness, Modifiers::COMMAND, Key::S);
     assert!(names(library.path()).is_empty());
-    assert!(notices(&harness)[0].contains("is no name:"));
+    assert!(notices(&harness)[0].contains("is not a valid name:"));
     press(&mut harness, "Dismiss");
     write(&mut harness, "Name", "grille_7");
     assert!(harness.query_by_label_contains("for example").is_none());

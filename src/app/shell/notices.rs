@@ -13,7 +13,7 @@ use super::{
 };
 use crate::app::ui::{
     theme::{ROUNDING, Theme, space},
-    widgets::{Mark, mark},
+    widgets::{Mark, mark, sentence},
 };
 
 /// Between the notices and what is beside them, logical pixels.
@@ -148,9 +148,10 @@ fn line(ui: &mut Ui, place: usize, notice: &Notice, theme: &Theme, actions: &mut
             let words = Layout::left_to_right(Align::Center).with_main_wrap(true);
             ui.with_layout(words, |ui| {
                 if notice.advice.is_empty() {
-                    ui.label(RichText::new(&notice.what).color(theme.text));
+                    ui.label(RichText::new(sentence(&notice.what)).color(theme.text));
                 } else {
-                    let what = format!("{}.", notice.what.trim_end_matches('.'));
+                    let what = sentence(notice.what.trim_end_matches('.'));
+                    let what = format!("{what}.");
                     ui.label(RichText::new(what).color(theme.text));
                     ui.label(RichText::new(&notice.advice).color(theme.warning));
                 }

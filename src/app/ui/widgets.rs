@@ -84,8 +84,13 @@ pub(in crate::app) fn heading(ui: &mut Ui, theme: &Theme, text: &str) {
     );
 }
 
-/// The text with a capital letter first.
+/// The text with a capital letter first, unless it begins with the name of a file or of a parameter.
 pub(in crate::app) fn sentence(text: &str) -> String {
+    let first = text.split_whitespace().next().unwrap_or_default();
+    let is_word = |c: char| c.is_alphabetic() || matches!(c, '\'' | '’' | '-' | ',' | ':');
+    if !first.chars().all(is_word) {
+        return text.to_owned();
+    }
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| {
         first.to_uppercase().collect::<String>() + letters.as_str()
@@ -254,7 +259,18 @@ pub fn grouped(number: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::grouped;
+    use super::{grouped, sentence};
+
+    #[test]
+    fn a_sentence_begins_with_a_capital_letter_and_a_file_keeps_its_name() {
+        assert_eq!(sentence("there is a recipe"), "There is a recipe");
+        assert_eq!(
+            sentence("unknown: nothing is like it"),
+            "Unknown: nothing is like it"
+        );
+        assert_eq!(sentence("door.pcd: a mesh"), "door.pcd: a mesh");
+        assert_eq!(sentence(""), "");
+    }
 
     #[test]
     fn long_numbers_are_grouped() {
