@@ -156,7 +156,9 @@ impl Window {
         window.state.load_library();
         // At start the first scene is inspected, even if Enrol is in front.
         let front = std::mem::take(&mut window.state.session.workspace);
+        window.state.inspector.is_start = true;
         window.act(first, ctx);
+        window.state.inspector.is_start = false;
         window.state.session.workspace = front;
         Ok(window)
     }
@@ -327,6 +329,10 @@ impl Window {
         if is_closed && !self.is_lost() && !self.may_close() {
             ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
         }
+        let is_enrolling = self.state.workspace == WorkspaceKind::Enrol;
+        let enrol = self.hosted(WorkspaceKind::Enrol);
+        let has_draft = enrol.is_some_and(|enrol| enrol.unsaved().is_some());
+        self.state.inspector.may_reload = !(is_enrolling && has_draft);
         let inspected = inspector::update(&mut self.state);
         let counted = live::update(&mut self.state);
         for event in inspected.into_iter().chain(counted) {

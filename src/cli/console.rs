@@ -203,6 +203,15 @@ pub(super) fn advised_error(
     })
 }
 
+/// The name of a scene, marked if no camera was read and the name does not say so itself.
+pub(super) fn marked_simulated(name: &str, is_simulated: bool) -> String {
+    if is_simulated && !name.to_lowercase().contains("simulated") {
+        format!("{name}, simulated")
+    } else {
+        name.to_owned()
+    }
+}
+
 /// Numbers in columns, each to the millionth.
 pub(super) fn in_columns(numbers: &[f64]) -> String {
     // Adding zero takes the sign from a negative zero.

@@ -16,7 +16,7 @@ use jiff::{Timestamp, tz::TimeZone};
 use self::moments::{parse_since, parse_until};
 use super::{
     LibraryChoice, Outcome,
-    console::{Advised as _, Console, Table},
+    console::{Advised as _, Console, Table, marked_simulated},
     record::HistoryChoice,
 };
 use crate::{
@@ -331,7 +331,6 @@ fn list(history: &History, asked: &ListArgs, console: &mut Console) -> anyhow::R
 }
 
 fn cells(row: &Summary) -> [String; 10] {
-    let simulated = if row.is_simulated { ", simulated" } else { "" };
     [
         row.number.to_string(),
         here(row.at),
@@ -344,7 +343,7 @@ fn cells(row: &Summary) -> [String; 10] {
             (None, 0) => "-".into(),
             (None, num) => num.to_string(),
         },
-        format!("{}{simulated}", row.scene),
+        marked_simulated(&row.scene, row.is_simulated),
         row.frame_bytes.map_or("-", |_| "kept").to_owned(),
         row.label.as_ref().map_or("-", Truth::name).to_owned(),
         row.remark.clone(),

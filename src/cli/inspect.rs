@@ -17,7 +17,7 @@ use self::hung::{FollowedFrame, FollowedParts};
 use super::{
     LibraryChoice, Outcome,
     calibrate::CalibrationChoice,
-    console::{Advised as _, Console},
+    console::{Advised as _, Console, marked_simulated},
     follow::{follow, parse_source},
     input::{OpenedScene, Scenes, before, open_ahead, open_empty_cell},
     output::{Columns, OutputFormat},
@@ -312,7 +312,7 @@ impl InspectSession {
         let line = line_of(&inspection);
         // The table has no room for it; its reports and the history say it of each.
         let shown = match format {
-            OutputFormat::Card if file_says_simulated => format!("{name}, simulated"),
+            OutputFormat::Card => marked_simulated(&name, file_says_simulated),
             _ => name.clone(),
         };
         format.inspected(&shown, &line, &inspection, library, console);

@@ -6,7 +6,7 @@ use clap::{Args, Subcommand};
 
 use super::{
     LibraryChoice, Outcome,
-    console::{Advised as _, Console, Table, advised_error},
+    console::{Advised as _, Console, Table, advised_error, marked_simulated},
 };
 use crate::{
     library::{
@@ -92,11 +92,12 @@ pub(super) fn run(args: &LibraryArgs, console: &mut Console) -> anyhow::Result<O
 
 fn list(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome> {
     let (place, load) = choice.load(&ReferenceParams::default(), console)?;
+    let num = load.parts.len();
     console.line(&format_args!(
-        "{} ({}): {} parts",
+        "{} ({}): {num} {}",
         place.location(),
         place.describe(),
-        load.parts.len()
+        if num == 1 { "part" } else { "parts" }
     ));
     if load.parts.is_empty() {
         let hint = place.folder().and_then(super::hint);
@@ -114,7 +115,6 @@ fn list(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome
         "FROM",
     ]);
     for (meta, reference) in load.parts.iter().zip(&load.library.references) {
-        let simulated = if meta.simulated { ", simulated" } else { "" };
         let name = match meta.reference_of() {
             Some(part) => format!("{} (reference of {part})", meta.name),
             None => meta.name.to_string(),
@@ -126,7 +126,7 @@ fn list(choice: &LibraryChoice, console: &mut Console) -> anyhow::Result<Outcome
             reference.cloud.points.len().to_string(),
             seen_from(meta.coverage).to_owned(),
             meta.enrolled.at.strftime("%Y-%m-%d").to_string(),
-            format!("{}{simulated}", meta.enrolled.from),
+            marked_simulated(&meta.enrolled.from, meta.simulated),
         ]);
     }
     table.show(console);
@@ -189,12 +189,11 @@ fn show(choice: &LibraryChoice, name: &PartName, console: &mut Console) -> anyho
         "enrolled",
         meta.enrolled.at.strftime("%Y-%m-%d %H:%M UTC").to_string(),
     );
-    let simulated = if meta.simulated { ", simulated" } else { "" };
     row(
         "from",
         format!(
-            "{} ({}{simulated})",
-            meta.enrolled.from,
+            "{} ({})",
+            marked_simulated(&meta.enrolled.from, meta.simulated),
             meta.enrolled.how.describe()
         ),
     );

@@ -229,7 +229,17 @@ fn show(file: &RecipeFile, against: &RecipeFile, json: bool, console: &mut Conso
         console.entry("notes", &line.notes);
     }
     let num = line.changed.len();
-    console.entry("differs", &format_args!("in {num} from {}", line.against));
+    match num {
+        0 => console.entry("same as", &line.against),
+        1 => console.entry(
+            "differs",
+            &format_args!("in 1 parameter from {}", line.against),
+        ),
+        _ => console.entry(
+            "differs",
+            &format_args!("in {num} parameters from {}", line.against),
+        ),
+    }
     let mut table = Table::new(&["PARAMETER", "VALUE", &line.against.to_uppercase()]);
     for change in &line.changed {
         table.row([
@@ -295,9 +305,11 @@ fn default(name: Option<&PartName>, console: &mut Console) -> anyhow::Result<()>
     let folder = folder()?;
     if let Some(name) = name {
         folder.set_default(name).advised()?;
+        console.line(&format_args!("Commands without --recipe now use {name}"));
+    } else {
+        let text = folder.default_name().advised()?;
+        console.line(&text);
     }
-    let text = folder.default_name().advised()?;
-    console.line(&text);
     Ok(())
 }
 

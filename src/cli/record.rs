@@ -12,7 +12,7 @@ use crate::{
         users_folder,
     },
     library::LibraryLoad,
-    pipeline::{Inspection, NamedRecipe, Verdict},
+    pipeline::{Inspection, NamedRecipe},
     report::segmentation_picture,
     stages::scene::SceneCloud,
 };
@@ -84,9 +84,9 @@ impl HistoryRecorder {
         line: &str,
         hung: HungId,
     ) -> NewEntry {
-        let best = match &inspection.verdict {
-            Verdict::Part { part, .. } => self.titles.get(part),
-            Verdict::NoPart(_) => None,
+        let title_of = |name: &str| {
+            let title = self.titles.get(name);
+            title.map_or_else(|| name.to_owned(), Clone::clone)
         };
         let picture = segmentation_picture(scene, &inspection.segmentation);
         let about = InspectionContext {
@@ -94,7 +94,7 @@ impl HistoryRecorder {
             scene: taken.scene.to_owned(),
             source: taken.source.to_owned(),
             is_simulated: taken.is_simulated,
-            title: best.map(String::as_str),
+            title_of: &title_of,
             line: line.to_owned(),
             library: self.library.clone(),
             origin: None,

@@ -186,7 +186,6 @@ pub struct NewEntry {
 }
 
 /// What an inspection itself does not know.
-#[derive(Clone, Debug)]
 pub struct InspectionContext<'a> {
     /// When it was inspected.
     pub at: Timestamp,
@@ -196,8 +195,8 @@ pub struct InspectionContext<'a> {
     pub source: String,
     /// True if no camera was read.
     pub is_simulated: bool,
-    /// The best guess's name for people.
-    pub title: Option<&'a str>,
+    /// The name for people of the part that is enrolled under this name.
+    pub title_of: &'a dyn Fn(&str) -> String,
     /// As `inspect --json` writes it.
     pub line: String,
     /// The library's identity.
@@ -220,9 +219,9 @@ impl NewEntry {
     ) -> Self {
         let verdict = StoredVerdict::from(&inspection.verdict);
         let nearest = inspection.verdict.guess().map(str::to_owned);
-        let name = about.title.or(nearest.as_deref()).unwrap_or_default();
+        let name = nearest.as_deref().map(about.title_of).unwrap_or_default();
         let title = match verdict {
-            StoredVerdict::Accepted => name.to_owned(),
+            StoredVerdict::Accepted => name,
             StoredVerdict::NotAccepted => format!("Not recognised · nearest {name}"),
             StoredVerdict::Unknown => format!("Unknown · nearest {name}"),
             StoredVerdict::NoPart => "No part".to_owned(),
@@ -251,7 +250,7 @@ impl NewEntry {
         };
         let detail = InspectionDetail {
             nearest,
-            complaint: inspection.verdict.complaint(),
+            complaint: inspection.verdict.complaint_naming(about.title_of),
             camera_from_part: pose.map(PoseEstimate::camera_from_part),
             recipe_label: Some(recipe.label.clone()),
             recipe_identity: recipe.identity(),

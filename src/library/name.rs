@@ -36,16 +36,24 @@ pub enum BadName {
         /// Characters allowed.
         limit: usize,
     },
-    /// A character that is not allowed, or not at the beginning.
-    #[error("{name:?} is no name: {character:?} cannot stand there")]
+    /// A character that is not allowed.
+    #[error("{name:?} is not a valid name: it contains {character:?}")]
     BadCharacter {
         /// The name given.
         name: String,
         /// The first wrong character.
         character: char,
     },
+    /// A character that is allowed, but not at the beginning.
+    #[error("{name:?} is not a valid name: it begins with {character:?}")]
+    BadBeginning {
+        /// The name given.
+        name: String,
+        /// Its first character.
+        character: char,
+    },
     /// A device name of Windows.
-    #[error("{name:?} is no name: Windows keeps it for a device")]
+    #[error("{name:?} is not a valid name: Windows keeps it for a device")]
     Reserved {
         /// The name given.
         name: String,
@@ -55,7 +63,9 @@ pub enum BadName {
 impl Advice for BadName {
     fn advice(&self) -> String {
         let suggestion = match self {
-            Self::BadCharacter { name, .. } => PartName::proposed(name).map(String::from),
+            Self::BadCharacter { name, .. } | Self::BadBeginning { name, .. } => {
+                PartName::proposed(name).map(String::from)
+            }
             Self::Reserved { name } => Some(format!("{name}_part")),
             Self::Empty | Self::TooLong { .. } => None,
         };
@@ -73,16 +83,18 @@ fn is_allowed(character: char) -> bool {
 impl PartName {
     /// Checks a name.
     pub fn new(name: &str) -> Result<Self, BadName> {
-        let bad = |character| BadName::BadCharacter {
-            name: name.to_owned(),
-            character,
-        };
         let first = name.chars().next().ok_or(BadName::Empty)?;
         if let Some(character) = name.chars().find(|&c| !is_allowed(c)) {
-            return Err(bad(character));
+            return Err(BadName::BadCharacter {
+                name: name.to_owned(),
+                character,
+            });
         }
         if !first.is_ascii_alphanumeric() {
-            return Err(bad(first));
+            return Err(BadName::BadBeginning {
+                name: name.to_owned(),
+                character: first,
+            });
         }
         if name.len() > MAX_LENGTH {
             return Err(BadName::TooLong {

@@ -94,30 +94,48 @@ pub fn likenesses(reference: &Reference, coverage: Coverage, library: &Library) 
     let scores = scores(reference, coverage, &others);
     let mirrored = mirrored(reference, coverage);
     let of_mirrored = mirrored.map_or_else(
-        || vec![0.0; others.len()],
+        || vec![PairScore::default(); others.len()],
         |mirrored| self::scores(&mirrored, coverage, &others),
     );
     let pairs = scores.into_iter().zip(of_mirrored);
-    let mut all: Vec<Similarity> = others
+    let mut all: Vec<(Similarity, f64)> = others
         .iter()
         .zip(pairs)
-        .map(|(other, (score, of_mirrored))| {
+        .map(|(other, (found, of_mirrored))| {
             // What cannot be told apart is said, whatever its mirror image is like.
-            let is_mirrored = score < LEAST_SCORE && of_mirrored > score;
-            Similarity {
+            let is_mirrored = found.score < LEAST_SCORE && of_mirrored.score > found.score;
+            let PairScore { score, outline } = if is_mirrored { of_mirrored } else { found };
+            let likeness = Similarity {
                 // Only what is enrolled under a name can be removed or replaced.
                 name: reference.enrolled_as.clone(),
                 other: other.enrolled_as.clone(),
-                score: if is_mirrored { of_mirrored } else { score },
+                score,
                 is_mirrored,
-            }
+            };
+            (likeness, outline)
         })
         .collect();
-    all.sort_by(|a, b| {
+    all.sort_by(|(a, outline_a), (b, outline_b)| {
         let doubtful_first = a.is_distinguishable().cmp(&b.is_distinguishable());
-        doubtful_first.then(b.score.total_cmp(&a.score))
+        doubtful_first
+            .then(per_cent(b.score).cmp(&per_cent(a.score)))
+            .then(outline_b.total_cmp(outline_a))
     });
-    all
+    all.into_iter().map(|(likeness, _)| likeness).collect()
+}
+
+/// How like two parts are.
+#[derive(Clone, Copy, Debug, Default)]
+struct PairScore {
+    /// The score that an inspection confirms, held down to that of the outlines where those differ, 0..1.
+    score: f64,
+    /// The score of the outlines alone, 0..1: it still tells parts apart whose scores are both nearly 1.
+    outline: f64,
+}
+
+/// As it is shown.
+fn per_cent(score: f64) -> u32 {
+    (score * 100.0).round() as u32
 }
 
 /// The reference as in a mirror; `None` where that has no outline.
@@ -137,8 +155,8 @@ fn mirrored(reference: &Reference, coverage: Coverage) -> Option<Reference> {
 }
 
 /// The score with which the reference would be taken for each of the others, in their order.
-fn scores(reference: &Reference, coverage: Coverage, others: &[Reference]) -> Vec<f64> {
-    let mut scores = vec![0.0; others.len()];
+fn scores(reference: &Reference, coverage: Coverage, others: &[Reference]) -> Vec<PairScore> {
+    let mut scores = vec![PairScore::default(); others.len()];
     let Some(view) = reference.views.first() else {
         return scores;
     };
@@ -173,11 +191,12 @@ fn scores(reference: &Reference, coverage: Coverage, others: &[Reference]) -> Ve
     for entry in &confirmed.entries {
         let outline = outline_score(entry.reference);
         // Surfaces alone are blind one way: a small part lies well on any large one.
-        scores[entry.reference] = if outline < LEAST_OUTLINE_SCORE {
+        let score = if outline < LEAST_OUTLINE_SCORE {
             entry.score.min(outline)
         } else {
             entry.score
         };
+        scores[entry.reference] = PairScore { score, outline };
     }
     scores
 }

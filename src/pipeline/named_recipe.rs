@@ -62,7 +62,7 @@ impl Default for RecipeLabel {
 
 impl fmt::Display for RecipeLabel {
     fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
-        let changed = if self.is_changed { " (changed)" } else { "" };
+        let changed = if self.is_changed { " (modified)" } else { "" };
         write!(f, "{}{changed}", self.name)
     }
 }
@@ -378,6 +378,6 @@ mod tests {
         let mut label = RecipeLabel::default();
         assert_eq!(label.to_string(), "built-in");
         label.is_changed = true;
-        assert_eq!(label.to_string(), "built-in (changed)");
+        assert_eq!(label.to_string(), "built-in (modified)");
     }
 }

@@ -163,7 +163,7 @@ pub enum BadValue {
     #[error("{name} cannot be {found}: it goes from {range}")]
     OutOfRange {
         /// The parameter.
-        name: &'static str,
+        name: String,
         /// The value given, with its unit.
         found: String,
         /// The valid range, in words.
@@ -173,8 +173,17 @@ pub enum BadValue {
     #[error("{name} has no such value")]
     NoSuchOption {
         /// The parameter.
-        name: &'static str,
+        name: String,
     },
+}
+
+impl BadValue {
+    /// The same of a parameter that was written by its key.
+    fn written_as(mut self, key: &str) -> Self {
+        let (Self::OutOfRange { name, .. } | Self::NoSuchOption { name }) = &mut self;
+        *name = format!("{key} ({name})");
+        self
+    }
 }
 
 impl Advice for BadValue {
@@ -207,7 +216,7 @@ impl Parameter {
                 let [least, most] = number.range;
                 if !(value >= least && value <= most) {
                     return Err(BadValue::OutOfRange {
-                        name: self.name,
+                        name: self.name.to_owned(),
                         found: format!("{value}{}", number.unit.sign()),
                         range: self.range_text(),
                     });
@@ -216,7 +225,9 @@ impl Parameter {
             }
             Kind::Choice(choice) => {
                 if !(value >= 0.0 && value < choice.options.len() as f64) {
-                    return Err(BadValue::NoSuchOption { name: self.name });
+                    return Err(BadValue::NoSuchOption {
+                        name: self.name.to_owned(),
+                    });
                 }
                 (choice.set)(recipe, value as usize);
             }
@@ -398,7 +409,8 @@ impl FromStr for Setting {
             }
         };
         let mut recipe = Recipe::default();
-        parameter.set(&mut recipe, value)?;
+        let set = parameter.set(&mut recipe, value);
+        set.map_err(|error| error.written_as(key))?;
         let is_kept = (parameter.value(&recipe) - value).abs() <= 1e-9 * value.abs();
         if is_kept {
             Ok(Self { parameter, value })
@@ -588,6 +600,7 @@ mod tests {
             ),
             ("icp_ga.sed=8", "nearest is icp_ga.seed"),
             ("segment.plane_distance=90", "from 1 to 50 mm"),
+            ("segment.plane_distance=90", "segment.plane_distance ("),
             ("segment.plane_distance=8 cm", "from 1 to 50 mm"),
             ("segment.plane_distance=nan", "from 1 to 50 mm"),
             ("icp.max_iterations=1.5", "whole numbers"),

@@ -307,8 +307,18 @@ impl Advice for Rejection {
                  remove one of them from the library"
                     .into()
             }
-            Self::Piece { .. } => {
-                "Take away what stands in front of the part, or hang it further inside the picture, and capture again".into()
+            Self::Piece {
+                hidden, outside, ..
+            } => {
+                let (is_hidden, is_outside) = (*hidden >= 0.005, *outside >= 0.005);
+                let what = match (is_hidden, is_outside) {
+                    (true, false) => "Take away what stands in front of the part",
+                    (false, true) => "Hang the part further inside the picture",
+                    _ => {
+                        "Take away what stands in front of the part, or hang it further inside the picture,"
+                    }
+                };
+                format!("{what} and capture again")
             }
             Self::HardlySeen { .. } => {
                 "Turn the part so that its face looks at the camera, all of it inside the picture, and capture again".into()

@@ -96,9 +96,14 @@ impl Verdict {
 
     /// Why it is not accepted, and what to do; `None` if it is.
     pub fn complaint(&self) -> Option<[String; 2]> {
+        self.complaint_naming(str::to_owned)
+    }
+
+    /// The same with other words for the parts, such as their titles.
+    pub fn complaint_naming(&self, word_of: impl Fn(&str) -> String) -> Option<[String; 2]> {
         match self {
             Self::Part { rejected, .. } => {
-                let rejected = rejected.as_ref()?;
+                let rejected = rejected.clone()?.renamed(word_of);
                 Some([rejected.to_string(), rejected.advice()])
             }
             Self::NoPart(reason) => Some([reason.to_string(), reason.advice()]),

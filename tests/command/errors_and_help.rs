@@ -13,10 +13,10 @@ fn bad_arguments_and_folders_end_with_two_and_say_why() {
             &["inspect", "x.pcd", "--library", "nowhere"],
             "no such library folder",
         ),
-        (&["enrol", "x.pcd", "--name", "../x"], "cannot stand there"),
+        (&["enrol", "x.pcd", "--name", "../x"], "is not a valid name"),
         (
             &["enrol", "x.pcd", "--name", "Front Door"],
-            "cannot stand there",
+            "is not a valid name",
         ),
         (
             &["simulate", "--part", "boat", "--out", "x.pcd"],

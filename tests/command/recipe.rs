@@ -182,7 +182,7 @@ fn a_recipe_that_cannot_be_used_stops_the_command_with_advice() {
     };
     refused(&["save", "glossy"], "--replace");
     refused(&["save", "built-in"], "stays as it is");
-    refused(&["save", "Glossy"], "is no name");
+    refused(&["save", "Glossy"], "is not a valid name");
     refused(&["remove", "built-in"], "stays as it is");
     refused(&["default", "matt"], "no recipe named matt");
     refused(&["import", "bad.toml"], "from 0 to 1");

@@ -16,14 +16,14 @@ use partsight::{
     },
     cases::{CaseDescription, CaseFolder, FoundVerdict, Truth},
     library::PartName,
-    pipeline::{Recipe, RecipeFolder},
+    pipeline::{Recipe, RecipeFile, RecipeFolder, Replace},
     simulate::{CellSetup, ObjectKind, PartKind, Side},
 };
 
 use crate::kit::scene_of;
 
 use super::set_up::{
-    SMALL, USUAL, WindowHarness, act, act_in, open_with, plain_options, press, settle,
+    SMALL, USUAL, WindowHarness, act, act_in, open_with, plain_options, press, settle, wait_for,
 };
 
 fn open_at(size: Vec2, cases: &Path) -> WindowHarness {
@@ -276,7 +276,7 @@ fn a_recipe_is_saved_used_renamed_removed_and_put_back() {
     press(&mut harness, "Compare");
     harness.get_by_label("Recipe built-in");
     act_in_compare(&mut harness, CompareAction::Set("accept.min_score", 0.95));
-    press(&mut harness, "Recipe built-in (changed)");
+    press(&mut harness, "Recipe built-in (modified)");
     press(&mut harness, "Save as…");
     let write_name = |harness: &mut WindowHarness, name: &str| {
         let field = harness.get_by_role_and_label(Role::TextInput, "Name of the recipe");
@@ -286,7 +286,7 @@ fn a_recipe_is_saved_used_renamed_removed_and_put_back() {
     write_name(&mut harness, "Strict one");
     harness.get_by_label_contains("for example strict_one");
     press(&mut harness, "Cancel the name");
-    press(&mut harness, "Recipe built-in (changed)");
+    press(&mut harness, "Recipe built-in (modified)");
     press(&mut harness, "Save as…");
     write_name(&mut harness, "strict");
     press(&mut harness, "Save under this name");
@@ -317,7 +317,7 @@ fn a_recipe_is_saved_used_renamed_removed_and_put_back() {
     press(&mut harness, "2 changed from default");
     harness.get_by_label("Accept from: 0.50, default 0.90");
     harness.get_by_label("Pixel: 4.0 mm, default 5.0 mm");
-    press(&mut harness, "Recipe strict (changed)");
+    press(&mut harness, "Recipe strict (modified)");
     press(&mut harness, "Duplicate");
     harness.get_by_label("Recipe strict_2");
     let copy = kept("strict_2").expect("kept");
@@ -340,7 +340,7 @@ fn a_recipe_is_saved_used_renamed_removed_and_put_back() {
 
     press(&mut harness, "Recipe stricter");
     press(&mut harness, "Delete");
-    harness.get_by_label("Recipe stricter (changed)");
+    harness.get_by_label("Recipe stricter (modified)");
     assert!(kept("stricter").is_err());
     press(&mut harness, "Put recipe back");
     harness.get_by_label("Recipe stricter");
@@ -536,4 +536,49 @@ fn it_is_drawn_in_both_sizes_and_colours() {
         act(&mut harness, Action::SwitchTheme);
         shot(&mut harness, "light");
     }
+}
+
+#[test]
+fn recipes_that_a_command_saves_are_listed_and_what_is_on_trial_stays() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let recipes = RecipeFolder::at(folder.path().join("recipes"));
+    let mut harness = open_with(
+        USUAL,
+        WindowOptions {
+            cases: Some(folder.path().join("cases")),
+            recipes: Some(recipes.path().to_owned()),
+            ..plain_options()
+        },
+    );
+    press(&mut harness, "Compare");
+    act_in_compare(&mut harness, CompareAction::Set("accept.min_score", 0.95));
+    let mut strict = RecipeFile {
+        name: PartName::new("strict").expect("a name"),
+        ..RecipeFile::built_in()
+    };
+    strict.recipe.accept.min_score = 0.97;
+    recipes.save(&strict, Replace::No).expect("saved");
+    wait_for(&mut harness, |window| {
+        let compare = window.workspace::<CompareWorkspace>();
+        let list = compare.map(|compare| &compare.state().recipes.list);
+        list.is_some_and(|list| list.recipes.len() == 1)
+    });
+    settle(&mut harness);
+    press(&mut harness, "Recipe built-in (modified)");
+    harness.get_by_label("strict").click();
+    settle(&mut harness);
+    harness.get_by_label("Recipe strict");
+    let tried = own(&harness).tried.as_ref().expect("on trial");
+    assert!((tried.accept.min_score - 0.97).abs() < 1e-12);
+
+    // Another value under the name of the one that is on trial: that stays as it is.
+    strict.recipe.accept.min_score = 0.99;
+    recipes.save(&strict, Replace::Yes).expect("saved");
+    wait_for(&mut harness, |window| {
+        let compare = window.workspace::<CompareWorkspace>();
+        let tried = compare.and_then(|compare| compare.state().tried.clone());
+        tried.is_some_and(|tried| tried.label.is_changed)
+    });
+    let tried = own(&harness).tried.as_ref().expect("on trial");
+    assert!((tried.accept.min_score - 0.97).abs() < 1e-12);
 }

@@ -17,7 +17,7 @@ use partsight::{
 
 use super::set_up::{
     SMALL, USUAL, WindowHarness, act, drop_file, enrol_of, history_of, open_with, plain_options,
-    press, settle,
+    press, settle, wait_until,
 };
 
 fn open_at(library: &Path, size: Vec2) -> WindowHarness {
@@ -234,8 +234,11 @@ fn a_part_that_another_program_saved_meanwhile_is_not_replaced_unasked() {
     let library = library();
     let mut harness = open(library.path());
     let mut other = open(library.path());
+    // Meanwhile is while the part is being worked on: before, the window takes note of what others save.
+    capture(&mut harness, PartKind::Grille, Side::Right);
+    write(&mut harness, "Title", "Grille");
     enrol(&mut other, PartKind::Grille, "Grille");
-    enrol(&mut harness, PartKind::Grille, "Grille");
+    press(&mut harness, "Save");
     let trash = || {
         library
             .path()
@@ -363,11 +366,11 @@ fn a_bad_name_is_said_while_typing_and_when_saving() {
     let mut harness = open(library.path());
     capture(&mut harness, PartKind::Grille, Side::Left);
     write(&mut harness, "Name", "Grille 7");
-    harness.get_by_label_contains("is no name:");
+    harness.get_by_label_contains("is not a valid name:");
     harness.get_by_label_contains("for example grille_7");
     press_keys(&mut harness, Modifiers::COMMAND, Key::S);
     assert!(names(library.path()).is_empty());
-    assert!(notices(&harness)[0].contains("is no name:"));
+    assert!(notices(&harness)[0].contains("is not a valid name:"));
     press(&mut harness, "Dismiss");
     write(&mut harness, "Name", "grille_7");
     assert!(harness.query_by_label_contains("for example").is_none());
@@ -622,4 +625,39 @@ fn a_window_with_an_unsaved_draft_asks_before_it_closes() {
     press(&mut harness, "Save");
     act(&mut harness, Action::Quit);
     assert!(harness.query_by_label("Close without saving?").is_none());
+}
+
+#[test]
+fn what_another_program_does_to_the_library_is_noticed_and_a_draft_is_left_alone() {
+    let library = library();
+    let mut harness = open(library.path());
+    let mut other = open(library.path());
+    capture(&mut harness, PartKind::Fender, Side::Right);
+    write(&mut harness, "Title", "Fender");
+    enrol(&mut other, PartKind::Grille, "Grille");
+    press(&mut harness, "Inspect");
+    wait_until(&mut harness, |state| {
+        let library = state.library.as_ref();
+        library.is_some_and(|library| library.parts.len() == 1)
+    });
+    settle(&mut harness);
+    assert!(
+        notices(&harness)
+            .contains(&"Library reloaded, another program has changed it: 1 part".to_owned()),
+        "{:?}",
+        notices(&harness)
+    );
+    press(&mut harness, "Enrol");
+    let draft = enrol_of(&harness).draft.as_ref().expect("the draft");
+    assert_eq!(draft.form.title, "Fender");
+    harness.get_by_label("Enrolled: Grille");
+    let folder = LibraryFolder::open(library.path()).expect("there");
+    folder
+        .remove(&"grille".parse().expect("a name"))
+        .expect("removed");
+    press(&mut harness, "Inspect");
+    wait_until(&mut harness, |state| {
+        let library = state.library.as_ref();
+        library.is_some_and(|library| library.parts.is_empty())
+    });
 }

@@ -9,7 +9,7 @@ use std::{
 };
 
 use egui::Key;
-use egui_kittest::kittest::Queryable as _;
+use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use partsight::{
     app::{
         WindowOptions,
@@ -24,7 +24,7 @@ use partsight::{
             inspect::InspectFile,
         },
     },
-    history::{History, HungId, KeepFrames, NewEntry, Retention},
+    history::{History, HungId, KeepFrames, NewEntry, Retention, StoredVerdict},
     library::Truth,
     pipeline::Recipe,
     simulate::ObjectKind,
@@ -481,4 +481,54 @@ fn a_remembered_file_that_is_gone_gives_way_to_the_simulated_cell() {
     harness.get_by_label_contains("gone.pcd");
     harness.get_by_label("Simulated frame 1");
     assert!(harness.state().state().recent.is_empty());
+}
+
+#[test]
+fn what_has_no_frame_any_more_cannot_be_opened_and_the_newest_row_comes_into_sight() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut history = crate::kit::open_history(folder.path());
+    for seconds in 0..200 {
+        let mut entry = crate::kit::history_entry(seconds, StoredVerdict::Accepted, "fender");
+        entry.scene = None;
+        history.add(&entry, &Retention::default()).expect("written");
+    }
+    drop(history);
+    let mut harness = open_with(USUAL, keeping(folder.path()));
+    go_to_history(&mut harness);
+    // The one of the window's start can be simulated again.
+    assert!(!harness.get_by_label("Open").accesskit_node().is_disabled());
+    press(&mut harness, "Inspection 200: fender, Accepted");
+    let open = harness.get_by_label("Open");
+    assert!(open.accesskit_node().is_disabled());
+    open.hover();
+    harness.run_steps(40);
+    harness.get_by_label_contains("The frame of frame 199 is not kept");
+
+    // Far down, and then another inspection.
+    harness.get_by_label_contains("Inspection 198").hover();
+    harness.run_steps(2);
+    for _ in 0..30 {
+        harness.event(egui::Event::MouseWheel {
+            source: egui::MouseWheelSource::Wheel,
+            unit: egui::MouseWheelUnit::Page,
+            delta: egui::vec2(0.0, -1.0),
+            phase: egui::TouchPhase::Move,
+            modifiers: egui::Modifiers::NONE,
+        });
+        harness.run_steps(12);
+    }
+    settle(&mut harness);
+    assert!(harness.query_by_label_contains("Inspection 201:").is_none());
+    act(&mut harness, Action::GoTo(WorkspaceKind::Inspect));
+    harness.key_press(Key::Space);
+    settle(&mut harness);
+    go_to_history(&mut harness);
+    harness.get_by_label_contains("Inspection 202:");
+
+    // At the top the list stays there, whichever row is looked at.
+    press(&mut harness, "Inspection 199: fender, Accepted");
+    harness.key_press(Key::Space);
+    settle(&mut harness);
+    harness.get_by_label_contains("Inspection 203:");
+    assert_eq!(history_of(&harness).listed(), Some(199));
 }

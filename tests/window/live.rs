@@ -18,6 +18,7 @@ use partsight::{
         shell::{
             action::Action,
             live::{LiveAction, SourceState},
+            roles::RoleAction,
             session::{Source, WorkspaceKind},
             state::State,
         },
@@ -454,4 +455,20 @@ fn in_a_small_window_a_long_title_of_the_source_gives_way_to_what_stands_beside_
         open.right() <= library.left(),
         "{open:?} lies over {library:?}"
     );
+}
+
+#[test]
+fn live_that_stops_while_something_moves_leaves_no_such_card() {
+    let (mut harness, wire) = wired();
+    toggle(&mut harness);
+    sees(&mut harness, &wire, [0.0, 0.03, 0.06]);
+    sees(&mut harness, &wire, [0.2, 0.4, 0.6, 0.8]);
+    harness.get_by_label("Moving");
+    toggle(&mut harness);
+    settle(&mut harness);
+    assert!(!says(&harness, "Moving") && !says(&harness, "moving"));
+    harness.get_by_label("No verdict");
+    harness.get_by_label("Press Capture");
+    act(&mut harness, Action::Role(RoleAction::Switch));
+    harness.get_by_label("No verdict");
 }

@@ -52,7 +52,7 @@ fn the_operator_sees_part_verdict_and_next_step_and_no_figures() {
     assert!(heights.iter().any(|height| *height > 60.0), "{heights:?}");
     assert!(harness.get_by_label("OK").rect().height() > 40.0);
     harness.get_by_label("Next");
-    harness.get_by_label("Choose a camera: this frame is simulated");
+    harness.get_by_label("Ask the engineer to choose a camera: this frame is simulated");
     harness.get_by_label("3-D view of the scene");
     let figures = [
         "rms",
@@ -93,7 +93,7 @@ fn the_parts_of_this_shift_are_counted_and_the_last_are_listed() {
     harness.get_by_label("1 part");
     harness.get_by_label("1 OK");
     harness.get_by_label("0 NOK");
-    press(&mut harness, "Inspect");
+    press(&mut harness, "Capture");
     harness.get_by_label("2 parts");
     let path = folder.path().join("other.pcd");
     write_unknown(&path);
@@ -206,4 +206,48 @@ fn its_controls_are_large_labelled_and_inside_a_small_window() {
         num_controls += 1;
     }
     assert!(num_controls >= 5, "{num_controls} controls");
+}
+
+#[test]
+fn a_file_that_the_window_starts_with_again_is_no_other_part() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join("fender.pcd");
+    let write = |seed| {
+        let scene = facing_part(PartKind::Fender, Side::Left, seed);
+        save_cloud(&path, &scene.cloud).expect("written");
+    };
+    write(5);
+    let start = || {
+        open_operators(WindowOptions {
+            history: Some(folder.path().join("history")),
+            scene: Some(path.clone()),
+            ..plain_options()
+        })
+    };
+    let mut harness = start();
+    harness.get_by_label("1 part");
+    // Pressed, it is a part of its own: the file may stand for the next one.
+    press(&mut harness, "Capture");
+    harness.get_by_label("2 parts");
+    drop(harness);
+    let harness = start();
+    harness.get_by_label("OK");
+    harness.get_by_label("2 parts");
+    drop(harness);
+    // Written anew it shows another part.
+    write(6);
+    let harness = start();
+    harness.get_by_label("3 parts");
+}
+
+#[test]
+fn the_operator_is_not_told_to_do_what_only_the_engineer_can() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut harness = open_operators(plain_options());
+    let path = folder.path().join("other.pcd");
+    write_unknown(&path);
+    drop_file(&mut harness, &path);
+    harness.get_by_label("NOK");
+    assert!(shows(&harness, "sk the engineer to enrol"));
+    assert!(!shows(&harness, "Enrol the part"));
 }

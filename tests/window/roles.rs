@@ -6,13 +6,16 @@ use partsight::app::{
     WindowOptions,
     shell::{
         action::Action,
+        notice::Notice,
         roles::{RoleAction, UserRole},
         session::WorkspaceKind,
         settings,
     },
 };
 
-use super::set_up::{SMALL, USUAL, WindowHarness, act, open, open_with, plain_options, press};
+use super::set_up::{
+    SMALL, USUAL, WindowHarness, act, open, open_with, plain_options, press, settle,
+};
 
 fn role(harness: &WindowHarness) -> UserRole {
     harness.state().state().role
@@ -109,4 +112,47 @@ fn with_a_pin_the_next_start_is_the_operators() {
     let harness = open_with(USUAL, options());
     assert_eq!(role(&harness), UserRole::Operator);
     assert_eq!(harness.state().state().workspace, WorkspaceKind::Inspect);
+}
+
+#[test]
+fn enter_presses_the_button_that_a_dialog_proposes() {
+    let mut harness = open();
+    act(&mut harness, Action::Role(RoleAction::Switch));
+    press(&mut harness, "Engineer's view");
+    harness.key_press(Key::Enter);
+    harness.run_steps(4);
+    assert_eq!(role(&harness), UserRole::Engineer);
+    harness.key_press(Key::F1);
+    harness.run_steps(4);
+    harness.get_by_label("Shortcuts");
+    harness.key_press(Key::Enter);
+    harness.run_steps(4);
+    assert!(harness.query_by_label("Shortcuts").is_none());
+    act(&mut harness, Action::GoTo(WorkspaceKind::History));
+    press(&mut harness, "Frames…");
+    // The Enter that ends the writing of a number is the number's.
+    harness
+        .get_by_role_and_label(egui::Role::SpinButton, "At most, days")
+        .click();
+    harness.run_steps(4);
+    harness.event(Event::Text("9".into()));
+    harness.run_steps(2);
+    harness.key_press(Key::Enter);
+    harness.run_steps(4);
+    harness.get_by_label("Apply");
+    harness.key_press(Key::Enter);
+    settle(&mut harness);
+    assert!(harness.query_by_label("Apply").is_none());
+}
+
+#[test]
+fn notices_of_the_engineer_do_not_stay_in_the_operators_view() {
+    let mut harness = open();
+    act(
+        &mut harness,
+        Action::Notify(Notice::look("The recipe is odd", "Change the threshold")),
+    );
+    harness.get_by_label("Change the threshold");
+    act(&mut harness, Action::Role(RoleAction::Switch));
+    assert!(harness.query_by_label("Change the threshold").is_none());
 }

@@ -75,7 +75,7 @@ pub struct LibraryView {
 }
 
 /// A part that could not be loaded.
-#[derive(Clone, Debug)]
+#[derive(Clone, Debug, PartialEq, Eq)]
 pub struct Damaged {
     /// The name of its folder.
     pub entry: String,
@@ -84,6 +84,15 @@ pub struct Damaged {
 }
 
 impl LibraryView {
+    /// True if it holds the same parts, with the same titles, notes and spray paths, in the same folder.
+    fn is_same(&self, other: &Self) -> bool {
+        self.path == other.path
+            && self.identity == other.identity
+            && self.parts == other.parts
+            && self.damaged == other.damaged
+            && self.unloaded == other.unloaded
+    }
+
     /// Name for people of the part at this place.
     pub fn title(&self, place: usize) -> &str {
         self.parts.get(place).map_or("", PartMeta::shown_title)
@@ -160,6 +169,21 @@ impl LibraryCache {
     /// Loads it anew, after it was changed.
     pub fn reload(&self) -> Result<Arc<LoadedLibrary>, LibraryError> {
         self.lock().load()
+    }
+
+    /// Loads it anew if another program has changed it; `None` if it is as before, or cannot be loaded now.
+    pub fn refresh(&self) -> Option<Arc<LoadedLibrary>> {
+        let given = self.lock().given.clone();
+        // Nobody waits meanwhile.
+        let found = Arc::new(load(given.as_deref()).ok()?);
+        let mut choice = self.lock();
+        let known = choice.loaded.as_ref();
+        let is_known = known.is_some_and(|known| known.shown.is_same(&found.shown));
+        if is_known || choice.given != given {
+            return None;
+        }
+        choice.loaded = Some(Arc::clone(&found));
+        Some(found)
     }
 
     /// Uses another library from now on: the one of this folder, else the one that [`open_library`] finds. One that

@@ -37,9 +37,7 @@ pub(in crate::app) fn dialog(
         ui.label(RichText::new(what).color(theme.weak_text));
         ui.add_space(space::MEDIUM);
         ui.horizontal(|ui| {
-            let stay = RichText::new("Keep the window open").color(theme.on_accent);
-            let stay = Button::new(stay).fill(theme.accent);
-            if labelled(ui, stay, "Keep the window open").clicked() {
+            if widgets::default_button(ui, "Keep the window open", true, theme) {
                 actions.push(Action::StayOpen);
             }
             let close = "Close without saving";

@@ -10,16 +10,18 @@ use super::{
     live,
     message::{Event, ReinspectionPurpose},
     notice::Notice,
-    session::{Inspecting, Shown, Source, WorkspaceKind},
+    session::{Inspecting, Shown, Source, UserRole, WorkspaceKind},
     state::State,
 };
 use crate::{
     app::{
         inspection::{
+            folder_watch::FolderWatch,
             fuse::Steps,
             inspected::{InspectJob, Inspected, SceneOrScan, inspect, inspect_scan},
             library_cache::{LibraryCache, LibraryView},
             scan_choice::ScanOrder,
+            seen_before::seen_before,
             source::{Origin, SceneSource, file_name},
         },
         task::{Running, Task, TaskContext, TaskError, TaskEvent, TaskRunner},
@@ -36,6 +38,13 @@ pub struct Inspector {
     task: Task<InspectorResult>,
     /// Loads the library at the start.
     loading: Task<Arc<LibraryView>>,
+    /// Loads it anew once another program has changed it.
+    reloading: Task<Option<Arc<LibraryView>>>,
+    watch: FolderWatch,
+    /// It has changed, and is loaded anew as soon as it may be.
+    is_changed: bool,
+    /// False while a part is being enrolled: nothing changes under the hands.
+    pub may_reload: bool,
     library_cache: LibraryCache,
     /// The number of the newest run, which is that of its result.
     generation: u64,
@@ -43,6 +52,8 @@ pub struct Inspector {
     purpose: ReinspectionPurpose,
     /// How many frames of the simulated cell were asked for.
     pub num_captures: u64,
+    /// True while the window starts: a file that it opens then may show a part that was inspected before.
+    pub is_start: bool,
 }
 
 /// What a run comes to.
@@ -62,10 +73,15 @@ impl Inspector {
         Self {
             task: Task::new("inspect", runner),
             loading: Task::new("library", runner),
+            reloading: Task::new("reload", runner),
+            watch: FolderWatch::new("library-watch", runner),
+            is_changed: false,
+            may_reload: true,
             library_cache: library_cache.clone(),
             generation: 0,
             purpose: ReinspectionPurpose::New,
             num_captures: 0,
+            is_start: false,
         }
     }
 
@@ -76,7 +92,9 @@ impl Inspector {
 
     /// True while nothing is inspected or loaded.
     pub fn is_idle(&self) -> bool {
-        self.running().is_none() && self.loading.running().is_none()
+        self.running().is_none()
+            && self.loading.running().is_none()
+            && self.reloading.running().is_none()
     }
 
     #[cfg(test)]
@@ -160,6 +178,11 @@ impl State {
     ) {
         live::give_way(self);
         let library_cache = self.begins(&title, purpose);
+        let hung = if self.inspector.is_start {
+            PartAtHand::MaybeSeen
+        } else {
+            hung.map_or(PartAtHand::New, PartAtHand::Known)
+        };
         let task = &mut self.inspector.task;
         task.start(title, move |context| {
             run(&job, hung, &library_cache, context)
@@ -277,10 +300,19 @@ impl State {
     pub(in crate::app) fn use_library(&mut self, library: &Arc<LibraryView>) {
         let is_other = |known: &Arc<_>| !Arc::ptr_eq(known, library);
         if self.library.as_ref().is_none_or(is_other) {
-            for trouble in library.troubles.clone() {
-                notify(self, trouble.into());
-            }
             self.library = Some(Arc::clone(library));
+            // The operator's view says what is wrong with the library, if nothing can be recognised.
+            if self.role == UserRole::Engineer {
+                self.report_library();
+            }
+        }
+    }
+
+    /// Reports what had to be set aside in the library, and what is odd about it.
+    pub(in crate::app) fn report_library(&mut self) {
+        let library = self.library.clone();
+        for trouble in library.iter().flat_map(|library| &library.troubles) {
+            notify(self, trouble.clone().into());
         }
     }
 
@@ -318,10 +350,21 @@ impl State {
     }
 }
 
+/// Which part an inspection is of.
+#[derive(Debug)]
+enum PartAtHand {
+    /// One of its own.
+    New,
+    /// This one, which still hangs there.
+    Known(HungId),
+    /// The one that was inspected before if its file is the same, else one of its own.
+    MaybeSeen,
+}
+
 /// What the task does.
 fn run(
     job: &InspectJob,
-    hung: Option<HungId>,
+    hung: PartAtHand,
     library_cache: &LibraryCache,
     context: &TaskContext<InspectorResult>,
 ) -> Result<InspectorResult, TaskError> {
@@ -339,6 +382,11 @@ fn run(
             }
         }
     };
+    let hung = match hung {
+        PartAtHand::New => None,
+        PartAtHand::Known(hung) => Some(hung),
+        PartAtHand::MaybeSeen => seen_before(&inspected, library_cache.history()),
+    };
     if let Some(hung) = hung {
         inspected.entry.record.summary.hung = hung;
     }
@@ -355,6 +403,7 @@ pub(in crate::app) fn update(state: &mut State) -> Option<Event> {
         Some(TaskEvent::Failed(error)) => notify(state, error.into()),
         _ => {}
     }
+    update_watch(state);
     let event = state.inspector.task.poll();
     if state.inspector.running().is_none() {
         state.session.inspecting = None;
@@ -383,6 +432,42 @@ pub(in crate::app) fn update(state: &mut State) -> Option<Event> {
         }
     }
     None
+}
+
+/// Loads the library anew once another program has changed it, and inspects what is in front with it.
+fn update_watch(state: &mut State) {
+    if let Some(TaskEvent::Done(Some(library)) | TaskEvent::Partial(Some(library))) =
+        state.inspector.reloading.poll()
+    {
+        let num = library.parts.len();
+        let word = if num == 1 { "part" } else { "parts" };
+        state.use_library(&library);
+        if state.role == UserRole::Engineer {
+            let what = format!("Library reloaded, another program has changed it: {num} {word}");
+            notify(state, Notice::done(what));
+        }
+        let is_past = state.shown.as_ref().is_some_and(|shown| shown.is_past);
+        if state.is_live() || !is_past {
+            state.inspect_again();
+        }
+    }
+    let library = state.session.library.as_ref();
+    let inspector = &mut state.inspector;
+    if let Some(library) = library {
+        inspector.watch.watch(&library.path);
+        inspector.is_changed |= inspector.watch.has_changed();
+    }
+    // What is being inspected was compared with the library of before, and would bring that back.
+    let is_free = inspector.running().is_none() && inspector.reloading.running().is_none();
+    if inspector.is_changed && inspector.may_reload && is_free {
+        inspector.is_changed = false;
+        let library_cache = inspector.library_cache.clone();
+        let reload = move |_: &_| {
+            let changed = library_cache.refresh();
+            Ok(changed.map(|loaded| Arc::clone(&loaded.shown)))
+        };
+        inspector.reloading.start("Reloading the library", reload);
+    }
 }
 
 /// Shows a result made elsewhere as an inspection of its own; what is at work is cancelled.

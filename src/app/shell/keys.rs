@@ -1,6 +1,6 @@
 //! Shortcuts, and the list of them.
 
-use egui::{Button, Id, Key, KeyboardShortcut, Modifiers, RichText, ScrollArea, vec2};
+use egui::{Id, Key, KeyboardShortcut, Modifiers, RichText, ScrollArea, vec2};
 
 use super::{
     action::{Action, DialogRequest},
@@ -10,7 +10,6 @@ use super::{
     roles::RoleAction,
     session::WorkspaceKind,
     state::{HelpPage, State},
-    top_bar::labelled,
 };
 use crate::app::ui::{
     theme::{Theme, font, space},
@@ -139,8 +138,8 @@ const RAIL_KEYS: [(Key, &str); 5] = [
     (Key::Num5, "5"),
 ];
 
-/// What of the window's height the list leaves free, for its heading, its button and the edges.
-const HELP_MARGIN: f32 = 190.0;
+/// What of the window's height the list leaves free, for its heading, its button, the edges, and a notice above it.
+const HELP_MARGIN: f32 = 260.0;
 
 /// What a key causes.
 #[derive(Clone, Copy)]
@@ -262,7 +261,7 @@ pub(in crate::app) fn help(
         });
         ui.spacing_mut().interact_size.y = height;
         ui.add_space(space::MEDIUM);
-        labelled(ui, Button::new("Close"), "Close").clicked()
+        widgets::default_button(ui, "Close", true, theme)
     });
     let is_pressed_again = || ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::F1));
     if modal.inner || modal.should_close() || is_pressed_again() {

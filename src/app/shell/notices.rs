@@ -13,7 +13,7 @@ use super::{
 };
 use crate::app::ui::{
     theme::{ROUNDING, Theme, space},
-    widgets::{Mark, mark},
+    widgets::{Mark, mark, sentence},
 };
 
 /// Between the notices and what is beside them, logical pixels.
@@ -80,7 +80,7 @@ pub(in crate::app) fn ui(
     theme: &Theme,
     actions: &mut Vec<Action>,
 ) {
-    expire(ctx, &state.notices, actions);
+    expire(ctx, room, &state.notices, actions);
     let Some(room) = room else {
         return;
     };
@@ -148,9 +148,10 @@ fn line(ui: &mut Ui, place: usize, notice: &Notice, theme: &Theme, actions: &mut
             let words = Layout::left_to_right(Align::Center).with_main_wrap(true);
             ui.with_layout(words, |ui| {
                 if notice.advice.is_empty() {
-                    ui.label(RichText::new(&notice.what).color(theme.text));
+                    ui.label(RichText::new(sentence(&notice.what)).color(theme.text));
                 } else {
-                    let what = format!("{}.", notice.what.trim_end_matches('.'));
+                    let what = sentence(notice.what.trim_end_matches('.'));
+                    let what = format!("{what}.");
                     ui.label(RichText::new(what).color(theme.text));
                     ui.label(RichText::new(&notice.advice).color(theme.warning));
                 }
@@ -162,8 +163,13 @@ fn line(ui: &mut Ui, place: usize, notice: &Notice, theme: &Theme, actions: &mut
 /// A notice and since when it is there, seconds of egui's clock.
 type TimedNotice = Vec<(Notice, f64)>;
 
-fn expire(ctx: &Context, notices: &[Notice], actions: &mut Vec<Action>) {
+fn expire(ctx: &Context, room: Option<Rect>, notices: &[Notice], actions: &mut Vec<Action>) {
     let now = ctx.input(|input| input.time);
+    // None moves away under the pointer.
+    let pointer = ctx.pointer_latest_pos();
+    let is_pointed_at = room
+        .zip(pointer)
+        .is_some_and(|(room, at)| room.contains(at));
     let id = Id::unique("notices since");
     let since: TimedNotice = ctx.data_mut(|data| {
         let since = data.get_temp_mut_or_default::<TimedNotice>(id);
@@ -183,7 +189,9 @@ fn expire(ctx: &Context, notices: &[Notice], actions: &mut Vec<Action>) {
             continue;
         };
         let left = begun + display_seconds - now;
-        if left <= 0.0 {
+        if left <= 0.0 && is_pointed_at {
+            ctx.request_repaint_after_secs(REST);
+        } else if left <= 0.0 {
             actions.push(Action::Dismiss(place));
         } else {
             ctx.request_repaint_after_secs(left as f32);

@@ -121,14 +121,19 @@ fn counts(ui: &mut Ui, shift: &ShiftParts, theme: &Theme) {
 fn lower(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
     let text = |text: &str| RichText::new(text).font(font::verdict());
     let key = |text: &str| RichText::new(text).font(font::small());
-    let inspect = Button::new(text("Inspect").color(theme.on_accent))
-        .shortcut_text(key("Space").color(theme.on_accent))
-        .fill(theme.accent)
-        .min_size(vec2(200.0, BUTTON));
-    if labelled_large(ui, inspect, "Inspect").clicked() {
+    let is_live = state.is_live();
+    // The accent is for what is pressed next: while frames are followed, nothing is.
+    let capture = if is_live {
+        Button::new(text("Capture")).shortcut_text(key("Space").color(theme.weak_text))
+    } else {
+        Button::new(text("Capture").color(theme.on_accent))
+            .shortcut_text(key("Space").color(theme.on_accent))
+            .fill(theme.accent)
+    };
+    let capture = capture.min_size(vec2(200.0, BUTTON));
+    if labelled_large(ui, capture, "Capture").clicked() {
         actions.push(Action::Capture);
     }
-    let is_live = state.is_live();
     let [strong, weak] = if is_live {
         [theme.on_accent; 2]
     } else {

@@ -53,9 +53,14 @@ pub(in crate::app) fn ui(
                 robot_button(ui, state, robot, theme, actions);
                 let capture = RichText::new("Capture").font(font::body_strong());
                 let key = RichText::new("Space").font(font::small());
-                let capture = Button::new(capture.color(theme.on_accent))
-                    .shortcut_text(key.color(theme.on_accent))
-                    .fill(theme.accent);
+                // The accent is for what is pressed next: while frames are followed, nothing is.
+                let capture = if state.is_live() {
+                    Button::new(capture).shortcut_text(key.color(theme.weak_text))
+                } else {
+                    Button::new(capture.color(theme.on_accent))
+                        .shortcut_text(key.color(theme.on_accent))
+                        .fill(theme.accent)
+                };
                 if labelled(ui, capture, "Capture").clicked() {
                     actions.push(Action::Capture);
                 }

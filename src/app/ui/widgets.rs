@@ -1,8 +1,9 @@
 //! Small things that several panels draw.
 
 use egui::{
-    Align, Button, ColorImage, Context, Frame, Id, Layout, Margin, Modal, ModalResponse, Painter,
-    Pos2, Rect, RichText, Stroke, StrokeKind, TextureHandle, TextureOptions, Ui, Vec2, pos2, vec2,
+    Align, Button, ColorImage, Context, Event, Frame, Id, Key, Layout, Margin, Modal,
+    ModalResponse, Painter, Pos2, Rect, RichText, Stroke, StrokeKind, TextureHandle,
+    TextureOptions, Ui, Vec2, pos2, vec2,
 };
 use image::RgbImage;
 
@@ -83,8 +84,13 @@ pub(in crate::app) fn heading(ui: &mut Ui, theme: &Theme, text: &str) {
     );
 }
 
-/// The text with a capital letter first.
+/// The text with a capital letter first, unless it begins with the name of a file or of a parameter.
 pub(in crate::app) fn sentence(text: &str) -> String {
+    let first = text.split_whitespace().next().unwrap_or_default();
+    let is_word = |c: char| c.is_alphabetic() || matches!(c, '\'' | '’' | '-' | ',' | ':');
+    if !first.chars().all(is_word) {
+        return text.to_owned();
+    }
     let mut letters = text.chars();
     letters.next().map_or_else(String::new, |first| {
         first.to_uppercase().collect::<String>() + letters.as_str()
@@ -186,6 +192,43 @@ pub(in crate::app) fn dialog<R>(
     modal
 }
 
+/// The button that Enter presses in a dialog while no control has the focus. The Enter that ends the writing of a text, or
+/// that has opened the dialog, is not taken.
+pub(in crate::app) fn default_button(ui: &mut Ui, label: &str, can: bool, theme: &Theme) -> bool {
+    let button = Button::new(RichText::new(label).color(theme.on_accent)).fill(theme.accent);
+    let is_clicked = ui
+        .add_enabled_ui(can, |ui| labelled(ui, button, label).clicked())
+        .inner;
+    let id = Id::unique(("default button", label));
+    let frame: u64 = ui.ctx().cumulative_frame_nr();
+    let has_focus = ui.memory(|memory| memory.focused().is_some());
+    // As of the frame before: a text of one line gives the focus away in the very frame in which Enter is pressed.
+    let was_free = ui.data_mut(|data| {
+        let (of, was_free, is_free) = data.get_temp(id).unwrap_or((0, false, false));
+        let was_free = match frame.saturating_sub(of) {
+            // Drawn once more, because something has another size.
+            0 => was_free,
+            1 => is_free,
+            _ => false,
+        };
+        data.insert_temp::<(u64, bool, bool)>(id, (frame, was_free, !has_focus));
+        was_free
+    });
+    let is_enter = |event: &Event| {
+        matches!(
+            event,
+            Event::Key {
+                key: Key::Enter,
+                pressed: true,
+                repeat: false,
+                ..
+            }
+        )
+    };
+    let is_entered = was_free && !has_focus && ui.input(|input| input.events.iter().any(is_enter));
+    is_clicked || can && is_entered
+}
+
 /// Uploads a picture.
 pub(in crate::app) fn texture(
     ctx: &egui::Context,
@@ -216,7 +259,18 @@ pub fn grouped(number: usize) -> String {
 
 #[cfg(test)]
 mod tests {
-    use super::grouped;
+    use super::{grouped, sentence};
+
+    #[test]
+    fn a_sentence_begins_with_a_capital_letter_and_a_file_keeps_its_name() {
+        assert_eq!(sentence("there is a recipe"), "There is a recipe");
+        assert_eq!(
+            sentence("unknown: nothing is like it"),
+            "Unknown: nothing is like it"
+        );
+        assert_eq!(sentence("door.pcd: a mesh"), "door.pcd: a mesh");
+        assert_eq!(sentence(""), "");
+    }
 
     #[test]
     fn long_numbers_are_grouped() {

@@ -7,7 +7,7 @@ use super::{ShowArgs, again, here};
 use crate::{
     cli::{
         Outcome,
-        console::{Advised as _, Console, Table, in_columns},
+        console::{Advised as _, Console, Table, in_columns, marked_simulated},
     },
     history::{
         Differences, History, InspectionDetail, InspectionSummary, Record, ShotRecord, Summary,
@@ -220,17 +220,15 @@ fn card(history: &History, record: &Record, console: &mut Console) {
             table.row([what.to_owned(), text]);
         }
     };
-    let simulated = if summary.is_simulated {
-        " (simulated: no camera was read)"
-    } else {
-        ""
-    };
     row("inspection", summary.number.to_string());
     row(
         "time",
         format!("{} here, {} UTC", here(summary.at), summary.at),
     );
-    row("scene", format!("{}{simulated}", summary.scene));
+    row(
+        "scene",
+        marked_simulated(&summary.scene, summary.is_simulated),
+    );
     row("source", summary.source.clone());
     row("verdict", summary.verdict.title().to_lowercase());
     row("part", summary.part.clone().unwrap_or_default());

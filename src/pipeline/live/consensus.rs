@@ -178,6 +178,7 @@ impl Consensus {
             let is_common = num_rejecting >= needed && !is_contradicted;
             Some(
                 last.filter(|_| is_common)
+                    .or_else(|| almost_equal(&said, name, needed))
                     .unwrap_or_else(|| undecided(num_accepting)),
             )
         } else if score < accept.min_score || margin < accept.min_margin {
@@ -225,6 +226,41 @@ fn nothing_named(said: &[&FrameVerdict]) -> Option<ConsensusVerdict> {
         num_frames: said.len(),
         num_agreeing,
         pose: None,
+    })
+}
+
+/// Why frames that name one of two parts by turns do not agree, if that is it: both fit almost equally well, as at least
+/// one frame says and no more than a few contradict.
+fn almost_equal(said: &[&FrameVerdict], name: &str, needed: usize) -> Option<Rejection> {
+    let pair_of = |verdict: &Verdict| match verdict.rejected() {
+        Some(Rejection::SmallMargin { part, other, .. }) if part == name => Some(other.clone()),
+        Some(Rejection::SmallMargin { part, other, .. }) if other == name => Some(part.clone()),
+        _ => None,
+    };
+    let other = said.iter().find_map(|said| pair_of(&said.verdict))?;
+    let of_pair = said.iter().filter(|said| {
+        let accepts = named(&said.verdict).is_some_and(|(part, ..)| {
+            said.verdict.is_accepted() && (part == name || part == other)
+        });
+        accepts || pair_of(&said.verdict).as_ref() == Some(&other)
+    });
+    if of_pair.count() < needed {
+        return None;
+    }
+    let margins = said
+        .iter()
+        .filter_map(|said| match said.verdict.rejected() {
+            Some(Rejection::SmallMargin {
+                margin, threshold, ..
+            }) => Some((*margin, *threshold)),
+            _ => None,
+        });
+    let threshold = margins.clone().map(|(_, threshold)| threshold).next()?;
+    Some(Rejection::SmallMargin {
+        part: name.to_owned(),
+        margin: median(margins.map(|(margin, _)| margin)),
+        threshold,
+        other,
     })
 }
 

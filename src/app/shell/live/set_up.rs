@@ -45,8 +45,7 @@ pub(in crate::app) fn set_up(
         ui.add_space(space::MEDIUM);
         let mut closing = None;
         ui.horizontal(|ui| {
-            let text = RichText::new("Use it").color(theme.on_accent);
-            if labelled(ui, Button::new(text).fill(theme.accent), "Use it").clicked() {
+            if widgets::default_button(ui, "Use it", true, theme) {
                 closing = Some(true);
             }
             if labelled(ui, Button::new("Close"), "Close").clicked() {

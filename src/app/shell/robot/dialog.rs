@@ -20,8 +20,8 @@ use crate::{
 
 /// Width of the dialog, logical pixels.
 const WIDTH: f32 = 640.0;
-/// What of the window's height the pages leave free, for heading, buttons and the edges.
-const MARGIN: f32 = 220.0;
+/// What of the window's height the pages leave free, for heading, buttons, the edges, and a notice above the dialog.
+const MARGIN: f32 = 290.0;
 
 impl RobotCell {
     /// Draws the dialog while it is open; says what a person caused in it.
@@ -126,10 +126,7 @@ pub(super) fn name(ui: &mut Ui, dialog: &mut RobotDialog) {
 
 /// The button that uses what stands there.
 pub(super) fn use_it(ui: &mut Ui, is_there: bool, theme: &Theme) -> bool {
-    let text = RichText::new("Use it").color(theme.on_accent);
-    let button = Button::new(text).fill(theme.accent);
-    ui.add_enabled_ui(is_there, |ui| labelled(ui, button, "Use it").clicked())
-        .inner
+    widgets::default_button(ui, "Use it", is_there, theme)
 }
 
 /// Trouble or doubt, its sign before it and what to do below.

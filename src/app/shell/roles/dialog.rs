@@ -66,8 +66,7 @@ pub(in crate::app) fn dialog(
             ui.add_space(space::SMALL);
         }
         ui.horizontal(|ui| {
-            let text = RichText::new(done).color(theme.on_accent);
-            if labelled(ui, Button::new(text).fill(theme.accent), done).clicked() {
+            if widgets::default_button(ui, done, true, theme) {
                 actions.push(Action::Role(RoleAction::Enter));
             }
             if labelled(ui, Button::new("Not now"), "Not now").clicked() {
@@ -119,7 +118,6 @@ fn pad(ui: &mut Ui, digits: &str, theme: &Theme, actions: &mut Vec<Action>) {
 
 /// What is written on a keyboard.
 fn typed(ctx: &Context, actions: &mut Vec<Action>) {
-    let has_focus = ctx.memory(|memory| memory.focused().is_some());
     ctx.input(|input| {
         for event in &input.events {
             match event {
@@ -128,13 +126,10 @@ fn typed(ctx: &Context, actions: &mut Vec<Action>) {
                     actions.extend(digits.map(|d| Action::Role(RoleAction::Digit(d))));
                 }
                 Event::Key {
-                    key, pressed: true, ..
-                } => match key {
-                    Key::Backspace => actions.push(Action::Role(RoleAction::Erase)),
-                    // On a button that has the focus it presses that.
-                    Key::Enter if !has_focus => actions.push(Action::Role(RoleAction::Enter)),
-                    _ => {}
-                },
+                    key: Key::Backspace,
+                    pressed: true,
+                    ..
+                } => actions.push(Action::Role(RoleAction::Erase)),
                 _ => {}
             }
         }

@@ -184,6 +184,8 @@ pub(in crate::app) fn apply(state: &mut State, action: RoleAction) -> Option<Eff
 fn switch_to_operator(state: &mut State) {
     state.role = UserRole::Operator;
     state.roles.asked = None;
+    // They speak of the engineer's work.
+    state.notices.clear();
     if !is_operators(state.workspace) {
         state.workspace = WorkspaceKind::Inspect;
     }
@@ -208,6 +210,7 @@ fn enter(state: &mut State) -> Option<Effect> {
                 return None;
             }
             state.role = UserRole::Engineer;
+            state.report_library();
             return apply_any(state, *then?);
         }
         RoleQuestion::NewPin if digits.len() < pin::LEAST_DIGITS => {

@@ -60,7 +60,7 @@ fn menu(
     let name = shortened(&label.name, MAX_LETTERS);
     let mut text = RichText::new(format!("{name} ▼"));
     if label.is_changed {
-        text = RichText::new(format!("{name} (changed) ▼")).color(theme.accent);
+        text = RichText::new(format!("{name} (modified) ▼")).color(theme.accent);
     }
     let full = format!("Recipe {label}");
     let list = &compare.recipes.list;

@@ -9,7 +9,8 @@ use super::{
 };
 use crate::{
     app::{
-        shell::{context::ShellContext, message::Message},
+        inspection::folder_watch::FolderWatch,
+        shell::{context::ShellContext, message::Message, notice::Notice, session::UserRole},
         task::{Task, TaskEvent, TaskRunner},
         user_error::UserError,
     },
@@ -33,6 +34,8 @@ pub struct KeptRecipes {
     pub is_listing_changes: bool,
     waiting: VecDeque<RecipeChange>,
     task: Task<Changed>,
+    /// Sees what commands change.
+    watch: FolderWatch,
 }
 
 /// A name that is being written.
@@ -109,6 +112,7 @@ impl KeptRecipes {
             // In the first frame: the recipe in use may differ from its file by now.
             waiting: VecDeque::from([RecipeChange::List]),
             task: Task::new("recipes", runner),
+            watch: FolderWatch::new("recipe-watch", runner),
         }
     }
 
@@ -154,6 +158,17 @@ impl KeptRecipes {
         }
         self.waiting.push_back(change);
         self.start_next();
+    }
+
+    /// Lists the recipes again once another program has changed them.
+    fn watch(&mut self) {
+        let Some(folder) = &self.folder else {
+            return;
+        };
+        self.watch.watch(folder.path());
+        if self.watch.has_changed() {
+            self.waiting.push_back(RecipeChange::List);
+        }
     }
 
     /// One after the other: no file is given up for the next.
@@ -399,21 +414,25 @@ impl CompareState {
             // An imported recipe is tried.
             self.start_next(cx);
         }
+        self.recipes.watch();
         self.recipes.start_next();
     }
 
     fn on_changed(&mut self, changed: Changed, cx: &mut ShellContext<'_>) {
         let Changed { list, done } = changed;
+        let known = std::mem::replace(&mut self.recipes.list, list);
         if matches!(done, RecipeDone::Listed) {
-            for problem in &list.problems {
-                cx.notify(UserError::of(problem));
+            let known: Vec<String> = known.problems.iter().map(ToString::to_string).collect();
+            for problem in &self.recipes.list.problems {
+                if !known.contains(&problem.to_string()) {
+                    cx.notify(UserError::of(problem));
+                }
             }
         }
-        self.recipes.list = list;
         // The recipe on trial, and the one in use, may go by another name or differ from what is kept now.
-        let in_use = &cx.session.recipe;
-        let mut names = [self.tried.as_ref(), Some(in_use)].map(|recipe| {
-            let recipe = recipe.unwrap_or(in_use);
+        let in_use = Arc::clone(&cx.session.recipe);
+        let mut names = [self.tried.as_ref(), Some(&in_use)].map(|recipe| {
+            let recipe = recipe.unwrap_or(&in_use);
             recipe.label.name.clone()
         });
         match &done {
@@ -439,6 +458,13 @@ impl CompareState {
             .map(|tried| self.recipes.named(&names[0], Arc::clone(&tried.parameters)));
         self.tried = tried.filter(|tried| *tried != now).map(Arc::new);
         if now.label != in_use.label {
+            let is_listed = matches!(done, RecipeDone::Listed);
+            if is_listed && now.label.is_changed && cx.session.role == UserRole::Engineer {
+                cx.notify(Notice::look(
+                    format!("Recipe {} was changed by another program", now.label.name),
+                    "Open it in Compare to use it; until then its former parameters are used",
+                ));
+            }
             cx.send(Message::UseRecipe(Arc::new(now)));
         }
         match done {

@@ -181,7 +181,10 @@ impl EnrolState {
                 self.steps.undone.clear();
                 Notice::undoable(what)
             }
-            UndoDirection::Back => Notice::done(format!("Undone: {}", lower_first(&step.what))),
+            UndoDirection::Back => {
+                let what = step.what.split(';').next().unwrap_or_default();
+                Notice::done(format!("Undone: “{what}”"))
+            }
             UndoDirection::Again => Notice::undoable(step.what.clone()),
         };
         let mut saved = None;
@@ -278,11 +281,4 @@ fn inspectable(draft: &Draft) -> Option<SceneOrScan> {
     let scene = Arc::clone(draft.subject.scene()?);
     let source = SceneSource::AtHand(scene, draft.subject.origin.clone());
     Some(SceneOrScan::Scene(source))
-}
-
-fn lower_first(text: &str) -> String {
-    let mut letters = text.chars();
-    letters.next().map_or_else(String::new, |first| {
-        first.to_lowercase().chain(letters).collect()
-    })
 }

@@ -196,7 +196,7 @@ impl HistoryState {
                 ReinspectionPurpose::New => {
                     // Whoever comes here from the view of a part looks for that one.
                     if cx.session.workspace != WorkspaceKind::History {
-                        self.selected = None;
+                        self.select_newest();
                     }
                     let entry = inspected.entry.clone();
                     self.keep(entry, Some(inspected));

@@ -54,7 +54,7 @@ impl Details {
             verdict(ui, record, theme);
             self.picture(ui, record, theme);
             ui.add_space(space::MEDIUM);
-            buttons(ui, record, theme, actions);
+            buttons(ui, history, record, theme, actions);
             let differences = history.differences.as_ref();
             let number = record.summary.number;
             if let Some((_, found)) = differences.filter(|(of, _)| *of == number) {
@@ -262,26 +262,40 @@ fn times(ui: &mut Ui, record: &Record, theme: &Theme) {
     }
 }
 
-fn buttons(ui: &mut Ui, record: &Record, theme: &Theme, actions: &mut Vec<HistoryAction>) {
+fn buttons(
+    ui: &mut Ui,
+    history: &HistoryState,
+    record: &Record,
+    theme: &Theme,
+    actions: &mut Vec<HistoryAction>,
+) {
     let number = record.summary.number;
+    let no_frame = history
+        .why_no_scene(record)
+        .map(|[what, advice]| format!("{what}. {advice}"));
     ui.horizontal(|ui| {
         let open = RichText::new("Open").font(font::body_strong());
         let key = RichText::new("Enter").font(font::small());
         let open = Button::new(open.color(theme.on_accent))
             .shortcut_text(key.color(theme.on_accent))
             .fill(theme.accent);
-        if labelled(ui, open, "Open")
-            .on_hover_text("Open with every stage, using its own recipe")
-            .clicked()
-        {
+        let mut press = |button, label, says| {
+            let can = no_frame.is_none();
+            let pressed = ui
+                .add_enabled_ui(can, |ui| labelled(ui, button, label))
+                .inner;
+            // What is drawn as enabled says so itself.
+            pressed.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, can, label));
+            let pressed = pressed.on_disabled_hover_text(no_frame.as_deref().unwrap_or_default());
+            pressed.on_hover_text(says).clicked()
+        };
+        if press(open, "Open", "Open with every stage, using its own recipe") {
             actions.push(HistoryAction::Open(number));
         }
         let key = RichText::new("A").font(font::small());
         let again = Button::new("Inspect again").shortcut_text(key.color(theme.weak_text));
-        if labelled(ui, again, "Inspect again")
-            .on_hover_text("Use the current recipe and library; changes are shown here")
-            .clicked()
-        {
+        let says = "Use the current recipe and library; changes are shown here";
+        if press(again, "Inspect again", says) {
             actions.push(HistoryAction::InspectAgain(number));
         }
     });

@@ -39,8 +39,7 @@ pub(super) fn ui(
         ui.add_space(space::MEDIUM);
         let mut closing = None;
         ui.horizontal(|ui| {
-            let text = RichText::new("Apply").color(theme.on_accent);
-            if labelled(ui, Button::new(text).fill(theme.accent), "Apply").clicked() {
+            if widgets::default_button(ui, "Apply", true, theme) {
                 closing = Some(true);
             }
             if labelled(ui, Button::new("Close"), "Close").clicked() {

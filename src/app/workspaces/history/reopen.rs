@@ -55,10 +55,9 @@ impl HistoryState {
         };
         let scene = &past.record.summary.scene;
         let Some(source) = self.source_of(&past.record) else {
-            return cx.notify(Notice::look(
-                format!("The frame of {scene} is not kept"),
-                "Keep more frames from now on: Frames… above the list",
-            ));
+            let why = self.why_no_scene(&past.record);
+            let [what, advice] = why.unwrap_or_default();
+            return cx.notify(Notice::look(what, advice));
         };
         let (title, recipe) = match purpose {
             RemakeFor::Compare => (
@@ -91,6 +90,17 @@ impl HistoryState {
             purpose: ReinspectionPurpose::Past,
         });
         self.remaking = Some(ReinspectionJob { past, purpose });
+    }
+
+    /// Why an inspection cannot be made again, and what to do, if its scene cannot be had.
+    pub(super) fn why_no_scene(&self, record: &Record) -> Option<[String; 2]> {
+        let is_there = self.source_of(record).is_some();
+        (!is_there).then(|| {
+            [
+                format!("The frame of {} is not kept", record.summary.scene),
+                "Keep more frames from now on: Frames… above the list".into(),
+            ]
+        })
     }
 
     /// Where its scene can be had: in memory, among the kept frames, or where it came from.

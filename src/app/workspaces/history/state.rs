@@ -305,6 +305,12 @@ impl HistoryState {
         self.wants_part = false;
     }
 
+    /// A person will look for the newest inspection: its row is fetched, wherever the list was scrolled to.
+    pub(super) fn select_newest(&mut self) {
+        self.selected = None;
+        self.visible = 0..self.visible.len();
+    }
+
     /// Goes on to the inspection that stands for the part, where that is wanted.
     pub(super) fn look_at_part(&mut self) {
         let Some(past) = self.selected.and_then(|number| self.looked_at_as(number)) else {

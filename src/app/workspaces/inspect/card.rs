@@ -67,7 +67,7 @@ pub(super) fn ui(
     ui.spacing_mut().item_spacing.y = 3.0;
     ui.spacing_mut().scroll = ScrollStyle::thin();
     // However far the rest is scrolled, the verdict stays in sight.
-    let headline = Headline::of(inspected);
+    let headline = Headline::of(inspected, session);
     headline::ui(ui, &headline, theme);
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         if inspection.touches_edge() && inspected.scan.is_none() {
@@ -254,13 +254,18 @@ fn fit(ui: &mut Ui, pose: &PoseEstimate, units: UnitSystem, theme: &Theme) {
             ui.label(RichText::new(text).color(theme.warning));
         } else {
             let (shift, turn) = (units.length(bounds.shift.0), units.angle(bounds.turn.0));
-            // In a narrow card there is no room for more.
-            let name = if ui.available_width() > 280.0 {
-                "pose uncertainty (95 %)"
-            } else {
-                "uncertainty (95 %)"
+            let value = format!("{shift} · {turn}");
+            let names = ["pose uncertainty (95 %)", "uncertainty (95 %)", "95 %"];
+            let width = |text: &str| {
+                let laid_out = ui
+                    .painter()
+                    .layout_no_wrap(text.into(), font::body(), theme.text);
+                laid_out.size().x
             };
-            row(ui, theme, name, &format!("{shift} · {turn}"));
+            let room = ui.available_width() - width(&value) - 2.0 * space::SMALL;
+            let fits = |name: &&str| width(name) <= room;
+            let name = names.into_iter().find(fits).unwrap_or(names[2]);
+            row(ui, theme, name, &value);
         }
     }
     if let Some(runner_up) = pose.runner_up {

@@ -5,6 +5,7 @@ use egui::{FontId, RichText, Sense, Ui, Vec2};
 use crate::{
     app::{
         inspection::inspected::{Inspected, LiveFrameContext},
+        shell::session::Session,
         ui::{
             theme::{Theme, font, space},
             widgets::{Mark, mark, sentence},
@@ -27,11 +28,11 @@ pub(super) struct Headline {
 }
 
 impl Headline {
-    pub(super) fn of(inspected: &Inspected) -> Self {
+    pub(super) fn of(inspected: &Inspected, session: &Session) -> Self {
         if let Some(followed) = &inspected.followed
             && followed.standing.counted().is_none()
         {
-            return Self::not_yet(inspected, followed);
+            return Self::not_yet(inspected, followed, session.is_live());
         }
         match &inspected.inspection.verdict {
             Verdict::Part { part, rejected, .. } => {
@@ -85,10 +86,14 @@ impl Headline {
     }
 
     /// Of a frame whose verdict does not count.
-    fn not_yet(inspected: &Inspected, followed: &LiveFrameContext) -> Self {
+    fn not_yet(inspected: &Inspected, followed: &LiveFrameContext, is_live: bool) -> Self {
         let is_part = matches!(inspected.inspection.verdict, Verdict::Part { .. });
         let nearest = inspected.figures.candidates.first();
         let (title, complaint) = match followed.stillness {
+            _ if !is_live => (
+                "No verdict",
+                ("Live was stopped before a verdict counted", "Press Capture"),
+            ),
             MotionState::Moving => (
                 "Moving",
                 (

@@ -5,6 +5,7 @@ mod card;
 mod controls;
 mod headline;
 mod operator;
+mod operator_words;
 mod plots;
 mod ranking;
 mod robot_numbers;

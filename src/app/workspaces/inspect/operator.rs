@@ -2,10 +2,13 @@
 
 use egui::{
     Align, CentralPanel, Color32, FontId, Frame, Label, Layout, Margin, Panel, RichText,
-    ScrollArea, Sense, Ui, Vec2, vec2,
+    ScrollArea, Sense, Ui, Vec2, style::ScrollStyle, vec2,
 };
 
-use super::headline::{Headline, fitting_font};
+use super::{
+    headline::{Headline, fitting_font},
+    operator_words::{in_short, next_step, next_without_part},
+};
 use crate::{
     app::{
         inspection::inspected::Inspected,
@@ -16,7 +19,7 @@ use crate::{
         },
     },
     history::StoredVerdict,
-    pipeline::{Rejection, Unrecognisable, Verdict},
+    pipeline::{Unrecognisable, Verdict},
     stages::pose::PoseEstimate,
 };
 
@@ -109,8 +112,8 @@ impl Banner {
         } else if let Some(run) = &session.inspecting {
             return Self::new(Tone::Open, "Inspecting…", &run.title, wait);
         } else if let Some(trouble) = &session.failed {
-            let (what, advice) = (&trouble.what, &trouble.advice);
-            return Self::new(Tone::Trouble, "No result", sentence(what), advice);
+            let ask = "Press Capture; if it stays so, ask the engineer";
+            return Self::new(Tone::Trouble, "No result", sentence(&trouble.what), ask);
         }
         if let Some(library) = &session.library {
             let ask = "Ask the engineer to enrol the parts";
@@ -129,38 +132,38 @@ impl Banner {
             return if session.is_live() {
                 Self::new(Tone::Open, "Looking", "Nothing was captured yet", wait)
             } else {
-                let next = "Hang a part and press Inspect";
+                let next = "Hang a part and press Capture";
                 Self::new(Tone::Open, "Ready", "Nothing was inspected yet", next)
             };
         };
         let verdict = Self {
             is_current: true,
-            ..Self::of_result(&shown.inspected)
+            ..Self::of_result(&shown.inspected, session)
         };
         if shown.is_past {
             return Self {
                 tone: Tone::Open,
                 reason: "From the history, not the current part".into(),
-                next: "Press Inspect for the current part".into(),
+                next: "Press Capture for the current part".into(),
                 ..verdict
             };
         }
         verdict
     }
 
-    fn of_result(inspected: &Inspected) -> Self {
+    fn of_result(inspected: &Inspected, session: &Session) -> Self {
         let Headline {
             title,
             is_accepted,
             is_open,
             complaint,
             ..
-        } = Headline::of(inspected);
+        } = Headline::of(inspected, session);
         let inspection = &inspected.inspection;
         if is_accepted {
             let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
             let next = if inspected.origin.is_simulated() {
-                "Choose a camera: this frame is simulated"
+                "Ask the engineer to choose a camera: this frame is simulated"
             } else if pose.is_some_and(PoseEstimate::is_ambiguous) {
                 "Check which way round the part hangs, then start the robot"
             } else {
@@ -182,47 +185,20 @@ impl Banner {
                 "Ask the engineer to enrol the parts",
             ),
             // An empty cell is no bad part.
-            Verdict::NoPart(_) => Self::new(Tone::Open, &title, sentence(&reason), advice),
+            Verdict::NoPart(why) => {
+                let next = next_without_part(why);
+                Self::new(Tone::Open, &title, sentence(&reason), next)
+            }
             Verdict::Part {
                 rejected: Some(why),
                 ..
-            } => Self::new(Tone::NotOk, &title, in_short(why, nearest), advice),
+            } => {
+                let next = next_step(why, nearest);
+                Self::new(Tone::NotOk, &title, in_short(why, nearest), next)
+            }
             Verdict::Part { rejected: None, .. } => {
                 Self::new(Tone::NotOk, &title, sentence(&reason), advice)
             }
-        }
-    }
-}
-
-/// Why a part is not accepted, without the figures that belong to the engineer.
-fn in_short(why: &Rejection, nearest: &str) -> String {
-    match why {
-        Rejection::LowScore { .. } => format!("It does not match {nearest} well enough"),
-        Rejection::Piece { .. } => format!("Only a piece of {nearest} is in sight"),
-        Rejection::HardlySeen { .. } => "Too little of it is in sight".into(),
-        Rejection::AnotherModel { .. } => format!("It resembles {nearest}, but its shape differs"),
-        Rejection::AnotherMake { .. } => {
-            format!("It resembles {nearest}, but its dimensions differ")
-        }
-        Rejection::AmbiguousPose { .. }
-        | Rejection::Unconstrained { .. }
-        | Rejection::Uncertain { .. } => format!("It may be {nearest}, but its pose is uncertain"),
-        Rejection::Unknown { .. } => "No enrolled part resembles it".into(),
-        Rejection::Mirrored { .. } => {
-            format!("It looks like {nearest} from the other side of the car")
-        }
-        Rejection::MirroredImage { .. } => "The camera's picture is mirrored".into(),
-        Rejection::SmallMargin { .. } => "Two enrolled parts match almost equally well".into(),
-        Rejection::Unconfirmed { .. } => "Only its outline was compared".into(),
-        Rejection::OutOfRange { .. } => "It is too near to the camera or too far away".into(),
-        Rejection::BehindCamera { .. } | Rejection::SurplusBytes { .. } => {
-            "The captured file is damaged".into()
-        }
-        Rejection::NoPose(_) => format!("It may be {nearest}, but no pose was found"),
-        Rejection::NotSteady { .. } => "It does not hang still yet".into(),
-        Rejection::FewFrames { .. } => "Too few frames were inspected so far".into(),
-        Rejection::Undecided { .. } | Rejection::PosesApart { .. } => {
-            "The frames do not agree".into()
         }
     }
 }
@@ -355,6 +331,8 @@ fn column(ui: &mut Ui, banner: &Banner, shift: &ShiftParts, theme: &Theme) {
         return;
     }
     ui.spacing_mut().item_spacing.y = 0.0;
+    // Beside the times, not over them.
+    ui.spacing_mut().scroll = ScrollStyle::solid();
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         for row in &shift.last {
             let is_ok = row.verdict == StoredVerdict::Accepted;

@@ -186,3 +186,36 @@ fn no_pose_where_none_was_found_rejects_as_the_frames_do() {
         (Some(&no_pose), None)
     );
 }
+
+#[test]
+fn frames_that_take_it_for_one_of_two_parts_by_turns_name_both_as_a_single_frame_does() {
+    let alike = |part: &str, other: &str| Rejection::SmallMargin {
+        part: part.into(),
+        other: other.into(),
+        margin: 0.02,
+        threshold: 0.05,
+    };
+    let by_turns = |i: usize| match i % 3 {
+        0 => part("door", 0.97, Some(alike("door", "door_copy"))),
+        1 => part("door_copy", 0.97, Some(alike("door_copy", "door"))),
+        // Now and then the lead is large enough.
+        _ if i == 5 => part("door_copy", 0.97, None),
+        _ => part("door", 0.97, None),
+    };
+    let found = agreed((0..10).map(|i| (by_turns(i), 0.0))).expect("enough frames");
+    assert_eq!(
+        found.verdict.rejected(),
+        Some(&alike("door", "door_copy")),
+        "{found:?}"
+    );
+    // A third part among them is another matter.
+    let mut frames: Vec<_> = (0..10).map(|i| (by_turns(i), 0.0)).collect();
+    for frame in &mut frames[..3] {
+        frame.0 = part("fender", 0.97, None);
+    }
+    let found = agreed(frames).expect("enough frames");
+    assert!(
+        matches!(found.verdict.rejected(), Some(Rejection::Undecided { .. })),
+        "{found:?}"
+    );
+}

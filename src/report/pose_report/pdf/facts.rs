@@ -196,7 +196,7 @@ pub(super) fn foot(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
     };
     sheet.fill(area, PALE);
     let recipe = &report.recipe;
-    let changed = if recipe.is_changed { " (changed)" } else { "" };
+    let changed = if recipe.is_changed { " (modified)" } else { "" };
     let library = &report.library;
     let timings = &report.timings_ms;
     let facts = [

@@ -1,0 +1,89 @@
+//! Notices what another program changes in a folder of entries, such as a command on the library or the recipes.
+//!
+//! A thread looks at names, sizes and times of the visible entries every two seconds. Files are replaced whole, never
+//! written over, so that the time of an entry which is a folder changes with every file in it.
+
+use std::{
+    ffi::OsString,
+    fs,
+    path::{Path, PathBuf},
+    thread,
+    time::{Duration, SystemTime},
+};
+
+use crate::app::task::{Task, TaskContext, TaskError, TaskRunner};
+
+/// Between two looks at whether the watch is still wanted.
+const TURN: Duration = Duration::from_millis(100);
+/// Turns from one look at the folder to the next.
+const NUM_TURNS: usize = 20;
+
+/// Watches one folder.
+#[derive(Debug)]
+pub(in crate::app) struct FolderWatch {
+    task: Task<()>,
+    folder: Option<PathBuf>,
+}
+
+impl FolderWatch {
+    /// Watches nothing yet. The thread has this name.
+    pub(in crate::app) fn new(name: &'static str, runner: &TaskRunner) -> Self {
+        Self {
+            task: Task::new(name, runner),
+            folder: None,
+        }
+    }
+
+    /// Watches this folder from now on.
+    pub(in crate::app) fn watch(&mut self, folder: &Path) {
+        if self.folder.as_deref() != Some(folder) {
+            self.folder = Some(folder.to_owned());
+            let folder = folder.to_owned();
+            let before = entries(&folder);
+            let watch = move |context: &_| watch(&folder, before, context);
+            self.task.start("Watching a folder", watch);
+        }
+    }
+
+    /// True if it has changed since this was asked last.
+    pub(in crate::app) fn has_changed(&mut self) -> bool {
+        self.task.poll().is_some()
+    }
+}
+
+fn watch(
+    folder: &Path,
+    mut before: Vec<Entry>,
+    context: &TaskContext<()>,
+) -> Result<(), TaskError> {
+    loop {
+        for _ in 0..NUM_TURNS {
+            context.check()?;
+            thread::sleep(TURN);
+        }
+        let now = entries(folder);
+        if now != before {
+            before = now;
+            context.latest(());
+        }
+    }
+}
+
+/// Name, size and time of an entry.
+type Entry = (OsString, u64, Option<SystemTime>);
+
+/// The visible entries in the order of their names; none of a folder that cannot be read.
+fn entries(folder: &Path) -> Vec<Entry> {
+    let found = fs::read_dir(folder).into_iter().flatten().flatten();
+    let visible = found.filter(|entry| !entry.file_name().as_encoded_bytes().starts_with(b"."));
+    let mut entries: Vec<Entry> = visible
+        .map(|entry| {
+            let found = fs::metadata(entry.path()).ok();
+            let size = found.as_ref().map_or(0, fs::Metadata::len);
+            let changed = found.and_then(|found| found.modified().ok());
+            (entry.file_name(), size, changed)
+        })
+        .collect();
+    entries.sort();
+    entries
+}
