@@ -17,5 +17,5 @@ pub mod table1;
 pub use self::{
     history::{HistoryTime, history_times},
     processor_time::{ProcessorWatch, cpu_wait_seconds, process_seconds},
-    speed::{StageTimes, quantile, stage_times},
+    speed::{SetTimes, StageTimes, quantile, stage_times},
 };

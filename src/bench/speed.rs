@@ -2,7 +2,7 @@
 
 use std::time::Duration;
 
-use serde::Serialize;
+use serde::{Deserialize, Serialize};
 
 use crate::pipeline::Timings;
 
@@ -17,6 +17,44 @@ pub struct StageTimes {
     pub p95_ms: f64,
     /// What the design allows, milliseconds.
     pub budget_ms: f64,
+}
+
+/// Times of whole inspections of one set of frames.
+#[derive(Clone, Debug, PartialEq, Serialize, Deserialize)]
+pub struct SetTimes {
+    /// Name of the suite, or `files`.
+    pub set: String,
+    /// Inspections.
+    pub num_frames: usize,
+    /// Median, milliseconds.
+    pub median_ms: f64,
+    /// 95th percentile, milliseconds.
+    pub p95_ms: f64,
+    /// The longest, milliseconds.
+    pub longest_ms: f64,
+}
+
+impl SetTimes {
+    /// Of these inspections; `None` without any.
+    pub fn of(set: &str, timings: &[Timings]) -> Option<Self> {
+        let ms = || timings.iter().map(|t| t.total.as_secs_f64() * 1e3);
+        Some(Self {
+            set: set.to_owned(),
+            num_frames: timings.len(),
+            median_ms: quantile(ms(), 0.5)?,
+            p95_ms: quantile(ms(), 0.95)?,
+            longest_ms: quantile(ms(), 1.0)?,
+        })
+    }
+
+    /// How long these took where the other took one: median, 95th percentile, longest.
+    pub fn against(&self, other: &Self) -> [f64; 3] {
+        [
+            self.median_ms / other.median_ms,
+            self.p95_ms / other.p95_ms,
+            self.longest_ms / other.longest_ms,
+        ]
+    }
 }
 
 /// Medians and 95th percentiles per stage; empty without timings.
@@ -57,6 +95,21 @@ pub fn quantile(values: impl Iterator<Item = f64>, share: f64) -> Option<f64> {
 #[cfg(test)]
 mod tests {
     use super::*;
+
+    #[test]
+    fn sets_are_compared_by_ratios() {
+        let of = |ms: &[u64]| {
+            let timings = ms.iter().map(|&ms| Timings {
+                total: Duration::from_millis(ms),
+                ..Timings::default()
+            });
+            SetTimes::of("booth", &timings.collect::<Vec<_>>())
+        };
+        let (old, new) = (of(&[10, 20, 40]).unwrap(), of(&[10, 10, 60]).unwrap());
+        assert_eq!(new.num_frames, 3);
+        assert_eq!(new.against(&old), [0.5, 1.5, 1.5]);
+        assert_eq!(of(&[]), None);
+    }
 
     #[test]
     fn quantiles_are_values_of_the_list() {

@@ -33,6 +33,9 @@ use crate::{files::write_atomically, stages::rank::Matcher};
 #[command(after_help = "\
 Examples:
   partsight bench
+  partsight bench speed --suite all --json before.json
+  partsight bench speed --suite all --compare before.json
+  partsight bench speed --files frames/*.png
   partsight bench recognition --json recognition.json
   partsight bench recognition --suite placed --poses 50
   partsight bench recognition --only-ours --set accept.min_score=0.95
@@ -65,6 +68,12 @@ pub(super) struct BenchArgs {
     /// For recognition and speed: these sets of frames; may be given several times
     #[arg(long, value_enum, value_name = "NAME")]
     suite: Vec<recognition::SuiteChoice>,
+    /// For speed: inspect these scenes with the library instead of simulated frames
+    #[arg(long, value_name = "FILE", num_args = 1.., conflicts_with_all = ["suite", "poses", "seed"])]
+    files: Vec<PathBuf>,
+    /// For speed: show how many times as long each set took as in this file, which --json wrote
+    #[arg(long, value_name = "JSON")]
+    compare: Option<PathBuf>,
     /// For recognition: leave out the other systems of the paper's Table I, which take most of the time
     #[arg(long)]
     only_ours: bool,
@@ -167,6 +176,12 @@ fn check(args: &BenchArgs) -> anyhow::Result<()> {
         return Err(advised_error(
             "--mesh goes with bounds and registration",
             "Ask for it: partsight bench bounds --mesh FILE#NAME",
+        ));
+    }
+    if bench != Bench::Speed && (args.compare.is_some() || !args.files.is_empty()) {
+        return Err(advised_error(
+            "--files and --compare go with speed",
+            "Ask for it: partsight bench speed --files FILE --compare before.json",
         ));
     }
     if bench != Bench::Registration && !args.condition.is_empty() {

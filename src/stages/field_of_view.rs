@@ -11,8 +11,8 @@
 //!
 //! Known limits: readings that cover less than half of the picture or leave gaps along their hull, such as a part alone
 //! before nothing, are no field of view; the whole picture is. A border that a frame leaves dark over its whole length
-//! is found too far inside. The capture of an empty cell shows it, and so do other frames of the same camera: Live and
-//! scans remember what they saw.
+//! is found too far inside. The capture of an empty cell shows it, and so do other frames of the same camera: Live,
+//! scans and the window's camera remember what they saw.
 
 use std::sync::Arc;
 

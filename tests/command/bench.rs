@@ -98,3 +98,47 @@ fn recognition_is_measured_beside_the_other_systems_and_its_worst_confusions_are
     assert_eq!(gone.code, 2);
     assert!(gone.err.contains("go with recognition"), "{}", gone.err);
 }
+
+#[test]
+fn whole_inspections_are_timed_by_set_and_compared_with_an_earlier_run() {
+    let place = Workplace::new();
+    let one = ["bench", "speed", "--poses", "1"];
+    place.accepted(&[&one[..], &["--suite", "placed", "--json", "before.json"]].concat());
+    let text = fs::read_to_string(place.path("before.json")).expect("written");
+    let mut before: Value = serde_json::from_str(&text).expect("JSON");
+    let set = &mut before["sets"][0];
+    assert_eq!(
+        (&set["set"], &set["num_frames"]),
+        (&"placed".into(), &8.into())
+    );
+    // As if it had taken a thousand times as long.
+    let median = set["median_ms"].as_f64().expect("a number");
+    set["median_ms"] = (1000.0 * median).into();
+    fs::write(place.path("before.json"), before.to_string()).expect("written");
+
+    let sets = ["--suite", "placed", "--suite", "standard"];
+    let ran = place.accepted(&[&one[..], &sets, &["--compare", "before.json"]].concat());
+    let row = |set: &str| {
+        let line = ran.out.lines().find(|line| line.starts_with(set));
+        line.expect("a row").split_whitespace().collect::<Vec<_>>()
+    };
+    assert_eq!(row("placed")[8], "0.00", "{}", ran.out);
+    assert_eq!(row("standard")[8..], ["-", "-", "-"], "{}", ran.out);
+
+    place.accepted(&["simulate", "--part", "fender", "--out", "frame.ply"]);
+    let ran = place.accepted(&["bench", "speed", "--files", "frame.ply", "frame.ply"]);
+    assert!(ran.out.starts_with("2 files"), "{}", ran.out);
+
+    for (wrong, why) in [
+        (&["--files", "gone.ply"][..], "gone.ply"),
+        (&["--compare", "frame.ply"], "is no measurement of speed"),
+        (
+            &["--files", "frame.ply", "--poses", "2"],
+            "cannot be used with",
+        ),
+    ] {
+        let ran = place.run(&[&["bench", "speed"][..], wrong].concat());
+        assert_eq!(ran.code, 2, "{}", ran.err);
+        assert!(ran.err.contains(why), "{}", ran.err);
+    }
+}

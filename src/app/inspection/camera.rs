@@ -4,6 +4,7 @@
 //! open in between: the next frame that is asked for is the next one there.
 
 use std::{
+    collections::BTreeMap,
     fmt,
     sync::{Arc, Mutex, MutexGuard},
     time::Duration,
@@ -15,6 +16,7 @@ use crate::{
         SourceSpec,
     },
     error::{Advice, lock},
+    stages::{field_of_view::FieldOfView, scene::SceneCloud},
 };
 
 /// A handle to the camera in use; clones share it.
@@ -22,6 +24,8 @@ use crate::{
 pub struct Camera {
     opened: Arc<Mutex<Option<OpenedCamera>>>,
     open: Arc<Open>,
+    /// What the frames of each source showed of its field of view.
+    views: Arc<Mutex<BTreeMap<String, Arc<FieldOfView>>>>,
 }
 
 /// How a source is opened.
@@ -76,6 +80,7 @@ impl Camera {
         Self {
             opened: Arc::default(),
             open: Arc::new(open),
+            views: Arc::default(),
         }
     }
 
@@ -117,6 +122,18 @@ impl Camera {
         drop(feed);
         self.rest();
         found
+    }
+
+    /// Tells a scene of this source what earlier ones showed of the field of view, and remembers what this one shows.
+    pub fn share_view(&self, spec: &SourceSpec, scene: &mut Arc<SceneCloud>) {
+        let mut views = lock(&self.views);
+        let known = views.remove(&spec.to_string());
+        if known.is_some() {
+            Arc::make_mut(scene).set_known_view(known.clone());
+        }
+        if let Some(view) = FieldOfView::remembered(known, scene.field_of_view()) {
+            views.insert(spec.to_string(), view);
+        }
     }
 
     /// Closes a source that goes on by itself, unless somebody follows it.
@@ -172,6 +189,10 @@ impl fmt::Debug for Camera {
 #[cfg(test)]
 mod tests {
     use super::*;
+    use crate::{
+        geometry::depth_frame::{DepthFrame, Intrinsics},
+        stages::scene::scene_from_frame,
+    };
 
     fn is_open(camera: &Camera) -> bool {
         camera.lock().is_some()
@@ -189,6 +210,37 @@ mod tests {
         drop(followed);
         camera.rest();
         assert!(!is_open(&camera));
+    }
+
+    #[test]
+    fn what_a_camera_showed_of_its_field_of_view_is_known_of_its_next_frame() {
+        let within = |margins: [usize; 2]| {
+            let camera = Intrinsics::KINECT;
+            let Intrinsics { width, height, .. } = camera;
+            let is_inside = |i: usize| {
+                let inside = |at: usize, size: usize, margin| (margin..size - margin).contains(&at);
+                inside(i % width, width, margins[0]) && inside(i / width, height, margins[1])
+            };
+            let depth = (0..width * height).map(|i| if is_inside(i) { 1500 } else { 0 });
+            let frame = DepthFrame {
+                depth: depth.collect(),
+                intrinsics: camera,
+                metres_per_unit: 0.001,
+                is_simulated: true,
+            };
+            Arc::new(scene_from_frame(&frame))
+        };
+        let is_inner =
+            |scene: &SceneCloud| scene.field_of_view().is_some_and(FieldOfView::is_inner);
+        let camera = Camera::default();
+        let [one, other] = ["simulated", "simulated:empty"].map(|spec| spec.parse().expect("spec"));
+        let (mut whole, mut alone) = (within([60, 40]), within([230, 150]));
+        assert!(is_inner(&whole) && !is_inner(&alone));
+        camera.share_view(&one, &mut whole);
+        camera.share_view(&other, &mut alone);
+        assert!(!is_inner(&alone), "another camera's frame");
+        camera.share_view(&one, &mut alone);
+        assert!(is_inner(&alone));
     }
 
     #[test]

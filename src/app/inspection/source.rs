@@ -326,7 +326,11 @@ impl SceneSource {
                     warnings,
                 })
             }
-            Self::Camera(spec) => Ok(camera.next(spec, is_cancelled)?.into()),
+            Self::Camera(spec) => {
+                let mut captured: Captured = camera.next(spec, is_cancelled)?.into();
+                camera.share_view(spec, &mut captured.scene);
+                Ok(captured)
+            }
             Self::Before(cell, source) => {
                 let mut captured = source.take(camera, is_cancelled)?;
                 let mut scene = Arc::unwrap_or_clone(captured.scene);

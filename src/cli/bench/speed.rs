@@ -1,15 +1,21 @@
-//! `partsight bench`: the time of each stage beside its budget.
+//! `partsight bench`: the time of each stage beside its budget, and of whole inspections set by set, beside what an
+//! earlier run measured.
 
-use serde::Serialize;
+use std::path::{Path, PathBuf};
+
+use anyhow::Context as _;
+use serde::{Deserialize, Serialize};
 
 use super::{BenchArgs, recognition::Frames, write_json};
 use crate::{
-    bench::{StageTimes, stage_times, suites::Suite},
+    bench::{SetTimes, StageTimes, stage_times, suites::Suite},
     cli::{
         Outcome,
-        console::{Console, Table},
+        console::{Advised as _, Console, Table, advised_error},
+        input::open_scene,
     },
-    pipeline::Timings,
+    files::read_limited,
+    pipeline::{Recipe, Timings, Unwatched, run as inspect},
 };
 
 /// What `--json` writes.
@@ -19,34 +25,91 @@ struct SpeedFile {
     simulated: bool,
     num_frames: usize,
     stages: Vec<StageTimes>,
+    sets: Vec<SetTimes>,
+}
+
+/// What `--compare` reads of it.
+#[derive(Debug, Deserialize)]
+struct EarlierSpeed {
+    sets: Vec<SetTimes>,
 }
 
 /// Poses of each subject, unless asked for otherwise.
 const NUM_POSES: u64 = 25;
+/// An earlier measurement is some kilobytes.
+const MOST_BYTES: u64 = 1 << 20;
 
 pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
-    let frames = Frames::of(args, &[Suite::Placed], NUM_POSES);
-    let results = frames.inspect(console)?;
-    let cases = results.iter().flat_map(|result| &result.cases);
-    let timings: Vec<Timings> = cases.map(|case| case.timings).collect();
-    let stages = stage_times(&timings);
+    // Before anything is measured.
+    let earlier = args.compare.as_deref().map(read_earlier).transpose()?;
+    let is_simulated = args.files.is_empty();
+    let (sets, words) = if is_simulated {
+        let frames = Frames::of(args, &[Suite::Placed], NUM_POSES);
+        let results = frames.inspect(console)?.into_iter().map(|result| {
+            let timings: Vec<Timings> = result.cases.iter().map(|case| case.timings).collect();
+            (result.suite.name(), timings)
+        });
+        let sets: Vec<_> = results.collect();
+        let num: usize = sets.iter().map(|set| set.1.len()).sum();
+        let words = format!("Simulated: {num} frames, {}", frames.words());
+        (sets, words)
+    } else {
+        let timings = inspect_files(args, console)?;
+        let words = format!("{} files", timings.len());
+        (vec![("files", timings)], words)
+    };
     console.line(&format_args!(
-        "Simulated: {} frames, {}; one core, at what else it is doing now.",
-        timings.len(),
-        frames.words()
+        "{words}; one core, at what else it is doing now."
     ));
     console.line(&"");
+    let timings: Vec<Timings> = sets.iter().flat_map(|set| &set.1).copied().collect();
+    let stages = stage_times(&timings);
     show(&stages, console);
+    let sets: Vec<SetTimes> = sets
+        .iter()
+        .filter_map(|(name, timings)| SetTimes::of(name, timings))
+        .collect();
+    console.line(&"");
+    show_sets(&sets, earlier.as_ref(), console);
     if let Some(path) = &args.json {
         let file = SpeedFile {
-            schema: 1,
-            simulated: true,
+            schema: 2,
+            simulated: is_simulated,
             num_frames: timings.len(),
             stages,
+            sets,
         };
         write_json(path, &file)?;
     }
     Ok(Outcome::Accepted)
+}
+
+fn read_earlier(path: &Path) -> anyhow::Result<EarlierSpeed> {
+    let bytes = read_limited(path, MOST_BYTES).advised()?;
+    serde_json::from_slice(&bytes)
+        .with_context(|| format!("{} is no measurement of speed", path.display()))
+        .map_err(|error| {
+            advised_error(
+                format!("{error:#}"),
+                "Give a file that partsight bench speed --json FILE has written",
+            )
+        })
+}
+
+/// Times of inspections with the library in use. A file that cannot be opened ends it: its time would be missing.
+fn inspect_files(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Vec<Timings>> {
+    let recipe = Recipe::default();
+    let load = (args.library).load_some(&recipe.reference_params(), console)?;
+    console.start_progress(args.files.len());
+    let timed = |path: &PathBuf| {
+        let (scene, _) = open_scene(path).advised()?;
+        let inspection = inspect(&scene, &load.library, &recipe, &Unwatched)?;
+        console.done();
+        Ok(inspection.timings)
+    };
+    let timings = args.files.iter().map(timed).collect();
+    console.end_progress();
+    timings
 }
 
 fn show(times: &[StageTimes], console: &mut Console) {
@@ -58,6 +121,34 @@ fn show(times: &[StageTimes], console: &mut Console) {
             format!("{:.2} ms", t.p95_ms),
             format!("{:.1} ms", t.budget_ms),
         ]);
+    }
+    table.show(console);
+}
+
+/// Whole inspections; beside an earlier run also how many times as long each took.
+fn show_sets(sets: &[SetTimes], earlier: Option<&EarlierSpeed>, console: &mut Console) {
+    let ms = |ms: f64| format!("{ms:.1} ms");
+    let mut head = vec!["whole inspection", "frames", "median", "95 %", "longest"];
+    if earlier.is_some() {
+        head.extend(["median ×", "95 % ×", "longest ×"]);
+    }
+    let mut table = Table::new(&head);
+    for set in sets {
+        let mut row = vec![
+            set.set.clone(),
+            set.num_frames.to_string(),
+            ms(set.median_ms),
+            ms(set.p95_ms),
+            ms(set.longest_ms),
+        ];
+        if let Some(earlier) = earlier {
+            let before = earlier.sets.iter().find(|before| before.set == set.set);
+            row.extend(match before {
+                Some(before) => set.against(before).map(|ratio| format!("{ratio:.2}")),
+                None => [(); 3].map(|()| "-".to_owned()),
+            });
+        }
+        table.row(row);
     }
     table.show(console);
 }
