@@ -23,7 +23,7 @@ use jiff::Timestamp;
 use kit::{history_entry, open_history, small_scene};
 use partsight::{
     files::write_atomically,
-    history::{Filter, History, KeepFrames, NewEntry, Retention, StoredVerdict},
+    history::{Filter, History, KeepFrames, NewEntry, Retention, StoredVerdict, Traceability},
     library::Library,
     pipeline::{self, Inspection, NamedRecipe, Recipe, Unwatched},
     report::{
@@ -73,6 +73,7 @@ fn report_of(number: i64, inspection: &Inspection) -> PoseReport {
         scene: &format!("frame {number}"),
         source: None,
         seen_by: SeenBy::Simulation,
+        trace: &Traceability::default(),
         inspection,
         middle: None,
         stand_off: None,

@@ -20,6 +20,7 @@ use super::{
         notices, operator_bars, path_entry, rail,
         robot::RobotCell,
         roles::{self, RoleAction},
+        scanner,
         session::{Source, ThemeChoice, WorkspaceKind},
         settings,
         settings_file::Memory,
@@ -365,6 +366,12 @@ impl Window {
         let ctx = ui.ctx().clone();
         let theme = Theme::of(self.state.theme);
         let mut actions = Vec::new();
+        if self.state.is_operator_view()
+            && !self.is_behind_dialog(&ctx)
+            && let Some(code) = scanner::listen(&ctx)
+        {
+            self.state.trace.set_serial(&code);
+        }
         let work = self.work();
         if self.state.is_operator_view() {
             operator_bars::ui(ui, &self.state, work, theme, &mut actions);

@@ -174,6 +174,7 @@ fn entry(
                 remark: String::new(),
                 label: None,
                 frame_bytes: None,
+                trace: crate::history::Traceability::default(),
                 hung: HungId::new(),
                 parent: None,
                 num_below: 0,

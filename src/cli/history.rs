@@ -20,7 +20,9 @@ use super::{
     record::HistoryChoice,
 };
 use crate::{
-    history::{Filter, History, HistoryError, KeepFrames, Retention, StoredVerdict, Summary},
+    history::{
+        Filter, History, HistoryError, KeepFrames, Retention, StoredVerdict, Summary, Traceability,
+    },
     library::Truth,
     stages::reference::ReferenceParams,
 };
@@ -310,11 +312,23 @@ fn list(history: &History, asked: &ListArgs, console: &mut Console) -> anyhow::R
         }
         return Ok(Outcome::Accepted);
     }
-    let mut table = Table::new(&[
+    let mut heading = vec![
         "NUMBER", "TIME", "VERDICT", "PART", "SCORE", "AGAIN", "SCENE", "FRAME", "LABEL", "REMARK",
-    ]);
+    ];
+    let is_traced = |row: &Summary| row.trace.known().next().is_some();
+    let has_traces = page.rows.iter().any(is_traced);
+    if has_traces {
+        heading.extend(["SERIAL", "ORDER", "OPERATOR"]);
+    }
+    let mut table = Table::new(&heading);
     for row in &page.rows {
-        table.row(cells(row));
+        let Traceability {
+            serial,
+            order,
+            operator,
+        } = row.trace.clone();
+        let trace = has_traces.then_some([serial, order, operator]);
+        table.row(cells(row).into_iter().chain(trace.into_iter().flatten()));
     }
     table.show(console);
     let (num, num_matching) = (page.rows.len(), page.num_matching);

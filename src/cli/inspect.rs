@@ -24,12 +24,13 @@ use super::{
     recipe::{RecipeChoice, show_recipe},
     record::{HistoryChoice, HistoryRecorder, SceneOrigin},
     scan::PosesChoice,
+    trace::TraceChoice,
     verdict::{outcome_of, show_in_robot},
 };
 use crate::{
     capture::{FeedItem, SourceSpec},
     error::{Advice, guarded},
-    history::HungId,
+    history::{HungId, Traceability},
     library::Library,
     pipeline::{self, Inspection, MirrorTally, NamedRecipe, Unwatched},
     report::{CaptureLine, InspectionLine, ReportFolder, stage_pictures},
@@ -106,6 +107,8 @@ pub(super) struct InspectArgs {
     #[arg(long, value_name = "DIR")]
     report: Option<PathBuf>,
     #[command(flatten)]
+    trace: TraceChoice,
+    #[command(flatten)]
     history: HistoryChoice,
     /// Do not write to the history
     #[arg(long, conflicts_with = "history")]
@@ -125,6 +128,8 @@ fn inspect(
     console: &mut Console,
 ) -> anyhow::Result<Outcome> {
     let recipe = args.recipe.recipe()?;
+    let num_parts = args.source.is_none().then_some(args.files.len());
+    let trace = args.trace.of_parts(num_parts)?;
     let (place, load) = (args.library).load_placed(&recipe.reference_params(), console)?;
     let robot = args.calibration.frame(console)?;
     let spray = args
@@ -144,12 +149,13 @@ fn inspect(
         .map(|path| open_empty_cell(path, console));
     let empty_cell = empty_cell.transpose()?;
     let recording = (!args.no_history)
-        .then(|| HistoryRecorder::start(&args.history, &load, &recipe, console))
+        .then(|| HistoryRecorder::start(&args.history, &load, &recipe, &trace, console))
         .flatten();
     format.head(console);
     let mut one = InspectSession {
         library: load.library,
         recipe,
+        trace,
         empty_cell,
         robot,
         spray,
@@ -200,6 +206,7 @@ fn inspect_files(
 struct InspectSession {
     library: Library,
     recipe: NamedRecipe,
+    trace: Traceability,
     empty_cell: Option<Arc<EmptyCell>>,
     robot: Option<RobotFrame>,
     spray: Option<spray::SprayFile>,
@@ -276,6 +283,7 @@ impl InspectSession {
         let Self {
             library,
             recipe,
+            trace,
             empty_cell,
             robot,
             spray,
@@ -303,6 +311,7 @@ impl InspectSession {
         let line_of = |inspection: &Inspection| {
             let mut line = InspectionLine::of(&name, inspection)
                 .by(recipe)
+                .traced(trace)
                 .captured(capture);
             if file_says_simulated {
                 line = line.of_simulated_file();
@@ -422,6 +431,7 @@ mod tests {
         let mut session = InspectSession {
             library: Library::default(),
             recipe: NamedRecipe::default(),
+            trace: Traceability::default(),
             empty_cell: None,
             robot: None,
             spray: None,

@@ -24,6 +24,7 @@ mod record;
 mod report;
 mod scan;
 mod simulate;
+mod trace;
 mod verdict;
 
 use std::{

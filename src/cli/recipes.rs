@@ -18,7 +18,7 @@ use crate::{
     },
 };
 
-/// List, show, save, remove, export and import recipes: named sets of parameters
+/// List, show, save, rename, remove, export and import recipes: named sets of parameters
 #[derive(Debug, Args)]
 #[command(after_help = "\
 Examples:
@@ -28,6 +28,7 @@ Examples:
   partsight recipe show glossy
   partsight recipe show glossy_2 --against glossy
   partsight recipe default glossy
+  partsight recipe rename glossy shiny
   partsight recipe export glossy /media/stick/glossy.toml
   partsight recipe import /media/stick/glossy.toml
   partsight inspect door.pcd --recipe glossy
@@ -61,6 +62,13 @@ enum RecipeCommand {
         json: bool,
     },
     Save(SaveArgs),
+    /// Give a recipe another name; if it is the default, it stays that
+    Rename {
+        /// Name of the recipe
+        name: PartName,
+        /// Its new name
+        to: PartName,
+    },
     /// Remove a recipe
     Remove {
         /// Name of the recipe
@@ -126,6 +134,7 @@ pub(super) fn run(args: &RecipeArgs, console: &mut Console) -> anyhow::Result<Ou
             Ok(())
         }
         RecipeCommand::Save(asked) => save(asked, console),
+        RecipeCommand::Rename { name, to } => rename(name, to, console),
         RecipeCommand::Remove { name } => remove(name, console),
         RecipeCommand::Default { name } => default(name.as_ref(), console),
         RecipeCommand::Import {
@@ -288,6 +297,16 @@ fn save(asked: &SaveArgs, console: &mut Console) -> anyhow::Result<()> {
         recipe: Recipe::clone(&recipe),
     };
     keep(&file, asked.replace, console)
+}
+
+fn rename(name: &PartName, to: &PartName, console: &mut Console) -> anyhow::Result<()> {
+    let folder = folder()?;
+    folder.rename(name, to).advised()?;
+    console.line(&format_args!("Recipe {name} is named {to} now"));
+    if folder.default_name().advised()? == to.as_str() {
+        console.note(&"It stays the default recipe");
+    }
+    Ok(())
 }
 
 fn remove(name: &PartName, console: &mut Console) -> anyhow::Result<()> {

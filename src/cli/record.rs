@@ -8,8 +8,8 @@ use jiff::Timestamp;
 use super::console::Console;
 use crate::{
     history::{
-        HistoryBuffer, HistoryError, HistoryEvent, HungId, InspectionContext, NewEntry, Writer,
-        users_folder,
+        HistoryBuffer, HistoryError, HistoryEvent, HungId, InspectionContext, NewEntry,
+        Traceability, Writer, users_folder,
     },
     library::LibraryLoad,
     pipeline::{Inspection, NamedRecipe},
@@ -39,6 +39,7 @@ pub(super) struct HistoryRecorder {
     library: String,
     titles: BTreeMap<String, String>,
     recipe: NamedRecipe,
+    trace: Traceability,
     num: u64,
 }
 
@@ -48,6 +49,7 @@ impl HistoryRecorder {
         choice: &HistoryChoice,
         library: &LibraryLoad,
         recipe: &NamedRecipe,
+        trace: &Traceability,
         console: &Console,
     ) -> Option<Self> {
         let folder = match choice.folder() {
@@ -71,6 +73,7 @@ impl HistoryRecorder {
             library: library.identity(),
             titles: titles.collect(),
             recipe: recipe.clone(),
+            trace: trace.clone(),
             num: 0,
         })
     }
@@ -101,7 +104,9 @@ impl HistoryRecorder {
             picture: picture.as_ref(),
             hung,
         };
-        NewEntry::of(about, scene, inspection, &self.recipe)
+        let mut entry = NewEntry::of(about, scene, inspection, &self.recipe);
+        entry.record.summary.trace = self.trace.clone();
+        entry
     }
 
     /// Hands an inspection over.

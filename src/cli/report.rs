@@ -14,9 +14,11 @@ use super::{
     console::{Advised as _, Console, Table},
     input::{OpenedScene, Scenes, before, open_ahead, open_empty_cell, parse_convention},
     recipe::RecipeChoice,
+    trace::TraceChoice,
     verdict::outcome_of,
 };
 use crate::{
+    history::Traceability,
     library::{LibraryLoad, PartMeta},
     pipeline::{self, Inspection, NamedRecipe, Unwatched},
     report::{
@@ -71,6 +73,8 @@ pub(super) struct ReportArgs {
     empty_cell: Option<PathBuf>,
     #[command(flatten)]
     calibration: CalibrationChoice,
+    #[command(flatten)]
+    trace: TraceChoice,
     /// Mark the scenes as simulated in the reports; files of partsight simulate are marked already
     #[arg(long)]
     simulated: bool,
@@ -111,6 +115,7 @@ fn report(args: &ReportArgs, scenes: Scenes<'_>, console: &mut Console) -> anyho
         .empty_cell
         .as_deref()
         .map(|path| open_empty_cell(path, console));
+    let trace = args.trace.of_parts(Some(args.files.len()))?;
     let out = args.out.as_deref().unwrap_or(Path::new("."));
     let mut one = Reporter {
         recipe,
@@ -119,6 +124,7 @@ fn report(args: &ReportArgs, scenes: Scenes<'_>, console: &mut Console) -> anyho
         empty_cell: empty_cell.transpose()?,
         robot: args.calibration.frame(console)?,
         folder: ReportFolder::make(out).advised()?,
+        trace,
         args,
     };
     console.start_progress(args.files.len());
@@ -145,6 +151,7 @@ struct Reporter<'a> {
     args: &'a ReportArgs,
     load: LibraryLoad,
     library_identity: String,
+    trace: Traceability,
     recipe: NamedRecipe,
     empty_cell: Option<Arc<EmptyCell>>,
     robot: Option<RobotFrame>,
@@ -217,6 +224,7 @@ impl Reporter<'_> {
             } else {
                 SeenBy::NotKnown
             },
+            trace: &self.trace,
             inspection,
             middle: reference.and_then(Reference::middle),
             stand_off: stand_off.as_ref(),

@@ -8,7 +8,7 @@ use image::{
 };
 use jiff::Timestamp;
 
-use super::{frames::FrameRecord, hung::HungId};
+use super::{frames::FrameRecord, hung::HungId, traceability::Traceability};
 use crate::{
     geometry::rigid::{RigidTransform, row_major},
     library::Truth,
@@ -105,6 +105,8 @@ pub struct Summary {
     pub label: Option<Truth>,
     /// Size of what is kept of its frames; `None` if nothing is.
     pub frame_bytes: Option<u64>,
+    /// Serial number, order and operator; a re-inspection has those of its part.
+    pub trace: Traceability,
     /// Which part it is as it hung there.
     pub hung: HungId,
     /// The inspection that stands for the same part; `None` of the one that does.
@@ -123,11 +125,17 @@ impl Summary {
             title,
             remark,
             label,
+            trace,
             ..
         } = self;
         let part = part.as_deref().unwrap_or("");
         let label = label.as_ref().map_or("", Truth::name);
-        format!("{title}\n{part}\n{scene}\n{source}\n{remark}\n{label}").to_lowercase()
+        let mut text = format!("{title}\n{part}\n{scene}\n{source}\n{remark}\n{label}");
+        for (_, known) in trace.known() {
+            text.push('\n');
+            text.push_str(known);
+        }
+        text.to_lowercase()
     }
 }
 
@@ -244,6 +252,7 @@ impl NewEntry {
             remark: String::new(),
             label: None,
             frame_bytes: None,
+            trace: Traceability::default(),
             hung: about.hung,
             parent: None,
             num_below: 0,

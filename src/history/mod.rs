@@ -31,6 +31,7 @@ mod store;
 mod table;
 #[cfg(test)]
 mod tests;
+mod traceability;
 mod waiting;
 mod writer;
 
@@ -48,5 +49,6 @@ pub use self::{
     shots::{ShotRecord, read_shots},
     store::{History, Page},
     table::{write_head, write_row},
+    traceability::Traceability,
     writer::Writer,
 };

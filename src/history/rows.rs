@@ -9,20 +9,32 @@ use super::{
     entry::{InspectionDetail, NewEntry, Record, StoredVerdict, Summary, png_of},
     frames::FrameRecord,
     hung::HungId,
+    schema::{WITH_TRACEABILITY, version},
+    traceability::Traceability,
 };
 use crate::{
     geometry::sixteen_numbers,
     pipeline::{Recipe, RecipeLabel},
 };
 
-/// What a row of a list is read from.
-pub(super) const COLUMNS: &str = "number, at, scene, source, simulated, verdict, part, title, score, margin, total_ms, remark, \
+/// What a row of a list is read from. A file that cannot be written is not brought to the version of today.
+pub(super) fn columns(file: &Connection) -> rusqlite::Result<String> {
+    let trace = if version(file)? >= WITH_TRACEABILITY {
+        "serial, job_order, operator"
+    } else {
+        "'' AS serial, '' AS job_order, '' AS operator"
+    };
+    Ok(format!("{COLUMNS}, {trace}"))
+}
+
+const COLUMNS: &str = "number, at, scene, source, simulated, verdict, part, title, score, margin, total_ms, remark, \
     label, frame_bytes, hung, parent, (SELECT count(*) FROM inspection AS other WHERE other.parent = inspection.number)
     AS num_below";
 
 /// The inspection that stands for a part.
 pub(super) fn head_of(file: &Connection, hung: &HungId) -> rusqlite::Result<Option<Summary>> {
-    let asked = format!("SELECT {COLUMNS} FROM inspection WHERE hung = ? AND parent IS NULL");
+    let columns = columns(file)?;
+    let asked = format!("SELECT {columns} FROM inspection WHERE hung = ? AND parent IS NULL");
     file.query_row(&asked, [&hung.0], summary_of).optional()
 }
 
@@ -38,13 +50,15 @@ pub(super) fn insert(
         Some(head) if head.gives_way_to(summary) => (None, Some(head)),
         head => (head.as_ref().map(|head| head.number), None),
     };
-    // What was said of the part stays with it.
-    let marked = gives_way.map(|head| Summary {
-        remark: head.remark.clone(),
-        label: head.label.clone(),
-        ..summary.clone()
-    });
-    let summary = marked.as_ref().unwrap_or(summary);
+    // What was said of the part stays with it, and so does what it is traced by.
+    let mut summary = summary.clone();
+    if let Some(head) = &head {
+        summary.trace = summary.trace.or(&head.trace);
+    }
+    if let Some(head) = gives_way {
+        summary.remark.clone_from(&head.remark);
+        summary.label.clone_from(&head.label);
+    }
     let [score, margin] = summary.score.map_or([None; 2], |both| both.map(Some));
     let [reason, advice] = detail
         .complaint
@@ -53,8 +67,8 @@ pub(super) fn insert(
     let recipe = recipe_key(file, &detail.recipe_identity, detail.recipe.as_deref())?;
     file.execute(
         "INSERT INTO inspection (at, scene, source, simulated, verdict, part, title, score, margin, total_ms,
-            remark, label, frame_bytes, search, hung, parent)
-            VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
+            remark, label, frame_bytes, search, hung, parent, serial, job_order, operator)
+            VALUES (?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?, ?)",
         params![
             summary.at.as_microsecond(),
             summary.scene,
@@ -72,6 +86,9 @@ pub(super) fn insert(
             summary.search(),
             summary.hung.0,
             parent,
+            summary.trace.serial,
+            summary.trace.order,
+            summary.trace.operator,
         ],
     )?;
     let number = file.last_insert_rowid();
@@ -153,6 +170,11 @@ pub(super) fn summary_of(row: &Row<'_>) -> rusqlite::Result<Summary> {
         remark: row.get("remark")?,
         label: label.and_then(|label| serde_json::from_str(&label).ok()),
         frame_bytes: bytes.map(|bytes| bytes as u64),
+        trace: Traceability {
+            serial: row.get("serial")?,
+            order: row.get("job_order")?,
+            operator: row.get("operator")?,
+        },
         hung: HungId(row.get("hung")?),
         parent: row.get("parent")?,
         num_below: row.get::<_, i64>("num_below")? as usize,

@@ -6,13 +6,16 @@ use rusqlite::{Connection, Transaction, TransactionBehavior};
 type Migration = fn(&Transaction<'_>) -> rusqlite::Result<()>;
 
 /// Every step, in order; the version of a file counts those that it has seen.
-const STEPS: [Migration; 3] = [first, parts, recipe_names];
+const STEPS: [Migration; 4] = [first, parts, recipe_names, traceability];
 
 /// The version that is written.
 pub(super) const VERSION: u32 = STEPS.len() as u32;
 
 /// The version from which on recipes have names.
 pub(super) const WITH_RECIPE_NAMES: u32 = 3;
+
+/// The version from which on inspections have serial numbers.
+pub(super) const WITH_TRACEABILITY: u32 = 4;
 
 /// Tells our files from other programs': `PsHi`.
 pub(super) const APPLICATION: i32 = i32::from_be_bytes(*b"PsHi");
@@ -91,6 +94,15 @@ fn recipe_names(file: &Transaction<'_>) -> rusqlite::Result<()> {
     )
 }
 
+/// Serial number, order and operator; empty where they are not known.
+fn traceability(file: &Transaction<'_>) -> rusqlite::Result<()> {
+    file.execute_batch(
+        "ALTER TABLE inspection ADD COLUMN serial TEXT NOT NULL DEFAULT '';
+        ALTER TABLE inspection ADD COLUMN job_order TEXT NOT NULL DEFAULT ''; -- ORDER is a word of SQL
+        ALTER TABLE inspection ADD COLUMN operator TEXT NOT NULL DEFAULT '';",
+    )
+}
+
 /// The version of a file; 0 before it has a table.
 pub(super) fn version(file: &Connection) -> rusqlite::Result<u32> {
     file.pragma_query_value(None, "user_version", |row| row.get(0))
@@ -153,6 +165,28 @@ mod tests {
             assert_eq!((*of, remark.as_str()), (number, "a dent"));
             assert_eq!(*hung, format!("n{number}"));
         }
+    }
+
+    #[test]
+    fn an_inspection_of_a_file_of_the_third_version_has_no_serial_number_and_stays_as_it_is() {
+        let mut file = Connection::open_in_memory().expect("a file");
+        migrate_by(&mut file, &[first, parts, recipe_names]).expect("made");
+        file.execute(
+            "INSERT INTO inspection (at, scene, source, simulated, verdict, title, total_ms, remark, search, hung)
+                VALUES (7, 'a', 'b', 1, 'accepted', 'Fender', 20.0, 'a dent', 'fender a dent', 'n1')",
+            [],
+        )
+        .expect("written");
+        migrate(&mut file).expect("made");
+        assert_eq!(version(&file).expect("asked"), VERSION);
+        let asked = "SELECT at, remark, serial, job_order, operator FROM inspection";
+        let row = file.query_row(asked, [], |row| {
+            let texts = [1, 2, 3, 4].map(|place| row.get::<_, String>(place));
+            Ok((row.get::<_, i64>(0)?, texts.map(|text| text.expect("text"))))
+        });
+        let empty = String::new;
+        let texts = ["a dent".to_owned(), empty(), empty(), empty()];
+        assert_eq!(row.expect("there"), (7, texts));
     }
 
     fn second(file: &Transaction<'_>) -> rusqlite::Result<()> {

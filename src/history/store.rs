@@ -14,7 +14,7 @@ use super::{
     hung::HungId,
     open::{FILE, FRAMES, Lock},
     retention::Retention,
-    rows::{COLUMNS, head_of, insert, json, record_of, summary_of},
+    rows::{columns, head_of, insert, json, record_of, summary_of},
     schema::{WITH_RECIPE_NAMES, version},
     shots,
 };
@@ -174,7 +174,8 @@ impl History {
 
     /// These rows, in their order.
     fn rows(&self, numbers: &[i64]) -> rusqlite::Result<Vec<Summary>> {
-        let asked = format!("SELECT {COLUMNS} FROM inspection WHERE number = ?");
+        let columns = columns(&self.file)?;
+        let asked = format!("SELECT {columns} FROM inspection WHERE number = ?");
         let mut asked = self.file.prepare(&asked)?;
         // One that somebody else removed meanwhile is none.
         let rows = numbers.iter();
@@ -213,8 +214,9 @@ impl History {
         } else {
             "NULL AS recipe_name, 0 AS recipe_changed"
         };
+        let columns = columns(&self.file).map_err(|error| self.error(error))?;
         let asked = format!(
-            "SELECT {COLUMNS}, nearest, reason, advice, camera_from_part, recipe.identity, recipe.json, {recipe}, library,
+            "SELECT {columns}, nearest, reason, advice, camera_from_part, recipe.identity, recipe.json, {recipe}, library,
                 program, line, thumbnail, origin, frame
             FROM inspection JOIN detail USING (number) JOIN recipe ON recipe.identity = detail.recipe
             WHERE number = ?"
@@ -290,7 +292,8 @@ impl History {
             let file = self
                 .file
                 .transaction_with_behavior(TransactionBehavior::Immediate)?;
-            let asked = format!("SELECT {COLUMNS} FROM inspection WHERE number = ?");
+            let columns = columns(&file)?;
+            let asked = format!("SELECT {columns} FROM inspection WHERE number = ?");
             let row = |number| file.query_row(&asked, [number], summary_of).optional();
             // What is said of a part is said with the inspection that stands for it.
             let row = match row(number)? {

@@ -8,7 +8,8 @@ use crate::library::Truth;
 /// The first line.
 const HEAD: &str = "number,time,scene,source,simulated,verdict,part,nearest,score,margin,reason,total_ms,\
     label,remark,recipe,library,program,parent,reinspections,\
-    m00,m01,m02,m03,m10,m11,m12,m13,m20,m21,m22,m23,m30,m31,m32,m33,recipe_name,recipe_changed";
+    m00,m01,m02,m03,m10,m11,m12,m13,m20,m21,m22,m23,m30,m31,m32,m33,recipe_name,recipe_changed,\
+    serial,order,operator";
 
 /// Writes the first line: the names of the columns. Times are UTC; `parent` is the number of
 /// the inspection that stands for the same part, `reinspections` how many others lie below it; m00..m33 are `camera_from_part`, row after row,
@@ -33,9 +34,12 @@ pub fn write_row(writer: &mut dyn Write, record: &Record) -> io::Result<()> {
         |label| format!("{},{}", quoted(&label.name), label.is_changed),
     );
     let label = summary.label.as_ref().map_or("", Truth::name);
+    let trace = &summary.trace;
+    let [serial, order, operator] =
+        [&trace.serial, &trace.order, &trace.operator].map(|text| quoted(text));
     writeln!(
         writer,
-        "{},{},{},{},{},{},{},{},{score},{margin},{},{:.3},{},{},{},{},{},{},{}{pose},{recipe}",
+        "{},{},{},{},{},{},{},{},{score},{margin},{},{:.3},{},{},{},{},{},{},{}{pose},{recipe},{serial},{order},{operator}",
         summary.number,
         summary.at,
         quoted(&summary.scene),

@@ -598,3 +598,40 @@ fn the_shots_of_a_scan_are_kept_and_go_together() {
     assert_eq!(files(&history), 2);
     assert!(history.known(1).expect("there").detail.frame.is_none());
 }
+
+#[test]
+fn a_reinspection_is_traced_as_its_part_and_a_serial_number_is_found() {
+    let (_folder, mut history) = new_history();
+    let mut refused = history_entry(1, StoredVerdict::NotAccepted, "grille");
+    refused.record.summary.trace = Traceability {
+        serial: "TL-4711".into(),
+        order: "A 17".into(),
+        operator: "Kim".into(),
+    };
+    let mut again = history_entry(2, StoredVerdict::Accepted, "grille");
+    again.record.summary.hung = refused.record.summary.hung.clone();
+    again.record.summary.trace.operator = "Lee".into();
+    let other = history_entry(3, StoredVerdict::Accepted, "grille");
+    for entry in [&refused, &again, &other] {
+        history.add(entry, &ALL).expect("written");
+    }
+    let found = Filter {
+        text: "tl-4711".into(),
+        ..Filter::default()
+    };
+    assert_eq!(numbers(&history, &found), [2]);
+    let traced = history.known(2).expect("there").summary.trace;
+    assert_eq!((&*traced.serial, &*traced.operator), ("TL-4711", "Lee"));
+    let refused = history.known(1).expect("there").summary;
+    assert_eq!((refused.parent, &*refused.trace.operator), (Some(2), "Kim"));
+    // Those that wait in memory are listed in the same way.
+    let buffer = HistoryBuffer::default();
+    for (ticket, entry) in [again, other].into_iter().enumerate() {
+        buffer.add(ticket as u64, entry, std::time::Instant::now());
+    }
+    let page = buffer.page(&Filter::default(), 0, 9).expect("asked");
+    assert_eq!(
+        page.rows.last().map(|row| &*row.trace.operator),
+        Some("Lee")
+    );
+}

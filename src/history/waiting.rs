@@ -39,6 +39,7 @@ pub(super) fn waiting_rows(
         let mut row = entry.record.summary.clone();
         match heads.get(&row.hung).copied() {
             Some(head) if rows[head].gives_way_to(&row) => {
+                row.trace = row.trace.or(&rows[head].trace);
                 for other in &mut rows {
                     if other.hung == row.hung {
                         other.parent = Some(row.number);
@@ -49,6 +50,7 @@ pub(super) fn waiting_rows(
                 heads.insert(row.hung.clone(), place);
             }
             Some(head) => {
+                row.trace = row.trace.or(&rows[head].trace);
                 row.parent = Some(rows[head].number);
                 rows[head].num_below += 1;
             }

@@ -250,5 +250,13 @@ mod tests {
         let twin = enrolled(PartKind::FrontDoor, Side::Left, 5);
         let again = most_similar(&twin, Coverage::OneSide, &library).expect("alike");
         assert!(!again.is_mirrored && again.other.starts_with("front_door"));
+        // Of two doors that are both nearly the same, the very same one is the most like.
+        let doors = Library {
+            references: vec![enrolled(PartKind::FrontDoor, Side::Left, 6), twin.clone()],
+        };
+        let mut copy = twin;
+        copy.name = "copy".into();
+        let nearest = most_similar(&copy, Coverage::OneSide, &doors).expect("alike");
+        assert_eq!(nearest.other, "front_door_5");
     }
 }

@@ -371,3 +371,31 @@ impl Advice for Unrecognisable {
         }
     }
 }
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_piece_that_nothing_hides_is_not_said_to_stand_behind_something() {
+        let advice = |hidden, outside| {
+            let piece = Rejection::Piece {
+                part: "door".into(),
+                score: 0.7,
+                threshold: 0.9,
+                hidden,
+                outside,
+            };
+            piece.advice()
+        };
+        assert_eq!(
+            advice(0.0, 0.4),
+            "Hang the part further inside the picture and capture again"
+        );
+        assert_eq!(
+            advice(0.4, 0.0),
+            "Take away what stands in front of the part and capture again"
+        );
+        assert!(advice(0.2, 0.2).contains("or hang it further inside"));
+    }
+}

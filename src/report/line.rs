@@ -7,6 +7,7 @@ use serde::Serialize;
 use crate::{
     capture::Captured,
     geometry::rigid::row_major,
+    history::Traceability,
     pipeline::{Inspection, NamedRecipe, RecipeBlock, Timings, Verdict},
     robot::RobotFrame,
     stages::pose::{PoseEstimate, Uncertainty},
@@ -44,6 +45,9 @@ pub struct InspectionLine<'a> {
     /// Of several frames inspected together.
     #[serde(skip_serializing_if = "Option::is_none")]
     scan: Option<ScanLine<'a>>,
+    /// `serial`, `order` and `operator`, where they are known.
+    #[serde(flatten)]
+    trace: Option<&'a Traceability>,
 }
 
 /// What a line says more of several frames that were inspected together.
@@ -189,6 +193,16 @@ impl<'a> InspectionLine<'a> {
             timings_ms: None,
             recipe: None,
             scan: None,
+            trace: None,
+        }
+    }
+
+    /// The same line, with serial number, order and operator.
+    #[must_use]
+    pub fn traced(self, trace: &'a Traceability) -> Self {
+        Self {
+            trace: Some(trace),
+            ..self
         }
     }
 

@@ -358,7 +358,7 @@ fn entries() -> impl Iterator<Item = NewEntry> {
             scene: format!("frame {number}"),
             source: "simulated".into(),
             is_simulated: true,
-            title: None,
+            title_of: &str::to_owned,
             line: "{}".into(),
             library: "0".into(),
             origin: None,
@@ -483,4 +483,66 @@ fn a_write_protected_history_can_be_read_and_is_written_again_later() {
     keeper.retry(begun + LATER);
     let page = keeper.page(&Filter::default(), 0, 10).expect("asked");
     assert_eq!((page.num_all, page.rows[0].number), (5, 5));
+}
+
+#[test]
+fn serial_number_order_and_operator_stand_in_history_table_and_report() {
+    let place = with_captures();
+    let given = [
+        "--serial",
+        "TL-4711",
+        "--order",
+        "A 17",
+        "--operator",
+        "Kim, early",
+    ];
+    let inspected = place.accepted(&[&["inspect", "fender.pcd", "--json"], &given[..]].concat());
+    assert_eq!(inspected.json()["serial"], "TL-4711");
+    place.accepted(&["inspect", "fender.pcd", "--order", "B 2"]);
+    let listed = place.accepted(&["history", "list"]).out;
+    assert!(
+        listed.contains("SERIAL") && listed.contains("Kim, early"),
+        "{listed}"
+    );
+    let lines = place
+        .accepted(&["history", "list", "--json", "--text", "tl-4711"])
+        .lines();
+    assert_eq!(lines.len(), 1);
+    assert_eq!(
+        (&lines[0]["serial"], &lines[0]["order"]),
+        (&"TL-4711".into(), &"A 17".into())
+    );
+    let shown = place.accepted(&["history", "show", "2"]).out;
+    assert!(
+        shown.contains("B 2") && !shown.contains("serial"),
+        "{shown}"
+    );
+    place.accepted(&["history", "export", "--csv", "all.csv"]);
+    let table = place.read("all.csv");
+    assert!(table.contains(",TL-4711,A 17,\"Kim, early\"\n"), "{table}");
+    assert!(
+        table.lines().any(|line| line.ends_with(",,B 2,")),
+        "{table}"
+    );
+    let report = [
+        &[
+            "report",
+            "fender.pcd",
+            "--out",
+            "reports",
+            "--format",
+            "json,csv,pdf",
+        ],
+        &given[..],
+    ];
+    place.accepted(&report.concat());
+    let report = place.json("reports/fender.pose.json");
+    assert_eq!(report["traceability"]["operator"], "Kim, early");
+    // A serial number is of one part.
+    let refused = place.coded(2, &["inspect", "fender.pcd", "hood.png", "--serial", "1"]);
+    assert!(
+        refused.err.contains("--serial is of one part"),
+        "{}",
+        refused.err
+    );
 }

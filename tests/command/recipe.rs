@@ -54,7 +54,8 @@ fn a_saved_recipe_is_used_by_name_by_file_and_by_default() {
     let by_file = inspect(1, &["--recipe", "stick.toml"]);
     assert_eq!(by_file["recipe"], by_name["recipe"]);
     place.accepted(&["recipe", "import", "stick.toml"]);
-    place.accepted(&["recipe", "default", "strict"]);
+    let chosen = place.accepted(&["recipe", "default", "strict"]);
+    assert_eq!(chosen.out, "Commands without --recipe now use strict\n");
     assert_eq!(inspect(1, &[])["recipe"]["name"], "strict");
     assert_eq!(
         inspect(0, &["--recipe", "built-in"])["recipe"]["name"],
@@ -67,7 +68,7 @@ fn a_saved_recipe_is_used_by_name_by_file_and_by_default() {
     place.accepted(&["history", "export", "--csv", "all.csv"]);
     let csv = place.read("all.csv");
     assert!(
-        csv.lines().any(|line| line.ends_with(",strict,true")),
+        csv.lines().any(|line| line.ends_with(",strict,true,,,")),
         "{csv}"
     );
     place.coded(
@@ -206,4 +207,46 @@ fn a_recipe_that_cannot_be_used_stops_the_command_with_advice() {
         ran.err
     );
     place.accepted(&["recipe", "default", "built-in"]);
+}
+
+#[test]
+fn a_renamed_recipe_stays_what_it_is_and_takes_no_other_ones_name() {
+    let place = Workplace::new();
+    for (name, score) in [("glossy", "0.85"), ("matt", "0.8")] {
+        let score = format!("accept.min_score={score}");
+        place.accepted(&["recipe", "save", name, "--set", &score]);
+    }
+    place.accepted(&["recipe", "default", "glossy"]);
+    let taken = place.coded(2, &["recipe", "rename", "glossy", "matt"]);
+    assert!(
+        taken.err.contains("there is a recipe named matt already"),
+        "{}",
+        taken.err
+    );
+    let renamed = place.accepted(&["recipe", "rename", "glossy", "shiny"]);
+    assert!(
+        renamed.out.contains("glossy is named shiny now"),
+        "{}",
+        renamed.out
+    );
+    assert_eq!(place.accepted(&["recipe", "default"]).out, "shiny\n");
+    let shown = place
+        .accepted(&["recipe", "show", "shiny", "--json"])
+        .json();
+    assert_eq!(shown["changed"][0]["value"], "0.85");
+    place.coded(2, &["recipe", "show", "glossy"]);
+    let same = place.accepted(&["recipe", "show", "built-in"]);
+    assert!(
+        same.out.contains("same as") && !same.out.contains(" 0 "),
+        "{}",
+        same.out
+    );
+    let refused = place.coded(2, &["inspect", "x.pcd", "--set", "accept.min_score=8"]);
+    assert!(
+        refused
+            .err
+            .contains("accept.min_score (Accept from) cannot be 8"),
+        "{}",
+        refused.err
+    );
 }

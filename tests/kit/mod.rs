@@ -16,7 +16,9 @@ use partsight::{
         mesh::TriangleMesh,
         rigid::{RigidTransform, from_euler_zyx},
     },
-    history::{History, HungId, InspectionDetail, NewEntry, Record, StoredVerdict, Summary},
+    history::{
+        History, HungId, InspectionDetail, NewEntry, Record, StoredVerdict, Summary, Traceability,
+    },
     library::{Library, LibraryFolder},
     pipeline::{Recipe, RecipeLabel},
     simulate::{CellSetup, PartKind, PartPose, PoseRange, SensorNoise, Side, frame, frame_of_mesh},
@@ -152,6 +154,7 @@ pub(crate) fn history_entry(seconds: i64, verdict: StoredVerdict, part: &str) ->
                 remark: String::new(),
                 label: None,
                 frame_bytes: None,
+                trace: Traceability::default(),
                 hung: HungId::new(),
                 parent: None,
                 num_below: 0,

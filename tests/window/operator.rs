@@ -2,12 +2,17 @@
 
 use std::path::Path;
 
-use egui::Key;
+use egui::{Key, Role};
 use egui_kittest::kittest::{NodeT as _, Queryable as _};
 use partsight::{
     app::{
         WindowOptions,
-        shell::{action::Action, roles::RoleAction, session::UserRole, settings},
+        shell::{
+            action::Action,
+            roles::RoleAction,
+            session::{UserRole, WorkspaceKind},
+            settings,
+        },
     },
     files::save_cloud,
     simulate::{PartKind, Side},
@@ -18,8 +23,8 @@ use crate::kit::facing_part;
 use super::{
     live::{Step, sees, toggle, wired_options},
     set_up::{
-        SMALL, USUAL, WindowHarness, act, drop_file, open, open_with, plain_options, press,
-        wait_until,
+        SMALL, USUAL, WindowHarness, act, drop_file, history_of, open, open_with, plain_options,
+        press, settle, wait_until,
     },
 };
 
@@ -250,4 +255,80 @@ fn the_operator_is_not_told_to_do_what_only_the_engineer_can() {
     harness.get_by_label("NOK");
     assert!(shows(&harness, "sk the engineer to enrol"));
     assert!(!shows(&harness, "Enrol the part"));
+}
+
+#[test]
+fn a_scanned_serial_number_goes_with_one_part_and_order_and_operator_with_the_next_too() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let options = || WindowOptions {
+        history: Some(folder.path().join("history")),
+        settings: Some(folder.path().join("settings.toml")),
+        ..plain_options()
+    };
+    let mut harness = open_operators(options());
+    for (field, text) in [("Order", "A 17"), ("Operator", "Kim")] {
+        harness
+            .get_by_role_and_label(Role::TextInput, field)
+            .click();
+        harness.run_steps(2);
+        harness
+            .get_by_role_and_label(Role::TextInput, field)
+            .type_text(text);
+        harness.run_steps(2);
+        harness.key_press(Key::Enter);
+        harness.run_steps(4);
+    }
+    // No field has the focus. T, L and the digits are shortcuts, and none of them is taken for one.
+    let before = harness.state().state().theme;
+    for letter in "TL471".chars() {
+        let key = Key::from_name(&letter.to_string()).expect("a key");
+        harness.input_mut().events.push(egui::Event::Key {
+            key,
+            physical_key: None,
+            pressed: true,
+            repeat: false,
+            modifiers: egui::Modifiers::NONE,
+        });
+        let text = egui::Event::Text(letter.into());
+        harness.input_mut().events.push(text);
+    }
+    harness.key_press(Key::Enter);
+    harness.run_steps(4);
+    let state = harness.state().state();
+    assert_eq!(state.trace.get().serial, "TL471");
+    assert!(state.theme == before && !state.is_live());
+    assert_eq!(state.workspace, WorkspaceKind::Inspect);
+    press(&mut harness, "Capture");
+    assert_eq!(harness.state().state().trace.get().serial, "");
+    press(&mut harness, "Capture");
+    let traces: Vec<_> = (0..2)
+        .map(|place| {
+            history_of(&harness)
+                .row(place)
+                .expect("listed")
+                .trace
+                .clone()
+        })
+        .collect();
+    let [newest, before] = traces.as_slice() else {
+        panic!("{traces:?}");
+    };
+    assert_eq!(
+        (&*before.serial, &*before.order, &*before.operator),
+        ("TL471", "A 17", "Kim")
+    );
+    assert_eq!(
+        (&*newest.serial, &*newest.order, &*newest.operator),
+        ("", "A 17", "Kim")
+    );
+    press(&mut harness, "History");
+    harness.get_by_label("Find").click();
+    harness.run_steps(2);
+    harness.get_by_label("Find").type_text("tl471");
+    settle(&mut harness);
+    harness.get_by_label("1 of 3 parts");
+    // The session's own stay, the part's does not.
+    let remembered = settings::Settings::of(harness.state().state(), None);
+    assert_eq!(&*remembered.traceability.order, "A 17");
+    assert_eq!(&*remembered.traceability.serial, "");
 }

@@ -24,7 +24,7 @@ use crate::{
     },
     capture::CaptureWarning,
     geometry::{cloud::PointCloud, rigid::RigidTransform},
-    history::{HungId, InspectionContext, NewEntry},
+    history::{HungId, InspectionContext, NewEntry, Traceability},
     library::Library,
     pipeline::{
         self, Inspection, NamedRecipe, ProgressObserver, Recipe,
@@ -109,6 +109,11 @@ impl Inspected {
     /// Which part it is as it hangs there.
     pub(in crate::app) fn hung(&self) -> &HungId {
         &self.entry.record.summary.hung
+    }
+
+    /// Serial number, order and operator.
+    pub fn trace(&self) -> &Traceability {
+        &self.entry.record.summary.trace
     }
 
     /// What was inspected, to be inspected once more: all shots of a scan, else the scene.

@@ -92,6 +92,7 @@ pub(in crate::app) fn report_of(
             Origin::File { .. } | Origin::Scan { .. } | Origin::Frame { .. } => None,
         },
         seen_by,
+        trace: inspected.trace(),
         inspection: &inspected.inspection,
         middle: inspected.middle,
         stand_off: inspected.stand_off.as_ref(),

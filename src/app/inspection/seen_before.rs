@@ -5,7 +5,7 @@ use std::fs;
 use jiff::Timestamp;
 
 use super::{inspected::Inspected, source::Origin};
-use crate::history::{Filter, HistoryBuffer, HungId, Summary};
+use crate::history::{Filter, HistoryBuffer, Summary};
 
 /// Rows of one file that are looked through, the newest first.
 const MAX_ROWS: usize = 20;
@@ -15,7 +15,7 @@ const MAX_ROWS: usize = 20;
 pub(in crate::app) fn seen_before(
     inspected: &Inspected,
     history: &HistoryBuffer,
-) -> Option<HungId> {
+) -> Option<Summary> {
     let Origin::File { path, .. } = &inspected.origin else {
         return None;
     };
@@ -31,5 +31,5 @@ pub(in crate::app) fn seen_before(
     let is_same = |row: &Summary| row.source == now.source && row.title == now.title;
     // Why the history cannot be read is reported by the History workspace.
     let page = history.page(&filter, 0, MAX_ROWS).ok()?;
-    page.rows.into_iter().find(is_same).map(|row| row.hung)
+    page.rows.into_iter().find(is_same)
 }

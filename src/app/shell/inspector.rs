@@ -7,6 +7,7 @@ use std::{
 
 use super::{
     action::{Effect, notify},
+    current_trace::CurrentTrace,
     live,
     message::{Event, ReinspectionPurpose},
     notice::Notice,
@@ -28,7 +29,7 @@ use crate::{
         user_error::UserError,
     },
     capture::SourceSpec,
-    history::HungId,
+    history::{HungId, StoredVerdict, Traceability},
     stages::scene::EmptyCell,
 };
 
@@ -154,38 +155,43 @@ impl State {
             (source, _) => source,
         };
         let job = self.inspect_job(source);
-        self.inspect(title, job, ReinspectionPurpose::New);
+        self.inspect(title, job);
         None
     }
 
-    /// Inspects a scene or a scan; ends following the source.
-    pub(in crate::app) fn inspect(
-        &mut self,
-        title: impl Into<String>,
-        job: InspectJob,
-        purpose: ReinspectionPurpose,
-    ) {
-        self.inspect_hung(title.into(), job, purpose, None);
+    /// Inspects a scene or a scan as one of a part of its own; ends following the source.
+    fn inspect(&mut self, title: String, job: InspectJob) {
+        let part = if self.inspector.is_start {
+            PartAtHand::MaybeSeen
+        } else {
+            PartAtHand::New(self.trace.clone())
+        };
+        self.inspect_part(title, job, ReinspectionPurpose::New, part);
     }
 
-    /// The same; `hung` is the part that hangs there, if it was inspected before.
-    fn inspect_hung(
+    /// Inspects something that is no part of its own; ends following the source.
+    pub(in crate::app) fn inspect_again_as(
         &mut self,
         title: String,
         job: InspectJob,
         purpose: ReinspectionPurpose,
-        hung: Option<HungId>,
+        trace: Traceability,
+    ) {
+        self.inspect_part(title, job, purpose, PartAtHand::Past(trace));
+    }
+
+    fn inspect_part(
+        &mut self,
+        title: String,
+        job: InspectJob,
+        purpose: ReinspectionPurpose,
+        part: PartAtHand,
     ) {
         live::give_way(self);
         let library_cache = self.begins(&title, purpose);
-        let hung = if self.inspector.is_start {
-            PartAtHand::MaybeSeen
-        } else {
-            hung.map_or(PartAtHand::New, PartAtHand::Known)
-        };
         let task = &mut self.inspector.task;
         task.start(title, move |context| {
-            run(&job, hung, &library_cache, context)
+            run(&job, part, &library_cache, context)
         });
     }
 
@@ -213,14 +219,14 @@ impl State {
             } else {
                 purpose
             };
-            let hung = shown.inspected.hung().clone();
+            let part = PartAtHand::of(&shown.inspected);
             let job = self.inspect_job(shown.inspected.again());
-            self.inspect_hung(title.to_owned(), job, purpose, Some(hung));
+            self.inspect_part(title.to_owned(), job, purpose, part);
         }
     }
 
     /// The part in front, if this is its scene.
-    fn hung_in(&self, saved: &SceneOrScan) -> Option<HungId> {
+    fn part_in(&self, saved: &SceneOrScan) -> Option<PartAtHand> {
         let inspected = &self
             .shown
             .as_ref()
@@ -235,7 +241,7 @@ impl State {
             }
             _ => false,
         };
-        is_it.then(|| inspected.hung().clone())
+        is_it.then(|| PartAtHand::of(inspected))
     }
 
     /// Uses the library that was changed, and inspects what was saved in it, else the scene in front.
@@ -247,9 +253,11 @@ impl State {
         self.use_library(library);
         let (title, purpose) = ("Inspecting again", ReinspectionPurpose::New);
         if let Some(saved) = saved {
-            let hung = self.hung_in(&saved);
+            let part = self.part_in(&saved);
+            // What is enrolled is no part of an order.
+            let part = part.unwrap_or_else(|| PartAtHand::Past(Traceability::default()));
             let job = self.inspect_job(saved);
-            self.inspect_hung(title.to_owned(), job, purpose, hung);
+            self.inspect_part(title.to_owned(), job, purpose, part);
         } else if self.inspector.running().is_none() {
             self.inspect_shown(title, purpose);
         }
@@ -353,18 +361,26 @@ impl State {
 /// Which part an inspection is of.
 #[derive(Debug)]
 enum PartAtHand {
-    /// One of its own.
-    New,
+    /// One of its own: it takes the serial number that is written now.
+    New(CurrentTrace),
     /// This one, which still hangs there.
-    Known(HungId),
+    Known(HungId, Traceability),
+    /// One of its own that is traced by this.
+    Past(Traceability),
     /// The one that was inspected before if its file is the same, else one of its own.
     MaybeSeen,
+}
+
+impl PartAtHand {
+    fn of(inspected: &Inspected) -> Self {
+        Self::Known(inspected.hung().clone(), inspected.trace().clone())
+    }
 }
 
 /// What the task does.
 fn run(
     job: &InspectJob,
-    hung: PartAtHand,
+    part: PartAtHand,
     library_cache: &LibraryCache,
     context: &TaskContext<InspectorResult>,
 ) -> Result<InspectorResult, TaskError> {
@@ -382,13 +398,22 @@ fn run(
             }
         }
     };
-    let hung = match hung {
-        PartAtHand::New => None,
-        PartAtHand::Known(hung) => Some(hung),
+    let seen = match part {
         PartAtHand::MaybeSeen => seen_before(&inspected, library_cache.history()),
+        _ => None,
     };
-    if let Some(hung) = hung {
-        inspected.entry.record.summary.hung = hung;
+    let summary = &mut inspected.entry.record.summary;
+    match part {
+        PartAtHand::New(current) => {
+            summary.trace = current.take(summary.verdict != StoredVerdict::NoPart);
+        }
+        PartAtHand::Known(hung, trace) => (summary.hung, summary.trace) = (hung, trace),
+        PartAtHand::Past(trace) => summary.trace = trace,
+        PartAtHand::MaybeSeen => {
+            if let Some(seen) = seen {
+                (summary.hung, summary.trace) = (seen.hung, seen.trace);
+            }
+        }
     }
     Ok(InspectorResult::Inspected(Arc::new(inspected)))
 }

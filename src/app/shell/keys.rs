@@ -139,7 +139,7 @@ const RAIL_KEYS: [(Key, &str); 5] = [
 ];
 
 /// What of the window's height the list leaves free, for its heading, its button, the edges, and a notice above it.
-const HELP_MARGIN: f32 = 260.0;
+const HELP_MARGIN: f32 = 230.0;
 
 /// What a key causes.
 #[derive(Clone, Copy)]

@@ -12,7 +12,7 @@ use crate::{
         library_cache::LibraryView,
         scan_choice::ScanOrder,
     },
-    history::NewEntry,
+    history::{NewEntry, Traceability},
     pipeline::NamedRecipe,
     robot::{Convention, RobotFrame},
 };
@@ -58,6 +58,8 @@ pub enum Message {
         job: InspectJob,
         /// What for.
         purpose: ReinspectionPurpose,
+        /// Serial number, order and operator of the inspection that is made again.
+        trace: Traceability,
     },
     /// Inspect the scene in front once more, as an inspection of its own.
     InspectShown {

@@ -6,6 +6,7 @@
 pub mod action;
 pub mod closing;
 pub mod context;
+pub mod current_trace;
 pub(in crate::app) mod dialogs;
 pub mod file_dialog;
 pub mod inspector;
@@ -20,6 +21,7 @@ pub(in crate::app) mod path_entry;
 pub(in crate::app) mod rail;
 pub mod robot;
 pub mod roles;
+pub(in crate::app) mod scanner;
 pub mod session;
 pub mod settings;
 pub(in crate::app) mod settings_file;

@@ -4,7 +4,9 @@ use std::{path::PathBuf, sync::Arc};
 
 use serde::{Deserialize, Serialize};
 
-use super::{live::LiveState, message::ReinspectionPurpose, shift::ShiftParts};
+use super::{
+    current_trace::CurrentTrace, live::LiveState, message::ReinspectionPurpose, shift::ShiftParts,
+};
 pub use crate::app::ui::theme::ThemeChoice;
 use crate::{
     app::{
@@ -60,6 +62,8 @@ pub struct Session {
     pub theme: ThemeChoice,
     /// Whose window it is.
     pub role: UserRole,
+    /// What the next inspection is of.
+    pub trace: CurrentTrace,
     /// The parts of this shift, while it is the operator's.
     pub shift: ShiftParts,
     /// The workspace in front.

@@ -10,6 +10,7 @@ use std::{
 use serde::{Deserialize, Serialize};
 
 use super::{
+    current_trace::CurrentTrace,
     live::LiveState,
     roles::{LOCK_AFTER, Pin, RoleState, is_operators},
     session::{RememberedCell, Session, Source, ThemeChoice, UserRole, WorkspaceKind},
@@ -27,6 +28,7 @@ use crate::{
     },
     capture::SourceSpec,
     files::{open_regular, user_folders, write_atomically},
+    history::Traceability,
     pipeline::{NamedRecipe, Recipe, RecipeLabel},
     robot::Convention,
 };
@@ -76,6 +78,8 @@ pub struct Settings {
     pub shifts: ShiftStarts,
     /// Which calibration of the robot's cell is used.
     pub cell: RememberedCell,
+    /// The order that is worked on, and the operator.
+    pub traceability: Traceability,
 }
 
 /// A source, as the file has it.
@@ -118,6 +122,7 @@ impl Default for Settings {
             role: UserRole::default(),
             shifts: ShiftStarts::default(),
             cell: RememberedCell::default(),
+            traceability: Traceability::default(),
         }
     }
 }
@@ -148,6 +153,7 @@ impl Settings {
             role: state.role,
             shifts: state.shift_watch.starts.clone(),
             cell: state.cell.clone(),
+            traceability: state.trace.remembered(),
         }
     }
 
@@ -178,6 +184,7 @@ impl Settings {
             && self.role == state.role
             && self.shifts == state.shift_watch.starts
             && self.cell == state.cell
+            && self.traceability == state.trace.remembered()
             && self.window == window
     }
 
@@ -207,6 +214,7 @@ impl Settings {
             }),
             role,
             cell: self.cell,
+            trace: CurrentTrace::starting(self.traceability),
             live: LiveState::averaging(self.average),
             ..Session::default()
         };

@@ -122,7 +122,8 @@ impl Window {
                 title,
                 job,
                 purpose,
-            } => self.state.inspect(title, job, purpose),
+                trace,
+            } => self.state.inspect_again_as(title, job, purpose, trace),
         }
     }
 

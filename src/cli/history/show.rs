@@ -11,6 +11,7 @@ use crate::{
     },
     history::{
         Differences, History, InspectionDetail, InspectionSummary, Record, ShotRecord, Summary,
+        Traceability,
     },
     library::Truth,
 };
@@ -39,6 +40,9 @@ struct RowLine<'a> {
     parent: Option<i64>,
     /// How many others of the same part lie below this one.
     reinspections: usize,
+    /// `serial`, `order` and `operator`, where they are known.
+    #[serde(flatten)]
+    trace: &'a Traceability,
 }
 
 impl<'a> RowLine<'a> {
@@ -60,6 +64,7 @@ impl<'a> RowLine<'a> {
             frame_kept: row.frame_bytes.is_some(),
             parent: row.parent,
             reinspections: row.num_below,
+            trace: &row.trace,
         }
     }
 }
@@ -230,6 +235,9 @@ fn card(history: &History, record: &Record, console: &mut Console) {
         marked_simulated(&summary.scene, summary.is_simulated),
     );
     row("source", summary.source.clone());
+    for (name, text) in summary.trace.known() {
+        row(name, text.to_owned());
+    }
     row("verdict", summary.verdict.title().to_lowercase());
     row("part", summary.part.clone().unwrap_or_default());
     if summary.part != detail.nearest {

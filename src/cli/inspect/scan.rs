@@ -22,10 +22,11 @@ use crate::{
 
 pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Result<Outcome> {
     let recipe = args.recipe.recipe()?;
+    let trace = args.trace.of_parts(Some(1))?;
     let load = (args.library).load_some(&recipe.reference_params(), console)?;
     let scan = open_scan(&args.scan, &args.poses, &recipe.segment, console)?;
     let recording = (!args.no_history)
-        .then(|| HistoryRecorder::start(&args.history, &load, &recipe, console))
+        .then(|| HistoryRecorder::start(&args.history, &load, &recipe, &trace, console))
         .flatten();
     let ScanInspection {
         inspection,
@@ -47,6 +48,7 @@ pub(super) fn inspect(args: &InspectArgs, console: &mut Console) -> anyhow::Resu
     let is_accepted = inspection.verdict.is_accepted();
     let line = InspectionLine::of(&scene, &inspection)
         .by(&recipe)
+        .traced(&trace)
         .in_robot(Some(&robot), &inspection);
     let line = line.of_scan(ScanLine {
         frames,

@@ -246,6 +246,10 @@ fn columns(report: &PoseReport) -> Vec<(String, String)> {
     add("total_ms", number(Some(report.timings_ms.total)));
     add("recipe", report.recipe.identity.clone());
     add("library", report.library.identity.clone());
+    let trace = &report.traceability;
+    add("serial", trace.serial.clone());
+    add("order", trace.order.clone());
+    add("operator", trace.operator.clone());
     columns
 }
 

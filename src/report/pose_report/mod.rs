@@ -16,6 +16,7 @@ use serde::Serialize;
 
 use super::line::{TimingsLine, status_of};
 use crate::{
+    history::Traceability,
     pipeline::{Inspection, NamedRecipe, Recipe, RecipeBlock},
     robot::{Convention, RobotFrame},
     stages::{
@@ -78,6 +79,8 @@ pub struct PoseReport {
     pub source: Option<String>,
     /// Whether a camera was read.
     pub seen_by: SeenBy,
+    /// Serial number, order and operator, as far as they are known.
+    pub traceability: Traceability,
     /// What was decided.
     pub verdict: VerdictBlock,
     /// The enrolled parts that are most like it, at most five, best first.
@@ -154,6 +157,8 @@ pub struct ReportSubject<'a> {
     pub source: Option<&'a str>,
     /// Whether a camera was read.
     pub seen_by: SeenBy,
+    /// Serial number, order and operator.
+    pub trace: &'a Traceability,
     /// What was found.
     pub inspection: &'a Inspection,
     /// Middle of the best reference's extent, part space, metres.
@@ -195,6 +200,7 @@ impl PoseReport {
             scene: subject.scene.to_owned(),
             source: subject.source.map(ToOwned::to_owned),
             seen_by: subject.seen_by,
+            traceability: subject.trace.clone(),
             pose,
             refused_pose,
             robot: RobotBlock::of(camera_from_part.as_ref(), verdict.accepted, subject),

@@ -51,6 +51,7 @@ impl Inspected {
             scene: "shift 2/door, left.pcd",
             source: None,
             seen_by: SeenBy::Simulation,
+            trace: &Traceability::default(),
             inspection: &self.inspection,
             middle: best.and_then(Reference::middle),
             stand_off: self.stand_off.as_ref(),

@@ -192,6 +192,7 @@ fn follow_source(state: &mut State) {
         params: state.live.params.clone(),
         empty_cell: state.empty_cell.clone(),
         record: state.live.recording.clone(),
+        trace: state.trace.clone(),
         hung: Arc::clone(&state.follower.hung),
     };
     state.live.is_on = true;

@@ -15,12 +15,13 @@ use crate::{
             recording::Recorded,
             source::Captured as SceneOrigin,
         },
+        shell::current_trace::CurrentTrace,
         task::{TaskContext, TaskError},
         user_error::UserError,
     },
     capture::{Captured, Feed, FeedItem, FeedState, FrameRate, SourceSpec},
     error::{Fault, guarded},
-    history::{HungRows, NewEntry},
+    history::{HungRows, NewEntry, StoredVerdict, Traceability},
     pipeline::{
         self, NamedRecipe, ProgressObserver,
         live::{FrameRole, HungFrame, LiveParams, LiveTracker, LiveVerdict, MotionState},
@@ -41,6 +42,8 @@ pub(super) struct LiveStart {
     pub(super) empty_cell: Option<Arc<EmptyCell>>,
     /// The folder that it is recorded in, if it is.
     pub(super) record: Option<PathBuf>,
+    /// What the next part is traced by.
+    pub(super) trace: CurrentTrace,
     /// The part that hangs there: it outlives this, when the same source is followed with other settings.
     pub(super) hung: Arc<Mutex<FollowedParts>>,
 }
@@ -50,6 +53,8 @@ pub(super) struct LiveStart {
 pub(super) struct FollowedParts {
     source: String,
     rows: HungRows,
+    /// Of the part whose verdict counted last.
+    trace: Traceability,
 }
 
 impl FollowedParts {
@@ -59,7 +64,7 @@ impl FollowedParts {
         if self.source != source {
             *self = Self {
                 source,
-                rows: HungRows::default(),
+                ..Self::default()
             };
         }
         &mut self.rows
@@ -161,6 +166,7 @@ struct LiveSession<'a> {
     recorded: Option<Recorded>,
     recipe: &'a Arc<NamedRecipe>,
     recipe_identity: String,
+    trace: &'a CurrentTrace,
     hung: &'a Mutex<FollowedParts>,
     empty_cell: Option<&'a Arc<EmptyCell>>,
     /// `None` of a source whose captures stand for themselves.
@@ -201,6 +207,7 @@ impl<'a> LiveSession<'a> {
             recorded: None,
             recipe: &request.recipe,
             recipe_identity: request.recipe.identity(),
+            trace: &request.trace,
             hung: &request.hung,
             empty_cell: request.empty_cell.as_ref(),
             stillness: watch.as_ref().map(LiveTracker::stillness),
@@ -331,6 +338,15 @@ impl<'a> LiveSession<'a> {
             source: self.spec.to_string(),
         };
         let mut inspected = found.prepared(&fitted, &shelved.shown);
+        let summary = &mut inspected.entry.record.summary;
+        match role {
+            FrameRole::First => {
+                summary.trace = self.trace.take(summary.verdict != StoredVerdict::NoPart);
+                lock(self.hung).trace = summary.trace.clone();
+            }
+            FrameRole::Again => summary.trace = lock(self.hung).trace.clone(),
+            FrameRole::Nothing | FrameRole::Best => {}
+        }
         if self.watch.is_some() {
             let mut hung = lock(self.hung);
             let rows = hung.before(self.spec);
@@ -349,7 +365,8 @@ impl<'a> LiveSession<'a> {
 
     /// Hands over the inspection of a part that left before its verdict counted.
     fn tell_left(&self, left: Option<NewEntry>) {
-        if let Some(left) = left {
+        if let Some(mut left) = left {
+            left.record.summary.trace = self.trace.take(true);
             self.context.partial(LiveAnswer::Left(Box::new(left)));
         }
     }

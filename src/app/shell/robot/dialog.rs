@@ -21,7 +21,7 @@ use crate::{
 /// Width of the dialog, logical pixels.
 const WIDTH: f32 = 640.0;
 /// What of the window's height the pages leave free, for heading, buttons, the edges, and a notice above the dialog.
-const MARGIN: f32 = 290.0;
+const MARGIN: f32 = 220.0;
 
 impl RobotCell {
     /// Draws the dialog while it is open; says what a person caused in it.

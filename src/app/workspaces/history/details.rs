@@ -217,6 +217,9 @@ fn figures(ui: &mut Ui, record: &Record, theme: &Theme) {
         row("source", source);
     }
     row("time", &when(*at));
+    for (name, text) in summary.trace.known() {
+        row(name, text);
+    }
     if let Some([score, margin]) = score {
         row("score", &format!("{score:.2}"));
         row("margin", &format!("{margin:.2}"));

@@ -151,10 +151,12 @@ const COLUMNS: [Column; 5] = [
     Column {
         name: "Scene",
         width: Width::Share(0.42),
-        // What a person said of it is what others look for first.
-        text: |past, _| match past.remark.as_str() {
-            "" => past.scene.clone(),
-            remark => format!("{remark} · {}", past.scene),
+        // What a person said of it is what others look for first, then its serial number.
+        text: |past, _| {
+            let texts = [&past.remark, &past.trace.serial, &past.scene];
+            let texts: Vec<&str> = texts.into_iter().map(String::as_str).collect();
+            let known = texts.into_iter().filter(|text| !text.is_empty());
+            known.collect::<Vec<_>>().join(" · ")
         },
         look: |theme| (font::body(), theme.weak_text),
     },

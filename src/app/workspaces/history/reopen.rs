@@ -88,6 +88,7 @@ impl HistoryState {
                 }),
             },
             purpose: ReinspectionPurpose::Past,
+            trace: past.record.summary.trace.clone(),
         });
         self.remaking = Some(ReinspectionJob { past, purpose });
     }

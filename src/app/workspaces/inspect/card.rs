@@ -298,6 +298,9 @@ fn footer(ui: &mut Ui, inspected: &Inspected, role: UserRole, theme: &Theme) {
     if inspected.origin.is_simulated() {
         row(ui, theme, "camera", "simulated");
     }
+    for (name, text) in inspected.trace().known() {
+        row(ui, theme, name, &shortened(text, 28));
+    }
     if role == UserRole::Engineer {
         let label = inspected.recipe.label.to_string();
         row(ui, theme, "recipe", &shortened(&label, 28));

@@ -12,7 +12,7 @@ use super::{
 use crate::{
     app::{
         inspection::inspected::Inspected,
-        shell::{live::SourceState, session::Session, shift::ShiftParts},
+        shell::{current_trace, live::SourceState, session::Session},
         ui::{
             theme::{Theme, font, space},
             widgets::{Mark, mark, sentence},
@@ -229,7 +229,7 @@ pub(super) fn ui(ui: &mut Ui, session: &Session, theme: &Theme, picture: impl Fn
                 .fill(theme.panel)
                 .inner_margin(Margin::symmetric(24, 20)),
         )
-        .show(ui, |ui| column(ui, &banner, &session.shift, theme));
+        .show(ui, |ui| column(ui, &banner, session, theme));
     CentralPanel::default().frame(Frame::new()).show(ui, |ui| {
         let rect = ui.max_rect();
         if session.shown.is_none() {
@@ -302,7 +302,8 @@ fn banner_ui(ui: &mut Ui, banner: &Banner, theme: &Theme) {
 }
 
 /// What to do next, and the last parts.
-fn column(ui: &mut Ui, banner: &Banner, shift: &ShiftParts, theme: &Theme) {
+fn column(ui: &mut Ui, banner: &Banner, session: &Session, theme: &Theme) {
+    let shift = &session.shift;
     ui.spacing_mut().interact_size.y = 0.0;
     let heading = |ui: &mut Ui, text: &str| {
         ui.label(RichText::new(text).color(theme.weak_text));
@@ -315,7 +316,9 @@ fn column(ui: &mut Ui, banner: &Banner, shift: &ShiftParts, theme: &Theme) {
         font::next_step()
     };
     ui.label(RichText::new(&banner.next).font(next).color(theme.text));
-    ui.add_space(24.0);
+    ui.add_space(space::MEDIUM);
+    current_trace::fields(ui, &session.trace, theme);
+    ui.add_space(space::MEDIUM);
     heading(ui, "Last parts of this shift");
     ui.add_space(space::SMALL);
     if shift.last.is_empty() {

@@ -211,6 +211,7 @@ impl InspectState {
             Ok(None) => {}
             Ok(Some((order, asked))) => {
                 self.shots.started(Some(asked));
+                let shown = cx.session.shown.as_ref();
                 if let ScanOrder::Open(files) = &order {
                     cx.send(Message::UseSource(Source::Scan(files.clone())));
                 }
@@ -218,6 +219,9 @@ impl InspectState {
                     title: order.title(),
                     job: InspectJob::Scan(cx.session.scan_request(order)),
                     purpose: ReinspectionPurpose::Shots,
+                    trace: shown
+                        .map(|shown| shown.inspected.trace().clone())
+                        .unwrap_or_default(),
                 });
             }
             Err(notice) => cx.notify(notice),

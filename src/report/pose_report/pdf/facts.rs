@@ -187,7 +187,13 @@ impl Rows<'_, '_> {
 /// By what the inspection can be found again; answers with where the foot begins.
 pub(super) fn foot(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
     let bottom = PAGE[1] - 34.0;
-    let top = bottom - 58.0;
+    let trace: Vec<String> = report
+        .traceability
+        .known()
+        .map(|(name, text)| format!("{name} {text}"))
+        .collect();
+    let height = if trace.is_empty() { 58.0 } else { 70.0 };
+    let top = bottom - height;
     let area = Area {
         left: MARGIN,
         top,
@@ -252,6 +258,13 @@ pub(super) fn foot(sheet: &mut Sheet<'_>, report: &PoseReport) -> f32 {
             sheet.text(&value, [left + 54.0, y], style, Anchor::Left);
             y += 12.0;
         }
+    }
+    if !trace.is_empty() {
+        let style = style(8.0, Weight::Regular, BLACK);
+        let y = top + 14.0 + 4.0 * 12.0;
+        sheet.text("Part", [MARGIN + 8.0, y], SMALL, Anchor::Left);
+        let trace = sheet.faces.fitted(&trace.join(" · "), WIDTH - 72.0, style);
+        sheet.text(&trace, [MARGIN + 62.0, y], style, Anchor::Left);
     }
     sheet.line(&[[MARGIN, top], [MARGIN + WIDTH, top]], 0.75, RULE);
     top - 6.0

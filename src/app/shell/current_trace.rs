@@ -1,0 +1,109 @@
+//! The serial number, the order and the operator that the next inspection is of: typed in the operator's view, or sent by a
+//! scanner.
+
+use std::sync::{Arc, Mutex};
+
+use egui::{Align2, TextEdit, Ui, WidgetInfo, vec2};
+
+use crate::{
+    app::ui::theme::{Theme, space},
+    error::lock,
+    history::Traceability,
+};
+
+/// Width of what stands before a field, logical pixels.
+const NAME: f32 = 76.0;
+
+/// What the next inspection is of. Clones share it: whoever inspects takes it where the verdict counts.
+#[derive(Clone, Debug, Default)]
+pub struct CurrentTrace(Arc<Mutex<Traceability>>);
+
+impl CurrentTrace {
+    /// Begins with this.
+    pub fn starting(trace: Traceability) -> Self {
+        Self(Arc::new(Mutex::new(trace)))
+    }
+
+    /// What is written now.
+    pub fn get(&self) -> Traceability {
+        lock(&self.0).clone()
+    }
+
+    /// What is remembered from one start to the next: all but the serial number.
+    pub fn remembered(&self) -> Traceability {
+        Traceability {
+            serial: String::new(),
+            ..self.get()
+        }
+    }
+
+    /// A scanner or a person has written the serial number of the part that hangs there.
+    pub fn set_serial(&self, serial: &str) {
+        lock(&self.0).serial = Traceability::cleaned(serial);
+    }
+
+    /// What an inspection is of. Its serial number is used up, so that the next part never has it; where no part was
+    /// found it waits for one.
+    pub fn take(&self, is_part: bool) -> Traceability {
+        let mut trace = lock(&self.0);
+        let serial = if is_part {
+            std::mem::take(&mut trace.serial)
+        } else {
+            String::new()
+        };
+        Traceability {
+            serial: Traceability::cleaned(&serial),
+            order: Traceability::cleaned(&trace.order),
+            operator: Traceability::cleaned(&trace.operator),
+        }
+    }
+}
+
+/// The fields.
+pub(in crate::app) fn fields(ui: &mut Ui, trace: &CurrentTrace, theme: &Theme) {
+    let before = trace.get();
+    let mut now = before.clone();
+    for (name, says, text) in [
+        ("Serial", "scan or type", &mut now.serial),
+        ("Order", "", &mut now.order),
+        ("Operator", "", &mut now.operator),
+    ] {
+        ui.horizontal(|ui| {
+            ui.set_min_height(space::TARGET);
+            let from = ui.cursor().left();
+            let label = ui.label(egui::RichText::new(name).color(theme.weak_text));
+            ui.add_space((from + NAME - ui.cursor().left()).max(0.0));
+            let field = TextEdit::singleline(text)
+                .hint_text(says)
+                .char_limit(Traceability::MAX_LETTERS)
+                .align(Align2::LEFT_CENTER)
+                .desired_width(f32::INFINITY)
+                .min_size(vec2(0.0, space::TARGET));
+            let field = ui.add(field).labelled_by(label.id);
+            field.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, name));
+        });
+    }
+    if now != before {
+        *lock(&trace.0) = now;
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn a_serial_number_is_of_one_part_and_order_and_operator_of_many() {
+        let current = CurrentTrace::starting(Traceability {
+            serial: String::new(),
+            order: "A 17".into(),
+            operator: "Kim".into(),
+        });
+        current.set_serial(" 4711\n");
+        assert_eq!(current.take(false).serial, "");
+        let first = current.take(true);
+        assert_eq!((&*first.serial, &*first.order), ("4711", "A 17"));
+        let second = current.take(true);
+        assert_eq!((&*second.serial, &*second.operator), ("", "Kim"));
+    }
+}

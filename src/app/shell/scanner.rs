@@ -1,0 +1,151 @@
+//! A barcode scanner: to the window a keyboard that types a code within some milliseconds and ends it with Enter.
+//!
+//! In the operator's view no field needs the focus for it. What is typed is held back for a moment: a code that is ended
+//! in time is the serial number; anything else was a hand's, and goes on to the shortcuts.
+
+use egui::{Context, Event, Id, Key};
+
+/// A hand leaves more time than this between two keys, seconds.
+const GAP: f64 = 0.15;
+/// A shorter code is none.
+const LEAST_LETTERS: usize = 3;
+
+/// What was typed and is held back.
+#[derive(Clone, Debug, Default)]
+struct Held {
+    events: Vec<Event>,
+    text: String,
+    last: f64,
+}
+
+/// The code that a scanner has sent, if one is complete. Called before anything else reads the keys.
+pub(in crate::app) fn listen(ctx: &Context) -> Option<String> {
+    let id = Id::unique("scanner");
+    let mut held: Held = ctx
+        .data_mut(|data| data.remove_temp(id))
+        .unwrap_or_default();
+    let is_writing = ctx.text_edit_focused();
+    let code = ctx.input_mut(|input| held.take_in(&mut input.events, input.time, is_writing));
+    if !held.events.is_empty() {
+        ctx.request_repaint_after_secs(GAP as f32);
+        ctx.data_mut(|data| data.insert_temp(id, held));
+    }
+    code
+}
+
+impl Held {
+    fn take_in(&mut self, events: &mut Vec<Event>, now: f64, is_writing: bool) -> Option<String> {
+        let (mut code, mut others, mut is_typed) = (None, Vec::new(), false);
+        for event in std::mem::take(events) {
+            let is_of_code = !is_writing
+                && match &event {
+                    Event::Text(text) => {
+                        let is_text = !(self.text.is_empty() && text.trim().is_empty());
+                        if is_text {
+                            self.text.push_str(text);
+                        }
+                        is_text
+                    }
+                    Event::Key {
+                        key: Key::Enter,
+                        pressed: true,
+                        ..
+                    } if self.text.chars().count() >= LEAST_LETTERS => {
+                        code = Some(std::mem::take(&mut self.text));
+                        self.events.clear();
+                        continue;
+                    }
+                    Event::Key {
+                        key,
+                        pressed: true,
+                        modifiers,
+                        ..
+                    } => is_letter(*key, &self.text) && !modifiers.command && !modifiers.alt,
+                    _ => false,
+                };
+            if is_of_code {
+                self.events.push(event);
+                is_typed = true;
+            } else {
+                others.push(event);
+            }
+        }
+        if is_typed {
+            self.last = now;
+        } else if is_writing || now - self.last > GAP {
+            others.splice(0..0, self.events.drain(..));
+            self.text.clear();
+        }
+        *events = others;
+        code
+    }
+}
+
+/// True of a key that writes something; a blank only within a code.
+fn is_letter(key: Key, text: &str) -> bool {
+    match key {
+        Key::Space => !text.is_empty(),
+        key => key.symbol_or_name().chars().count() == 1,
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use egui::Modifiers;
+
+    use super::*;
+
+    fn key(key: Key) -> Event {
+        Event::Key {
+            key,
+            physical_key: None,
+            pressed: true,
+            repeat: false,
+            modifiers: Modifiers::NONE,
+        }
+    }
+
+    /// As a scanner types it, with its Enter.
+    fn typed(code: &str) -> Vec<Event> {
+        let letters = code.chars().flat_map(|letter| {
+            let pressed = Key::from_name(&letter.to_uppercase().to_string()).map(key);
+            pressed.into_iter().chain([Event::Text(letter.into())])
+        });
+        letters.chain([key(Key::Enter)]).collect()
+    }
+
+    #[test]
+    fn a_code_that_comes_over_several_frames_is_one_and_no_key_of_it_goes_on() {
+        let all = typed("TL-4711 B");
+        for size in [1, 2, 5, 100] {
+            let mut held = Held::default();
+            let mut codes = Vec::new();
+            for (frame, events) in all.chunks(size).enumerate() {
+                let mut events = events.to_vec();
+                codes.extend(held.take_in(&mut events, 0.02 * frame as f64, false));
+                assert!(events.is_empty(), "{events:?}");
+            }
+            assert_eq!(codes, ["TL-4711 B"]);
+        }
+    }
+
+    #[test]
+    fn keys_of_a_hand_go_on_after_a_moment_and_blank_and_enter_at_once() {
+        let mut held = Held::default();
+        let mut events = vec![key(Key::L), Event::Text("l".into())];
+        let before = events.clone();
+        assert_eq!(held.take_in(&mut events, 1.0, false), None);
+        assert!(events.is_empty());
+        assert_eq!(held.take_in(&mut events, 1.2, false), None);
+        assert_eq!(events, before);
+        let mut events = vec![key(Key::Space), Event::Text(" ".into()), key(Key::Enter)];
+        let before = events.clone();
+        assert_eq!(held.take_in(&mut events, 2.0, false), None);
+        assert_eq!(events, before);
+        // While a person writes into a field, all of it is the field's.
+        let mut events = typed("4711");
+        let before = events.clone();
+        assert_eq!(held.take_in(&mut events, 3.0, true), None);
+        assert_eq!(events, before);
+    }
+}

@@ -1,0 +1,42 @@
+//! Serial number, order and operator, as options.
+
+use clap::Args;
+
+use super::console::advised_error;
+use crate::history::Traceability;
+
+/// What an inspection is traced by.
+#[derive(Clone, Debug, Default, Args)]
+pub(super) struct TraceChoice {
+    /// Serial number or barcode of the part, for history and reports
+    #[arg(long, value_name = "TEXT")]
+    serial: Option<String>,
+    /// Production order, for history and reports
+    #[arg(long, value_name = "TEXT")]
+    order: Option<String>,
+    /// Name of the operator, for history and reports
+    #[arg(long, value_name = "NAME")]
+    operator: Option<String>,
+}
+
+impl TraceChoice {
+    /// What was given, for so many parts; of an endless number `None`.
+    pub(super) fn of_parts(&self, num_parts: Option<usize>) -> anyhow::Result<Traceability> {
+        let text = |given: &Option<String>| {
+            let given = given.as_deref().unwrap_or_default();
+            Traceability::cleaned(given)
+        };
+        let trace = Traceability {
+            serial: text(&self.serial),
+            order: text(&self.order),
+            operator: text(&self.operator),
+        };
+        if !trace.serial.is_empty() && num_parts != Some(1) {
+            return Err(advised_error(
+                "--serial is of one part, and several are inspected".to_owned(),
+                "Inspect one file at a time, or leave --serial out",
+            ));
+        }
+        Ok(trace)
+    }
+}

@@ -1,0 +1,52 @@
+//! What a shop knows of a part besides what the camera sees.
+
+use schemars::JsonSchema;
+use serde::{Deserialize, Serialize};
+
+/// Which part an inspection is of, for which order, and who made it. What is not known is empty.
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[serde(default)]
+pub struct Traceability {
+    /// Serial number, or what the barcode says; of this part alone.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub serial: String,
+    /// The production order.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub order: String,
+    /// Name of the operator.
+    #[serde(skip_serializing_if = "String::is_empty")]
+    pub operator: String,
+}
+
+impl Traceability {
+    /// Longest entry, characters.
+    pub const MAX_LETTERS: usize = 64;
+
+    /// An entry as it is kept: on one line, without blanks at its ends, and not too long.
+    pub fn cleaned(text: &str) -> String {
+        let letters = text.trim().chars().filter(|c| !c.is_control());
+        letters.take(Self::MAX_LETTERS).collect()
+    }
+
+    /// What is known, each with its name.
+    pub fn known(&self) -> impl Iterator<Item = (&'static str, &str)> {
+        [
+            ("serial", self.serial.as_str()),
+            ("order", self.order.as_str()),
+            ("operator", self.operator.as_str()),
+        ]
+        .into_iter()
+        .filter(|(_, text)| !text.is_empty())
+    }
+
+    /// The same, and what is not known of it as in another one.
+    #[must_use]
+    pub fn or(self, other: &Self) -> Self {
+        let or = |own: String, other: &String| if own.is_empty() { other.clone() } else { own };
+        Self {
+            serial: or(self.serial, &other.serial),
+            order: or(self.order, &other.order),
+            operator: or(self.operator, &other.operator),
+        }
+    }
+}
