@@ -1,10 +1,10 @@
 //! What a shop knows of a part besides what the camera sees.
 
-use schemars::JsonSchema;
 use serde::{Deserialize, Serialize};
 
 /// Which part an inspection is of, for which order, and who made it. What is not known is empty.
-#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize, JsonSchema)]
+#[derive(Clone, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[cfg_attr(feature = "cli", derive(schemars::JsonSchema))]
 #[serde(default)]
 pub struct Traceability {
     /// Serial number, or what the barcode says; of this part alone.

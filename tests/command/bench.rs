@@ -129,9 +129,10 @@ fn whole_inspections_are_timed_by_set_and_compared_with_an_earlier_run() {
     let ran = place.accepted(&["bench", "speed", "--files", "frame.ply", "frame.ply"]);
     assert!(ran.out.starts_with("2 files"), "{}", ran.out);
 
+    fs::write(place.path("note.txt"), "{}").expect("written");
     for (wrong, why) in [
         (&["--files", "gone.ply"][..], "gone.ply"),
-        (&["--compare", "frame.ply"], "is no measurement of speed"),
+        (&["--compare", "note.txt"], "is no measurement of speed"),
         (
             &["--files", "frame.ply", "--poses", "2"],
             "cannot be used with",
