@@ -21,6 +21,7 @@ use super::{
     filter::Filter,
     news::HistoryEvent,
     open::OpenedHistory,
+    outcomes::PartOutcome,
     retention::{PruneResult, Retention, Usage},
     store::{History, Page},
     waiting::{wait, waiting_rows},
@@ -278,6 +279,21 @@ impl HistoryBuffer {
             }
         }
         Ok(())
+    }
+
+    /// How the parts ended that the filter lets through, the oldest first.
+    pub fn outcomes(&self, filter: &Filter) -> Result<Vec<PartOutcome>, HistoryError> {
+        let mut inner = self.lock();
+        self.look(&mut inner);
+        let mut outcomes = match &inner.history {
+            Some(history) => history.outcomes(filter)?,
+            None => Vec::new(),
+        };
+        let rows = waiting_rows(&inner.waiting, inner.history.as_ref())?;
+        let waiting = rows.iter().zip(&inner.waiting);
+        let waiting = waiting.filter(|(row, _)| filter.passes(row));
+        outcomes.extend(waiting.map(|(_, entry)| PartOutcome::from(&entry.record)));
+        Ok(outcomes)
     }
 
     /// Opens it to be read, if nobody has yet.

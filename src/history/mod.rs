@@ -23,6 +23,7 @@ mod frames;
 mod hung;
 mod news;
 mod open;
+mod outcomes;
 mod retention;
 mod rows;
 mod schema;
@@ -45,6 +46,7 @@ pub use self::{
     hung::{HungId, HungRows},
     news::HistoryEvent,
     open::{FILE, OpenedHistory, SetAside, users_folder},
+    outcomes::PartOutcome,
     retention::{KeepFrames, PruneResult, Retention, Usage},
     shots::{ShotRecord, read_shots},
     store::{History, Page},

@@ -337,7 +337,7 @@ mod tests {
             ("schema = 1", "missing field `name`"),
             ("name = \"x\"", "missing field `schema`"),
             ("schema = 2\nname = \"x\"\nnew = 1", "schema 2"),
-            ("schema = 1\nname = \"../x\"", "cannot stand there"),
+            ("schema = 1\nname = \"../x\"", "it contains"),
             ("schema = 1\nname = \"x\"\nparameter = {}", "unknown field"),
             ("schema = [", "r.toml"),
             (&with("accept.min_scor = 1"), "nearest is accept.min_score"),

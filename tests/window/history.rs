@@ -532,3 +532,33 @@ fn what_has_no_frame_any_more_cannot_be_opened_and_the_newest_row_comes_into_sig
     harness.get_by_label_contains("Inspection 203:");
     assert_eq!(history_of(&harness).listed(), Some(199));
 }
+
+#[test]
+fn statistics_count_the_listed_parts_by_shift_by_part_and_by_reason() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let mut history = crate::kit::open_history(folder.path());
+    for seconds in 0..12 {
+        let verdict = if seconds % 4 == 0 {
+            StoredVerdict::NotAccepted
+        } else {
+            StoredVerdict::Accepted
+        };
+        let entry = crate::kit::history_entry(seconds, verdict, "fender");
+        history.add(&entry, &Retention::default()).expect("written");
+    }
+    drop(history);
+    let mut harness = open_with(SMALL, keeping(folder.path()));
+    go_to_history(&mut harness);
+    press(&mut harness, "Statistics");
+    harness.get_by_label_contains(": 9 OK, 3 NOK");
+    harness.get_by_label("Fender, left");
+    harness.get_by_label("75.0 %");
+    harness.get_by_label("3 × Too low");
+    // Of what is listed.
+    press(&mut harness, "Verdict · All ▼");
+    press(&mut harness, "Verdict: Accepted");
+    harness.get_by_label_contains(": 9 OK, 0 NOK");
+    assert!(harness.query_by_label("3 × Too low").is_none());
+    press(&mut harness, "Statistics");
+    harness.get_by_label_contains("Inspection 13: ");
+}

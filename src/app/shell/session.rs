@@ -5,7 +5,10 @@ use std::{path::PathBuf, sync::Arc};
 use serde::{Deserialize, Serialize};
 
 use super::{
-    current_trace::CurrentTrace, live::LiveState, message::ReinspectionPurpose, shift::ShiftParts,
+    current_trace::CurrentTrace,
+    live::LiveState,
+    message::ReinspectionPurpose,
+    shift::{ShiftParts, ShiftStarts},
 };
 pub use crate::app::ui::theme::ThemeChoice;
 use crate::{
@@ -64,6 +67,8 @@ pub struct Session {
     pub role: UserRole,
     /// What the next inspection is of.
     pub trace: CurrentTrace,
+    /// When shifts start.
+    pub shift_starts: ShiftStarts,
     /// The parts of this shift, while it is the operator's.
     pub shift: ShiftParts,
     /// The workspace in front.

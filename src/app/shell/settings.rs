@@ -151,7 +151,7 @@ impl Settings {
             lock_after: state.roles.lock_after,
             pin: state.roles.pin.clone(),
             role: state.role,
-            shifts: state.shift_watch.starts.clone(),
+            shifts: state.shift_starts.clone(),
             cell: state.cell.clone(),
             traceability: state.trace.remembered(),
         }
@@ -182,7 +182,7 @@ impl Settings {
             && self.lock_after == state.roles.lock_after
             && self.pin == state.roles.pin
             && self.role == state.role
-            && self.shifts == state.shift_watch.starts
+            && self.shifts == state.shift_starts
             && self.cell == state.cell
             && self.traceability == state.trace.remembered()
             && self.window == window
@@ -215,16 +215,15 @@ impl Settings {
             role,
             cell: self.cell,
             trace: CurrentTrace::starting(self.traceability),
+            shift_starts: self.shifts,
             live: LiveState::averaging(self.average),
             ..Session::default()
         };
-        let mut state = State {
+        State {
             session,
             roles,
             ..State::new(runner, library_cache)
-        };
-        state.shift_watch.starts = self.shifts;
-        state
+        }
     }
 }
 

@@ -51,7 +51,7 @@ impl From<ShiftStarts> for Vec<String> {
 
 impl ShiftStarts {
     /// When the shift of this moment began, and when it ends. A start that the clock skips on a day comes as much later.
-    fn around(&self, now: &Zoned) -> [Option<Zoned>; 2] {
+    pub(in crate::app) fn around(&self, now: &Zoned) -> [Option<Zoned>; 2] {
         let midnight = [civil::Time::midnight()];
         let times = if self.0.is_empty() {
             &midnight[..]
@@ -87,8 +87,6 @@ pub struct ShiftParts {
 /// Counts the parts whenever the history has changed.
 #[derive(Debug)]
 pub struct ShiftWatch {
-    /// When shifts start.
-    pub starts: ShiftStarts,
     counting: Task<ShiftParts>,
     /// The state of the history and the shift that were counted last.
     counted: Option<(u64, Timestamp)>,
@@ -98,7 +96,6 @@ impl ShiftWatch {
     /// Nothing is counted yet.
     pub fn new(runner: &TaskRunner) -> Self {
         Self {
-            starts: ShiftStarts::default(),
             counting: Task::new("shift", runner),
             counted: None,
         }
@@ -122,7 +119,7 @@ pub(in crate::app) fn update(state: &mut State, history: &Arc<HistoryBuffer>, ct
         return;
     }
     let now = Zoned::now();
-    let [Some(since), end] = state.shift_watch.starts.around(&now) else {
+    let [Some(since), end] = state.shift_starts.around(&now) else {
         return;
     };
     if let Some(left) = end.and_then(|end| Duration::try_from(now.duration_until(&end)).ok()) {

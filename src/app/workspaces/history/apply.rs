@@ -50,6 +50,8 @@ pub enum HistoryAction {
     Remark(i64, String),
     /// A person says what it truly is, or that nobody knows.
     Label(i64, Option<Truth>),
+    /// Show statistics in place of the list, or the list again.
+    Statistics(bool),
     /// Open the window of the rule by which frames are kept, change the rule in it, or close it.
     Rule(Option<Retention>),
     /// Keep frames by this rule.
@@ -162,6 +164,10 @@ impl HistoryState {
                 self.asked();
                 self.jobs.push(HistoryJob::Label(number, label));
             }
+            HistoryAction::Statistics(is_shown) => {
+                self.shows_statistics = is_shown;
+                self.look(cx);
+            }
             HistoryAction::Rule(rule) => self.rule = rule,
             HistoryAction::Keep(rule) => {
                 self.rule = None;
@@ -227,6 +233,13 @@ impl HistoryState {
                 TaskEvent::Partial(looked) | TaskEvent::Done(looked) => self.take_in(*looked, cx),
                 TaskEvent::Failed(error) => cx.notify(error),
             }
+        }
+        match self.counting.poll() {
+            Some(TaskEvent::Done(found) | TaskEvent::Partial(found)) => {
+                self.statistics = Some(found);
+            }
+            Some(TaskEvent::Failed(error)) => cx.notify(error),
+            None => {}
         }
         match self.exporting.poll() {
             Some(TaskEvent::Done(what) | TaskEvent::Partial(what)) => {

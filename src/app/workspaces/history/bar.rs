@@ -75,6 +75,14 @@ fn action_buttons(ui: &mut Ui, history: &HistoryState, actions: &mut Vec<History
             actions.push(HistoryAction::Ask(file));
         }
     }
+    let is_shown = history.shows_statistics;
+    let button = Button::selectable(is_shown, "Statistics").frame_when_inactive(true);
+    let shown = labelled(ui, button, "Statistics");
+    shown.widget_info(|| WidgetInfo::selected(egui::Role::Button, true, is_shown, "Statistics"));
+    let says = "OK and NOK by shift, by part and by reason, of what is listed";
+    if shown.on_hover_text(says).clicked() {
+        actions.push(HistoryAction::Statistics(!is_shown));
+    }
     let frames = labelled(ui, Button::new("Frames…"), "Frames…");
     if frames
         .on_hover_text("Which frames are kept, and how long")

@@ -11,6 +11,7 @@ mod label;
 mod list;
 mod reopen;
 mod state;
+mod statistics;
 mod work;
 
 use std::sync::Arc;
@@ -21,6 +22,7 @@ pub use self::{
     apply::{Direction, HistoryAction, HistoryFile, HistoryJob},
     filter::{DateRange, ListFilter},
     state::HistoryState,
+    statistics::{Statistics, Tally},
     work::{HistoryQuery, HistoryResult, OpenedInspection},
 };
 use self::{details::Details, list::List};
@@ -157,7 +159,15 @@ impl Workspace for HistoryWorkspace {
             .show(ui, |ui| details.ui(ui, state, session, theme, &mut actions));
         CentralPanel::default()
             .frame(Frame::new().inner_margin(Margin::same(16)))
-            .show(ui, |ui| list.ui(ui, state, session, theme, &mut actions));
+            .show(ui, |ui| {
+                if state.shows_statistics {
+                    bar::ui(ui, state, session, theme, &mut actions);
+                    ui.add_space(space::SMALL);
+                    statistics::ui(ui, state.statistics.as_deref(), theme);
+                } else {
+                    list.ui(ui, state, session, theme, &mut actions);
+                }
+            });
         keeping::ui(ui.ctx(), state, theme, &mut actions);
         for action in actions {
             self.apply(action, cx);

@@ -10,8 +10,11 @@ use std::{
 use super::{
     apply::{HistoryAction, HistoryFile, HistoryJob},
     filter::ListFilter,
+    statistics::{self, Statistics},
     work::{self, HistoryQuery, HistoryResult, OpenedInspection},
 };
+use jiff::Zoned;
+
 use crate::{
     app::{
         inspection::inspected::Inspected,
@@ -36,6 +39,10 @@ pub struct HistoryState {
     pub page: Page,
     /// The place of the first fetched row in the list.
     pub first: usize,
+    /// Statistics take the place of the list.
+    pub shows_statistics: bool,
+    /// The statistics, once they were counted.
+    pub statistics: Option<Box<Statistics>>,
     /// The rows in sight.
     visible: Range<usize>,
     /// The inspection that is looked at.
@@ -76,6 +83,7 @@ pub struct HistoryState {
     /// What is done once the engineer is in.
     pub(super) held: Option<HistoryAction>,
     pub(super) looking: Task<Box<HistoryResult>>,
+    pub(super) counting: Task<Box<Statistics>>,
     pub(super) exporting: Task<String>,
     pub(super) dialog: FileDialog<HistoryFile>,
 }
@@ -113,6 +121,8 @@ impl HistoryState {
             filter: ListFilter::default(),
             page: Page::default(),
             first: 0,
+            shows_statistics: false,
+            statistics: None,
             visible: 0..0,
             selected: None,
             record: None,
@@ -134,6 +144,7 @@ impl HistoryState {
             jobs: Vec::new(),
             held: None,
             looking: Task::new("look", runner),
+            counting: Task::new("statistics", runner),
             exporting: Task::new("history-write", runner),
             dialog: FileDialog::default(),
         }
@@ -180,7 +191,9 @@ impl HistoryState {
     /// True once everything is written that was handed over, and the list shows it.
     pub fn is_settled(&self) -> bool {
         let is_written = self.unwritten.is_empty() && self.num_asked == 0;
-        let is_at_work = self.looking.running().is_some() || self.exporting.running().is_some();
+        let is_at_work = self.looking.running().is_some()
+            || self.counting.running().is_some()
+            || self.exporting.running().is_some();
         is_written && !self.is_stale && !is_at_work
     }
 
@@ -339,6 +352,28 @@ impl HistoryState {
         let keeper = Arc::clone(cx.services.library_cache.history());
         self.looking.start("Looking into the history", move |_| {
             Ok(Box::new(work::look(&request, &keeper)?))
+        });
+        self.count(cx);
+    }
+
+    /// Counts the parts that the filter lets through, while that is shown.
+    fn count(&mut self, cx: &ShellContext<'_>) {
+        if !self.shows_statistics {
+            return;
+        }
+        let filter = self.filter.clone();
+        let keeper = Arc::clone(cx.services.library_cache.history());
+        let (starts, library) = (cx.session.shift_starts.clone(), cx.session.library.clone());
+        self.counting.start("Counting parts", move |_| {
+            let now = Zoned::now();
+            let outcomes = keeper.outcomes(&filter.at(&now));
+            let outcomes = outcomes.map_err(|error| UserError::of(&error))?;
+            let title_of = |name: &str| match &library {
+                Some(library) => library.title_of(name).to_owned(),
+                None => name.to_owned(),
+            };
+            let found = statistics::count(&outcomes, &starts, now.time_zone(), title_of);
+            Ok(Box::new(found))
         });
     }
 

@@ -7,7 +7,7 @@ fn part(name: &str, score: f64, rejected: Option<Rejection>) -> Verdict {
     Verdict::Part {
         part: name.into(),
         score,
-        margin: 0.5,
+        margin: 0.9,
         rejected,
         is_approximate: false,
     }

@@ -1,0 +1,339 @@
+//! How many parts were accepted, by shift, by part and by reason, of those that the filter lets through.
+//!
+//! An empty cell is no part. A part that was inspected more than once counts once, as in the list.
+
+use std::{cmp::Reverse, collections::BTreeMap};
+
+use egui::{Align2, Grid, RichText, ScrollArea, Sense, Ui, WidgetInfo, vec2};
+use egui_plot::{Bar, BarChart, LineStyle};
+use jiff::{Zoned, tz::TimeZone};
+
+use crate::{
+    app::{
+        shell::shift::ShiftStarts,
+        ui::{
+            plot::{Axes, Axis, legend},
+            theme::{ROUNDING, Theme, font, space},
+            widgets::{heading, sentence},
+        },
+    },
+    history::{PartOutcome, StoredVerdict},
+};
+
+/// Shifts that the plot has room for; the last ones are shown.
+const MAX_SHIFTS: usize = 21;
+/// Height of the plot, logical pixels.
+const HEIGHT: f32 = 220.0;
+
+/// How many parts were accepted, and how many were not.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq)]
+pub struct Tally {
+    /// Accepted.
+    pub num_ok: usize,
+    /// Not accepted.
+    pub num_not_ok: usize,
+}
+
+impl Tally {
+    fn add(&mut self, verdict: StoredVerdict) {
+        *match verdict {
+            StoredVerdict::Accepted => &mut self.num_ok,
+            _ => &mut self.num_not_ok,
+        } += 1;
+    }
+
+    fn num(self) -> usize {
+        self.num_ok + self.num_not_ok
+    }
+
+    /// Accepted, in per cent.
+    fn share(self) -> String {
+        format!(
+            "{:.1} %",
+            100.0 * self.num_ok as f64 / self.num().max(1) as f64
+        )
+    }
+}
+
+/// What was counted.
+#[derive(Clone, Debug, Default, PartialEq)]
+pub struct Statistics {
+    /// By shift, the oldest first, each with its start.
+    pub shifts: Vec<(Zoned, Tally)>,
+    /// By part, the one with the most refusals first.
+    pub parts: Vec<(String, Tally)>,
+    /// By reason of a refusal, the most frequent first.
+    pub reasons: Vec<(String, usize)>,
+}
+
+/// Counts parts that come in the order of time.
+pub(super) fn count(
+    outcomes: &[PartOutcome],
+    starts: &ShiftStarts,
+    zone: &TimeZone,
+    title_of: impl Fn(&str) -> String,
+) -> Statistics {
+    let mut found = Statistics::default();
+    let mut parts: BTreeMap<String, Tally> = BTreeMap::new();
+    let mut reasons: BTreeMap<String, usize> = BTreeMap::new();
+    let mut end: Option<Zoned> = None;
+    for outcome in outcomes {
+        if outcome.verdict == StoredVerdict::NoPart {
+            continue;
+        }
+        let is_in_last = end.as_ref().is_some_and(|end| outcome.at < end.timestamp());
+        if !is_in_last
+            && let [Some(start), next] = starts.around(&outcome.at.to_zoned(zone.clone()))
+        {
+            end = next;
+            found.shifts.push((start, Tally::default()));
+        }
+        if let Some((_, tally)) = found.shifts.last_mut() {
+            tally.add(outcome.verdict);
+        }
+        let name = outcome.nearest.as_deref().unwrap_or_default();
+        let title = match outcome.verdict {
+            StoredVerdict::Unknown => "Unknown".to_owned(),
+            _ => title_of(name),
+        };
+        if let Some(reason) = &outcome.reason {
+            *reasons
+                .entry(kind(reason, &[&title_of(name), name]))
+                .or_default() += 1;
+        }
+        parts.entry(title).or_default().add(outcome.verdict);
+    }
+    found.parts = parts.into_iter().collect();
+    found
+        .parts
+        .sort_by_key(|(_, tally)| Reverse((tally.num_not_ok, tally.num())));
+    found.reasons = reasons.into_iter().collect();
+    found.reasons.sort_by_key(|(_, num)| Reverse(*num));
+    found
+}
+
+/// A reason without what differs from part to part: names, figures and what stands in brackets.
+fn kind(reason: &str, names: &[&str]) -> String {
+    let mut text = String::new();
+    let mut depth = 0_usize;
+    for letter in reason.chars() {
+        match letter {
+            '(' => depth += 1,
+            ')' => depth = depth.saturating_sub(1),
+            _ if depth == 0 => text.push(letter),
+            _ => {}
+        }
+    }
+    for name in names.iter().filter(|name| !name.is_empty()) {
+        text = text.replace(name, "the part");
+    }
+    let words = text.split_whitespace().map(|word| {
+        let has_digit = word.chars().any(|letter| letter.is_ascii_digit());
+        if has_digit { "…" } else { word }
+    });
+    let text: Vec<&str> = words.collect();
+    sentence(&text.join(" ").replace(" ,", ",").replace(" ;", ";"))
+}
+
+/// Draws them.
+pub(super) fn ui(ui: &mut Ui, found: Option<&Statistics>, theme: &Theme) {
+    let Some(found) = found else {
+        ui.label(RichText::new("Counting…").color(theme.weak_text));
+        return;
+    };
+    if found.shifts.is_empty() {
+        let text = "No matching parts: change the filter";
+        ui.label(RichText::new(text).color(theme.weak_text));
+        return;
+    }
+    ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
+        // Text lies closer than controls do.
+        ui.spacing_mut().interact_size.y = 22.0;
+        shifts(ui, &found.shifts, theme);
+        heading(ui, theme, "By part");
+        Grid::new("by part")
+            .num_columns(4)
+            .spacing(vec2(24.0, 4.0))
+            .show(ui, |ui| {
+                for name in ["Part", "OK", "NOK", "OK, %"] {
+                    ui.label(
+                        RichText::new(name)
+                            .font(font::small())
+                            .color(theme.weak_text),
+                    );
+                }
+                ui.end_row();
+                for (title, tally) in &found.parts {
+                    let cells = [
+                        title.clone(),
+                        tally.num_ok.to_string(),
+                        tally.num_not_ok.to_string(),
+                        tally.share(),
+                    ];
+                    for text in cells {
+                        ui.label(RichText::new(text).color(theme.text));
+                    }
+                    ui.end_row();
+                }
+            });
+        if found.reasons.is_empty() {
+            return;
+        }
+        heading(ui, theme, "By reason");
+        for (reason, num) in &found.reasons {
+            let text = format!("{num} × {reason}");
+            ui.add(egui::Label::new(RichText::new(text).color(theme.text)).wrap());
+        }
+    });
+}
+
+/// A bar for each of the last shifts: accepted parts below, refused ones on top of them.
+fn shifts(ui: &mut Ui, all: &[(Zoned, Tally)], theme: &Theme) {
+    let last = &all[all.len().saturating_sub(MAX_SHIFTS)..];
+    let size = vec2(ui.available_width(), HEIGHT);
+    let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
+    let in_words = |(start, tally): &(Zoned, Tally)| {
+        let at = start.strftime("%Y-%m-%d %H:%M");
+        let Tally { num_ok, num_not_ok } = tally;
+        format!("Shift of {at}: {num_ok} OK, {num_not_ok} NOK")
+    };
+    let words: Vec<String> = last.iter().map(in_words).collect();
+    response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, words.join("; ")));
+    ui.painter().rect_filled(rect, ROUNDING, theme.panel);
+    let most = last.iter().map(|(_, tally)| tally.num()).max().unwrap_or(0);
+    // As many marks as there is room for.
+    let room = (size.x / 90.0).max(1.0) as usize;
+    let step = last.len().div_ceil(room).max(1);
+    let marks = last.iter().enumerate().step_by(step);
+    let marks =
+        marks.map(|(place, (start, _))| (place as f64, start.strftime("%m-%d %H:%M").to_string()));
+    let bars = |height: fn(&Tally) -> usize, offset: fn(&Tally) -> usize| -> Vec<Bar> {
+        let places = last.iter().enumerate();
+        places
+            .map(|(place, (_, tally))| {
+                Bar::new(place as f64, height(tally) as f64)
+                    .base_offset(offset(tally) as f64)
+                    .width(0.7)
+            })
+            .collect()
+    };
+    let (ok, not_ok) = (
+        bars(|tally| tally.num_ok, |_| 0),
+        bars(|tally| tally.num_not_ok, |tally| tally.num_ok),
+    );
+    let axes = Axes {
+        title: vec![("Parts by shift".to_owned(), theme.text)],
+        across: Axis::new([-0.6, last.len() as f64 - 0.4], marks.collect()),
+        up: Axis::new(
+            [0.0, most as f64],
+            [0, most].map(|num| (num as f64, num.to_string())).to_vec(),
+        ),
+        font: font::small(),
+        read: Some(Box::new(move |x| {
+            let place = x.round().max(0.0) as usize;
+            words.get(place).cloned().unwrap_or_default()
+        })),
+    };
+    let colours = [theme.accepted, theme.rejected];
+    let shown = axes.show(ui, rect.shrink(space::MEDIUM), theme, move |plot| {
+        for (bars, colour) in [ok, not_ok].into_iter().zip(colours) {
+            plot.bar_chart(BarChart::new("", bars).color(colour).allow_hover(false));
+        }
+    });
+    // The refused ones lie on top: colour is not the only sign.
+    let names = ["NOK, on top", "OK"];
+    let curves = names.into_iter().zip([theme.rejected, theme.accepted]);
+    legend(
+        ui.painter(),
+        &shown,
+        curves.map(|(name, colour)| (name, colour, LineStyle::Solid)),
+    );
+    let (_, total) = all.last().map_or(("", Tally::default()), |_| {
+        let mut total = Tally::default();
+        for (_, tally) in all {
+            total.num_ok += tally.num_ok;
+            total.num_not_ok += tally.num_not_ok;
+        }
+        ("", total)
+    });
+    let text = format!("{} parts, {} OK", total.num(), total.share());
+    let corner = rect.right_top() + vec2(-space::MEDIUM, space::MEDIUM);
+    ui.painter().text(
+        corner,
+        Align2::RIGHT_TOP,
+        text,
+        font::small(),
+        theme.weak_text,
+    );
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+
+    #[test]
+    fn parts_are_counted_by_shift_by_part_and_by_reason() {
+        let outcome = |at: &str, verdict, nearest: &str, reason: Option<&str>| PartOutcome {
+            at: at.parse().expect("a moment"),
+            verdict,
+            nearest: Some(nearest.to_owned()),
+            reason: reason.map(str::to_owned),
+        };
+        let low = |score: &str, part: &str| {
+            format!("the best match, {part}, scores {score}, below the threshold of 0.90")
+        };
+        let (first, second) = (low("0.81", "Door, left"), low("0.75", "fender"));
+        let outcomes = [
+            outcome(
+                "2026-11-21T05:59:00Z",
+                StoredVerdict::Accepted,
+                "door",
+                None,
+            ),
+            outcome(
+                "2026-11-21T06:00:00Z",
+                StoredVerdict::NotAccepted,
+                "door",
+                Some(&first),
+            ),
+            outcome(
+                "2026-11-21T07:00:00Z",
+                StoredVerdict::NotAccepted,
+                "fender",
+                Some(&second),
+            ),
+            outcome("2026-11-21T08:00:00Z", StoredVerdict::NoPart, "", None),
+            outcome(
+                "2026-11-21T15:00:00Z",
+                StoredVerdict::Accepted,
+                "door",
+                None,
+            ),
+        ];
+        let title_of = |name: &str| match name {
+            "door" => "Door, left".to_owned(),
+            name => name.to_owned(),
+        };
+        let found = count(&outcomes, &ShiftStarts::default(), &TimeZone::UTC, title_of);
+        let shifts: Vec<_> = found
+            .shifts
+            .iter()
+            .map(|(start, tally)| (start.hour(), tally.num_ok, tally.num_not_ok))
+            .collect();
+        assert_eq!(shifts, [(22, 1, 0), (6, 0, 2), (14, 1, 0)]);
+        let door = Tally {
+            num_ok: 2,
+            num_not_ok: 1,
+        };
+        let fender = Tally {
+            num_ok: 0,
+            num_not_ok: 1,
+        };
+        assert_eq!(
+            found.parts,
+            [("Door, left".into(), door), ("fender".into(), fender)]
+        );
+        let reason = "The best match, the part, scores … below the threshold of …";
+        assert_eq!(found.reasons, [(reason.to_owned(), 2)]);
+    }
+}
