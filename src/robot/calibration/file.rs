@@ -72,6 +72,14 @@ impl CellCalibration {
         parse(&text, path)
     }
 
+    /// The same; `None` where there is no such file.
+    pub fn load_if_there(path: &Path) -> Result<Option<Loaded>, CalibrationError> {
+        match Self::load(path) {
+            Err(CalibrationError::File(FileError::NotFound { .. })) => Ok(None),
+            loaded => loaded.map(Some),
+        }
+    }
+
     /// Writes a calibration, whole or not at all; the folder is made where it is missing.
     pub fn save(&self, path: &Path) -> Result<(), CalibrationError> {
         if let Some(folder) = path
