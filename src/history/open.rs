@@ -16,7 +16,7 @@ use std::{
 
 use rusqlite::{Connection, OpenFlags, config::DbConfig};
 
-use crate::files::{open_lock, open_regular, user_folders};
+use crate::files::{disk, open_lock, open_regular, user_folders};
 
 use super::{
     error::HistoryError,
@@ -73,7 +73,7 @@ pub fn users_folder() -> Result<PathBuf, HistoryError> {
 impl History {
     /// Opens the history in this folder; makes both where they are missing.
     pub fn open(folder: &Path) -> Result<OpenedHistory, HistoryError> {
-        fs::create_dir_all(folder).map_err(|error| HistoryError::io(folder, error))?;
+        disk::create_dir_all(folder).map_err(|error| HistoryError::io(folder, error))?;
         let path = folder.join(FILE);
         refuse_foreign(&path)?;
         let mut set_aside = None;
@@ -202,7 +202,8 @@ fn connect(path: &Path) -> Result<Connection, HistoryError> {
     let mut file = Connection::open_with_flags(path, flags).map_err(of)?;
     file.busy_timeout(PATIENCE).map_err(of)?;
     let found = version(&file).map_err(of)?;
-    let is_foreign = !is_ours(&file).map_err(of)? && has_tables(&file).map_err(of)?;
+    // In this order: another program of ours may be making them now.
+    let is_foreign = has_tables(&file).map_err(of)? && !is_ours(&file).map_err(of)?;
     if is_foreign || found > VERSION {
         // Its newest pages may still lie in the log: they stay there.
         file.set_db_config(DbConfig::SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, true)
@@ -344,7 +345,7 @@ fn set_aside_damaged(path: &Path) -> Result<Option<SetAside>, HistoryError> {
         if magic & !1 != LOG_MAGIC {
             // SQLite would read over it in silence. What was written before is whole.
             let aside = aside(&log, "damaged")?;
-            fs::rename(&log, &aside).map_err(|error| HistoryError::io(path, error))?;
+            disk::rename(&log, &aside).map_err(|error| HistoryError::io(path, error))?;
             let what =
                 "the log of its last writes is damaged: the newest inspections may be missing";
             return Ok(Some(SetAside {
@@ -407,7 +408,7 @@ fn set_aside(path: &Path) -> Result<PathBuf, HistoryError> {
         (frames, with_ending(&aside, "-frames")),
     ];
     for (from, to) in moves {
-        match fs::rename(&from, &to) {
+        match disk::rename(&from, &to) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => {
                 return Err(HistoryError::io(path, error));
             }
