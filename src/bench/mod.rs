@@ -6,6 +6,7 @@
 pub mod bounds;
 pub mod calibration;
 mod history;
+mod process_usage;
 mod processor_time;
 pub mod registration;
 pub mod scaling;
@@ -16,6 +17,7 @@ pub mod table1;
 
 pub use self::{
     history::{HistoryTime, history_times},
+    process_usage::ProcessUsage,
     processor_time::{ProcessorWatch, cpu_wait_seconds, process_seconds},
     speed::{SetTimes, StageTimes, quantile, stage_times},
 };

@@ -14,7 +14,7 @@ use super::{
 };
 use crate::{
     files::{
-        in_counting_order, new_folder, open_lock, open_regular, sync_folder, user_folders,
+        disk, in_counting_order, new_folder, open_lock, open_regular, sync_folder, user_folders,
         words_of, write_file,
     },
     history::{FrameRecord, read_frame, write_frame},
@@ -89,7 +89,7 @@ impl CaseFolder {
     /// Keeps a scene, whole or not at all; the name follows from its origin.
     pub fn keep(&self, scene: &SceneCloud, about: CaseDescription) -> Result<KeptCase, CaseError> {
         let kept = || -> io::Result<KeptCase> {
-            fs::create_dir_all(&self.path)?;
+            disk::create_dir_all(&self.path)?;
             self.writing(|| {
                 self.clear_leftovers()?;
                 let (name, place) = self.free_name(&plain_name(&about.origin))?;
@@ -102,7 +102,7 @@ impl CaseFolder {
                 let text = toml::to_string(&meta).map_err(io::Error::other)?;
                 write_file(&building.path().join(META), text.as_bytes())?;
                 sync_folder(building.path())?;
-                fs::rename(building.path(), place)?;
+                disk::rename(building.path(), place)?;
                 // Renamed away: nothing is left to be cleared up.
                 let _ = building.keep();
                 sync_folder(&self.path)?;
@@ -130,12 +130,12 @@ impl CaseFolder {
         let trash = self.path.join(TRASH);
         let moved = || -> io::Result<PathBuf> {
             self.writing(|| {
-                fs::create_dir_all(&trash)?;
+                disk::create_dir_all(&trash)?;
                 let place = numbered(name)
                     .map(|name| trash.join(name))
                     .find(|place| !place.exists())
                     .ok_or(io::ErrorKind::AlreadyExists)?;
-                fs::rename(&folder, &place)?;
+                disk::rename(&folder, &place)?;
                 sync_folder(&self.path)?;
                 Ok(place)
             })
@@ -154,7 +154,7 @@ impl CaseFolder {
                 if place.exists() {
                     return Err(io::ErrorKind::AlreadyExists.into());
                 }
-                fs::rename(from, &place)?;
+                disk::rename(from, &place)?;
                 sync_folder(&self.path)
             })
         };
@@ -267,7 +267,7 @@ impl CaseFolder {
         for entry in fs::read_dir(&self.path)? {
             let entry = entry?;
             if entry.file_name().to_string_lossy().starts_with(NEW_PREFIX) {
-                fs::remove_dir_all(entry.path())?;
+                disk::remove_dir_all(entry.path())?;
             }
         }
         Ok(())

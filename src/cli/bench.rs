@@ -9,6 +9,7 @@ mod live;
 mod recognition;
 mod registration;
 mod scaling;
+mod soak;
 mod speed;
 mod systems;
 mod table1;
@@ -51,6 +52,7 @@ Examples:
   partsight bench window
   partsight bench live --minutes 10
   partsight bench history
+  partsight bench soak --frames 1000000 --json soak.json
 
 Each part is enrolled from one frontal capture of the standard car, then seen in sets of simulated frames. Without a
 name: a few frames of each part, to time the stages. table1 needs no frames: each part of the library is put where T1..T5 of the
@@ -101,6 +103,9 @@ pub(super) struct BenchArgs {
     /// For live: how long
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1440))]
     minutes: u64,
+    /// For soak: how many
+    #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u64).range(1000..=1_000_000_000))]
+    frames: u64,
     /// For table1: only this part; may be given several times
     #[arg(long, value_name = "NAME")]
     part: Vec<String>,
@@ -134,6 +139,8 @@ enum Bench {
     Live,
     /// A history of 100 000 inspections: how long a page of any filter takes, and writing one more
     History,
+    /// Small frames, one after the other, through all that inspect --source does: latency, memory, threads and open files; exit code 1 if the memory grows by more than 2 % after the warm-up
+    Soak,
 }
 
 /// Poses of each part, unless asked for otherwise.
@@ -154,6 +161,7 @@ pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Out
         #[cfg(feature = "window")]
         Bench::Live => live::run(args, console),
         Bench::History => history::run(args, console),
+        Bench::Soak => soak::run(args, console),
     }
 }
 

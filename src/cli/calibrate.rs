@@ -14,15 +14,10 @@ use super::{
     console::{Advised as _, Console, advised_error},
     input::parse_robot_pose,
 };
-use crate::{
-    files::FileError,
-    robot::{
-        RobotFrame, WrittenPose,
-        calibration::{
-            CalibrationError, CameraPlace, CellCalibration, Loaded, Origin, default_path,
-        },
-        hand_eye::Mount,
-    },
+use crate::robot::{
+    RobotFrame, WrittenPose,
+    calibration::{CalibrationError, CameraPlace, CellCalibration, Loaded, Origin, default_path},
+    hand_eye::Mount,
 };
 
 /// Calibrate where the camera sits in the robot's cell: by hand, or from pairs of robot and camera poses
@@ -204,31 +199,38 @@ fn path_of(given: Option<&Path>) -> anyhow::Result<PathBuf> {
 /// Loads the calibration named, or the user's own, and where it lies.
 fn load(given: Option<&Path>, console: &Console) -> anyhow::Result<(PathBuf, CellCalibration)> {
     let path = path_of(given)?;
-    let Loaded {
-        calibration,
-        is_edited,
-    } = CellCalibration::load(&path).advised()?;
-    if is_edited {
+    let loaded = CellCalibration::load(&path).advised()?;
+    note_if_edited(&loaded, &path, console);
+    Ok((path, loaded.calibration))
+}
+
+fn note_if_edited(loaded: &Loaded, path: &Path, console: &Console) {
+    if loaded.is_edited {
         console.note(&format_args!(
             "note: {} was edited by hand: its numbers count as entered by hand",
             path.display()
         ));
     }
-    Ok((path, calibration))
 }
 
-/// The calibration named, which must be there and sound, or the user's own, if there is one.
-pub(super) fn calibration_if_any(
+/// Gives a scan the calibration named, which must be there and sound, or the user's own, if there is one: that is read
+/// only once it is asked for.
+pub(super) fn scan_calibration(
     given: Option<&Path>,
     console: &Console,
-) -> anyhow::Result<Option<CellCalibration>> {
-    if given.is_none() {
-        let path = default_path().ok();
-        if !path.is_some_and(|path| path.exists()) {
-            return Ok(None);
+) -> anyhow::Result<impl FnOnce() -> Result<Option<CellCalibration>, CalibrationError>> {
+    let named = given.map(|path| load(Some(path), console)).transpose()?;
+    Ok(move || match (named, default_path()) {
+        (Some((_, calibration)), _) => Ok(Some(calibration)),
+        (None, Err(_)) => Ok(None),
+        (None, Ok(path)) => {
+            let loaded = CellCalibration::load_if_there(&path)?;
+            Ok(loaded.map(|loaded| {
+                note_if_edited(&loaded, &path, console);
+                loaded.calibration
+            }))
         }
-    }
-    load(given, console).map(|(_, calibration)| Some(calibration))
+    })
 }
 
 /// Where the camera sits, for a command that inspects.
@@ -264,15 +266,15 @@ impl CalibrationChoice {
         let Ok(path) = default_path() else {
             return Ok(None);
         };
-        match CellCalibration::load(&path) {
-            Ok(Loaded { calibration, .. }) => match calibration.frame(None) {
+        match CellCalibration::load_if_there(&path) {
+            Ok(Some(Loaded { calibration, .. })) => match calibration.frame(None) {
                 Ok(frame) => Ok(Some(frame)),
                 Err(error) => {
                     console.warn(&format_args!("no poses for the robot: {error}"), &error);
                     Ok(None)
                 }
             },
-            Err(CalibrationError::File(FileError::NotFound { .. })) => Ok(None),
+            Ok(None) => Ok(None),
             Err(error) => {
                 console.warn(&format_args!("no poses for the robot: {error}"), &error);
                 Ok(None)

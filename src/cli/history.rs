@@ -289,6 +289,15 @@ fn opened(
         let place = aside.aside.display();
         console.note(&format_args!("  it was set aside as {place}"));
     }
+    if let Some(only_read) = opened.only_read {
+        let lacks = if only_read.lacks_newest {
+            ", and the newest inspections are missing"
+        } else {
+            ""
+        };
+        let error = &only_read.error;
+        console.warn(&format_args!("{error}; it is only read{lacks}"), error);
+    }
     Ok(opened.history)
 }
 

@@ -1,6 +1,6 @@
 //! `partsight inspect`: which part is it, and where?
 
-mod hung;
+pub(in crate::cli) mod hung;
 mod scan;
 mod spray;
 

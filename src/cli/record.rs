@@ -1,6 +1,10 @@
 //! What `inspect` writes into the history, behind every verdict.
 
-use std::{collections::BTreeMap, path::PathBuf, sync::Arc};
+use std::{
+    collections::BTreeMap,
+    path::{Path, PathBuf},
+    sync::Arc,
+};
 
 use clap::Args;
 use jiff::Timestamp;
@@ -26,6 +30,13 @@ pub(super) struct HistoryChoice {
 }
 
 impl HistoryChoice {
+    /// The one in this folder.
+    pub(super) fn in_folder(folder: &Path) -> Self {
+        Self {
+            history: Some(folder.to_owned()),
+        }
+    }
+
     /// The folder.
     pub(super) fn folder(&self) -> Result<PathBuf, HistoryError> {
         self.history.clone().map_or_else(users_folder, Ok)

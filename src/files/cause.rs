@@ -16,6 +16,9 @@ pub(crate) fn words_of(error: &io::Error) -> String {
     }
 }
 
+/// What Unix calls EIO and Windows `ERROR_IO_DEVICE`.
+const IO_ERROR: i32 = if cfg!(windows) { 1117 } else { 5 };
+
 /// What to do about it.
 pub(crate) fn advice_on(error: &io::Error) -> &'static str {
     match error.kind() {
@@ -28,6 +31,9 @@ pub(crate) fn advice_on(error: &io::Error) -> &'static str {
         }
         io::ErrorKind::StorageFull | io::ErrorKind::QuotaExceeded => {
             "Make room on the disk, or choose another one"
+        }
+        _ if error.raw_os_error() == Some(IO_ERROR) => {
+            "Check the disk and its connection, or write to another disk"
         }
         _ => "Choose a folder on this computer's own disk",
     }

@@ -23,6 +23,7 @@ use image::{
 };
 
 use super::depth_camera::{DepthCamera, MAX_CAMERA_BYTES};
+use super::disk;
 use super::error::FileError;
 use super::open::described;
 use super::source::{Source, read_limited};
@@ -47,17 +48,23 @@ pub const FOLDER_CAMERA: &str = "intrinsics.json";
 pub fn write_depth_png(path: &Path, frame: &DepthFrame) -> Result<(), FileError> {
     let json = intrinsics_path(path);
     // Whatever else lies there is somebody's data.
-    let is_free = match read_limited(&json, MAX_CAMERA_BYTES) {
-        Ok(bytes) => is_intrinsics(&bytes),
-        Err(error) => matches!(error, FileError::NotFound { .. }),
-    };
-    if !is_free {
-        return Err(FileError::ForeignSidecar {
-            path: json,
-            image: path.to_owned(),
-        });
+    let camera = DepthCamera::of(frame);
+    match read_limited(&json, MAX_CAMERA_BYTES) {
+        Ok(bytes) if is_intrinsics(&bytes) => {
+            // The image that is there is gone before it could be taken for one of the new camera.
+            if path.is_file() && !DepthCamera::read(&json).is_ok_and(|known| known == camera) {
+                disk::remove_file(path).map_err(|error| FileError::writing(path, error))?;
+            }
+        }
+        Err(FileError::NotFound { .. }) => {}
+        _ => {
+            return Err(FileError::ForeignSidecar {
+                path: json,
+                image: path.to_owned(),
+            });
+        }
     }
-    write_camera(&json, &DepthCamera::of(frame))?;
+    write_camera(&json, &camera)?;
     write_atomically(path, |writer| write_depths(writer, frame))
 }
 

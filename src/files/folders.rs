@@ -2,11 +2,13 @@
 
 use std::{
     fs::{self, File},
-    io::{self, Write as _},
+    io,
     path::Path,
 };
 
 use directories::ProjectDirs;
+
+use super::disk;
 
 /// Where the system keeps this program's data and settings of a user; `None` where it has no place for them.
 pub(crate) fn user_folders() -> Option<ProjectDirs> {
@@ -37,21 +39,21 @@ pub(crate) fn new_folder(parent: &Path, prefix: &str) -> io::Result<tempfile::Te
         // What an ordinary new folder has, less the user's mask: others on the machine may read it.
         builder.permissions(fs::Permissions::from_mode(0o777));
     }
-    builder.tempdir_in(parent)
+    disk::temporary_folder(&builder, parent)
 }
 
 /// Writes a new file in place and syncs it: for folders that are renamed once they are complete.
 pub(crate) fn write_file(path: &Path, content: &[u8]) -> io::Result<()> {
-    let mut file = File::create(path)?;
-    file.write_all(content)?;
-    file.sync_all()
+    let mut file = disk::create(path)?;
+    disk::write_all(&mut file, content)?;
+    disk::sync_all(&file)
 }
 
 /// Makes what was named anew in a folder last. Only Unix lets a folder be opened for that; elsewhere the file system
 /// sees to it.
 pub(crate) fn sync_folder(folder: &Path) -> io::Result<()> {
     if cfg!(unix) {
-        File::open(folder)?.sync_all()?;
+        disk::sync_all(&File::open(folder)?)?;
     }
     Ok(())
 }

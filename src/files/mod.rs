@@ -30,6 +30,7 @@ mod checksum;
 mod counting_order;
 mod depth_camera;
 pub mod depth_png;
+pub(crate) mod disk;
 mod error;
 mod folders;
 mod gltf;

@@ -7,6 +7,7 @@ use std::path::Path;
 use std::thread;
 use std::time::Duration;
 
+use super::disk;
 use super::error::{Expected, FileError, NoFile};
 use super::{MAX_FILE_BYTES, MAX_POINTS, MAX_UNPACKED_BYTES};
 
@@ -32,7 +33,7 @@ pub(crate) fn open_lock(path: &Path) -> io::Result<File> {
     if let Ok(found) = fs::metadata(path) {
         refuse_all_but_files(&found)?;
     }
-    File::options().create(true).append(true).open(path)
+    disk::open(File::options().create(true).append(true), path)
 }
 
 fn refuse_all_but_files(found: &Metadata) -> io::Result<()> {

@@ -7,6 +7,7 @@ use std::path::{Path, PathBuf};
 use std::sync::Mutex;
 use std::time::Duration;
 
+use super::disk;
 use super::error::FileError;
 use super::folders::{folder_of, sync_folder};
 use super::{write_pcd, write_ply, write_xyz};
@@ -31,13 +32,13 @@ pub fn write_atomically(
             // What an ordinary new file has, less the user's mask: others on the machine may read results.
             builder.permissions(std::fs::Permissions::from_mode(0o666));
         }
-        let mut writer = BufWriter::new(builder.tempfile_in(folder)?);
+        let mut writer = BufWriter::new(disk::Written(disk::temporary_file(&builder, folder)?));
         fill(&mut writer)?;
-        let file = writer
+        let disk::Written(file) = writer
             .into_inner()
             .map_err(io::IntoInnerError::into_error)?;
-        file.as_file().sync_all()?;
-        file.persist(path).map_err(|error| error.error)?;
+        disk::sync_all(file.as_file())?;
+        disk::persist(file, path)?;
         sync_folder(folder)
     };
     written().map_err(|error| FileError::writing(path, error))
@@ -69,7 +70,7 @@ fn clear_leftovers(folder: &Path) {
         });
         let changed = || entry.metadata().ok()?.modified().ok()?.elapsed().ok();
         if is_ours && changed().is_some_and(|age| age > ABANDONED) {
-            let _ = fs::remove_file(entry.path());
+            let _ = disk::remove_file(entry.path());
         }
     }
 }
@@ -167,5 +168,30 @@ mod tests {
         }
         let unknown = save_cloud(&folder.path().join("cloud"), &cloud);
         assert!(matches!(unknown, Err(FileError::UnknownEnding { .. })));
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn whichever_call_fails_a_file_holds_its_old_content_or_the_new() {
+        use crate::files::disk::faults::{Writer, told};
+
+        Writer {
+            test: "files::write::tests::whichever_call_fails_a_file_holds_its_old_content_or_the_new",
+            prepare: &|folder| fs::write(folder.join("kept.txt"), "old").unwrap(),
+            write: &|folder| {
+                let written = write_atomically(&folder.join("kept.txt"), |writer| {
+                    writer.write_all(b"new")?;
+                    // More than the buffer holds.
+                    writer.write_all(&vec![b'x'; 20_000])
+                });
+                written.map_err(|error| told(&error))
+            },
+            state: &|folder| {
+                let text = fs::read_to_string(folder.join("kept.txt")).unwrap();
+                format!("{} bytes, {}", text.len(), &text[..3])
+            },
+            between: &[],
+        }
+        .fails_at_every_call();
     }
 }

@@ -49,6 +49,8 @@ pub struct HistoryBuffer {
 #[derive(Debug, Default)]
 struct Inner {
     history: Option<History>,
+    /// True while the history can only be read.
+    is_only_read: bool,
     retention: Retention,
     /// The oldest first.
     waiting: VecDeque<NewEntry>,
@@ -141,7 +143,9 @@ impl HistoryBuffer {
             remark.trim().clone_into(&mut row.record.summary.remark);
             return self.tell(HistoryEvent::Changed { number });
         }
-        let changed = inner.change(number, |history| history.set_remark(number, remark));
+        let changed = self.change(&mut inner, number, |history| {
+            history.set_remark(number, remark)
+        });
         self.queue_change_event(number, changed);
     }
 
@@ -152,8 +156,23 @@ impl HistoryBuffer {
             row.record.summary.label = label.cloned();
             return self.tell(HistoryEvent::Changed { number });
         }
-        let changed = inner.change(number, |history| history.set_label(number, label));
+        let changed = self.change(&mut inner, number, |history| {
+            history.set_label(number, label)
+        });
         self.queue_change_event(number, changed);
+    }
+
+    fn change(
+        &self,
+        inner: &mut Inner,
+        number: i64,
+        change: impl FnOnce(&mut History) -> Result<(), HistoryError>,
+    ) -> Result<(), HistoryError> {
+        self.ensure(inner)?;
+        match &mut inner.history {
+            Some(history) => change(history),
+            None => Err(HistoryError::NoSuchInspection { number }),
+        }
     }
 
     fn queue_change_event(&self, number: i64, changed: Result<(), HistoryError>) {
@@ -305,11 +324,22 @@ impl HistoryBuffer {
         }
     }
 
+    /// Opens it to be written. Where that fails, what can be read is read until it works.
     fn ensure(&self, inner: &mut Inner) -> Result<(), HistoryError> {
-        let (Some(place), None) = (&self.place, &inner.history) else {
+        let Some(place) = &self.place else {
             return Ok(());
         };
-        let OpenedHistory { history, set_aside } = History::open(place)?;
+        if inner.history.is_some() && !inner.is_only_read {
+            return Ok(());
+        }
+        let opened = History::open(place);
+        inner.is_only_read = opened.is_err();
+        if let (Err(error), None) = (&opened, &inner.history) {
+            inner.history = History::only_read(place, error).map(|(history, _)| history);
+        }
+        let OpenedHistory {
+            history, set_aside, ..
+        } = opened?;
         if let Some(set_aside) = set_aside {
             self.tell(HistoryEvent::SetAside(set_aside));
         }
@@ -337,6 +367,10 @@ impl HistoryBuffer {
     fn write_waiting(&self, inner: &mut Inner, now: Instant) -> Vec<(i64, i64)> {
         let has_failed = inner.next_try.is_some();
         let mut numbers = Vec::new();
+        if let Err(error) = self.ensure(inner) {
+            self.failed(inner, &error, now);
+            return numbers;
+        }
         while let Some(entry) = inner.waiting.pop_front() {
             match self.write(inner, &entry) {
                 Ok(number) => {
@@ -398,17 +432,6 @@ impl Inner {
     fn waiting_mut(&mut self, number: i64) -> Option<&mut NewEntry> {
         let mut waiting = self.waiting.iter_mut();
         waiting.find(|entry| entry.record.summary.number == number)
-    }
-
-    fn change(
-        &mut self,
-        number: i64,
-        change: impl FnOnce(&mut History) -> Result<(), HistoryError>,
-    ) -> Result<(), HistoryError> {
-        match &mut self.history {
-            Some(history) => change(history),
-            None => Err(HistoryError::NoSuchInspection { number }),
-        }
     }
 }
 

@@ -63,6 +63,12 @@ pub enum HistoryError {
         /// The newest known.
         known: u32,
     },
+    /// The file is no history; nothing of it was touched.
+    #[error("{}: this is the database of another program, not a history of Partsight", path.display())]
+    Foreign {
+        /// The file.
+        path: PathBuf,
+    },
     /// There is no history yet.
     #[error("{}: there is no history yet", path.display())]
     NotFound {
@@ -105,7 +111,21 @@ impl HistoryError {
                 path,
                 what: source.to_string(),
             },
+            // What its version promises is not there.
+            Some(ErrorCode::Unknown) if source.to_string().contains("no such ") => Self::Damaged {
+                path,
+                what: source.to_string(),
+            },
             _ => Self::Database { path, source },
+        }
+    }
+
+    /// True where the file may be sound and only cannot be written now.
+    pub(super) fn forbids_writing(&self) -> bool {
+        match self {
+            Self::Unwritable { .. } | Self::DiskFull { .. } | Self::ReadOnly { .. } => true,
+            Self::Database { source, .. } => is_disk_error(source),
+            _ => false,
         }
     }
 
@@ -115,6 +135,11 @@ impl HistoryError {
             source,
         }
     }
+}
+
+/// What the database says where the system says that the disk is full or fails.
+fn is_disk_error(source: &rusqlite::Error) -> bool {
+    source.sqlite_error_code() == Some(ErrorCode::SystemIoFailure)
 }
 
 impl Advice for HistoryError {
@@ -132,11 +157,17 @@ impl Advice for HistoryError {
             Self::Newer { .. } => {
                 "Update Partsight on this computer, or keep the history in another folder (--history)".into()
             }
+            Self::Foreign { .. } => {
+                "Keep the history in another folder (--history), or move that file to where it belongs".into()
+            }
             Self::NotFound { .. } => {
                 "Inspect something first, or name the folder with --history".into()
             }
+            Self::Database { source, .. } if is_disk_error(source) => {
+                "Make room on the disk, or check whether it still works; the history stays as it is".into()
+            }
             Self::Database { .. } => {
-                "Try again; if it happens again, move the file away: a new one was started".into()
+                "Try again; if it happens again, move the file away: a new one is then started".into()
             }
             Self::Frame(error) => error.advice(),
             Self::NoSuchInspection { .. } => {

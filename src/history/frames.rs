@@ -26,7 +26,7 @@ use crate::{
     files::{
         DepthCamera, FileContent, FileError, StoredOrientation, advice_on, crc32,
         depth_png::{FOLDER_CAMERA, read_depths, write_camera, write_depths},
-        open_bytes, read_bytes, words_of, write_atomically, write_pcd,
+        disk, open_bytes, read_bytes, words_of, write_atomically, write_pcd,
     },
     geometry::{
         cloud::{Grid, PointCloud},
@@ -138,7 +138,7 @@ pub(super) fn write(
     if scene.cloud.finite().next().is_none() {
         return Ok(None);
     }
-    fs::create_dir_all(folder).map_err(|error| FrameError::io(folder, error))?;
+    disk::create_dir_all(folder).map_err(|error| FrameError::io(folder, error))?;
     let number = COUNT.fetch_add(1, Ordering::Relaxed);
     let stem = format!(
         "{}-{}-{number}",
@@ -362,7 +362,7 @@ fn is_ours(name: &str) -> bool {
 
 /// Removes a file that may be gone already.
 pub(super) fn remove(path: &Path) -> io::Result<()> {
-    match fs::remove_file(path) {
+    match disk::remove_file(path) {
         Err(error) if error.kind() != io::ErrorKind::NotFound => Err(error),
         _ => Ok(()),
     }

@@ -45,7 +45,7 @@ pub use self::{
     frames::{FrameError, FrameRecord, read as read_frame, write_as as write_frame},
     hung::{HungId, HungRows},
     news::HistoryEvent,
-    open::{FILE, OpenedHistory, SetAside, users_folder},
+    open::{FILE, OnlyRead, OpenedHistory, SetAside, users_folder},
     outcomes::PartOutcome,
     retention::{KeepFrames, PruneResult, Retention, Usage},
     shots::{ShotRecord, read_shots},

@@ -1,4 +1,5 @@
-//! Opening the file: a new one is made, an older one brought up to date, a newer one refused, a damaged one set aside.
+//! Opening the file: a new one is made, an older one brought up to date, a newer one and the database of another program
+//! refused, a damaged one set aside.
 //!
 //! Write-ahead logging lets the window and a command write at once. `synchronous = FULL`: an inspection that was
 //! reported as written survives the mains switch, not only a kill; a commit then waits for the disk, which is why a
@@ -6,6 +7,7 @@
 //! beginning is alone, and only then are the file looked through and strays removed.
 
 use std::{
+    collections::BTreeSet,
     fs::{self, File, TryLockError},
     io::{self, Read as _},
     path::{Path, PathBuf},
@@ -14,7 +16,7 @@ use std::{
 
 use rusqlite::{Connection, OpenFlags, config::DbConfig};
 
-use crate::files::{open_lock, open_regular, user_folders};
+use crate::files::{disk, open_lock, open_regular, user_folders};
 
 use super::{
     error::HistoryError,
@@ -49,6 +51,17 @@ pub struct OpenedHistory {
     pub history: History,
     /// What had to be set aside before, if anything.
     pub set_aside: Option<SetAside>,
+    /// Where it could be opened for reading only.
+    pub only_read: Option<OnlyRead>,
+}
+
+/// A history that can be read and not written.
+#[derive(Debug)]
+pub struct OnlyRead {
+    /// Why it cannot be written.
+    pub error: HistoryError,
+    /// True if the log of its last writes could not be read: the newest inspections are missing.
+    pub lacks_newest: bool,
 }
 
 /// The folder of the user's own history.
@@ -60,8 +73,9 @@ pub fn users_folder() -> Result<PathBuf, HistoryError> {
 impl History {
     /// Opens the history in this folder; makes both where they are missing.
     pub fn open(folder: &Path) -> Result<OpenedHistory, HistoryError> {
-        fs::create_dir_all(folder).map_err(|error| HistoryError::io(folder, error))?;
+        disk::create_dir_all(folder).map_err(|error| HistoryError::io(folder, error))?;
         let path = folder.join(FILE);
+        refuse_foreign(&path)?;
         let mut set_aside = None;
         if let Some(_alone) = Lock::alone(folder)? {
             set_aside = set_aside_damaged(&path)?;
@@ -71,37 +85,63 @@ impl History {
         let lock = Lock::shared(folder)?;
         let mut history = Self::new(connect(&path)?, folder);
         history.hold(lock);
-        Ok(OpenedHistory { history, set_aside })
+        Ok(OpenedHistory {
+            history,
+            set_aside,
+            only_read: None,
+        })
     }
 
-    /// Opens a history to look at it alone: also one that is write-protected. Nothing is made.
+    /// Opens a history to look at it alone: also one that cannot be written, because its disk is full, fails or is
+    /// write-protected. Nothing is made.
     pub fn open_to_read(folder: &Path) -> Result<OpenedHistory, HistoryError> {
         let path = folder.join(FILE);
         if !path.is_file() {
             return Err(HistoryError::NotFound { path });
         }
-        match Self::open(folder) {
-            Err(HistoryError::Unwritable { .. } | HistoryError::ReadOnly { .. }) => {
-                let of = |error| HistoryError::of(&path, error);
-                let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI;
-                let file = Connection::open_with_flags(address(&path), flags).map_err(of)?;
-                refuse_newer(&path, version(&file).map_err(of)?)?;
-                Ok(OpenedHistory {
-                    history: Self::new(file, folder),
-                    set_aside: None,
-                })
-            }
-            opened => opened,
+        Self::open(folder).or_else(|error| match Self::only_read(folder, &error) {
+            Some((history, lacks_newest)) => Ok(OpenedHistory {
+                history,
+                set_aside: None,
+                only_read: Some(OnlyRead {
+                    error,
+                    lacks_newest,
+                }),
+            }),
+            None => Err(error),
+        })
+    }
+
+    /// The history as far as it can be read without writing anything, where this error forbids to write; true if that
+    /// is without the log of its last writes.
+    pub(super) fn only_read(folder: &Path, error: &HistoryError) -> Option<(Self, bool)> {
+        if !error.forbids_writing() {
+            return None;
         }
+        let path = folder.join(FILE);
+        let read = |how: &str| -> rusqlite::Result<Option<Self>> {
+            let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI;
+            let file = Connection::open_with_flags(address(&path, how), flags)?;
+            file.busy_timeout(PATIENCE)?;
+            let is_known = is_ours(&file)? && version(&file)? <= VERSION;
+            Ok(is_known.then(|| Self::new(file, folder)))
+        };
+        if let Ok(history) = read("mode=ro") {
+            return history.map(|history| (history, false));
+        }
+        let log = fs::metadata(with_ending(&path, "-wal"));
+        let has_log = log.is_ok_and(|log| log.len() > 0);
+        let history = read("immutable=1").ok()??;
+        Some((history, has_log))
     }
 }
 
-/// The file as it lies there, which nobody can change.
-fn address(path: &Path) -> String {
+/// The file as an address, to be opened in this way.
+fn address(path: &Path, how: &str) -> String {
     let escaped = path.to_string_lossy();
     let escaped = escaped.replace('%', "%25");
     let escaped = escaped.replace('?', "%3f").replace('#', "%23");
-    format!("file:{escaped}?immutable=1")
+    format!("file:{escaped}?{how}")
 }
 
 /// Held as long as a history is open.
@@ -162,14 +202,16 @@ fn connect(path: &Path) -> Result<Connection, HistoryError> {
     let mut file = Connection::open_with_flags(path, flags).map_err(of)?;
     file.busy_timeout(PATIENCE).map_err(of)?;
     let found = version(&file).map_err(of)?;
-    if found > VERSION {
+    // In this order: another program of ours may be making them now.
+    let is_foreign = has_tables(&file).map_err(of)? && !is_ours(&file).map_err(of)?;
+    if is_foreign || found > VERSION {
         // Its newest pages may still lie in the log: they stay there.
         file.set_db_config(DbConfig::SQLITE_DBCONFIG_NO_CKPT_ON_CLOSE, true)
             .map_err(of)?;
+        if is_foreign {
+            return Err(foreign(path));
+        }
         refuse_newer(path, found)?;
-    }
-    if found == 0 && has_tables(&file).map_err(of)? {
-        return Err(foreign(path));
     }
     let set = || -> rusqlite::Result<()> {
         file.pragma_update(None, "journal_mode", "WAL")?;
@@ -187,11 +229,54 @@ fn has_tables(file: &Connection) -> rusqlite::Result<bool> {
     })
 }
 
+fn is_ours(file: &Connection) -> rusqlite::Result<bool> {
+    let application: i32 = file.pragma_query_value(None, "application_id", |row| row.get(0))?;
+    Ok(application == APPLICATION)
+}
+
 fn foreign(path: &Path) -> HistoryError {
-    HistoryError::Damaged {
+    HistoryError::Foreign {
         path: path.to_owned(),
-        what: "it is the database of another program".into(),
     }
+}
+
+/// Refuses the database of another program, before `SQLite` may write to it or anything is made beside it.
+fn refuse_foreign(path: &Path) -> Result<(), HistoryError> {
+    let header = match Header::read(path) {
+        Ok(Some(header)) => header,
+        // A file that is no database is one of ours that was damaged.
+        Ok(None) | Err(HistoryError::Damaged { .. }) => return Ok(()),
+        Err(error) => return Err(error),
+    };
+    let is_foreign = match (header.application, header.version) {
+        (APPLICATION, _) => false,
+        // Ours before its first table, or that of a program that says nothing of itself.
+        (0, 0) => {
+            let flags = OpenFlags::SQLITE_OPEN_READ_ONLY | OpenFlags::SQLITE_OPEN_URI;
+            let file = Connection::open_with_flags(address(path, "immutable=1"), flags);
+            file.and_then(|file| has_tables(&file)).unwrap_or(false)
+        }
+        _ => true,
+    };
+    if is_foreign {
+        return Err(foreign(path));
+    }
+    Ok(())
+}
+
+/// The first table or index of ours that the file lacks.
+fn lacking(file: &Connection) -> rusqlite::Result<Option<String>> {
+    let names = |file: &Connection| -> rusqlite::Result<BTreeSet<String>> {
+        let mut asked = file.prepare("SELECT type || ' ' || name FROM sqlite_schema")?;
+        let names = asked.query_map([], |row| row.get(0))?;
+        names.collect()
+    };
+    let mut whole = Connection::open_in_memory()?;
+    migrate(&mut whole)?;
+    let found = names(file)?;
+    // A table before its indexes.
+    let mut expected = names(&whole)?.into_iter().rev();
+    Ok(expected.find(|name| !found.contains(name)))
 }
 
 /// What the first hundred bytes of a database say.
@@ -260,7 +345,7 @@ fn set_aside_damaged(path: &Path) -> Result<Option<SetAside>, HistoryError> {
         if magic & !1 != LOG_MAGIC {
             // SQLite would read over it in silence. What was written before is whole.
             let aside = aside(&log, "damaged")?;
-            fs::rename(&log, &aside).map_err(|error| HistoryError::io(path, error))?;
+            disk::rename(&log, &aside).map_err(|error| HistoryError::io(path, error))?;
             let what =
                 "the log of its last writes is damaged: the newest inspections may be missing";
             return Ok(Some(SetAside {
@@ -290,15 +375,16 @@ fn check(path: &Path, was_left_open: bool) -> Result<(), HistoryError> {
         return Ok(());
     };
     refuse_newer(path, header.version)?;
-    if header.application != APPLICATION && header.version > 0 {
-        return Err(foreign(path));
-    }
     let size = fs::metadata(path).map_or(0, |file| file.len());
     if size < header.num_bytes && !was_left_open {
         let expected = header.num_bytes;
         return Err(damaged(format!("it ends after {size} of {expected} bytes")));
     }
     let file = connect(path)?;
+    let lacks = lacking(&file).map_err(|error| HistoryError::of(path, error))?;
+    if let Some(name) = lacks {
+        return Err(damaged(format!("its {name} is missing")));
+    }
     if was_left_open || size < ALWAYS_CHECKED {
         let of = |error| HistoryError::of(path, error);
         let found: String = file
@@ -322,7 +408,7 @@ fn set_aside(path: &Path) -> Result<PathBuf, HistoryError> {
         (frames, with_ending(&aside, "-frames")),
     ];
     for (from, to) in moves {
-        match fs::rename(&from, &to) {
+        match disk::rename(&from, &to) {
             Err(error) if error.kind() != io::ErrorKind::NotFound => {
                 return Err(HistoryError::io(path, error));
             }

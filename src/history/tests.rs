@@ -635,3 +635,34 @@ fn a_reinspection_is_traced_as_its_part_and_a_serial_number_is_found() {
         Some("Lee")
     );
 }
+
+#[cfg(unix)]
+#[test]
+fn whichever_call_fails_an_inspection_is_in_the_history_with_its_frame_or_not_at_all() {
+    use crate::files::disk::faults::{Writer, told};
+
+    let add = |folder: &std::path::Path, seconds| -> Result<(), HistoryError> {
+        let mut history = History::open(folder)?.history;
+        let entry = history_entry(seconds, StoredVerdict::Accepted, "fender");
+        history.add(&entry, &ALL).map(|_| ())
+    };
+    Writer {
+        test: "history::tests::whichever_call_fails_an_inspection_is_in_the_history_with_its_frame_or_not_at_all",
+        prepare: &|folder| add(folder, 1).expect("written"),
+        write: &|folder| add(folder, 2).map_err(|error| told(&error)),
+        state: &|folder| {
+            let history = open_history(folder);
+            let page = history.page(&Filter::default(), 0, 10).expect("asked");
+            for row in &page.rows {
+                let record = history.known(row.number).expect("there");
+                assert!(history.scene(&record).expect("read").is_some());
+            }
+            // What no row speaks of was taken away.
+            let frames = std::fs::read_dir(history.frames_folder()).expect("listed");
+            assert_eq!(frames.count(), page.rows.len() + 1);
+            format!("{} inspections", page.num_all)
+        },
+        between: &[],
+    }
+    .fails_at_every_call();
+}

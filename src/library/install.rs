@@ -22,7 +22,7 @@ use std::{
 };
 
 use super::{entry::NEW_PREFIX, error::LibraryError, name::PartName, store::LibraryFolder, trash};
-use crate::files::{open_lock, sync_folder};
+use crate::files::{disk, open_lock, sync_folder};
 
 const OLD_PREFIX: &str = ".old-";
 const LOCK: &str = ".lock";
@@ -52,11 +52,11 @@ impl LibraryFolder {
         let aside = self.path().join(RenamedFolder::file_name(former, name));
         let is_succeeding = leaving.exists();
         if is_succeeding {
-            fs::rename(&leaving, &aside)?;
+            disk::rename(&leaving, &aside)?;
         }
-        if let Err(error) = fs::rename(coming, self.path().join(name)) {
+        if let Err(error) = disk::rename(coming, self.path().join(name)) {
             if is_succeeding {
-                fs::rename(&aside, &leaving)?;
+                disk::rename(&aside, &leaving)?;
             }
             return Err(error);
         }
@@ -111,10 +111,10 @@ impl LibraryFolder {
                     }
                     trash::take_in(self.path(), &path, name)?;
                 } else {
-                    fs::rename(&path, self.path().join(name))?;
+                    disk::rename(&path, self.path().join(name))?;
                 }
             } else if file_name.starts_with(NEW_PREFIX) {
-                fs::remove_dir_all(&path)?;
+                disk::remove_dir_all(&path)?;
             }
         }
         Ok(())

@@ -1,7 +1,7 @@
 //! Which library is meant when none is named.
 
 use std::{
-    fs, io,
+    io,
     path::{Path, PathBuf},
 };
 
@@ -17,7 +17,7 @@ use super::{
     store::LibraryFolder,
 };
 use crate::{
-    files::{new_folder, read_picture, sync_folder, user_folders},
+    files::{disk, new_folder, read_picture, sync_folder, user_folders},
     stages::reference::ReferenceParams,
 };
 
@@ -140,10 +140,10 @@ fn user_path() -> Result<PathBuf, LibraryError> {
 /// Makes the user's library, complete or not at all.
 fn fill(path: &Path) -> io::Result<()> {
     let parent = path.parent().unwrap_or(Path::new("."));
-    fs::create_dir_all(parent)?;
+    disk::create_dir_all(parent)?;
     let building = new_folder(parent, &format!("{NEW_PREFIX}library-"))?;
     write_shipped(building.path())?;
-    match fs::rename(building.path(), path) {
+    match disk::rename(building.path(), path) {
         Ok(()) => {
             // Renamed away: nothing is left to be cleared up.
             let _ = building.keep();
@@ -157,6 +157,8 @@ fn fill(path: &Path) -> io::Result<()> {
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     #[test]

@@ -1,7 +1,7 @@
 //! The parts that the program brings along: copies of `reference_parts/` inside the binary.
 
 use std::{
-    fs, io,
+    io,
     path::{Path, PathBuf},
 };
 
@@ -10,7 +10,7 @@ use super::{
     part::CloudCheck,
 };
 use crate::{
-    files::{FileContent, open_bytes, sync_folder, write_file},
+    files::{FileContent, disk, open_bytes, sync_folder, write_file},
     geometry::rigid::RigidTransform,
 };
 
@@ -50,7 +50,7 @@ const SHIPPED: &[ShippedPart] = shipped![
 pub(super) fn write_shipped(folder: &Path) -> io::Result<()> {
     for part in SHIPPED {
         let part_folder = folder.join(part.name);
-        fs::create_dir(&part_folder)?;
+        disk::create_dir(&part_folder)?;
         for (name, content) in part.files {
             write_file(&part_folder.join(name), content)?;
         }

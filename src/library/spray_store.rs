@@ -14,7 +14,7 @@ use super::{
     spray_path::{MAX_BYTES, SprayPath, SprayPathError},
     store::LibraryFolder,
 };
-use crate::files::{read_text, sync_folder, write_file};
+use crate::files::{disk, read_text, sync_folder, write_file};
 
 impl LibraryFolder {
     /// The stored spray path of a part; none where none was stored.
@@ -64,7 +64,7 @@ impl LibraryFolder {
                     .and_then(|n| n.to_str())
                     .filter(|n| n.starts_with(SPRAY_PREFIX) && Some(*n) != file_name.as_deref());
                 if other.is_some() {
-                    fs::remove_file(&found)?;
+                    disk::remove_file(&found)?;
                 }
             }
             sync_folder(&folder)?;

@@ -19,7 +19,7 @@ use super::{
     part::{Part, PartMeta, PartNaming},
     trash,
 };
-use crate::files::{new_folder, sync_folder, write_file};
+use crate::files::{disk, new_folder, sync_folder, write_file};
 
 /// A library's folder.
 #[derive(Clone, Debug, PartialEq, Eq)]
@@ -76,7 +76,7 @@ impl LibraryFolder {
     pub fn open_or_create(path: &Path) -> Result<Self, LibraryError> {
         match Self::open(path) {
             Err(LibraryError::NotFound { path }) => {
-                fs::create_dir_all(&path).map_err(|source| LibraryError::Unwritable {
+                disk::create_dir_all(&path).map_err(|source| LibraryError::Unwritable {
                     path: path.clone(),
                     source,
                 })?;

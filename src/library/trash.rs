@@ -6,6 +6,7 @@ use std::{
 };
 
 use super::{error::LibraryError, name::PartName, store::LibraryFolder};
+use crate::files::disk;
 
 /// Its folder within the library.
 pub(super) const TRASH: &str = ".trash";
@@ -46,7 +47,7 @@ impl LibraryFolder {
 /// Moves a folder of the library into the trash and says where it lies there.
 pub(super) fn take_in(library: &Path, folder: &Path, name: &str) -> io::Result<PathBuf> {
     let trash = library.join(TRASH);
-    fs::create_dir_all(&trash)?;
+    disk::create_dir_all(&trash)?;
     let now = jiff::Timestamp::now().strftime("%Y%m%dT%H%M%SZ");
     let place = (1..=9999)
         .map(|n| match n {
@@ -55,7 +56,7 @@ pub(super) fn take_in(library: &Path, folder: &Path, name: &str) -> io::Result<P
         })
         .find(|place| !place.exists())
         .ok_or(io::ErrorKind::AlreadyExists)?;
-    fs::rename(folder, &place)?;
+    disk::rename(folder, &place)?;
     Ok(place)
 }
 

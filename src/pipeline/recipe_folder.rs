@@ -10,7 +10,7 @@ use super::{
     recipe_error::RecipeError,
 };
 use crate::{
-    files::{FileError, folder_of, read_text, sync_folder, write_atomically},
+    files::{FileError, disk, folder_of, read_text, sync_folder, write_atomically},
     library::PartName,
 };
 
@@ -137,7 +137,7 @@ impl RecipeFolder {
     /// Removes a recipe; if it was the default, the program's own is that again.
     pub fn remove(&self, name: &PartName) -> Result<(), RecipeError> {
         let path = self.changeable(name)?;
-        match fs::remove_file(&path) {
+        match disk::remove_file(&path) {
             Ok(()) => {}
             // Names those that are there.
             Err(error) if error.kind() == io::ErrorKind::NotFound => {
@@ -214,7 +214,7 @@ impl RecipeFolder {
     }
 
     fn make(&self) -> Result<(), RecipeError> {
-        let made = fs::create_dir_all(&self.path);
+        let made = disk::create_dir_all(&self.path);
         let made = made.and_then(|()| sync_folder(folder_of(&self.path)));
         made.map_err(|error| FileError::writing(&self.path, error).into())
     }
@@ -383,5 +383,66 @@ mod tests {
             nowhere.expect("the program's own").recipe,
             Recipe::default()
         );
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn whichever_call_fails_no_recipe_is_lost() {
+        use crate::files::disk::faults::{Writer, told};
+
+        const TEST: &str = "pipeline::recipe_folder::tests::whichever_call_fails_no_recipe_is_lost";
+        type Change = fn(&RecipeFolder) -> Result<(), RecipeError>;
+        let changes: [(Change, &[&str]); 3] = [
+            (
+                |folder| folder.save(&recipe("matt", 0.9), Replace::Yes).map(|_| ()),
+                &[],
+            ),
+            // Under both names before it is under one.
+            (
+                |folder| folder.rename(&name("matt"), &name("silk")).map(|_| ()),
+                &[
+                    "matt 0.5, silk 0.5, default matt",
+                    "matt 0.5, silk 0.5, default silk",
+                ],
+            ),
+            // Without its file the program's own is the default.
+            (
+                |folder| folder.remove(&name("matt")),
+                &["matt 0.5, default built-in", "default matt"],
+            ),
+        ];
+        let at = |folder: &Path| RecipeFolder::at(folder.join("recipes"));
+        for (number, (change, between)) in changes.iter().enumerate() {
+            // The process that is to be killed knows which of them by its folder alone.
+            let is_mine = |folder: &Path| folder.join(number.to_string()).exists();
+            Writer {
+                test: TEST,
+                prepare: &|folder| {
+                    fs::write(folder.join(number.to_string()), "").expect("written");
+                    let folder = at(folder);
+                    folder
+                        .save(&recipe("matt", 0.5), Replace::No)
+                        .expect("saved");
+                    folder.set_default(&name("matt")).expect("set");
+                },
+                write: &|folder| {
+                    if !is_mine(folder) {
+                        return Ok(());
+                    }
+                    change(&at(folder)).map_err(|error| told(&error))
+                },
+                state: &|folder| {
+                    let list = at(folder).list().expect("listed");
+                    assert!(list.problems.is_empty(), "{:?}", list.problems);
+                    let recipes = list.recipes.iter();
+                    let recipes = recipes.map(|recipe| {
+                        format!("{} {}, ", recipe.name, recipe.recipe.accept.min_score)
+                    });
+                    format!("{}default {}", recipes.collect::<String>(), list.default)
+                },
+                between,
+            }
+            .fails_at_every_call();
+        }
     }
 }

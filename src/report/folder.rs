@@ -2,14 +2,14 @@
 
 use std::{
     collections::BTreeSet,
-    fs, io,
+    io,
     path::{Path, PathBuf},
 };
 
 use super::pictures::{Picture, strip, write_png};
 use crate::{
     error::Advice,
-    files::{FileError, advice_on, words_of, write_atomically},
+    files::{FileError, advice_on, disk, words_of, write_atomically},
     robot::Convention,
 };
 
@@ -54,7 +54,7 @@ pub struct ReportFolder {
 impl ReportFolder {
     /// Makes the folder where it is missing.
     pub fn make(path: &Path) -> Result<Self, ReportError> {
-        fs::create_dir_all(path).map_err(|source| ReportError::Folder {
+        disk::create_dir_all(path).map_err(|source| ReportError::Folder {
             path: path.to_owned(),
             source,
         })?;

@@ -10,7 +10,7 @@ use std::{
 };
 
 use super::{
-    calibration::CellCalibration,
+    calibration::{CalibrationError, CellCalibration},
     frame_poses::{FRAME_POSES, FramePose, FramePoses, FramePosesError},
 };
 use crate::{
@@ -60,6 +60,9 @@ pub enum ScanFramesError {
     /// The poses do not suffice.
     #[error(transparent)]
     Poses(#[from] FramePosesError),
+    /// They are the flange's, and what says where the camera sits on it cannot be used.
+    #[error("the poses are the flange's, and the calibration cannot be used: {0}")]
+    Calibration(#[from] CalibrationError),
     /// The caller cancelled.
     #[error("reading the frames was cancelled")]
     Cancelled,
@@ -73,6 +76,7 @@ impl Advice for ScanFramesError {
                 "Give the file with --poses, or record the frames with partsight capture --robot-poses".into()
             }
             Self::Poses(error) => error.advice(),
+            Self::Calibration(error) => error.advice(),
             Self::Cancelled => "Start it again".into(),
         }
     }
@@ -139,12 +143,13 @@ pub fn poses_beside(paths: &[PathBuf]) -> Option<PathBuf> {
     Some(folder.join(FRAME_POSES)).filter(|file| file.is_file())
 }
 
-/// The frames with the poses of their cameras. Poses of the flange need the calibration of a camera on it.
+/// The frames with the poses of their cameras. Poses of the flange need the calibration of a camera on it, which is read
+/// only for them.
 pub fn with_poses(
     paths: &[PathBuf],
     given: Option<&Path>,
     frames: Vec<ScanFrame>,
-    calibration: Option<&CellCalibration>,
+    calibration: impl FnOnce() -> Result<Option<CellCalibration>, CalibrationError>,
 ) -> Result<Vec<Shot>, ScanFramesError> {
     let recorded: Option<Vec<FramePose>> = frames
         .iter()
@@ -159,14 +164,59 @@ pub fn with_poses(
         let names: Vec<String> = frames.iter().map(|frame| frame.name.clone()).collect();
         let poses = FramePoses::read(&file, &names)?;
         let of_frames = names.iter().filter_map(|name| poses.of(name).copied());
-        of_frames.collect()
+        of_frames.collect::<Vec<FramePose>>()
+    };
+    let needs_calibration = poses.iter().any(|p| matches!(p, FramePose::Flange(_)));
+    let calibration = if needs_calibration {
+        calibration()?
+    } else {
+        None
     };
     let shot = |(frame, pose): (ScanFrame, FramePose)| {
         Ok(Shot {
-            base_from_camera: pose.base_from_camera(&frame.name, calibration)?,
+            base_from_camera: pose.base_from_camera(&frame.name, calibration.as_ref())?,
             name: frame.name,
             scene: frame.scene,
         })
     };
     frames.into_iter().zip(poses).map(shot).collect()
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::kit::small_scene;
+
+    #[test]
+    fn a_calibration_that_cannot_be_read_is_an_error_only_of_poses_that_need_it() {
+        let folder = tempfile::tempdir().expect("a folder");
+        let path = folder.path().join("cell.toml");
+        std::fs::write(&path, "mount = ").expect("written");
+        let frame = |robot_from_flange| ScanFrame {
+            name: "a.png".into(),
+            scene: small_scene(1),
+            robot_from_flange,
+        };
+        let poses = folder.path().join(FRAME_POSES);
+        let numbers = "[1,0,0,0,0,1,0,0,0,0,1,0,0,0,0,1]";
+        let text = format!(r#"{{"frames": {{"a.png": {{"world_from_camera": {numbers}}}}}}}"#);
+        std::fs::write(&poses, text).expect("written");
+        let load = || {
+            let loaded = CellCalibration::load_if_there(&path)?;
+            Ok(loaded.map(|loaded| loaded.calibration))
+        };
+        let shots = with_poses(&[], Some(&poses), vec![frame(None)], load).expect("shots");
+        assert_eq!(shots[0].base_from_camera, RigidTransform::identity());
+        let recorded = || vec![frame(Some(RigidTransform::identity()))];
+        let error = with_poses(&[], None, recorded(), load).expect_err("no calibration");
+        assert!(error.to_string().contains("cell.toml"), "{error}");
+        assert!(error.advice().contains("Correct the file"), "{error}");
+        std::fs::remove_file(&path).expect("there");
+        let error = with_poses(&[], None, recorded(), load).expect_err("no calibration");
+        assert!(error.advice().contains("calibrat"), "{error}");
+        assert!(matches!(
+            error,
+            ScanFramesError::Poses(FramePosesError::NoCalibration { .. })
+        ));
+    }
 }

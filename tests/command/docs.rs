@@ -11,7 +11,14 @@ use partsight::cli::Cli;
 /// Every page with its text.
 fn pages() -> Vec<(PathBuf, String)> {
     let root = Path::new(env!("CARGO_MANIFEST_DIR"));
-    let folders = ["", "docs", "docs/guide", "assets", "reference_parts"];
+    let folders = [
+        "",
+        "docs",
+        "docs/guide",
+        "assets",
+        "reference_parts",
+        "fuzz",
+    ];
     let entries = folders.map(|folder| fs::read_dir(root.join(folder)).expect("a folder"));
     let paths = entries.into_iter().flatten();
     let paths = paths.map(|entry| entry.expect("a file").path());

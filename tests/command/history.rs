@@ -2,6 +2,7 @@
 
 use std::{
     fs,
+    io::{self, Write as _},
     path::Path,
     process::Command,
     sync::Arc,
@@ -429,6 +430,68 @@ fn a_full_disk_is_said_once_and_inspections_are_kept_until_there_is_room() {
 }
 
 #[test]
+fn on_a_full_disk_the_history_is_listed_and_exported_and_nothing_says_to_move_it_away() {
+    let Some(disk) = Disk::of_kilobytes(4000) else {
+        return;
+    };
+    let mut history = History::open(disk.path()).expect("opened").history;
+    for entry in entries().take(3) {
+        history.add(&entry, &Retention::default()).expect("written");
+    }
+    drop(history);
+    let filling = fs::File::create(disk.path().join("filling")).expect("made");
+    let full = (0..).find_map(|_| (&filling).write(&[1; 4096]).err());
+    assert_eq!(full.expect("full").kind(), io::ErrorKind::StorageFull);
+
+    let place = Workplace::new();
+    let folder = disk.path().display().to_string();
+    let listed = place.run(&["history", "list", "--json", "--history", &folder]);
+    assert_eq!(
+        (listed.code, listed.out.lines().count()),
+        (0, 3),
+        "{}",
+        listed.err
+    );
+    assert!(listed.err.contains("to do: Make room"), "{}", listed.err);
+    assert!(!listed.err.contains("move the file away"), "{}", listed.err);
+    let exported = place.run(&[
+        "history",
+        "export",
+        "--csv",
+        "all.csv",
+        "--history",
+        &folder,
+    ]);
+    assert_eq!(exported.code, 0, "{}", exported.err);
+    let table = fs::read_to_string(place.path("all.csv")).expect("written");
+    assert_eq!(
+        table.lines().filter(|line| line.contains("frame ")).count(),
+        3
+    );
+    let shown = place.run(&["history", "show", "2", "--history", &folder]);
+    assert_eq!(shown.code, 0, "{}", shown.err);
+
+    // The window too shows what it can read.
+    let keeper = HistoryBuffer::new(Some(disk.path().to_owned()));
+    let begun = Instant::now();
+    keeper.open(begun);
+    let page = keeper.page(&Filter::default(), 0, 10).expect("asked");
+    assert_eq!(page.num_all, 3);
+    assert_eq!(num_failures(&keeper.take_news()), 1);
+    // Nothing waits, and it still does not work.
+    keeper.retry(begun + LATER);
+    assert_eq!(keeper.take_news(), []);
+    fs::remove_file(disk.path().join("filling")).expect("removed");
+    drop(filling);
+    keeper.retry(begun + 2 * LATER);
+    let news = keeper.take_news();
+    assert!(
+        matches!(news.as_slice(), [HistoryEvent::Works { .. }]),
+        "{news:?}"
+    );
+}
+
+#[test]
 fn a_write_protected_history_can_be_read_and_is_written_again_later() {
     let Some(disk) = Disk::of_kilobytes(100_000) else {
         return;
@@ -479,8 +542,13 @@ fn a_write_protected_history_can_be_read_and_is_written_again_later() {
         keeper.add(ticket, entry, begun);
     }
     assert_eq!(num_failures(&keeper.take_news()), 1);
-    disk.remount("rw");
+    // What was written before is shown meanwhile, below what waits.
+    let page = keeper.page(&Filter::default(), 0, 10).expect("asked");
+    assert_eq!((page.num_all, page.rows[2].number), (5, 3));
     keeper.retry(begun + LATER);
+    assert_eq!(keeper.take_news(), []);
+    disk.remount("rw");
+    keeper.retry(begun + 2 * LATER);
     let page = keeper.page(&Filter::default(), 0, 10).expect("asked");
     assert_eq!((page.num_all, page.rows[0].number), (5, 5));
 }

@@ -273,3 +273,27 @@ fn the_inspection_of_a_scan_is_in_the_history_with_its_shots() {
         2
     );
 }
+
+#[test]
+fn a_calibration_that_cannot_be_read_is_an_error_of_a_scan_that_needs_it_and_of_no_other() {
+    let place = with_scan("3");
+    place.write("data/partsight/cell.toml", "schema_version = 1\nmount = \n");
+    place.accepted(&["scan", "frames"]);
+    change_poses(&place, |poses| {
+        let frames = poses["frames"].as_object_mut().expect("frames");
+        for pose in frames.values_mut() {
+            let numbers = pose["world_from_camera"].take();
+            *pose = json!({ "base_from_flange": numbers });
+        }
+    });
+    let ran = place.coded(2, &["scan", "frames"]);
+    assert!(
+        ran.err.contains("cell.toml: no calibration: line 2"),
+        "{}",
+        ran.err
+    );
+    assert!(ran.err.contains("to do: Correct the file"), "{}", ran.err);
+    std::fs::remove_file(place.path("data/partsight/cell.toml")).expect("there");
+    let ran = place.coded(2, &["scan", "frames"]);
+    assert!(ran.err.contains("no calibration says where"), "{}", ran.err);
+}

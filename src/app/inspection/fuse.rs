@@ -237,8 +237,9 @@ fn read(
     warnings: &mut Vec<UserError>,
 ) -> Result<ShotChoice, FuseError> {
     let calibration = || {
-        let path = request.calibration.as_deref()?;
-        Some(CellCalibration::load(path).ok()?.calibration)
+        let path = request.calibration.as_deref();
+        let loaded = path.map_or(Ok(None), CellCalibration::load_if_there)?;
+        Ok(loaded.map(|loaded| loaded.calibration))
     };
     let mut frames_of = |paths: &[PathBuf], poses: Option<&Path>| {
         let frames = read_frames(paths, &mut |news| {
@@ -265,8 +266,7 @@ fn read(
                 ControlFlow::Continue(())
             }
         })?;
-        let calibration = calibration();
-        with_poses(paths, poses, frames, calibration.as_ref())
+        with_poses(paths, poses, frames, calibration)
     };
     match &request.order {
         ScanOrder::Known(choice) => Ok(choice.clone()),

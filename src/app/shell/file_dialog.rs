@@ -2,7 +2,7 @@
 
 use std::{
     cell::{Cell, RefCell, RefMut},
-    fmt, fs,
+    fmt,
     path::{Path, PathBuf},
     pin::Pin,
     rc::Rc,
@@ -13,7 +13,7 @@ use std::{
 
 use super::{notice::Notice, path_entry::PathEntry};
 use crate::error::lock;
-use crate::files::{POINT_ENDINGS, folder_of, words_of};
+use crate::files::{POINT_ENDINGS, disk, folder_of, words_of};
 
 /// What a file dialog asks for.
 #[derive(Clone, Copy, Debug)]
@@ -251,7 +251,7 @@ impl OpenDialog {
             FileChoice::FolderToWrite => Some(path.as_path()),
         };
         if let Some(folder) = folder {
-            fs::create_dir_all(folder).map_err(|error| {
+            disk::create_dir_all(folder).map_err(|error| {
                 let what = format!("{} cannot be made: {}", folder.display(), words_of(&error));
                 Notice::look(what, "Choose another folder")
             })?;

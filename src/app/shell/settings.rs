@@ -1,7 +1,6 @@
 //! What is remembered from one start of the window to the next: a text file that a person can read and mend.
 
 use std::{
-    fs,
     io::{self, Read as _},
     path::{Path, PathBuf},
     sync::Arc,
@@ -27,7 +26,8 @@ use crate::{
         user_error::UserError,
     },
     capture::SourceSpec,
-    files::{open_regular, user_folders, write_atomically},
+    error::Advice as _,
+    files::{advice_on, disk, open_regular, user_folders, write_atomically},
     history::Traceability,
     pipeline::{NamedRecipe, Recipe, RecipeLabel},
     robot::Convention,
@@ -307,7 +307,7 @@ fn set_aside(path: &Path) -> io::Result<PathBuf> {
     for number in 1..1000 {
         let aside = path.with_extension(format!("broken-{number}.toml"));
         if !aside.exists() {
-            fs::rename(path, &aside)?;
+            disk::rename(path, &aside)?;
             return Ok(aside);
         }
     }
@@ -316,22 +316,25 @@ fn set_aside(path: &Path) -> io::Result<PathBuf> {
 
 /// Writes the file, whole or not at all.
 pub fn save(path: &Path, settings: &Settings) -> Result<(), UserError> {
-    let not_kept = |why: String| UserError {
+    let not_kept = |why: String, advice: &str| UserError {
         what: format!("The settings are not remembered: {why}"),
-        advice: "Make its folder writable; until then settings are not remembered".into(),
+        advice: format!("{advice}; until then settings are not remembered"),
     };
-    let text = toml::to_string(settings).map_err(|error| not_kept(error.to_string()))?;
+    let text = toml::to_string(settings)
+        .map_err(|error| not_kept(error.to_string(), "Report the settings that were changed"))?;
     let folder = path.parent().unwrap_or(Path::new("."));
-    fs::create_dir_all(folder).map_err(|error| {
+    disk::create_dir_all(folder).map_err(|error| {
         let words = crate::files::words_of(&error);
-        not_kept(format!("{}: {words}", folder.display()))
+        not_kept(format!("{}: {words}", folder.display()), advice_on(&error))
     })?;
     write_atomically(path, |writer| writer.write_all(text.as_bytes()))
-        .map_err(|error| not_kept(error.to_string()))
+        .map_err(|error| not_kept(error.to_string(), &error.advice()))
 }
 
 #[cfg(test)]
 mod tests {
+    use std::fs;
+
     use super::*;
 
     fn unusual() -> Settings {
@@ -426,5 +429,30 @@ mod tests {
         let path = folder.path().join("settings.toml");
         fs::write(&path, "window = [0.0, nan]").expect("written");
         assert_eq!(load(&path).0.window, None);
+    }
+
+    #[cfg(unix)]
+    #[test]
+    fn whichever_call_fails_the_settings_are_the_old_ones_or_the_new() {
+        let place = |folder: &Path| folder.join("deep").join("settings.toml");
+        let averaged = |average| Settings {
+            average,
+            ..Settings::default()
+        };
+        crate::files::disk::faults::Writer {
+            test: "app::shell::settings::tests::whichever_call_fails_the_settings_are_the_old_ones_or_the_new",
+            prepare: &|folder| save(&place(folder), &averaged(2)).expect("written"),
+            write: &|folder| {
+                let saved = save(&place(folder), &averaged(5));
+                saved.map_err(|error| format!("{}; {}", error.what, error.advice))
+            },
+            state: &|folder| {
+                let (settings, error) = load(&place(folder));
+                assert_eq!(error, None);
+                settings.average.to_string()
+            },
+            between: &[],
+        }
+        .fails_at_every_call();
     }
 }

@@ -2,7 +2,7 @@
 
 use std::{
     fs::{self, File},
-    io::{self, Write as _},
+    io,
     path::{Path, PathBuf},
 };
 
@@ -18,7 +18,7 @@ use crate::{
     files::{
         DepthCamera, FileError, crc32,
         depth_png::{FOLDER_CAMERA, write_camera, write_depths},
-        write_pcd,
+        disk, write_file, write_pcd,
     },
     geometry::sixteen_numbers::SixteenNumbers,
 };
@@ -54,16 +54,16 @@ impl Recorder {
             started_at: Timestamp::now(),
         };
         let begun = || -> io::Result<Option<Self>> {
-            fs::create_dir_all(folder)?;
+            disk::create_dir_all(folder)?;
             if fs::read_dir(folder)?.next().is_some() {
                 return Ok(None);
             }
             let mut recorder = Self {
                 folder: folder.to_owned(),
-                manifest: File::options()
-                    .append(true)
-                    .create_new(true)
-                    .open(folder.join(MANIFEST))?,
+                manifest: disk::open(
+                    File::options().append(true).create_new(true),
+                    &folder.join(MANIFEST),
+                )?,
                 length: 0,
                 num_frames: 0,
                 num_bytes: 0,
@@ -111,8 +111,8 @@ impl Recorder {
         let written = self.write_frame(captured, camera, file);
         written.map_err(|source| {
             // Half a frame is of no use; if it cannot be removed either, the list does not name it.
-            let _ = fs::remove_file(&path);
-            let _ = self.manifest.set_len(self.length);
+            let _ = disk::remove_file(&path);
+            let _ = disk::set_len(&self.manifest, self.length);
             CaptureError::Unwritable {
                 path,
                 num_kept: self.num_frames,
@@ -148,9 +148,7 @@ impl Recorder {
             })?;
             self.camera.get_or_insert(camera);
         }
-        let mut image = File::create_new(&path)?;
-        image.write_all(&content)?;
-        image.sync_all()?;
+        write_file(&path, &content)?;
         self.append(&FrameLine {
             file,
             bytes: content.len() as u64,
@@ -174,8 +172,8 @@ impl Recorder {
     fn append(&mut self, line: &impl Serialize) -> io::Result<()> {
         let mut text = serde_json::to_vec(line)?;
         text.push(b'\n');
-        self.manifest.write_all(&text)?;
-        self.manifest.sync_data()?;
+        disk::write_all(&mut self.manifest, &text)?;
+        disk::sync_data(&self.manifest)?;
         self.length += text.len() as u64;
         Ok(())
     }

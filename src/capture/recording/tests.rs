@@ -365,3 +365,51 @@ fn a_drive_that_is_pulled_out_is_waited_for() {
     );
     assert!(matches!(source.next(Duration::ZERO), Ok(NextCapture::End)));
 }
+
+#[cfg(unix)]
+#[test]
+fn whichever_call_fails_a_recording_holds_whole_frames_alone() {
+    use crate::{
+        files::disk::faults::{Writer, told},
+        kit::small_frame,
+    };
+
+    let template = simulated(1).remove(0);
+    let frames = [900, 1900].map(|depth| Captured {
+        image: Image::Depth(small_frame(6, depth..depth + 24)),
+        // The same in the process that is killed.
+        taken_at: jiff::Timestamp::UNIX_EPOCH,
+        truth: None,
+        ..template.clone()
+    });
+    Writer {
+        test: "capture::recording::tests::whichever_call_fails_a_recording_holds_whole_frames_alone",
+        prepare: &|_| (),
+        write: &|folder| {
+            let create = |name| Recorder::create(&folder.join(name), "Test", "simulated", true);
+            let recorder = match create("new") {
+                // As the advice says.
+                Err(CaptureError::FolderInUse { .. }) => create("another"),
+                created => created,
+            };
+            let mut recorder = recorder.map_err(|error| told(&error))?;
+            for frame in &frames {
+                recorder.write(frame).map_err(|error| told(&error))?;
+            }
+            Ok(())
+        },
+        state: &|folder| {
+            let names = ["another", "new"].into_iter();
+            let mut opened = names.map(|name| Replay::open(&recording_of(&folder.join(name))));
+            let Some(mut replay) = opened.find_map(Result::ok) else {
+                return "no recording".into();
+            };
+            let (found, names) = all_of(&mut replay);
+            assert!(names.iter().all(|name| !name.starts_with('!')), "{names:?}");
+            assert_same(&found, &frames[..found.len()]);
+            format!("{} frames", found.len())
+        },
+        between: &["0 frames", "1 frames"],
+    }
+    .fails_at_every_call();
+}

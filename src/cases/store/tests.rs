@@ -256,3 +256,71 @@ fn a_case_of_the_first_version_is_read_with_its_empty_cell() {
     fs::write(case.join("empty-cell.pcd"), &points).expect("another");
     cases.read_scene(&list.cases[0]).expect_err("another cell");
 }
+
+#[cfg(unix)]
+#[test]
+fn whichever_call_fails_a_case_is_kept_whole_or_not_at_all() {
+    use crate::files::disk::faults::{Writer, told};
+
+    let scene = crumb();
+    let at = |folder: &Path| CaseFolder::at(folder.join("cases"));
+    let state = |folder: &Path| {
+        let list = at(folder).list().expect("listed");
+        assert!(list.problems.is_empty(), "{:?}", list.problems);
+        for case in &list.cases {
+            assert_eq!(
+                bits(&at(folder).read_scene(case).expect("read")),
+                bits(&scene)
+            );
+        }
+        list.cases
+            .into_iter()
+            .map(|case| case.name)
+            .collect::<Vec<_>>()
+            .join(", ")
+    };
+    Writer {
+        test: "cases::store::tests::whichever_call_fails_a_case_is_kept_whole_or_not_at_all",
+        prepare: &|folder| {
+            at(folder).keep(&scene, about("door")).expect("kept");
+        },
+        write: &|folder| {
+            let kept = at(folder).keep(&scene, about("fender"));
+            kept.map(|_| ()).map_err(|error| told(&error))
+        },
+        state: &state,
+        between: &[],
+    }
+    .fails_at_every_call();
+}
+
+#[cfg(unix)]
+#[test]
+fn whichever_call_fails_a_case_is_removed_whole_or_not_at_all() {
+    use crate::files::disk::faults::{Writer, told};
+
+    let scene = crumb();
+    let at = |folder: &Path| CaseFolder::at(folder.join("cases"));
+    Writer {
+        test: "cases::store::tests::whichever_call_fails_a_case_is_removed_whole_or_not_at_all",
+        prepare: &|folder| {
+            at(folder).keep(&scene, about("door")).expect("kept");
+        },
+        write: &|folder| {
+            let removed = at(folder).remove("door");
+            removed.map(|_| ()).map_err(|error| told(&error))
+        },
+        state: &|folder| {
+            let list = at(folder).list().expect("listed");
+            assert!(list.problems.is_empty(), "{:?}", list.problems);
+            let in_trash = folder.join("cases").join(TRASH).join("door").join(CRUMB);
+            assert!(
+                !list.cases.is_empty() || in_trash.is_file(),
+                "the case is lost"
+            );
+            list.cases.len().to_string()
+        },
+        between: &[],
+    }
+    .fails_at_every_call();
+}

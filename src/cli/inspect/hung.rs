@@ -15,23 +15,23 @@ use crate::{
 };
 
 /// Tells them apart.
-pub(super) struct FollowedParts {
+pub(in crate::cli) struct FollowedParts {
     tracker: LiveTracker,
     rows: HungRows,
 }
 
 /// A frame as it was inspected by itself.
-pub(super) struct FollowedFrame<'a> {
-    pub(super) scene: &'a Arc<SceneCloud>,
-    pub(super) taken_at: Timestamp,
+pub(in crate::cli) struct FollowedFrame<'a> {
+    pub(in crate::cli) scene: &'a Arc<SceneCloud>,
+    pub(in crate::cli) taken_at: Timestamp,
     /// Middle of the named part, part space, metres.
-    pub(super) middle: Option<Point3<f64>>,
-    pub(super) accept: &'a AcceptParams,
+    pub(in crate::cli) middle: Option<Point3<f64>>,
+    pub(in crate::cli) accept: &'a AcceptParams,
 }
 
 impl FollowedParts {
     /// Before the first frame.
-    pub(super) fn new() -> Self {
+    pub(in crate::cli) fn new() -> Self {
         Self {
             tracker: LiveTracker::new(&LiveParams::default()),
             rows: HungRows::default(),
@@ -39,13 +39,13 @@ impl FollowedParts {
     }
 
     /// What the frames so far showed of the camera's field of view.
-    pub(super) fn known_view(&self) -> Option<Arc<FieldOfView>> {
+    pub(in crate::cli) fn known_view(&self) -> Option<Arc<FieldOfView>> {
         self.tracker.known_view()
     }
 
     /// Takes in a frame; what is to be written now. The verdict that counts is one of several frames; of a part that
     /// leaves before one does, the frame that shows it best speaks, as it was told.
-    pub(super) fn take(
+    pub(in crate::cli) fn take(
         &mut self,
         frame: &FollowedFrame<'_>,
         mut inspection: Inspection,
@@ -80,7 +80,7 @@ impl FollowedParts {
     }
 
     /// The source has ended; what is to be written yet.
-    pub(super) fn end(mut self) -> Option<NewEntry> {
+    pub(in crate::cli) fn end(mut self) -> Option<NewEntry> {
         self.rows.end()
     }
 }

@@ -5,7 +5,7 @@ use std::{ops::ControlFlow, path::PathBuf};
 use super::{PosesChoice, warn_of_excluded};
 use crate::{
     cli::{
-        calibrate::calibration_if_any,
+        calibrate::scan_calibration,
         console::{Advised as _, Console},
     },
     robot::scan_frames::{FrameNews, read_frames, with_poses},
@@ -38,8 +38,8 @@ pub(in crate::cli) fn open_scan(
         ControlFlow::Continue(())
     })
     .advised()?;
-    let calibration = calibration_if_any(given.calibration.as_deref(), console)?;
-    let shots = with_poses(paths, given.poses.as_deref(), frames, calibration.as_ref());
+    let calibration = scan_calibration(given.calibration.as_deref(), console)?;
+    let shots = with_poses(paths, given.poses.as_deref(), frames, calibration);
     let params = ScanParams {
         segment: segment.clone(),
         ..ScanParams::default()

@@ -1,6 +1,6 @@
 //! `partsight simulate --scan DIR`: frames of one part from several sides, with the poses that a robot would tell.
 
-use std::{fs, path::Path};
+use std::path::Path;
 
 use serde_json::json;
 
@@ -10,7 +10,7 @@ use crate::{
         Outcome,
         console::{Advised as _, Console, advised_error},
     },
-    files::{write_atomically, write_depth_png},
+    files::{disk, write_atomically, write_depth_png},
     geometry::rigid::row_major,
     robot::frame_poses::FRAME_POSES,
     simulate::{ScanSetup, SimulatedScan},
@@ -33,7 +33,7 @@ pub(super) fn run(
             "Name one, such as --part fender",
         ));
     };
-    fs::create_dir_all(folder).map_err(|error| {
+    disk::create_dir_all(folder).map_err(|error| {
         advised_error(
             format!("{}: {error}", folder.display()),
             "Give a folder that can be written",

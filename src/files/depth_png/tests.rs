@@ -2,6 +2,7 @@ use super::*;
 use crate::error::Advice as _;
 use crate::files::{FileContent, crc32, open};
 use crate::geometry::distortion::Distortion;
+use crate::kit::small_frame;
 
 fn frame() -> DepthFrame {
     DepthFrame {
@@ -266,4 +267,36 @@ fn a_line_of_pixels_takes_no_memory_and_what_is_no_png_is_named() {
         assert!(matches!(error, FileError::WrongPngKind { .. }), "{error}");
         assert!(error.to_string().contains(expected), "{error}");
     }
+}
+
+#[cfg(unix)]
+#[test]
+fn whichever_call_fails_a_depth_image_never_has_the_camera_of_another() {
+    use crate::files::disk::faults::{Writer, told};
+
+    let frame = |fx: f64, depth: u16| {
+        let mut frame = small_frame(6, (0..24).map(|i| depth + i));
+        frame.intrinsics.fx = fx;
+        frame
+    };
+    Writer {
+        test: "files::depth_png::tests::whichever_call_fails_a_depth_image_never_has_the_camera_of_another",
+        prepare: &|folder| {
+            write_depth_png(&folder.join("depth.png"), &frame(500.0, 900)).unwrap();
+        },
+        write: &|folder| {
+            let written = write_depth_png(&folder.join("depth.png"), &frame(600.0, 1900));
+            written.map_err(|error| told(&error))
+        },
+        state: &|folder| match crate::files::open(&folder.join("depth.png")) {
+            Ok(FileContent::Depth(frame)) => {
+                format!("fx {}, depth {}", frame.intrinsics.fx, frame.depth[0])
+            }
+            Ok(_) => "something else".into(),
+            Err(FileError::NotFound { .. }) => "none".into(),
+            Err(error) => error.to_string(),
+        },
+        between: &["none"],
+    }
+    .fails_at_every_call();
 }

@@ -4,7 +4,7 @@ use std::fs;
 
 use super::*;
 use crate::{
-    history::{StoredVerdict, open::FILE, waiting::MAX_WAITING},
+    history::{StoredVerdict, open::FILE, schema::APPLICATION, waiting::MAX_WAITING},
     kit::{history_entry, moment, open_history, small_scene},
 };
 
@@ -143,6 +143,8 @@ fn a_newer_history_is_left_alone_and_inspections_wait() {
     let path = folder.path().join(FILE);
     let file = rusqlite::Connection::open(&path).expect("made");
     file.pragma_update(None, "user_version", 99).expect("set");
+    file.pragma_update(None, "application_id", APPLICATION)
+        .expect("set");
     drop(file);
     let bytes = fs::read(&path).expect("there");
     let keeper = HistoryBuffer::new(Some(folder.path().to_owned()));

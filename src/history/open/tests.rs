@@ -4,6 +4,7 @@ use std::io::{Seek as _, SeekFrom, Write as _};
 
 use super::*;
 use crate::{
+    error::Advice as _,
     history::{Filter, KeepFrames, Retention, StoredVerdict},
     kit::{history_entry, new_history, open_history},
 };
@@ -66,25 +67,81 @@ fn a_damaged_file_is_set_aside_with_its_frames_and_a_new_one_begun() {
 }
 
 #[test]
-fn another_programs_database_is_not_written_to() {
-    for version in [0, 1] {
-        let folder = tempfile::tempdir().expect("a folder");
+fn another_programs_database_is_refused_and_nothing_of_it_or_beside_it_changes() {
+    for (application, version) in [(0, 0), (0, 1), (77, 0), (77, VERSION), (77, VERSION + 4)] {
+        for journal in ["DELETE", "WAL"] {
+            let folder = tempfile::tempdir().expect("a folder");
+            let path = folder.path().join(FILE);
+            let file = Connection::open(&path).expect("made");
+            let mode: String = file
+                .pragma_update_and_check(None, "journal_mode", journal, |row| row.get(0))
+                .expect("set");
+            assert_eq!(mode, journal.to_lowercase());
+            file.execute_batch("CREATE TABLE recipe (name TEXT)")
+                .expect("made");
+            for (name, value) in [("application_id", application), ("user_version", version)] {
+                file.pragma_update(None, name, value).expect("set");
+            }
+            drop(file);
+            let bytes = fs::read(&path).expect("there");
+            for open in [History::open, History::open_to_read] {
+                let refused = open(folder.path()).expect_err("refused");
+                assert!(matches!(refused, HistoryError::Foreign { .. }), "{refused}");
+                assert!(refused.to_string().contains("another program"));
+                assert!(refused.advice().contains("--history"));
+            }
+            assert_eq!(fs::read(&path).expect("kept"), bytes);
+            assert_eq!(fs::read_dir(folder.path()).expect("listed").count(), 1);
+        }
+    }
+}
+
+#[test]
+fn another_programs_database_that_lies_in_its_log_is_left_as_it_is() {
+    let folder = tempfile::tempdir().expect("a folder");
+    let path = folder.path().join(FILE);
+    let other = Connection::open(&path).expect("made");
+    other
+        .pragma_update_and_check(None, "journal_mode", "WAL", |_| Ok(()))
+        .expect("set");
+    other
+        .execute_batch("CREATE TABLE recipe (name TEXT)")
+        .expect("made");
+    let log = with_ending(&path, "-wal");
+    let read = || [&path, &log].map(|path| fs::read(path).expect("there"));
+    let before = read();
+    let refused = History::open(folder.path()).expect_err("refused");
+    assert!(matches!(refused, HistoryError::Foreign { .. }), "{refused}");
+    assert_eq!(read(), before);
+}
+
+#[test]
+fn a_history_that_lacks_a_table_or_an_index_is_set_aside() {
+    for (lost, found) in [
+        ("TABLE recipe", VERSION),
+        ("TABLE setting", VERSION),
+        ("TABLE detail", VERSION),
+        ("TABLE inspection", VERSION),
+        ("INDEX listed", VERSION),
+        // The step to the next version changes it.
+        ("TABLE detail", 2),
+    ] {
+        let folder = closed(3);
         let path = folder.path().join(FILE);
-        let file = Connection::open(&path).expect("made");
-        file.execute_batch("CREATE TABLE recipe (name TEXT)")
-            .expect("made");
-        file.pragma_update(None, "user_version", version)
+        let file = Connection::open(&path).expect("there");
+        file.pragma_update(None, "foreign_keys", false)
             .expect("set");
+        file.execute_batch(&format!("DROP {lost}; PRAGMA user_version = {found}"))
+            .expect("dropped");
         drop(file);
-        let bytes = fs::read(&path).expect("there");
-        let opened = History::open(folder.path()).expect("a new one");
+        let opened = History::open_to_read(folder.path()).expect("a new one");
         let set_aside = opened.set_aside.expect("said");
-        assert!(
-            set_aside.what.contains("another program"),
-            "{}",
-            set_aside.what
-        );
-        assert_eq!(fs::read(set_aside.aside).expect("kept"), bytes);
+        let [_, name] = lost.split(' ').collect::<Vec<_>>()[..] else {
+            panic!("{lost}");
+        };
+        assert!(set_aside.what.contains(name), "{}", set_aside.what);
+        assert!(set_aside.aside.is_file());
+        assert_eq!(num_rows(&opened.history), 0);
     }
 }
 

@@ -571,3 +571,83 @@ fn only_what_lies_in_the_trash_is_restored() {
     }
     assert!(library.trashed().expect("listed").is_empty() && folder.exists());
 }
+
+/// Lets every call of a change fail; whatever is found has to be whole, and the plate is never lost.
+#[cfg(unix)]
+fn fails_at_every_call(
+    test: &str,
+    change: &dyn Fn(&LibraryFolder) -> Result<(), LibraryError>,
+    between: &[&str],
+) {
+    use crate::files::disk::faults::{Writer, told};
+
+    let plate = part("plate", 0.4);
+    let open = |folder: &Path| LibraryFolder::open(folder).expect("there");
+    Writer {
+        test,
+        prepare: &|folder| {
+            open(folder).save(&plate).expect("saved");
+        },
+        write: &|folder| change(&open(folder)).map_err(|error| told(&error)),
+        state: &|folder| {
+            let library = open(folder);
+            let load = library.verify(&ReferenceParams::default()).expect("listed");
+            assert!(load.problems.is_empty(), "{:?}", load.problems);
+            let is_plate = |folder: &Path| {
+                let cloud = fs::read(folder.join(CLOUD));
+                cloud.is_ok_and(|bytes| bytes == crate::library::part::cloud_bytes(&plate.cloud))
+            };
+            let inside = |folder: PathBuf| fs::read_dir(folder).into_iter().flatten().flatten();
+            let mut kept = inside(folder.to_owned()).chain(inside(folder.join(TRASH)));
+            assert!(
+                kept.any(|found| is_plate(&found.path())),
+                "the plate is lost"
+            );
+            let parts = load.parts.iter().zip(&load.library.references);
+            let parts = parts.map(|(meta, reference)| {
+                format!("{} of {} points", meta.title, reference.cloud.points.len())
+            });
+            parts.collect::<Vec<_>>().join(", ")
+        },
+        between,
+    }
+    .fails_at_every_call();
+}
+
+#[cfg(unix)]
+#[test]
+fn whichever_call_fails_a_part_is_replaced_or_not() {
+    let new = part("plate", 0.5);
+    fails_at_every_call(
+        "library::store::tests::whichever_call_fails_a_part_is_replaced_or_not",
+        &|library| library.save(&new).map(|_| ()),
+        &[],
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn whichever_call_fails_a_part_is_renamed_or_not() {
+    fails_at_every_call(
+        "library::store::tests::whichever_call_fails_a_part_is_renamed_or_not",
+        &|library| {
+            let words = PartNaming {
+                name: part_name("sheet"),
+                title: "Sheet".into(),
+                notes: String::new(),
+            };
+            library.rename(&part_name("plate"), &words).map(|_| ())
+        },
+        &[],
+    );
+}
+
+#[cfg(unix)]
+#[test]
+fn whichever_call_fails_a_part_is_removed_or_not() {
+    fails_at_every_call(
+        "library::store::tests::whichever_call_fails_a_part_is_removed_or_not",
+        &|library| library.remove(&part_name("plate")).map(|_| ()),
+        &[],
+    );
+}

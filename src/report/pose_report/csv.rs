@@ -4,15 +4,15 @@
 //! the middle leaves a row without its end at most: it is set aside beside the file when the next one comes.
 
 use std::{
-    fs::{File, OpenOptions},
-    io::{self, Read as _, Seek as _, SeekFrom, Write as _},
+    fs::File,
+    io::{self, Read as _, Seek as _, SeekFrom},
     path::{Path, PathBuf},
 };
 
 use super::{PoseReport, TransformBlock};
 use crate::{
     error::Advice,
-    files::{advice_on, csv_text, folder_of, sync_folder, words_of},
+    files::{advice_on, csv_text, disk, folder_of, sync_folder, words_of},
     robot::Convention,
 };
 
@@ -70,13 +70,9 @@ pub fn append_csv(path: &Path, report: &PoseReport) -> Result<CsvAppended, CsvEr
     let row = line(columns.iter().map(|(_, value)| value.as_str()).collect());
 
     // Only one at a time, from whichever program.
-    let mut file = OpenOptions::new()
-        .read(true)
-        .write(true)
-        .create(true)
-        .truncate(false)
-        .open(path)
-        .map_err(failed)?;
+    let mut options = File::options();
+    options.read(true).write(true).create(true).truncate(false);
+    let mut file = disk::open(&options, path).map_err(failed)?;
     // On a disk that knows no locks, the rows of one program at a time are whole all the same.
     let _ = file.lock();
     let mut length = file.metadata().map_err(failed)?.len();
@@ -98,7 +94,7 @@ pub fn append_csv(path: &Path, report: &PoseReport) -> Result<CsvAppended, CsvEr
     let mut appended = CsvAppended::Row;
     let text = if begin.len() < header.len() {
         // Killed before the first line was whole.
-        file.set_len(0).map_err(failed)?;
+        disk::set_len(&file, 0).map_err(failed)?;
         length = 0;
         header + &row
     } else {
@@ -111,11 +107,11 @@ pub fn append_csv(path: &Path, report: &PoseReport) -> Result<CsvAppended, CsvEr
     };
     let written = file
         .seek(SeekFrom::Start(length))
-        .and_then(|_| file.write_all(text.as_bytes()))
-        .and_then(|()| file.sync_data());
+        .and_then(|_| disk::write_all(&mut file, text.as_bytes()))
+        .and_then(|()| disk::sync_data(&file));
     if let Err(error) = written {
         // Half a row helps nobody; where this fails too, the next call sets it aside.
-        let _ = file.set_len(length);
+        let _ = disk::set_len(&file, length);
         return Err(failed(error));
     }
     if length == 0 {
@@ -151,10 +147,10 @@ fn set_aside(path: &Path, file: &mut File, end: u64) -> io::Result<PathBuf> {
     let mut name = path.as_os_str().to_owned();
     name.push(".unfinished");
     let aside = PathBuf::from(name);
-    let mut kept = OpenOptions::new().append(true).create(true).open(&aside)?;
-    kept.write_all(&tail)?;
-    kept.sync_data()?;
-    file.set_len(end)?;
+    let mut kept = disk::open(File::options().append(true).create(true), &aside)?;
+    disk::write_all(&mut kept, &tail)?;
+    disk::sync_data(&kept)?;
+    disk::set_len(file, end)?;
     Ok(aside)
 }
 

@@ -2,7 +2,6 @@
 
 use std::{
     fmt::Write as _,
-    fs,
     path::{Path, PathBuf},
 };
 
@@ -11,7 +10,7 @@ use serde::Deserialize;
 
 use super::{CalibrationError, CameraPlace, CellCalibration, Origin, numbers_text};
 use crate::{
-    files::{FileError, crc32, read_text, user_folders, write_atomically},
+    files::{FileError, crc32, disk, read_text, user_folders, write_atomically},
     geometry::rigid::{from_row_major, row_major},
     robot::hand_eye::Mount,
 };
@@ -72,13 +71,21 @@ impl CellCalibration {
         parse(&text, path)
     }
 
+    /// The same; `None` where there is no such file.
+    pub fn load_if_there(path: &Path) -> Result<Option<Loaded>, CalibrationError> {
+        match Self::load(path) {
+            Err(CalibrationError::File(FileError::NotFound { .. })) => Ok(None),
+            loaded => loaded.map(Some),
+        }
+    }
+
     /// Writes a calibration, whole or not at all; the folder is made where it is missing.
     pub fn save(&self, path: &Path) -> Result<(), CalibrationError> {
         if let Some(folder) = path
             .parent()
             .filter(|folder| !folder.as_os_str().is_empty())
         {
-            fs::create_dir_all(folder).map_err(|source| FileError::Write {
+            disk::create_dir_all(folder).map_err(|source| FileError::Write {
                 path: path.to_owned(),
                 source,
             })?;

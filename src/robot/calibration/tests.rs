@@ -269,3 +269,30 @@ fn lengths_in_the_wrong_unit_are_questioned() {
     };
     assert_eq!(doubt(arm), "near");
 }
+
+#[cfg(unix)]
+#[test]
+fn whichever_call_fails_a_calibration_is_the_old_one_or_the_new() {
+    use crate::files::disk::faults::{Writer, told};
+
+    let called = |name: &str| CellCalibration {
+        name: name.into(),
+        ..fixed()
+    };
+    let place = |folder: &Path| folder.join("deep").join("cell.toml");
+    Writer {
+        test: "robot::calibration::tests::whichever_call_fails_a_calibration_is_the_old_one_or_the_new",
+        prepare: &|folder| called("old").save(&place(folder)).expect("written"),
+        write: &|folder| {
+            let saved = called("new").save_keeping_former(&place(folder));
+            saved.map(|_| ()).map_err(|error| told(&error))
+        },
+        state: &|folder| {
+            let loaded = CellCalibration::load(&place(folder)).expect("read");
+            assert!(!loaded.is_edited);
+            loaded.calibration.name
+        },
+        between: &[],
+    }
+    .fails_at_every_call();
+}

@@ -7,7 +7,7 @@ use serde::Serialize;
 
 use super::{BandStatus, CarriedPath, MOST_TILT};
 use crate::{
-    files::{FileError, csv_comment, open_regular, write_atomically},
+    files::{FileError, csv_comment, disk, open_regular, write_atomically},
     robot::{Convention, RobotFrame, RobotPose, RobotValue},
     stages::stand_off::StandOffParams,
 };
@@ -73,7 +73,7 @@ pub fn remove_previous_export(path: &Path) -> Result<bool, FileError> {
     if !BEGINNINGS.iter().any(|ours| beginning.starts_with(ours)) {
         return Ok(false);
     }
-    std::fs::remove_file(path).map_err(|source| FileError::Write {
+    disk::remove_file(path).map_err(|source| FileError::Write {
         path: path.to_owned(),
         source,
     })?;

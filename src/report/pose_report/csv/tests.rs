@@ -162,3 +162,46 @@ fn many_at_once_leave_whole_rows() {
     assert_eq!(rows.len(), 81);
     assert!(rows[1..].iter().all(|row| *row == rows[1]));
 }
+
+#[cfg(unix)]
+#[test]
+fn whichever_call_fails_a_table_has_whole_rows_alone() {
+    use crate::files::disk::faults::{Writer, told};
+
+    let report = door().report(Some(&robot()), Convention::Kuka);
+    let table = |folder: &Path| folder.join("poses.csv");
+    // A new table, one that grows, and one whose last row a killed program left without its end.
+    for (number, begin) in ["", "whole", "half"].into_iter().enumerate() {
+        // The process that is to be killed knows which of them by its folder alone.
+        let is_mine = |folder: &Path| folder.join(number.to_string()).exists();
+        Writer {
+            test: "report::pose_report::csv::tests::whichever_call_fails_a_table_has_whole_rows_alone",
+            prepare: &|folder| {
+                fs::write(folder.join(number.to_string()), "").expect("written");
+                if !begin.is_empty() {
+                    append_csv(&table(folder), &report).expect("appended");
+                }
+                if begin == "half" {
+                    let text = fs::read_to_string(table(folder)).expect("read");
+                    fs::write(table(folder), text + "half a ro").expect("written");
+                }
+            },
+            write: &|folder| {
+                if !is_mine(folder) {
+                    return Ok(());
+                }
+                let appended = append_csv(&table(folder), &report);
+                appended.map(|_| ()).map_err(|error| told(&error))
+            },
+            state: &|folder| {
+                let text = fs::read_to_string(table(folder)).unwrap_or_default();
+                let (whole, _) = text.rsplit_once('\n').unwrap_or_default();
+                let rows: Vec<_> = whole.lines().map(cells).collect();
+                assert!(rows.iter().all(|row| row.len() == rows[0].len()));
+                format!("{} rows", rows.len().saturating_sub(1))
+            },
+            between: &[],
+        }
+        .fails_at_every_call();
+    }
+}

@@ -1,0 +1,219 @@
+//! Small files to begin with, made by the program's own writers: `seeds FOLDER` fills `FOLDER/<target>`.
+
+use std::{
+    env, fs,
+    path::{Path, PathBuf},
+    time::Duration,
+};
+
+use nalgebra::Point3;
+use partsight::{
+    CellSetup, DepthFrame, Grid, Intrinsics, LibraryFolder, PartKind, PointCloud, RigidTransform,
+    Side,
+    capture::{NextCapture, Recorder},
+    files::write_depth_png,
+    geometry::rigid::row_major,
+    open_source,
+    pipeline::RecipeFile,
+    robot::calibration::{CameraPlace, CellCalibration, Origin},
+    save_cloud, simulated_frame,
+};
+
+type Outcome = Result<(), Box<dyn std::error::Error>>;
+
+const STL: &str = "solid s\nfacet normal 0 0 1\nouter loop\nvertex 0 0 0\nvertex 1 0 0\nvertex 0 1 0\nendloop\nendfacet\nendsolid s\n";
+const OBJ: &str = "# made by hand\n\no part\nv 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\nf -3 -2 -1\n";
+const GLTF: &str = r#"{"asset":{"version":"2.0"},"scene":0,"scenes":[{"nodes":[0]}],"nodes":[{"mesh":0,"name":"Door"}],
+    "meshes":[{"primitives":[{"attributes":{"POSITION":0},"indices":1}]}],
+    "accessors":[{"bufferView":0,"componentType":5126,"count":3,"type":"VEC3","min":[0,0,0],"max":[1,1,0]},
+        {"bufferView":1,"componentType":5123,"count":3,"type":"SCALAR"}],
+    "bufferViews":[{"buffer":0,"byteOffset":0,"byteLength":36},{"buffer":0,"byteOffset":36,"byteLength":6}],
+    "buffers":[{"byteLength":42,"uri":"data:application/octet-stream;base64,AAAAAAAAAAAAAAAAAACAPwAAAAAAAAAAAAAAAAAAgD8AAAAAAAABAAIA"}]}"#;
+
+fn main() -> Outcome {
+    let root = PathBuf::from(env::args_os().nth(1).ok_or("which folder?")?);
+    for (target, fill) in [
+        ("open", open as fn(&Path) -> Outcome),
+        ("texts", texts),
+        ("inspect", inspect),
+    ] {
+        let folder = root.join(target);
+        fs::create_dir_all(&folder)?;
+        fill(&folder)?;
+    }
+    Ok(())
+}
+
+fn open(folder: &Path) -> Outcome {
+    let cloud = PointCloud {
+        points: (0..24)
+            .map(|i| Point3::new((i % 6) as f32 * 0.1, (i / 6) as f32 * 0.1, 1.0))
+            .collect(),
+        colours: Some(vec![[1, 2, 3]; 24]),
+        labels: Some((0..24).collect()),
+        grid: Some(Grid {
+            width: 6,
+            height: 4,
+        }),
+        ..PointCloud::default()
+    };
+    for name in ["cloud.pcd", "cloud.ply", "cloud.xyz"] {
+        save_cloud(&folder.join(name), &cloud)?;
+    }
+    write_depth_png(&folder.join("depth.png"), &small_depth())?;
+    // As the Point Cloud Library and scanners store the same, and formats that are only read.
+    let header = "# .PCD v0.7\nVERSION 0.7\nFIELDS x y z rgb\nSIZE 4 4 4 4\nTYPE F F F U\nCOUNT 1 1 1 1\nWIDTH 2\nHEIGHT 1\nPOINTS 2\n";
+    fs::write(
+        folder.join("ascii.pcd"),
+        format!("{header}DATA ascii\n1 2 3 0\nnan 5 6 7\n"),
+    )?;
+    let mut packed = format!("{header}DATA binary_compressed\n").into_bytes();
+    // 32 bytes in one literal run of LZF.
+    packed.extend(33_u32.to_le_bytes());
+    packed.extend(32_u32.to_le_bytes());
+    packed.push(31);
+    packed.extend([0x3f; 32]);
+    fs::write(folder.join("packed.pcd"), packed)?;
+    let ply = "ply\nformat ascii 1.0\nelement vertex 4\nproperty double x\nproperty double y\nproperty double z\n\
+               element face 2\nproperty list uchar int vertex_indices\nend_header\n\
+               0 0 1\n1 0 1\n1 1 1\n0 1 1\n3 0 1 2\n3 0 2 3\n";
+    for (name, text) in [
+        ("mesh.ply", ply),
+        ("part.stl", STL),
+        ("part.obj", OBJ),
+        ("part.gltf", GLTF),
+        (
+            "table.csv",
+            "\"X [m]\";\"Y [m]\";\"Z [m]\"\n0,1;0,2;1,5\n0,3;0,4;1,6\n",
+        ),
+    ] {
+        fs::write(folder.join(name), text)?;
+    }
+    let mut stl = b"in binary".to_vec();
+    stl.resize(80, b' ');
+    stl.extend(1_u32.to_le_bytes());
+    let corners = [
+        0.0_f32, 0.0, 1.0, 0.0, 0.0, 0.0, 2.0, 0.0, 0.0, 0.0, 3.0, 0.0,
+    ];
+    stl.extend(corners.iter().flat_map(|number| number.to_le_bytes()));
+    stl.extend([0, 0]);
+    fs::write(folder.join("binary.stl"), stl)?;
+    Ok(())
+}
+
+fn small_depth() -> DepthFrame {
+    DepthFrame {
+        intrinsics: Intrinsics {
+            width: 6,
+            height: 4,
+            ..Intrinsics::KINECT
+        },
+        metres_per_unit: 0.001,
+        depth: (900..924).collect(),
+        is_simulated: false,
+    }
+}
+
+fn texts(folder: &Path) -> Outcome {
+    let place = RigidTransform::translation(0.1, 0.2, 1.3);
+    let cameras = [
+        CameraPlace::Fixed {
+            robot_from_camera: place,
+        },
+        CameraPlace::OnFlange {
+            flange_from_camera: place,
+            capture_pose: Some(place),
+        },
+    ];
+    for (number, camera) in cameras.into_iter().enumerate() {
+        let calibration = CellCalibration {
+            name: "cell".into(),
+            notes: "north".into(),
+            camera,
+            origin: Origin::ByHand,
+            made_at: jiff::Timestamp::UNIX_EPOCH,
+        };
+        calibration.save(&folder.join(format!("calibration{number}")))?;
+    }
+    let beside = tempfile::tempdir()?;
+    let image = beside.path().join("depth.png");
+    write_depth_png(&image, &small_depth())?;
+    fs::copy(image.with_extension("json"), folder.join("camera"))?;
+    let recording = beside.path().join("recording");
+    let mut source = open_source(&"simulated:parts=fender".parse()?)?;
+    let mut recorder = Recorder::create(&recording, "seed", "simulated", true)?;
+    if let NextCapture::Captured(captured) = source.next(Duration::from_secs(60))? {
+        recorder.write(&captured)?;
+    }
+    fs::copy(recording.join("recording.jsonl"), folder.join("recording"))?;
+    fs::write(
+        folder.join("recipe"),
+        RecipeFile::built_in().text() + "\"rank.top\" = \"3\"\n",
+    )?;
+    let numbers = format!("{:?}", row_major(&place));
+    for (name, text) in [
+        ("nozzle", "nozzle_x_mm,nozzle_y_mm,nozzle_z_mm,direction_x,direction_y,direction_z\n12.5,-40,1141,0,0,2\n".to_owned()),
+        ("surface", "x_m;y_m;z_m;normal_x;normal_y;normal_z;stand_off_mm\n0,1;0,2;1,3;0;0;-1;120\n".to_owned()),
+        ("pairs", "# robot: kuka\n# camera: rotation-vector\np1 1450.5 -310 890.5 10 20 30 0.1 -0.03 1.2 0 0 0.5\n".to_owned()),
+        ("pairs-json", r#"{"robot":"kuka","camera":"rotation-vector","pairs":[{"name":"p1","robot":[1450.5,-310,890.5,10,20,30],"camera":[0.1,-0.03,1.2,0,0,0.5]}]}"#.to_owned()),
+        ("arm", "# robot: fanuc\ncapture, X, Y, Z, W, P, R\na.pcd, 1000, 0, 0, 0, 0, 90\n".to_owned()),
+        ("frame-poses", format!(r#"{{"frames":{{"a.png":{{"world_from_camera":{numbers}}},"b.png":{{"robot_from_flange":{numbers}}}}}}}"#)),
+        ("sequence", "# timestamp filename\n1305031102.160400 depth/0.png\n".to_owned()),
+    ] {
+        fs::write(folder.join(name), text)?;
+    }
+    Ok(())
+}
+
+/// The width of the picture, then coordinates in tenths of a millimetre: simulated frames in fewer pixels, and whole
+/// reference clouds in fewer points.
+fn inspect(folder: &Path) -> Outcome {
+    let coordinates = |points: &[Point3<f32>]| -> Vec<u8> {
+        let numbers = points.iter().flat_map(|point| [point.x, point.y, point.z]);
+        numbers
+            .flat_map(|metres| ((metres * 10_000.0) as i16).to_le_bytes())
+            .collect()
+    };
+    for (part, step) in [
+        (PartKind::Fender, 8),
+        (PartKind::FrontDoor, 5),
+        (PartKind::Grille, 4),
+    ] {
+        let frame = simulated_frame(&CellSetup::with_part(part, Side::Left, 0, 1)).frame;
+        let Intrinsics {
+            width,
+            height,
+            fx,
+            fy,
+            cx,
+            cy,
+            ..
+        } = frame.intrinsics;
+        let mut points = Vec::new();
+        for row in (0..height).step_by(step) {
+            for column in (0..width).step_by(step) {
+                let z = f64::from(frame.depth[row * width + column]) * frame.metres_per_unit;
+                let (x, y) = ((column as f64 - cx) / fx * z, (row as f64 - cy) / fy * z);
+                points.push(Point3::new(x as f32, y as f32, z as f32));
+            }
+        }
+        let mut bytes = vec![width.div_ceil(step) as u8];
+        bytes.extend(coordinates(&points));
+        fs::write(folder.join(format!("frame-{part:?}")), bytes)?;
+    }
+    let library = LibraryFolder::open("reference_parts".as_ref())?
+        .load(&Default::default())?
+        .library;
+    for reference in &library.references {
+        let points = &reference.cloud.points;
+        let few: Vec<Point3<f32>> = points
+            .iter()
+            .step_by(points.len().div_ceil(1500))
+            .copied()
+            .collect();
+        let mut bytes = vec![0];
+        bytes.extend(coordinates(&few));
+        fs::write(folder.join(format!("part-{}", reference.name)), bytes)?;
+    }
+    Ok(())
+}

@@ -1,0 +1,343 @@
+//! `partsight bench soak`: very many frames through all that `inspect --source` does, and whether it holds more and more
+//! of the system.
+
+use std::{
+    sync::Arc,
+    time::{Duration, Instant},
+};
+
+use jiff::{SignedDuration, Timestamp};
+use serde::Serialize;
+
+use super::{BenchArgs, write_json};
+use crate::{
+    bench::{ProcessUsage, quantile},
+    capture::{
+        BackpressurePolicy, CaptureError, Captured, DepthSource, Feed, FeedItem, Image, NextCapture,
+    },
+    cli::{
+        Outcome,
+        console::{Advised as _, Console, Table, advised_error},
+        inspect::hung::{FollowedFrame, FollowedParts},
+        record::{HistoryChoice, HistoryRecorder, SceneOrigin},
+    },
+    geometry::depth_frame::{DepthFrame, Intrinsics},
+    history::Traceability,
+    library::LibraryLoad,
+    pipeline::{self, Inspection, NamedRecipe, Unwatched},
+    report::InspectionLine,
+    simulate::{CellSetup, PartKind, Side, frame},
+    stages::{reference::Reference, scene::scene_from_image},
+};
+
+/// Lines of the table.
+const NUM_STRETCHES: u64 = 20;
+/// Stretches until every part has hung there several times and every store has its size.
+const WARM_UP: usize = 4;
+/// After that the memory grows by no more.
+const MOST_GROWTH: f64 = 0.02;
+
+/// What `--json` writes.
+#[derive(Debug, Serialize)]
+struct SoakFile {
+    schema: u32,
+    simulated: bool,
+    num_frames: u64,
+    /// From the end of the warm-up to the end, a share; `null` where the system does not tell.
+    memory_growth: Option<f64>,
+    stretches: Vec<Stretch>,
+}
+
+#[derive(Debug, Serialize)]
+struct Stretch {
+    until_frame: u64,
+    until_s: f64,
+    latency_p50_ms: f64,
+    latency_p95_ms: f64,
+    latency_longest_ms: f64,
+    num_accepted: u64,
+    num_in_history: u64,
+    usage: Option<ProcessUsage>,
+}
+
+/// A camera of few pixels: every part hangs still for a while, then the next one.
+struct SmallCell {
+    pictures: Arc<[DepthFrame]>,
+    begun: Timestamp,
+    num_given: u64,
+    num_frames: u64,
+}
+
+impl SmallCell {
+    /// Frames for which a part hangs there.
+    const HANGING: u64 = 30;
+    const FRAMES_PER_SECOND: i64 = 30;
+    /// Of the Kinect's rows and columns each so many are one.
+    const STEP: usize = 4;
+
+    fn pictures() -> Arc<[DepthFrame]> {
+        let seeds = 0..4;
+        let setups = seeds.flat_map(|seed| {
+            PartKind::ALL.map(|kind| CellSetup::with_part(kind, Side::Left, 0, seed))
+        });
+        setups.map(|setup| smaller(&frame(&setup).frame)).collect()
+    }
+}
+
+/// Every fourth row and column.
+fn smaller(frame: &DepthFrame) -> DepthFrame {
+    let old = frame.intrinsics;
+    let step = SmallCell::STEP;
+    let part = |number: f64| number / step as f64;
+    let rows = frame.depth.chunks(old.width).step_by(step);
+    DepthFrame {
+        intrinsics: Intrinsics {
+            width: old.width.div_ceil(step),
+            height: old.height.div_ceil(step),
+            fx: part(old.fx),
+            fy: part(old.fy),
+            cx: part(old.cx),
+            cy: part(old.cy),
+            ..old
+        },
+        depth: rows
+            .flat_map(|row| row.iter().step_by(step).copied())
+            .collect(),
+        ..*frame
+    }
+}
+
+impl DepthSource for SmallCell {
+    fn title(&self) -> String {
+        "Simulated cell, few pixels".into()
+    }
+
+    fn is_simulated(&self) -> bool {
+        true
+    }
+
+    fn next(&mut self, _wait: Duration) -> Result<NextCapture, CaptureError> {
+        if self.num_given == self.num_frames {
+            return Ok(NextCapture::End);
+        }
+        let place = (self.num_given / Self::HANGING) as usize % self.pictures.len();
+        let nanoseconds = self.num_given as i64 * (1_000_000_000 / Self::FRAMES_PER_SECOND);
+        self.num_given += 1;
+        Ok(NextCapture::Captured(Captured {
+            number: self.num_given,
+            name: format!("simulated frame {}", self.num_given),
+            taken_at: self.begun + SignedDuration::from_nanos(nanoseconds),
+            arrived: Instant::now(),
+            image: Image::Depth(self.pictures[place].clone()),
+            is_simulated: true,
+            truth: None,
+            robot_from_flange: None,
+            warnings: Vec::new(),
+        }))
+    }
+}
+
+/// What follows the frames.
+struct Follower<'a> {
+    load: &'a LibraryLoad,
+    recipe: NamedRecipe,
+    followed: FollowedParts,
+    recording: HistoryRecorder,
+    num_accepted: u64,
+    num_in_history: u64,
+}
+
+impl Follower<'_> {
+    /// As `inspect --source` takes a frame in, but for what is shown.
+    fn take(&mut self, captured: Captured, console: &Console) -> anyhow::Result<Duration> {
+        let arrived = captured.arrived;
+        let mut scene = scene_from_image(captured.image);
+        scene.set_known_view(self.followed.known_view());
+        let scene = Arc::new(scene);
+        let library = &self.load.library;
+        let inspection = pipeline::run(&scene, library, &self.recipe, &Unwatched)?;
+        self.num_accepted += u64::from(inspection.verdict.is_accepted());
+        let line_of = |inspection: &Inspection| {
+            let line = InspectionLine::of(&captured.name, inspection);
+            line.by(&self.recipe).to_json()
+        };
+        // Written by nobody here, but made all the same.
+        drop(line_of(&inspection));
+        let frame = FollowedFrame {
+            scene: &scene,
+            taken_at: captured.taken_at,
+            middle: inspection
+                .best_reference(library)
+                .and_then(Reference::middle),
+            accept: &self.recipe.accept,
+        };
+        let taken = SceneOrigin {
+            scene: &captured.name,
+            source: "simulated",
+            is_simulated: true,
+        };
+        let entries = self.followed.take(&frame, inspection, |inspection, hung| {
+            (self.recording).entry(taken, &scene, inspection, &line_of(inspection), hung)
+        });
+        let latency = arrived.elapsed();
+        for entry in entries.into_iter().flatten() {
+            self.num_in_history += 1;
+            self.recording.add(entry, console);
+        }
+        Ok(latency)
+    }
+}
+
+pub(super) fn run(args: &BenchArgs, console: &mut Console) -> anyhow::Result<Outcome> {
+    let recipe = NamedRecipe::default();
+    let load = args
+        .library
+        .load_some(&recipe.reference_params(), console)?;
+    let folder = tempfile::tempdir()?;
+    let place = HistoryChoice::in_folder(folder.path());
+    let Some(recording) =
+        HistoryRecorder::start(&place, &load, &recipe, &Traceability::default(), console)
+    else {
+        return Err(advised_error(
+            "the history of the experiment cannot be written",
+            "Set TMPDIR to a folder that can be written",
+        ));
+    };
+    let mut follower = Follower {
+        load: &load,
+        recipe,
+        followed: FollowedParts::new(),
+        recording,
+        num_accepted: 0,
+        num_in_history: 0,
+    };
+    let (pictures, num_frames) = (SmallCell::pictures(), args.frames);
+    console.line(&format_args!(
+        "Simulated: {num_frames} frames of {} by {} pixels, the history in {}.",
+        pictures[0].intrinsics.width,
+        pictures[0].intrinsics.height,
+        folder.path().display()
+    ));
+    let open = move || {
+        Ok(Box::new(SmallCell {
+            pictures: Arc::clone(&pictures),
+            begun: Timestamp::UNIX_EPOCH,
+            num_given: 0,
+            num_frames,
+        }) as Box<dyn DepthSource>)
+    };
+    let feed = Feed::start_with(open, BackpressurePolicy::Every, || ()).advised()?;
+    let stretches = stretches(&feed, &mut follower, num_frames, console)?;
+    let Follower {
+        followed,
+        mut recording,
+        ..
+    } = follower;
+    if let Some(entry) = followed.end() {
+        recording.add(entry, console);
+    }
+    recording.finish(console);
+    show(&stretches, console);
+    let memory_growth = growth(&stretches);
+    if let Some(path) = &args.json {
+        let file = SoakFile {
+            schema: 1,
+            simulated: true,
+            num_frames,
+            memory_growth,
+            stretches,
+        };
+        write_json(path, &file)?;
+    }
+    let Some(grown) = memory_growth else {
+        console.note(&"This system does not tell how much memory the program uses.");
+        return Ok(Outcome::Accepted);
+    };
+    console.line(&format_args!(
+        "Memory after the warm-up of {} %: {:+.1} %, at most +{:.0} % expected.",
+        100 * WARM_UP / NUM_STRETCHES as usize,
+        100.0 * grown,
+        100.0 * MOST_GROWTH
+    ));
+    Ok(if grown <= MOST_GROWTH {
+        Outcome::Accepted
+    } else {
+        Outcome::NotAccepted
+    })
+}
+
+/// Takes in all that the feed gives, and what each twentieth of it came to.
+fn stretches(
+    feed: &Feed,
+    follower: &mut Follower<'_>,
+    num_frames: u64,
+    console: &mut Console,
+) -> anyhow::Result<Vec<Stretch>> {
+    let begun = Instant::now();
+    console.start_progress(NUM_STRETCHES as usize);
+    let mut stretches: Vec<Stretch> = Vec::new();
+    let mut latencies = Vec::new();
+    let mut num_taken = 0;
+    while let Some(FeedItem::Captured(captured)) = feed.wait(Duration::from_mins(1)) {
+        let latency = follower.take(captured, console)?;
+        latencies.push(latency.as_secs_f64() * 1e3);
+        num_taken += 1;
+        if num_taken < num_frames * (stretches.len() as u64 + 1) / NUM_STRETCHES {
+            continue;
+        }
+        let share = |share| quantile(latencies.iter().copied(), share).unwrap_or(0.0);
+        stretches.push(Stretch {
+            until_frame: num_taken,
+            until_s: begun.elapsed().as_secs_f64(),
+            latency_p50_ms: share(0.5),
+            latency_p95_ms: share(0.95),
+            latency_longest_ms: share(1.0),
+            num_accepted: follower.num_accepted,
+            num_in_history: follower.num_in_history,
+            usage: ProcessUsage::now(),
+        });
+        latencies.clear();
+        console.done();
+    }
+    console.end_progress();
+    Ok(stretches)
+}
+
+/// By which share the memory of the last stretches is above that at the end of the warm-up.
+fn growth(stretches: &[Stretch]) -> Option<f64> {
+    let memory = |stretches: &[Stretch]| {
+        let memory = stretches
+            .iter()
+            .filter_map(|stretch| Some(stretch.usage?.memory_mb));
+        // What a moment takes and gives back is no growth.
+        quantile(memory, 0.5)
+    };
+    let (first, rest) = stretches.get(WARM_UP..)?.split_at_checked(3)?;
+    let last = rest.get(rest.len().checked_sub(3)?..)?;
+    Some(memory(last)? / memory(first)? - 1.0)
+}
+
+fn show(stretches: &[Stretch], console: &mut Console) {
+    let mut table = Table::new(&[
+        "frames", "until", "median", "95 %", "longest", "accepted", "history", "memory", "threads",
+        "handles",
+    ]);
+    for stretch in stretches {
+        let of = |words: &dyn Fn(ProcessUsage) -> String| {
+            stretch.usage.map_or_else(|| "-".to_owned(), words)
+        };
+        table.row([
+            stretch.until_frame.to_string(),
+            format!("{:.0} s", stretch.until_s),
+            format!("{:.1} ms", stretch.latency_p50_ms),
+            format!("{:.1} ms", stretch.latency_p95_ms),
+            format!("{:.0} ms", stretch.latency_longest_ms),
+            stretch.num_accepted.to_string(),
+            stretch.num_in_history.to_string(),
+            of(&|usage| format!("{:.1} MB", usage.memory_mb)),
+            of(&|usage| usage.num_threads.to_string()),
+            of(&|usage| usage.num_handles.to_string()),
+        ]);
+    }
+    table.show(console);
+}

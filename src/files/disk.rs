@@ -1,0 +1,127 @@
+//! What the program changes on a disk, all but the history's database: the system's calls, so that a test can let each
+//! of them fail or end the program there (`faults`). Nothing else calls the system for it, which a test checks.
+
+use std::{
+    fs::{self, File, OpenOptions},
+    io::{self, Write},
+    path::Path,
+};
+
+use tempfile::{NamedTempFile, TempDir};
+
+#[cfg(test)]
+pub(crate) mod faults;
+
+/// Comes before every call. `part_of_it` does as much of the call as a system may have done that fails within it.
+#[cfg(test)]
+fn gate(part_of_it: impl FnOnce()) -> io::Result<()> {
+    faults::strike(part_of_it)
+}
+
+#[cfg(not(test))]
+#[expect(
+    clippy::unnecessary_wraps,
+    reason = "it is a test that makes calls fail"
+)]
+#[inline]
+fn gate(_part_of_it: impl FnOnce()) -> io::Result<()> {
+    Ok(())
+}
+
+pub(crate) fn create_dir(path: impl AsRef<Path>) -> io::Result<()> {
+    gate(|| ())?;
+    fs::create_dir(path)
+}
+
+pub(crate) fn create_dir_all(path: impl AsRef<Path>) -> io::Result<()> {
+    gate(|| ())?;
+    fs::create_dir_all(path)
+}
+
+pub(crate) fn rename(from: impl AsRef<Path>, to: impl AsRef<Path>) -> io::Result<()> {
+    gate(|| ())?;
+    fs::rename(from, to)
+}
+
+pub(crate) fn remove_file(path: impl AsRef<Path>) -> io::Result<()> {
+    gate(|| ())?;
+    fs::remove_file(path)
+}
+
+pub(crate) fn remove_dir_all(path: impl AsRef<Path>) -> io::Result<()> {
+    gate(|| ())?;
+    fs::remove_dir_all(path)
+}
+
+/// Opens a file to be written.
+pub(crate) fn open(options: &OpenOptions, path: &Path) -> io::Result<File> {
+    gate(|| ())?;
+    options.open(path)
+}
+
+/// Makes a file, or empties the one that is there.
+pub(crate) fn create(path: &Path) -> io::Result<File> {
+    open(
+        File::options().write(true).create(true).truncate(true),
+        path,
+    )
+}
+
+pub(crate) fn write_all(file: &mut impl Write, bytes: &[u8]) -> io::Result<()> {
+    gate(|| drop(file.write_all(&bytes[..bytes.len() / 2])))?;
+    file.write_all(bytes)
+}
+
+pub(crate) fn set_len(file: &File, length: u64) -> io::Result<()> {
+    gate(|| ())?;
+    file.set_len(length)
+}
+
+/// The content and what the system keeps about the file reach the disk.
+pub(crate) fn sync_all(file: &File) -> io::Result<()> {
+    gate(|| ())?;
+    file.sync_all()
+}
+
+/// The content reaches the disk.
+pub(crate) fn sync_data(file: &File) -> io::Result<()> {
+    gate(|| ())?;
+    file.sync_data()
+}
+
+pub(crate) fn temporary_file(
+    builder: &tempfile::Builder<'_, '_>,
+    folder: &Path,
+) -> io::Result<NamedTempFile> {
+    gate(|| ())?;
+    builder.tempfile_in(folder)
+}
+
+pub(crate) fn temporary_folder(
+    builder: &tempfile::Builder<'_, '_>,
+    folder: &Path,
+) -> io::Result<TempDir> {
+    gate(|| ())?;
+    builder.tempdir_in(folder)
+}
+
+/// Gives a temporary file its name.
+pub(crate) fn persist(file: NamedTempFile, path: &Path) -> io::Result<File> {
+    gate(|| ())?;
+    file.persist(path).map_err(|error| error.error)
+}
+
+/// A file behind a buffer.
+#[derive(Debug)]
+pub(crate) struct Written<W>(pub(crate) W);
+
+impl<W: Write> Write for Written<W> {
+    fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
+        write_all(&mut self.0, bytes)?;
+        Ok(bytes.len())
+    }
+
+    fn flush(&mut self) -> io::Result<()> {
+        self.0.flush()
+    }
+}
