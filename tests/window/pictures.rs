@@ -25,7 +25,6 @@ use partsight::{
         shell::{action::Action, robot::RobotAction, roles::RoleAction, session::WorkspaceKind},
         workspaces::align::{AlignWorkspace, MethodRun},
     },
-    history::{Retention, StoredVerdict},
     library::{LibraryFolder, PartName},
     pipeline::{Timings, Unwatched},
 };
@@ -225,59 +224,6 @@ fn the_operators_view_looks_as_it_did() {
             act(&mut harness, Action::SwitchTheme);
         }
         act(&mut harness, Action::Role(RoleAction::Switch));
-        compare(&mut harness, name);
-    }
-}
-
-#[test]
-fn statistics_look_as_they_did() {
-    if !draws_in_software() {
-        return;
-    }
-    let folder = tempfile::tempdir().expect("a folder");
-    let mut history = crate::kit::open_history(folder.path());
-    for part in 0..160 {
-        let verdict = match part % 11 {
-            0 | 7 => StoredVerdict::NotAccepted,
-            4 => StoredVerdict::Unknown,
-            _ => StoredVerdict::Accepted,
-        };
-        let name = ["fender", "grille", "front_door"][part as usize % 3];
-        let entry = crate::kit::history_entry(part * 1500, verdict, name);
-        history.add(&entry, &Retention::default()).expect("written");
-    }
-    drop(history);
-    for (size, is_light, name) in [
-        (USUAL, false, "statistics"),
-        (SMALL, true, "statistics_small_light"),
-    ] {
-        let options = WindowOptions {
-            history: Some(folder.path().to_owned()),
-            ..plain_options()
-        };
-        let mut harness = Harness::builder()
-            .with_size(size)
-            .wgpu()
-            .build_eframe(move |cc| {
-                Window::new(&cc.egui_ctx, cc.wgpu_render_state.as_ref(), options).expect("threads")
-            });
-        settle(&mut harness);
-        if is_light {
-            act(&mut harness, Action::SwitchTheme);
-        }
-        act(&mut harness, Action::GoTo(WorkspaceKind::History));
-        // Not of today.
-        harness.get_by_label("Find").click();
-        harness.run_steps(2);
-        harness.get_by_label("Find").type_text("frame");
-        settle(&mut harness);
-        press(&mut harness, "Days · All days ▼");
-        press(&mut harness, "Days: From … to");
-        harness.get_by_label("Last day").click();
-        harness.run_steps(2);
-        harness.get_by_label("Last day").type_text("2026-03-31");
-        settle(&mut harness);
-        press(&mut harness, "Statistics");
         compare(&mut harness, name);
     }
 }

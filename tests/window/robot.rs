@@ -151,7 +151,7 @@ fn pairs_are_calculated_shown_corrected_and_used() {
     fs::write(&file, text.collect::<String>()).expect("written");
     let mut harness = open_with(USUAL, own(folder.path()));
     act(&mut harness, Action::Robot(RobotAction::Pairs(file)));
-    harness.get_by_label_contains("P4 (line 6) is suspect");
+    harness.get_by_label_contains("p4 (line 6) is suspect");
     press(&mut harness, "p4 (line 6)");
     assert!(harness.query_by_label_contains("is suspect").is_none());
     harness.get_by_label("left out");

@@ -355,14 +355,13 @@ impl FinishedInspection {
         });
         let at = Timestamp::now();
         let title = origin.title();
-        let title_of = |name: &str| shown.title_of(name).to_owned();
         let about = InspectionContext {
             at,
             line: InspectionLine::of(&title, &inspection)
                 .by(&recipe)
                 .to_json(),
             is_simulated: origin.is_simulated(),
-            title_of: &title_of,
+            title_of: &|name| shown.title_of(name).to_owned(),
             library: shown.identity.clone(),
             // What has no JSON form cannot be had again either.
             origin: serde_json::to_string(&origin).ok(),

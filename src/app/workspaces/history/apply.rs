@@ -8,6 +8,7 @@ use super::{
     export::{self, PastExport},
     filter::ListFilter,
     state::HistoryState,
+    statistics::StatisticsView,
     work::HistoryResult,
 };
 use crate::{
@@ -165,7 +166,11 @@ impl HistoryState {
                 self.jobs.push(HistoryJob::Label(number, label));
             }
             HistoryAction::Statistics(is_shown) => {
-                self.shows_statistics = is_shown;
+                self.statistics = if is_shown {
+                    StatisticsView::Counting
+                } else {
+                    StatisticsView::Closed
+                };
                 self.look(cx);
             }
             HistoryAction::Rule(rule) => self.rule = rule,
@@ -235,11 +240,13 @@ impl HistoryState {
             }
         }
         match self.counting.poll() {
-            Some(TaskEvent::Done(found) | TaskEvent::Partial(found)) => {
-                self.statistics = Some(found);
+            Some(TaskEvent::Done(found) | TaskEvent::Partial(found))
+                if self.statistics.is_open() =>
+            {
+                self.statistics = StatisticsView::Counted(found);
             }
             Some(TaskEvent::Failed(error)) => cx.notify(error),
-            None => {}
+            Some(_) | None => {}
         }
         match self.exporting.poll() {
             Some(TaskEvent::Done(what) | TaskEvent::Partial(what)) => {

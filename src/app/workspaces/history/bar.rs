@@ -75,7 +75,7 @@ fn action_buttons(ui: &mut Ui, history: &HistoryState, actions: &mut Vec<History
             actions.push(HistoryAction::Ask(file));
         }
     }
-    let is_shown = history.shows_statistics;
+    let is_shown = history.statistics.is_open();
     let button = Button::selectable(is_shown, "Statistics").frame_when_inactive(true);
     let shown = labelled(ui, button, "Statistics");
     shown.widget_info(|| WidgetInfo::selected(egui::Role::Button, true, is_shown, "Statistics"));

@@ -22,7 +22,7 @@ pub use self::{
     apply::{Direction, HistoryAction, HistoryFile, HistoryJob},
     filter::{DateRange, ListFilter},
     state::HistoryState,
-    statistics::{Statistics, Tally},
+    statistics::{Statistics, StatisticsView, Tally},
     work::{HistoryQuery, HistoryResult, OpenedInspection},
 };
 use self::{details::Details, list::List};
@@ -160,10 +160,10 @@ impl Workspace for HistoryWorkspace {
         CentralPanel::default()
             .frame(Frame::new().inner_margin(Margin::same(16)))
             .show(ui, |ui| {
-                if state.shows_statistics {
+                if state.statistics.is_open() {
                     bar::ui(ui, state, session, theme, &mut actions);
                     ui.add_space(space::SMALL);
-                    statistics::ui(ui, state.statistics.as_deref(), theme);
+                    statistics::ui(ui, &state.statistics, theme);
                 } else {
                     list.ui(ui, state, session, theme, &mut actions);
                 }

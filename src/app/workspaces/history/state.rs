@@ -10,7 +10,7 @@ use std::{
 use super::{
     apply::{HistoryAction, HistoryFile, HistoryJob},
     filter::ListFilter,
-    statistics::{self, Statistics},
+    statistics::{self, Statistics, StatisticsView},
     work::{self, HistoryQuery, HistoryResult, OpenedInspection},
 };
 use jiff::Zoned;
@@ -39,10 +39,8 @@ pub struct HistoryState {
     pub page: Page,
     /// The place of the first fetched row in the list.
     pub first: usize,
-    /// Statistics take the place of the list.
-    pub shows_statistics: bool,
-    /// The statistics, once they were counted.
-    pub statistics: Option<Box<Statistics>>,
+    /// Statistics in place of the list.
+    pub statistics: StatisticsView,
     /// The rows in sight.
     visible: Range<usize>,
     /// The inspection that is looked at.
@@ -121,8 +119,7 @@ impl HistoryState {
             filter: ListFilter::default(),
             page: Page::default(),
             first: 0,
-            shows_statistics: false,
-            statistics: None,
+            statistics: StatisticsView::Closed,
             visible: 0..0,
             selected: None,
             record: None,
@@ -358,7 +355,7 @@ impl HistoryState {
 
     /// Counts the parts that the filter lets through, while that is shown.
     fn count(&mut self, cx: &ShellContext<'_>) {
-        if !self.shows_statistics {
+        if !self.statistics.is_open() {
             return;
         }
         let filter = self.filter.clone();

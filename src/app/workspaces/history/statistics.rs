@@ -66,6 +66,25 @@ pub struct Statistics {
     pub reasons: Vec<(String, usize)>,
 }
 
+/// Whether statistics take the place of the list.
+#[derive(Debug, Default)]
+pub enum StatisticsView {
+    /// The list is shown.
+    #[default]
+    Closed,
+    /// They are counted for the first time.
+    Counting,
+    /// They were counted; while the list changes these stay.
+    Counted(Box<Statistics>),
+}
+
+impl StatisticsView {
+    /// True unless the list is shown.
+    pub fn is_open(&self) -> bool {
+        !matches!(self, Self::Closed)
+    }
+}
+
 /// Counts parts that come in the order of time.
 pub(super) fn count(
     outcomes: &[PartOutcome],
@@ -136,8 +155,8 @@ fn kind(reason: &str, names: &[&str]) -> String {
 }
 
 /// Draws them.
-pub(super) fn ui(ui: &mut Ui, found: Option<&Statistics>, theme: &Theme) {
-    let Some(found) = found else {
+pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, theme: &Theme) {
+    let StatisticsView::Counted(found) = view else {
         ui.label(RichText::new("Counting…").color(theme.weak_text));
         return;
     };
@@ -225,7 +244,8 @@ fn shifts(ui: &mut Ui, all: &[(Zoned, Tally)], theme: &Theme) {
         title: vec![("Parts by shift".to_owned(), theme.text)],
         across: Axis::new([-0.6, last.len() as f64 - 0.4], marks.collect()),
         up: Axis::new(
-            [0.0, most as f64],
+            // The names above the bars have room.
+            [0.0, 1.25 * most as f64],
             [0, most].map(|num| (num as f64, num.to_string())).to_vec(),
         ),
         font: font::small(),
@@ -248,14 +268,11 @@ fn shifts(ui: &mut Ui, all: &[(Zoned, Tally)], theme: &Theme) {
         &shown,
         curves.map(|(name, colour)| (name, colour, LineStyle::Solid)),
     );
-    let (_, total) = all.last().map_or(("", Tally::default()), |_| {
-        let mut total = Tally::default();
-        for (_, tally) in all {
-            total.num_ok += tally.num_ok;
-            total.num_not_ok += tally.num_not_ok;
-        }
-        ("", total)
-    });
+    let mut total = Tally::default();
+    for (_, tally) in all {
+        total.num_ok += tally.num_ok;
+        total.num_not_ok += tally.num_not_ok;
+    }
     let text = format!("{} parts, {} OK", total.num(), total.share());
     let corner = rect.right_top() + vec2(-space::MEDIUM, space::MEDIUM);
     ui.painter().text(
