@@ -333,7 +333,7 @@ impl Window {
         let is_enrolling = self.state.workspace == WorkspaceKind::Enrol;
         let enrol = self.hosted(WorkspaceKind::Enrol);
         let has_draft = enrol.is_some_and(|enrol| enrol.unsaved().is_some());
-        self.state.inspector.may_reload = !(is_enrolling && has_draft);
+        self.state.inspector.loader.may_reload = !(is_enrolling && has_draft);
         let inspected = inspector::update(&mut self.state);
         let counted = live::update(&mut self.state);
         for event in inspected.into_iter().chain(counted) {

@@ -8,6 +8,7 @@ use std::{
 use super::{
     action::{Effect, notify},
     current_trace::CurrentTrace,
+    library_loader::{self, LibraryLoader},
     live,
     message::{Event, ReinspectionPurpose},
     notice::Notice,
@@ -17,7 +18,6 @@ use super::{
 use crate::{
     app::{
         inspection::{
-            folder_watch::FolderWatch,
             fuse::Steps,
             inspected::{InspectJob, Inspected, SceneOrScan, inspect, inspect_scan},
             library_cache::{LibraryCache, LibraryView},
@@ -37,15 +37,8 @@ use crate::{
 #[derive(Debug)]
 pub struct Inspector {
     task: Task<InspectorResult>,
-    /// Loads the library at the start.
-    loading: Task<Arc<LibraryView>>,
-    /// Loads it anew once another program has changed it.
-    reloading: Task<Option<Arc<LibraryView>>>,
-    watch: FolderWatch,
-    /// It has changed, and is loaded anew as soon as it may be.
-    is_changed: bool,
-    /// False while a part is being enrolled: nothing changes under the hands.
-    pub may_reload: bool,
+    /// Loads the library at the start, and again once another program has changed it.
+    pub loader: LibraryLoader,
     library_cache: LibraryCache,
     /// The number of the newest run, which is that of its result.
     generation: u64,
@@ -73,11 +66,7 @@ impl Inspector {
     pub fn new(runner: &TaskRunner, library_cache: &LibraryCache) -> Self {
         Self {
             task: Task::new("inspect", runner),
-            loading: Task::new("library", runner),
-            reloading: Task::new("reload", runner),
-            watch: FolderWatch::new("library-watch", runner),
-            is_changed: false,
-            may_reload: true,
+            loader: LibraryLoader::new(runner, library_cache),
             library_cache: library_cache.clone(),
             generation: 0,
             purpose: ReinspectionPurpose::New,
@@ -93,9 +82,7 @@ impl Inspector {
 
     /// True while nothing is inspected or loaded.
     pub fn is_idle(&self) -> bool {
-        self.running().is_none()
-            && self.loading.running().is_none()
-            && self.reloading.running().is_none()
+        self.running().is_none() && self.loader.is_idle()
     }
 
     #[cfg(test)]
@@ -105,15 +92,6 @@ impl Inspector {
 }
 
 impl State {
-    /// Loads the library, whatever is in front and whatever becomes of the first scene.
-    pub(in crate::app) fn load_library(&mut self) {
-        let library_cache = self.inspector.library_cache.clone();
-        let loading = &mut self.inspector.loading;
-        loading.start("Loading the library", move |_| {
-            Ok(Arc::clone(&library_cache.get().shown))
-        });
-    }
-
     /// Takes a scene from the source: to be inspected, or to be enrolled while that is in front. To be inspected it is a
     /// single one, and ends following the source.
     pub(in crate::app) fn capture(&mut self) -> Option<Effect> {
@@ -304,26 +282,6 @@ impl State {
         live::give_way(self);
     }
 
-    /// Shows this library, and reports once what had to be set aside in it.
-    pub(in crate::app) fn use_library(&mut self, library: &Arc<LibraryView>) {
-        let is_other = |known: &Arc<_>| !Arc::ptr_eq(known, library);
-        if self.library.as_ref().is_none_or(is_other) {
-            self.library = Some(Arc::clone(library));
-            // The operator's view says what is wrong with the library, if nothing can be recognised.
-            if self.role == UserRole::Engineer {
-                self.report_library();
-            }
-        }
-    }
-
-    /// Reports what had to be set aside in the library, and what is odd about it.
-    pub(in crate::app) fn report_library(&mut self) {
-        let library = self.library.clone();
-        for trouble in library.iter().flat_map(|library| &library.troubles) {
-            notify(self, trouble.clone().into());
-        }
-    }
-
     /// The scene in front becomes the empty cell.
     pub(in crate::app) fn take_empty_cell(&mut self) {
         let Some(shown) = &self.shown else {
@@ -420,15 +378,7 @@ fn run(
 
 /// Polls the tasks; returns the event that every workspace receives.
 pub(in crate::app) fn update(state: &mut State) -> Option<Event> {
-    match state.inspector.loading.poll() {
-        // One that came with a result, or that a person chose, is newer.
-        Some(TaskEvent::Partial(library) | TaskEvent::Done(library)) if state.library.is_none() => {
-            state.use_library(&library);
-        }
-        Some(TaskEvent::Failed(error)) => notify(state, error.into()),
-        _ => {}
-    }
-    update_watch(state);
+    library_loader::update(state);
     let event = state.inspector.task.poll();
     if state.inspector.running().is_none() {
         state.session.inspecting = None;
@@ -457,42 +407,6 @@ pub(in crate::app) fn update(state: &mut State) -> Option<Event> {
         }
     }
     None
-}
-
-/// Loads the library anew once another program has changed it, and inspects what is in front with it.
-fn update_watch(state: &mut State) {
-    if let Some(TaskEvent::Done(Some(library)) | TaskEvent::Partial(Some(library))) =
-        state.inspector.reloading.poll()
-    {
-        let num = library.parts.len();
-        let word = if num == 1 { "part" } else { "parts" };
-        state.use_library(&library);
-        if state.role == UserRole::Engineer {
-            let what = format!("Library reloaded, another program has changed it: {num} {word}");
-            notify(state, Notice::done(what));
-        }
-        let is_past = state.shown.as_ref().is_some_and(|shown| shown.is_past);
-        if state.is_live() || !is_past {
-            state.inspect_again();
-        }
-    }
-    let library = state.session.library.as_ref();
-    let inspector = &mut state.inspector;
-    if let Some(library) = library {
-        inspector.watch.watch(&library.path);
-        inspector.is_changed |= inspector.watch.has_changed();
-    }
-    // What is being inspected was compared with the library of before, and would bring that back.
-    let is_free = inspector.running().is_none() && inspector.reloading.running().is_none();
-    if inspector.is_changed && inspector.may_reload && is_free {
-        inspector.is_changed = false;
-        let library_cache = inspector.library_cache.clone();
-        let reload = move |_: &_| {
-            let changed = library_cache.refresh();
-            Ok(changed.map(|loaded| Arc::clone(&loaded.shown)))
-        };
-        inspector.reloading.start("Reloading the library", reload);
-    }
 }
 
 /// Shows a result made elsewhere as an inspection of its own; what is at work is cancelled.

@@ -12,6 +12,7 @@ pub mod file_dialog;
 pub mod inspector;
 pub mod key_binding;
 pub(in crate::app) mod keys;
+pub mod library_loader;
 pub mod live;
 pub mod message;
 pub mod notice;

@@ -1,0 +1,125 @@
+//! Loads the library at the start, and again once another program has changed it.
+
+use std::sync::Arc;
+
+use super::{action::notify, notice::Notice, session::UserRole, state::State};
+use crate::app::{
+    inspection::{
+        folder_watch::FolderWatch,
+        library_cache::{LibraryCache, LibraryView},
+    },
+    task::{Task, TaskEvent, TaskRunner},
+};
+
+/// Keeps the library in use the one that is on the disk.
+#[derive(Debug)]
+pub struct LibraryLoader {
+    loading: Task<Arc<LibraryView>>,
+    reloading: Task<Option<Arc<LibraryView>>>,
+    watch: FolderWatch,
+    /// It has changed, and is loaded again as soon as it may be.
+    is_changed: bool,
+    /// False while a part is being enrolled: nothing changes under the hands.
+    pub may_reload: bool,
+    library_cache: LibraryCache,
+}
+
+impl LibraryLoader {
+    /// Loads nothing yet.
+    pub(super) fn new(runner: &TaskRunner, library_cache: &LibraryCache) -> Self {
+        Self {
+            loading: Task::new("library", runner),
+            reloading: Task::new("reload", runner),
+            watch: FolderWatch::new("library-watch", runner),
+            is_changed: false,
+            may_reload: true,
+            library_cache: library_cache.clone(),
+        }
+    }
+
+    /// True while nothing is loaded.
+    pub(super) fn is_idle(&self) -> bool {
+        self.loading.running().is_none() && self.reloading.running().is_none()
+    }
+
+    fn load(&mut self) {
+        let library_cache = self.library_cache.clone();
+        self.loading.start("Loading the library", move |_| {
+            Ok(Arc::clone(&library_cache.get().shown))
+        });
+    }
+
+    fn reload(&mut self) {
+        self.is_changed = false;
+        let library_cache = self.library_cache.clone();
+        self.reloading.start("Reloading the library", move |_| {
+            let changed = library_cache.refresh();
+            Ok(changed.map(|loaded| Arc::clone(&loaded.shown)))
+        });
+    }
+}
+
+impl State {
+    /// Loads the library, whatever is in front and whatever becomes of the first scene.
+    pub(in crate::app) fn load_library(&mut self) {
+        self.inspector.loader.load();
+    }
+
+    /// Shows this library, and reports once what had to be set aside in it.
+    pub(in crate::app) fn use_library(&mut self, library: &Arc<LibraryView>) {
+        let is_other = |known: &Arc<_>| !Arc::ptr_eq(known, library);
+        if self.library.as_ref().is_none_or(is_other) {
+            self.library = Some(Arc::clone(library));
+            // The operator's view says what is wrong with the library, if nothing can be recognised.
+            if self.role == UserRole::Engineer {
+                self.report_library();
+            }
+        }
+    }
+
+    /// Reports what had to be set aside in the library, and what is odd about it.
+    pub(in crate::app) fn report_library(&mut self) {
+        let library = self.library.clone();
+        for trouble in library.iter().flat_map(|library| &library.troubles) {
+            notify(self, trouble.clone().into());
+        }
+    }
+}
+
+/// Shows what was loaded, and inspects what is in front with a library that another program has changed.
+pub(super) fn update(state: &mut State) {
+    match state.inspector.loader.loading.poll() {
+        // One that came with a result, or that a person chose, is newer.
+        Some(TaskEvent::Partial(library) | TaskEvent::Done(library)) if state.library.is_none() => {
+            state.use_library(&library);
+        }
+        Some(TaskEvent::Failed(error)) => notify(state, error.into()),
+        _ => {}
+    }
+    if let Some(TaskEvent::Done(Some(library)) | TaskEvent::Partial(Some(library))) =
+        state.inspector.loader.reloading.poll()
+    {
+        let num = library.parts.len();
+        let word = if num == 1 { "part" } else { "parts" };
+        state.use_library(&library);
+        if state.role == UserRole::Engineer {
+            let what = format!("Library reloaded, another program has changed it: {num} {word}");
+            notify(state, Notice::done(what));
+        }
+        let is_past = state.shown.as_ref().is_some_and(|shown| shown.is_past);
+        if state.is_live() || !is_past {
+            state.inspect_again();
+        }
+    }
+    // What is being inspected was compared with the library of before, and would bring that back.
+    let is_free = state.inspector.running().is_none();
+    let library = state.session.library.as_ref();
+    let loader = &mut state.inspector.loader;
+    if let Some(library) = library {
+        loader.watch.watch(&library.path);
+        loader.is_changed |= loader.watch.has_changed();
+    }
+    if loader.is_changed && loader.may_reload && is_free && loader.reloading.running().is_none() {
+        loader.reload();
+    }
+}
