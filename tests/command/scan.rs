@@ -277,6 +277,7 @@ fn the_inspection_of_a_scan_is_in_the_history_with_its_shots() {
 #[test]
 fn a_calibration_that_cannot_be_read_is_an_error_of_a_scan_that_needs_it_and_of_no_other() {
     let place = with_scan("3");
+    std::fs::create_dir_all(place.path("data/partsight")).expect("made");
     place.write("data/partsight/cell.toml", "schema_version = 1\nmount = \n");
     place.accepted(&["scan", "frames"]);
     change_poses(&place, |poses| {

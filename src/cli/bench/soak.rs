@@ -69,8 +69,8 @@ struct SmallCell {
 }
 
 impl SmallCell {
-    /// Frames for which a part hangs there.
-    const HANGING: u64 = 30;
+    /// Frames for which a part hangs there: long enough for a verdict that counts.
+    const HANGING: u64 = 120;
     const FRAMES_PER_SECOND: i64 = 30;
     /// Of the Kinect's rows and columns each so many are one.
     const STEP: usize = 4;
