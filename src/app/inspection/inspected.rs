@@ -320,18 +320,14 @@ impl FinishedInspection {
             stand_off(reference, &pose.camera_from_part(), &recipe.stand_off)
         });
         let spray = sprayed.and_then(|(_, pose)| {
-            let first = inspection.ranking.entries.first()?;
-            let path = shown.spray_paths.get(first.reference)?.as_ref()?;
             let seen = match &seen_by_all {
                 Some(cloud) => cloud,
                 None => &inspection.segmentation.part.as_ref().ok()?.cloud,
             };
-            Some(carry(
-                path,
-                &pose.camera_from_part(),
-                seen,
-                &recipe.stand_off,
-            ))
+            let first = inspection.ranking.entries.first()?;
+            let path = shown.spray_paths.get(first.reference)?.as_ref()?;
+            let camera_from_part = pose.camera_from_part();
+            Some(carry(path, &camera_from_part, seen, &recipe.stand_off))
         });
         let view = SceneFigure::of(&SceneFigureInput {
             scene: &scene,
