@@ -12,7 +12,7 @@ use super::{
     live,
     message::{Event, ReinspectionPurpose},
     notice::Notice,
-    session::{Inspecting, Shown, Source, UserRole, WorkspaceKind},
+    session::{Inspecting, Shown, Source, WorkspaceKind},
     state::State,
 };
 use crate::{
