@@ -279,7 +279,7 @@ fn a_calibration_that_cannot_be_read_is_an_error_of_a_scan_that_needs_it_and_of_
     let place = with_scan("3");
     std::fs::create_dir_all(place.path("data/partsight")).expect("made");
     place.write("data/partsight/cell.toml", "schema_version = 1\nmount = \n");
-    place.accepted(&["scan", "frames"]);
+    place.accepted(&["scan", "frames", "--out", "fused.ply"]);
     change_poses(&place, |poses| {
         let frames = poses["frames"].as_object_mut().expect("frames");
         for pose in frames.values_mut() {
@@ -287,7 +287,7 @@ fn a_calibration_that_cannot_be_read_is_an_error_of_a_scan_that_needs_it_and_of_
             *pose = json!({ "base_from_flange": numbers });
         }
     });
-    let ran = place.coded(2, &["scan", "frames"]);
+    let ran = place.coded(2, &["scan", "frames", "--out", "fused.ply"]);
     assert!(
         ran.err.contains("cell.toml: no calibration: line 2"),
         "{}",
@@ -295,6 +295,6 @@ fn a_calibration_that_cannot_be_read_is_an_error_of_a_scan_that_needs_it_and_of_
     );
     assert!(ran.err.contains("to do: Correct the file"), "{}", ran.err);
     std::fs::remove_file(place.path("data/partsight/cell.toml")).expect("there");
-    let ran = place.coded(2, &["scan", "frames"]);
+    let ran = place.coded(2, &["scan", "frames", "--out", "fused.ply"]);
     assert!(ran.err.contains("no calibration says where"), "{}", ran.err);
 }
