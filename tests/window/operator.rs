@@ -301,6 +301,9 @@ fn a_scanned_serial_number_goes_with_one_part_and_order_and_operator_with_the_ne
     press(&mut harness, "Capture");
     assert_eq!(harness.state().state().trace.get().serial, "");
     press(&mut harness, "Capture");
+    settle(&mut harness);
+    // The operator sees which part it went with.
+    harness.get_by_label_contains(" · TL471");
     let traces: Vec<_> = (0..2)
         .map(|place| {
             history_of(&harness)

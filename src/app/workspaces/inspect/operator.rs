@@ -346,6 +346,10 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session, theme: &Theme) {
             };
             // What was nearest belongs to the engineer.
             let name = row.title.split(" · ").next().unwrap_or_default();
+            let name = match row.trace.serial.as_str() {
+                "" => name.to_owned(),
+                serial => format!("{name} · {serial}"),
+            };
             let at = row.at.to_zoned(jiff::tz::TimeZone::system());
             let at = at.strftime("%H:%M").to_string();
             let line = ui.horizontal(|ui| {
