@@ -140,7 +140,7 @@ fn texts(folder: &Path) -> Outcome {
     write_depth_png(&image, &small_depth())?;
     fs::copy(image.with_extension("json"), folder.join("camera"))?;
     let recording = beside.path().join("recording");
-    let mut source = open_source(&"simulated:parts=fender".parse()?)?;
+    let mut source = open_source(&"simulated:fender".parse()?)?;
     let mut recorder = Recorder::create(&recording, "seed", "simulated", true)?;
     if let NextCapture::Captured(captured) = source.next(Duration::from_secs(60))? {
         recorder.write(&captured)?;
