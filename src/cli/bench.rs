@@ -103,8 +103,8 @@ pub(super) struct BenchArgs {
     /// For live: how long
     #[arg(long, value_name = "N", default_value_t = 1, value_parser = clap::value_parser!(u64).range(1..=1440))]
     minutes: u64,
-    /// For soak: how many
-    #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u64).range(1000..=1_000_000_000))]
+    /// For soak: how many, 20000 at least, so that every part has hung there once in the first fifth, the warm-up
+    #[arg(long, value_name = "N", default_value_t = 100_000, value_parser = clap::value_parser!(u64).range(20_000..=1_000_000_000))]
     frames: u64,
     /// For table1: only this part; may be given several times
     #[arg(long, value_name = "NAME")]

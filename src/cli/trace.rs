@@ -33,7 +33,7 @@ impl TraceChoice {
         };
         if !trace.serial.is_empty() && num_parts != Some(1) {
             return Err(advised_error(
-                "--serial is of one part, and several are inspected".to_owned(),
+                "--serial names one part, but several are inspected",
                 "Inspect one file at a time, or leave --serial out",
             ));
         }

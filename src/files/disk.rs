@@ -12,10 +12,10 @@ use tempfile::{NamedTempFile, TempDir};
 #[cfg(test)]
 pub(crate) mod faults;
 
-/// Comes before every call. `part_of_it` does as much of the call as a system may have done that fails within it.
+/// Runs before every call. `partial_call` does what a system may have done of the call before it failed.
 #[cfg(test)]
-fn gate(part_of_it: impl FnOnce()) -> io::Result<()> {
-    faults::strike(part_of_it)
+fn inject_fault(partial_call: impl FnOnce()) -> io::Result<()> {
+    faults::inject(partial_call)
 }
 
 #[cfg(not(test))]
@@ -24,38 +24,38 @@ fn gate(part_of_it: impl FnOnce()) -> io::Result<()> {
     reason = "it is a test that makes calls fail"
 )]
 #[inline]
-fn gate(_part_of_it: impl FnOnce()) -> io::Result<()> {
+fn inject_fault(_partial_call: impl FnOnce()) -> io::Result<()> {
     Ok(())
 }
 
 pub(crate) fn create_dir(path: impl AsRef<Path>) -> io::Result<()> {
-    gate(|| ())?;
+    inject_fault(|| ())?;
     fs::create_dir(path)
 }
 
 pub(crate) fn create_dir_all(path: impl AsRef<Path>) -> io::Result<()> {
-    gate(|| ())?;
+    inject_fault(|| ())?;
     fs::create_dir_all(path)
 }
 
 pub(crate) fn rename(from: impl AsRef<Path>, to: impl AsRef<Path>) -> io::Result<()> {
-    gate(|| ())?;
+    inject_fault(|| ())?;
     fs::rename(from, to)
 }
 
 pub(crate) fn remove_file(path: impl AsRef<Path>) -> io::Result<()> {
-    gate(|| ())?;
+    inject_fault(|| ())?;
     fs::remove_file(path)
 }
 
 pub(crate) fn remove_dir_all(path: impl AsRef<Path>) -> io::Result<()> {
-    gate(|| ())?;
+    inject_fault(|| ())?;
     fs::remove_dir_all(path)
 }
 
 /// Opens a file to be written.
 pub(crate) fn open(options: &OpenOptions, path: &Path) -> io::Result<File> {
-    gate(|| ())?;
+    inject_fault(|| ())?;
     options.open(path)
 }
 
@@ -68,24 +68,24 @@ pub(crate) fn create(path: &Path) -> io::Result<File> {
 }
 
 pub(crate) fn write_all(file: &mut impl Write, bytes: &[u8]) -> io::Result<()> {
-    gate(|| drop(file.write_all(&bytes[..bytes.len() / 2])))?;
+    inject_fault(|| drop(file.write_all(&bytes[..bytes.len() / 2])))?;
     file.write_all(bytes)
 }
 
 pub(crate) fn set_len(file: &File, length: u64) -> io::Result<()> {
-    gate(|| ())?;
+    inject_fault(|| ())?;
     file.set_len(length)
 }
 
 /// The content and what the system keeps about the file reach the disk.
 pub(crate) fn sync_all(file: &File) -> io::Result<()> {
-    gate(|| ())?;
+    inject_fault(|| ())?;
     file.sync_all()
 }
 
 /// The content reaches the disk.
 pub(crate) fn sync_data(file: &File) -> io::Result<()> {
-    gate(|| ())?;
+    inject_fault(|| ())?;
     file.sync_data()
 }
 
@@ -93,7 +93,7 @@ pub(crate) fn temporary_file(
     builder: &tempfile::Builder<'_, '_>,
     folder: &Path,
 ) -> io::Result<NamedTempFile> {
-    gate(|| ())?;
+    inject_fault(|| ())?;
     builder.tempfile_in(folder)
 }
 
@@ -101,21 +101,21 @@ pub(crate) fn temporary_folder(
     builder: &tempfile::Builder<'_, '_>,
     folder: &Path,
 ) -> io::Result<TempDir> {
-    gate(|| ())?;
+    inject_fault(|| ())?;
     builder.tempdir_in(folder)
 }
 
 /// Gives a temporary file its name.
 pub(crate) fn persist(file: NamedTempFile, path: &Path) -> io::Result<File> {
-    gate(|| ())?;
+    inject_fault(|| ())?;
     file.persist(path).map_err(|error| error.error)
 }
 
-/// A file behind a buffer.
+/// A file whose buffer is flushed through [`write_all`].
 #[derive(Debug)]
-pub(crate) struct Written<W>(pub(crate) W);
+pub(crate) struct DiskWriter<W>(pub(crate) W);
 
-impl<W: Write> Write for Written<W> {
+impl<W: Write> Write for DiskWriter<W> {
     fn write(&mut self, bytes: &[u8]) -> io::Result<usize> {
         write_all(&mut self.0, bytes)?;
         Ok(bytes.len())

@@ -32,9 +32,9 @@ pub fn write_atomically(
             // What an ordinary new file has, less the user's mask: others on the machine may read results.
             builder.permissions(std::fs::Permissions::from_mode(0o666));
         }
-        let mut writer = BufWriter::new(disk::Written(disk::temporary_file(&builder, folder)?));
+        let mut writer = BufWriter::new(disk::DiskWriter(disk::temporary_file(&builder, folder)?));
         fill(&mut writer)?;
-        let disk::Written(file) = writer
+        let disk::DiskWriter(file) = writer
             .into_inner()
             .map_err(io::IntoInnerError::into_error)?;
         disk::sync_all(file.as_file())?;

@@ -71,7 +71,7 @@ impl LibraryFolder {
         former: &str,
     ) -> io::Result<Option<PathBuf>> {
         aside
-            .map(|aside| trash::take_in(self.path(), &aside, former))
+            .map(|aside| trash::move_in(self.path(), &aside, former))
             .transpose()
     }
 
@@ -109,7 +109,7 @@ impl LibraryFolder {
                     {
                         self.carry_references(&from, &to)?;
                     }
-                    trash::take_in(self.path(), &path, name)?;
+                    trash::move_in(self.path(), &path, name)?;
                 } else {
                     disk::rename(&path, self.path().join(name))?;
                 }

@@ -203,7 +203,7 @@ impl LibraryFolder {
         self.entry(name.as_str())?;
         self.writing(|| {
             self.finish_interrupted_write()?;
-            let trash = trash::take_in(&self.path, &self.path.join(name.as_str()), name.as_str())?;
+            let trash = trash::move_in(&self.path, &self.path.join(name.as_str()), name.as_str())?;
             sync_folder(&self.path)?;
             Ok(trash)
         })

@@ -45,7 +45,7 @@ impl LibraryFolder {
 }
 
 /// Moves a folder of the library into the trash and says where it lies there.
-pub(super) fn take_in(library: &Path, folder: &Path, name: &str) -> io::Result<PathBuf> {
+pub(super) fn move_in(library: &Path, folder: &Path, name: &str) -> io::Result<PathBuf> {
     let trash = library.join(TRASH);
     disk::create_dir_all(&trash)?;
     let now = jiff::Timestamp::now().strftime("%Y%m%dT%H%M%SZ");

@@ -609,7 +609,7 @@ fn serial_number_order_and_operator_stand_in_history_table_and_report() {
     // A serial number is of one part.
     let refused = place.coded(2, &["inspect", "fender.pcd", "hood.png", "--serial", "1"]);
     assert!(
-        refused.err.contains("--serial is of one part"),
+        refused.err.contains("--serial names one part"),
         "{}",
         refused.err
     );

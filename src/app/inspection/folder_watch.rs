@@ -39,8 +39,7 @@ impl FolderWatch {
         if self.folder.as_deref() != Some(folder) {
             self.folder = Some(folder.to_owned());
             let folder = folder.to_owned();
-            let before = entries(&folder);
-            let watch = move |context: &_| watch(&folder, before, context);
+            let watch = move |context: &_| watch(&folder, context);
             self.task.start("Watching a folder", watch);
         }
     }
@@ -51,11 +50,8 @@ impl FolderWatch {
     }
 }
 
-fn watch(
-    folder: &Path,
-    mut before: Vec<Entry>,
-    context: &TaskContext<()>,
-) -> Result<(), TaskError> {
+fn watch(folder: &Path, context: &TaskContext<()>) -> Result<(), TaskError> {
+    let mut before = entries(folder);
     loop {
         for _ in 0..NUM_TURNS {
             context.check()?;

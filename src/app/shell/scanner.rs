@@ -25,7 +25,7 @@ pub(in crate::app) fn listen(ctx: &Context) -> Option<String> {
         .data_mut(|data| data.remove_temp(id))
         .unwrap_or_default();
     let is_writing = ctx.text_edit_focused();
-    let code = ctx.input_mut(|input| held.take_in(&mut input.events, input.time, is_writing));
+    let code = ctx.input_mut(|input| held.hold_back(&mut input.events, input.time, is_writing));
     if !held.events.is_empty() {
         ctx.request_repaint_after_secs(GAP as f32);
         ctx.data_mut(|data| data.insert_temp(id, held));
@@ -34,7 +34,7 @@ pub(in crate::app) fn listen(ctx: &Context) -> Option<String> {
 }
 
 impl Held {
-    fn take_in(&mut self, events: &mut Vec<Event>, now: f64, is_writing: bool) -> Option<String> {
+    fn hold_back(&mut self, events: &mut Vec<Event>, now: f64, is_writing: bool) -> Option<String> {
         let (mut code, mut others, mut is_typed) = (None, Vec::new(), false);
         for event in std::mem::take(events) {
             let is_of_code = !is_writing
@@ -122,7 +122,7 @@ mod tests {
             let mut codes = Vec::new();
             for (frame, events) in all.chunks(size).enumerate() {
                 let mut events = events.to_vec();
-                codes.extend(held.take_in(&mut events, 0.02 * frame as f64, false));
+                codes.extend(held.hold_back(&mut events, 0.02 * frame as f64, false));
                 assert!(events.is_empty(), "{events:?}");
             }
             assert_eq!(codes, ["TL-4711 B"]);
@@ -134,18 +134,18 @@ mod tests {
         let mut held = Held::default();
         let mut events = vec![key(Key::L), Event::Text("l".into())];
         let before = events.clone();
-        assert_eq!(held.take_in(&mut events, 1.0, false), None);
+        assert_eq!(held.hold_back(&mut events, 1.0, false), None);
         assert!(events.is_empty());
-        assert_eq!(held.take_in(&mut events, 1.2, false), None);
+        assert_eq!(held.hold_back(&mut events, 1.2, false), None);
         assert_eq!(events, before);
         let mut events = vec![key(Key::Space), Event::Text(" ".into()), key(Key::Enter)];
         let before = events.clone();
-        assert_eq!(held.take_in(&mut events, 2.0, false), None);
+        assert_eq!(held.hold_back(&mut events, 2.0, false), None);
         assert_eq!(events, before);
         // While a person writes into a field, all of it is the field's.
         let mut events = typed("4711");
         let before = events.clone();
-        assert_eq!(held.take_in(&mut events, 3.0, true), None);
+        assert_eq!(held.hold_back(&mut events, 3.0, true), None);
         assert_eq!(events, before);
     }
 }

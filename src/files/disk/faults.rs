@@ -39,7 +39,7 @@ thread_local! {
 }
 
 /// Comes before every call.
-pub(super) fn strike(part_of_it: impl FnOnce()) -> io::Result<()> {
+pub(super) fn inject(part_of_it: impl FnOnce()) -> io::Result<()> {
     let Some(mut plan) = PLAN.get() else {
         return Ok(());
     };

@@ -253,7 +253,7 @@ pub(in crate::app) fn update(state: &mut State) -> Vec<Event> {
     while let Some(event) = state.follower.task.poll() {
         match event {
             TaskEvent::Partial(answer) | TaskEvent::Done(answer) => {
-                counted.extend(take_in(state, answer));
+                counted.extend(receive(state, answer));
             }
             TaskEvent::Failed(error) => {
                 notify(state, error.into());
@@ -265,7 +265,7 @@ pub(in crate::app) fn update(state: &mut State) -> Vec<Event> {
 }
 
 /// Takes in what was handed over; a verdict that counts is told every workspace.
-fn take_in(state: &mut State, answer: LiveAnswer) -> Option<Event> {
+fn receive(state: &mut State, answer: LiveAnswer) -> Option<Event> {
     match answer {
         LiveAnswer::Stands(told) if state.is_live() => {
             watch_source(state, &told.status.source);

@@ -338,7 +338,7 @@ impl RobotCell {
     /// Polls the task and the file dialog; returns the action that a chosen file causes.
     pub fn update(&mut self, cx: &mut ShellContext<'_>) -> Option<RobotAction> {
         match self.task.poll() {
-            Some(TaskEvent::Partial(result) | TaskEvent::Done(result)) => self.take_in(result, cx),
+            Some(TaskEvent::Partial(result) | TaskEvent::Done(result)) => self.receive(result, cx),
             // Where the dialog is open, it says so itself.
             Some(TaskEvent::Failed(error)) => match &mut self.dialog {
                 Some(dialog) => dialog.trouble = Some(error),
@@ -356,7 +356,7 @@ impl RobotCell {
         }
     }
 
-    fn take_in(&mut self, result: RobotResult, cx: &mut ShellContext<'_>) {
+    fn receive(&mut self, result: RobotResult, cx: &mut ShellContext<'_>) {
         match result {
             RobotResult::InUse(in_use, former) => {
                 if let Some(former) = former {

@@ -327,7 +327,7 @@ impl AlignState {
     pub fn update(&mut self, cx: &mut ShellContext<'_>) {
         while let Some(event) = self.task.poll() {
             match event {
-                TaskEvent::Partial(result) | TaskEvent::Done(result) => self.take_in(result, cx),
+                TaskEvent::Partial(result) | TaskEvent::Done(result) => self.receive(result, cx),
                 TaskEvent::Failed(error) => {
                     self.coming = None;
                     cx.notify(error);
@@ -348,7 +348,7 @@ impl AlignState {
         }
     }
 
-    fn take_in(&mut self, result: AlignResult, cx: &mut ShellContext<'_>) {
+    fn receive(&mut self, result: AlignResult, cx: &mut ShellContext<'_>) {
         match result {
             AlignResult::Prepared(pair) => {
                 for warning in &pair.warnings {

@@ -2,7 +2,7 @@
 
 use std::path::PathBuf;
 
-use super::recipes::NamingPurpose;
+use super::kept_recipes::NamingPurpose;
 use crate::{
     app::shell::file_dialog::{FileChoice, FileRequest},
     cases::{Cell, Truth},

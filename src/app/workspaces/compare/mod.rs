@@ -10,6 +10,7 @@ pub mod comparison;
 mod distances;
 mod keeping;
 mod kept_cases;
+mod kept_recipes;
 pub mod matrix;
 mod pictures;
 mod recipe_menu;
@@ -29,7 +30,7 @@ use egui::{Frame, Key, Margin, Modifiers, Panel, Rect, Ui, UiBuilder, pos2, vec2
 
 pub use self::{
     action::{CompareAction, CompareFile, RecipeAction},
-    recipes::{KeptRecipes, Naming, NamingPurpose},
+    kept_recipes::{KeptRecipes, Naming, NamingPurpose},
     state::{Cases, CompareState, Front, Undo},
     work::{CaseChange, CaseDone, CaseRun, CompareResult, RunChanges},
 };

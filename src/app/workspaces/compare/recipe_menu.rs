@@ -5,7 +5,7 @@ use egui::{Button, Key, RichText, ScrollArea, TextEdit, Ui, WidgetInfo, vec2};
 use super::{
     CompareAction, CompareFile, CompareState,
     action::RecipeAction,
-    recipes::{Naming, NamingPurpose},
+    kept_recipes::{Naming, NamingPurpose},
 };
 use crate::{
     app::{

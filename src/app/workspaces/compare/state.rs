@@ -4,7 +4,7 @@ use std::{collections::VecDeque, path::PathBuf, sync::Arc};
 
 use super::{
     action::{CompareAction, CompareFile, RecipeAction},
-    recipes::KeptRecipes,
+    kept_recipes::KeptRecipes,
     schedule::{Job, JobKind, StudyNeed},
     study::CaseStudy,
     work::{CaseChange, CaseDone, CaseRun, CompareResult, RunChanges},
@@ -233,7 +233,7 @@ impl CompareState {
     pub fn update(&mut self, cx: &mut ShellContext<'_>) {
         while let Some(event) = self.task.poll() {
             match event {
-                TaskEvent::Partial(result) | TaskEvent::Done(result) => self.take_in(result, cx),
+                TaskEvent::Partial(result) | TaskEvent::Done(result) => self.receive(result, cx),
                 TaskEvent::Failed(error) => cx.notify(error),
             }
             self.start_next(cx);
@@ -255,7 +255,7 @@ impl CompareState {
         self.update_recipes(cx);
     }
 
-    fn take_in(&mut self, result: CompareResult, cx: &mut ShellContext<'_>) {
+    fn receive(&mut self, result: CompareResult, cx: &mut ShellContext<'_>) {
         match result {
             CompareResult::Studied(study) => {
                 self.study = Some(study);

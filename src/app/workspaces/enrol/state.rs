@@ -248,7 +248,7 @@ impl EnrolState {
     pub fn update(&mut self, cx: &mut ShellContext<'_>) {
         while let Some(event) = self.draft_task.poll() {
             match event {
-                TaskEvent::Partial(event) | TaskEvent::Done(event) => self.take_in(event, cx),
+                TaskEvent::Partial(event) | TaskEvent::Done(event) => self.receive(event, cx),
                 TaskEvent::Failed(error) => cx.notify(error),
             }
         }
@@ -286,7 +286,7 @@ impl EnrolState {
         }
     }
 
-    fn take_in(&mut self, event: DraftEvent, cx: &mut ShellContext<'_>) {
+    fn receive(&mut self, event: DraftEvent, cx: &mut ShellContext<'_>) {
         match event {
             DraftEvent::Taken(subject, selection) => self.taken(subject, selection, cx),
             DraftEvent::Selected(selection) => {

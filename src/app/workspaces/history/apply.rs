@@ -235,7 +235,7 @@ impl HistoryState {
     pub fn update(&mut self, cx: &mut ShellContext<'_>) {
         while let Some(event) = self.looking.poll() {
             match event {
-                TaskEvent::Partial(looked) | TaskEvent::Done(looked) => self.take_in(*looked, cx),
+                TaskEvent::Partial(looked) | TaskEvent::Done(looked) => self.receive(*looked, cx),
                 TaskEvent::Failed(error) => cx.notify(error),
             }
         }
@@ -329,7 +329,7 @@ impl HistoryState {
     }
 
     /// Takes in what was looked up.
-    pub fn take_in(&mut self, looked: HistoryResult, cx: &mut ShellContext<'_>) {
+    pub fn receive(&mut self, looked: HistoryResult, cx: &mut ShellContext<'_>) {
         let before = self.selected;
         self.take(looked);
         self.look_at_part();

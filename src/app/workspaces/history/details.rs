@@ -287,7 +287,7 @@ fn buttons(
             let pressed = ui
                 .add_enabled_ui(can, |ui| labelled(ui, button, label))
                 .inner;
-            // What is drawn as enabled says so itself.
+            // `labelled` describes every button as enabled.
             pressed.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, can, label));
             let pressed = pressed.on_disabled_hover_text(no_frame.as_deref().unwrap_or_default());
             pressed.on_hover_text(says).clicked()

@@ -71,7 +71,7 @@ impl Bench {
             kept: Default::default(),
             frames: None,
         };
-        bench.history.take_in(looked, &mut bench.shell.context());
+        bench.history.receive(looked, &mut bench.shell.context());
         let looking = bench.history.looking.running();
         assert!(looking.is_some(), "the newest is looked up");
         bench.history.looking.cancel();

@@ -1,0 +1,235 @@
+//! The recipes that are kept as files, and the task that changes them: one change after the other.
+
+use std::{collections::VecDeque, path::PathBuf, sync::Arc};
+
+use crate::{
+    app::{
+        inspection::folder_watch::FolderWatch,
+        shell::context::ShellContext,
+        task::{Task, TaskRunner},
+        user_error::UserError,
+    },
+    library::PartName,
+    pipeline::{
+        BUILT_IN, NamedRecipe, Recipe, RecipeError, RecipeFile, RecipeFolder, RecipeLabel,
+        RecipeList, Replace,
+    },
+};
+
+/// The recipes that are kept, and what is being done with them.
+#[derive(Debug)]
+pub struct KeptRecipes {
+    /// Where they are; without it none can be kept.
+    folder: Option<RecipeFolder>,
+    /// The recipes, once listed.
+    pub list: RecipeList,
+    /// The name that is being written.
+    pub naming: Option<Naming>,
+    /// True while the parameters that differ from their defaults are listed.
+    pub is_listing_changes: bool,
+    waiting: VecDeque<RecipeChange>,
+    pub(super) task: Task<Changed>,
+    /// Sees what commands change.
+    watch: FolderWatch,
+}
+
+/// A name that is being written.
+#[derive(Clone, Debug)]
+pub struct Naming {
+    /// What for.
+    pub purpose: NamingPurpose,
+    /// What is written so far.
+    pub text: String,
+    /// True until its line was shown, which then has the keys.
+    pub is_new: bool,
+}
+
+/// What a name is written for.
+#[derive(Clone, Copy, Debug, PartialEq, Eq)]
+pub enum NamingPurpose {
+    /// Keep the recipe on trial under it.
+    SaveAs,
+    /// Call the recipe on trial by it.
+    Rename,
+}
+
+/// What is done with the files.
+#[derive(Debug)]
+pub(super) enum RecipeChange {
+    List,
+    Save(Box<RecipeFile>, Replace),
+    /// Puts a removed one back.
+    Restore {
+        file: Box<RecipeFile>,
+        was_default: bool,
+    },
+    Rename(PartName, PartName),
+    Remove(PartName),
+    MakeDefault(PartName),
+    /// Under its own name, or the next that is free.
+    Import(PathBuf),
+    Export(Box<RecipeFile>, PathBuf),
+}
+
+/// What was done, and the recipes after it.
+#[derive(Debug)]
+pub(super) struct Changed {
+    pub(super) list: RecipeList,
+    pub(super) done: RecipeDone,
+}
+
+#[derive(Debug)]
+pub(super) enum RecipeDone {
+    Listed,
+    /// The recipe on trial goes by this name.
+    Saved(PartName),
+    Restored(PartName),
+    Renamed(PartName, PartName),
+    Removed {
+        file: Box<RecipeFile>,
+        was_default: bool,
+    },
+    Default(PartName),
+    Imported(PartName),
+    Exported(PathBuf),
+}
+
+impl KeptRecipes {
+    pub(super) fn new(folder: Option<PathBuf>, runner: &TaskRunner) -> Self {
+        Self {
+            folder: folder.map(RecipeFolder::at),
+            list: RecipeList {
+                default: BUILT_IN.into(),
+                ..RecipeList::default()
+            },
+            naming: None,
+            is_listing_changes: false,
+            // In the first frame: the recipe in use may differ from its file by now.
+            waiting: VecDeque::from([RecipeChange::List]),
+            task: Task::new("recipes", runner),
+            watch: FolderWatch::new("recipe-watch", runner),
+        }
+    }
+
+    pub(super) fn is_idle(&self) -> bool {
+        self.task.running().is_none() && (self.folder.is_none() || self.waiting.is_empty())
+    }
+
+    pub(super) fn of_name(&self, name: &str) -> Option<&RecipeFile> {
+        let mut recipes = self.list.recipes.iter();
+        recipes.find(|file| file.name.as_str() == name)
+    }
+
+    /// True if a recipe is kept under this name.
+    pub(super) fn has(&self, name: &str) -> bool {
+        name == BUILT_IN || self.of_name(name).is_some()
+    }
+
+    /// These parameters under this name, marked where they are not what is kept under it.
+    pub(super) fn named(&self, name: &str, parameters: Arc<Recipe>) -> NamedRecipe {
+        let is_kept = if name == BUILT_IN {
+            *parameters == Recipe::default()
+        } else {
+            self.of_name(name)
+                .is_some_and(|file| file.recipe == *parameters)
+        };
+        NamedRecipe {
+            label: RecipeLabel {
+                name: name.to_owned(),
+                is_changed: !is_kept,
+            },
+            parameters,
+        }
+    }
+
+    /// The first of `name_2`, `name_3` and so on that is free.
+    pub(super) fn free_name(&self, name: &str) -> Result<PartName, RecipeError> {
+        Ok(free_name(name, |name| self.has(name))?)
+    }
+
+    pub(super) fn start(&mut self, change: RecipeChange, cx: &mut ShellContext<'_>) {
+        if self.folder.is_none() {
+            return cx.notify(UserError::of(&RecipeError::NoUserFolder));
+        }
+        self.waiting.push_back(change);
+        self.start_next();
+    }
+
+    /// Lists the recipes again once another program has changed them.
+    pub(super) fn watch(&mut self) {
+        let Some(folder) = &self.folder else {
+            return;
+        };
+        self.watch.watch(folder.path());
+        if self.watch.has_changed() {
+            self.waiting.push_back(RecipeChange::List);
+        }
+    }
+
+    /// One after the other: no file is given up for the next.
+    pub(super) fn start_next(&mut self) {
+        if let (None, Some(folder)) = (self.task.running(), &self.folder)
+            && let Some(change) = self.waiting.pop_front()
+        {
+            let folder = folder.clone();
+            self.task.start("Changing recipes", move |_| {
+                carry_out(&folder, change).map_err(|error| UserError::of(&error).into())
+            });
+        }
+    }
+}
+
+fn free_name(
+    name: &str,
+    is_taken: impl Fn(&str) -> bool,
+) -> Result<PartName, crate::library::BadName> {
+    let number = (2..10_000).find(|number| !is_taken(&format!("{name}_{number}")));
+    PartName::new(&format!("{name}_{}", number.unwrap_or(2)))
+}
+
+fn carry_out(folder: &RecipeFolder, change: RecipeChange) -> Result<Changed, RecipeError> {
+    let done = match change {
+        RecipeChange::List => RecipeDone::Listed,
+        RecipeChange::Save(file, replace) => RecipeDone::Saved(folder.save(&file, replace)?.name),
+        RecipeChange::Restore { file, was_default } => {
+            let name = folder.save(&file, Replace::No)?.name;
+            if was_default {
+                folder.set_default(&name)?;
+            }
+            RecipeDone::Restored(name)
+        }
+        RecipeChange::Rename(from, to) => {
+            folder.rename(&from, &to)?;
+            RecipeDone::Renamed(from, to)
+        }
+        RecipeChange::Remove(name) => {
+            let file = Box::new(folder.read(&name)?);
+            let was_default = folder.default_name()? == name.as_str();
+            folder.remove(&name)?;
+            RecipeDone::Removed { file, was_default }
+        }
+        RecipeChange::MakeDefault(name) => {
+            folder.set_default(&name)?;
+            RecipeDone::Default(name)
+        }
+        RecipeChange::Import(path) => {
+            let mut file = RecipeFile::read(&path)?;
+            let list = folder.list()?;
+            let same = list.recipes.iter().find(|kept| kept.name == file.name);
+            let is_there = same.is_some_and(|kept| *kept == file);
+            let is_taken = |name: &str| {
+                name == BUILT_IN || list.recipes.iter().any(|kept| kept.name.as_str() == name)
+            };
+            if is_taken(file.name.as_str()) && !is_there {
+                file.name = free_name(file.name.as_str(), is_taken)?;
+            }
+            RecipeDone::Imported(folder.save(&file, Replace::Yes)?.name)
+        }
+        RecipeChange::Export(file, path) => {
+            file.write(&path)?;
+            RecipeDone::Exported(path)
+        }
+    };
+    let list = folder.list()?;
+    Ok(Changed { list, done })
+}
