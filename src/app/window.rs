@@ -149,7 +149,7 @@ impl Window {
         window.forget_a_vanished_file();
         window.state.session.usual_cell = cell;
         window.with_robot(ctx, RobotCell::load_remembered);
-        let first = match (scene, &window.state.source) {
+        let first = match (scene, &window.state.session.source) {
             (Some(path), _) => Action::Open(path),
             (None, Source::Camera(spec)) => Action::Live(LiveAction::Use((**spec).clone())),
             (None, _) => Action::Capture,
@@ -203,7 +203,7 @@ impl Window {
                 self.lend(kind, ctx, |workspace, _| workspace.cancel());
             }
             Effect::Take(scene, title) => {
-                let front = self.state.workspace;
+                let front = self.state.session.workspace;
                 self.lend(front, ctx, |workspace, cx| {
                     workspace.take_scene(scene, title, cx);
                 });
@@ -287,9 +287,9 @@ impl Window {
     }
 
     fn install_theme(&mut self, ctx: &egui::Context) {
-        if self.installed != Some(self.state.theme) {
-            Theme::install(self.state.theme, ctx);
-            self.installed = Some(self.state.theme);
+        if self.installed != Some(self.state.session.theme) {
+            Theme::install(self.state.session.theme, ctx);
+            self.installed = Some(self.state.session.theme);
         }
     }
 
@@ -303,7 +303,7 @@ impl Window {
         if let Some(path) = dropped {
             let is_scan = path.join(FRAME_POSES).is_file();
             // What is opened elsewhere is inspected.
-            let taker = match self.state.workspace {
+            let taker = match self.state.session.workspace {
                 WorkspaceKind::Enrol => WorkspaceKind::Enrol,
                 _ => WorkspaceKind::Inspect,
             };
@@ -330,7 +330,7 @@ impl Window {
         if is_closed && !self.is_lost() && !self.may_close() {
             ctx.send_viewport_cmd(egui::ViewportCommand::CancelClose);
         }
-        let is_enrolling = self.state.workspace == WorkspaceKind::Enrol;
+        let is_enrolling = self.state.session.workspace == WorkspaceKind::Enrol;
         let enrol = self.hosted(WorkspaceKind::Enrol);
         let has_draft = enrol.is_some_and(|enrol| enrol.unsaved().is_some());
         self.state.inspector.loader.may_reload = !(is_enrolling && has_draft);
@@ -364,23 +364,23 @@ impl Window {
             return;
         }
         let ctx = ui.ctx().clone();
-        let theme = Theme::of(self.state.theme);
+        let theme = Theme::of(self.state.session.theme);
         let mut actions = Vec::new();
-        if self.state.is_operator_view()
+        if self.state.session.is_operator_view()
             && !self.is_behind_dialog(&ctx)
             && let Some(code) = scanner::listen(&ctx)
         {
-            self.state.trace.set_serial(&code);
+            self.state.session.trace.set_serial(&code);
         }
         let work = self.work();
-        if self.state.is_operator_view() {
+        if self.state.session.is_operator_view() {
             operator_bars::ui(ui, &self.state, work, theme, &mut actions);
         } else {
             top_bar::ui(ui, &self.state, &self.robot, work, theme, &mut actions);
             rail::ui(ui, &self.state, theme, &mut actions);
         }
         let room = notices::room(ui, &self.state, theme);
-        let front = self.state.workspace;
+        let front = self.state.session.workspace;
         let canvas = match front {
             // Its view covers everything: a software driver paints what is beneath all the same.
             WorkspaceKind::Inspect => Frame::new(),
@@ -419,7 +419,7 @@ impl Window {
     fn is_behind_dialog(&self, ctx: &egui::Context) -> bool {
         let state = &self.state;
         let is_own = state.help == HelpPage::Open
-            || state.live.setup.is_some()
+            || state.session.live.setup.is_some()
             || state.roles.asked.is_some()
             || matches!(state.closing, Closing::Asked(_))
             || self.robot.dialog().is_some();
@@ -434,7 +434,7 @@ impl Window {
         if is_touched {
             self.touched = now;
         }
-        let Some(after) = self.state.roles.lock_timeout(self.state.role) else {
+        let Some(after) = self.state.roles.lock_timeout(self.state.session.role) else {
             return;
         };
         let left = self.touched + after - now;

@@ -21,7 +21,10 @@ use super::set_up::{
 fn open_at(size: Vec2) -> WindowHarness {
     let mut harness = open_with(size, plain_options());
     press_quickly(&mut harness, "Align");
-    assert_eq!(harness.state().state().workspace, WorkspaceKind::Align);
+    assert_eq!(
+        harness.state().state().session.workspace,
+        WorkspaceKind::Align
+    );
     harness
 }
 

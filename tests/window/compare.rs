@@ -236,15 +236,15 @@ fn a_changed_parameter_shows_at_once_and_can_be_used_undone_and_reset() {
     assert!((study(&harness).recipe.accept.min_score - 1.0).abs() < 1e-9);
     harness.get_by_label_contains("Not accepted · ");
     // The scene in front of Inspect is as it was.
-    assert_eq!(**harness.state().state().recipe, Recipe::default());
+    assert_eq!(**harness.state().state().session.recipe, Recipe::default());
 
     press(&mut harness, "Use this recipe");
     let state = harness.state().state();
-    assert!((state.recipe.accept.min_score - 1.0).abs() < 1e-9);
-    let shown = state.shown.as_ref().expect("a result");
+    assert!((state.session.recipe.accept.min_score - 1.0).abs() < 1e-9);
+    let shown = state.session.shown.as_ref().expect("a result");
     assert!((shown.inspected.recipe.accept.min_score - 1.0).abs() < 1e-9);
     press(&mut harness, "Undo use");
-    assert_eq!(**harness.state().state().recipe, Recipe::default());
+    assert_eq!(**harness.state().state().session.recipe, Recipe::default());
 
     press(&mut harness, "Reset accept from");
     harness.get_by_label("0 changed from default");
@@ -296,10 +296,13 @@ fn a_recipe_is_saved_used_renamed_removed_and_put_back() {
     assert!((kept("strict").expect("kept").recipe.accept.min_score - 0.95).abs() < 1e-12);
 
     // On trial until it is used; then the result, and all that is written of it, has its name.
-    assert_eq!(harness.state().state().recipe.label.name, "built-in");
+    assert_eq!(
+        harness.state().state().session.recipe.label.name,
+        "built-in"
+    );
     press(&mut harness, "Use this recipe");
     let state = harness.state().state();
-    let shown = state.shown.as_ref().expect("a result");
+    let shown = state.session.shown.as_ref().expect("a result");
     assert_eq!(shown.inspected.recipe.label.to_string(), "strict");
     assert!(
         shown
@@ -335,7 +338,10 @@ fn a_recipe_is_saved_used_renamed_removed_and_put_back() {
     write_name(&mut harness, "er");
     press(&mut harness, "Rename under this name");
     harness.get_by_label("Recipe stricter");
-    assert_eq!(harness.state().state().recipe.label.to_string(), "stricter");
+    assert_eq!(
+        harness.state().state().session.recipe.label.to_string(),
+        "stricter"
+    );
     assert_eq!(recipes.default_name().expect("read"), "stricter");
 
     press(&mut harness, "Recipe stricter");

@@ -212,7 +212,7 @@ fn a_part_enrolled_anew_replaces_the_former_one_and_undo_brings_that_back() {
     enrol(&mut harness, PartKind::TrunkLid, "Trunk lid");
     let folder = LibraryFolder::open(library.path()).expect("there");
     let from = |harness: &WindowHarness| {
-        let library = state(harness).library.as_ref().expect("loaded");
+        let library = state(harness).session.library.as_ref().expect("loaded");
         library.parts[0].enrolled.from.clone()
     };
     let first = from(&harness);
@@ -391,7 +391,7 @@ fn a_dropped_mesh_is_enrolled_whole() {
     write(&mut harness, "Title", "Grille of the maker");
     press(&mut harness, "Save");
     assert_eq!(names(library.path()), ["grille_of_the_maker"]);
-    let saved = state(&harness).library.as_ref().expect("loaded");
+    let saved = state(&harness).session.library.as_ref().expect("loaded");
     assert_eq!(saved.parts[0].enrolled.from, "grille.obj");
     assert!(!saved.parts[0].simulated);
 }
@@ -437,14 +437,24 @@ fn a_box_is_drawn_by_keys_alone() {
 fn the_inspected_scene_is_taken_at_one_press_and_captures_stay_with_the_workspace() {
     let library = library();
     let mut harness = open(library.path());
-    let shown = state(&harness).shown.as_ref().expect("a result").generation;
+    let shown = state(&harness)
+        .session
+        .shown
+        .as_ref()
+        .expect("a result")
+        .generation;
     press(&mut harness, "Use the inspected scene");
     assert!(num_kept(&harness) > 1000);
     press_keys(&mut harness, Modifiers::NONE, Key::Space);
     assert_eq!(enrol_of(&harness).num_drafts, 2);
-    let still = state(&harness).shown.as_ref().expect("a result").generation;
+    let still = state(&harness)
+        .session
+        .shown
+        .as_ref()
+        .expect("a result")
+        .generation;
     assert_eq!(
-        (still, state(&harness).workspace),
+        (still, state(&harness).session.workspace),
         (shown, WorkspaceKind::Enrol)
     );
     press(&mut harness, "Everything");
@@ -516,7 +526,7 @@ fn without_a_library_the_window_says_so_everywhere_and_still_captures() {
     assert!(said.advice.contains("create the folder"), "{said:?}");
     assert_eq!(notices(&harness).len(), 1);
     // The scene is there, and called nothing.
-    let shown = state(&harness).shown.as_ref().expect("captured");
+    let shown = state(&harness).session.shown.as_ref().expect("captured");
     assert!(!shown.inspected.inspection.verdict.is_accepted());
     press_keys(&mut harness, Modifiers::NONE, Key::Space);
     settle(&mut harness);
@@ -537,7 +547,7 @@ fn without_a_library_the_window_says_so_everywhere_and_still_captures() {
     act(&mut harness, Action::GoTo(WorkspaceKind::Inspect));
     act(&mut harness, Action::Capture);
     settle(&mut harness);
-    let library = state(&harness).library.as_ref().expect("loaded");
+    let library = state(&harness).session.library.as_ref().expect("loaded");
     assert!(library.unloaded.is_none());
 }
 
@@ -556,7 +566,7 @@ fn a_window_that_starts_in_enrol_has_its_library_an_inspection_and_its_history()
     std::fs::write(&settings, left_in_enrol).expect("written");
 
     let harness = open_with(USUAL, options(None));
-    assert_eq!(state(&harness).workspace, WorkspaceKind::Enrol);
+    assert_eq!(state(&harness).session.workspace, WorkspaceKind::Enrol);
     harness.get_by_label("Enrolled: Front door, left");
     harness.get_by_label("Use the inspected scene");
     assert_eq!(history_of(&harness).num_rows(), 2);
@@ -567,7 +577,7 @@ fn a_window_that_starts_in_enrol_has_its_library_an_inspection_and_its_history()
     std::fs::write(&broken, "VERSION .7\nFIELDS x y z\nPOINTS 9999999999\n").expect("written");
     std::fs::write(&settings, left_in_enrol).expect("written");
     let harness = open_with(USUAL, options(Some(broken)));
-    assert_eq!(state(&harness).workspace, WorkspaceKind::Enrol);
+    assert_eq!(state(&harness).session.workspace, WorkspaceKind::Enrol);
     assert_eq!(notices(&harness).len(), 1);
     harness.get_by_label("Enrolled: Front door, left");
     assert_eq!(history_of(&harness).num_rows(), 2);
@@ -597,7 +607,7 @@ fn a_title_that_another_part_has_is_warned_about_unless_it_is_one_more_reference
     let references = folder.references_of(&name("wing")).expect("listed");
     assert_eq!(references, [name("wing_b")]);
     // Inspected, it is called by the part's name.
-    let shown = state(&harness).shown.as_ref().expect("inspected");
+    let shown = state(&harness).session.shown.as_ref().expect("inspected");
     let verdict = &shown.inspected.inspection.verdict;
     assert!(
         matches!(verdict, Verdict::Part { part, .. } if part == "wing"),
@@ -637,7 +647,7 @@ fn what_another_program_does_to_the_library_is_noticed_and_a_draft_is_left_alone
     enrol(&mut other, PartKind::Grille, "Grille");
     press(&mut harness, "Inspect");
     wait_until(&mut harness, |state| {
-        let library = state.library.as_ref();
+        let library = state.session.library.as_ref();
         library.is_some_and(|library| library.parts.len() == 1)
     });
     settle(&mut harness);
@@ -657,7 +667,7 @@ fn what_another_program_does_to_the_library_is_noticed_and_a_draft_is_left_alone
         .expect("removed");
     press(&mut harness, "Inspect");
     wait_until(&mut harness, |state| {
-        let library = state.library.as_ref();
+        let library = state.session.library.as_ref();
         library.is_some_and(|library| library.parts.is_empty())
     });
 }

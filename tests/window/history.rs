@@ -93,7 +93,10 @@ fn an_earlier_inspection_is_found_and_opened_again_with_its_stages() {
     press(&mut harness, "Inspection 1: Front door, left, Accepted");
     harness.get_by_label("Segmentation of inspection 1");
     press(&mut harness, "Open");
-    assert_eq!(harness.state().state().workspace, WorkspaceKind::Inspect);
+    assert_eq!(
+        harness.state().state().session.workspace,
+        WorkspaceKind::Inspect
+    );
     harness.get_by_label("Simulated frame 1");
     harness.get_by_label_contains("From the history");
     harness.get_by_label("Enlarge contour");
@@ -112,12 +115,18 @@ fn the_list_is_filtered_by_what_is_written_and_keys_do_not_switch_meanwhile() {
     harness.get_by_label("Find").type_text("frame 1");
     settle(&mut harness);
     harness.get_by_label("1 of 2 parts");
-    assert_eq!(harness.state().state().workspace, WorkspaceKind::History);
+    assert_eq!(
+        harness.state().state().session.workspace,
+        WorkspaceKind::History
+    );
     // Nor does the Enter that ends the writing, though the field has lost the focus by then.
     harness.key_press(Key::Enter);
     settle(&mut harness);
     harness.get_by_label("1 of 2 parts");
-    assert_eq!(harness.state().state().workspace, WorkspaceKind::History);
+    assert_eq!(
+        harness.state().state().session.workspace,
+        WorkspaceKind::History
+    );
     press(&mut harness, "Verdict · All ▼");
     press(&mut harness, "Verdict: No part");
     harness.get_by_label_contains("No matching inspections");
@@ -159,8 +168,14 @@ fn the_history_outlives_the_window_and_what_a_person_said_of_it() {
     settle(&mut harness);
     // Enter was the field's: it does not open the inspection as well.
     let state = harness.state().state();
-    assert_eq!(state.workspace, WorkspaceKind::History);
-    assert!(state.shown.as_ref().is_some_and(|shown| !shown.is_past));
+    assert_eq!(state.session.workspace, WorkspaceKind::History);
+    assert!(
+        state
+            .session
+            .shown
+            .as_ref()
+            .is_some_and(|shown| !shown.is_past)
+    );
     drop(harness);
 
     let mut harness = open_with(USUAL, keeping(folder.path()));
@@ -178,8 +193,14 @@ fn the_history_outlives_the_window_and_what_a_person_said_of_it() {
     assert!(row.frame_bytes.is_some());
     act_in_history(&mut harness, HistoryAction::Open(2));
     let state = harness.state().state();
-    assert_eq!(state.workspace, WorkspaceKind::Inspect);
-    assert!(state.shown.as_ref().is_some_and(|shown| shown.is_past));
+    assert_eq!(state.session.workspace, WorkspaceKind::Inspect);
+    assert!(
+        state
+            .session
+            .shown
+            .as_ref()
+            .is_some_and(|shown| shown.is_past)
+    );
     assert!(state.notices.is_empty(), "{:?}", state.notices);
     // The first one's was not; but the simulated cell can show it again.
     act_in_history(&mut harness, HistoryAction::Open(1));
@@ -295,7 +316,10 @@ fn inspected_again_it_says_what_changed() {
     go_to_history(&mut harness);
     press(&mut harness, "Inspect again");
     harness.get_by_label("Same result today");
-    assert_eq!(harness.state().state().workspace, WorkspaceKind::History);
+    assert_eq!(
+        harness.state().state().session.workspace,
+        WorkspaceKind::History
+    );
     assert_eq!(history_of(&harness).num_rows(), 1);
 }
 
@@ -449,9 +473,9 @@ fn the_window_starts_as_it_was_left() {
     drop(harness);
     let harness = open_with(USUAL, remembering(&path));
     let state = harness.state().state();
-    assert_eq!(state.theme, ThemeChoice::Light);
-    assert_eq!(state.units, UnitSystem::MetresRadians);
-    assert_eq!(state.workspace, WorkspaceKind::History);
+    assert_eq!(state.session.theme, ThemeChoice::Light);
+    assert_eq!(state.session.units, UnitSystem::MetresRadians);
+    assert_eq!(state.session.workspace, WorkspaceKind::History);
 }
 
 #[test]
@@ -480,7 +504,7 @@ fn a_remembered_file_that_is_gone_gives_way_to_the_simulated_cell() {
     let harness = open_with(USUAL, remembering(&path));
     harness.get_by_label_contains("gone.pcd");
     harness.get_by_label("Simulated frame 1");
-    assert!(harness.state().state().recent.is_empty());
+    assert!(harness.state().state().session.recent.is_empty());
 }
 
 #[test]

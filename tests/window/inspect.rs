@@ -22,7 +22,7 @@ use super::set_up::{
 };
 
 fn generation(harness: &WindowHarness) -> u64 {
-    let shown = harness.state().state().shown.as_ref();
+    let shown = harness.state().state().session.shown.as_ref();
     shown.expect("a result").generation
 }
 
@@ -85,7 +85,7 @@ fn cancel_gives_up_at_once_and_keeps_the_last_result() {
     let context = harness.ctx.clone();
     let window = harness.state_mut();
     window.act(partsight::app::shell::action::Action::Capture, &context);
-    assert!(window.state().is_old());
+    assert!(window.state().session.is_old());
     harness.step();
     // On a quick machine the result may be there already; then there is nothing to cancel.
     if let Some(cancel) = harness.query_by_label("Cancel") {
@@ -97,7 +97,7 @@ fn cancel_gives_up_at_once_and_keeps_the_last_result() {
     assert!(harness.state().state().inspector.running().is_none());
     thread::sleep(Duration::from_millis(300));
     harness.run_steps(2);
-    assert!(!harness.state().state().is_old());
+    assert!(!harness.state().state().session.is_old());
 }
 
 #[test]
@@ -128,8 +128,11 @@ fn units_colours_and_shortcuts_have_their_keys() {
     harness.key_press(Key::U);
     harness.key_press(Key::T);
     harness.run_steps(2);
-    assert_eq!(harness.state().state().units, UnitSystem::MetresRadians);
-    assert_eq!(harness.state().state().theme, ThemeChoice::Light);
+    assert_eq!(
+        harness.state().state().session.units,
+        UnitSystem::MetresRadians
+    );
+    assert_eq!(harness.state().state().session.theme, ThemeChoice::Light);
     harness.get_by_label("m · rad");
     harness.key_press(Key::F1);
     harness.run_steps(2);
@@ -152,7 +155,13 @@ fn the_pose_is_shown_in_the_robots_numbers_that_were_chosen() {
     harness.get_by_label("FANUC W P R").click();
     harness.run_steps(4);
     harness.get_by_label("Convention: FANUC W P R");
-    let shown = harness.state().state().shown.as_ref().expect("a result");
+    let shown = harness
+        .state()
+        .state()
+        .session
+        .shown
+        .as_ref()
+        .expect("a result");
     let pose = shown.inspected.inspection.pose.as_ref();
     let pose = pose.and_then(|pose| pose.as_ref().ok()).expect("a pose");
     for value in Convention::Fanuc.write(&pose.camera_from_part()).values {
@@ -220,7 +229,13 @@ fn the_verdict_stays_in_sight_and_large_however_far_the_card_is_scrolled() {
     harness.run_steps(12);
     harness.key_press(Key::Space);
     settle(&mut harness);
-    let shown = harness.state().state().shown.as_ref().expect("a result");
+    let shown = harness
+        .state()
+        .state()
+        .session
+        .shown
+        .as_ref()
+        .expect("a result");
     let title = shown.inspected.figures.candidates[0].title.clone();
     let name = harness.get_by_label(&title).rect();
     let word = harness.get_by_label("Accepted").rect();
@@ -287,7 +302,13 @@ fn a_part_is_called_by_its_title_where_it_is_refused() {
     save_cloud(&path, &scene.cloud).expect("written");
     let mut harness = open();
     drop_file(&mut harness, &path);
-    let shown = harness.state().state().shown.as_ref().expect("a result");
+    let shown = harness
+        .state()
+        .state()
+        .session
+        .shown
+        .as_ref()
+        .expect("a result");
     let Verdict::Part {
         rejected: Some(why),
         ..

@@ -131,6 +131,7 @@ pub(crate) fn wired_options() -> (WindowOptions, Wire) {
 
 fn num_inspected(state: &State) -> u64 {
     state
+        .session
         .live
         .status
         .as_ref()
@@ -165,7 +166,7 @@ pub(crate) fn toggle(harness: &mut WindowHarness) {
 fn a_part_counts_once_it_hangs_still_and_no_longer_when_it_moves() {
     let (mut harness, wire) = wired();
     toggle(&mut harness);
-    assert!(harness.state().state().is_live());
+    assert!(harness.state().state().session.is_live());
     sees(&mut harness, &wire, [0.0; 4]);
     assert!(says(&harness, "Live · looking") && says(&harness, "Not accepted yet"));
     assert!(harness.query_by_label("Accepted").is_none());
@@ -191,7 +192,13 @@ fn a_part_counts_once_it_hangs_still_and_no_longer_when_it_moves() {
     assert!(says(&harness, "Live · moving") && says(&harness, "Moving"));
     assert!(harness.query_by_label("Accepted").is_none());
     // A robot that reads the pose on the clipboard must find none that counts.
-    let shown = harness.state().state().shown.as_ref().expect("shown");
+    let shown = harness
+        .state()
+        .state()
+        .session
+        .shown
+        .as_ref()
+        .expect("shown");
     assert!(!shown.inspected.inspection.verdict.is_accepted());
 
     // It hangs still again, elsewhere: another verdict on the same part, which counts once.
@@ -203,7 +210,7 @@ fn a_part_counts_once_it_hangs_still_and_no_longer_when_it_moves() {
     assert_eq!(history.row(0).map(|row| row.num_below), Some(1));
     toggle(&mut harness);
     settle(&mut harness);
-    assert!(!harness.state().state().is_live());
+    assert!(!harness.state().state().session.is_live());
 }
 
 /// Draws until the history shows what was written.
@@ -243,7 +250,7 @@ fn two_parts_one_after_the_other_are_two_rows_and_one_that_swings_through_is_one
     settle(&mut harness);
     let state = harness.state().state();
     assert_eq!(
-        (state.is_live(), history_of(&harness).num_rows()),
+        (state.session.is_live(), history_of(&harness).num_rows()),
         (false, 4)
     );
 }
@@ -253,15 +260,33 @@ fn the_view_stays_where_a_person_has_turned_it_and_each_frame_is_shown() {
     let (mut harness, wire) = wired();
     toggle(&mut harness);
     sees(&mut harness, &wire, [0.0]);
-    let first = harness.state().state().shown.clone().expect("shown");
+    let first = harness
+        .state()
+        .state()
+        .session
+        .shown
+        .clone()
+        .expect("shown");
     sees(&mut harness, &wire, [0.0]);
-    let second = harness.state().state().shown.clone().expect("shown");
+    let second = harness
+        .state()
+        .state()
+        .session
+        .shown
+        .clone()
+        .expect("shown");
     assert!(!Arc::ptr_eq(&first.inspected, &second.inspected));
     assert!(first.generation != second.generation && first.session == second.session);
     // Another workspace keeps what it has in hand, and says how live stands.
     act_live(&mut harness, Action::GoTo(WorkspaceKind::History));
     sees(&mut harness, &wire, [0.0]);
-    let third = harness.state().state().shown.clone().expect("shown");
+    let third = harness
+        .state()
+        .state()
+        .session
+        .shown
+        .clone()
+        .expect("shown");
     assert!(Arc::ptr_eq(&second.inspected, &third.inspected));
     assert!(says(&harness, "Live · looking"));
 }
@@ -281,7 +306,7 @@ fn a_lost_source_is_a_notice_until_it_comes_back_by_itself() {
     harness.get_by_label("Accepted");
     wire.send(Step::Unplugged).expect("the camera is open");
     let is_lost = |state: &State| {
-        let status = state.live.status.as_ref();
+        let status = state.session.live.status.as_ref();
         status.is_some_and(|status| matches!(status.source, SourceState::Lost(_)))
     };
     wait_until(&mut harness, is_lost);
@@ -293,7 +318,7 @@ fn a_lost_source_is_a_notice_until_it_comes_back_by_itself() {
     sees(&mut harness, &wire, [0.0]);
     assert!(says(&harness, "The source is back"));
     assert!(!says(&harness, "the folder is not there"));
-    assert!(harness.state().state().is_live());
+    assert!(harness.state().state().session.is_live());
 }
 
 #[test]
@@ -303,13 +328,13 @@ fn following_ends_from_any_state() {
     toggle(&mut harness);
     toggle(&mut harness);
     settle(&mut harness);
-    assert!(!harness.state().state().is_live());
+    assert!(!harness.state().state().session.is_live());
     // While frames come: one frame is captured instead.
     toggle(&mut harness);
     sees(&mut harness, &wire, [0.0; 2]);
     harness.key_press(Key::Space);
     settle(&mut harness);
-    assert!(!harness.state().state().is_live());
+    assert!(!harness.state().state().session.is_live());
     harness.get_by_label("Simulated frame 2");
     // While it is lost; the notice goes with it.
     harness.key_press(Key::L);
@@ -319,12 +344,12 @@ fn following_ends_from_any_state() {
     wait_until(&mut harness, |state| !state.notices.is_empty());
     harness.key_press(Key::L);
     settle(&mut harness);
-    assert!(!harness.state().state().is_live());
+    assert!(!harness.state().state().session.is_live());
     assert!(harness.state().state().notices.is_empty());
     // At the source's own end.
     toggle(&mut harness);
     wire.send(Step::End).expect("the camera is open");
-    wait_until(&mut harness, |state| !state.is_live());
+    wait_until(&mut harness, |state| !state.session.is_live());
     settle(&mut harness);
     assert!(says(&harness, "has no more frames"));
     // And the window can be closed while it goes on.
@@ -341,7 +366,7 @@ fn another_source_is_followed_at_once_and_changed_parameters_count_anew() {
     harness.get_by_label("Accepted");
     act_live(&mut harness, Action::Live(LiveAction::Average(4)));
     // A frame that comes before would be taken by who followed until now.
-    wait_until(&mut harness, |state| state.live.status.is_some());
+    wait_until(&mut harness, |state| state.session.live.status.is_some());
     sees(&mut harness, &wire, [0.0]);
     assert!(harness.query_by_label("Accepted").is_none());
     assert_eq!(num_inspected(harness.state().state()), 1);
@@ -351,8 +376,8 @@ fn another_source_is_followed_at_once_and_changed_parameters_count_anew() {
 
     let choice = CellChoice::Part(PartKind::Grille, Side::Left);
     act_live(&mut harness, Action::UseCell(choice));
-    assert!(harness.state().state().is_live());
-    assert_eq!(harness.state().state().source, Source::Cell(choice));
+    assert!(harness.state().state().session.is_live());
+    assert_eq!(harness.state().state().session.source, Source::Cell(choice));
 }
 
 #[test]
@@ -362,16 +387,16 @@ fn a_recording_is_made_and_plays_as_what_it_was() {
     toggle(&mut harness);
     let parent = folder.path().to_owned();
     act_live(&mut harness, Action::Live(LiveAction::Record(parent)));
-    wait_until(&mut harness, |state| state.live.status.is_some());
+    wait_until(&mut harness, |state| state.session.live.status.is_some());
     sees(&mut harness, &wire, [0.0; 22]);
     assert!(says(&harness, "Stop recording · 22 frames"));
     harness.get_by_label("Accepted");
     harness.get_by_label_contains("Stop recording").click();
     harness.run_steps(4);
-    assert!(harness.state().state().live.recording.is_none());
+    assert!(harness.state().state().session.live.recording.is_none());
     assert!(says(&harness, "Recorded 22 frames"));
     // What comes now is in no recording.
-    wait_until(&mut harness, |state| state.live.status.is_some());
+    wait_until(&mut harness, |state| state.session.live.status.is_some());
     sees(&mut harness, &wire, [0.0]);
     toggle(&mut harness);
     settle(&mut harness);
@@ -393,7 +418,7 @@ fn a_recording_is_made_and_plays_as_what_it_was() {
     assert!(says(&harness, "Wired frame 2, simulated"));
     // Played: frame after frame, to the end, and what hung still counts.
     toggle(&mut harness);
-    wait_until(&mut harness, |state| !state.is_live());
+    wait_until(&mut harness, |state| !state.session.is_live());
     settle(&mut harness);
     assert!(says(&harness, "has no more frames"));
     let history = history_of(&harness);
@@ -413,7 +438,7 @@ fn a_single_file_is_not_followed_and_that_is_said() {
     act(&mut harness, Action::Open("missing.pcd".into()));
     let before = harness.state().state().notices.len();
     toggle(&mut harness);
-    assert!(!harness.state().state().is_live());
+    assert!(!harness.state().state().session.is_live());
     assert_eq!(harness.state().state().notices.len(), before + 1);
     assert!(says(&harness, "A single file cannot be followed"));
 }
@@ -429,7 +454,7 @@ fn the_cell_can_be_set_up_and_is_captured_as_it_is() {
     harness.run_steps(2);
     harness.get_by_label("Use it").click();
     settle(&mut harness);
-    let Source::Camera(spec) = &harness.state().state().source else {
+    let Source::Camera(spec) = &harness.state().state().session.source else {
         panic!("not set up");
     };
     assert_eq!(spec.to_string(), "simulated,clutter=in-front");
@@ -443,7 +468,7 @@ fn in_a_small_window_a_long_title_of_the_source_gives_way_to_what_stands_beside_
     let longest = longest.expect("there are choices");
     act(&mut harness, Action::UseCell(longest));
     harness.run_steps(4);
-    let library = harness.state().state().library.as_ref();
+    let library = harness.state().state().session.library.as_ref();
     let num_parts = library.expect("loaded").parts.len();
     let open = harness.get_by_label("Open…").rect();
     let library = harness

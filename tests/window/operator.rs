@@ -32,7 +32,7 @@ use super::{
 pub(crate) fn open_operators(options: WindowOptions) -> WindowHarness {
     let mut harness = open_with(SMALL, options);
     act(&mut harness, Action::Role(RoleAction::Switch));
-    assert_eq!(harness.state().state().role, UserRole::Operator);
+    assert_eq!(harness.state().state().session.role, UserRole::Operator);
     harness
 }
 
@@ -137,7 +137,7 @@ fn the_view_is_remembered_without_a_pin_too() {
     settings::save(&path, &remembered).expect("saved");
     drop(harness);
     let harness = open_with(USUAL, options());
-    assert_eq!(harness.state().state().role, UserRole::Operator);
+    assert_eq!(harness.state().state().session.role, UserRole::Operator);
     harness.get_by_label("OK");
 }
 
@@ -181,7 +181,7 @@ fn what_is_followed_is_good_only_while_its_verdict_counts() {
     assert!(harness.query_by_label("OK").is_none());
     wire.send(Step::Unplugged).expect("the camera is open");
     wait_until(&mut harness, |state| {
-        let status = state.live.status.as_ref();
+        let status = state.session.live.status.as_ref();
         status.is_some_and(|status| {
             matches!(
                 status.source,
@@ -279,7 +279,7 @@ fn a_scanned_serial_number_goes_with_one_part_and_order_and_operator_with_the_ne
         harness.run_steps(4);
     }
     // No field has the focus. T, L and the digits are shortcuts, and none of them is taken for one.
-    let before = harness.state().state().theme;
+    let before = harness.state().state().session.theme;
     for letter in "TL471".chars() {
         let key = Key::from_name(&letter.to_string()).expect("a key");
         harness.input_mut().events.push(egui::Event::Key {
@@ -295,11 +295,11 @@ fn a_scanned_serial_number_goes_with_one_part_and_order_and_operator_with_the_ne
     harness.key_press(Key::Enter);
     harness.run_steps(4);
     let state = harness.state().state();
-    assert_eq!(state.trace.get().serial, "TL471");
-    assert!(state.theme == before && !state.is_live());
-    assert_eq!(state.workspace, WorkspaceKind::Inspect);
+    assert_eq!(state.session.trace.get().serial, "TL471");
+    assert!(state.session.theme == before && !state.session.is_live());
+    assert_eq!(state.session.workspace, WorkspaceKind::Inspect);
     press(&mut harness, "Capture");
-    assert_eq!(harness.state().state().trace.get().serial, "");
+    assert_eq!(harness.state().state().session.trace.get().serial, "");
     press(&mut harness, "Capture");
     settle(&mut harness);
     // The operator sees which part it went with.

@@ -155,7 +155,7 @@ fn compare_as_it_is(harness: &mut WindowHarness, name: &str) {
     for node in harness.query_all(By::new().predicate(is_time_of_day)) {
         paint_over(&mut picture, node.rect());
     }
-    if harness.state().state().is_live() {
+    if harness.state().state().session.is_live() {
         // The strip's times are today's, too: elsewhere a test puts others in their place.
         for cell in harness.query_all_by_label_contains("Enlarge ") {
             paint_over(&mut picture, time_of_stage(cell.rect()));

@@ -101,7 +101,7 @@ pub(crate) const TURNS: [[f64; 3]; 8] = [
 fn numbers_typed_by_hand_are_used_remembered_and_forgotten() {
     let folder = tempfile::tempdir().expect("a folder");
     let mut harness = open_with(USUAL, own(folder.path()));
-    assert!(state(&harness).robot.is_none());
+    assert!(state(&harness).session.robot.is_none());
     harness.key_press(Key::B);
     settle(&mut harness);
     harness.get_by_label_contains("The cell is not calibrated");
@@ -112,7 +112,7 @@ fn numbers_typed_by_hand_are_used_remembered_and_forgotten() {
     type_into(&mut harness, label, " 120");
     type_into(&mut harness, "Name of the cell", "Cell 2");
     press(&mut harness, "Use it");
-    let frame = state(&harness).robot.clone().expect("a frame");
+    let frame = state(&harness).session.robot.clone().expect("a frame");
     assert!(frame.name.starts_with("Cell 2 ("), "{}", frame.name);
     assert!(
         (frame.robot_from_camera.translation.vector - Vector3::new(1.2, -0.4, 1.9)).norm() < 1e-9
@@ -126,11 +126,11 @@ fn numbers_typed_by_hand_are_used_remembered_and_forgotten() {
 
     drop(harness);
     let mut harness = open_with(USUAL, own(folder.path()));
-    assert_eq!(state(&harness).robot.as_deref(), Some(&*frame));
+    assert_eq!(state(&harness).session.robot.as_deref(), Some(&*frame));
     press(&mut harness, "Robot…");
     press(&mut harness, "Forget");
-    assert!(state(&harness).robot.is_none());
-    assert_eq!(state(&harness).cell, RememberedCell::Forgotten);
+    assert!(state(&harness).session.robot.is_none());
+    assert_eq!(state(&harness).session.cell, RememberedCell::Forgotten);
     assert!(folder.path().join("cell.toml").exists());
 }
 
@@ -157,6 +157,7 @@ fn pairs_are_calculated_shown_corrected_and_used() {
     harness.get_by_label("left out");
     press(&mut harness, "Use it");
     let found = &state(&harness)
+        .session
         .robot
         .as_ref()
         .expect("a frame")
@@ -180,10 +181,10 @@ fn pairs_that_do_not_span_are_used_only_by_insisting() {
     harness.get_by_label_contains("Nearly all turns are about one axis");
     harness.get_by_label_contains("another axis by at least 30°");
     act(&mut harness, Action::Robot(RobotAction::UseSolved));
-    assert!(state(&harness).robot.is_none());
+    assert!(state(&harness).session.robot.is_none());
     press(&mut harness, "Use it anyway");
     press(&mut harness, "Use it");
-    assert!(state(&harness).robot.is_some());
+    assert!(state(&harness).session.robot.is_some());
     // A bad file is said where it was chosen.
     fs::write(&file, "# robot: kuka\n1 2 3\n").expect("written");
     act(&mut harness, Action::Robot(RobotAction::Pairs(file)));
@@ -198,7 +199,7 @@ fn without_a_folder_of_its_own_a_window_says_so() {
     let label = "robot_from_camera: where the camera's frame stands";
     type_into(&mut harness, label, "kuka 1 2 3 4 5 6");
     press(&mut harness, "Use it");
-    assert!(state(&harness).robot.is_none());
+    assert!(state(&harness).session.robot.is_none());
     assert_eq!(state(&harness).notices.len(), 1);
     harness.key_press(Key::Escape);
     settle(&mut harness);
@@ -225,10 +226,10 @@ fn behind_a_dialog_no_key_is_a_shortcut_and_escape_closes_its_list_first() {
         }
         let state = state(harness);
         assert_eq!(state.inspector.num_captures, 1);
-        assert_eq!(state.theme, ThemeChoice::Dark);
-        assert!(!state.is_live());
+        assert_eq!(state.session.theme, ThemeChoice::Dark);
+        assert!(!state.session.is_live());
         assert!(harness.query_by_label("Shortcuts").is_none());
-        state.workspace
+        state.session.workspace
     };
     let mut harness = open();
     let parts = inspect_of(&harness).parts.clone();
@@ -258,10 +259,10 @@ fn behind_a_dialog_no_key_is_a_shortcut_and_escape_closes_its_list_first() {
     harness.key_press(Key::Escape);
     harness.run_steps(4);
     assert!(harness.query_by_label("Nothing").is_none());
-    assert!(state(&harness).live.setup.is_some());
+    assert!(state(&harness).session.live.setup.is_some());
     harness.key_press(Key::Escape);
     harness.run_steps(4);
-    assert!(state(&harness).live.setup.is_none());
+    assert!(state(&harness).session.live.setup.is_none());
 
     act(&mut harness, Action::GoTo(WorkspaceKind::History));
     press(&mut harness, "Frames…");
@@ -273,7 +274,7 @@ fn behind_a_dialog_no_key_is_a_shortcut_and_escape_closes_its_list_first() {
     // And with nothing over it, keys are shortcuts again.
     harness.key_press(Key::Num1);
     harness.run_steps(4);
-    assert_eq!(state(&harness).workspace, WorkspaceKind::Inspect);
+    assert_eq!(state(&harness).session.workspace, WorkspaceKind::Inspect);
 }
 
 #[test]
@@ -367,7 +368,7 @@ fn a_spray_path_is_stored_carried_shown_and_exported() {
     };
     let mut harness = open_with(USUAL, options);
     let shown = |harness: &WindowHarness| {
-        let shown = state(harness).shown.as_ref().expect("a result");
+        let shown = state(harness).session.shown.as_ref().expect("a result");
         Arc::clone(&shown.inspected)
     };
     assert!(shown(&harness).spray.is_none());

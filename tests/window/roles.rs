@@ -18,7 +18,7 @@ use super::set_up::{
 };
 
 fn role(harness: &WindowHarness) -> UserRole {
-    harness.state().state().role
+    harness.state().state().session.role
 }
 
 /// Presses the buttons of these digits, then the one that goes on.
@@ -46,7 +46,10 @@ fn the_operators_view_is_locked_and_unlocked_with_the_pin() {
     // By key as by the rail.
     harness.key_press(Key::Num3);
     harness.run_steps(4);
-    assert_eq!(harness.state().state().workspace, WorkspaceKind::Inspect);
+    assert_eq!(
+        harness.state().state().session.workspace,
+        WorkspaceKind::Inspect
+    );
     write(&mut harness, "2589", "Unlock");
     assert!(harness.query_by_label("Wrong PIN").is_some());
     for digit in "2580".chars() {
@@ -57,7 +60,10 @@ fn the_operators_view_is_locked_and_unlocked_with_the_pin() {
     harness.run_steps(4);
     // The digits were no shortcuts, and what was wanted is done.
     assert_eq!(role(&harness), UserRole::Engineer);
-    assert_eq!(harness.state().state().workspace, WorkspaceKind::Compare);
+    assert_eq!(
+        harness.state().state().session.workspace,
+        WorkspaceKind::Compare
+    );
 }
 
 #[test]
@@ -66,7 +72,10 @@ fn without_a_pin_a_yes_is_enough() {
     act(&mut harness, Action::Role(RoleAction::Switch));
     harness.key_press(Key::Num2);
     harness.run_steps(4);
-    assert_eq!(harness.state().state().workspace, WorkspaceKind::Inspect);
+    assert_eq!(
+        harness.state().state().session.workspace,
+        WorkspaceKind::Inspect
+    );
     press(&mut harness, "Not now");
     press(&mut harness, "Engineer's view");
     press(&mut harness, "Switch");
@@ -87,7 +96,10 @@ fn an_untouched_window_is_the_operators_again() {
     };
     assert_eq!(at(30.0), UserRole::Engineer);
     assert_eq!(at(80.0), UserRole::Operator);
-    assert_eq!(harness.state().state().workspace, WorkspaceKind::Inspect);
+    assert_eq!(
+        harness.state().state().session.workspace,
+        WorkspaceKind::Inspect
+    );
 }
 
 #[test]
@@ -111,7 +123,10 @@ fn with_a_pin_the_next_start_is_the_operators() {
     );
     let harness = open_with(USUAL, options());
     assert_eq!(role(&harness), UserRole::Operator);
-    assert_eq!(harness.state().state().workspace, WorkspaceKind::Inspect);
+    assert_eq!(
+        harness.state().state().session.workspace,
+        WorkspaceKind::Inspect
+    );
 }
 
 #[test]

@@ -140,11 +140,11 @@ fn state(harness: &WindowHarness) -> &State {
 
 /// The scan in front.
 fn fused(harness: &WindowHarness) -> &FusedShots {
-    let fused = if state(harness).workspace == WorkspaceKind::Enrol {
+    let fused = if state(harness).session.workspace == WorkspaceKind::Enrol {
         let draft = enrol_of(harness).draft.as_ref();
         draft.expect("a draft").subject.scan()
     } else {
-        let shown = state(harness).shown.as_ref().expect("a result");
+        let shown = state(harness).session.shown.as_ref().expect("a result");
         shown.inspected.scan.as_ref().map(|scan| &scan.fused)
     };
     fused.expect("a scan")
@@ -209,7 +209,7 @@ fn a_scan_is_listed_shots_are_dropped_and_taken_back_and_it_is_inspected_as_one(
     harness.get_by_label("Use shot-3.png").click();
     harness.run_steps(2);
     let is_dropped = |harness: &WindowHarness| {
-        let choice = inspect_of(harness).shot_choice(state(harness));
+        let choice = inspect_of(harness).shot_choice(&state(harness).session);
         let choice = choice.expect("a scan");
         choice.dropped.contains(&2)
     };
@@ -220,8 +220,8 @@ fn a_scan_is_listed_shots_are_dropped_and_taken_back_and_it_is_inspected_as_one(
     press(&mut harness, "Redo the change of the shots");
     assert_eq!(used(&harness), [0, 2]);
     // Remembered with the source, until they are taken back.
-    let Source::Scan(files) = &state(&harness).source else {
-        panic!("{:?}", state(&harness).source);
+    let Source::Scan(files) = &state(&harness).session.source else {
+        panic!("{:?}", state(&harness).session.source);
     };
     assert!(files.dropped.contains("shot-2.png"));
 

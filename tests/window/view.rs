@@ -67,7 +67,7 @@ fn the_card_shows_the_stand_off_in_the_chosen_units() {
     harness.get_by_label("Stand-off of the taught path");
     harness.get_by_label("inside the band");
     let state = harness.state().state();
-    let shown = state.shown.as_ref().expect("a result");
+    let shown = state.session.shown.as_ref().expect("a result");
     let found = shown.inspected.stand_off.as_ref().expect("a pose");
     let found = found.as_ref().expect("a stand-off").clone();
     // The part hangs off its standard place, and the taught nozzle knows nothing of it.
@@ -90,7 +90,13 @@ fn another_candidate_shows_its_own_alignment() {
     harness.get_by_label("Enlarge alignment").click();
     harness.run_steps(2);
     let candidates: Vec<String> = {
-        let shown = harness.state().state().shown.as_ref().expect("a result");
+        let shown = harness
+            .state()
+            .state()
+            .session
+            .shown
+            .as_ref()
+            .expect("a result");
         let figures = &shown.inspected.figures;
         figures.candidates.iter().map(|c| c.title.clone()).collect()
     };

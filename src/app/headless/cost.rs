@@ -61,7 +61,7 @@ const SIZE: [u32; 2] = [1440, 900];
 pub fn window_cost(num_frames: usize, options: WindowOptions) -> Result<WindowCost, ViewError> {
     let mut window = HeadlessWindow::open(SIZE, options)?;
     window.settle();
-    let shown = window.window().state().shown.as_ref();
+    let shown = window.window().state().session.shown.as_ref();
     let num_points = shown.map_or(0, |shown| shown.inspected.figures.num_points);
     let mut costs = vec![frames(
         "Inspect, at rest",
@@ -106,7 +106,7 @@ pub fn window_cost(num_frames: usize, options: WindowOptions) -> Result<WindowCo
 /// Frames that show a new result while the simulated cell is followed; those in between are as those at rest.
 fn live(window: &mut HeadlessWindow, num_frames: usize) -> FrameCost {
     let generation = |window: &HeadlessWindow| {
-        let shown = window.window().state().shown.as_ref();
+        let shown = window.window().state().session.shown.as_ref();
         shown.map(|shown| shown.generation)
     };
     window.act(Action::Live(LiveAction::Toggle));
@@ -209,7 +209,7 @@ fn measured(
         busy_p95_ms: busy(0.95),
         all_threads_mean_ms: spent.map(|s| s * 1e3 / num_frames.max(1) as f64),
         paced_p50_ms: whole.filter(|_| pace == Pace::InStep),
-        detail: (window.window().state().workspace == WorkspaceKind::Inspect)
+        detail: (window.window().state().session.workspace == WorkspaceKind::Inspect)
             .then(|| f64::from(window.window().detail_of_view())),
     }
 }

@@ -66,7 +66,7 @@ pub fn live_stretches(
     for number in 1..=num_stretches as u32 {
         let end = begun + stretch * number;
         let (busy, longest) = draw_until(&mut window, end);
-        let status = window.window().state().live.status.clone();
+        let status = window.window().state().session.live.status.clone();
         let now = status.as_ref().map_or(before, seen);
         let share = |share| quantile(busy.iter().copied(), share).unwrap_or(0.0);
         let latency = status.and_then(|status| status.latency);
@@ -112,7 +112,7 @@ fn draw_until(window: &mut HeadlessWindow, end: Instant) -> (Vec<f64>, UiThreadT
     let mut busy = Vec::new();
     let mut longest = UiThreadTime::default();
     let generation = |window: &HeadlessWindow| {
-        let shown = window.window().state().shown.as_ref();
+        let shown = window.window().state().session.shown.as_ref();
         shown.map(|shown| shown.generation)
     };
     while Instant::now() < end {

@@ -128,16 +128,16 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
     match action {
         Action::Capture => return state.capture(),
         Action::UseCell(choice) => {
-            state.source = Source::Cell(choice);
+            state.session.source = Source::Cell(choice);
             return live::source_changed(state);
         }
         Action::TakeEmptyCell => state.take_empty_cell(),
         Action::ForgetEmptyCell => {
-            state.empty_cell = None;
+            state.session.empty_cell = None;
             notify(state, Notice::done("Empty cell discarded"));
             live::restart_consensus(state);
         }
-        Action::Ask(DialogRequest::Scene) if state.workspace == WorkspaceKind::Enrol => {
+        Action::Ask(DialogRequest::Scene) if state.session.workspace == WorkspaceKind::Enrol => {
             return Some(Effect::ShowDialog(DialogRequest::Part));
         }
         Action::Ask(ask) => return Some(Effect::ShowDialog(ask)),
@@ -146,7 +146,7 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         Action::Open(path) => return chosen(state, DialogRequest::Scene, path),
         Action::UseFoundLibrary => state.open_library(None),
         Action::CancelInspection => state.cancel_inspection(),
-        Action::GoTo(workspace) => state.workspace = workspace,
+        Action::GoTo(workspace) => state.session.workspace = workspace,
         Action::Export => return Some(Effect::Tell(Event::Export)),
         Action::CloseTop => {
             if state.help == HelpPage::Open {
@@ -155,9 +155,9 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
                 return Some(Effect::Tell(Event::Escape));
             }
         }
-        Action::SwitchUnits => state.units = state.units.other(),
-        Action::UseConvention(convention) => state.convention = convention,
-        Action::SwitchTheme => state.theme = state.theme.other(),
+        Action::SwitchUnits => state.session.units = state.session.units.other(),
+        Action::UseConvention(convention) => state.session.convention = convention,
+        Action::SwitchTheme => state.session.theme = state.session.theme.other(),
         Action::ToggleHelp => {
             state.help = match state.help {
                 HelpPage::Closed => HelpPage::Open,
@@ -193,11 +193,11 @@ fn chosen(state: &mut State, ask: DialogRequest, path: PathBuf) -> Option<Effect
     let path = path::absolute(&path).unwrap_or(path);
     match ask {
         DialogRequest::Scene | DialogRequest::Part => {
-            state.source = Source::File(path);
+            state.session.source = Source::File(path);
             state.capture()
         }
         DialogRequest::Scan => {
-            state.source = Source::Scan(ScanFiles::of_folder(path));
+            state.session.source = Source::Scan(ScanFiles::of_folder(path));
             state.capture()
         }
         DialogRequest::Recording => {
@@ -243,7 +243,7 @@ mod tests {
             assert!(apply(&mut state, action).is_none());
             assert!(state.inspector.running().is_some());
         }
-        state.workspace = WorkspaceKind::Enrol;
+        state.session.workspace = WorkspaceKind::Enrol;
         for action in [Action::Capture, Action::Open("door.pcd".into())] {
             let effect = apply(&mut state, action);
             assert!(

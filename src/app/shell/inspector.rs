@@ -122,17 +122,17 @@ impl State {
                 (SceneOrScan::Scene(source), title)
             }
         };
-        if self.workspace == WorkspaceKind::Enrol {
+        if self.session.workspace == WorkspaceKind::Enrol {
             return Some(Effect::Take(source, title));
         }
-        let source = match (source, &self.empty_cell) {
+        let source = match (source, &self.session.empty_cell) {
             (SceneOrScan::Scene(source), Some(cell)) => {
                 let source = SceneSource::Before(Arc::clone(cell), Box::new(source));
                 SceneOrScan::Scene(source)
             }
             (source, _) => source,
         };
-        let job = self.inspect_job(source);
+        let job = self.session.inspect_job(source);
         self.inspect(title, job);
         None
     }
@@ -142,7 +142,7 @@ impl State {
         let part = if self.inspector.is_start {
             PartAtHand::MaybeSeen
         } else {
-            PartAtHand::New(self.trace.clone())
+            PartAtHand::New(self.session.trace.clone())
         };
         self.inspect_part(title, job, ReinspectionPurpose::New, part);
     }
@@ -181,7 +181,7 @@ impl State {
 
     /// Inspects the scene in front again: something that its result rests on has changed.
     pub(in crate::app) fn inspect_again(&mut self) {
-        if self.is_live() {
+        if self.session.is_live() {
             live::restart_consensus(self);
         } else {
             self.inspect_shown("Inspecting again", ReinspectionPurpose::Repeated);
@@ -191,14 +191,14 @@ impl State {
     /// Inspects the scene in front once more, with what holds now: another verdict on the same part. One from the history
     /// hangs there no longer, and gets none.
     pub(in crate::app) fn inspect_shown(&mut self, title: &str, purpose: ReinspectionPurpose) {
-        if let Some(shown) = &self.shown {
+        if let Some(shown) = &self.session.shown {
             let purpose = if shown.is_past {
                 ReinspectionPurpose::Repeated
             } else {
                 purpose
             };
             let part = PartAtHand::of(&shown.inspected);
-            let job = self.inspect_job(shown.inspected.again());
+            let job = self.session.inspect_job(shown.inspected.again());
             self.inspect_part(title.to_owned(), job, purpose, part);
         }
     }
@@ -206,6 +206,7 @@ impl State {
     /// The part in front, if this is its scene.
     fn part_in(&self, saved: &SceneOrScan) -> Option<PartAtHand> {
         let inspected = &self
+            .session
             .shown
             .as_ref()
             .filter(|shown| !shown.is_past)?
@@ -234,7 +235,7 @@ impl State {
             let part = self.part_in(&saved);
             // What is enrolled is no part of an order.
             let part = part.unwrap_or_else(|| PartAtHand::Past(Traceability::default()));
-            let job = self.inspect_job(saved);
+            let job = self.session.inspect_job(saved);
             self.inspect_part(title.to_owned(), job, purpose, part);
         } else if self.inspector.running().is_none() {
             self.inspect_shown(title, purpose);
@@ -271,20 +272,20 @@ impl State {
     /// Shows a past inspection that is still in memory.
     pub(in crate::app) fn show_past(&mut self, inspected: Arc<Inspected>) {
         self.generation += 1;
-        self.shown = Some(Shown {
+        self.session.shown = Some(Shown {
             generation: self.generation,
             inspected,
             is_past: true,
             session: None,
         });
-        self.workspace = WorkspaceKind::Inspect;
-        self.failed = None;
+        self.session.workspace = WorkspaceKind::Inspect;
+        self.session.failed = None;
         live::give_way(self);
     }
 
     /// The scene in front becomes the empty cell.
     pub(in crate::app) fn take_empty_cell(&mut self) {
-        let Some(shown) = &self.shown else {
+        let Some(shown) = &self.session.shown else {
             return;
         };
         let inspection = &shown.inspected.inspection;
@@ -300,7 +301,7 @@ impl State {
             Err(error) => return notify(self, UserError::of(&error).into()),
             Ok(cell) => cell,
         };
-        self.empty_cell = Some(Arc::new(cell));
+        self.session.empty_cell = Some(Arc::new(cell));
         let taken = if stands_there {
             Notice::look(
                 "Empty cell captured, but something as large as a part is in it",
@@ -391,7 +392,7 @@ pub(in crate::app) fn update(state: &mut State) -> Option<Event> {
                 return Some(Event::PosesWanted(*order));
             }
             InspectorResult::Library(library, chosen) => {
-                state.chosen_library = chosen;
+                state.session.chosen_library = chosen;
                 state.use_library(&library);
                 state.inspect_again();
             }
@@ -426,11 +427,11 @@ fn show(state: &mut State, inspected: Arc<Inspected>) -> Event {
     state.use_library(&inspected.library);
     let shots = inspected.scan.as_ref();
     if let Origin::File { path, .. } = &inspected.origin {
-        remember(&mut state.recent, path);
+        remember(&mut state.session.recent, path);
     } else if let Some(folder) = shots.and_then(|scan| scan.fused.choice.set.files.folder())
         && state.inspector.purpose != ReinspectionPurpose::Past
     {
-        remember(&mut state.recent, folder);
+        remember(&mut state.session.recent, folder);
     }
     for warning in shots.map_or(&[][..], |scan| &scan.fused.warnings) {
         notify(state, warning.clone().into());
@@ -440,15 +441,19 @@ fn show(state: &mut State, inspected: Arc<Inspected>) -> Event {
         purpose,
         ..
     } = state.inspector;
-    state.failed = None;
+    state.session.failed = None;
     // One from the history stays one, by whichever recipe or library it is looked at.
-    let was_past = state.shown.as_ref().is_some_and(|shown| shown.is_past);
+    let was_past = state
+        .session
+        .shown
+        .as_ref()
+        .is_some_and(|shown| shown.is_past);
     let is_past = match purpose {
         ReinspectionPurpose::Past => true,
         ReinspectionPurpose::Repeated | ReinspectionPurpose::Shots => was_past,
         ReinspectionPurpose::New => false,
     };
-    state.shown = Some(Shown {
+    state.session.shown = Some(Shown {
         generation,
         inspected: Arc::clone(&inspected),
         is_past,
@@ -480,21 +485,21 @@ mod tests {
     fn a_result_stays_and_is_old_until_the_next_is_there() {
         let mut state = State::default();
         apply(&mut state, Action::Capture);
-        assert!(!state.is_old() && state.inspector.running().is_some());
+        assert!(!state.session.is_old() && state.inspector.running().is_some());
         assert!(state.inspector.run_waiting());
         assert!(update(&mut state).is_some());
-        assert!(state.shown.is_some() && state.inspector.running().is_none());
+        assert!(state.session.shown.is_some() && state.inspector.running().is_none());
         apply(&mut state, Action::TakeEmptyCell);
-        assert!(state.empty_cell.is_none(), "a part hangs there");
+        assert!(state.session.empty_cell.is_none(), "a part hangs there");
         let said = state.notices.last().map(|notice| notice.what.clone());
         assert!(said.is_some_and(|said| said.contains("not empty")));
 
         apply(&mut state, Action::Capture);
-        assert!(state.is_old());
+        assert!(state.session.is_old());
         update(&mut state);
-        assert!(state.is_old(), "nothing has come yet");
+        assert!(state.session.is_old(), "nothing has come yet");
         apply(&mut state, Action::CancelInspection);
-        assert!(!state.is_old() && state.shown.is_some());
+        assert!(!state.session.is_old() && state.session.shown.is_some());
     }
 
     #[test]
@@ -510,7 +515,7 @@ mod tests {
             "{:?}",
             state.notices
         );
-        assert!(state.inspector.running().is_none() && state.shown.is_none());
+        assert!(state.inspector.running().is_none() && state.session.shown.is_none());
     }
 
     #[test]

@@ -169,7 +169,7 @@ pub(in crate::app) fn shortcuts(
         return;
     }
     let is_pressing = !space_is_free && ctx.memory(|memory| memory.focused().is_some());
-    let workspace = state.workspace;
+    let workspace = state.session.workspace;
     let own = own.iter().copied().enumerate();
     let own = own.map(|(place, binding)| (binding, Pressed::Own(place)));
     let named = SHORTCUTS
@@ -247,7 +247,7 @@ pub(in crate::app) fn help(
                 let named = SHORTCUTS.iter().map(|s| (s.keys, s.does));
                 let of_rail = RAIL_KEYS.into_iter().zip(WorkspaceKind::ALL);
                 let of_rail = of_rail.map(|((_, keys), workspace)| (keys, workspace.title()));
-                let of_picture = match state.workspace {
+                let of_picture = match state.session.workspace {
                     WorkspaceKind::Enrol => &PICTURE_KEYS[..],
                     _ => &[],
                 };

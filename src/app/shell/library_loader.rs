@@ -68,10 +68,10 @@ impl State {
     /// Shows this library, and reports once what had to be set aside in it.
     pub(in crate::app) fn use_library(&mut self, library: &Arc<LibraryView>) {
         let is_other = |known: &Arc<_>| !Arc::ptr_eq(known, library);
-        if self.library.as_ref().is_none_or(is_other) {
-            self.library = Some(Arc::clone(library));
+        if self.session.library.as_ref().is_none_or(is_other) {
+            self.session.library = Some(Arc::clone(library));
             // The operator's view says what is wrong with the library, if nothing can be recognised.
-            if self.role == UserRole::Engineer {
+            if self.session.role == UserRole::Engineer {
                 self.report_library();
             }
         }
@@ -79,7 +79,7 @@ impl State {
 
     /// Reports what had to be set aside in the library, and what is odd about it.
     pub(in crate::app) fn report_library(&mut self) {
-        let library = self.library.clone();
+        let library = self.session.library.clone();
         for trouble in library.iter().flat_map(|library| &library.troubles) {
             notify(self, trouble.clone().into());
         }
@@ -90,7 +90,9 @@ impl State {
 pub(super) fn update(state: &mut State) {
     match state.inspector.loader.loading.poll() {
         // One that came with a result, or that a person chose, is newer.
-        Some(TaskEvent::Partial(library) | TaskEvent::Done(library)) if state.library.is_none() => {
+        Some(TaskEvent::Partial(library) | TaskEvent::Done(library))
+            if state.session.library.is_none() =>
+        {
             state.use_library(&library);
         }
         Some(TaskEvent::Failed(error)) => notify(state, error.into()),
@@ -102,12 +104,16 @@ pub(super) fn update(state: &mut State) {
         let num = library.parts.len();
         let word = if num == 1 { "part" } else { "parts" };
         state.use_library(&library);
-        if state.role == UserRole::Engineer {
+        if state.session.role == UserRole::Engineer {
             let what = format!("Library reloaded, another program has changed it: {num} {word}");
             notify(state, Notice::done(what));
         }
-        let is_past = state.shown.as_ref().is_some_and(|shown| shown.is_past);
-        if state.is_live() || !is_past {
+        let is_past = state
+            .session
+            .shown
+            .as_ref()
+            .is_some_and(|shown| shown.is_past);
+        if state.session.is_live() || !is_past {
             state.inspect_again();
         }
     }

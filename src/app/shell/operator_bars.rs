@@ -61,7 +61,7 @@ fn upper(
     ui.label(RichText::new("Partsight").font(font::body_strong()));
     ui.add_space(space::LARGE);
     // Not as high as the bar.
-    ui.horizontal(|ui| counts(ui, &state.shift, theme));
+    ui.horizontal(|ui| counts(ui, &state.session.shift, theme));
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
         let key = RichText::new("Ctrl K").font(font::small());
         let engineer = Button::new("Engineer's view").shortcut_text(key.color(theme.weak_text));
@@ -121,7 +121,7 @@ fn counts(ui: &mut Ui, shift: &ShiftParts, theme: &Theme) {
 fn lower(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
     let text = |text: &str| RichText::new(text).font(font::verdict());
     let key = |text: &str| RichText::new(text).font(font::small());
-    let is_live = state.is_live();
+    let is_live = state.session.is_live();
     // The accent is for what is pressed next: while frames are followed, nothing is.
     let capture = if is_live {
         Button::new(text("Capture")).shortcut_text(key("Space").color(theme.weak_text))
@@ -161,7 +161,7 @@ fn lower(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
         actions.push(Action::GoTo(WorkspaceKind::History));
     }
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-        source(ui, state, theme);
+        source(ui, &state.session, theme);
     });
 }
 

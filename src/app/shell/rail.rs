@@ -20,7 +20,7 @@ pub(in crate::app) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mu
         .frame(frame)
         .show(ui, |ui| {
             for workspace in WorkspaceKind::ALL {
-                let is_front = state.workspace == workspace;
+                let is_front = state.session.workspace == workspace;
                 let size = vec2(ui.available_width(), space::RAIL);
                 let (rect, response) = ui.allocate_exact_size(size, Sense::click());
                 let painter = ui.painter();
@@ -51,7 +51,7 @@ pub(in crate::app) fn ui(ui: &mut Ui, state: &State, theme: &Theme, actions: &mu
                 if response.clicked() {
                     actions.push(Action::GoTo(workspace));
                 }
-                if state.role == UserRole::Operator && !is_operators(workspace) {
+                if state.session.role == UserRole::Operator && !is_operators(workspace) {
                     let corner = icon + vec2(20.0, -10.0);
                     let stroke = Stroke::new(1.2, theme.weak_text);
                     lock(ui.painter(), corner, UserRole::Operator, stroke);

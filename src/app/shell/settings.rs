@@ -132,34 +132,35 @@ impl Settings {
     pub fn of(state: &State, window: Option<[f32; 2]>) -> Self {
         Self {
             schema: SCHEMA,
-            theme: state.theme,
-            units: state.units,
-            convention: state.convention,
-            workspace: state.workspace,
-            library: state.chosen_library.clone(),
-            recent: state.recent.clone(),
+            theme: state.session.theme,
+            units: state.session.units,
+            convention: state.session.convention,
+            workspace: state.session.workspace,
+            library: state.session.chosen_library.clone(),
+            recent: state.session.recent.clone(),
             window,
-            source: match &state.source {
+            source: match &state.session.source {
                 Source::Cell(choice) => RememberedSource::Cell(*choice),
                 Source::File(path) => RememberedSource::File(path.clone()),
                 Source::Scan(files) => RememberedSource::Scan(files.clone()),
                 Source::Camera(spec) => RememberedSource::Camera((**spec).clone()),
             },
-            recipe: (**state.recipe != Recipe::default()).then(|| Recipe::clone(&state.recipe)),
-            recipe_label: state.recipe.label.clone(),
-            average: state.live.params.average,
+            recipe: (**state.session.recipe != Recipe::default())
+                .then(|| Recipe::clone(&state.session.recipe)),
+            recipe_label: state.session.recipe.label.clone(),
+            average: state.session.live.params.average,
             lock_after: state.roles.lock_after,
             pin: state.roles.pin.clone(),
-            role: state.role,
-            shifts: state.shift_starts.clone(),
-            cell: state.cell.clone(),
-            traceability: state.trace.remembered(),
+            role: state.session.role,
+            shifts: state.session.shift_starts.clone(),
+            cell: state.session.cell.clone(),
+            traceability: state.session.trace.remembered(),
         }
     }
 
     /// True if nothing of this has changed.
     pub fn is_of(&self, state: &State, window: Option<[f32; 2]>) -> bool {
-        let has_source = match (&self.source, &state.source) {
+        let has_source = match (&self.source, &state.session.source) {
             (RememberedSource::Cell(a), Source::Cell(b)) => a == b,
             (RememberedSource::File(a), Source::File(b)) => a == b,
             (RememberedSource::Scan(a), Source::Scan(b)) => a == b,
@@ -167,24 +168,24 @@ impl Settings {
             _ => false,
         };
         let has_recipe = match &self.recipe {
-            Some(recipe) => *recipe == **state.recipe,
-            None => **state.recipe == Recipe::default(),
-        } && self.recipe_label == state.recipe.label;
+            Some(recipe) => *recipe == **state.session.recipe,
+            None => **state.session.recipe == Recipe::default(),
+        } && self.recipe_label == state.session.recipe.label;
         has_source
             && has_recipe
-            && self.theme == state.theme
-            && self.units == state.units
-            && self.convention == state.convention
-            && self.workspace == state.workspace
-            && self.library == state.chosen_library
-            && self.recent == state.recent
-            && self.average == state.live.params.average
+            && self.theme == state.session.theme
+            && self.units == state.session.units
+            && self.convention == state.session.convention
+            && self.workspace == state.session.workspace
+            && self.library == state.session.chosen_library
+            && self.recent == state.session.recent
+            && self.average == state.session.live.params.average
             && self.lock_after == state.roles.lock_after
             && self.pin == state.roles.pin
-            && self.role == state.role
-            && self.shifts == state.shift_starts
-            && self.cell == state.cell
-            && self.traceability == state.trace.remembered()
+            && self.role == state.session.role
+            && self.shifts == state.session.shift_starts
+            && self.cell == state.session.cell
+            && self.traceability == state.session.trace.remembered()
             && self.window == window
     }
 

@@ -115,11 +115,11 @@ pub(in crate::app) fn update(state: &mut State, history: &Arc<HistoryBuffer>, ct
     {
         state.session.shift = parts;
     }
-    if state.role != UserRole::Operator {
+    if state.session.role != UserRole::Operator {
         return;
     }
     let now = Zoned::now();
-    let [Some(since), end] = state.shift_starts.around(&now) else {
+    let [Some(since), end] = state.session.shift_starts.around(&now) else {
         return;
     };
     if let Some(left) = end.and_then(|end| Duration::try_from(now.duration_until(&end)).ok()) {

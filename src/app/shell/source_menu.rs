@@ -36,7 +36,7 @@ fn title(ui: &Ui, source: &str) -> String {
 
 /// Draws the button and, once pressed, the menu.
 pub(in crate::app) fn ui(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
-    ui.menu_button(title(ui, &now(&state.source)), |ui| {
+    ui.menu_button(title(ui, &now(&state.session.source)), |ui| {
         let height = ui.ctx().content_rect().height() - MARGIN;
         ui.horizontal_top(|ui| {
             column(ui, height, "cell", |ui| simulated(ui, state, actions));
@@ -85,7 +85,7 @@ fn heading(ui: &mut Ui, text: &str) {
 
 fn simulated(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     heading(ui, "Simulated cell");
-    let (is_set_up, spec) = match &state.source {
+    let (is_set_up, spec) = match &state.session.source {
         Source::Camera(spec) => match &**spec {
             SourceSpec::Simulated(spec) => (true, spec.clone()),
             _ => (false, SimulatedSpec::default()),
@@ -98,7 +98,7 @@ fn simulated(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
         ui.close();
     }
     for choice in CellChoice::all() {
-        let is_chosen = state.source == Source::Cell(choice);
+        let is_chosen = state.session.source == Source::Cell(choice);
         if ui.selectable_label(is_chosen, choice.title()).clicked() {
             actions.push(Action::UseCell(choice));
             ui.close();
@@ -107,7 +107,7 @@ fn simulated(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
 }
 
 fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
-    let camera = match &state.source {
+    let camera = match &state.session.source {
         Source::Camera(spec) => Some(&**spec),
         Source::Cell(_) | Source::File(_) | Source::Scan(_) => None,
     };
@@ -140,7 +140,7 @@ fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
             DialogRequest::Scene,
         ),
         (
-            matches!(state.source, Source::Scan(_)),
+            matches!(state.session.source, Source::Scan(_)),
             "Open a scan…",
             "A folder with several shots of one part, each with the pose of its camera (Ctrl Shift O)",
             DialogRequest::Scan,
@@ -159,7 +159,7 @@ fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     heading(ui, "Live averages depth over");
     ui.horizontal(|ui| {
         for num in AVERAGED {
-            let is_chosen = state.live.params.average == num;
+            let is_chosen = state.session.live.params.average == num;
             let text = match num {
                 1 => "1 frame".to_owned(),
                 num => num.to_string(),
@@ -172,12 +172,12 @@ fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     });
     ui.separator();
     empty_cell(ui, state, actions);
-    if !state.recent.is_empty() {
+    if !state.session.recent.is_empty() {
         ui.separator();
         heading(ui, "Recent files");
     }
-    for path in &state.recent {
-        let is_chosen = match &state.source {
+    for path in &state.session.recent {
+        let is_chosen = match &state.session.source {
             Source::File(file) => file == path,
             Source::Scan(files) => files.folder() == Some(path),
             Source::Cell(_) | Source::Camera(_) => false,
@@ -195,7 +195,7 @@ fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
 fn empty_cell(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     heading(ui, "Empty cell");
     let take = Button::new("Capture empty cell");
-    let take = ui.add_enabled(state.shown.is_some(), take).on_hover_text(
+    let take = ui.add_enabled(state.session.shown.is_some(), take).on_hover_text(
         "The scene in front becomes the empty cell: nothing in it is taken for a part from now on",
     );
     if take.clicked() {
@@ -203,7 +203,10 @@ fn empty_cell(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
         ui.close();
     }
     let forget = Button::new("Discard empty cell");
-    if ui.add_enabled(state.empty_cell.is_some(), forget).clicked() {
+    if ui
+        .add_enabled(state.session.empty_cell.is_some(), forget)
+        .clicked()
+    {
         actions.push(Action::ForgetEmptyCell);
         ui.close();
     }

@@ -1,7 +1,5 @@
 //! The state of the window outside the workspaces: the session that they share, and what changes it.
 
-use std::ops::{Deref, DerefMut};
-
 use super::{
     closing::Closing, inspector::Inspector, live::Follower, notice::Notice, roles::RoleState,
     session::Session, shift::ShiftWatch,
@@ -29,20 +27,6 @@ pub struct State {
     pub roles: RoleState,
     /// Counts the parts of this shift.
     pub shift_watch: ShiftWatch,
-}
-
-impl Deref for State {
-    type Target = Session;
-
-    fn deref(&self) -> &Session {
-        &self.session
-    }
-}
-
-impl DerefMut for State {
-    fn deref_mut(&mut self) -> &mut Session {
-        &mut self.session
-    }
 }
 
 #[cfg(test)]

@@ -54,7 +54,7 @@ pub(in crate::app) fn ui(
                 let capture = RichText::new("Capture").font(font::body_strong());
                 let key = RichText::new("Space").font(font::small());
                 // The accent is for what is pressed next: while frames are followed, nothing is.
-                let capture = if state.is_live() {
+                let capture = if state.session.is_live() {
                     Button::new(capture).shortcut_text(key.color(theme.weak_text))
                 } else {
                     Button::new(capture.color(theme.on_accent))
@@ -82,7 +82,7 @@ pub(in crate::app) fn ui(
 
 /// Follows the source, or stops.
 fn live_button(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
-    let is_live = state.is_live();
+    let is_live = state.session.is_live();
     let colour = if is_live { theme.on_accent } else { theme.text };
     let key = if is_live {
         theme.on_accent
@@ -122,7 +122,7 @@ fn robot_button(
         let key = RichText::new("B").font(font::small());
         button = button.shortcut_text(key.color(theme.weak_text));
     }
-    let says = match (&state.robot, robot.in_use()) {
+    let says = match (&state.session.robot, robot.in_use()) {
         (Some(frame), _) => format!("Calibrated by {} (B)", frame.name),
         (None, Some(_)) => "The flange pose at a capture is not known (B)".into(),
         (None, None) => "Where the camera sits in the robot's cell: not calibrated (B)".into(),
@@ -145,16 +145,24 @@ fn settings(
     if labelled(ui, help, "Help").clicked() {
         actions.push(Action::ToggleHelp);
     }
-    let other = state.theme.other().title().to_lowercase();
-    let colours = labelled(ui, Button::new(state.theme.title()), state.theme.title());
+    let other = state.session.theme.other().title().to_lowercase();
+    let colours = labelled(
+        ui,
+        Button::new(state.session.theme.title()),
+        state.session.theme.title(),
+    );
     if colours
         .on_hover_text(format!("Switch to {other} (T)"))
         .clicked()
     {
         actions.push(Action::SwitchTheme);
     }
-    let units = labelled(ui, Button::new(state.units.title()), state.units.title());
-    let other = state.units.other().title();
+    let units = labelled(
+        ui,
+        Button::new(state.session.units.title()),
+        state.session.units.title(),
+    );
+    let other = state.session.units.other().title();
     if units
         .on_hover_text(format!("Switch to {other} (U)"))
         .clicked()
@@ -163,7 +171,7 @@ fn settings(
     }
     // What is at work, and the way out of it, come first.
     let has_room = !is_at_work || ui.available_width() > 480.0;
-    if let Some(library) = state.library.as_ref().filter(|_| has_room) {
+    if let Some(library) = state.session.library.as_ref().filter(|_| has_room) {
         library_menu(ui, state, library, actions);
     }
 }
@@ -195,7 +203,7 @@ fn library_menu(ui: &mut Ui, state: &State, library: &LibraryView, actions: &mut
             actions.push(Action::Ask(DialogRequest::Library));
             ui.close();
         }
-        let is_other = state.chosen_library.is_some() || library.unloaded.is_some();
+        let is_other = state.session.chosen_library.is_some() || library.unloaded.is_some();
         if is_other && ui.button("Use the usual library").clicked() {
             actions.push(Action::UseFoundLibrary);
             ui.close();
@@ -213,8 +221,8 @@ pub(super) fn progress(
 ) {
     let Some(Progress { running, cancel }) = work else {
         // There the verdict card says it.
-        if state.is_live() && state.workspace != WorkspaceKind::Inspect {
-            live::chip(ui, state, theme);
+        if state.session.is_live() && state.session.workspace != WorkspaceKind::Inspect {
+            live::chip(ui, &state.session, theme);
         }
         return;
     };

@@ -71,7 +71,7 @@ impl Window {
         let (session, services) = (&self.state.session, &self.services);
         let mut cx = ShellContext::new(ctx, session, services, &mut self.messages);
         let done = act(&mut self.robot, &mut cx);
-        self.deliver_all(self.state.workspace, ctx);
+        self.deliver_all(self.state.session.workspace, ctx);
         done
     }
 
@@ -134,7 +134,9 @@ impl Window {
             let cancel = Some(Action::CancelTask(workspace.kind()));
             Some(Progress { running, cancel })
         };
-        let own = self.hosted(self.state.workspace).and_then(of_hosted);
+        let own = self
+            .hosted(self.state.session.workspace)
+            .and_then(of_hosted);
         let inspector = || {
             let running = self.state.inspector.running()?.clone();
             let cancel = Some(Action::CancelInspection);

@@ -29,7 +29,7 @@ pub(in crate::app) fn set_up(
     theme: &Theme,
     actions: &mut Vec<Action>,
 ) {
-    let Some(known) = &state.live.setup else {
+    let Some(known) = &state.session.live.setup else {
         return;
     };
     let mut spec = known.clone();

@@ -119,41 +119,41 @@ impl Source {
 /// Carries out an action.
 pub(in crate::app) fn apply(state: &mut State, action: LiveAction) -> Option<Effect> {
     match action {
-        LiveAction::Toggle if state.is_live() => give_way(state),
+        LiveAction::Toggle if state.session.is_live() => give_way(state),
         LiveAction::Toggle => start(state),
         LiveAction::Use(spec) => {
-            state.live.setup = None;
-            state.source = Source::Camera(Box::new(spec));
+            state.session.live.setup = None;
+            state.session.source = Source::Camera(Box::new(spec));
             return source_changed(state);
         }
         LiveAction::Average(num) => {
-            state.live.params.average = num.clamp(1, MAX_AVERAGED);
+            state.session.live.params.average = num.clamp(1, MAX_AVERAGED);
             restart_consensus(state);
         }
         LiveAction::Record(folder) => {
-            state.live.recording = Some(folder);
-            if state.is_live() {
+            state.session.live.recording = Some(folder);
+            if state.session.is_live() {
                 follow_source(state);
             } else {
                 start(state);
             }
         }
-        LiveAction::ToggleRecording if state.live.recording.is_none() => {
+        LiveAction::ToggleRecording if state.session.live.recording.is_none() => {
             return Some(Effect::ShowDialog(DialogRequest::RecordTo));
         }
         LiveAction::ToggleRecording => {
             end_recording(state);
             restart_consensus(state);
         }
-        LiveAction::SetUp(spec) => state.live.setup = spec,
+        LiveAction::SetUp(spec) => state.session.live.setup = spec,
     }
     None
 }
 
 /// Another source: it is followed if the one before was, else one frame is captured. A watched folder has none yet.
 pub(in crate::app) fn source_changed(state: &mut State) -> Option<Effect> {
-    let waits = matches!(&state.source, Source::Camera(spec) if matches!(**spec, SourceSpec::Watched(WatchedSpec { .. })));
-    if (state.is_live() || waits) && state.source.followed().is_some() {
+    let waits = matches!(&state.session.source, Source::Camera(spec) if matches!(**spec, SourceSpec::Watched(WatchedSpec { .. })));
+    if (state.session.is_live() || waits) && state.session.source.followed().is_some() {
         start(state);
         return None;
     }
@@ -162,8 +162,8 @@ pub(in crate::app) fn source_changed(state: &mut State) -> Option<Effect> {
 
 /// Follows the source; whatever was being inspected is given up.
 fn start(state: &mut State) {
-    if state.source.followed().is_none() {
-        let what = match state.source {
+    if state.session.source.followed().is_none() {
+        let what = match state.session.source {
             Source::Scan(_) => "A scan cannot be followed: it does not change",
             _ => "A single file cannot be followed: it does not change",
         };
@@ -183,20 +183,20 @@ fn start(state: &mut State) {
 
 /// Follows the source with the current settings; a source that is followed already is dropped first.
 fn follow_source(state: &mut State) {
-    let Some(spec) = state.source.followed() else {
+    let Some(spec) = state.session.source.followed() else {
         return;
     };
     let request = LiveStart {
         spec,
-        recipe: Arc::clone(&state.recipe),
-        params: state.live.params.clone(),
-        empty_cell: state.empty_cell.clone(),
-        record: state.live.recording.clone(),
-        trace: state.trace.clone(),
+        recipe: Arc::clone(&state.session.recipe),
+        params: state.session.live.params.clone(),
+        empty_cell: state.session.empty_cell.clone(),
+        record: state.session.live.recording.clone(),
+        trace: state.session.trace.clone(),
         hung: Arc::clone(&state.follower.hung),
     };
-    state.live.is_on = true;
-    state.live.status = None;
+    state.session.live.is_on = true;
+    state.session.live.status = None;
     let library_cache = state.follower.library_cache.clone();
     let job = move |context: &_| follow(&request, &library_cache, context);
     state.follower.task.start("Live", job);
@@ -204,14 +204,14 @@ fn follow_source(state: &mut State) {
 
 /// Something that verdicts rest on has changed: none of those before counts. Does nothing while nothing is followed.
 pub(in crate::app) fn restart_consensus(state: &mut State) {
-    if state.is_live() {
+    if state.session.is_live() {
         follow_source(state);
     }
 }
 
 /// Ends following, if anything is followed, and lets the camera rest: something else comes to the front.
 pub(in crate::app) fn give_way(state: &mut State) {
-    if state.is_live() {
+    if state.session.is_live() {
         ended(state);
         let library_cache = state.follower.library_cache.clone();
         let task = &mut state.follower.task;
@@ -221,8 +221,8 @@ pub(in crate::app) fn give_way(state: &mut State) {
 
 /// Says what was recorded.
 fn end_recording(state: &mut State) {
-    state.live.recording = None;
-    let status = state.live.status.as_mut();
+    state.session.live.recording = None;
+    let status = state.session.live.status.as_mut();
     if let Some(recorded) = status.and_then(|status| status.recorded.take()) {
         let what = format!(
             "Recorded {} {}, {}, to {}",
@@ -242,8 +242,8 @@ pub(super) fn megabytes(bytes: u64) -> String {
 
 fn ended(state: &mut State) {
     end_recording(state);
-    state.live.is_on = false;
-    state.live.status = None;
+    state.session.live.is_on = false;
+    state.session.live.status = None;
     dismiss_lost_notice(state);
 }
 
@@ -267,9 +267,9 @@ pub(in crate::app) fn update(state: &mut State) -> Vec<Event> {
 /// Takes in what was handed over; a verdict that counts is told every workspace.
 fn receive(state: &mut State, answer: LiveAnswer) -> Option<Event> {
     match answer {
-        LiveAnswer::Stands(told) if state.is_live() => {
+        LiveAnswer::Stands(told) if state.session.is_live() => {
             watch_source(state, &told.status.source);
-            state.live.status = Some(told.status);
+            state.session.live.status = Some(told.status);
             if let Some(inspected) = told.inspected {
                 show(state, inspected);
             }
@@ -284,13 +284,13 @@ fn receive(state: &mut State, answer: LiveAnswer) -> Option<Event> {
         }
         LiveAnswer::Left(entry) => return Some(Event::Left(entry)),
         LiveAnswer::NotRecorded(error) => {
-            state.live.recording = None;
+            state.session.live.recording = None;
             notify(state, error.into());
         }
         LiveAnswer::Skipped(error) => notify(state, error.into()),
         LiveAnswer::AtItsEnd => {
             ended(state);
-            let spec = state.source.followed();
+            let spec = state.session.source.followed();
             let title = spec.map_or_else(String::new, |spec| spec.title());
             notify(state, Notice::done(format!("{title} has no more frames")));
         }
@@ -302,16 +302,17 @@ fn receive(state: &mut State, answer: LiveAnswer) -> Option<Event> {
 /// What was told last, where it is looked at; other workspaces keep what they have in hand.
 fn show(state: &mut State, inspected: Arc<Inspected>) {
     let is_shown = state
+        .session
         .shown
         .as_ref()
         .is_some_and(|shown| Arc::ptr_eq(&shown.inspected, &inspected));
-    if is_shown || state.workspace != WorkspaceKind::Inspect || !state.is_live() {
+    if is_shown || state.session.workspace != WorkspaceKind::Inspect || !state.session.is_live() {
         return;
     }
     state.use_library(&inspected.library);
-    state.failed = None;
+    state.session.failed = None;
     state.generation += 1;
-    state.shown = Some(Shown {
+    state.session.shown = Some(Shown {
         generation: state.generation,
         inspected,
         is_past: false,
@@ -374,7 +375,7 @@ mod tests {
     fn the_cell_is_followed_as_it_was_chosen_and_rests_afterwards() {
         let mut state = State::default();
         toggle(&mut state);
-        let followed = |state: &State| state.source.followed().map(|spec| spec.to_string());
+        let followed = |state: &State| state.session.source.followed().map(|spec| spec.to_string());
         assert_eq!(followed(&state).as_deref(), Some("simulated"));
         assert_eq!(at_work(&state), Some("Live"));
         let choice = CellChoice::Part(PartKind::Fender, Side::Right);
@@ -384,7 +385,7 @@ mod tests {
         assert_eq!(at_work(&state), Some("Live"));
         toggle(&mut state);
         assert_eq!(at_work(&state), Some("Closing the camera"));
-        assert!(!state.is_live() && state.follower.task.run_waiting());
+        assert!(!state.session.is_live() && state.follower.task.run_waiting());
         update(&mut state);
         assert!(state.follower.is_idle());
     }
@@ -394,9 +395,9 @@ mod tests {
         let mut state = State::default();
         toggle(&mut state);
         apply_any(&mut state, Action::UseFoundLibrary);
-        assert!(state.is_live() && at_work(&state) == Some("Live"));
+        assert!(state.session.is_live() && at_work(&state) == Some("Live"));
         apply_any(&mut state, Action::Capture);
-        assert!(!state.is_live() && at_work(&state) == Some("Closing the camera"));
+        assert!(!state.session.is_live() && at_work(&state) == Some("Closing the camera"));
         let running = state.inspector.running().expect("at work");
         assert_eq!(running.title, "Capturing");
     }
@@ -406,12 +407,12 @@ mod tests {
         let mut state = State::default();
         let watched = "watch:captures".parse().expect("a source");
         apply_any(&mut state, Action::Live(LiveAction::Use(watched)));
-        assert!(state.is_live() && at_work(&state) == Some("Live"));
+        assert!(state.session.is_live() && at_work(&state) == Some("Live"));
         let recording = "recording:monday".parse().expect("a source");
         toggle(&mut state);
         apply_any(&mut state, Action::Live(LiveAction::Use(recording)));
         assert!(
-            !state.is_live() && state.inspector.running().is_some(),
+            !state.session.is_live() && state.inspector.running().is_some(),
             "its first frame is captured"
         );
     }
@@ -423,15 +424,15 @@ mod tests {
         assert!(state.follower.is_idle());
         toggle(&mut state);
         let before = state.follower.session;
-        state.live.status = Some(told());
+        state.session.live.status = Some(told());
         apply_any(&mut state, Action::Live(LiveAction::Average(99)));
         assert!(
-            state.live.status.is_none() && at_work(&state) == Some("Live"),
+            state.session.live.status.is_none() && at_work(&state) == Some("Live"),
             "anew"
         );
         // The view keeps its camera.
         assert_eq!(
-            (state.follower.session, state.live.params.average),
+            (state.follower.session, state.session.live.params.average),
             (before, MAX_AVERAGED)
         );
     }

@@ -12,7 +12,7 @@ use crate::app::{
 
 /// Draws it.
 pub(in crate::app) fn chip(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
-    let role = state.role;
+    let role = state.session.role;
     ui.with_layout(Layout::bottom_up(Align::Center), |ui| {
         let size = vec2(ui.available_width(), space::RAIL);
         let (rect, response) = ui.allocate_exact_size(size, Sense::click());

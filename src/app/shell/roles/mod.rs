@@ -127,7 +127,7 @@ pub enum RoleAction {
 
 /// The action, unless it needs the engineer's view: that is asked for first.
 pub(in crate::app) fn permitted(state: &mut State, action: Action) -> Option<Action> {
-    if state.role == UserRole::Engineer || !needs_engineer(&action) {
+    if state.session.role == UserRole::Engineer || !needs_engineer(&action) {
         return Some(action);
     }
     ask_engineer(state, action);
@@ -143,7 +143,7 @@ pub(in crate::app) fn ask_engineer(state: &mut State, then: Action) {
 
 /// Carries out an action.
 pub(in crate::app) fn apply(state: &mut State, action: RoleAction) -> Option<Effect> {
-    let role = state.role;
+    let role = state.session.role;
     let own = &mut state.roles;
     match action {
         RoleAction::Switch => match role {
@@ -182,12 +182,12 @@ pub(in crate::app) fn apply(state: &mut State, action: RoleAction) -> Option<Eff
 }
 
 fn switch_to_operator(state: &mut State) {
-    state.role = UserRole::Operator;
+    state.session.role = UserRole::Operator;
     state.roles.asked = None;
     // They speak of the engineer's work.
     state.notices.clear();
-    if !is_operators(state.workspace) {
-        state.workspace = WorkspaceKind::Inspect;
+    if !is_operators(state.session.workspace) {
+        state.session.workspace = WorkspaceKind::Inspect;
     }
 }
 
@@ -209,7 +209,7 @@ fn enter(state: &mut State) -> Option<Effect> {
                 own.asked = again(RoleQuestion::MayI(then), "Wrong PIN");
                 return None;
             }
-            state.role = UserRole::Engineer;
+            state.session.role = UserRole::Engineer;
             state.report_library();
             return apply_any(state, *then?);
         }

@@ -39,7 +39,7 @@ fn the_operators_view_changes_nothing_that_a_verdict_rests_on() {
         assert!(state.roles.asked.is_some(), "{what}");
     }
     assert_eq!(
-        (&state.chosen_library, state.workspace),
+        (&state.session.chosen_library, state.session.workspace),
         (&None, WorkspaceKind::Inspect)
     );
     apply_any(&mut state, Action::Capture);
@@ -51,10 +51,10 @@ fn the_operators_view_changes_nothing_that_a_verdict_rests_on() {
 fn the_pin_lets_in_and_what_was_asked_for_is_done_then() {
     let mut state = with_pin("2468");
     apply(&mut state, RoleAction::Lock);
-    assert_eq!(state.role, UserRole::Operator);
+    assert_eq!(state.session.role, UserRole::Operator);
     apply_any(&mut state, Action::GoTo(WorkspaceKind::Compare));
     write(&mut state, "2467");
-    assert_eq!(state.role, UserRole::Operator);
+    assert_eq!(state.session.role, UserRole::Operator);
     assert!(
         state
             .roles
@@ -63,11 +63,11 @@ fn the_pin_lets_in_and_what_was_asked_for_is_done_then() {
             .is_some_and(|a| a.wrong.is_some())
     );
     write(&mut state, "2468");
-    assert_eq!(state.role, UserRole::Engineer);
-    assert_eq!(state.workspace, WorkspaceKind::Compare);
+    assert_eq!(state.session.role, UserRole::Engineer);
+    assert_eq!(state.session.workspace, WorkspaceKind::Compare);
     // What is in front when it locks is not for the operator.
     apply(&mut state, RoleAction::Lock);
-    assert_eq!(state.workspace, WorkspaceKind::Inspect);
+    assert_eq!(state.session.workspace, WorkspaceKind::Inspect);
 }
 
 #[test]
@@ -95,17 +95,17 @@ fn a_pin_is_written_twice_and_has_four_digits() {
 #[test]
 fn with_a_pin_the_window_starts_as_the_operators_and_locks_again() {
     let state = with_pin("1357");
-    assert_eq!(state.roles.lock_timeout(state.role), Some(300.0));
+    assert_eq!(state.roles.lock_timeout(state.session.role), Some(300.0));
     let mut state = State {
         roles: RoleState::starting(state.roles.pin, 15),
         ..State::default()
     };
-    state.role = state.roles.first_role(UserRole::Engineer);
-    assert_eq!(state.role, UserRole::Operator);
-    assert_eq!(state.roles.lock_timeout(state.role), None);
+    state.session.role = state.roles.first_role(UserRole::Engineer);
+    assert_eq!(state.session.role, UserRole::Operator);
+    assert_eq!(state.roles.lock_timeout(state.session.role), None);
     apply(&mut state, RoleAction::Switch);
     write(&mut state, "1357");
-    assert_eq!(state.roles.lock_timeout(state.role), Some(900.0));
+    assert_eq!(state.roles.lock_timeout(state.session.role), Some(900.0));
     apply(&mut state, RoleAction::RemovePin);
-    assert_eq!(state.roles.lock_timeout(state.role), None);
+    assert_eq!(state.roles.lock_timeout(state.session.role), None);
 }
