@@ -11,12 +11,13 @@
 //!   [`Workspace`](shell::workspace::Workspace), and none imports another. [`shots`] is the list that Inspect and Enrol share.
 //! - [`shell`]: what they stand on, and what stands around them.
 //! - [`inspection`]: a scene, its result and what is drawn of them; no egui, no session.
-//! - [`ui`]: colours, widgets, the 3-D view. [`task`]: jobs on threads of their own.
+//! - [`ui`]: colours, widgets, the 3-D view. [`task`]: jobs on threads of their own. [`language`]: the texts.
 //!
 //! Panels draw the last result, always, and never compute.
 
 pub mod headless;
 pub mod inspection;
+pub mod language;
 pub mod shell;
 pub mod shots;
 mod start;

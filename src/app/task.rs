@@ -14,7 +14,7 @@ use std::{
 };
 
 use crate::{
-    app::user_error::UserError,
+    app::{language::Language, user_error::UserError},
     error::{guarded, lock},
     pipeline::{Cancelled, ProgressObserver, Stage},
 };
@@ -200,7 +200,11 @@ impl<T: Send + 'static> Task<T> {
             shared,
             events,
         });
-        let job = Box::new(move || context.run(job));
+        let language = Language::current();
+        let job = Box::new(move || {
+            language.make_current();
+            context.run(job);
+        });
         if let Err(error) = self.queue.push(job, self.name, self.runner.threads) {
             let failed = UserError {
                 what: format!("The system gives no thread for this: {error}"),

@@ -1,0 +1,85 @@
+//! The messages of each language, parsed when its first text is asked for.
+
+use std::sync::LazyLock;
+
+use fluent_bundle::{FluentArgs, FluentResource, FluentValue, concurrent::FluentBundle};
+use unic_langid::LanguageIdentifier;
+
+use super::Language;
+
+/// The areas of a language and what their files hold.
+type Files = &'static [(&'static str, &'static str)];
+
+macro_rules! files {
+    ($language:literal) => {
+        files!($language: "align" "compare" "enrol" "history" "inspect" "live" "operator" "results" "robot" "shell" "shots" "view")
+    };
+    ($language:literal: $($area:literal)+) => {
+        &[$(($area, include_str!(concat!("../../../assets/language/", $language, "/", $area, ".ftl")))),+]
+    };
+}
+
+/// The files of a language.
+fn files(language: Language) -> Files {
+    match language {
+        Language::English => files!("en"),
+        Language::German => files!("de"),
+        Language::Spanish => files!("es"),
+        Language::Chinese => files!("zh"),
+    }
+}
+
+type Bundle = FluentBundle<FluentResource>;
+
+/// The messages of a language.
+fn bundle(language: Language) -> &'static Bundle {
+    static ENGLISH: LazyLock<Bundle> = LazyLock::new(|| parsed(Language::English));
+    static GERMAN: LazyLock<Bundle> = LazyLock::new(|| parsed(Language::German));
+    static SPANISH: LazyLock<Bundle> = LazyLock::new(|| parsed(Language::Spanish));
+    static CHINESE: LazyLock<Bundle> = LazyLock::new(|| parsed(Language::Chinese));
+    match language {
+        Language::English => &ENGLISH,
+        Language::German => &GERMAN,
+        Language::Spanish => &SPANISH,
+        Language::Chinese => &CHINESE,
+    }
+}
+
+fn parsed(language: Language) -> Bundle {
+    // It chooses the plurals.
+    let identifier: LanguageIdentifier = language.code().parse().unwrap_or_default();
+    let mut bundle = Bundle::new_concurrent(vec![identifier]);
+    // The marks that would keep right-to-left text apart are in no typeface of ours.
+    bundle.set_use_isolating(false);
+    for (_, file) in files(language) {
+        // What is wrong in a file fails a test; the other messages are kept.
+        let resource = FluentResource::try_new((*file).to_owned()).unwrap_or_else(|(rest, _)| rest);
+        let _ = bundle.add_resource(resource);
+    }
+    bundle
+}
+
+/// A message without variables. A message of one line is copied from the file as it is.
+pub(in crate::app) fn plain(id: &str) -> String {
+    formatted(id, None)
+}
+
+/// A message with the values of its variables.
+pub(in crate::app) fn with<const N: usize>(
+    id: &str,
+    variables: [(&'static str, FluentValue<'_>); N],
+) -> String {
+    formatted(id, Some(&FluentArgs::from_iter(variables)))
+}
+
+fn formatted(id: &str, variables: Option<&FluentArgs<'_>>) -> String {
+    let in_language = |language| {
+        let bundle = bundle(language);
+        let pattern = bundle.get_message(id)?.value()?;
+        let text = bundle.format_pattern(pattern, variables, &mut Vec::new());
+        Some(text.into_owned())
+    };
+    in_language(Language::current())
+        .or_else(|| in_language(Language::English))
+        .unwrap_or_else(|| id.to_owned())
+}

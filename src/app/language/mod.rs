@@ -1,0 +1,103 @@
+//! The texts of the window in every language, as Mozilla's Fluent: `assets/language/<language>/<area>.ftl`.
+//!
+//! [`text!`] names a message and its variables. Which language it answers in is a property of the thread: the window sets it
+//! at the start of each frame, and a task's thread inherits it from whoever starts the task. A message that a language lacks
+//! is shown in English; a test finds it.
+
+mod catalogue;
+
+use std::{cell::Cell, fmt};
+
+use serde::{Deserialize, Serialize};
+
+pub(in crate::app) use self::catalogue::{plain, with};
+
+/// A language of the window.
+#[derive(Clone, Copy, Debug, Default, PartialEq, Eq, Serialize, Deserialize)]
+#[serde(rename_all = "snake_case")]
+pub enum Language {
+    /// English, which holds every text.
+    #[default]
+    English,
+    /// German.
+    German,
+    /// Spanish.
+    Spanish,
+    /// Chinese in simplified characters.
+    Chinese,
+}
+
+thread_local! {
+    static CURRENT: Cell<Language> = const { Cell::new(Language::English) };
+}
+
+impl Language {
+    /// In the order in which they are offered.
+    pub const ALL: [Self; 4] = [Self::English, Self::German, Self::Spanish, Self::Chinese];
+
+    /// What its speakers call it.
+    pub fn own_name(self) -> &'static str {
+        match self {
+            Self::English => "English",
+            Self::German => "Deutsch",
+            Self::Spanish => "Español",
+            Self::Chinese => "中文",
+        }
+    }
+
+    /// Its code after ISO 639-1, which is also the name of its folder.
+    fn code(self) -> &'static str {
+        match self {
+            Self::English => "en",
+            Self::German => "de",
+            Self::Spanish => "es",
+            Self::Chinese => "zh",
+        }
+    }
+
+    /// The language of a locale such as `de_AT.UTF-8` or `zh-Hans-CN`; `None` for one that the window does not speak.
+    pub fn from_locale(locale: &str) -> Option<Self> {
+        let code = locale.split(['-', '_', '.', '@']).next()?;
+        let of_code = |language: &Self| language.code().eq_ignore_ascii_case(code);
+        match code {
+            // The locale without a language, whose messages are English.
+            "C" | "POSIX" => Some(Self::English),
+            _ => Self::ALL.into_iter().find(of_code),
+        }
+    }
+
+    /// The first language of the system that the window speaks.
+    pub(in crate::app) fn of_system() -> Self {
+        let mut locales = sys_locale::get_locales();
+        let spoken = locales.find_map(|locale| Self::from_locale(&locale));
+        spoken.unwrap_or_default()
+    }
+
+    /// The language of this thread.
+    pub(in crate::app) fn current() -> Self {
+        CURRENT.get()
+    }
+
+    /// Makes this thread speak it.
+    pub(in crate::app) fn make_current(self) {
+        CURRENT.set(self);
+    }
+}
+
+impl fmt::Display for Language {
+    fn fmt(&self, f: &mut fmt::Formatter<'_>) -> fmt::Result {
+        f.write_str(self.own_name())
+    }
+}
+
+/// The text of a message in this thread's language, with the values of its variables: whole numbers, which may choose a
+/// plural, and strings. Numbers with decimals are strings: they read the same in every language, with a decimal point.
+macro_rules! text {
+    ($id:literal) => {
+        $crate::app::language::plain($id)
+    };
+    ($id:literal, $($name:ident = $value:expr),+ $(,)?) => {
+        $crate::app::language::with($id, [$((stringify!($name), ::fluent_bundle::FluentValue::from($value))),+])
+    };
+}
+pub(in crate::app) use text;
