@@ -14,7 +14,10 @@ use std::{
 };
 
 use crate::{
-    app::{language::Language, user_error::UserError},
+    app::{
+        language::{Language, text},
+        user_error::UserError,
+    },
     error::{guarded, lock},
     pipeline::{Cancelled, ProgressObserver, Stage},
 };
@@ -207,8 +210,8 @@ impl<T: Send + 'static> Task<T> {
         });
         if let Err(error) = self.queue.push(job, self.name, self.runner.threads) {
             let failed = UserError {
-                what: format!("The system gives no thread for this: {error}"),
-                advice: "Close other programs and try again".into(),
+                what: text!("shell-no-thread", error = error.to_string()),
+                advice: text!("shell-no-thread-advice"),
             };
             // The channel is empty and its other end is ours.
             let _ = sender.send(TaskEvent::Failed(failed));

@@ -44,6 +44,7 @@ use super::{
     },
 };
 use crate::{
+    app::language::text,
     history::{HistoryBuffer, Writer},
     pipeline::{RecipeFolder, open_recipe},
     robot::frame_poses::FRAME_POSES,
@@ -277,8 +278,8 @@ impl Window {
             && !path.exists()
         {
             let gone = UserError {
-                what: format!("{} no longer exists", path.display()),
-                advice: "The simulated cell is used instead".into(),
+                what: text!("shell-gone", path = path.display().to_string()),
+                advice: text!("shell-gone-advice"),
             };
             session.recent.retain(|known| known != path);
             session.source = Source::default();

@@ -1,1 +1,88 @@
-# operator
+# The operator's view
+operator-ok = IO
+operator-not-ok = NIO
+operator-wait = Einen Moment warten
+operator-opening-camera = Kamera wird geöffnet…
+operator-no-camera = Keine Kamera
+operator-inspecting = Prüfung läuft…
+operator-no-result = Kein Ergebnis
+operator-no-result-next = „Aufnehmen“ drücken; bleibt es dabei, den Einrichter rufen
+operator-no-library = Keine Bibliothek
+operator-no-parts = Keine Teile eingelernt
+operator-no-parts-why = In der Bibliothek ist kein Teil eingelernt
+operator-ask-to-enrol = Den Einrichter bitten, die Teile einzulernen
+operator-looking = Suche läuft
+operator-nothing-captured = Noch nichts aufgenommen
+operator-ready = Bereit
+operator-nothing-inspected = Noch nichts geprüft
+operator-hang-and-capture = Ein Teil aufhängen und „Aufnehmen“ drücken
+operator-from-history = Aus dem Verlauf, nicht das aktuelle Teil
+operator-capture-current = Für das aktuelle Teil „Aufnehmen“ drücken
+operator-simulated-next = Den Einrichter eine Kamera wählen lassen: Dieses Bild ist simuliert
+operator-ambiguous-next = Prüfen, wie herum das Teil hängt, dann den Roboter starten
+operator-start-robot = Roboter starten
+operator-recognised = Erkannt, Pose bekannt
+operator-an-enrolled-part = ein eingelerntes Teil
+operator-next = Nächster Schritt
+operator-last-parts = Letzte Teile dieser Schicht
+operator-none-yet = Noch keine
+operator-counting = Wird gezählt…
+
+## Why a part is not accepted
+
+operator-low-score = Passt nicht gut genug zu: { $nearest }
+operator-piece = Nur ein Stück sichtbar von: { $nearest }
+operator-hardly-seen = Zu wenig davon ist sichtbar
+operator-another-model = Ähnlich wie { $nearest }, aber andere Form
+operator-another-make = Ähnlich wie { $nearest }, aber andere Maße
+operator-uncertain-pose = Vielleicht { $nearest }, aber die Pose ist unsicher
+operator-unknown = Kein eingelerntes Teil ist ähnlich
+operator-mirrored = Sieht aus wie { $nearest } von der anderen Fahrzeugseite
+operator-mirrored-image = Das Kamerabild ist gespiegelt
+operator-small-margin = Zwei eingelernte Teile passen fast gleich gut
+operator-unconfirmed = Nur der Umriss wurde verglichen
+operator-out-of-range = Es ist zu nah an der Kamera oder zu weit entfernt
+operator-damaged-file = Die aufgenommene Datei ist beschädigt
+operator-no-pose = Vielleicht { $nearest }, aber keine Pose gefunden
+operator-not-steady = Das Teil hängt noch nicht still
+operator-few-frames = Bisher zu wenige Bilder geprüft
+operator-undecided = Die Bilder stimmen nicht überein
+
+## What an operator can do about it
+
+operator-uncover-next = Entfernen, was das Teil verdeckt, und „Aufnehmen“ drücken; bleibt es dabei, den Einrichter rufen
+operator-all-in-picture-next = Die Sichtseite ganz im Bild zur Kamera drehen und „Aufnehmen“ drücken
+operator-enrol-if-painted-next = Soll es lackiert werden, den Einrichter bitten, es einzulernen
+operator-turn-next = Die Sichtseite zur Kamera drehen und „Aufnehmen“ drücken; bleibt es dabei, den Einrichter rufen
+operator-turn-or-enrol-next = Die Sichtseite zur Kamera drehen und „Aufnehmen“ drücken; soll es lackiert werden, den Einrichter bitten, es einzulernen
+operator-mirrored-next = Nicht wie { $nearest } lackieren: Den Einrichter bitten, das Teil dieser Seite einzulernen
+operator-mirrored-image-next = Roboter nicht starten: Den Einrichter bitten, die Kamera richtig einzustellen
+operator-small-margin-next = Die Sichtseite zur Kamera drehen und „Aufnehmen“ drücken; bleibt es dabei, den Einrichter bitten, eines der beiden aus der Bibliothek zu entfernen
+operator-unconfirmed-next = Den Einrichter bitten, auch die Pose schätzen zu lassen
+operator-check-camera-next = Den Einrichter bitten, Kamera und Dateien zu prüfen
+operator-hang-next = Das Teil mindestens 10 cm vor der Wand vor die Kamera hängen und „Aufnehmen“ drücken
+operator-hang-or-empty-cell-next = Das Teil mindestens 10 cm vor der Wand vor die Kamera hängen und „Aufnehmen“ drücken; hängt es schon dort, den Einrichter bitten, die leere Zelle neu aufzunehmen
+operator-uncover-camera-next = Entfernen, was die Kamera verdeckt, und „Aufnehmen“ drücken; bleibt es dabei, den Einrichter rufen
+operator-turn-part-next = Die Sichtseite des Teils zur Kamera drehen und „Aufnehmen“ drücken; bleibt es dabei, den Einrichter rufen
+operator-ask = Den Einrichter rufen
+
+## The bars above and below
+
+operator-locked-says = Gesperrt: PIN erforderlich (Strg K)
+operator-history-says = Alle geprüften Teile
+operator-shift-since = Schicht seit { $time }
+operator-num-parts = { $num ->
+        [one] { $num } Teil
+       *[other] { $num } Teile
+    }
+operator-num-ok = { $num } IO
+operator-num-not-ok = { $num } NIO
+operator-stop-live-says = Automatische Prüfung beenden (L)
+operator-live-says = Jedes Teil automatisch prüfen, sobald es still hängt (L)
+operator-wrong-part = Falsches Teil?
+operator-wrong-part-says = Verlauf öffnen und angeben, welches Teil es ist
+operator-source = Quelle: { $source }
+operator-serial = Serien-Nr.
+operator-serial-hint = scannen oder eingeben
+operator-order = Auftrag
+operator-operator = Bediener

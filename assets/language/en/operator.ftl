@@ -1,1 +1,88 @@
-# operator
+# The operator's view
+operator-ok = OK
+operator-not-ok = NOK
+operator-wait = Wait a moment
+operator-opening-camera = Opening the camera…
+operator-no-camera = No camera
+operator-inspecting = Inspecting…
+operator-no-result = No result
+operator-no-result-next = Press Capture; if it stays so, ask the engineer
+operator-no-library = No library
+operator-no-parts = No parts enrolled
+operator-no-parts-why = No part is enrolled in the library
+operator-ask-to-enrol = Ask the engineer to enrol the parts
+operator-looking = Looking
+operator-nothing-captured = Nothing was captured yet
+operator-ready = Ready
+operator-nothing-inspected = Nothing was inspected yet
+operator-hang-and-capture = Hang a part and press Capture
+operator-from-history = From the history, not the current part
+operator-capture-current = Press Capture for the current part
+operator-simulated-next = Ask the engineer to choose a camera: this frame is simulated
+operator-ambiguous-next = Check which way round the part hangs, then start the robot
+operator-start-robot = Start the robot
+operator-recognised = Recognised, and its pose is known
+operator-an-enrolled-part = an enrolled part
+operator-next = Next
+operator-last-parts = Last parts of this shift
+operator-none-yet = None yet
+operator-counting = Counting…
+
+## Why a part is not accepted
+
+operator-low-score = It does not match { $nearest } well enough
+operator-piece = Only a piece of { $nearest } is in sight
+operator-hardly-seen = Too little of it is in sight
+operator-another-model = It resembles { $nearest }, but its shape differs
+operator-another-make = It resembles { $nearest }, but its dimensions differ
+operator-uncertain-pose = It may be { $nearest }, but its pose is uncertain
+operator-unknown = No enrolled part resembles it
+operator-mirrored = It looks like { $nearest } from the other side of the car
+operator-mirrored-image = The camera's picture is mirrored
+operator-small-margin = Two enrolled parts match almost equally well
+operator-unconfirmed = Only its outline was compared
+operator-out-of-range = It is too near to the camera or too far away
+operator-damaged-file = The captured file is damaged
+operator-no-pose = It may be { $nearest }, but no pose was found
+operator-not-steady = It does not hang still yet
+operator-few-frames = Too few frames were inspected so far
+operator-undecided = The frames do not agree
+
+## What an operator can do about it
+
+operator-uncover-next = Take away what covers the part and press Capture; if it stays so, ask the engineer
+operator-all-in-picture-next = Turn its face to the camera, all of it inside the picture, and press Capture
+operator-enrol-if-painted-next = If it is to be painted, ask the engineer to enrol it
+operator-turn-next = Turn its face to the camera and press Capture; if it stays so, ask the engineer
+operator-turn-or-enrol-next = Turn its face to the camera and press Capture; if it is to be painted, ask the engineer to enrol it
+operator-mirrored-next = Do not paint it as { $nearest }: ask the engineer to enrol the part of this side
+operator-mirrored-image-next = Do not start the robot: ask the engineer to set the camera right
+operator-small-margin-next = Turn its face to the camera and press Capture; if it stays so, ask the engineer to remove one of the two from the library
+operator-unconfirmed-next = Ask the engineer to have the pose estimated too
+operator-check-camera-next = Ask the engineer to check the camera and its files
+operator-hang-next = Hang the part in front of the camera, at least 10 cm away from the wall, and press Capture
+operator-hang-or-empty-cell-next = Hang the part in front of the camera, at least 10 cm away from the wall, and press Capture; if it hangs there, ask the engineer to capture the empty cell anew
+operator-uncover-camera-next = Take away what covers the camera and press Capture; if it stays so, ask the engineer
+operator-turn-part-next = Turn the part's face to the camera and press Capture; if it stays so, ask the engineer
+operator-ask = Ask the engineer
+
+## The bars above and below
+
+operator-locked-says = Locked: asks for the PIN (Ctrl K)
+operator-history-says = All parts that were inspected
+operator-shift-since = Shift since { $time }
+operator-num-parts = { $num ->
+        [one] { $num } part
+       *[other] { $num } parts
+    }
+operator-num-ok = { $num } OK
+operator-num-not-ok = { $num } NOK
+operator-stop-live-says = Stop inspecting every part by itself (L)
+operator-live-says = Inspect every part by itself as it comes to hang still (L)
+operator-wrong-part = Wrong part?
+operator-wrong-part-says = Open the history, to say which part it is
+operator-source = Source: { $source }
+operator-serial = Serial
+operator-serial-hint = scan or type
+operator-order = Order
+operator-operator = Operator

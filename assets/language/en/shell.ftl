@@ -1,1 +1,224 @@
-# shell
+# The bars, the source, settings, files and shortcuts
+
+## Bars
+
+shell-capture = Capture
+shell-live = Live
+shell-open = Open…
+shell-robot = Robot…
+shell-help = Help
+shell-cancel = Cancel
+shell-close = Close
+shell-stop-live-says = Stop following the source (L)
+shell-live-says = Follow the source and inspect as many frames as possible (L)
+shell-calibrated-by = Calibrated by { $name } (B)
+shell-no-flange-pose = The flange pose at a capture is not known (B)
+shell-not-calibrated = Where the camera sits in the robot's cell: not calibrated (B)
+shell-dark = Dark
+shell-light = Light
+shell-to-dark = Switch to dark (T)
+shell-to-light = Switch to light (T)
+shell-to-units = Switch to { $units } (U)
+shell-language-says = Language of the window
+shell-language-of = Language: { $language }
+shell-num-parts = { $num ->
+        [one] { $num } part
+       *[other] { $num } parts
+    }
+shell-library-named = { $num ->
+        [one] { $num } part · { $name }
+       *[other] { $num } parts · { $name }
+    }
+shell-no-library = No library
+shell-library-in-use = Library in use
+shell-use-another-library = Use another library…
+shell-use-usual-library = Use the usual library
+shell-progress = { $work } · { $done } of { $total }
+
+## Workspaces and views
+
+shell-inspect = Inspect
+shell-enrol = Enrol
+shell-compare = Compare
+shell-align = Align
+shell-history = History
+shell-operator = Operator
+shell-engineer = Engineer
+shell-operators-view = Operator's view
+shell-engineers-view = Engineer's view
+shell-to-engineer = Switch to the engineer's view (Ctrl K)
+shell-set-pin = Set a PIN…
+shell-set-pin-says = With a PIN the window starts in the operator's view
+shell-change-pin = Change the PIN…
+shell-remove-pin = Remove the PIN
+shell-lock-after = Lock after
+shell-minutes = { $num ->
+        [one] { $num } minute
+       *[other] { $num } minutes
+    }
+shell-enter-pin = Enter the PIN to change recipe, thresholds, library and cell
+shell-unlock = Unlock
+shell-may-change = In this view recipe, thresholds, library and cell can be changed
+shell-switch = Switch
+shell-new-pin = New PIN
+shell-new-pin-says = Four to eight digits that protect the engineer's view
+shell-next = Next
+shell-same-digits = Enter the same digits again
+shell-set-the-pin = Set the PIN
+shell-pin-forgotten = Forgotten? Close Partsight and delete the lines below [pin] in its settings.toml
+shell-not-now = Not now
+shell-num-digits = { $num } digits
+shell-erase = Erase
+shell-digit = Digit { $digit }
+shell-locked = Locked: the window was not used for a while
+shell-pin-removed = PIN removed
+shell-wrong-pin = Wrong PIN
+shell-four-digits = At least four digits
+shell-pins-differ = The two differ: enter a new PIN
+shell-pin-set = PIN set: the window now starts in the operator's view
+
+## The source
+
+shell-simulated-cell = Simulated cell
+shell-source-button = Source · { $source }
+shell-source-says = Where Capture and Live take scenes from
+shell-simulated = Simulated · { $what }
+shell-scan-of = Scan { $name }
+shell-cell-set-up = Simulated cell, set up
+shell-recording-of = Recording { $name }
+shell-folder-of = Folder { $name }
+shell-set-up-cell = Set up the cell…
+shell-cameras-and-folders = Cameras and folders
+shell-play-recording = Play a recording…
+shell-play-recording-says = A folder of depth images or clouds: Live plays and pauses it, Capture takes its next frame
+shell-watch-folder = Watch a folder…
+shell-watch-folder-says = Every capture that another program saves there is inspected
+shell-open-file = Open a file…
+shell-open-file-says = A single capture
+shell-open-scan = Open a scan…
+shell-open-scan-says = A folder with several shots of one part, each with the pose of its camera (Ctrl Shift O)
+shell-average-depth = Live averages depth over
+shell-one-frame = 1 frame
+shell-recent-files = Recent files
+shell-empty-cell = Empty cell
+shell-capture-empty-cell = Capture empty cell
+shell-capture-empty-cell-says = The scene in front becomes the empty cell: nothing in it is taken for a part from now on
+shell-discard-empty-cell = Discard empty cell
+shell-empty-cell-discarded = Empty cell discarded
+shell-cell-not-empty = The cell is not empty: a part hangs in it
+shell-cell-not-empty-advice = Remove the part, capture, then press Capture empty cell
+shell-empty-cell-doubt = Empty cell captured, but something as large as a part is in it
+shell-empty-cell-doubt-advice = If that is a part: Source, Discard empty cell; then remove the part and capture first
+shell-empty-cell-captured = Empty cell captured: from the next capture on, nothing in it is taken for a part
+
+## What is at work
+
+shell-capturing = Capturing
+shell-opening = Opening { $name }
+shell-waiting-for-file = Waiting for a new file
+shell-inspecting-again = Inspecting again
+shell-opening-library = Opening the library
+shell-loading-library = Loading the library
+shell-reloading-library = Reloading the library
+shell-library-reloaded = { $num ->
+        [one] Library reloaded, another program has changed it: { $num } part
+       *[other] Library reloaded, another program has changed it: { $num } parts
+    }
+shell-counting-parts = Counting parts
+shell-writing-settings = Writing the settings
+
+## Settings
+
+shell-settings-not-used = The settings in { $path } are not used: { $why }
+shell-settings-set-aside = They were moved to { $path }; the window starts with default settings
+shell-settings-move-away = Move the file away: it could not be set aside ({ $why })
+shell-settings-not-kept = The settings are not remembered: { $why }
+shell-settings-not-kept-advice = { $advice }; until then settings are not remembered
+shell-report-settings = Report the settings that were changed
+
+## Files
+
+shell-all-files = All files
+shell-scenes-clouds-meshes = Scenes, clouds and meshes
+shell-captured-scenes = Captured scenes
+shell-open-scene = Open a captured scene
+shell-scan-folder = Folder of a scan: its frames and their poses
+shell-another-library = Use another library
+shell-a-recording = Play a recording
+shell-record-to = Folder to record the source in
+shell-watched-folder = Folder that captures are saved to
+shell-open-part = Open a scene, a cloud or a mesh to enrol
+shell-cannot-be-made = { $path } cannot be made: { $why }
+shell-choose-another-folder = Choose another folder
+shell-type-a-path = Type a path
+shell-add-a-name = This is a folder: add the name of a file
+shell-no-such-file = There is no such file
+shell-no-such-folder = There is no such folder
+shell-not-a-folder = This is a file, not a folder
+shell-confirm-replace = A file of this name exists: confirm again to replace it
+shell-no-parent-folder = The folder of this file does not exist
+shell-no-file-dialog = The desktop offers no file dialog (package xdg-desktop-portal-gtk or zenity): type the path
+shell-path = Path
+shell-ok = OK
+
+## Notices and closing
+
+shell-dismiss = Dismiss
+shell-undo = Undo
+shell-close-without-saving = Close without saving?
+shell-keep-open = Keep the window open
+shell-close-anyway = Close without saving
+
+## Shortcuts
+
+shell-shortcuts = Shortcuts
+shell-key-ctrl = Ctrl
+shell-key-shift = Shift
+shell-key-space = Space
+shell-key-enter = Enter
+shell-does-capture = Capture, and inspect or enrol it
+shell-does-live = Live: follow the source, or stop
+shell-does-record = Record the source, or stop
+shell-does-open-scan = Open a scan: several shots with their poses
+shell-does-export = Export the inspection in front
+shell-does-robot = The robot's cell: where the camera sits
+shell-does-units = Millimetres and degrees, or metres and radians
+shell-does-theme = Dark or light
+shell-does-role = Operator's or engineer's view
+shell-does-quit = Close the window
+shell-does-help = This list
+shell-does-escape = Close the enlarged stage
+shell-keys-tab = Tab, Enter
+shell-does-tab = Go to the next control, press it
+shell-keys-turn = Arrow keys, left drag
+shell-does-turn = Turn the 3-D view
+shell-keys-shift = Shift + those, right drag
+shell-does-shift = Shift it
+shell-keys-zoom = + −, wheel
+shell-does-zoom = Zoom it
+shell-keys-fit = F, Shift F
+shell-does-fit = Fit the part, fit everything
+shell-does-look = Look from the front, the top, the side
+shell-does-measure = Measure between two clicked points
+shell-keys-box = Arrow keys, Enter
+shell-does-box = Move a box in the picture, apply it
+shell-keys-resize = Shift + arrow keys
+shell-does-resize = Make that box larger or smaller
+
+## The simulated cell
+
+shell-every-part = Every part in turn
+shell-not-enrolled = Not enrolled: { $what }
+shell-simulated-frame = Simulated frame { $number }
+shell-of-simulator = { $name }, simulated
+shell-gone = { $path } no longer exists
+shell-gone-advice = The simulated cell is used instead
+shell-no-thread = The system gives no thread for this: { $error }
+shell-no-thread-advice = Close other programs and try again
+shell-library-not-loaded = The library could not be loaded: { $error }
+shell-library-not-loaded-advice = { $advice }, or choose another one at the top right; until then nothing is recognised
+shell-library-inside = The library lies inside the program and cannot be changed ({ $reason })
+shell-choose-library = Choose { $path } at the top right
+shell-choose-or-go-on = Choose another one at the top right, or go on: the first part that is saved is stored there
+shell-holds-no-library = { $path } holds no library of parts
+shell-sentence = { $text }.

@@ -1,1 +1,88 @@
-# operator
+# The operator's view
+operator-ok = OK
+operator-not-ok = NOK
+operator-wait = Esperar un momento
+operator-opening-camera = Abriendo la cámara…
+operator-no-camera = Sin cámara
+operator-inspecting = Inspeccionando…
+operator-no-result = Sin resultado
+operator-no-result-next = Pulsar Capturar; si persiste, avisar al técnico
+operator-no-library = Sin biblioteca
+operator-no-parts = Sin piezas registradas
+operator-no-parts-why = No hay ninguna pieza registrada en la biblioteca
+operator-ask-to-enrol = Pedir al técnico que registre las piezas
+operator-looking = Buscando
+operator-nothing-captured = Aún no se ha capturado nada
+operator-ready = Listo
+operator-nothing-inspected = Aún no se ha inspeccionado nada
+operator-hang-and-capture = Colgar una pieza y pulsar Capturar
+operator-from-history = Del historial, no es la pieza actual
+operator-capture-current = Pulsar Capturar para la pieza actual
+operator-simulated-next = Pedir al técnico que elija una cámara: esta imagen es simulada
+operator-ambiguous-next = Comprobar en qué sentido cuelga la pieza y arrancar el robot
+operator-start-robot = Arrancar el robot
+operator-recognised = Reconocida, con pose conocida
+operator-an-enrolled-part = una pieza registrada
+operator-next = Siguiente paso
+operator-last-parts = Últimas piezas de este turno
+operator-none-yet = Ninguna todavía
+operator-counting = Contando…
+
+## Why a part is not accepted
+
+operator-low-score = No coincide lo suficiente con: { $nearest }
+operator-piece = Solo se ve una parte de: { $nearest }
+operator-hardly-seen = Se ve demasiado poco de la pieza
+operator-another-model = Se parece a { $nearest }, pero su forma es distinta
+operator-another-make = Se parece a { $nearest }, pero sus dimensiones son distintas
+operator-uncertain-pose = Puede ser { $nearest }, pero su pose es incierta
+operator-unknown = Ninguna pieza registrada se le parece
+operator-mirrored = Parece { $nearest } del otro lado del coche
+operator-mirrored-image = La imagen de la cámara está reflejada
+operator-small-margin = Dos piezas registradas coinciden casi por igual
+operator-unconfirmed = Solo se comparó su contorno
+operator-out-of-range = Está demasiado cerca o demasiado lejos de la cámara
+operator-damaged-file = El archivo capturado está dañado
+operator-no-pose = Puede ser { $nearest }, pero no se encontró la pose
+operator-not-steady = Todavía no cuelga inmóvil
+operator-few-frames = Hasta ahora se han inspeccionado pocas imágenes
+operator-undecided = Las imágenes no concuerdan
+
+## What an operator can do about it
+
+operator-uncover-next = Retirar lo que tapa la pieza y pulsar Capturar; si persiste, avisar al técnico
+operator-all-in-picture-next = Orientar la cara hacia la cámara, toda dentro de la imagen, y pulsar Capturar
+operator-enrol-if-painted-next = Si hay que pintarla, pedir al técnico que la registre
+operator-turn-next = Orientar la cara hacia la cámara y pulsar Capturar; si persiste, avisar al técnico
+operator-turn-or-enrol-next = Orientar la cara hacia la cámara y pulsar Capturar; si hay que pintarla, pedir al técnico que la registre
+operator-mirrored-next = No pintarla como { $nearest }: pedir al técnico que registre la pieza de este lado
+operator-mirrored-image-next = No arrancar el robot: pedir al técnico que ajuste la cámara
+operator-small-margin-next = Orientar la cara hacia la cámara y pulsar Capturar; si persiste, pedir al técnico que elimine una de las dos de la biblioteca
+operator-unconfirmed-next = Pedir al técnico que active también la estimación de la pose
+operator-check-camera-next = Pedir al técnico que compruebe la cámara y sus archivos
+operator-hang-next = Colgar la pieza delante de la cámara, a 10 cm o más de la pared, y pulsar Capturar
+operator-hang-or-empty-cell-next = Colgar la pieza delante de la cámara, a 10 cm o más de la pared, y pulsar Capturar; si ya cuelga ahí, pedir al técnico que capture de nuevo la celda vacía
+operator-uncover-camera-next = Retirar lo que tapa la cámara y pulsar Capturar; si persiste, avisar al técnico
+operator-turn-part-next = Orientar la cara de la pieza hacia la cámara y pulsar Capturar; si persiste, avisar al técnico
+operator-ask = Avisar al técnico
+
+## The bars above and below
+
+operator-locked-says = Bloqueada: pide el PIN (Ctrl K)
+operator-history-says = Todas las piezas inspeccionadas
+operator-shift-since = Turno desde las { $time }
+operator-num-parts = { $num ->
+        [one] { $num } pieza
+       *[other] { $num } piezas
+    }
+operator-num-ok = { $num } OK
+operator-num-not-ok = { $num } NOK
+operator-stop-live-says = Detener la inspección automática de las piezas (L)
+operator-live-says = Inspeccionar cada pieza automáticamente cuando cuelgue inmóvil (L)
+operator-wrong-part = ¿Pieza errónea?
+operator-wrong-part-says = Abrir el historial para indicar qué pieza es
+operator-source = Fuente: { $source }
+operator-serial = N.º serie
+operator-serial-hint = escanear o teclear
+operator-order = Orden
+operator-operator = Operador

@@ -1,1 +1,224 @@
-# shell
+# The bars, the source, settings, files and shortcuts
+
+## Bars
+
+shell-capture = Capturar
+shell-live = En vivo
+shell-open = Abrir…
+shell-robot = Robot…
+shell-help = Ayuda
+shell-cancel = Cancelar
+shell-close = Cerrar
+shell-stop-live-says = Dejar de seguir la fuente (L)
+shell-live-says = Seguir la fuente e inspeccionar tantas imágenes como sea posible (L)
+shell-calibrated-by = Calibrado con { $name } (B)
+shell-no-flange-pose = No se conoce la pose de la brida al capturar (B)
+shell-not-calibrated = Dónde está la cámara en la celda del robot: sin calibrar (B)
+shell-dark = Oscuro
+shell-light = Claro
+shell-to-dark = Cambiar a oscuro (T)
+shell-to-light = Cambiar a claro (T)
+shell-to-units = Cambiar a { $units } (U)
+shell-language-says = Idioma de la ventana
+shell-language-of = Idioma: { $language }
+shell-num-parts = { $num ->
+        [one] { $num } pieza
+       *[other] { $num } piezas
+    }
+shell-library-named = { $num ->
+        [one] { $num } pieza · { $name }
+       *[other] { $num } piezas · { $name }
+    }
+shell-no-library = Sin biblioteca
+shell-library-in-use = Biblioteca en uso
+shell-use-another-library = Usar otra biblioteca…
+shell-use-usual-library = Usar la biblioteca habitual
+shell-progress = { $work } · { $done } de { $total }
+
+## Workspaces and views
+
+shell-inspect = Inspección
+shell-enrol = Registro
+shell-compare = Comparar
+shell-align = Alinear
+shell-history = Historial
+shell-operator = Operador
+shell-engineer = Técnico
+shell-operators-view = Vista del operador
+shell-engineers-view = Vista del técnico
+shell-to-engineer = Cambiar a la vista del técnico (Ctrl K)
+shell-set-pin = Definir un PIN…
+shell-set-pin-says = Con un PIN la ventana se abre en la vista del operador
+shell-change-pin = Cambiar el PIN…
+shell-remove-pin = Quitar el PIN
+shell-lock-after = Bloquear tras
+shell-minutes = { $num ->
+        [one] { $num } minuto
+       *[other] { $num } minutos
+    }
+shell-enter-pin = Introducir el PIN para cambiar receta, umbrales, biblioteca y celda
+shell-unlock = Desbloquear
+shell-may-change = En esta vista se pueden cambiar receta, umbrales, biblioteca y celda
+shell-switch = Cambiar
+shell-new-pin = Nuevo PIN
+shell-new-pin-says = De cuatro a ocho cifras que protegen la vista del técnico
+shell-next = Siguiente
+shell-same-digits = Introducir de nuevo las mismas cifras
+shell-set-the-pin = Definir el PIN
+shell-pin-forgotten = ¿Olvidado? Cerrar Partsight y borrar las líneas bajo [pin] en su settings.toml
+shell-not-now = Ahora no
+shell-num-digits = { $num } cifras
+shell-erase = Borrar
+shell-digit = Cifra { $digit }
+shell-locked = Bloqueada: la ventana no se ha usado durante un rato
+shell-pin-removed = PIN quitado
+shell-wrong-pin = PIN incorrecto
+shell-four-digits = Al menos cuatro cifras
+shell-pins-differ = No coinciden: introducir un PIN nuevo
+shell-pin-set = PIN definido: la ventana se abrirá en la vista del operador
+
+## The source
+
+shell-simulated-cell = Celda simulada
+shell-source-button = Fuente · { $source }
+shell-source-says = De dónde toman escenas Capturar y En vivo
+shell-simulated = Simulada · { $what }
+shell-scan-of = Escaneo { $name }
+shell-cell-set-up = Celda simulada, configurada
+shell-recording-of = Grabación { $name }
+shell-folder-of = Carpeta { $name }
+shell-set-up-cell = Configurar la celda…
+shell-cameras-and-folders = Cámaras y carpetas
+shell-play-recording = Reproducir una grabación…
+shell-play-recording-says = Una carpeta de imágenes de profundidad o nubes: En vivo la reproduce y la detiene, Capturar toma la imagen siguiente
+shell-watch-folder = Vigilar una carpeta…
+shell-watch-folder-says = Se inspecciona cada captura que otro programa guarda allí
+shell-open-file = Abrir un archivo…
+shell-open-file-says = Una sola captura
+shell-open-scan = Abrir un escaneo…
+shell-open-scan-says = Una carpeta con varias tomas de una pieza, cada una con la pose de su cámara (Ctrl Mayús O)
+shell-average-depth = En vivo promedia la profundidad de
+shell-one-frame = 1 imagen
+shell-recent-files = Archivos recientes
+shell-empty-cell = Celda vacía
+shell-capture-empty-cell = Capturar celda vacía
+shell-capture-empty-cell-says = La escena mostrada pasa a ser la celda vacía: desde ahora nada de ella se toma por una pieza
+shell-discard-empty-cell = Descartar celda vacía
+shell-empty-cell-discarded = Celda vacía descartada
+shell-cell-not-empty = La celda no está vacía: hay una pieza colgada
+shell-cell-not-empty-advice = Retirar la pieza, capturar y después pulsar Capturar celda vacía
+shell-empty-cell-doubt = Celda vacía capturada, pero contiene algo del tamaño de una pieza
+shell-empty-cell-doubt-advice = Si es una pieza: Fuente, Descartar celda vacía; después retirar la pieza y capturar primero
+shell-empty-cell-captured = Celda vacía capturada: desde la próxima captura nada de ella se toma por una pieza
+
+## What is at work
+
+shell-capturing = Capturando
+shell-opening = Abriendo { $name }
+shell-waiting-for-file = Esperando un archivo nuevo
+shell-inspecting-again = Inspeccionando de nuevo
+shell-opening-library = Abriendo la biblioteca
+shell-loading-library = Cargando la biblioteca
+shell-reloading-library = Recargando la biblioteca
+shell-library-reloaded = { $num ->
+        [one] Biblioteca recargada, otro programa la ha cambiado: { $num } pieza
+       *[other] Biblioteca recargada, otro programa la ha cambiado: { $num } piezas
+    }
+shell-counting-parts = Contando piezas
+shell-writing-settings = Guardando los ajustes
+
+## Settings
+
+shell-settings-not-used = Los ajustes de { $path } no se usan: { $why }
+shell-settings-set-aside = Se han movido a { $path }; la ventana se abre con los ajustes predeterminados
+shell-settings-move-away = Mover el archivo a otro lugar: no se pudo apartar ({ $why })
+shell-settings-not-kept = Los ajustes no se recuerdan: { $why }
+shell-settings-not-kept-advice = { $advice }; hasta entonces no se recuerdan los ajustes
+shell-report-settings = Notificar qué ajustes se cambiaron
+
+## Files
+
+shell-all-files = Todos los archivos
+shell-scenes-clouds-meshes = Escenas, nubes y mallas
+shell-captured-scenes = Escenas capturadas
+shell-open-scene = Abrir una escena capturada
+shell-scan-folder = Carpeta de un escaneo: sus imágenes y poses
+shell-another-library = Usar otra biblioteca
+shell-a-recording = Reproducir una grabación
+shell-record-to = Carpeta en la que grabar la fuente
+shell-watched-folder = Carpeta en la que se guardan las capturas
+shell-open-part = Abrir una escena, una nube o una malla para registrarla
+shell-cannot-be-made = No se puede crear { $path }: { $why }
+shell-choose-another-folder = Elegir otra carpeta
+shell-type-a-path = Escribir una ruta
+shell-add-a-name = Es una carpeta: añadir el nombre de un archivo
+shell-no-such-file = No existe ese archivo
+shell-no-such-folder = No existe esa carpeta
+shell-not-a-folder = Es un archivo, no una carpeta
+shell-confirm-replace = Ya existe un archivo con ese nombre: confirmar otra vez para reemplazarlo
+shell-no-parent-folder = La carpeta de este archivo no existe
+shell-no-file-dialog = El escritorio no ofrece diálogo de archivos (paquete xdg-desktop-portal-gtk o zenity): escribir la ruta
+shell-path = Ruta
+shell-ok = Aceptar
+
+## Notices and closing
+
+shell-dismiss = Descartar
+shell-undo = Deshacer
+shell-close-without-saving = ¿Cerrar sin guardar?
+shell-keep-open = Mantener la ventana abierta
+shell-close-anyway = Cerrar sin guardar
+
+## Shortcuts
+
+shell-shortcuts = Atajos de teclado
+shell-key-ctrl = Ctrl
+shell-key-shift = Mayús
+shell-key-space = Espacio
+shell-key-enter = Intro
+shell-does-capture = Capturar, e inspeccionar o registrar
+shell-does-live = En vivo: seguir la fuente, o parar
+shell-does-record = Grabar la fuente, o parar
+shell-does-open-scan = Abrir un escaneo: varias tomas con sus poses
+shell-does-export = Exportar la inspección mostrada
+shell-does-robot = La celda del robot: dónde está la cámara
+shell-does-units = Milímetros y grados, o metros y radianes
+shell-does-theme = Oscuro o claro
+shell-does-role = Vista del operador o del técnico
+shell-does-quit = Cerrar la ventana
+shell-does-help = Esta lista
+shell-does-escape = Cerrar la etapa ampliada
+shell-keys-tab = Tab, Intro
+shell-does-tab = Ir al control siguiente, pulsarlo
+shell-keys-turn = Flechas, arrastrar izquierdo
+shell-does-turn = Girar la vista 3D
+shell-keys-shift = Mayús + esas, arrastrar derecho
+shell-does-shift = Desplazarla
+shell-keys-zoom = + −, rueda
+shell-does-zoom = Ampliarla o reducirla
+shell-keys-fit = F, Mayús F
+shell-does-fit = Encuadrar la pieza, encuadrar todo
+shell-does-look = Ver de frente, desde arriba, de lado
+shell-does-measure = Medir entre dos puntos pulsados
+shell-keys-box = Flechas, Intro
+shell-does-box = Mover un recuadro en la imagen, aplicarlo
+shell-keys-resize = Mayús + flechas
+shell-does-resize = Ampliar o reducir ese recuadro
+
+## The simulated cell
+
+shell-every-part = Todas las piezas por turno
+shell-not-enrolled = Sin registrar: { $what }
+shell-simulated-frame = Imagen simulada { $number }
+shell-of-simulator = { $name }, simulada
+shell-gone = { $path } ya no existe
+shell-gone-advice = Se usa en su lugar la celda simulada
+shell-no-thread = El sistema no proporciona un hilo para esto: { $error }
+shell-no-thread-advice = Cerrar otros programas e intentarlo de nuevo
+shell-library-not-loaded = No se pudo cargar la biblioteca: { $error }
+shell-library-not-loaded-advice = { $advice }, o elegir otra arriba a la derecha; hasta entonces no se reconoce nada
+shell-library-inside = La biblioteca está dentro del programa y no se puede cambiar ({ $reason })
+shell-choose-library = Elegir { $path } arriba a la derecha
+shell-choose-or-go-on = Elegir otra arriba a la derecha, o continuar: la primera pieza que se guarde quedará allí
+shell-holds-no-library = { $path } no contiene ninguna biblioteca de piezas
+shell-sentence = { $text }.

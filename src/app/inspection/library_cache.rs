@@ -11,7 +11,7 @@ use image::RgbaImage;
 
 use super::{camera::Camera, fitted::PreparedLibraryCache, recording::SharedRecording};
 use crate::{
-    app::user_error::UserError,
+    app::{language::text, user_error::UserError},
     error::Advice as _,
     error::lock,
     history::HistoryBuffer,
@@ -214,11 +214,8 @@ impl Choice {
     /// What takes the place of a library that could not be loaded; the same one for the same reason.
     fn without(&mut self, error: &LibraryError) -> Arc<LoadedLibrary> {
         let trouble = UserError {
-            what: format!("The library could not be loaded: {error}"),
-            advice: format!(
-                "{}, or choose another one at the top right; until then nothing is recognised",
-                error.advice()
-            ),
+            what: text!("shell-library-not-loaded", error = error.to_string()),
+            advice: text!("shell-library-not-loaded-advice", advice = error.advice()),
         };
         if let Some(known) = &self.loaded
             && known.shown.unloaded.as_ref() == Some(&trouble)
@@ -276,7 +273,7 @@ fn load(given: Option<&Path>) -> Result<LoadedLibrary, LibraryError> {
     });
     let is_fixed = match &place {
         LibraryPlace::Program(reason) => Some(UserError {
-            what: format!("The library lies inside the program and cannot be changed ({reason})"),
+            what: text!("shell-library-inside", reason = reason.to_string()),
             advice: reason.advice(),
         }),
         _ => None,
@@ -308,11 +305,14 @@ fn no_library(folder: &LibraryFolder) -> Option<UserError> {
     let mut entries = fs::read_dir(folder.path()).ok()?.flatten();
     entries.find(is_visible)?;
     let advice = match folder.probably_meant() {
-        Some(meant) => format!("Choose {} at the top right", meant.display()),
-        None => "Choose another one at the top right, or go on: the first part that is saved is stored there".into(),
+        Some(meant) => text!("shell-choose-library", path = meant.display().to_string()),
+        None => text!("shell-choose-or-go-on"),
     };
     Some(UserError {
-        what: format!("{} holds no library of parts", folder.path().display()),
+        what: text!(
+            "shell-holds-no-library",
+            path = folder.path().display().to_string()
+        ),
         advice,
     })
 }

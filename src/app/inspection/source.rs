@@ -8,7 +8,10 @@ use super::{
     scan_choice::{ScanFiles, ScanOrder},
 };
 use crate::{
-    app::ui::widgets::sentence,
+    app::{
+        language::{results::object, text},
+        ui::widgets::sentence,
+    },
     capture::{self, CaptureWarning, CellScene, Image, SimulatedSpec, SourceSpec},
     error::Advice,
     files::{self, FileContent, FileError},
@@ -59,13 +62,13 @@ impl CellChoice {
     /// What a person calls it.
     pub fn title(self) -> String {
         match self {
-            Self::InTurn => "Every part in turn".into(),
+            Self::InTurn => text!("shell-every-part"),
             Self::Part(kind, side) if kind.is_sided() => {
                 format!("{}, {}", kind.title(), side.name())
             }
             Self::Part(kind, _) => kind.title().into(),
-            Self::Foreign(kind) => format!("Not enrolled: {}", kind.name()),
-            Self::Empty => "Empty cell".into(),
+            Self::Foreign(kind) => text!("shell-not-enrolled", what = object(kind)),
+            Self::Empty => text!("shell-empty-cell"),
         }
     }
 
@@ -146,7 +149,28 @@ pub enum Origin {
 }
 
 impl Origin {
-    /// What a person calls it.
+    /// What a person calls it, in the language of the window.
+    pub(in crate::app) fn shown_title(&self) -> String {
+        match self {
+            Self::Simulated { number, .. } => text!("shell-simulated-frame", number = *number),
+            Self::File {
+                path,
+                is_simulated: true,
+            } => text!("shell-of-simulator", name = file_name(path)),
+            Self::Frame {
+                name,
+                is_simulated: true,
+            } if !name.contains("simulated") => text!("shell-of-simulator", name = sentence(name)),
+            Self::Scan {
+                name,
+                is_simulated: true,
+                ..
+            } => text!("shell-of-simulator", name = name),
+            Self::File { .. } | Self::Frame { .. } | Self::Scan { .. } => self.title(),
+        }
+    }
+
+    /// The same as history, cases and reports keep it: in English.
     pub fn title(&self) -> String {
         match self {
             Self::Simulated { number, .. } => format!("Simulated frame {number}"),

@@ -4,7 +4,21 @@
 //! at the start of each frame, and a task's thread inherits it from whoever starts the task. A message that a language lacks
 //! is shown in English; a test finds it.
 
+/// The text of a message in this thread's language, with the values of its variables: whole numbers, which may choose a
+/// plural, and strings. Numbers with decimals are strings: they read the same in every language, with a decimal point.
+macro_rules! text {
+    ($id:literal) => {
+        $crate::app::language::plain($id)
+    };
+    ($id:literal, $($name:ident = $value:expr),+ $(,)?) => {
+        $crate::app::language::with($id, [$((stringify!($name), ::fluent_bundle::FluentValue::from($value))),+])
+    };
+}
+pub(in crate::app) use text;
+
 mod catalogue;
+pub(in crate::app) mod parameters;
+pub(in crate::app) mod results;
 
 use std::{cell::Cell, fmt};
 
@@ -90,14 +104,15 @@ impl fmt::Display for Language {
     }
 }
 
-/// The text of a message in this thread's language, with the values of its variables: whole numbers, which may choose a
-/// plural, and strings. Numbers with decimals are strings: they read the same in every language, with a decimal point.
-macro_rules! text {
-    ($id:literal) => {
-        $crate::app::language::plain($id)
+/// A shortcut such as `Ctrl Shift Z` as the keyboards of this language name its keys.
+pub(in crate::app) fn keys(shortcut: &str) -> String {
+    let named = |key: &str| match key {
+        "Ctrl" => text!("shell-key-ctrl"),
+        "Shift" => text!("shell-key-shift"),
+        "Space" => text!("shell-key-space"),
+        "Enter" => text!("shell-key-enter"),
+        key => key.to_owned(),
     };
-    ($id:literal, $($name:ident = $value:expr),+ $(,)?) => {
-        $crate::app::language::with($id, [$((stringify!($name), ::fluent_bundle::FluentValue::from($value))),+])
-    };
+    let named: Vec<String> = shortcut.split(' ').map(named).collect();
+    named.join(" ")
 }
-pub(in crate::app) use text;

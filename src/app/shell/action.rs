@@ -13,7 +13,10 @@ use super::{
     state::{HelpPage, State},
 };
 use crate::{
-    app::inspection::{inspected::SceneOrScan, scan_choice::ScanFiles, source::CellChoice},
+    app::{
+        inspection::{inspected::SceneOrScan, scan_choice::ScanFiles, source::CellChoice},
+        language::text,
+    },
     capture::{Pace, RecordingSpec, SourceSpec, WatchedFrom, WatchedSpec},
     robot::Convention,
 };
@@ -133,8 +136,8 @@ pub fn apply(state: &mut State, action: Action) -> Option<Effect> {
         }
         Action::TakeEmptyCell => state.take_empty_cell(),
         Action::ForgetEmptyCell => {
-            state.session.empty_cell = None;
-            notify(state, Notice::done("Empty cell discarded"));
+            state.empty_cell = None;
+            notify(state, Notice::done(text!("shell-empty-cell-discarded")));
             live::restart_consensus(state);
         }
         Action::Ask(DialogRequest::Scene) if state.session.workspace == WorkspaceKind::Enrol => {

@@ -3,6 +3,7 @@
 use egui::{Button, Context, RichText};
 
 use super::{action::Action, state::State, top_bar::labelled};
+use crate::app::language::text;
 use crate::app::ui::{
     theme::{Theme, font, space},
     widgets,
@@ -32,16 +33,16 @@ pub(in crate::app) fn dialog(
     };
     let modal = widgets::dialog(ctx, "closing", |ui| {
         ui.set_max_width(420.0);
-        let title = RichText::new("Close without saving?").font(font::verdict());
+        let title = RichText::new(text!("shell-close-without-saving")).font(font::verdict());
         ui.label(title.color(theme.text));
         ui.label(RichText::new(what).color(theme.weak_text));
         ui.add_space(space::MEDIUM);
         ui.horizontal(|ui| {
-            if widgets::default_button(ui, "Keep the window open", true, theme) {
+            if widgets::default_button(ui, &text!("shell-keep-open"), true, theme) {
                 actions.push(Action::StayOpen);
             }
-            let close = "Close without saving";
-            if labelled(ui, Button::new(close), close).clicked() {
+            let close = text!("shell-close-anyway");
+            if labelled(ui, Button::new(&*close), &close).clicked() {
                 actions.push(Action::CloseAnyway);
             }
         });

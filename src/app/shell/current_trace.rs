@@ -6,7 +6,10 @@ use std::sync::{Arc, Mutex};
 use egui::{Align2, TextEdit, Ui, WidgetInfo, vec2};
 
 use crate::{
-    app::ui::theme::{Theme, space},
+    app::{
+        language::text,
+        ui::theme::{Theme, space},
+    },
     error::lock,
     history::Traceability,
 };
@@ -64,14 +67,18 @@ pub(in crate::app) fn fields(ui: &mut Ui, trace: &CurrentTrace, theme: &Theme) {
     let before = trace.get();
     let mut now = before.clone();
     for (name, says, text) in [
-        ("Serial", "scan or type", &mut now.serial),
-        ("Order", "", &mut now.order),
-        ("Operator", "", &mut now.operator),
+        (
+            text!("operator-serial"),
+            text!("operator-serial-hint"),
+            &mut now.serial,
+        ),
+        (text!("operator-order"), String::new(), &mut now.order),
+        (text!("operator-operator"), String::new(), &mut now.operator),
     ] {
         ui.horizontal(|ui| {
             ui.set_min_height(space::TARGET);
             let from = ui.cursor().left();
-            let label = ui.label(egui::RichText::new(name).color(theme.weak_text));
+            let label = ui.label(egui::RichText::new(&name).color(theme.weak_text));
             ui.add_space((from + NAME - ui.cursor().left()).max(0.0));
             let field = TextEdit::singleline(text)
                 .hint_text(says)
@@ -80,7 +87,7 @@ pub(in crate::app) fn fields(ui: &mut Ui, trace: &CurrentTrace, theme: &Theme) {
                 .desired_width(f32::INFINITY)
                 .min_size(vec2(0.0, space::TARGET));
             let field = ui.add(field).labelled_by(label.id);
-            field.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, name));
+            field.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, &name));
         });
     }
     if now != before {

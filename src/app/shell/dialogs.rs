@@ -2,23 +2,20 @@
 
 use super::{
     action::DialogRequest,
-    file_dialog::{ALL_FILES, FileChoice, FileRequest, POINTS},
+    file_dialog::{FileChoice, FileFilter, FileRequest, all_files, points},
 };
-use crate::files::SCENE_ENDINGS;
+use crate::{app::language::text, files::SCENE_ENDINGS};
 
 /// The dialog that asks this.
 pub(in crate::app) fn request(ask: DialogRequest) -> FileRequest {
     let (title, choice): (_, FileChoice) = match ask {
-        DialogRequest::Scene => ("Open a captured scene", FileChoice::File),
-        DialogRequest::Scan => (
-            "Folder of a scan: its frames and their poses",
-            FileChoice::Folder,
-        ),
-        DialogRequest::Library => ("Use another library", FileChoice::Folder),
-        DialogRequest::Recording => ("Play a recording", FileChoice::Folder),
-        DialogRequest::RecordTo => ("Folder to record the source in", FileChoice::FolderToWrite),
-        DialogRequest::WatchedFolder => ("Folder that captures are saved to", FileChoice::Folder),
-        DialogRequest::Part => ("Open a scene, a cloud or a mesh to enrol", FileChoice::File),
+        DialogRequest::Scene => (text!("shell-open-scene"), FileChoice::File),
+        DialogRequest::Scan => (text!("shell-scan-folder"), FileChoice::Folder),
+        DialogRequest::Library => (text!("shell-another-library"), FileChoice::Folder),
+        DialogRequest::Recording => (text!("shell-a-recording"), FileChoice::Folder),
+        DialogRequest::RecordTo => (text!("shell-record-to"), FileChoice::FolderToWrite),
+        DialogRequest::WatchedFolder => (text!("shell-watched-folder"), FileChoice::Folder),
+        DialogRequest::Part => (text!("shell-open-part"), FileChoice::File),
     };
     FileRequest {
         title,
@@ -27,14 +24,14 @@ pub(in crate::app) fn request(ask: DialogRequest) -> FileRequest {
     }
 }
 
-fn filters(ask: DialogRequest) -> &'static [(&'static str, &'static [&'static str])] {
+fn filters(ask: DialogRequest) -> Vec<FileFilter> {
     match ask {
-        DialogRequest::Scene => &[("Captured scenes", SCENE_ENDINGS), ALL_FILES],
-        DialogRequest::Part => &[POINTS, ALL_FILES],
+        DialogRequest::Scene => vec![(text!("shell-captured-scenes"), SCENE_ENDINGS), all_files()],
+        DialogRequest::Part => vec![points(), all_files()],
         DialogRequest::Scan
         | DialogRequest::Library
         | DialogRequest::Recording
         | DialogRequest::RecordTo
-        | DialogRequest::WatchedFolder => &[],
+        | DialogRequest::WatchedFolder => Vec::new(),
     }
 }

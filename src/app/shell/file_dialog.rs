@@ -12,16 +12,19 @@ use std::{
 };
 
 use super::{notice::Notice, path_entry::PathEntry};
-use crate::error::lock;
 use crate::files::{POINT_ENDINGS, disk, folder_of, words_of};
+use crate::{app::language::text, error::lock};
+
+/// A kind of files: its name, and the endings.
+pub type FileFilter = (String, &'static [&'static str]);
 
 /// What a file dialog asks for.
-#[derive(Clone, Copy, Debug)]
+#[derive(Clone, Debug)]
 pub struct FileRequest {
     /// Its title.
-    pub title: &'static str,
-    /// Kinds of files: a name, and the endings.
-    pub filters: &'static [(&'static str, &'static [&'static str])],
+    pub title: String,
+    /// Kinds of files.
+    pub filters: Vec<FileFilter>,
     /// What is chosen.
     pub choice: FileChoice,
 }
@@ -40,9 +43,14 @@ pub enum FileChoice {
 }
 
 /// A filter that lets every file through.
-pub const ALL_FILES: (&str, &[&str]) = ("All files", &["*"]);
+pub fn all_files() -> FileFilter {
+    (text!("shell-all-files"), &["*"])
+}
+
 /// A filter for whatever holds points.
-pub const POINTS: (&str, &[&str]) = ("Scenes, clouds and meshes", POINT_ENDINGS);
+pub fn points() -> FileFilter {
+    (text!("shell-scenes-clouds-meshes"), POINT_ENDINGS)
+}
 
 /// The file dialog of one owner, who tells its questions apart by `K`.
 pub struct FileDialog<K> {
@@ -85,7 +93,7 @@ impl<K: Copy> FileDialog<K> {
         egui: &egui::Context,
     ) {
         if let Some(guard) = lock.take() {
-            let dialog = OpenDialog::of(*request, answer(request), guard, egui);
+            let dialog = OpenDialog::of(request.clone(), answer(request), guard, egui);
             self.open = Some((asked, dialog));
         }
     }
@@ -181,9 +189,9 @@ impl Wake for DialogWaker {
 }
 
 fn answer(request: &FileRequest) -> Answer<PathBuf> {
-    let mut dialog = rfd::AsyncFileDialog::new().set_title(request.title);
-    for (name, endings) in request.filters {
-        dialog = dialog.add_filter(*name, endings);
+    let mut dialog = rfd::AsyncFileDialog::new().set_title(&request.title);
+    for (name, endings) in &request.filters {
+        dialog = dialog.add_filter(name, endings);
     }
     let answer: Answer<rfd::FileHandle> = match request.choice {
         FileChoice::File => Box::pin(dialog.pick_file()),
@@ -228,7 +236,7 @@ impl OpenDialog {
             self.is_typed = true;
             let lock = &self.guard.0;
             let folder = lock.folder(self.request.choice);
-            *lock.typed() = Some(PathEntry::new(self.request, folder));
+            *lock.typed() = Some(PathEntry::new(self.request.clone(), folder));
             self.waker.egui.request_repaint();
         }
         let typed = self
@@ -252,8 +260,12 @@ impl OpenDialog {
         };
         if let Some(folder) = folder {
             disk::create_dir_all(folder).map_err(|error| {
-                let what = format!("{} cannot be made: {}", folder.display(), words_of(&error));
-                Notice::look(what, "Choose another folder")
+                let what = text!(
+                    "shell-cannot-be-made",
+                    path = folder.display().to_string(),
+                    why = words_of(&error)
+                );
+                Notice::look(what, text!("shell-choose-another-folder"))
             })?;
         }
         self.guard.0.remember(choice, &path);
@@ -308,8 +320,8 @@ mod tests {
         let guard = DialogLock::default().take().expect("no other dialog");
         let egui = egui::Context::default();
         let request = FileRequest {
-            title: "Open",
-            filters: &[],
+            title: "Open".into(),
+            filters: Vec::new(),
             choice: FileChoice::File,
         };
         OpenDialog::of(request, Box::pin(answer), guard, &egui)

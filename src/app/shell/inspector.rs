@@ -25,6 +25,7 @@ use crate::{
             seen_before::seen_before,
             source::{Origin, SceneSource, file_name},
         },
+        language::text,
         task::{Running, Task, TaskContext, TaskError, TaskEvent, TaskRunner},
         user_error::UserError,
     },
@@ -102,11 +103,11 @@ impl State {
                     choice: *choice,
                     number: self.inspector.num_captures,
                 };
-                (SceneOrScan::Scene(source), "Capturing".to_owned())
+                (SceneOrScan::Scene(source), text!("shell-capturing"))
             }
             Source::File(path) => (
                 SceneOrScan::Scene(SceneSource::File(path.clone())),
-                format!("Opening {}", file_name(path)),
+                text!("shell-opening", name = file_name(path)),
             ),
             Source::Scan(files) => {
                 let order = ScanOrder::Open(files.clone());
@@ -115,8 +116,8 @@ impl State {
             }
             Source::Camera(spec) => {
                 let title = match **spec {
-                    SourceSpec::Watched(_) => "Waiting for a new file".to_owned(),
-                    _ => "Capturing".to_owned(),
+                    SourceSpec::Watched(_) => text!("shell-waiting-for-file"),
+                    _ => text!("shell-capturing"),
                 };
                 let source = SceneSource::Camera(spec.clone());
                 (SceneOrScan::Scene(source), title)
@@ -184,7 +185,10 @@ impl State {
         if self.session.is_live() {
             live::restart_consensus(self);
         } else {
-            self.inspect_shown("Inspecting again", ReinspectionPurpose::Repeated);
+            self.inspect_shown(
+                &text!("shell-inspecting-again"),
+                ReinspectionPurpose::Repeated,
+            );
         }
     }
 
@@ -230,23 +234,23 @@ impl State {
         saved: Option<SceneOrScan>,
     ) {
         self.use_library(library);
-        let (title, purpose) = ("Inspecting again", ReinspectionPurpose::New);
+        let (title, purpose) = (text!("shell-inspecting-again"), ReinspectionPurpose::New);
         if let Some(saved) = saved {
             let part = self.part_in(&saved);
             // What is enrolled is no part of an order.
             let part = part.unwrap_or_else(|| PartAtHand::Past(Traceability::default()));
-            let job = self.session.inspect_job(saved);
-            self.inspect_part(title.to_owned(), job, purpose, part);
+            let job = self.inspect_job(saved);
+            self.inspect_part(title, job, purpose, part);
         } else if self.inspector.running().is_none() {
-            self.inspect_shown(title, purpose);
+            self.inspect_shown(&title, purpose);
         }
     }
 
     /// Loads the library in this folder, else the one that is found without choosing; one that cannot be loaded leaves the
     /// old one in use, and is not remembered.
     pub(in crate::app) fn open_library(&mut self, chosen: Option<PathBuf>) {
-        let title = "Opening the library";
-        let library_cache = self.begins(title, ReinspectionPurpose::Repeated);
+        let title = text!("shell-opening-library");
+        let library_cache = self.begins(&title, ReinspectionPurpose::Repeated);
         self.inspector.task.start(title, move |_| {
             let loaded = library_cache.choose(chosen.clone());
             let loaded = loaded.map_err(|error| UserError::of(&error))?;
@@ -293,8 +297,8 @@ impl State {
         let cell = match EmptyCell::of(&shown.inspected.scene) {
             _ if inspection.verdict.is_accepted() => {
                 let hangs_there = Notice::look(
-                    "The cell is not empty: a part hangs in it",
-                    "Remove the part, capture, then press Capture empty cell",
+                    text!("shell-cell-not-empty"),
+                    text!("shell-cell-not-empty-advice"),
                 );
                 return notify(self, hangs_there);
             }
@@ -304,13 +308,11 @@ impl State {
         self.session.empty_cell = Some(Arc::new(cell));
         let taken = if stands_there {
             Notice::look(
-                "Empty cell captured, but something as large as a part is in it",
-                "If that is a part: Source, Discard empty cell; then remove the part and capture first",
+                text!("shell-empty-cell-doubt"),
+                text!("shell-empty-cell-doubt-advice"),
             )
         } else {
-            Notice::done(
-                "Empty cell captured: from the next capture on, nothing in it is taken for a part",
-            )
+            Notice::done(text!("shell-empty-cell-captured"))
         };
         notify(self, taken);
         live::restart_consensus(self);

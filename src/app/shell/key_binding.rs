@@ -12,7 +12,7 @@ pub struct KeyBinding {
     /// Both, for a person.
     pub keys: &'static str,
     /// What it does, for a person.
-    pub does: &'static str,
+    pub does: fn() -> String,
 }
 
 /// A key and the action that it causes.
@@ -24,7 +24,7 @@ pub struct Shortcut<A> {
     /// Both, for a person.
     pub keys: &'static str,
     /// What it does, for a person.
-    pub does: &'static str,
+    pub does: fn() -> String,
     /// Makes the action.
     pub action: fn() -> A,
 }

@@ -11,9 +11,12 @@ use super::{
     session::WorkspaceKind,
     state::{HelpPage, State},
 };
-use crate::app::ui::{
-    theme::{Theme, font, space},
-    widgets,
+use crate::app::{
+    language::{self, text},
+    ui::{
+        theme::{Theme, font, space},
+        widgets,
+    },
 };
 
 /// The shortcuts of the whole window.
@@ -22,21 +25,21 @@ const SHORTCUTS: [Shortcut<Action>; 13] = [
         modifiers: Modifiers::NONE,
         key: Key::Space,
         keys: "Space",
-        does: "Capture, and inspect or enrol it",
+        does: || text!("shell-does-capture"),
         action: || Action::Capture,
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::L,
         keys: "L",
-        does: "Live: follow the source, or stop",
+        does: || text!("shell-does-live"),
         action: || Action::Live(LiveAction::Toggle),
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::L,
         keys: "Ctrl L",
-        does: "Record the source, or stop",
+        does: || text!("shell-does-record"),
         action: || Action::Live(LiveAction::ToggleRecording),
     },
     // Before Ctrl O, which would take it too.
@@ -44,90 +47,94 @@ const SHORTCUTS: [Shortcut<Action>; 13] = [
         modifiers: Modifiers::COMMAND.plus(Modifiers::SHIFT),
         key: Key::O,
         keys: "Ctrl Shift O",
-        does: "Open a scan: several shots with their poses",
+        does: || text!("shell-does-open-scan"),
         action: || Action::Ask(DialogRequest::Scan),
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::O,
         keys: "Ctrl O",
-        does: "Open a captured scene",
+        does: || text!("shell-open-scene"),
         action: || Action::Ask(DialogRequest::Scene),
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::E,
         keys: "Ctrl E",
-        does: "Export the inspection in front",
+        does: || text!("shell-does-export"),
         action: || Action::Export,
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::B,
         keys: "B",
-        does: "The robot's cell: where the camera sits",
+        does: || text!("shell-does-robot"),
         action: || Action::Robot(RobotAction::Toggle),
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::U,
         keys: "U",
-        does: "Millimetres and degrees, or metres and radians",
+        does: || text!("shell-does-units"),
         action: || Action::SwitchUnits,
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::T,
         keys: "T",
-        does: "Dark or light",
+        does: || text!("shell-does-theme"),
         action: || Action::SwitchTheme,
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::K,
         keys: "Ctrl K",
-        does: "Operator's or engineer's view",
+        does: || text!("shell-does-role"),
         action: || Action::Role(RoleAction::Switch),
     },
     Shortcut {
         modifiers: Modifiers::COMMAND,
         key: Key::Q,
         keys: "Ctrl Q",
-        does: "Close the window",
+        does: || text!("shell-does-quit"),
         action: || Action::Quit,
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::F1,
         keys: "F1",
-        does: "This list",
+        does: || text!("shell-does-help"),
         action: || Action::ToggleHelp,
     },
     Shortcut {
         modifiers: Modifiers::NONE,
         key: Key::Escape,
         keys: "Esc",
-        does: "Close the enlarged stage",
+        does: || text!("shell-does-escape"),
         action: || Action::CloseTop,
     },
 ];
 
 /// Keys of the 3-D view and of the focus, for the list alone.
-const OTHER_KEYS: [(&str, &str); 7] = [
-    ("Tab, Enter", "Go to the next control, press it"),
-    ("Arrow keys, left drag", "Turn the 3-D view"),
-    ("Shift + those, right drag", "Shift it"),
-    ("+ \u{2212}, wheel", "Zoom it"),
-    ("F, Shift F", "Fit the part, fit everything"),
-    ("Z, Y, X", "Look from the front, the top, the side"),
-    ("M", "Measure between two clicked points"),
-];
+fn other_keys() -> [[String; 2]; 7] {
+    [
+        [text!("shell-keys-tab"), text!("shell-does-tab")],
+        [text!("shell-keys-turn"), text!("shell-does-turn")],
+        [text!("shell-keys-shift"), text!("shell-does-shift")],
+        [text!("shell-keys-zoom"), text!("shell-does-zoom")],
+        [text!("shell-keys-fit"), text!("shell-does-fit")],
+        ["Z, Y, X".to_owned(), text!("shell-does-look")],
+        ["M".to_owned(), text!("shell-does-measure")],
+    ]
+}
 
 /// Keys of the picture in which a part is corrected, for the list alone.
-const PICTURE_KEYS: [(&str, &str); 2] = [
-    ("Arrow keys, Enter", "Move a box in the picture, apply it"),
-    ("Shift + arrow keys", "Make that box larger or smaller"),
-];
+fn picture_keys() -> [[String; 2]; 2] {
+    [
+        [text!("shell-keys-box"), text!("shell-does-box")],
+        [text!("shell-keys-resize"), text!("shell-does-resize")],
+    ]
+}
 
 /// The keys of the rail, in its order.
 const RAIL_KEYS: [(Key, &str); 5] = [
@@ -231,7 +238,7 @@ pub(in crate::app) fn help(
         let height = ui.spacing().interact_size.y;
         ui.spacing_mut().interact_size.y = 24.0;
         ui.label(
-            RichText::new("Shortcuts")
+            RichText::new(text!("shell-shortcuts"))
                 .font(font::verdict())
                 .color(theme.text),
         );
@@ -243,16 +250,17 @@ pub(in crate::app) fn help(
         let list_area = ScrollArea::vertical().max_height(room);
         list_area.min_scrolled_height(room).show(ui, |ui| {
             list.show(ui, |ui| {
-                let own = own.iter().map(|binding| (binding.keys, binding.does));
-                let named = SHORTCUTS.iter().map(|s| (s.keys, s.does));
+                let row = |keys: &str, does: String| [language::keys(keys), does];
+                let own = own
+                    .iter()
+                    .map(|binding| row(binding.keys, (binding.does)()));
+                let named = SHORTCUTS.iter().map(|s| row(s.keys, (s.does)()));
                 let of_rail = RAIL_KEYS.into_iter().zip(WorkspaceKind::ALL);
-                let of_rail = of_rail.map(|((_, keys), workspace)| (keys, workspace.title()));
-                let of_picture = match state.session.workspace {
-                    WorkspaceKind::Enrol => &PICTURE_KEYS[..],
-                    _ => &[],
-                };
-                let others = of_picture.iter().copied().chain(OTHER_KEYS);
-                for (keys, does) in named.chain(own).chain(of_rail).chain(others) {
+                let of_rail = of_rail.map(|((_, keys), workspace)| row(keys, workspace.title()));
+                let is_enrolling = state.workspace == WorkspaceKind::Enrol;
+                let of_picture = is_enrolling.then(picture_keys).into_iter().flatten();
+                let others = of_picture.chain(other_keys());
+                for [keys, does] in named.chain(own).chain(of_rail).chain(others) {
                     ui.label(RichText::new(keys).font(font::body_strong()));
                     ui.label(RichText::new(does).color(theme.weak_text));
                     ui.end_row();
@@ -261,7 +269,7 @@ pub(in crate::app) fn help(
         });
         ui.spacing_mut().interact_size.y = height;
         ui.add_space(space::MEDIUM);
-        widgets::default_button(ui, "Close", true, theme)
+        widgets::default_button(ui, &text!("shell-close"), true, theme)
     });
     let is_pressed_again = || ctx.input_mut(|input| input.consume_key(Modifiers::NONE, Key::F1));
     if modal.inner || modal.should_close() || is_pressed_again() {

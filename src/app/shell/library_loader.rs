@@ -8,6 +8,7 @@ use crate::app::{
         folder_watch::FolderWatch,
         library_cache::{LibraryCache, LibraryView},
     },
+    language::text,
     task::{Task, TaskEvent, TaskRunner},
 };
 
@@ -44,18 +45,20 @@ impl LibraryLoader {
 
     fn load(&mut self) {
         let library_cache = self.library_cache.clone();
-        self.loading.start("Loading the library", move |_| {
-            Ok(Arc::clone(&library_cache.get().shown))
-        });
+        self.loading
+            .start(text!("shell-loading-library"), move |_| {
+                Ok(Arc::clone(&library_cache.get().shown))
+            });
     }
 
     fn reload(&mut self) {
         self.is_changed = false;
         let library_cache = self.library_cache.clone();
-        self.reloading.start("Reloading the library", move |_| {
-            let changed = library_cache.refresh();
-            Ok(changed.map(|loaded| Arc::clone(&loaded.shown)))
-        });
+        self.reloading
+            .start(text!("shell-reloading-library"), move |_| {
+                let changed = library_cache.refresh();
+                Ok(changed.map(|loaded| Arc::clone(&loaded.shown)))
+            });
     }
 }
 
@@ -102,10 +105,9 @@ pub(super) fn update(state: &mut State) {
         state.inspector.loader.reloading.poll()
     {
         let num = library.parts.len();
-        let word = if num == 1 { "part" } else { "parts" };
         state.use_library(&library);
-        if state.session.role == UserRole::Engineer {
-            let what = format!("Library reloaded, another program has changed it: {num} {word}");
+        if state.role == UserRole::Engineer {
+            let what = text!("shell-library-reloaded", num = num);
             notify(state, Notice::done(what));
         }
         let is_past = state

@@ -64,7 +64,7 @@ pub enum Message {
     /// Inspect the scene in front once more, as an inspection of its own.
     InspectShown {
         /// What is being done, for a person.
-        title: &'static str,
+        title: String,
     },
     /// Show a past inspection in the Inspect workspace.
     ShowPast(Arc<Inspected>),

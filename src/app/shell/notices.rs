@@ -11,6 +11,7 @@ use super::{
     state::State,
     top_bar::labelled,
 };
+use crate::app::language::text;
 use crate::app::ui::{
     theme::{ROUNDING, Theme, space},
     widgets::{Mark, mark, sentence},
@@ -129,6 +130,7 @@ fn plate(ui: &mut Ui, place: usize, notice: &Notice, theme: &Theme, actions: &mu
 }
 
 fn line(ui: &mut Ui, place: usize, notice: &Notice, theme: &Theme, actions: &mut Vec<Action>) {
+    let (dismiss, undo) = (text!("shell-dismiss"), text!("shell-undo"));
     ui.horizontal(|ui| {
         ui.set_min_height(space::TARGET);
         let (rect, _) = ui.allocate_exact_size(Vec2::splat(20.0), Sense::hover());
@@ -138,11 +140,11 @@ fn line(ui: &mut Ui, place: usize, notice: &Notice, theme: &Theme, actions: &mut
         };
         mark(ui.painter(), rect.center(), 9.0, sign, theme);
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-            if labelled(ui, Button::new("Dismiss"), "Dismiss").clicked() {
+            if labelled(ui, Button::new(&*dismiss), &dismiss).clicked() {
                 actions.push(Action::Dismiss(place));
             }
             let is_undoable = notice.kind == NoticeKind::Undoable;
-            if is_undoable && labelled(ui, Button::new("Undo"), "Undo").clicked() {
+            if is_undoable && labelled(ui, Button::new(&*undo), &undo).clicked() {
                 actions.push(Action::Undo);
             }
             let words = Layout::left_to_right(Align::Center).with_main_wrap(true);
@@ -150,8 +152,8 @@ fn line(ui: &mut Ui, place: usize, notice: &Notice, theme: &Theme, actions: &mut
                 if notice.advice.is_empty() {
                     ui.label(RichText::new(sentence(&notice.what)).color(theme.text));
                 } else {
-                    let what = sentence(notice.what.trim_end_matches('.'));
-                    let what = format!("{what}.");
+                    let what = sentence(notice.what.trim_end_matches(['.', '。']));
+                    let what = text!("shell-sentence", text = what);
                     ui.label(RichText::new(what).color(theme.text));
                     ui.label(RichText::new(&notice.advice).color(theme.warning));
                 }

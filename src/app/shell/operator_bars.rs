@@ -14,9 +14,12 @@ use super::{
     state::State,
     top_bar::{Progress, labelled, progress},
 };
-use crate::app::ui::{
-    theme::{ROUNDING, Theme, font, space},
-    widgets::{Mark, mark},
+use crate::app::{
+    language::{keys, text},
+    ui::{
+        theme::{ROUNDING, Theme, font, space},
+        widgets::{Mark, mark},
+    },
 };
 
 /// Height of the lower bar, logical pixels.
@@ -63,20 +66,19 @@ fn upper(
     // Not as high as the bar.
     ui.horizontal(|ui| counts(ui, &state.session.shift, theme));
     ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
-        let key = RichText::new("Ctrl K").font(font::small());
-        let engineer = Button::new("Engineer's view").shortcut_text(key.color(theme.weak_text));
+        let key = RichText::new(keys("Ctrl K")).font(font::small());
+        let name = text!("shell-engineers-view");
+        let engineer = Button::new(&*name).shortcut_text(key.color(theme.weak_text));
         let says = match state.roles.pin {
-            Some(_) => "Locked: asks for the PIN (Ctrl K)",
-            None => "Switch to the engineer's view (Ctrl K)",
+            Some(_) => text!("operator-locked-says"),
+            None => text!("shell-to-engineer"),
         };
-        if labelled(ui, engineer, "Engineer's view")
-            .on_hover_text(says)
-            .clicked()
-        {
+        if labelled(ui, engineer, &name).on_hover_text(says).clicked() {
             actions.push(Action::Role(RoleAction::Switch));
         }
-        if labelled(ui, Button::new("History"), "History")
-            .on_hover_text("All parts that were inspected")
+        let history = WorkspaceKind::History.title();
+        if labelled(ui, Button::new(&*history), &history)
+            .on_hover_text(text!("operator-history-says"))
             .clicked()
         {
             actions.push(Action::GoTo(WorkspaceKind::History));
@@ -92,14 +94,22 @@ fn counts(ui: &mut Ui, shift: &ShiftParts, theme: &Theme) {
     let Some(since) = &shift.since else {
         return;
     };
-    let since = format!("Shift since {}", since.strftime("%H:%M"));
+    let since = text!(
+        "operator-shift-since",
+        time = since.strftime("%H:%M").to_string()
+    );
     ui.label(RichText::new(since).color(theme.weak_text));
     let num = shift.num_ok + shift.num_not_ok;
-    let word = if num == 1 { "part" } else { "parts" };
     let chips = [
-        (None, format!("{num} {word}")),
-        (Some(Mark::Good), format!("{} OK", shift.num_ok)),
-        (Some(Mark::Bad), format!("{} NOK", shift.num_not_ok)),
+        (None, text!("operator-num-parts", num = num)),
+        (
+            Some(Mark::Good),
+            text!("operator-num-ok", num = shift.num_ok),
+        ),
+        (
+            Some(Mark::Bad),
+            text!("operator-num-not-ok", num = shift.num_not_ok),
+        ),
     ];
     for (sign, text) in chips {
         Frame::new()
@@ -121,17 +131,18 @@ fn counts(ui: &mut Ui, shift: &ShiftParts, theme: &Theme) {
 fn lower(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
     let text = |text: &str| RichText::new(text).font(font::verdict());
     let key = |text: &str| RichText::new(text).font(font::small());
-    let is_live = state.session.is_live();
+    let is_live = state.is_live();
+    let (name, space) = (text!("shell-capture"), keys("Space"));
     // The accent is for what is pressed next: while frames are followed, nothing is.
     let capture = if is_live {
-        Button::new(text("Capture")).shortcut_text(key("Space").color(theme.weak_text))
+        Button::new(text(&name)).shortcut_text(key(&space).color(theme.weak_text))
     } else {
-        Button::new(text("Capture").color(theme.on_accent))
-            .shortcut_text(key("Space").color(theme.on_accent))
+        Button::new(text(&name).color(theme.on_accent))
+            .shortcut_text(key(&space).color(theme.on_accent))
             .fill(theme.accent)
     };
     let capture = capture.min_size(vec2(200.0, BUTTON));
-    if labelled_large(ui, capture, "Capture").clicked() {
+    if labelled_large(ui, capture, &name).clicked() {
         actions.push(Action::Capture);
     }
     let [strong, weak] = if is_live {
@@ -139,23 +150,25 @@ fn lower(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
     } else {
         [theme.text, theme.weak_text]
     };
-    let live = Button::selectable(is_live, text("Live").color(strong))
+    let follow = text!("shell-live");
+    let live = Button::selectable(is_live, text(&follow).color(strong))
         .frame_when_inactive(true)
         .shortcut_text(key("L").color(weak))
         .min_size(vec2(110.0, BUTTON));
     let live = ui.add(live);
-    live.widget_info(|| WidgetInfo::selected(egui::Role::Button, true, is_live, "Live"));
+    live.widget_info(|| WidgetInfo::selected(egui::Role::Button, true, is_live, &follow));
     let says = if is_live {
-        "Stop inspecting every part by itself (L)"
+        text!("operator-stop-live-says")
     } else {
-        "Inspect every part by itself as it comes to hang still (L)"
+        text!("operator-live-says")
     };
     if live.on_hover_text(says).clicked() {
         actions.push(Action::Live(LiveAction::Toggle));
     }
-    let wrong = Button::new(text("Wrong part?")).min_size(vec2(150.0, BUTTON));
-    if labelled_large(ui, wrong, "Wrong part?")
-        .on_hover_text("Open the history, to say which part it is")
+    let name = text!("operator-wrong-part");
+    let wrong = Button::new(text(&name)).min_size(vec2(150.0, BUTTON));
+    if labelled_large(ui, wrong, &name)
+        .on_hover_text(text!("operator-wrong-part-says"))
         .clicked()
     {
         actions.push(Action::GoTo(WorkspaceKind::History));
@@ -180,7 +193,10 @@ fn source(ui: &mut Ui, session: &Session, theme: &Theme) {
         let (rect, _) = ui.allocate_exact_size(Vec2::splat(16.0), Sense::hover());
         mark(ui.painter(), rect.center(), 8.0, sign, theme);
     } else {
-        let source = format!("Source: {}", source_menu::now(&session.source));
+        let source = text!(
+            "operator-source",
+            source = source_menu::now(&session.source)
+        );
         ui.add(text(source).truncate());
     }
 }

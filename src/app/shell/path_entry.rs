@@ -11,6 +11,7 @@ use super::{
     file_dialog::{DialogLock, FileChoice, FileRequest},
     top_bar::labelled,
 };
+use crate::app::language::text;
 use crate::app::ui::{
     theme::{Theme, font, space},
     widgets,
@@ -68,7 +69,7 @@ impl PathEntry {
             _ => typed.to_owned(),
         };
         self.trouble = match path::absolute(&typed) {
-            Err(_) => Some("Type a path".to_owned()),
+            Err(_) => Some(text!("shell-type-a-path")),
             Ok(path) => {
                 let trouble = self.trouble_with(&path);
                 if trouble.is_none() {
@@ -82,25 +83,25 @@ impl PathEntry {
     fn trouble_with(&mut self, path: &Path) -> Option<String> {
         let trouble = match self.request.choice {
             FileChoice::File | FileChoice::NewFile(_) if path.is_dir() => {
-                "This is a folder: add the name of a file"
+                text!("shell-add-a-name")
             }
-            FileChoice::File if !path.is_file() => "There is no such file",
-            FileChoice::Folder if !path.is_dir() => "There is no such folder",
-            FileChoice::FolderToWrite if path.is_file() => "This is a file, not a folder",
+            FileChoice::File if !path.is_file() => text!("shell-no-such-file"),
+            FileChoice::Folder if !path.is_dir() => text!("shell-no-such-folder"),
+            FileChoice::FolderToWrite if path.is_file() => text!("shell-not-a-folder"),
             FileChoice::NewFile(_) if path.exists() && self.replaced.as_deref() != Some(path) => {
                 self.replaced = Some(path.to_owned());
-                "A file of this name exists: confirm again to replace it"
+                text!("shell-confirm-replace")
             }
             FileChoice::NewFile(_)
                 if path
                     .parent()
                     .is_none_or(|folder| folder != self.folder && !folder.is_dir()) =>
             {
-                "The folder of this file does not exist"
+                text!("shell-no-parent-folder")
             }
             _ => return None,
         };
-        Some(trouble.to_owned())
+        Some(trouble)
     }
 }
 
@@ -122,11 +123,11 @@ pub(in crate::app) fn ui(ctx: &Context, lock: &DialogLock, theme: &Theme) {
     };
     let modal = widgets::dialog(ctx, "typed path", |ui| {
         ui.set_max_width(WIDTH);
-        let title = RichText::new(entry.request.title).font(font::verdict());
+        let title = RichText::new(&entry.request.title).font(font::verdict());
         ui.label(title.color(theme.text));
-        let says = "The desktop offers no file dialog (package xdg-desktop-portal-gtk or zenity): type the path";
+        let says = text!("shell-no-file-dialog");
         ui.label(RichText::new(says).color(theme.weak_text));
-        let name = ui.label("Path");
+        let name = ui.label(text!("shell-path"));
         let mut text = entry.text.clone();
         let field = ui.add(TextEdit::singleline(&mut text).desired_width(WIDTH));
         let field = field.labelled_by(name.id);
@@ -142,12 +143,14 @@ pub(in crate::app) fn ui(ctx: &Context, lock: &DialogLock, theme: &Theme) {
         }
         ui.add_space(space::SMALL);
         ui.horizontal(|ui| {
-            if labelled(ui, Button::new("OK"), "OK").clicked() || is_entered {
+            let ok = text!("shell-ok");
+            if labelled(ui, Button::new(&*ok), &ok).clicked() || is_entered {
                 entry.confirm();
                 field.request_focus();
                 ui.ctx().request_repaint();
             }
-            if labelled(ui, Button::new("Cancel"), "Cancel").clicked() {
+            let cancel = text!("shell-cancel");
+            if labelled(ui, Button::new(&*cancel), &cancel).clicked() {
                 entry.outcome = Poll::Ready(None);
                 ui.ctx().request_repaint();
             }
@@ -169,8 +172,8 @@ mod tests {
 
     fn entry(choice: FileChoice, folder: &Path) -> PathEntry {
         let request = FileRequest {
-            title: "Open",
-            filters: &[],
+            title: "Open".into(),
+            filters: Vec::new(),
             choice,
         };
         PathEntry::new(request, folder.to_owned())

@@ -20,6 +20,7 @@ use crate::{
             source::CellChoice,
             unit_system::UnitSystem,
         },
+        language::text,
         user_error::UserError,
     },
     capture::SourceSpec,
@@ -206,13 +207,13 @@ impl WorkspaceKind {
     ];
 
     /// What a person calls it.
-    pub fn title(self) -> &'static str {
+    pub fn title(self) -> String {
         match self {
-            Self::Inspect => "Inspect",
-            Self::Enrol => "Enrol",
-            Self::Compare => "Compare",
-            Self::Align => "Align",
-            Self::History => "History",
+            Self::Inspect => text!("shell-inspect"),
+            Self::Enrol => text!("shell-enrol"),
+            Self::Compare => text!("shell-compare"),
+            Self::Align => text!("shell-align"),
+            Self::History => text!("shell-history"),
         }
     }
 }
@@ -230,10 +231,10 @@ pub enum UserRole {
 
 impl UserRole {
     /// What a person calls it.
-    pub fn title(self) -> &'static str {
+    pub fn title(self) -> String {
         match self {
-            Self::Operator => "Operator",
-            Self::Engineer => "Engineer",
+            Self::Operator => text!("shell-operator"),
+            Self::Engineer => text!("shell-engineer"),
         }
     }
 }

@@ -22,6 +22,7 @@ use crate::{
             library_cache::LibraryCache, scan_choice::ScanFiles, source::CellChoice,
             unit_system::UnitSystem,
         },
+        language::text,
         task::TaskRunner,
         user_error::UserError,
     },
@@ -261,15 +262,19 @@ pub fn load(path: &Path) -> (Settings, Option<UserError>) {
             (Settings::default(), None)
         }
         Err(bad) => {
-            let what = format!("The settings in {} are not used: {bad}", path.display());
+            let what = text!(
+                "shell-settings-not-used",
+                path = path.display().to_string(),
+                why = bad.to_string()
+            );
             let advice = match set_aside(path) {
-                Ok(aside) => format!(
-                    "They were moved to {}; the window starts with default settings",
-                    aside.display()
+                Ok(aside) => text!(
+                    "shell-settings-set-aside",
+                    path = aside.display().to_string()
                 ),
-                Err(error) => format!(
-                    "Move the file away: it could not be set aside ({})",
-                    crate::files::words_of(&error)
+                Err(error) => text!(
+                    "shell-settings-move-away",
+                    why = crate::files::words_of(&error)
                 ),
             };
             (Settings::default(), Some(UserError { what, advice }))
@@ -318,11 +323,11 @@ fn set_aside(path: &Path) -> io::Result<PathBuf> {
 /// Writes the file, whole or not at all.
 pub fn save(path: &Path, settings: &Settings) -> Result<(), UserError> {
     let not_kept = |why: String, advice: &str| UserError {
-        what: format!("The settings are not remembered: {why}"),
-        advice: format!("{advice}; until then settings are not remembered"),
+        what: text!("shell-settings-not-kept", why = why),
+        advice: text!("shell-settings-not-kept-advice", advice = advice),
     };
     let text = toml::to_string(settings)
-        .map_err(|error| not_kept(error.to_string(), "Report the settings that were changed"))?;
+        .map_err(|error| not_kept(error.to_string(), &text!("shell-report-settings")))?;
     let folder = path.parent().unwrap_or(Path::new("."));
     disk::create_dir_all(folder).map_err(|error| {
         let words = crate::files::words_of(&error);

@@ -7,7 +7,10 @@ use super::{
     settings::{Settings, save},
     state::State,
 };
-use crate::app::task::{Task, TaskEvent, TaskRunner};
+use crate::app::{
+    language::text,
+    task::{Task, TaskEvent, TaskRunner},
+};
 
 /// Writes the settings whenever they have changed, on a thread of its own.
 pub(in crate::app) struct Memory {
@@ -37,9 +40,10 @@ impl Memory {
             self.kept = Settings::of(state, window);
             self.has_changed = true;
             let (path, settings) = (path.clone(), self.kept.clone());
-            self.writing.start("Writing the settings", move |_| {
-                save(&path, &settings).map_err(Into::into)
-            });
+            self.writing
+                .start(text!("shell-writing-settings"), move |_| {
+                    save(&path, &settings).map_err(Into::into)
+                });
         }
         match self.writing.poll()? {
             TaskEvent::Failed(error) => Some(error.into()),

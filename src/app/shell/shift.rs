@@ -8,6 +8,7 @@ use serde::{Deserialize, Serialize};
 use super::{session::UserRole, state::State};
 use crate::{
     app::{
+        language::text,
         task::{Task, TaskEvent, TaskRunner},
         user_error::UserError,
     },
@@ -132,7 +133,10 @@ pub(in crate::app) fn update(state: &mut State, history: &Arc<HistoryBuffer>, ct
         let count = move |_: &_| {
             count(&history, since.clone()).map_err(|error| UserError::of(&error).into())
         };
-        state.shift_watch.counting.start("Counting parts", count);
+        state
+            .shift_watch
+            .counting
+            .start(text!("shell-counting-parts"), count);
     }
 }
 

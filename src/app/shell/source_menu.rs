@@ -12,6 +12,7 @@ use super::{
 use crate::{
     app::{
         inspection::source::{CellChoice, file_name},
+        language::text,
         ui::theme::{font, space},
     },
     capture::{KinectSpec, SimulatedSpec, SourceSpec},
@@ -23,14 +24,19 @@ const COLUMN: f32 = 230.0;
 const AVERAGED: [usize; 4] = [1, 4, 8, 16];
 /// What of the window's height the menu leaves free, logical pixels.
 const MARGIN: f32 = 90.0;
+/// Letters of a source that a narrow window has room for beside the word before it.
+const SHORT: usize = 14;
 
 /// What stands on the button: in a narrow window the bar has room for so many letters and no more.
 fn title(ui: &Ui, source: &str) -> String {
     let is_narrow = ui.ctx().content_rect().width() < NARROW;
-    if is_narrow && source.chars().count() > "Simulated cell".len() {
+    if is_narrow && source.chars().count() > SHORT {
         format!("{} ▼", shortened(source, 22))
     } else {
-        format!("Source · {} ▼", shortened(source, 40))
+        format!(
+            "{} ▼",
+            text!("shell-source-button", source = shortened(source, 40))
+        )
     }
 }
 
@@ -45,7 +51,7 @@ pub(in crate::app) fn ui(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) 
         });
     })
     .response
-    .on_hover_text("Where Capture and Live take scenes from");
+    .on_hover_text(text!("shell-source-says"));
 }
 
 fn column(ui: &mut Ui, height: f32, name: &str, content: impl FnOnce(&mut Ui)) {
@@ -58,34 +64,39 @@ fn column(ui: &mut Ui, height: f32, name: &str, content: impl FnOnce(&mut Ui)) {
     });
 }
 
-/// The source in use, shortly.
 /// What the source in use is called.
 pub(super) fn now(source: &Source) -> String {
     match source {
-        Source::Cell(CellChoice::InTurn) => "Simulated cell".to_owned(),
-        Source::Cell(choice) => format!("Simulated · {}", choice.title()),
+        Source::Cell(CellChoice::InTurn) => text!("shell-simulated-cell"),
+        Source::Cell(choice) => text!("shell-simulated", what = choice.title()),
         Source::File(path) => shortened(&file_name(path), 24),
-        Source::Scan(files) => format!("Scan {}", shortened(&files.title(), 22)),
+        Source::Scan(files) => text!("shell-scan-of", name = shortened(&files.title(), 22)),
         Source::Camera(spec) => match &**spec {
-            SourceSpec::Simulated(_) => "Simulated cell, set up".to_owned(),
+            SourceSpec::Simulated(_) => text!("shell-cell-set-up"),
             SourceSpec::Recording(spec) => {
-                format!("Recording {}", shortened(&file_name(&spec.folder), 18))
+                text!(
+                    "shell-recording-of",
+                    name = shortened(&file_name(&spec.folder), 18)
+                )
             }
             SourceSpec::Watched(spec) => {
-                format!("Folder {}", shortened(&file_name(&spec.folder), 20))
+                text!(
+                    "shell-folder-of",
+                    name = shortened(&file_name(&spec.folder), 20)
+                )
             }
             SourceSpec::Kinect(_) => "Kinect".to_owned(),
         },
     }
 }
 
-fn heading(ui: &mut Ui, text: &str) {
+fn heading(ui: &mut Ui, text: String) {
     ui.label(RichText::new(text).font(font::heading()));
 }
 
 fn simulated(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
-    heading(ui, "Simulated cell");
-    let (is_set_up, spec) = match &state.session.source {
+    heading(ui, text!("shell-simulated-cell"));
+    let (is_set_up, spec) = match &state.source {
         Source::Camera(spec) => match &**spec {
             SourceSpec::Simulated(spec) => (true, spec.clone()),
             _ => (false, SimulatedSpec::default()),
@@ -93,7 +104,10 @@ fn simulated(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
         Source::Cell(choice) => (false, choice.followed()),
         Source::File(_) | Source::Scan(_) => (false, SimulatedSpec::default()),
     };
-    if ui.selectable_label(is_set_up, "Set up the cell…").clicked() {
+    if ui
+        .selectable_label(is_set_up, text!("shell-set-up-cell"))
+        .clicked()
+    {
         actions.push(Action::Live(LiveAction::SetUp(Some(spec))));
         ui.close();
     }
@@ -111,7 +125,7 @@ fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
         Source::Camera(spec) => Some(&**spec),
         Source::Cell(_) | Source::File(_) | Source::Scan(_) => None,
     };
-    heading(ui, "Cameras and folders");
+    heading(ui, text!("shell-cameras-and-folders"));
     let is_kinect = matches!(camera, Some(SourceSpec::Kinect(_)));
     if ui.selectable_label(is_kinect, "Kinect").clicked() {
         let spec = SourceSpec::Kinect(KinectSpec::default());
@@ -123,26 +137,26 @@ fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     for (is_chosen, text, says, ask) in [
         (
             is_recording,
-            "Play a recording…",
-            "A folder of depth images or clouds: Live plays and pauses it, Capture takes its next frame",
+            text!("shell-play-recording"),
+            text!("shell-play-recording-says"),
             DialogRequest::Recording,
         ),
         (
             is_watched,
-            "Watch a folder…",
-            "Every capture that another program saves there is inspected",
+            text!("shell-watch-folder"),
+            text!("shell-watch-folder-says"),
             DialogRequest::WatchedFolder,
         ),
         (
             false,
-            "Open a file…",
-            "A single capture",
+            text!("shell-open-file"),
+            text!("shell-open-file-says"),
             DialogRequest::Scene,
         ),
         (
-            matches!(state.session.source, Source::Scan(_)),
-            "Open a scan…",
-            "A folder with several shots of one part, each with the pose of its camera (Ctrl Shift O)",
+            matches!(state.source, Source::Scan(_)),
+            text!("shell-open-scan"),
+            text!("shell-open-scan-says"),
             DialogRequest::Scan,
         ),
     ] {
@@ -156,12 +170,12 @@ fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
         }
     }
     ui.separator();
-    heading(ui, "Live averages depth over");
+    heading(ui, text!("shell-average-depth"));
     ui.horizontal(|ui| {
         for num in AVERAGED {
             let is_chosen = state.session.live.params.average == num;
             let text = match num {
-                1 => "1 frame".to_owned(),
+                1 => text!("shell-one-frame"),
                 num => num.to_string(),
             };
             let button = Button::selectable(is_chosen, text).min_size(Vec2::splat(space::TARGET));
@@ -174,7 +188,7 @@ fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
     empty_cell(ui, state, actions);
     if !state.session.recent.is_empty() {
         ui.separator();
-        heading(ui, "Recent files");
+        heading(ui, text!("shell-recent-files"));
     }
     for path in &state.session.recent {
         let is_chosen = match &state.session.source {
@@ -193,20 +207,17 @@ fn others(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
 
 /// Taking and forgetting the empty cell.
 fn empty_cell(ui: &mut Ui, state: &State, actions: &mut Vec<Action>) {
-    heading(ui, "Empty cell");
-    let take = Button::new("Capture empty cell");
-    let take = ui.add_enabled(state.session.shown.is_some(), take).on_hover_text(
-        "The scene in front becomes the empty cell: nothing in it is taken for a part from now on",
-    );
+    heading(ui, text!("shell-empty-cell"));
+    let take = Button::new(text!("shell-capture-empty-cell"));
+    let take = ui
+        .add_enabled(state.shown.is_some(), take)
+        .on_hover_text(text!("shell-capture-empty-cell-says"));
     if take.clicked() {
         actions.push(Action::TakeEmptyCell);
         ui.close();
     }
-    let forget = Button::new("Discard empty cell");
-    if ui
-        .add_enabled(state.session.empty_cell.is_some(), forget)
-        .clicked()
-    {
+    let forget = Button::new(text!("shell-discard-empty-cell"));
+    if ui.add_enabled(state.empty_cell.is_some(), forget).clicked() {
         actions.push(Action::ForgetEmptyCell);
         ui.close();
     }

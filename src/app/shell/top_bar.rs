@@ -13,8 +13,9 @@ use super::{
 pub(in crate::app) use crate::app::ui::widgets::{focus_ring, labelled, shortened};
 use crate::app::{
     inspection::{figures::StagePanel, library_cache::LibraryView, source::file_name},
+    language::{keys, text},
     task::Running,
-    ui::theme::{Theme, font, space},
+    ui::theme::{Theme, ThemeChoice, font, space},
 };
 
 /// In a narrower window the bar has no room for every key.
@@ -51,8 +52,9 @@ pub(in crate::app) fn ui(
                 ui.add_space(space::LARGE);
                 source_menu::ui(ui, state, actions);
                 robot_button(ui, state, robot, theme, actions);
-                let capture = RichText::new("Capture").font(font::body_strong());
-                let key = RichText::new("Space").font(font::small());
+                let name = text!("shell-capture");
+                let capture = RichText::new(&name).font(font::body_strong());
+                let key = RichText::new(keys("Space")).font(font::small());
                 // The accent is for what is pressed next: while frames are followed, nothing is.
                 let capture = if state.session.is_live() {
                     Button::new(capture).shortcut_text(key.color(theme.weak_text))
@@ -61,13 +63,14 @@ pub(in crate::app) fn ui(
                         .shortcut_text(key.color(theme.on_accent))
                         .fill(theme.accent)
                 };
-                if labelled(ui, capture, "Capture").clicked() {
+                if labelled(ui, capture, &name).clicked() {
                     actions.push(Action::Capture);
                 }
                 live_button(ui, state, theme, actions);
-                let key = RichText::new("Ctrl O").font(font::small());
-                let open = Button::new("Open…").shortcut_text(key.color(theme.weak_text));
-                if labelled(ui, open, "Open…").clicked() {
+                let key = RichText::new(keys("Ctrl O")).font(font::small());
+                let name = text!("shell-open");
+                let open = Button::new(&*name).shortcut_text(key.color(theme.weak_text));
+                if labelled(ui, open, &name).clicked() {
                     actions.push(Action::Ask(DialogRequest::Scene));
                 }
                 ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -89,20 +92,19 @@ fn live_button(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Acti
     } else {
         theme.weak_text
     };
-    let text = RichText::new("Live")
-        .font(font::body_strong())
-        .color(colour);
+    let name = text!("shell-live");
+    let text = RichText::new(&name).font(font::body_strong()).color(colour);
     let key = RichText::new("L").font(font::small()).color(key);
     let button = Button::selectable(is_live, text)
         .frame_when_inactive(true)
         .shortcut_text(key)
         .min_size(Vec2::splat(space::TARGET));
     let response = ui.add(button);
-    response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, is_live, "Live"));
+    response.widget_info(|| egui::WidgetInfo::selected(egui::Role::Button, true, is_live, &name));
     let says = if is_live {
-        "Stop following the source (L)"
+        text!("shell-stop-live-says")
     } else {
-        "Follow the source and inspect as many frames as possible (L)"
+        text!("shell-live-says")
     };
     if response.on_hover_text(says).clicked() {
         actions.push(Action::Live(LiveAction::Toggle));
@@ -117,17 +119,18 @@ fn robot_button(
     theme: &Theme,
     actions: &mut Vec<Action>,
 ) {
-    let mut button = Button::new("Robot…");
+    let name = text!("shell-robot");
+    let mut button = Button::new(&*name);
     if ui.ctx().content_rect().width() > NARROW {
         let key = RichText::new("B").font(font::small());
         button = button.shortcut_text(key.color(theme.weak_text));
     }
-    let says = match (&state.session.robot, robot.in_use()) {
-        (Some(frame), _) => format!("Calibrated by {} (B)", frame.name),
-        (None, Some(_)) => "The flange pose at a capture is not known (B)".into(),
-        (None, None) => "Where the camera sits in the robot's cell: not calibrated (B)".into(),
+    let says = match (&state.robot, robot.in_use()) {
+        (Some(frame), _) => text!("shell-calibrated-by", name = &frame.name),
+        (None, Some(_)) => text!("shell-no-flange-pose"),
+        (None, None) => text!("shell-not-calibrated"),
     };
-    if labelled(ui, button, "Robot…").on_hover_text(says).clicked() {
+    if labelled(ui, button, &name).on_hover_text(says).clicked() {
         actions.push(Action::Robot(RobotAction::Toggle));
     }
 }
@@ -141,20 +144,18 @@ fn settings(
     actions: &mut Vec<Action>,
 ) {
     let key = RichText::new("F1").font(font::small());
-    let help = Button::new("Help").shortcut_text(key.color(theme.weak_text));
-    if labelled(ui, help, "Help").clicked() {
+    let name = text!("shell-help");
+    let help = Button::new(&*name).shortcut_text(key.color(theme.weak_text));
+    if labelled(ui, help, &name).clicked() {
         actions.push(Action::ToggleHelp);
     }
-    let other = state.session.theme.other().title().to_lowercase();
-    let colours = labelled(
-        ui,
-        Button::new(state.session.theme.title()),
-        state.session.theme.title(),
-    );
-    if colours
-        .on_hover_text(format!("Switch to {other} (T)"))
-        .clicked()
-    {
+    let name = state.theme.title();
+    let says = match state.theme.other() {
+        ThemeChoice::Dark => text!("shell-to-dark"),
+        ThemeChoice::Light => text!("shell-to-light"),
+    };
+    let colours = labelled(ui, Button::new(&*name), &name);
+    if colours.on_hover_text(says).clicked() {
         actions.push(Action::SwitchTheme);
     }
     let units = labelled(
@@ -164,7 +165,7 @@ fn settings(
     );
     let other = state.session.units.other().title();
     if units
-        .on_hover_text(format!("Switch to {other} (U)"))
+        .on_hover_text(text!("shell-to-units", units = other))
         .clicked()
     {
         actions.push(Action::SwitchUnits);
@@ -176,35 +177,32 @@ fn settings(
     }
 }
 
-fn parts_word(num: usize) -> &'static str {
-    if num == 1 { "part" } else { "parts" }
-}
-
 /// Which library is in use, and others to use.
 fn library_menu(ui: &mut Ui, state: &State, library: &LibraryView, actions: &mut Vec<Action>) {
     let num = library.parts.len();
+    let opened = |text: String| format!("{text} ▼");
     let text = if library.unloaded.is_some() {
-        "No library ▼".to_owned()
+        opened(text!("shell-no-library"))
     } else if ui.available_width() > 300.0 {
         let name = shortened(&file_name(&library.path), 20);
-        format!("{num} {} · {name} ▼", parts_word(num))
+        opened(text!("shell-library-named", num = num, name = name))
     } else {
-        format!("{num} {} ▼", parts_word(num))
+        opened(text!("shell-num-parts", num = num))
     };
     ui.menu_button(text, |ui| {
         ui.set_min_width(260.0);
-        ui.label(RichText::new("Library in use").font(font::heading()));
+        ui.label(RichText::new(text!("shell-library-in-use")).font(font::heading()));
         ui.label(library.path.display().to_string());
         if let Some(trouble) = &library.unloaded {
             ui.label(&trouble.what);
         }
         ui.separator();
-        if ui.button("Use another library…").clicked() {
+        if ui.button(text!("shell-use-another-library")).clicked() {
             actions.push(Action::Ask(DialogRequest::Library));
             ui.close();
         }
-        let is_other = state.session.chosen_library.is_some() || library.unloaded.is_some();
-        if is_other && ui.button("Use the usual library").clicked() {
+        let is_other = state.chosen_library.is_some() || library.unloaded.is_some();
+        if is_other && ui.button(text!("shell-use-usual-library")).clicked() {
             actions.push(Action::UseFoundLibrary);
             ui.close();
         }
@@ -227,15 +225,21 @@ pub(super) fn progress(
         return;
     };
     ui.add_space(space::SMALL);
+    let name = text!("shell-cancel");
     if let Some(cancel) = cancel
-        && labelled(ui, Button::new("Cancel"), "Cancel").clicked()
+        && labelled(ui, Button::new(&*name), &name).clicked()
     {
         actions.push(cancel);
     }
     ui.add(egui::Spinner::new().size(18.0).color(theme.accent));
     let text = match (running.progress, running.stage.map(StagePanel::of)) {
         (Some((done, total)), _) => {
-            format!("{} · {done} of {total}", shortened(&running.title, 28))
+            text!(
+                "shell-progress",
+                work = shortened(&running.title, 28),
+                done = done,
+                total = total
+            )
         }
         (None, Some(panel)) => {
             let place = StagePanel::ALL
@@ -243,7 +247,12 @@ pub(super) fn progress(
                 .position(|p| *p == panel)
                 .unwrap_or(0)
                 + 1;
-            format!("{} · {place} of {}", panel.title(), StagePanel::ALL.len())
+            text!(
+                "shell-progress",
+                work = panel.title(),
+                done = place,
+                total = StagePanel::ALL.len()
+            )
         }
         (None, None) => shortened(&running.title, 28),
     };

@@ -5,7 +5,7 @@ use std::path::{Path, PathBuf};
 use crate::app::{
     inspection::scan_choice::{ScanFiles, ScanOrder, ShotChoice},
     shell::{
-        file_dialog::{ALL_FILES, FileChoice, FileRequest},
+        file_dialog::{FileChoice, FileRequest, all_files},
         notice::Notice,
         session::Source,
     },
@@ -88,13 +88,16 @@ impl ShotsFile {
     pub(in crate::app) fn request(self) -> FileRequest {
         match self {
             Self::Shot => FileRequest {
-                title: "Add a frame to the scan",
-                filters: &[("Captured scenes", &["png", "pcd", "ply"]), ALL_FILES],
+                title: "Add a frame to the scan".into(),
+                filters: vec![
+                    ("Captured scenes".into(), &["png", "pcd", "ply"]),
+                    all_files(),
+                ],
                 choice: FileChoice::File,
             },
             Self::Poses => FileRequest {
-                title: "File of the poses of the shots",
-                filters: &[("Poses", &["json"]), ALL_FILES],
+                title: "File of the poses of the shots".into(),
+                filters: vec![("Poses".into(), &["json"]), all_files()],
                 choice: FileChoice::File,
             },
         }

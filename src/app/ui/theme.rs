@@ -2,6 +2,7 @@
 
 use std::sync::Arc;
 
+use crate::app::language::text;
 use egui::{
     Color32, CornerRadius, FontData, FontDefinitions, FontFamily, FontId, Margin, Stroke, Style,
     TextStyle, Visuals, style::WidgetVisuals,
@@ -20,10 +21,10 @@ pub enum ThemeChoice {
 
 impl ThemeChoice {
     /// What a person calls it.
-    pub fn title(self) -> &'static str {
+    pub fn title(self) -> String {
         match self {
-            Self::Dark => "Dark",
-            Self::Light => "Light",
+            Self::Dark => text!("shell-dark"),
+            Self::Light => text!("shell-light"),
         }
     }
 

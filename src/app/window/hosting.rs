@@ -116,7 +116,7 @@ impl Window {
                 roles::ask_engineer(&mut self.state, Action::EngineerIn(from));
             }
             Message::InspectShown { title } => {
-                self.state.inspect_shown(title, ReinspectionPurpose::New);
+                self.state.inspect_shown(&title, ReinspectionPurpose::New);
             }
             Message::Inspect {
                 title,

@@ -10,7 +10,7 @@ use crate::{
         inspection::source::file_name,
         shell::{
             context::ShellContext,
-            file_dialog::{ALL_FILES, FileChoice, FileDialog, FileRequest},
+            file_dialog::{FileChoice, FileDialog, FileRequest, all_files},
             message::Message,
             notice::Notice,
             session::RememberedCell,
@@ -170,13 +170,16 @@ impl RobotFile {
     fn request(self) -> FileRequest {
         match self {
             Self::Calibration => FileRequest {
-                title: "Load the calibration of the robot's cell",
-                filters: &[("Calibrations", &["toml"]), ALL_FILES],
+                title: "Load the calibration of the robot's cell".into(),
+                filters: vec![("Calibrations".into(), &["toml"]), all_files()],
                 choice: FileChoice::File,
             },
             Self::Pairs => FileRequest {
-                title: "Pairs of robot and camera poses",
-                filters: &[("Tables and JSON", &["csv", "txt", "json"]), ALL_FILES],
+                title: "Pairs of robot and camera poses".into(),
+                filters: vec![
+                    ("Tables and JSON".into(), &["csv", "txt", "json"]),
+                    all_files(),
+                ],
                 choice: FileChoice::File,
             },
         }

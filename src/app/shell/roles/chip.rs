@@ -6,6 +6,7 @@ use egui::{
 
 use super::{LOCK_AFTER, RoleAction, UserRole};
 use crate::app::{
+    language::text,
     shell::{action::Action, state::State, top_bar::focus_ring},
     ui::theme::{Theme, font, space},
 };
@@ -32,14 +33,14 @@ pub(in crate::app) fn chip(ui: &mut Ui, state: &State, theme: &Theme, actions: &
             colour,
         );
         focus_ring(ui, rect, &response, theme);
-        let says = format!("{}'s view", role.title());
+        let says = match role {
+            UserRole::Operator => text!("shell-operators-view"),
+            UserRole::Engineer => text!("shell-engineers-view"),
+        };
         response.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &says));
         match role {
             UserRole::Operator => {
-                if response
-                    .on_hover_text("Switch to the engineer's view (Ctrl K)")
-                    .clicked()
-                {
+                if response.on_hover_text(text!("shell-to-engineer")).clicked() {
                     actions.push(Action::Role(RoleAction::Switch));
                 }
             }
@@ -52,17 +53,17 @@ pub(in crate::app) fn chip(ui: &mut Ui, state: &State, theme: &Theme, actions: &
 
 fn menu(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
     ui.set_min_width(250.0);
-    let mut entry = |ui: &mut Ui, text: &str, action: RoleAction| {
+    let mut entry = |ui: &mut Ui, text: String, action: RoleAction| {
         if ui.button(text).clicked() {
             actions.push(Action::Role(action));
             ui.close();
         }
     };
-    entry(ui, "Operator's view", RoleAction::Switch);
+    entry(ui, text!("shell-operators-view"), RoleAction::Switch);
     ui.separator();
     if state.roles.pin.is_none() {
-        entry(ui, "Set a PIN…", RoleAction::SetPin);
-        let says = "With a PIN the window starts in the operator's view";
+        entry(ui, text!("shell-set-pin"), RoleAction::SetPin);
+        let says = text!("shell-set-pin-says");
         ui.label(
             RichText::new(says)
                 .font(font::small())
@@ -70,14 +71,16 @@ fn menu(ui: &mut Ui, state: &State, theme: &Theme, actions: &mut Vec<Action>) {
         );
         return;
     }
-    entry(ui, "Change the PIN…", RoleAction::SetPin);
-    entry(ui, "Remove the PIN", RoleAction::RemovePin);
+    entry(ui, text!("shell-change-pin"), RoleAction::SetPin);
+    entry(ui, text!("shell-remove-pin"), RoleAction::RemovePin);
     ui.separator();
-    ui.label(RichText::new("Lock after").font(font::heading()));
+    ui.label(RichText::new(text!("shell-lock-after")).font(font::heading()));
     for minutes in LOCK_AFTER {
-        let word = if minutes == 1 { "minute" } else { "minutes" };
         let is_so = state.roles.lock_after == minutes;
-        if ui.radio(is_so, format!("{minutes} {word}")).clicked() {
+        if ui
+            .radio(is_so, text!("shell-minutes", num = minutes))
+            .clicked()
+        {
             actions.push(Action::Role(RoleAction::LockAfter(minutes)));
         }
     }

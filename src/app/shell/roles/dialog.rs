@@ -4,6 +4,7 @@ use egui::{Button, Context, Event, Key, RichText, Ui, vec2};
 
 use super::{RoleAction, RoleQuestion, pin::MOST_DIGITS};
 use crate::app::{
+    language::text,
     shell::{action::Action, state::State, top_bar::labelled},
     ui::{
         theme::{Theme, font, space},
@@ -27,21 +28,25 @@ pub(in crate::app) fn dialog(
     let asks_pin = state.roles.pin.is_some() || !matches!(asked.question, RoleQuestion::MayI(_));
     let (title, says, done) = match asked.question {
         RoleQuestion::MayI(_) if asks_pin => (
-            "Engineer's view",
-            "Enter the PIN to change recipe, thresholds, library and cell",
-            "Unlock",
+            text!("shell-engineers-view"),
+            text!("shell-enter-pin"),
+            text!("shell-unlock"),
         ),
         RoleQuestion::MayI(_) => (
-            "Engineer's view",
-            "In this view recipe, thresholds, library and cell can be changed",
-            "Switch",
+            text!("shell-engineers-view"),
+            text!("shell-may-change"),
+            text!("shell-switch"),
         ),
         RoleQuestion::NewPin => (
-            "New PIN",
-            "Four to eight digits that protect the engineer's view",
-            "Next",
+            text!("shell-new-pin"),
+            text!("shell-new-pin-says"),
+            text!("shell-next"),
         ),
-        RoleQuestion::NewPinAgain(_) => ("New PIN", "Enter the same digits again", "Set the PIN"),
+        RoleQuestion::NewPinAgain(_) => (
+            text!("shell-new-pin"),
+            text!("shell-same-digits"),
+            text!("shell-set-the-pin"),
+        ),
     };
     let modal = widgets::dialog(ctx, "role", |ui| {
         ui.set_max_width(3.0 * DIGIT[0] + 2.0 * ui.spacing().item_spacing.x);
@@ -52,11 +57,11 @@ pub(in crate::app) fn dialog(
             pad(ui, &asked.digits, theme, actions);
         }
         ui.add_space(space::SMALL);
-        if let Some(wrong) = asked.wrong {
+        if let Some(wrong) = &asked.wrong {
             let text = RichText::new(wrong).font(font::body_strong());
             ui.label(text.color(theme.warning));
             if state.roles.pin.is_some() {
-                let forgotten = "Forgotten? Close Partsight and delete the lines below [pin] in its settings.toml";
+                let forgotten = text!("shell-pin-forgotten");
                 ui.label(
                     RichText::new(forgotten)
                         .font(font::small())
@@ -66,10 +71,11 @@ pub(in crate::app) fn dialog(
             ui.add_space(space::SMALL);
         }
         ui.horizontal(|ui| {
-            if widgets::default_button(ui, done, true, theme) {
+            if widgets::default_button(ui, &done, true, theme) {
                 actions.push(Action::Role(RoleAction::Enter));
             }
-            if labelled(ui, Button::new("Not now"), "Not now").clicked() {
+            let later = text!("shell-not-now");
+            if labelled(ui, Button::new(&*later), &later).clicked() {
                 actions.push(Action::Role(RoleAction::Close));
             }
         });
@@ -88,7 +94,7 @@ fn pad(ui: &mut Ui, digits: &str, theme: &Theme, actions: &mut Vec<Action>) {
     let dots = "●".repeat(digits.len()) + &"·".repeat(MOST_DIGITS - digits.len());
     let shown = ui.label(RichText::new(dots).font(font::title()).color(theme.text));
     shown.widget_info(|| {
-        let says = format!("{} digits", digits.len());
+        let says = text!("shell-num-digits", num = digits.len());
         egui::WidgetInfo::labeled(egui::Role::Label, true, says)
     });
     for row in ["123", "456", "789", " 0<"] {
@@ -99,10 +105,14 @@ fn pad(ui: &mut Ui, digits: &str, theme: &Theme, actions: &mut Vec<Action>) {
                         ui.add_space(DIGIT[0] + ui.spacing().item_spacing.x);
                         continue;
                     }
-                    '<' => ("Erase".to_owned(), "Erase".to_owned(), RoleAction::Erase),
+                    '<' => (
+                        text!("shell-erase"),
+                        text!("shell-erase"),
+                        RoleAction::Erase,
+                    ),
                     digit => (
                         digit.into(),
-                        format!("Digit {digit}"),
+                        text!("shell-digit", digit = digit.to_string()),
                         RoleAction::Digit(digit),
                     ),
                 };

@@ -24,6 +24,7 @@ use super::{
     session::WorkspaceKind,
     state::State,
 };
+use crate::app::language::text;
 
 /// Minutes without a hand on the window until it is the operator's again, that can be chosen.
 pub const LOCK_AFTER: [u32; 4] = [1, 5, 15, 60];
@@ -78,7 +79,7 @@ pub struct OpenQuestion {
     /// The digits written so far.
     pub digits: String,
     /// What was wrong with the last ones.
-    pub wrong: Option<&'static str>,
+    pub wrong: Option<String>,
 }
 
 impl OpenQuestion {
@@ -152,13 +153,13 @@ pub(in crate::app) fn apply(state: &mut State, action: RoleAction) -> Option<Eff
         },
         RoleAction::Lock => {
             switch_to_operator(state);
-            let what = "Locked: the window was not used for a while";
+            let what = text!("shell-locked");
             notify(state, Notice::done(what));
         }
         RoleAction::SetPin => own.asked = Some(OpenQuestion::about(RoleQuestion::NewPin)),
         RoleAction::RemovePin => {
             own.pin = None;
-            notify(state, Notice::done("PIN removed"));
+            notify(state, Notice::done(text!("shell-pin-removed")));
         }
         RoleAction::LockAfter(minutes) => own.lock_after = minutes,
         RoleAction::Digit(digit) => {
@@ -206,7 +207,7 @@ fn enter(state: &mut State) -> Option<Effect> {
     match question {
         RoleQuestion::MayI(then) => {
             if own.pin.as_ref().is_some_and(|pin| !pin.is(&digits)) {
-                own.asked = again(RoleQuestion::MayI(then), "Wrong PIN");
+                own.asked = again(RoleQuestion::MayI(then), text!("shell-wrong-pin"));
                 return None;
             }
             state.session.role = UserRole::Engineer;
@@ -214,17 +215,17 @@ fn enter(state: &mut State) -> Option<Effect> {
             return apply_any(state, *then?);
         }
         RoleQuestion::NewPin if digits.len() < pin::LEAST_DIGITS => {
-            own.asked = again(RoleQuestion::NewPin, "At least four digits");
+            own.asked = again(RoleQuestion::NewPin, text!("shell-four-digits"));
         }
         RoleQuestion::NewPin => {
             own.asked = Some(OpenQuestion::about(RoleQuestion::NewPinAgain(digits)));
         }
         RoleQuestion::NewPinAgain(first) if first != digits => {
-            own.asked = again(RoleQuestion::NewPin, "The two differ: enter a new PIN");
+            own.asked = again(RoleQuestion::NewPin, text!("shell-pins-differ"));
         }
         RoleQuestion::NewPinAgain(_) => {
             own.pin = Some(Pin::of(&digits));
-            let what = "PIN set: the window now starts in the operator's view";
+            let what = text!("shell-pin-set");
             notify(state, Notice::done(what));
         }
     }

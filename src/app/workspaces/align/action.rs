@@ -3,7 +3,7 @@
 use std::path::PathBuf;
 
 use super::{start::Start, state::Pairing};
-use crate::app::shell::file_dialog::{ALL_FILES, FileChoice, FileRequest, POINTS};
+use crate::app::shell::file_dialog::{FileChoice, FileRequest, all_files, points};
 
 /// Something that happened in the workspace.
 #[derive(Debug)]
@@ -63,13 +63,13 @@ impl AlignFile {
     pub(super) fn request(self) -> FileRequest {
         match self {
             Self::Source | Self::Target => FileRequest {
-                title: "Open a cloud or a mesh",
-                filters: &[POINTS, ALL_FILES],
+                title: "Open a cloud or a mesh".into(),
+                filters: vec![points(), all_files()],
                 choice: FileChoice::File,
             },
             Self::TableFile => FileRequest {
-                title: "Export Table I",
-                filters: &[("Comma-separated values", &["csv"])],
+                title: "Export Table I".into(),
+                filters: vec![("Comma-separated values".into(), &["csv"])],
                 choice: FileChoice::NewFile("table1.csv"),
             },
         }

@@ -4,7 +4,7 @@ use std::path::PathBuf;
 
 use super::kept_recipes::NamingPurpose;
 use crate::{
-    app::shell::file_dialog::{FileChoice, FileRequest},
+    app::shell::file_dialog::{FileChoice, FileFilter, FileRequest},
     cases::{Cell, Truth},
 };
 
@@ -95,29 +95,31 @@ pub enum CompareFile {
     ExportRecipe,
 }
 
-const RECIPES: (&str, &[&str]) = ("Recipes", &["toml"]);
+fn recipes() -> FileFilter {
+    ("Recipes".into(), &["toml"])
+}
 
 impl CompareFile {
     pub(super) fn request(self) -> FileRequest {
         match self {
             Self::Cases => FileRequest {
-                title: "Folder of kept cases",
-                filters: &[],
+                title: "Folder of kept cases".into(),
+                filters: Vec::new(),
                 choice: FileChoice::Folder,
             },
             Self::EarlierRun => FileRequest {
-                title: "What partsight evaluate --json has written",
-                filters: &[("Evaluations", &["json"])],
+                title: "What partsight evaluate --json has written".into(),
+                filters: vec![("Evaluations".into(), &["json"])],
                 choice: FileChoice::File,
             },
             Self::ImportRecipe => FileRequest {
-                title: "Recipe to import",
-                filters: &[RECIPES],
+                title: "Recipe to import".into(),
+                filters: vec![recipes()],
                 choice: FileChoice::File,
             },
             Self::ExportRecipe => FileRequest {
-                title: "Export the recipe",
-                filters: &[RECIPES],
+                title: "Export the recipe".into(),
+                filters: vec![recipes()],
                 choice: FileChoice::NewFile("recipe.toml"),
             },
         }

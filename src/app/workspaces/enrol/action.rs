@@ -9,7 +9,7 @@ use super::{
 };
 use crate::{
     app::{
-        shell::file_dialog::{ALL_FILES, FileChoice, FileRequest},
+        shell::file_dialog::{FileChoice, FileRequest, all_files},
         shots::{ShotsAction, ShotsFile},
     },
     library::PartName,
@@ -81,8 +81,8 @@ impl EnrolFile {
     pub(super) fn request(self) -> FileRequest {
         match self {
             Self::SprayPath => FileRequest {
-                title: "The nozzle's path over this part",
-                filters: &[("Tables", &["csv", "txt"]), ALL_FILES],
+                title: "The nozzle's path over this part".into(),
+                filters: vec![("Tables".into(), &["csv", "txt"]), all_files()],
                 choice: FileChoice::File,
             },
             Self::Scan(file) => file.request(),

@@ -76,13 +76,13 @@ impl HistoryFile {
     fn request(self) -> FileRequest {
         match self {
             Self::Csv => FileRequest {
-                title: "Export the listed inspections",
-                filters: &[("Comma-separated values", &["csv"])],
+                title: "Export the listed inspections".into(),
+                filters: vec![("Comma-separated values".into(), &["csv"])],
                 choice: FileChoice::NewFile("inspections.csv"),
             },
             Self::Cases => FileRequest {
-                title: "Folder for the cases of the listed inspections",
-                filters: &[],
+                title: "Folder for the cases of the listed inspections".into(),
+                filters: Vec::new(),
                 choice: FileChoice::FolderToWrite,
             },
         }

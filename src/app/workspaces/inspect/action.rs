@@ -61,18 +61,21 @@ impl InspectFile {
     pub(super) fn request(self) -> FileRequest {
         match self {
             Self::Report => FileRequest {
-                title: "Folder for the report of this inspection",
-                filters: &[],
+                title: "Folder for the report of this inspection".into(),
+                filters: Vec::new(),
                 choice: FileChoice::FolderToWrite,
             },
             Self::Picture => FileRequest {
-                title: "Save a picture of the view",
-                filters: &[("Pictures", &["png"])],
+                title: "Save a picture of the view".into(),
+                filters: vec![("Pictures".into(), &["png"])],
                 choice: FileChoice::NewFile("view.png"),
             },
             Self::SprayPath => FileRequest {
-                title: "Export the spray path for the robot",
-                filters: &[("Comma-separated values", &["csv"]), ("JSON", &["json"])],
+                title: "Export the spray path for the robot".into(),
+                filters: vec![
+                    ("Comma-separated values".into(), &["csv"]),
+                    ("JSON".into(), &["json"]),
+                ],
                 choice: FileChoice::NewFile("spray-path.csv"),
             },
             Self::Shots(file) => file.request(),

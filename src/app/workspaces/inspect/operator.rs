@@ -12,6 +12,7 @@ use super::{
 use crate::{
     app::{
         inspection::inspected::Inspected,
+        language::text,
         shell::{current_trace, live::SourceState, session::Session},
         ui::{
             theme::{Theme, font, space},
@@ -46,11 +47,11 @@ enum Tone {
 }
 
 impl Tone {
-    fn word(self) -> &'static str {
+    fn word(self) -> String {
         match self {
-            Self::Ok => "OK",
-            Self::NotOk => "NOK",
-            Self::Open | Self::Trouble => "",
+            Self::Ok => text!("operator-ok"),
+            Self::NotOk => text!("operator-not-ok"),
+            Self::Open | Self::Trouble => String::new(),
         }
     }
 
@@ -86,10 +87,15 @@ struct Banner {
 }
 
 impl Banner {
-    fn new(tone: Tone, title: &str, reason: impl Into<String>, next: impl Into<String>) -> Self {
+    fn new(
+        tone: Tone,
+        title: impl Into<String>,
+        reason: impl Into<String>,
+        next: impl Into<String>,
+    ) -> Self {
         Self {
             tone,
-            title: title.to_owned(),
+            title: title.into(),
             reason: reason.into(),
             next: next.into(),
             is_current: false,
@@ -97,32 +103,47 @@ impl Banner {
     }
 
     fn of(session: &Session) -> Self {
-        let wait = "Wait a moment";
+        let wait = text!("operator-wait");
         if session.is_live() {
             match session.live.status.as_ref().map(|status| &status.source) {
                 None | Some(SourceState::Opening) => {
-                    return Self::new(Tone::Open, "Opening the camera…", "", wait);
+                    return Self::new(Tone::Open, text!("operator-opening-camera"), "", wait);
                 }
                 Some(SourceState::Lost(trouble)) => {
                     let (what, advice) = (&trouble.what, &trouble.advice);
-                    return Self::new(Tone::Trouble, "No camera", sentence(what), advice);
+                    return Self::new(
+                        Tone::Trouble,
+                        text!("operator-no-camera"),
+                        sentence(what),
+                        advice,
+                    );
                 }
                 Some(SourceState::Running) => {}
             }
         } else if let Some(run) = &session.inspecting {
-            return Self::new(Tone::Open, "Inspecting…", &run.title, wait);
+            return Self::new(Tone::Open, text!("operator-inspecting"), &run.title, wait);
         } else if let Some(trouble) = &session.failed {
-            let ask = "Press Capture; if it stays so, ask the engineer";
-            return Self::new(Tone::Trouble, "No result", sentence(&trouble.what), ask);
+            let ask = text!("operator-no-result-next");
+            return Self::new(
+                Tone::Trouble,
+                text!("operator-no-result"),
+                sentence(&trouble.what),
+                ask,
+            );
         }
         if let Some(library) = &session.library {
-            let ask = "Ask the engineer to enrol the parts";
+            let ask = text!("operator-ask-to-enrol");
             if let Some(trouble) = &library.unloaded {
-                return Self::new(Tone::Trouble, "No library", sentence(&trouble.what), ask);
+                return Self::new(
+                    Tone::Trouble,
+                    text!("operator-no-library"),
+                    sentence(&trouble.what),
+                    ask,
+                );
             }
             if library.parts.is_empty() {
-                let why = "No part is enrolled in the library";
-                return Self::new(Tone::Trouble, "No parts enrolled", why, ask);
+                let why = text!("operator-no-parts-why");
+                return Self::new(Tone::Trouble, text!("operator-no-parts"), why, ask);
             }
         }
         // Until its first frame is inspected, what is followed has nothing to show.
@@ -130,10 +151,20 @@ impl Banner {
         let shown = shown.filter(|shown| shown.session.is_some() || !session.is_live());
         let Some(shown) = shown else {
             return if session.is_live() {
-                Self::new(Tone::Open, "Looking", "Nothing was captured yet", wait)
+                Self::new(
+                    Tone::Open,
+                    text!("operator-looking"),
+                    text!("operator-nothing-captured"),
+                    wait,
+                )
             } else {
-                let next = "Hang a part and press Capture";
-                Self::new(Tone::Open, "Ready", "Nothing was inspected yet", next)
+                let next = text!("operator-hang-and-capture");
+                Self::new(
+                    Tone::Open,
+                    text!("operator-ready"),
+                    text!("operator-nothing-inspected"),
+                    next,
+                )
             };
         };
         let verdict = Self {
@@ -143,8 +174,8 @@ impl Banner {
         if shown.is_past {
             return Self {
                 tone: Tone::Open,
-                reason: "From the history, not the current part".into(),
-                next: "Press Capture for the current part".into(),
+                reason: text!("operator-from-history"),
+                next: text!("operator-capture-current"),
                 ..verdict
             };
         }
@@ -163,41 +194,44 @@ impl Banner {
         if is_accepted {
             let pose = inspection.pose.as_ref().and_then(|pose| pose.as_ref().ok());
             let next = if inspected.origin.is_simulated() {
-                "Ask the engineer to choose a camera: this frame is simulated"
+                text!("operator-simulated-next")
             } else if pose.is_some_and(PoseEstimate::is_ambiguous) {
-                "Check which way round the part hangs, then start the robot"
+                text!("operator-ambiguous-next")
             } else {
-                "Start the robot"
+                text!("operator-start-robot")
             };
-            return Self::new(Tone::Ok, &title, "Recognised, and its pose is known", next);
+            return Self::new(Tone::Ok, title, text!("operator-recognised"), next);
         }
         let (reason, advice) = complaint.unwrap_or_default();
         if is_open {
-            return Self::new(Tone::Open, &title, sentence(&reason), advice);
+            return Self::new(Tone::Open, title, sentence(&reason), advice);
         }
         let best = inspected.figures.candidates.first();
-        let nearest = best.map_or("an enrolled part", |best| best.title.as_str());
+        let nearest = best.map_or_else(
+            || text!("operator-an-enrolled-part"),
+            |best| best.title.clone(),
+        );
         match &inspection.verdict {
             Verdict::NoPart(Unrecognisable::EmptyLibrary) => Self::new(
                 Tone::Trouble,
-                "No parts enrolled",
+                text!("operator-no-parts"),
                 sentence(&reason),
-                "Ask the engineer to enrol the parts",
+                text!("operator-ask-to-enrol"),
             ),
             // An empty cell is no bad part.
             Verdict::NoPart(why) => {
                 let next = next_without_part(why);
-                Self::new(Tone::Open, &title, sentence(&reason), next)
+                Self::new(Tone::Open, title, sentence(&reason), next)
             }
             Verdict::Part {
                 rejected: Some(why),
                 ..
             } => {
-                let next = next_step(why, nearest);
-                Self::new(Tone::NotOk, &title, in_short(why, nearest), next)
+                let next = next_step(why, &nearest);
+                Self::new(Tone::NotOk, title, in_short(why, &nearest), next)
             }
             Verdict::Part { rejected: None, .. } => {
-                Self::new(Tone::NotOk, &title, sentence(&reason), advice)
+                Self::new(Tone::NotOk, title, sentence(&reason), advice)
             }
         }
     }
@@ -305,10 +339,10 @@ fn banner_ui(ui: &mut Ui, banner: &Banner, theme: &Theme) {
 fn column(ui: &mut Ui, banner: &Banner, session: &Session, theme: &Theme) {
     let shift = &session.shift;
     ui.spacing_mut().interact_size.y = 0.0;
-    let heading = |ui: &mut Ui, text: &str| {
+    let heading = |ui: &mut Ui, text: String| {
         ui.label(RichText::new(text).color(theme.weak_text));
     };
-    heading(ui, "Next");
+    heading(ui, text!("operator-next"));
     let is_long = banner.next.chars().count() > LONG;
     let next = if is_long {
         font::far_reason()
@@ -319,12 +353,12 @@ fn column(ui: &mut Ui, banner: &Banner, session: &Session, theme: &Theme) {
     ui.add_space(space::MEDIUM);
     current_trace::fields(ui, &session.trace, theme);
     ui.add_space(space::MEDIUM);
-    heading(ui, "Last parts of this shift");
+    heading(ui, text!("operator-last-parts"));
     ui.add_space(space::SMALL);
     if shift.last.is_empty() {
         let text = match shift.since {
-            Some(_) => "None yet",
-            None => "Counting…",
+            Some(_) => text!("operator-none-yet"),
+            None => text!("operator-counting"),
         };
         ui.label(
             RichText::new(text)

@@ -1,0 +1,681 @@
+//! What the library says of a result, in the language of the window. In English it is what the library itself says.
+//!
+//! Each kind of result is matched in full: a new one does not compile without its text.
+
+use crate::{
+    error::Advice as _,
+    history::{KeepFrames, StoredVerdict, Summary},
+    pipeline::{Rejection, Unrecognisable, Verdict},
+    simulate::{ObjectKind, Side},
+    stages::{
+        contour::ContourError,
+        pose::{Axis, FreeMotion, PoseError, PoseWarning, Stopped},
+        project::ProjectError,
+        segment::NoPart,
+        signature::SignatureError,
+    },
+};
+
+/// A number with so many decimals.
+macro_rules! fixed {
+    ($value:expr, $decimals:literal) => {
+        format!("{:.*}", $decimals, $value)
+    };
+}
+
+/// What a verdict of the history is called.
+pub(in crate::app) fn stored_verdict(verdict: StoredVerdict) -> String {
+    match verdict {
+        StoredVerdict::Accepted => text!("results-accepted"),
+        StoredVerdict::NotAccepted => text!("results-not-accepted"),
+        StoredVerdict::Unknown => text!("results-unknown"),
+        StoredVerdict::NoPart => text!("results-no-part"),
+    }
+}
+
+/// The title of an inspection of the history, which keeps it in English.
+pub(in crate::app) fn stored_title(past: &Summary) -> String {
+    let title = past.title.as_str();
+    match past.verdict {
+        StoredVerdict::Accepted => title.to_owned(),
+        StoredVerdict::NotAccepted => match title.strip_prefix("Not recognised · nearest ") {
+            Some(part) => text!("results-title-not-recognised", part = part),
+            None => title.to_owned(),
+        },
+        StoredVerdict::Unknown => match title.strip_prefix("Unknown · nearest ") {
+            Some(part) => text!("results-title-unknown", part = part),
+            None => title.to_owned(),
+        },
+        StoredVerdict::NoPart => text!("results-no-part"),
+    }
+}
+
+/// Which frames are kept.
+pub(in crate::app) fn keep_frames(keep: KeepFrames) -> String {
+    match keep {
+        KeepFrames::All => text!("results-keep-all"),
+        KeepFrames::NotAccepted => text!("results-keep-not-accepted"),
+        KeepFrames::None => text!("results-keep-none"),
+    }
+}
+
+/// Why a verdict is not accepted, and what to do; `None` if it is. `word_of` calls the parts something else, such as
+/// their titles.
+pub(in crate::app) fn complaint(
+    verdict: &Verdict,
+    word_of: impl Fn(&str) -> String,
+) -> Option<[String; 2]> {
+    match verdict {
+        Verdict::Part { rejected, .. } => {
+            let why = rejected.clone()?.renamed(word_of);
+            Some([rejection(&why), rejection_advice(&why)])
+        }
+        Verdict::NoPart(why) => Some([unrecognisable(why), unrecognisable_advice(why)]),
+    }
+}
+
+/// Why a best guess is not accepted.
+pub(in crate::app) fn rejection(why: &Rejection) -> String {
+    match why {
+        Rejection::LowScore {
+            part,
+            score,
+            threshold,
+        } => text!(
+            "results-low-score",
+            part = part,
+            score = fixed!(score, 2),
+            threshold = fixed!(threshold, 2)
+        ),
+        Rejection::Piece {
+            part,
+            score,
+            threshold,
+            hidden,
+            outside,
+        } => text!(
+            "results-piece",
+            part = part,
+            hidden = fixed!(hidden * 100.0, 0),
+            outside = fixed!(outside * 100.0, 0),
+            score = fixed!(score, 2),
+            threshold = fixed!(threshold, 2)
+        ),
+        Rejection::HardlySeen { part, score: _ } => text!("results-hardly-seen", part = part),
+        Rejection::AnotherModel {
+            part,
+            relief,
+            outline,
+            missing,
+        } => text!(
+            "results-another-model",
+            part = part,
+            relief = relief.to_string(),
+            outline = outline.to_string(),
+            missing = fixed!(missing * 100.0, 1)
+        ),
+        Rejection::AnotherMake { part, likeness: _ } => {
+            text!("results-another-make", part = part)
+        }
+        Rejection::AmbiguousPose {
+            part,
+            margin,
+            threshold,
+        } => text!(
+            "results-ambiguous-pose",
+            part = part,
+            margin = fixed!(margin, 2),
+            threshold = fixed!(threshold, 2)
+        ),
+        Rejection::Unconstrained { part, freedom } => text!(
+            "results-unconstrained",
+            part = part,
+            freedom = free_motion(*freedom)
+        ),
+        Rejection::Uncertain { part, shift, limit } => text!(
+            "results-uncertain",
+            part = part,
+            shift = shift.to_string(),
+            limit = limit.to_string()
+        ),
+        Rejection::Unknown { nearest, score } => text!(
+            "results-unknown-nearest",
+            nearest = nearest,
+            score = fixed!(score, 2)
+        ),
+        Rejection::Mirrored { part, score } => {
+            text!("results-mirrored", part = part, score = fixed!(score, 2))
+        }
+        Rejection::MirroredImage { part, score } => text!(
+            "results-mirrored-image",
+            part = part,
+            score = fixed!(score, 2)
+        ),
+        Rejection::SmallMargin {
+            part,
+            other,
+            margin,
+            threshold,
+        } => text!(
+            "results-small-margin",
+            part = part,
+            other = other,
+            margin = fixed!(margin, 2),
+            threshold = fixed!(threshold, 2)
+        ),
+        Rejection::Unconfirmed { part } => text!("results-unconfirmed", part = part),
+        Rejection::OutOfRange { part, depth } => text!(
+            "results-out-of-range",
+            part = part,
+            depth = fixed!(depth.0, 2)
+        ),
+        Rejection::BehindCamera { part, share } => text!(
+            "results-behind-camera",
+            part = part,
+            share = fixed!(share * 100.0, 1)
+        ),
+        Rejection::SurplusBytes { part, num } => {
+            text!("results-surplus-bytes", part = part, num = *num)
+        }
+        Rejection::NoPose(error) => text!("results-no-pose", why = pose_error(error)),
+        Rejection::NotSteady { part } => text!("results-not-steady", part = part),
+        Rejection::FewFrames {
+            part,
+            num_frames,
+            needed,
+        } => text!(
+            "results-few-frames",
+            part = part,
+            num = *num_frames,
+            needed = *needed
+        ),
+        Rejection::Undecided {
+            part,
+            num_agreeing,
+            num_frames,
+            needed,
+        } => text!(
+            "results-undecided",
+            part = part,
+            agreeing = *num_agreeing,
+            num = *num_frames,
+            needed = *needed
+        ),
+        Rejection::PosesApart {
+            part,
+            num_agreeing,
+            num_frames,
+            needed,
+        } => text!(
+            "results-poses-apart",
+            part = part,
+            agreeing = *num_agreeing,
+            num = *num_frames,
+            needed = *needed
+        ),
+    }
+}
+
+/// What to do about it.
+pub(in crate::app) fn rejection_advice(why: &Rejection) -> String {
+    match why {
+        Rejection::LowScore { .. } => text!("results-low-score-advice"),
+        Rejection::SmallMargin { .. } => text!("results-small-margin-advice"),
+        Rejection::Piece {
+            hidden, outside, ..
+        } => match (*hidden >= 0.005, *outside >= 0.005) {
+            (true, false) => text!("results-hidden-piece-advice"),
+            (false, true) => text!("results-outside-piece-advice"),
+            _ => text!("results-piece-advice"),
+        },
+        Rejection::HardlySeen { .. } => text!("results-hardly-seen-advice"),
+        Rejection::AmbiguousPose { .. }
+        | Rejection::Unconstrained { .. }
+        | Rejection::Uncertain { .. } => text!("results-see-an-edge-advice"),
+        Rejection::AnotherModel { part, .. } | Rejection::AnotherMake { part, .. } => {
+            text!("results-another-model-advice", part = part)
+        }
+        Rejection::Unknown { .. } => text!("results-unknown-advice"),
+        Rejection::Mirrored { .. } => text!("results-mirrored-advice"),
+        Rejection::MirroredImage { .. } => text!("results-mirrored-image-advice"),
+        Rejection::Unconfirmed { .. } => text!("results-unconfirmed-advice"),
+        Rejection::OutOfRange { .. } => text!("results-out-of-range-advice"),
+        Rejection::BehindCamera { .. } => text!("results-behind-camera-advice"),
+        Rejection::SurplusBytes { .. } => text!("results-surplus-bytes-advice"),
+        Rejection::NoPose(error) => pose_error_advice(error),
+        Rejection::NotSteady { .. } => text!("results-not-steady-advice"),
+        Rejection::FewFrames { .. } => text!("results-few-frames-advice"),
+        Rejection::Undecided { .. } => text!("results-undecided-advice"),
+        Rejection::PosesApart { .. } => text!("results-poses-apart-advice"),
+    }
+}
+
+/// Why nothing could be recognised. A mistake in the program is reported as it is.
+pub(in crate::app) fn unrecognisable(why: &Unrecognisable) -> String {
+    match why {
+        Unrecognisable::NoPart(NoPart::TooFewPoints { found, needed }) => {
+            text!("results-too-few-readings", found = *found, needed = *needed)
+        }
+        Unrecognisable::NoPart(NoPart::TooWide { extent }) => {
+            text!("results-too-wide", extent = fixed!(extent, 0))
+        }
+        Unrecognisable::NoPart(NoPart::OnlyBackground {
+            planes,
+            found,
+            needed,
+            knows_cell: _,
+        }) => text!(
+            "results-only-background",
+            planes = *planes,
+            found = fixed!(found, 3),
+            needed = fixed!(needed, 3)
+        ),
+        Unrecognisable::Project(ProjectError::NoPlane { num_points, width }) => text!(
+            "results-no-plane",
+            num = *num_points,
+            width = fixed!(width, 4)
+        ),
+        Unrecognisable::Project(ProjectError::TooLarge { found, limit }) => text!(
+            "results-too-large",
+            found = fixed!(found, 1),
+            limit = fixed!(limit, 1)
+        ),
+        Unrecognisable::Contour(ContourError::NoShape { num_set }) => {
+            text!("results-no-shape", num = *num_set)
+        }
+        Unrecognisable::Signature(SignatureError::NoOutline { num_points }) => {
+            text!("results-no-outline", num = *num_points)
+        }
+        Unrecognisable::EmptyLibrary => text!("results-empty-library"),
+        Unrecognisable::Fault(fault) => fault.to_string(),
+    }
+}
+
+/// What to do about it.
+pub(in crate::app) fn unrecognisable_advice(why: &Unrecognisable) -> String {
+    match why {
+        Unrecognisable::NoPart(NoPart::TooFewPoints { .. }) => {
+            text!("results-too-few-readings-advice")
+        }
+        Unrecognisable::NoPart(NoPart::TooWide { .. }) => text!("results-too-wide-advice"),
+        Unrecognisable::NoPart(NoPart::OnlyBackground {
+            knows_cell: true, ..
+        }) => text!("results-known-cell-advice"),
+        Unrecognisable::NoPart(NoPart::OnlyBackground { .. }) => {
+            text!("results-only-background-advice")
+        }
+        Unrecognisable::Project(ProjectError::NoPlane { .. }) => text!("results-no-plane-advice"),
+        Unrecognisable::Project(ProjectError::TooLarge { .. }) => {
+            text!("results-too-large-advice")
+        }
+        Unrecognisable::Contour(ContourError::NoShape { .. }) => text!("results-no-shape-advice"),
+        Unrecognisable::Signature(SignatureError::NoOutline { .. }) => {
+            text!("results-no-outline-advice")
+        }
+        Unrecognisable::EmptyLibrary => text!("results-empty-library-advice"),
+        Unrecognisable::Fault(fault) => fault.advice(),
+    }
+}
+
+/// How a part could move and still fit.
+pub(in crate::app) fn free_motion(freedom: FreeMotion) -> String {
+    match freedom {
+        FreeMotion::Slide(Axis::Long) => text!("results-slide-long"),
+        FreeMotion::Slide(Axis::Short) => text!("results-slide-short"),
+        FreeMotion::Slide(Axis::Normal) => text!("results-slide-normal"),
+        FreeMotion::Turn(Axis::Long) => text!("results-turn-long"),
+        FreeMotion::Turn(Axis::Short) => text!("results-turn-short"),
+        FreeMotion::Turn(Axis::Normal) => text!("results-turn-normal"),
+        FreeMotion::Anyhow => text!("results-anyhow"),
+    }
+}
+
+/// Why no pose could be estimated.
+pub(in crate::app) fn pose_error(error: &PoseError) -> String {
+    let cloud = |which: &str| match which {
+        "source" => text!("results-source"),
+        _ => text!("results-target"),
+    };
+    match error {
+        PoseError::TooFewPoints {
+            which,
+            found,
+            needed,
+        } => text!(
+            "results-few-points",
+            which = cloud(which),
+            found = *found,
+            needed = *needed
+        ),
+        PoseError::Degenerate { which, width } => text!(
+            "results-degenerate",
+            which = cloud(which),
+            width = fixed!(width, 5)
+        ),
+        PoseError::OneSidedPairs { num_pairs, rms } => text!(
+            "results-one-sided-pairs",
+            num = *num_pairs,
+            rms = rms.to_string()
+        ),
+        PoseError::NoOverlap {
+            found,
+            needed,
+            reach,
+        } => text!(
+            "results-no-overlap",
+            found = *found,
+            needed = *needed,
+            reach = reach.to_string()
+        ),
+        PoseError::SizesDiffer { ratio } => {
+            text!("results-sizes-differ", ratio = fixed!(ratio, 0))
+        }
+        PoseError::TooFarOut { which, distance } => text!(
+            "results-too-far-out",
+            which = cloud(which),
+            distance = fixed!(distance.0, 0)
+        ),
+        PoseError::NoReferenceCloud => text!("results-no-reference-cloud"),
+        PoseError::Cancelled => text!("results-pose-cancelled"),
+    }
+}
+
+/// What to do about it.
+pub(in crate::app) fn pose_error_advice(error: &PoseError) -> String {
+    match error {
+        PoseError::TooFewPoints { .. } => text!("results-few-points-advice"),
+        PoseError::Degenerate { .. } => text!("results-degenerate-advice"),
+        PoseError::OneSidedPairs { .. } | PoseError::NoOverlap { .. } => {
+            text!("results-no-overlap-advice")
+        }
+        PoseError::SizesDiffer { .. } => text!("results-sizes-differ-advice"),
+        PoseError::TooFarOut { .. } => text!("results-too-far-out-advice"),
+        PoseError::NoReferenceCloud => text!("results-no-reference-cloud-advice"),
+        PoseError::Cancelled => text!("results-pose-cancelled-advice"),
+    }
+}
+
+/// Why a pose should not be relied upon.
+pub(in crate::app) fn pose_warning(warning: &PoseWarning) -> String {
+    match warning {
+        PoseWarning::LittleOverlap { overlap, needed } => text!(
+            "results-little-overlap",
+            overlap = fixed!(overlap * 100.0, 0),
+            needed = fixed!(needed * 100.0, 0)
+        ),
+        PoseWarning::Ambiguous { ratio } => {
+            text!("results-another-pose", ratio = fixed!(ratio, 2))
+        }
+        PoseWarning::Loose { freedom } => {
+            text!("results-loose", freedom = free_motion(*freedom))
+        }
+        PoseWarning::Unsettled { num_iterations } => {
+            text!("results-unsettled", num = *num_iterations)
+        }
+    }
+}
+
+/// Why an estimation ended.
+pub(in crate::app) fn stopped(stopped: Stopped) -> String {
+    match stopped {
+        Stopped::Converged => text!("results-converged"),
+        Stopped::BelowTarget => text!("results-below-target"),
+        Stopped::IterationLimit => text!("results-iteration-limit"),
+        Stopped::NoProgress => text!("results-no-progress"),
+    }
+}
+
+/// A side of the car.
+pub(in crate::app) fn side(side: Side) -> String {
+    match side {
+        Side::Left => text!("results-side-left"),
+        Side::Right => text!("results-side-right"),
+    }
+}
+
+/// What may hang in the simulated cell without being enrolled.
+pub(in crate::app) fn object(kind: ObjectKind) -> String {
+    match kind {
+        ObjectKind::Hood => text!("results-object-hood"),
+        ObjectKind::Wheel => text!("results-object-wheel"),
+        ObjectKind::Box => text!("results-object-box"),
+        ObjectKind::Chair => text!("results-object-chair"),
+        ObjectKind::Board => text!("results-object-board"),
+        ObjectKind::Ladder => text!("results-object-ladder"),
+        ObjectKind::Stool => text!("results-object-stool"),
+        ObjectKind::Bucket => text!("results-object-bucket"),
+    }
+}
+
+#[cfg(test)]
+mod tests {
+    use super::*;
+    use crate::units::Metres;
+
+    const FREEDOMS: [FreeMotion; 7] = [
+        FreeMotion::Slide(Axis::Long),
+        FreeMotion::Slide(Axis::Short),
+        FreeMotion::Slide(Axis::Normal),
+        FreeMotion::Turn(Axis::Long),
+        FreeMotion::Turn(Axis::Short),
+        FreeMotion::Turn(Axis::Normal),
+        FreeMotion::Anyhow,
+    ];
+
+    fn pose_errors() -> Vec<PoseError> {
+        let [found, needed] = [3, 12];
+        let which = "source";
+        vec![
+            PoseError::TooFewPoints {
+                which: "target",
+                found,
+                needed,
+            },
+            PoseError::Degenerate {
+                which,
+                width: 0.000_125,
+            },
+            PoseError::OneSidedPairs {
+                num_pairs: 40,
+                rms: Metres(0.0123),
+            },
+            PoseError::NoOverlap {
+                found,
+                needed,
+                reach: Metres(0.05),
+            },
+            PoseError::SizesDiffer { ratio: 999.6 },
+            PoseError::TooFarOut {
+                which,
+                distance: Metres(123_456.7),
+            },
+            PoseError::NoReferenceCloud,
+            PoseError::Cancelled,
+        ]
+    }
+
+    fn rejections() -> Vec<Rejection> {
+        let part = "Fender, left".to_owned();
+        let (score, threshold, margin) = (0.456, 0.9, 0.125);
+        let [num_agreeing, num_frames, needed] = [2, 5, 4];
+        let piece = |hidden, outside| Rejection::Piece {
+            part: "Fender, left".into(),
+            score,
+            threshold,
+            hidden,
+            outside,
+        };
+        let mut all = vec![
+            Rejection::LowScore {
+                part: part.clone(),
+                score,
+                threshold,
+            },
+            piece(0.4, 0.0),
+            piece(0.0, 0.4),
+            piece(0.2, 0.2),
+            Rejection::HardlySeen {
+                part: part.clone(),
+                score,
+            },
+            Rejection::AnotherModel {
+                part: part.clone(),
+                relief: Metres(0.0042),
+                outline: Metres(0.0119),
+                missing: 0.0123,
+            },
+            Rejection::AnotherMake {
+                part: part.clone(),
+                likeness: 0.7,
+            },
+            Rejection::AmbiguousPose {
+                part: part.clone(),
+                margin,
+                threshold,
+            },
+            Rejection::Uncertain {
+                part: part.clone(),
+                shift: Metres(0.0213),
+                limit: Metres(0.015),
+            },
+            Rejection::Unknown {
+                nearest: part.clone(),
+                score,
+            },
+            Rejection::Mirrored {
+                part: part.clone(),
+                score,
+            },
+            Rejection::MirroredImage {
+                part: part.clone(),
+                score,
+            },
+            Rejection::SmallMargin {
+                part: part.clone(),
+                other: "Grille".into(),
+                margin,
+                threshold,
+            },
+            Rejection::Unconfirmed { part: part.clone() },
+            Rejection::OutOfRange {
+                part: part.clone(),
+                depth: Metres(31.456),
+            },
+            Rejection::BehindCamera {
+                part: part.clone(),
+                share: 0.0321,
+            },
+            Rejection::SurplusBytes {
+                part: part.clone(),
+                num: 4096,
+            },
+            Rejection::NotSteady { part: part.clone() },
+            Rejection::FewFrames {
+                part: part.clone(),
+                num_frames,
+                needed,
+            },
+            Rejection::Undecided {
+                part: part.clone(),
+                num_agreeing,
+                num_frames,
+                needed,
+            },
+            Rejection::PosesApart {
+                part: part.clone(),
+                num_agreeing,
+                num_frames,
+                needed,
+            },
+        ];
+        all.extend(FREEDOMS.map(|freedom| Rejection::Unconstrained {
+            part: part.clone(),
+            freedom,
+        }));
+        all.extend(pose_errors().into_iter().map(Rejection::NoPose));
+        all
+    }
+
+    fn unrecognisables() -> Vec<Unrecognisable> {
+        let only_background = |knows_cell| {
+            Unrecognisable::NoPart(NoPart::OnlyBackground {
+                planes: 2,
+                found: 0.0123,
+                needed: 0.02,
+                knows_cell,
+            })
+        };
+        vec![
+            NoPart::TooFewPoints {
+                found: 12,
+                needed: 200,
+            }
+            .into(),
+            NoPart::TooWide { extent: 1234.5 }.into(),
+            only_background(false),
+            only_background(true),
+            ProjectError::NoPlane {
+                num_points: 5,
+                width: 0.000_12,
+            }
+            .into(),
+            ProjectError::TooLarge {
+                found: 21.04,
+                limit: 10.0,
+            }
+            .into(),
+            ContourError::NoShape { num_set: 7 }.into(),
+            SignatureError::NoOutline { num_points: 1 }.into(),
+            Unrecognisable::EmptyLibrary,
+        ]
+    }
+
+    #[test]
+    fn in_english_the_window_says_what_the_library_says() {
+        for why in rejections() {
+            assert_eq!(rejection(&why), why.to_string());
+            assert_eq!(rejection_advice(&why), why.advice());
+        }
+        for why in unrecognisables() {
+            assert_eq!(unrecognisable(&why), why.to_string());
+            assert_eq!(unrecognisable_advice(&why), why.advice());
+        }
+        for error in pose_errors() {
+            assert_eq!(pose_error(&error), error.to_string());
+            assert_eq!(pose_error_advice(&error), error.advice());
+        }
+        let mut warnings = vec![
+            PoseWarning::LittleOverlap {
+                overlap: 0.1234,
+                needed: 0.25,
+            },
+            PoseWarning::Ambiguous { ratio: 1.056 },
+            PoseWarning::Unsettled { num_iterations: 30 },
+        ];
+        warnings.extend(FREEDOMS.map(|freedom| PoseWarning::Loose { freedom }));
+        for warning in warnings {
+            assert_eq!(pose_warning(&warning), warning.to_string());
+        }
+        for verdict in StoredVerdict::ALL {
+            assert_eq!(stored_verdict(verdict), verdict.title());
+        }
+        for keep in KeepFrames::ALL {
+            assert_eq!(keep_frames(keep), keep.title());
+        }
+        for kind in ObjectKind::ALL {
+            assert_eq!(object(kind), kind.name());
+        }
+        for of in Side::ALL {
+            assert_eq!(side(of), of.name());
+        }
+        let name = |why: Stopped| why.name().replace('_', " ");
+        for why in [
+            Stopped::Converged,
+            Stopped::BelowTarget,
+            Stopped::IterationLimit,
+            Stopped::NoProgress,
+        ] {
+            assert_eq!(stopped(why), name(why));
+        }
+    }
+}
