@@ -1,1 +1,193 @@
-# history
+## The list
+history-empty = Todavía no hay inspecciones
+history-empty-advice = Pulse Capturar: cada inspección aparece aquí y se conserva al cerrar la ventana
+history-in-memory = Solo en memoria: { $reason }
+history-none-listed = Ninguna inspección coincide: cambie el filtro
+history-column-part = Pieza
+history-column-scene = Escena
+history-column-score = Punt.
+history-column-ms = ms
+history-column-time = Hora
+history-part-again = { $part } · repetida { $count }×
+history-row =
+    { $count ->
+        [0] Inspección { $number }: { $part }, { $verdict }
+        [one] Inspección { $number }: { $part }, { $verdict }, repetida una vez
+       *[other] Inspección { $number }: { $part }, { $verdict }, repetida { $count } veces
+    }
+
+## The bar above the list
+history-show-all = Mostrar todo
+history-counted = { $matching } de { $count } piezas
+history-export-csv = Exportar CSV…
+history-export-csv-hint = Escribir en una tabla las inspecciones mostradas
+history-export-cases = Exportar casos…
+history-export-cases-hint = Guardar como casos, para Comparar y partsight evaluate, las inspecciones mostradas que tienen imagen y pieza real
+history-statistics = Estadística
+history-statistics-hint = OK y NOK por turno, por pieza y por motivo, de lo que se muestra
+history-frames-button = Imágenes…
+history-frames-button-hint = Qué imágenes se conservan y cuánto tiempo
+history-find = Buscar
+history-find-hint = Pieza, escena u observación
+history-filter-days = Días
+history-filter-verdict = Resultado
+history-filter-part = Pieza
+history-filter-all-verdicts = Todos
+history-filter-all-parts = Todas
+history-days-all = Todos los días
+history-days-today = Hoy
+history-days-week = 7 días
+history-days-month = 30 días
+history-days-typed = De … a
+history-from = de
+history-to = a
+history-first-day = Primer día
+history-last-day = Último día
+history-day-format = Escriba el día como año-mes-día: 2026-11-20
+
+## The inspection on the right
+history-choose = Elija una inspección para ver más detalles
+history-inspection = Inspección { $number }
+history-no-picture = La escena no tiene filas ni columnas, por lo que no hay imagen
+history-picture = Segmentación de la inspección { $number }
+history-simulated = Simulada, no procede de una cámara
+history-of-part = Inspecciones de esta pieza
+history-counts = cuenta
+history-of-this-part = De esta pieza: inspección { $number }, { $verdict }
+history-found-same = La inspección { $number } dio lo mismo
+history-found-other = La inspección { $number } dio otro resultado
+history-figure-scene = escena
+history-figure-source = fuente
+history-figure-time = hora
+history-figure-serial = n.º de serie
+history-figure-order = orden
+history-figure-operator = operario
+history-figure-score = puntuación
+history-figure-margin = ventaja
+history-figure-recipe = receta
+history-figure-library = biblioteca
+history-figure-program = programa
+history-figure-frame = imagen
+history-figure-verdict = resultado
+history-figure-nearest = más parecida
+history-frame-not-kept = no conservada
+history-frame-kept = conservada, { $megabytes } MB
+history-rz = rz, de Rz·Ry·Rx
+history-times = Tiempos
+history-open = Abrir
+history-open-hint = Abrir con todas las etapas y con su propia receta
+history-again = Repetir inspección
+history-again-hint = Con la receta y la biblioteca actuales; los cambios se muestran aquí
+history-frame-gone = La imagen de { $scene } no se ha conservado
+history-frame-gone-advice = Conserve más imágenes en adelante: Imágenes… encima de la lista
+history-actual-part = Pieza real
+history-truth-not-set = Sin indicar
+history-truth-not-enrolled = No registrada
+history-truth-nothing = Nada (celda vacía)
+history-remark = Observación
+history-remark-hint = Cualquier dato que convenga recordar
+history-your-remark = Su observación
+
+## What differs
+history-differences = Inspección repetida
+history-same-today = Hoy, el mismo resultado
+history-other-today = Hoy, otro resultado
+history-then = entonces
+history-today = hoy
+history-pose-differs = La pose difiere en { $shift } y { $rotation }
+
+## Keys
+history-key-newer = La inspección más reciente
+history-key-older = La inspección anterior
+history-key-open = Abrirla con todas sus etapas
+history-key-again = Volver a inspeccionarla con la receta y la biblioteca actuales
+
+## Frames to keep
+history-keep-title = Imágenes que se conservan
+history-keep-why = Con su imagen, una inspección puede volver a abrirse con todas las etapas. Las inspecciones en sí se conservan siempre.
+history-keep-which = De qué inspecciones
+history-keep-all = Todas
+history-keep-not-accepted = Solo las no aceptadas
+history-keep-none = Ninguna
+history-keep-days = Como máximo, días
+history-keep-gigabytes = Como máximo, gigabytes
+history-keep-used =
+    Ahora: { $count ->
+        [one] 1 imagen
+       *[other] { $count } imágenes
+    }, { $size }. Las más antiguas se borran primero
+history-keep-marked = Las que tienen observación o pieza real se conservan: { $size }
+history-apply = Aplicar
+history-close = Cerrar
+
+## Statistics
+history-counting = Contando…
+history-none-counted = Ninguna pieza coincide: cambie el filtro
+history-by-part = Por pieza
+history-by-reason = Por motivo
+history-ok = OK
+history-not-ok = NOK
+history-ok-share = OK, %
+history-shift = Turno del { $start }: { $ok } OK, { $nok } NOK
+history-by-shift = Piezas por turno
+history-not-ok-on-top = NOK, encima
+history-total = { $count } piezas, { $share } OK
+
+## Work and notices
+history-looking = Consultando el historial
+history-counting-parts = Contando piezas
+history-writing = Escribiendo { $file }
+history-export-csv-title = Exportar las inspecciones mostradas
+history-csv-files = Valores separados por comas
+history-export-cases-title = Carpeta para los casos de las inspecciones mostradas
+history-wrote =
+    { $count ->
+        [one] Una inspección escrita
+       *[other] { $count } inspecciones escritas
+    } en { $path }
+history-no-cases = Ninguna inspección se ha convertido en caso: { $what }
+history-no-cases-advice = Indique la pieza real de algunas inspecciones y conserve sus imágenes
+history-wrote-cases = { $path }: { $what }
+history-cases-kept =
+    { $count ->
+        [one] { $count } guardada como caso
+       *[other] { $count } guardadas como casos
+    }
+history-cases-without-truth = { $count } sin pieza real
+history-cases-without-frame = { $count } sin imagen conservada
+history-cases-scans = { $count } que son escaneos
+history-cases-unreadable = { $count } cuya imagen no se puede leer
+history-crowded = El historial no da abasto: no se guardaron las imágenes de algunas inspecciones
+history-crowded-advice = Conserve menos imágenes (Imágenes… en Historial) o utilice un disco más rápido
+history-set-aside = Historial: { $what }
+history-set-aside-advice = Se ha apartado como { $path } y se ha empezado uno nuevo
+history-failed-advice = { $advice }; hasta entonces las inspecciones se guardan en memoria
+history-works =
+    El historial vuelve a admitir escritura: { $count ->
+        [one] se ha guardado una inspección que esperaba
+       *[other] se han guardado { $count } inspecciones que esperaban
+    }
+history-works-lost =
+    El historial vuelve a admitir escritura: { $count ->
+        [one] se ha guardado una inspección que esperaba
+       *[other] se han guardado { $count } inspecciones que esperaban
+    }; { $lost ->
+        [one] se ha perdido una
+       *[other] se han perdido { $lost }
+    }
+history-swept =
+    La regla de conservación ha quitado del historial { $count ->
+        [one] 1 imagen
+       *[other] { $count } imágenes
+    }, { $megabytes } MB
+history-inspecting-again = Inspeccionando de nuevo { $scene }
+history-opening = Abriendo { $scene }
+history-other-version = La receta de { $scene } la escribió otra versión de Partsight
+history-other-version-advice = Pulse Repetir inspección para usar la receta actual
+history-changed-frame = el archivo o la imagen
+history-changed-recipe = la receta
+history-changed-library = la biblioteca
+history-changed-program = el programa
+history-changed-both = { $first } y { $second }
+history-other-result = { $scene } da ahora otro resultado; ha cambiado desde entonces: { $changed }
+history-other-result-advice = El historial conserva el primer resultado

@@ -1,1 +1,165 @@
-# history
+## The list
+history-empty = 尚无检测记录
+history-empty-advice = 请按“采集”：每次检测都会列在此处，关闭窗口后仍会保留
+history-in-memory = 仅保存在内存中：{ $reason }
+history-none-listed = 没有符合条件的检测：请更改筛选条件
+history-column-part = 零件
+history-column-scene = 场景
+history-column-score = 得分
+history-column-ms = ms
+history-column-time = 时间
+history-part-again = { $part } · 重检 { $count } 次
+history-row =
+    { $count ->
+        [0] 检测 { $number }：{ $part }，{ $verdict }
+       *[other] 检测 { $number }：{ $part }，{ $verdict }，重新检测 { $count } 次
+    }
+
+## The bar above the list
+history-show-all = 显示全部
+history-counted = { $matching } / { $count } 个零件
+history-export-csv = 导出 CSV…
+history-export-csv-hint = 将列出的检测写入表格
+history-export-cases = 导出样本…
+history-export-cases-hint = 将列出的、带有深度图和实际零件的检测保存为样本，供“比较”和 partsight evaluate 使用
+history-statistics = 统计
+history-statistics-hint = 按班次、零件和原因统计所列检测的 OK 和 NG
+history-frames-button = 深度图…
+history-frames-button-hint = 保留哪些深度图以及保留多久
+history-find = 查找
+history-find-hint = 零件、场景或备注
+history-filter-days = 日期
+history-filter-verdict = 判定
+history-filter-part = 零件
+history-filter-all-verdicts = 全部
+history-filter-all-parts = 全部
+history-days-all = 全部日期
+history-days-today = 今天
+history-days-week = 近 7 天
+history-days-month = 近 30 天
+history-days-typed = 起止日期
+history-from = 从
+history-to = 到
+history-first-day = 起始日期
+history-last-day = 截止日期
+history-day-format = 日期请写成“年-月-日”：2026-11-20
+
+## The inspection on the right
+history-choose = 选择一次检测以查看详情
+history-inspection = 检测 { $number }
+history-no-picture = 该场景没有行列结构，因此没有图像
+history-picture = 检测 { $number } 的分割结果
+history-simulated = 仿真数据，并非来自相机
+history-of-part = 该零件的各次检测
+history-counts = 计入
+history-of-this-part = 该零件：检测 { $number }，{ $verdict }
+history-found-same = 检测 { $number } 的结果相同
+history-found-other = 检测 { $number } 的结果不同
+history-figure-scene = 场景
+history-figure-source = 来源
+history-figure-time = 时间
+history-figure-serial = 序列号
+history-figure-order = 订单
+history-figure-operator = 操作员
+history-figure-score = 得分
+history-figure-margin = 领先量
+history-figure-recipe = 配方
+history-figure-library = 零件库
+history-figure-program = 程序
+history-figure-frame = 深度图
+history-figure-verdict = 判定
+history-figure-nearest = 最接近
+history-frame-not-kept = 未保留
+history-frame-kept = 已保留，{ $megabytes } MB
+history-rz = rz（Rz·Ry·Rx）
+history-times = 用时
+history-open = 打开
+history-open-hint = 使用其自身的配方打开，并显示所有阶段
+history-again = 重新检测
+history-again-hint = 使用当前的配方和零件库；变化会显示在此处
+history-frame-gone = { $scene } 的深度图未保留
+history-frame-gone-advice = 今后请保留更多深度图：列表上方的“深度图…”
+history-actual-part = 实际零件
+history-truth-not-set = 未设置
+history-truth-not-enrolled = 未录入
+history-truth-nothing = 无（空工位）
+history-remark = 备注
+history-remark-hint = 任何值得记录的内容
+history-your-remark = 您的备注
+
+## What differs
+history-differences = 重新检测
+history-same-today = 今天的结果相同
+history-other-today = 今天的结果不同
+history-then = 当时
+history-today = 今天
+history-pose-differs = 位姿相差 { $shift } 和 { $rotation }
+
+## Keys
+history-key-newer = 较新的检测
+history-key-older = 较早的检测
+history-key-open = 打开并显示所有阶段
+history-key-again = 使用当前的配方和零件库重新检测
+
+## Frames to keep
+history-keep-title = 深度图的保留
+history-keep-why = 保留深度图后，可以重新打开该次检测并查看所有阶段。检测记录本身会永久保留。
+history-keep-which = 保留哪些检测
+history-keep-all = 全部
+history-keep-not-accepted = 仅未接受的
+history-keep-none = 不保留
+history-keep-days = 最多保留（天）
+history-keep-gigabytes = 最大占用（GB）
+history-keep-used = 当前：{ $count } 幅深度图，{ $size }。最旧的先删除
+history-keep-marked = 带有备注或实际零件的会保留：{ $size }
+history-apply = 应用
+history-close = 关闭
+
+## Statistics
+history-counting = 正在统计…
+history-none-counted = 没有符合条件的零件：请更改筛选条件
+history-by-part = 按零件
+history-by-reason = 按原因
+history-ok = OK
+history-not-ok = NG
+history-ok-share = OK，%
+history-shift = { $start } 的班次：{ $ok } OK，{ $nok } NG
+history-by-shift = 各班次零件数
+history-not-ok-on-top = NG（上方）
+history-total = { $count } 个零件，{ $share } OK
+
+## Work and notices
+history-looking = 正在读取历史记录
+history-counting-parts = 正在统计零件
+history-writing = 正在写入 { $file }
+history-export-csv-title = 导出列出的检测
+history-csv-files = 逗号分隔值
+history-export-cases-title = 列出检测的样本文件夹
+history-wrote = 已将 { $count } 次检测写入 { $path }
+history-no-cases = 没有检测可转为样本：{ $what }
+history-no-cases-advice = 请为部分检测设置实际零件，并保留其深度图
+history-wrote-cases = { $path }：{ $what }
+history-cases-kept = { $count } 次保存为样本
+history-cases-without-truth = { $count } 次没有实际零件
+history-cases-without-frame = { $count } 次未保留深度图
+history-cases-scans = { $count } 次为扫描
+history-cases-unreadable = { $count } 次深度图无法读取
+history-crowded = 历史记录写入跟不上：部分检测的深度图未保存
+history-crowded-advice = 请减少保留的深度图（“历史记录”中的“深度图…”），或使用更快的磁盘
+history-set-aside = 历史记录：{ $what }
+history-set-aside-advice = 原文件已另存为 { $path }，并已新建历史记录
+history-failed-advice = { $advice }；在此之前检测保存在内存中
+history-works = 历史记录已恢复写入：已保存 { $count } 次等待中的检测
+history-works-lost = 历史记录已恢复写入：已保存 { $count } 次等待中的检测，丢失 { $lost } 次
+history-swept = 保留规则已从历史记录中移除 { $count } 幅深度图（{ $megabytes } MB）
+history-inspecting-again = 正在重新检测 { $scene }
+history-opening = 正在打开 { $scene }
+history-other-version = { $scene } 的配方由其他版本的 Partsight 写入
+history-other-version-advice = 请按“重新检测”以使用当前配方
+history-changed-frame = 其文件或深度图
+history-changed-recipe = 配方
+history-changed-library = 零件库
+history-changed-program = 程序
+history-changed-both = { $first }、{ $second }
+history-other-result = { $scene } 现在的结果不同；此后发生变化的是：{ $changed }
+history-other-result-advice = 历史记录保留首次结果

@@ -14,6 +14,7 @@ use super::{
 use crate::{
     app::{
         inspection::{inspected::Inspected, source::file_name},
+        language::text,
         shell::{
             context::ShellContext,
             file_dialog::{FileChoice, FileRequest},
@@ -268,8 +269,8 @@ impl HistoryState {
         // Once is enough: it will not become quicker by being said again.
         if !std::mem::replace(&mut self.is_crowded, true) {
             cx.notify(Notice::look(
-                "The history cannot keep up: the frames of some inspections were not saved",
-                "Keep fewer frames (Frames… in History), or use a faster disk",
+                text!("history-crowded"),
+                text!("history-crowded-advice"),
             ));
         }
         self.refresh_if_stale(cx);
@@ -280,32 +281,28 @@ impl HistoryState {
         match news {
             HistoryEvent::Added { ticket, number } => self.added(ticket, number),
             HistoryEvent::SetAside(SetAside { what, aside }) => {
-                let aside = aside.display();
+                let path = aside.display().to_string();
                 cx.notify(Notice::look(
-                    format!("The history: {what}"),
-                    format!("It was set aside as {aside}; a new one was started"),
+                    text!("history-set-aside", what = what),
+                    text!("history-set-aside-advice", path = path),
                 ));
             }
             HistoryEvent::Failed { what, advice } => {
                 let error = UserError { what, advice };
                 self.trouble = Some(error.clone());
                 let mut notice = Notice::from(error);
-                notice
-                    .advice
-                    .push_str("; until then inspections are kept in memory");
+                notice.advice = text!("history-failed-advice", advice = notice.advice);
                 cx.notify(notice);
             }
             HistoryEvent::Works { numbers, num_lost } => {
                 self.trouble = None;
                 self.renumber(&numbers);
-                let mut what = format!(
-                    "The history is writable again: saved {} that waited",
-                    inspections(numbers.len())
-                );
-                if num_lost > 0 {
-                    what = format!("{what}, lost {}", inspections(num_lost));
-                }
-                cx.notify(Notice::done(what));
+                let count = numbers.len();
+                cx.notify(Notice::done(if num_lost > 0 {
+                    text!("history-works-lost", count = count, lost = num_lost)
+                } else {
+                    text!("history-works", count = count)
+                }));
             }
             HistoryEvent::NotChanged { what, advice } => {
                 self.answered();
@@ -315,11 +312,8 @@ impl HistoryState {
                 num_frames,
                 num_bytes,
             }) => {
-                let megabytes = num_bytes as f64 / 1e6;
-                let what = format!(
-                    "The retention rule removed {}, {megabytes:.1} MB, from the history",
-                    frames(num_frames)
-                );
+                let megabytes = format!("{:.1}", num_bytes as f64 / 1e6);
+                let what = text!("history-swept", count = num_frames, megabytes = megabytes,);
                 cx.notify(Notice::done(what));
                 self.stale();
             }
@@ -343,7 +337,7 @@ impl HistoryState {
 
     /// Writes what is listed to where a person chose.
     fn export(&mut self, file: HistoryFile, path: PathBuf, cx: &ShellContext<'_>) {
-        let title = format!("Writing {}", file_name(&path));
+        let title = text!("history-writing", file = file_name(&path));
         let filter = self.filter.at(&Zoned::now());
         let to = match file {
             HistoryFile::Csv => PastExport::Csv(path),
@@ -352,21 +346,5 @@ impl HistoryState {
         let keeper = Arc::clone(cx.services.library_cache.history());
         self.exporting
             .start(title, move |_| Ok(export::write(&filter, &to, &keeper)?));
-    }
-}
-
-/// So many inspections, in words.
-pub(super) fn inspections(num: usize) -> String {
-    match num {
-        1 => "one inspection".into(),
-        num => format!("{num} inspections"),
-    }
-}
-
-/// So many frames, in words.
-pub(super) fn frames(num: usize) -> String {
-    match num {
-        1 => "1 frame".into(),
-        num => format!("{num} frames"),
     }
 }

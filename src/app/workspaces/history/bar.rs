@@ -8,6 +8,7 @@ use super::{
 };
 use crate::{
     app::{
+        language::text,
         shell::session::Session,
         ui::{
             theme::{Theme, space},
@@ -32,17 +33,19 @@ pub(super) fn ui(
         days(ui, &mut filter);
         verdicts(ui, &mut filter);
         parts(ui, session, &mut filter);
-        if *known != ListFilter::default()
-            && labelled(ui, Button::new("Show all"), "Show all").clicked()
-        {
-            filter = ListFilter::default();
+        if *known != ListFilter::default() {
+            let all = text!("history-show-all");
+            if labelled(ui, Button::new(&all), &all).clicked() {
+                filter = ListFilter::default();
+            }
         }
     });
     if filter.days == DateRange::Typed {
         ui.horizontal(|ui| typed(ui, &mut filter, theme));
     }
     ui.horizontal(|ui| {
-        let counted = format!("{} of {} parts", history.num_matching(), history.num_rows());
+        let (matching, count) = (history.num_matching(), history.num_rows());
+        let counted = text!("history-counted", matching = matching, count = count);
         ui.label(RichText::new(&counted).color(theme.weak_text))
             .widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, &counted));
         ui.with_layout(Layout::right_to_left(Align::Center), |ui| {
@@ -57,18 +60,18 @@ pub(super) fn ui(
 fn action_buttons(ui: &mut Ui, history: &HistoryState, actions: &mut Vec<HistoryAction>) {
     let ways = [
         (
-            "Export CSV…",
-            "Write the listed inspections to a table",
+            text!("history-export-csv"),
+            text!("history-export-csv-hint"),
             HistoryFile::Csv,
         ),
         (
-            "Export cases…",
-            "Save the listed inspections that have a frame and an actual part as cases, for Compare and partsight evaluate",
+            text!("history-export-cases"),
+            text!("history-export-cases-hint"),
             HistoryFile::Cases,
         ),
     ];
     for (label, says, file) in ways {
-        if labelled(ui, Button::new(label), label)
+        if labelled(ui, Button::new(&label), &label)
             .on_hover_text(says)
             .clicked()
         {
@@ -76,18 +79,18 @@ fn action_buttons(ui: &mut Ui, history: &HistoryState, actions: &mut Vec<History
         }
     }
     let is_shown = history.statistics.is_open();
-    let button = Button::selectable(is_shown, "Statistics").frame_when_inactive(true);
-    let shown = labelled(ui, button, "Statistics");
-    shown.widget_info(|| WidgetInfo::selected(egui::Role::Button, true, is_shown, "Statistics"));
-    let says = "OK and NOK by shift, by part and by reason, of what is listed";
+    let label = text!("history-statistics");
+    let button = Button::selectable(is_shown, &label).frame_when_inactive(true);
+    let shown = labelled(ui, button, &label);
+    shown.widget_info(|| WidgetInfo::selected(egui::Role::Button, true, is_shown, &label));
+    let says = text!("history-statistics-hint");
     if shown.on_hover_text(says).clicked() {
         actions.push(HistoryAction::Statistics(!is_shown));
     }
-    let frames = labelled(ui, Button::new("Frames…"), "Frames…");
-    if frames
-        .on_hover_text("Which frames are kept, and how long")
-        .clicked()
-    {
+    let label = text!("history-frames-button");
+    let frames = labelled(ui, Button::new(&label), &label);
+    let says = text!("history-frames-button-hint");
+    if frames.on_hover_text(says).clicked() {
         let rule = history.kept.0;
         actions.push(HistoryAction::Rule(Some(rule)));
     }
@@ -95,12 +98,13 @@ fn action_buttons(ui: &mut Ui, history: &HistoryState, actions: &mut Vec<History
 
 fn find(ui: &mut Ui, filter: &mut ListFilter) {
     let field = TextEdit::singleline(&mut filter.text)
-        .hint_text("Part, scene or remark")
+        .hint_text(text!("history-find-hint"))
         .desired_width(170.0)
         .min_size(vec2(170.0, space::TARGET))
         .align(egui::Align2::LEFT_CENTER);
+    let label = text!("history-find");
     ui.add(field)
-        .widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, "Find"));
+        .widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, &label));
 }
 
 /// A menu in which one of some is chosen; `label` tells it from other menus with the same choices.
@@ -133,14 +137,16 @@ fn menu<T: PartialEq + Clone>(
 }
 
 fn days(ui: &mut Ui, filter: &mut ListFilter) {
-    let choices = DateRange::ALL.map(|days| (days, days.title().to_owned()));
-    menu(ui, "Days", &mut filter.days, choices.into_iter());
+    let choices = DateRange::ALL.map(|days| (days, days.title()));
+    let label = text!("history-filter-days");
+    menu(ui, &label, &mut filter.days, choices.into_iter());
 }
 
 fn verdicts(ui: &mut Ui, filter: &mut ListFilter) {
-    let all = std::iter::once((None, "All".to_owned()));
+    let all = std::iter::once((None, text!("history-filter-all-verdicts")));
     let each = StoredVerdict::ALL.map(|verdict| (Some(verdict), verdict.title().to_owned()));
-    menu(ui, "Verdict", &mut filter.verdict, all.chain(each));
+    let label = text!("history-filter-verdict");
+    menu(ui, &label, &mut filter.verdict, all.chain(each));
 }
 
 fn parts(ui: &mut Ui, session: &Session, filter: &mut ListFilter) {
@@ -149,13 +155,17 @@ fn parts(ui: &mut Ui, session: &Session, filter: &mut ListFilter) {
         let name = part.name.as_str().to_owned();
         (Some(name), part.shown_title().to_owned())
     });
-    let all = std::iter::once((None, "All".to_owned()));
-    menu(ui, "Part", &mut filter.part, all.chain(enrolled));
+    let all = std::iter::once((None, text!("history-filter-all-parts")));
+    let label = text!("history-filter-part");
+    menu(ui, &label, &mut filter.part, all.chain(enrolled));
 }
 
 /// The first and the last day, as a person types them.
 fn typed(ui: &mut Ui, filter: &mut ListFilter, theme: &Theme) {
-    let fields = [("from", "First day"), ("to", "Last day")];
+    let fields = [
+        (text!("history-from"), text!("history-first-day")),
+        (text!("history-to"), text!("history-last-day")),
+    ];
     for (text, (word, label)) in filter.typed.iter_mut().zip(fields) {
         ui.label(RichText::new(word).color(theme.weak_text));
         let field = TextEdit::singleline(text)
@@ -164,10 +174,10 @@ fn typed(ui: &mut Ui, filter: &mut ListFilter, theme: &Theme) {
             .min_size(vec2(110.0, space::TARGET))
             .align(egui::Align2::LEFT_CENTER);
         ui.add(field)
-            .widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, label));
+            .widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, &label));
     }
     if filter.typed.iter().any(|text| day_of(text).is_err()) {
-        let text = "Write a day as year-month-day: 2026-11-20";
+        let text = text!("history-day-format");
         ui.label(RichText::new(text).color(theme.warning));
     }
 }

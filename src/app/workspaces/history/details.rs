@@ -11,13 +11,14 @@ use super::{
 use crate::{
     app::{
         inspection::unit_system::UnitSystem,
+        language::text,
         shell::session::Session,
         ui::{
             theme::{Theme, font, space},
             widgets::{Mark, fitted, heading, labelled, mark, row, shortened, texture},
         },
     },
-    history::{Differences, InspectionDetail, Record, StoredVerdict, Summary},
+    history::{Differences, InspectionDetail, Record, StoredVerdict, Summary, Traceability},
 };
 
 /// What the details keep between frames.
@@ -44,7 +45,7 @@ impl Details {
         actions: &mut Vec<HistoryAction>,
     ) {
         let Some(past) = &history.record else {
-            let text = "Choose an inspection to see more of it";
+            let text = text!("history-choose");
             ui.label(RichText::new(text).color(theme.weak_text));
             return;
         };
@@ -65,7 +66,8 @@ impl Details {
             let of_part = past.part.first().unwrap_or(record);
             self.remark
                 .ui(ui, &of_part.summary, session, theme, actions);
-            heading(ui, theme, &format!("Inspection {}", number.abs()));
+            let title = text!("history-inspection", number = number.abs());
+            heading(ui, theme, &title);
             ui.scope(|ui| {
                 // Text lies closer than controls do.
                 ui.spacing_mut().interact_size.y = 22.0;
@@ -95,7 +97,7 @@ impl Details {
         let number = record.summary.number;
         let made = self.picture.as_ref().filter(|(of, ..)| *of == number);
         let Some((_, _, texture)) = made else {
-            let text = "Its scene has no rows and columns, so there is no picture of it";
+            let text = text!("history-no-picture");
             ui.label(
                 RichText::new(text)
                     .font(font::small())
@@ -108,7 +110,7 @@ impl Details {
         let size = vec2(width, width * 0.75);
         let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
         response.widget_info(|| {
-            let label = format!("Segmentation of inspection {}", number.abs());
+            let label = text!("history-picture", number = number.abs());
             egui::WidgetInfo::labeled(egui::Role::Image, true, label)
         });
         let place = fitted(rect, texture.aspect_ratio());
@@ -137,7 +139,7 @@ fn verdict(ui: &mut Ui, record: &Record, theme: &Theme) {
         ui.label(word.color(colour));
     });
     if summary.is_simulated {
-        let text = "Simulated, not from a camera";
+        let text = text!("history-simulated");
         ui.label(RichText::new(text).color(theme.warning));
     }
     if let Some([reason, advice]) = &record.detail.complaint {
@@ -159,15 +161,15 @@ fn part(
     let (Some(head), Some(last)) = (past.part.first(), past.part.last()) else {
         return;
     };
-    heading(ui, theme, "Inspections of this part");
+    heading(ui, theme, &text!("history-of-part"));
     let number = past.record.summary.number;
     for record in &past.part {
         let row = &record.summary;
         let word = row.verdict.title();
         let counts = if row.number == head.summary.number {
-            " · counts"
+            format!(" · {}", text!("history-counts"))
         } else {
-            ""
+            String::new()
         };
         let text = format!(
             "{} · {word} · {}{counts}",
@@ -177,10 +179,8 @@ fn part(
         let button = Button::selectable(row.number == number, text)
             .frame_when_inactive(true)
             .min_size(vec2(ui.available_width(), space::TARGET));
-        let label = format!(
-            "Of this part: inspection {}, {word}{counts}",
-            row.number.abs()
-        );
+        let number = row.number.abs();
+        let label = text!("history-of-this-part", number = number, verdict = word) + &counts;
         if labelled(ui, button, &label).clicked() {
             actions.push(HistoryAction::Select(row.number));
         }
@@ -193,9 +193,9 @@ fn part(
     let found = Differences::between(head.into(), other.into(), None);
     let names = [head, other].map(|record| record.summary.number.abs().to_string());
     let sentence = if found.is_same() {
-        format!("Inspection {} found the same", names[1])
+        text!("history-found-same", number = &names[1])
     } else {
-        format!("Inspection {} found something else", names[1])
+        text!("history-found-other", number = &names[1])
     };
     let names = [&*names[0], &*names[1]];
     differences::table(ui, &found, &sentence, names, units, theme);
@@ -211,32 +211,46 @@ fn figures(ui: &mut Ui, record: &Record, theme: &Theme) {
         frame_bytes,
         ..
     } = summary;
-    let mut row = |name: &str, value: &str| row(ui, theme, name, &shortened(value, 32));
-    row("scene", scene);
+    let mut row = |name: String, value: &str| row(ui, theme, &name, &shortened(value, 32));
+    row(text!("history-figure-scene"), scene);
     if source != scene {
-        row("source", source);
+        row(text!("history-figure-source"), source);
     }
-    row("time", &when(*at));
-    for (name, text) in summary.trace.known() {
-        row(name, text);
+    row(text!("history-figure-time"), &when(*at));
+    let Traceability {
+        serial,
+        order,
+        operator,
+    } = &summary.trace;
+    for (name, text) in [
+        (text!("history-figure-serial"), serial),
+        (text!("history-figure-order"), order),
+        (text!("history-figure-operator"), operator),
+    ] {
+        if !text.is_empty() {
+            row(name, text);
+        }
     }
     if let Some([score, margin]) = score {
-        row("score", &format!("{score:.2}"));
-        row("margin", &format!("{margin:.2}"));
+        row(text!("history-figure-score"), &format!("{score:.2}"));
+        row(text!("history-figure-margin"), &format!("{margin:.2}"));
     }
     let InspectionDetail {
         library_identity,
         program,
         ..
     } = detail;
-    row("recipe", &detail.recipe_text());
-    row("library", library_identity);
-    row("program", program);
+    row(text!("history-figure-recipe"), &detail.recipe_text());
+    row(text!("history-figure-library"), library_identity);
+    row(text!("history-figure-program"), program);
     let frame = frame_bytes.map_or_else(
-        || "not kept".to_owned(),
-        |bytes| format!("kept, {:.1} MB", bytes as f64 / 1e6),
+        || text!("history-frame-not-kept"),
+        |bytes| {
+            let megabytes = format!("{:.1}", bytes as f64 / 1e6);
+            text!("history-frame-kept", megabytes = megabytes)
+        },
     );
-    row("frame", &frame);
+    row(text!("history-figure-frame"), &frame);
 }
 
 fn pose(ui: &mut Ui, record: &Record, units: UnitSystem, theme: &Theme) {
@@ -249,7 +263,8 @@ fn pose(ui: &mut Ui, record: &Record, units: UnitSystem, theme: &Theme) {
     for (name, metres) in ["x", "y", "z"].into_iter().zip(shift.iter()) {
         row(ui, theme, name, &units.signed_length(*metres));
     }
-    for (name, radians) in [("rx", rx), ("ry", ry), ("rz, of Rz·Ry·Rx", rz)] {
+    let last = text!("history-rz");
+    for (name, radians) in [("rx", rx), ("ry", ry), (last.as_str(), rz)] {
         row(ui, theme, name, &units.signed_angle(radians));
     }
 }
@@ -259,7 +274,7 @@ fn times(ui: &mut Ui, record: &Record, theme: &Theme) {
     if times.is_empty() {
         return;
     }
-    heading(ui, theme, "Times");
+    heading(ui, theme, &text!("history-times"));
     for (stage, ms) in times {
         row(ui, theme, &stage, &format!("{ms:.1} ms"));
     }
@@ -277,12 +292,13 @@ fn buttons(
         .why_no_scene(record)
         .map(|[what, advice]| format!("{what}. {advice}"));
     ui.horizontal(|ui| {
-        let open = RichText::new("Open").font(font::body_strong());
+        let label = text!("history-open");
+        let open = RichText::new(&label).font(font::body_strong());
         let key = RichText::new("Enter").font(font::small());
         let open = Button::new(open.color(theme.on_accent))
             .shortcut_text(key.color(theme.on_accent))
             .fill(theme.accent);
-        let mut press = |button, label, says| {
+        let mut press = |button, label: &str, says: String| {
             let can = no_frame.is_none();
             let pressed = ui
                 .add_enabled_ui(can, |ui| labelled(ui, button, label))
@@ -292,13 +308,13 @@ fn buttons(
             let pressed = pressed.on_disabled_hover_text(no_frame.as_deref().unwrap_or_default());
             pressed.on_hover_text(says).clicked()
         };
-        if press(open, "Open", "Open with every stage, using its own recipe") {
+        if press(open, &label, text!("history-open-hint")) {
             actions.push(HistoryAction::Open(number));
         }
         let key = RichText::new("A").font(font::small());
-        let again = Button::new("Inspect again").shortcut_text(key.color(theme.weak_text));
-        let says = "Use the current recipe and library; changes are shown here";
-        if press(again, "Inspect again", says) {
+        let label = text!("history-again");
+        let again = Button::new(&label).shortcut_text(key.color(theme.weak_text));
+        if press(again, &label, text!("history-again-hint")) {
             actions.push(HistoryAction::InspectAgain(number));
         }
     });

@@ -5,6 +5,7 @@ use egui::{Grid, RichText, Ui, vec2};
 use crate::{
     app::{
         inspection::unit_system::UnitSystem,
+        language::text,
         ui::{
             theme::{Theme, font},
             widgets::{heading, shortened},
@@ -18,13 +19,15 @@ type FindingText<'a> = &'a dyn Fn(&InspectionSummary) -> String;
 
 /// Draws what another inspection of the same scene finds today.
 pub(super) fn today(ui: &mut Ui, found: &Differences, units: UnitSystem, theme: &Theme) {
-    heading(ui, theme, "Inspected again");
+    heading(ui, theme, &text!("history-differences"));
     let sentence = if found.is_same() {
-        "Same result today"
+        text!("history-same-today")
     } else {
-        "Different result today"
+        text!("history-other-today")
     };
-    table(ui, found, sentence, ["then", "today"], units, theme);
+    let names = [text!("history-then"), text!("history-today")];
+    let names = [names[0].as_str(), names[1].as_str()];
+    table(ui, found, &sentence, names, units, theme);
 }
 
 /// Draws the table: a sentence above it, and the names of its columns.
@@ -44,15 +47,19 @@ pub(super) fn table(
     }));
     let Differences { before, now, pose } = found;
     let none = || "-".to_owned();
-    let rows: [(&str, FindingText<'_>); 5] = [
-        ("verdict", &|of| of.verdict.title().to_owned()),
-        ("nearest", &|of| of.nearest.clone().unwrap_or_else(none)),
-        ("score", &|of| {
+    let rows: [(String, FindingText<'_>); 5] = [
+        (text!("history-figure-verdict"), &|of| {
+            of.verdict.title().to_owned()
+        }),
+        (text!("history-figure-nearest"), &|of| {
+            of.nearest.clone().unwrap_or_else(none)
+        }),
+        (text!("history-figure-score"), &|of| {
             of.score
                 .map_or_else(none, |[score, _]| format!("{score:.3}"))
         }),
-        ("recipe", &|of| of.recipe.clone()),
-        ("library", &|of| of.library.clone()),
+        (text!("history-figure-recipe"), &|of| of.recipe.clone()),
+        (text!("history-figure-library"), &|of| of.library.clone()),
     ];
     Grid::new(("differences", names))
         .num_columns(3)
@@ -65,7 +72,7 @@ pub(super) fn table(
             }
             ui.end_row();
             let both =
-                |(what, of): (&str, FindingText<'_>)| (shortened(what, 14), of(before), of(now));
+                |(what, of): (String, FindingText<'_>)| (shortened(&what, 14), of(before), of(now));
             let changed = found.changed_parameters().into_iter();
             let parameters =
                 changed.map(|change| (shortened(change.name, 14), change.before, change.now));
@@ -84,10 +91,10 @@ pub(super) fn table(
             }
         });
     if let Some(off) = pose {
-        let text = format!(
-            "The pose differs by {} and {}",
-            units.length(off.shift.0),
-            units.angle(off.rotation.0)
+        let text = text!(
+            "history-pose-differs",
+            shift = units.length(off.shift.0),
+            rotation = units.angle(off.rotation.0),
         );
         ui.label(RichText::new(text).color(theme.text));
     }

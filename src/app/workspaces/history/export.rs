@@ -2,9 +2,8 @@
 
 use std::path::{Path, PathBuf};
 
-use super::apply::inspections;
 use crate::{
-    app::user_error::UserError,
+    app::{language::text, user_error::UserError},
     cases::{CaseFolder, PastCases, TruthFrom},
     files::write_atomically,
     history::{Filter, HistoryBuffer, HistoryError, write_head, write_row},
@@ -34,7 +33,7 @@ pub(super) fn write(
 /// As `partsight history export --csv` does.
 fn write_table(filter: &Filter, path: &Path, history: &HistoryBuffer) -> Result<String, UserError> {
     let mut table = Vec::new();
-    let mut num = 0;
+    let mut num = 0_usize;
     let in_memory = |error| HistoryError::Unwritable {
         path: path.to_owned(),
         source: error,
@@ -48,7 +47,8 @@ fn write_table(filter: &Filter, path: &Path, history: &HistoryBuffer) -> Result<
     listed.map_err(|error| UserError::of(&error))?;
     write_atomically(path, |writer| writer.write_all(&table))
         .map_err(|error| UserError::of(&error))?;
-    Ok(format!("Wrote {} to {}", inspections(num), path.display()))
+    let path = path.display().to_string();
+    Ok(text!("history-wrote", count = num, path = path))
 }
 
 /// As `partsight history export --cases` does.
@@ -73,9 +73,33 @@ fn write_cases(
     }
     if kept.num_kept == 0 {
         return Err(UserError {
-            what: format!("No inspection became a case: {}", kept.in_words()),
-            advice: "Set the actual part of some inspections, and keep their frames".into(),
+            what: text!("history-no-cases", what = in_words(&kept)),
+            advice: text!("history-no-cases-advice"),
         });
     }
-    Ok(format!("{} in {}", kept.in_words(), folder.display()))
+    let path = folder.display().to_string();
+    Ok(text!(
+        "history-wrote-cases",
+        what = in_words(&kept),
+        path = path
+    ))
+}
+
+/// What was kept and what was not.
+fn in_words(kept: &PastCases<'_>) -> String {
+    let num = kept.num_without_truth;
+    let without_truth = (num > 0).then(|| text!("history-cases-without-truth", count = num));
+    let num = kept.num_without_frame;
+    let without_frame = (num > 0).then(|| text!("history-cases-without-frame", count = num));
+    let num = kept.num_scans;
+    let scans = (num > 0).then(|| text!("history-cases-scans", count = num));
+    let num = kept.problems.len();
+    let unreadable = (num > 0).then(|| text!("history-cases-unreadable", count = num));
+    let mut words = vec![text!("history-cases-kept", count = kept.num_kept)];
+    words.extend(
+        [without_truth, without_frame, scans, unreadable]
+            .into_iter()
+            .flatten(),
+    );
+    words.join(", ")
 }

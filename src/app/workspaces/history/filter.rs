@@ -2,7 +2,10 @@
 
 use jiff::{Span, Timestamp, Zoned, civil};
 
-use crate::history::{Filter, StoredVerdict};
+use crate::{
+    app::language::text,
+    history::{Filter, StoredVerdict},
+};
 
 /// What the list shows.
 #[derive(Clone, Debug, Default, PartialEq, Eq)]
@@ -40,13 +43,13 @@ impl DateRange {
     pub const ALL: [Self; 5] = [Self::All, Self::Today, Self::Week, Self::Month, Self::Typed];
 
     /// What a person calls it.
-    pub fn title(self) -> &'static str {
+    pub fn title(self) -> String {
         match self {
-            Self::All => "All days",
-            Self::Today => "Today",
-            Self::Week => "7 days",
-            Self::Month => "30 days",
-            Self::Typed => "From … to",
+            Self::All => text!("history-days-all"),
+            Self::Today => text!("history-days-today"),
+            Self::Week => text!("history-days-week"),
+            Self::Month => text!("history-days-month"),
+            Self::Typed => text!("history-days-typed"),
         }
     }
 }

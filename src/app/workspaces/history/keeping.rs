@@ -2,11 +2,14 @@
 
 use egui::{Button, Context, DragValue, Grid, RichText, Ui, WidgetInfo, vec2};
 
-use super::{HistoryAction, HistoryState, apply::frames};
+use super::{HistoryAction, HistoryState};
 use crate::{
-    app::ui::{
-        theme::{Theme, font, space},
-        widgets::{self, labelled},
+    app::{
+        language::text,
+        ui::{
+            theme::{Theme, font, space},
+            widgets::{self, labelled},
+        },
     },
     history::{KeepFrames, Retention, Usage},
 };
@@ -24,10 +27,10 @@ pub(super) fn ui(
     let mut rule = known;
     let modal = widgets::dialog(ctx, "frames that are kept", |ui| {
         ui.set_max_width(520.0);
-        let title = RichText::new("Frames to keep").font(font::verdict());
+        let title = RichText::new(text!("history-keep-title")).font(font::verdict());
         ui.label(title.color(theme.text));
         ui.add_space(space::SMALL);
-        let why = "With its frame an inspection can be opened again with every stage. The inspections themselves are kept for good.";
+        let why = text!("history-keep-why");
         ui.label(RichText::new(why).color(theme.weak_text));
         ui.add_space(space::SMALL);
         Grid::new("frames")
@@ -39,10 +42,11 @@ pub(super) fn ui(
         ui.add_space(space::MEDIUM);
         let mut closing = None;
         ui.horizontal(|ui| {
-            if widgets::default_button(ui, "Apply", true, theme) {
+            if widgets::default_button(ui, &text!("history-apply"), true, theme) {
                 closing = Some(true);
             }
-            if labelled(ui, Button::new("Close"), "Close").clicked() {
+            let close = text!("history-close");
+            if labelled(ui, Button::new(&close), &close).clicked() {
                 closing = Some(false);
             }
         });
@@ -60,27 +64,39 @@ pub(super) fn ui(
 }
 
 fn rows(ui: &mut Ui, rule: &mut Retention) {
-    ui.label("From which inspections");
+    ui.label(text!("history-keep-which"));
     ui.horizontal(|ui| {
         for keep in KeepFrames::ALL {
-            let button = Button::selectable(rule.keep == keep, keep.title());
+            let title = title_of(keep);
+            let button = Button::selectable(rule.keep == keep, &title);
             let button = button.frame_when_inactive(true);
-            if labelled(ui, button, keep.title()).clicked() {
+            if labelled(ui, button, &title).clicked() {
                 rule.keep = keep;
             }
         }
     });
     ui.end_row();
-    ui.label("At most, days");
+    let label = text!("history-keep-days");
+    ui.label(&label);
     let days = DragValue::new(&mut rule.max_days).range(1..=3650);
-    number(ui, days, "At most, days");
+    number(ui, days, &label);
     ui.end_row();
-    ui.label("At most, gigabytes");
+    let label = text!("history-keep-gigabytes");
+    ui.label(&label);
     let gigabytes = DragValue::new(&mut rule.max_gigabytes)
         .range(0.1..=10_000.0)
         .speed(0.1);
-    number(ui, gigabytes, "At most, gigabytes");
+    number(ui, gigabytes, &label);
     ui.end_row();
+}
+
+/// What a person calls it.
+fn title_of(keep: KeepFrames) -> String {
+    match keep {
+        KeepFrames::All => text!("history-keep-all"),
+        KeepFrames::NotAccepted => text!("history-keep-not-accepted"),
+        KeepFrames::None => text!("history-keep-none"),
+    }
 }
 
 fn number(ui: &mut Ui, value: DragValue<'_>, label: &str) {
@@ -90,15 +106,15 @@ fn number(ui: &mut Ui, value: DragValue<'_>, label: &str) {
 
 fn used(ui: &mut Ui, usage: Usage, theme: &Theme) {
     let gigabytes = |bytes: u64| format!("{:.2} GB", bytes as f64 / 1e9);
-    let text = format!(
-        "Now: {}, {}. The oldest go first",
-        frames(usage.num_frames),
-        gigabytes(usage.num_bytes)
+    let text = text!(
+        "history-keep-used",
+        count = usage.num_frames,
+        size = gigabytes(usage.num_bytes),
     );
     ui.label(RichText::new(text).color(theme.text));
-    let text = format!(
-        "Those with a remark or an actual part stay: {}",
-        gigabytes(usage.num_bytes_marked)
+    let text = text!(
+        "history-keep-marked",
+        size = gigabytes(usage.num_bytes_marked)
     );
     ui.label(RichText::new(text).color(theme.weak_text));
 }

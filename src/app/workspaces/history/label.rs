@@ -6,6 +6,7 @@ use super::HistoryAction;
 use crate::{
     app::{
         inspection::library_cache::LibraryView,
+        language::text,
         shell::session::Session,
         ui::{
             theme::{Theme, space},
@@ -32,9 +33,9 @@ impl Remark {
         theme: &Theme,
         actions: &mut Vec<HistoryAction>,
     ) {
-        heading(ui, theme, "Actual part");
+        heading(ui, theme, &text!("history-actual-part"));
         truth_menu(ui, row, session, actions);
-        heading(ui, theme, "Remark");
+        heading(ui, theme, &text!("history-remark"));
         // Another inspection, or somebody else has written another remark.
         let is_of_it = self
             .draft
@@ -48,12 +49,13 @@ impl Remark {
             return;
         };
         let field = TextEdit::singleline(text)
-            .hint_text("Anything worth remembering")
+            .hint_text(text!("history-remark-hint"))
             .desired_width(f32::INFINITY)
             .min_size(vec2(0.0, space::TARGET))
             .align(egui::Align2::LEFT_CENTER);
         let response = ui.add(field);
-        response.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, "Your remark"));
+        let label = text!("history-your-remark");
+        response.widget_info(|| WidgetInfo::labeled(egui::Role::TextInput, true, &label));
         if response.lost_focus() && text.trim() != known {
             // Until it is written and comes back.
             known.clone_from(text);
@@ -77,9 +79,9 @@ impl Remark {
 /// What a truth is called where it is chosen.
 fn title_of(truth: Option<&Truth>, library: Option<&LibraryView>) -> String {
     match truth {
-        None => "Not set".into(),
-        Some(Truth::NotEnrolled) => "Not enrolled".into(),
-        Some(Truth::Nothing) => "Nothing (empty cell)".into(),
+        None => text!("history-truth-not-set"),
+        Some(Truth::NotEnrolled) => text!("history-truth-not-enrolled"),
+        Some(Truth::Nothing) => text!("history-truth-nothing"),
         Some(Truth::Part(name)) => {
             let place = library.and_then(|library| library.place_of(name));
             let title = library
@@ -93,10 +95,8 @@ fn title_of(truth: Option<&Truth>, library: Option<&LibraryView>) -> String {
 fn truth_menu(ui: &mut Ui, row: &Summary, session: &Session, actions: &mut Vec<HistoryAction>) {
     let library = session.library.as_deref();
     let chosen = row.label.as_ref();
-    let title = format!(
-        "Actual part · {} ▼",
-        shortened(&title_of(chosen, library), 24)
-    );
+    let name = text!("history-actual-part");
+    let title = format!("{name} · {} ▼", shortened(&title_of(chosen, library), 24));
     ui.menu_button(&title, |ui| {
         ui.set_min_width(200.0);
         ScrollArea::vertical().max_height(420.0).show(ui, |ui| {
@@ -107,7 +107,7 @@ fn truth_menu(ui: &mut Ui, row: &Summary, session: &Session, actions: &mut Vec<H
                 let title = title_of(truth.as_ref(), library);
                 let response = ui.selectable_label(row.label == truth, &title);
                 response.widget_info(|| {
-                    let label = format!("Actual part: {title}");
+                    let label = format!("{name}: {title}");
                     WidgetInfo::labeled(egui::Role::Button, true, label)
                 });
                 if response.clicked() {

@@ -6,6 +6,7 @@ use jiff::{Timestamp, tz::TimeZone};
 use super::{HistoryAction, HistoryState, bar};
 use crate::{
     app::{
+        language::text,
         shell::session::Session,
         ui::{
             theme::{ROUNDING, Theme, font, space},
@@ -42,7 +43,7 @@ impl List {
     ) {
         bar::ui(ui, history, session, theme, actions);
         if let Some(trouble) = &history.trouble {
-            let text = format!("Kept in memory only: {}", trouble.what);
+            let text = text!("history-in-memory", reason = &trouble.what);
             ui.label(RichText::new(text).color(theme.warning));
             ui.label(
                 RichText::new(&trouble.advice)
@@ -56,7 +57,7 @@ impl List {
         let num_rows = history.num_matching();
         if num_rows == 0 {
             ui.add_space(space::LARGE);
-            let text = "No matching inspections: change the filter";
+            let text = text!("history-none-listed");
             ui.label(RichText::new(text).color(theme.weak_text));
             // What comes next is fetched with its neighbours.
             see(history, 0..1, actions);
@@ -120,7 +121,7 @@ enum Room {
 
 /// A column of the list.
 struct Column {
-    name: &'static str,
+    name: fn() -> String,
     width: Width,
     text: fn(&Summary, Room) -> String,
     look: fn(&Theme) -> (FontId, Color32),
@@ -140,16 +141,16 @@ const MARGINS: [f32; 2] = [40.0, 14.0];
 /// The columns from left to right.
 const COLUMNS: [Column; 5] = [
     Column {
-        name: "Part",
+        name: || text!("history-column-part"),
         width: Width::Share(0.58),
         text: |past, _| match past.num_below {
             0 => past.title.clone(),
-            num => format!("{} · again {num}×", past.title),
+            num => text!("history-part-again", part = &past.title, count = num),
         },
         look: |theme| (font::body_strong(), theme.text),
     },
     Column {
-        name: "Scene",
+        name: || text!("history-column-scene"),
         width: Width::Share(0.42),
         // What a person said of it is what others look for first, then its serial number.
         text: |past, _| {
@@ -161,7 +162,7 @@ const COLUMNS: [Column; 5] = [
         look: |theme| (font::body(), theme.weak_text),
     },
     Column {
-        name: "Score",
+        name: || text!("history-column-score"),
         width: Width::Pixels([60.0; 2]),
         text: |past, _| {
             let score = past.score.map(|[score, _]| format!("{score:.2}"));
@@ -170,13 +171,13 @@ const COLUMNS: [Column; 5] = [
         look: |theme| (font::body(), theme.text),
     },
     Column {
-        name: "ms",
+        name: || text!("history-column-ms"),
         width: Width::Pixels([70.0, 52.0]),
         text: |past, _| format!("{:.0}", past.total_ms),
         look: |theme| (font::body(), theme.weak_text),
     },
     Column {
-        name: "Time",
+        name: || text!("history-column-time"),
         width: Width::Pixels([170.0, 96.0]),
         text: |past, room| match room {
             Room::Wide => when(past.at),
@@ -249,7 +250,7 @@ fn head(ui: &mut Ui, layout: &Layout, theme: &Theme) {
     let (rect, _) = ui.allocate_exact_size(size, Sense::hover());
     for (column, span) in layout.columns() {
         let look = (font::heading(), theme.weak_text);
-        column.write(ui.painter(), rect, span, column.name, look);
+        column.write(ui.painter(), rect, span, &(column.name)(), look);
     }
 }
 
@@ -265,15 +266,12 @@ fn row(
     let is_selected = selected == Some(past.number);
     response.widget_info(|| {
         let verdict = past.verdict.title();
-        let again = match past.num_below {
-            0 => String::new(),
-            1 => ", inspected again once".to_owned(),
-            num => format!(", inspected again {num} times"),
-        };
-        let label = format!(
-            "Inspection {}: {}, {verdict}{again}",
-            past.number.abs(),
-            past.title
+        let label = text!(
+            "history-row",
+            count = past.num_below,
+            number = past.number.abs(),
+            part = &past.title,
+            verdict = verdict,
         );
         egui::WidgetInfo::selected(egui::Role::Button, true, is_selected, label)
     });

@@ -29,6 +29,7 @@ use self::{details::Details, list::List};
 
 use crate::{
     app::{
+        language::text,
         shell::{
             context::ShellContext,
             key_binding::{KeyBinding, Shortcut},
@@ -229,13 +230,12 @@ fn empty(ui: &mut Ui, theme: &Theme) {
     ui.vertical_centered(|ui| {
         ui.add_space(ui.available_height() * 0.4);
         ui.label(
-            RichText::new("Nothing inspected yet")
+            RichText::new(text!("history-empty"))
                 .font(font::verdict())
                 .color(theme.text),
         );
         ui.add_space(space::SMALL);
-        let advice =
-            "Press Capture: every inspection is listed here and kept when the window closes";
+        let advice = text!("history-empty-advice");
         ui.label(RichText::new(advice).color(theme.weak_text));
     });
 }

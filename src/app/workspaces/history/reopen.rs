@@ -13,6 +13,7 @@ use crate::{
             scan_choice::{ScanOrder, ScanRequest},
             source::{HistoryFrame, Origin, SceneSource},
         },
+        language::text,
         shell::{
             context::ShellContext,
             message::{Message, ReinspectionPurpose},
@@ -61,18 +62,18 @@ impl HistoryState {
         };
         let (title, recipe) = match purpose {
             RemakeFor::Compare => (
-                format!("Inspecting {scene} again"),
+                text!("history-inspecting-again", scene = scene),
                 Some(Arc::clone(&cx.session.recipe)),
             ),
             RemakeFor::Open => (
-                format!("Opening {scene}"),
+                text!("history-opening", scene = scene),
                 past.record.detail.named_recipe().map(Arc::new),
             ),
         };
         let Some(recipe) = recipe else {
             return cx.notify(Notice::look(
-                format!("The recipe of {scene} was written by another version of Partsight"),
-                "Press Inspect again to use the current recipe",
+                text!("history-other-version", scene = scene),
+                text!("history-other-version-advice"),
             ));
         };
         if purpose == RemakeFor::Open {
@@ -98,8 +99,8 @@ impl HistoryState {
         let is_there = self.source_of(record).is_some();
         (!is_there).then(|| {
             [
-                format!("The frame of {} is not kept", record.summary.scene),
-                "Keep more frames from now on: Frames… above the list".into(),
+                text!("history-frame-gone", scene = &record.summary.scene),
+                text!("history-frame-gone-advice"),
             ]
         })
     }
@@ -162,14 +163,20 @@ fn differences(past: &OpenedInspection, inspected: &Inspected) -> Differences {
 }
 
 fn other_result(record: &Record, differences: &Differences) -> Notice {
-    let changed_inputs = differences.changed_inputs();
-    let cause = match changed_inputs.as_slice() {
-        [] => "its file or frame".to_owned(),
-        changed_inputs => format!("the {}", changed_inputs.join(" and the ")),
-    };
+    let changed = differences
+        .changed_inputs()
+        .into_iter()
+        .map(|input| match input {
+            "recipe" => text!("history-changed-recipe"),
+            "library" => text!("history-changed-library"),
+            _ => text!("history-changed-program"),
+        });
+    let changed = changed
+        .reduce(|first, second| text!("history-changed-both", first = first, second = second))
+        .unwrap_or_else(|| text!("history-changed-frame"));
     let scene = &record.summary.scene;
     Notice::look(
-        format!("{scene} now gives a different result: {cause} has changed since"),
-        "The history keeps the first result",
+        text!("history-other-result", scene = scene, changed = changed),
+        text!("history-other-result-advice"),
     )
 }

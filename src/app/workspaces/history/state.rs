@@ -18,6 +18,7 @@ use jiff::Zoned;
 use crate::{
     app::{
         inspection::inspected::Inspected,
+        language::text,
         shell::{context::ShellContext, file_dialog::FileDialog},
         task::{Task, TaskRunner},
         user_error::UserError,
@@ -347,7 +348,7 @@ impl HistoryState {
         self.is_stale = false;
         let request = self.wanted();
         let keeper = Arc::clone(cx.services.library_cache.history());
-        self.looking.start("Looking into the history", move |_| {
+        self.looking.start(text!("history-looking"), move |_| {
             Ok(Box::new(work::look(&request, &keeper)?))
         });
         self.count(cx);
@@ -361,17 +362,18 @@ impl HistoryState {
         let filter = self.filter.clone();
         let keeper = Arc::clone(cx.services.library_cache.history());
         let (starts, library) = (cx.session.shift_starts.clone(), cx.session.library.clone());
-        self.counting.start("Counting parts", move |_| {
-            let now = Zoned::now();
-            let outcomes = keeper.outcomes(&filter.at(&now));
-            let outcomes = outcomes.map_err(|error| UserError::of(&error))?;
-            let title_of = |name: &str| match &library {
-                Some(library) => library.title_of(name).to_owned(),
-                None => name.to_owned(),
-            };
-            let found = statistics::count(&outcomes, &starts, now.time_zone(), title_of);
-            Ok(Box::new(found))
-        });
+        self.counting
+            .start(text!("history-counting-parts"), move |_| {
+                let now = Zoned::now();
+                let outcomes = keeper.outcomes(&filter.at(&now));
+                let outcomes = outcomes.map_err(|error| UserError::of(&error))?;
+                let title_of = |name: &str| match &library {
+                    Some(library) => library.title_of(name).to_owned(),
+                    None => name.to_owned(),
+                };
+                let found = statistics::count(&outcomes, &starts, now.time_zone(), title_of);
+                Ok(Box::new(found))
+            });
     }
 
     /// The same, if it is not up to date.

@@ -10,6 +10,7 @@ use jiff::{Zoned, tz::TimeZone};
 
 use crate::{
     app::{
+        language::text,
         shell::shift::ShiftStarts,
         ui::{
             plot::{Axes, Axis, legend},
@@ -157,11 +158,11 @@ fn kind(reason: &str, names: &[&str]) -> String {
 /// Draws them.
 pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, theme: &Theme) {
     let StatisticsView::Counted(found) = view else {
-        ui.label(RichText::new("Counting…").color(theme.weak_text));
+        ui.label(RichText::new(text!("history-counting")).color(theme.weak_text));
         return;
     };
     if found.shifts.is_empty() {
-        let text = "No matching parts: change the filter";
+        let text = text!("history-none-counted");
         ui.label(RichText::new(text).color(theme.weak_text));
         return;
     }
@@ -169,12 +170,17 @@ pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, theme: &Theme) {
         // Text lies closer than controls do.
         ui.spacing_mut().interact_size.y = 22.0;
         shifts(ui, &found.shifts, theme);
-        heading(ui, theme, "By part");
+        heading(ui, theme, &text!("history-by-part"));
         Grid::new("by part")
             .num_columns(4)
             .spacing(vec2(24.0, 4.0))
             .show(ui, |ui| {
-                for name in ["Part", "OK", "NOK", "OK, %"] {
+                for name in [
+                    text!("history-column-part"),
+                    text!("history-ok"),
+                    text!("history-not-ok"),
+                    text!("history-ok-share"),
+                ] {
                     ui.label(
                         RichText::new(name)
                             .font(font::small())
@@ -198,7 +204,7 @@ pub(super) fn ui(ui: &mut Ui, view: &StatisticsView, theme: &Theme) {
         if found.reasons.is_empty() {
             return;
         }
-        heading(ui, theme, "By reason");
+        heading(ui, theme, &text!("history-by-reason"));
         for (reason, num) in &found.reasons {
             let text = format!("{num} × {reason}");
             ui.add(egui::Label::new(RichText::new(text).color(theme.text)).wrap());
@@ -212,9 +218,9 @@ fn shifts(ui: &mut Ui, all: &[(Zoned, Tally)], theme: &Theme) {
     let size = vec2(ui.available_width(), HEIGHT);
     let (rect, response) = ui.allocate_exact_size(size, Sense::hover());
     let in_words = |(start, tally): &(Zoned, Tally)| {
-        let at = start.strftime("%Y-%m-%d %H:%M");
-        let Tally { num_ok, num_not_ok } = tally;
-        format!("Shift of {at}: {num_ok} OK, {num_not_ok} NOK")
+        let at = start.strftime("%Y-%m-%d %H:%M").to_string();
+        let Tally { num_ok, num_not_ok } = *tally;
+        text!("history-shift", start = at, ok = num_ok, nok = num_not_ok)
     };
     let words: Vec<String> = last.iter().map(in_words).collect();
     response.widget_info(|| WidgetInfo::labeled(egui::Role::Label, true, words.join("; ")));
@@ -241,7 +247,7 @@ fn shifts(ui: &mut Ui, all: &[(Zoned, Tally)], theme: &Theme) {
         bars(|tally| tally.num_not_ok, |tally| tally.num_ok),
     );
     let axes = Axes {
-        title: vec![("Parts by shift".to_owned(), theme.text)],
+        title: vec![(text!("history-by-shift"), theme.text)],
         across: Axis::new([-0.6, last.len() as f64 - 0.4], marks.collect()),
         up: Axis::new(
             // The names above the bars have room.
@@ -261,8 +267,9 @@ fn shifts(ui: &mut Ui, all: &[(Zoned, Tally)], theme: &Theme) {
         }
     });
     // The refused ones lie on top: colour is not the only sign.
-    let names = ["NOK, on top", "OK"];
-    let curves = names.into_iter().zip([theme.rejected, theme.accepted]);
+    let names = [text!("history-not-ok-on-top"), text!("history-ok")];
+    let names = names.iter().map(String::as_str);
+    let curves = names.zip([theme.rejected, theme.accepted]);
     legend(
         ui.painter(),
         &shown,
@@ -273,7 +280,7 @@ fn shifts(ui: &mut Ui, all: &[(Zoned, Tally)], theme: &Theme) {
         total.num_ok += tally.num_ok;
         total.num_not_ok += tally.num_not_ok;
     }
-    let text = format!("{} parts, {} OK", total.num(), total.share());
+    let text = text!("history-total", count = total.num(), share = total.share());
     let corner = rect.right_top() + vec2(-space::MEDIUM, space::MEDIUM);
     ui.painter().text(
         corner,
