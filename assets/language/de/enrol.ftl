@@ -1,1 +1,164 @@
-# enrol
+## Before there is a draft
+enrol-show-part = Einzulernendes Bauteil zeigen
+enrol-capture-replacement = Ersatz für { $part } aufnehmen
+enrol-how = Vor die Kamera hängen und „Aufnehmen“ drücken, eine Aufnahme, eine Punktwolke oder ein Netz öffnen oder die Datei hier ablegen
+enrol-take-shown = { $scene } aus „Prüfen“ übernehmen
+enrol-use-shown = Geprüfte Szene verwenden
+enrol-open-scan = Scan öffnen…
+enrol-open-scan-hint = Mehrere Einzelaufnahmen von mehreren Seiten, jede mit ihrer Kamerapose (Ctrl Shift O)
+enrol-step-capture = 1  Bauteil aufnehmen oder Datei öffnen
+enrol-step-correct = 2  Prüfen, was behalten wird, und korrigieren
+enrol-step-title = 3  Titel eingeben
+enrol-step-save = 4  Speichern: Prüfungen erkennen es
+
+## The card of the draft
+enrol-new-part = Neues Bauteil
+enrol-replaces = Ersetzt { $part }
+enrol-previous-draft = Voriger Entwurf: ein neuer wird vorbereitet
+enrol-as-new = Stattdessen als neues Bauteil einlernen
+enrol-unready-trouble = Noch nichts zu speichern: siehe oben
+enrol-unready-title = Zuerst einen Titel eingeben
+enrol-unready-name = Zuerst den Namen korrigieren
+enrol-unready-unknown = Noch nicht bekannt, was gespeichert wird
+enrol-draft-simulated = Simuliert
+enrol-points-kept = { $points } Punkte behalten
+enrol-outline = Umriss { $length }
+enrol-openings = Öffnungen { $count }
+enrol-seen-one-side = Von einer Seite gesehen
+enrol-seen-all-around = Rundum gesehen
+enrol-seen-several-sides = Von mehreren Seiten gesehen
+enrol-examining = Bauteil wird untersucht…
+enrol-stored-unknown = Nicht bekannt, was gespeichert wird
+enrol-look-again = Erneut untersuchen
+enrol-title = Titel
+enrol-title-hint = Gebräuchliche Bezeichnung
+enrol-name = Name
+enrol-name-hint = aus dem Titel vorgeschlagen
+enrol-notes = Notizen
+enrol-notes-hint = Alles Wissenswerte
+enrol-reference-of = Weitere Referenz von
+enrol-reference-of-chosen = Weitere Referenz von: { $part }
+enrol-reference-of-none = Kein anderes Bauteil
+enrol-reference-choice = Referenz von: { $part }
+enrol-reference-of-hint = Eine weitere Ansicht oder Variante eines eingelernten Bauteils: Ergebnisse nennen jenes Bauteil
+enrol-namesake = { $part } hat diesen Namen bereits
+enrol-namesake-advice = Speichern ersetzt das Bauteil; die vorige Version lässt sich wiederherstellen
+enrol-most-similar = Am ähnlichsten: { $part } (zu { $percent } % gleich)
+enrol-most-similar-mirrored = Am ähnlichsten: { $part } (gespiegelt zu { $percent } % gleich)
+enrol-distinguishable = Die beiden sind unterscheidbar
+enrol-indistinguishable = Die beiden sind nicht unterscheidbar
+enrol-indistinguishable-advice = Prüfungen beider Bauteile enden fast gleichauf: das eingelernte ersetzen oder eine Seite aufnehmen, auf der sie sich unterscheiden
+enrol-replace = { $part } ersetzen
+enrol-discard = Verwerfen
+enrol-saving = Wird gespeichert…
+enrol-save-and-replace = Speichern, ersetzen
+enrol-save = Speichern
+
+## The card of an enrolled part
+enrol-rename = Umbenennen
+enrol-spray-path = Lackierbahn…
+enrol-remove-path = Lackierbahn entfernen
+enrol-anew = Neu einlernen
+enrol-remove = Entfernen
+enrol-close = Schließen
+enrol-origin = Eingelernt { $time } aus { $source }, { $method }
+enrol-origin-points = { $points } Punkte
+enrol-origin-simulated = simuliert, nicht von einer Kamera
+enrol-origin-seen = von einer Kamera gesehen
+enrol-origin-path = Lackierbahn mit { $count } Punkten
+enrol-method-segmented = das in einer aufgenommenen Szene gefundene Bauteil
+enrol-method-whole = eine ganze Punktwolke
+enrol-method-mesh = ein Netz
+enrol-method-scan = ein Scan
+
+## The strip of enrolled parts
+enrol-enrolled-parts = Eingelernte Bauteile
+enrol-library-loading = Die Bibliothek wird geladen…
+enrol-num-parts =
+    { $count ->
+        [0] Noch kein Bauteil eingelernt: das erste gespeicherte erscheint hier
+        [one] { $count } eingelerntes Bauteil
+       *[other] { $count } eingelernte Bauteile
+    }
+enrol-damaged = Beschädigt
+enrol-simulated = Simuliert
+enrol-enrolled = Eingelernt: { $part }
+enrol-just-renamed = Soeben umbenannt
+enrol-just-brought-back = Wiederhergestellt
+enrol-just-saved = Soeben gespeichert
+enrol-path-changed = Bahn geändert
+
+## What corrects the draft
+enrol-in-front = Vor dem Hintergrund
+enrol-everything = Alles
+enrol-keep-box = Box behalten
+enrol-drop-box = Box entfernen
+enrol-add-box = Box ergänzen
+enrol-keep-box-hint = Rechteck im Bild aufziehen: Was außerhalb liegt, wird entfernt
+enrol-drop-box-hint = Rechteck im Bild aufziehen: Was innerhalb liegt, wird entfernt
+enrol-add-box-hint = Rechteck im Bild aufziehen: Alles innerhalb wird übernommen, auch der Hintergrund
+enrol-picture-hint = { $box }; ein Klick nimmt ein Segment hinzu oder entfernt es
+enrol-picture = Bild dessen, was behalten wird
+enrol-mesh-is-whole = Ein Netz wird ganz eingelernt: im Programm zuschneiden, das es erstellt hat
+enrol-undo = Rückgängig
+enrol-undo-step = Letzten Schritt rückgängig machen
+enrol-redo = Wiederholen
+enrol-redo-step = Letzten Schritt wiederholen
+enrol-reset = Zurücksetzen
+enrol-reset-all = Alle Korrekturen zurücksetzen
+enrol-both = Beide
+enrol-picture-pane = Bild
+enrol-view-pane = 3D
+enrol-show-both = Beide zeigen
+enrol-show-picture = Bild zeigen
+enrol-show-view = 3D zeigen
+enrol-segment-partly = { $segment } · { $kept } von { $all } behalten
+enrol-kept = behalten
+enrol-partly-kept = teilweise behalten
+enrol-dropped = entfernt
+enrol-take-it = Übernehmen
+enrol-drop-it = Entfernen
+enrol-segment-part = Bauteil
+enrol-segment-stand = Gestell
+enrol-segment-surface = Fläche { $number }
+enrol-segment-background = Hintergrund { $number }
+enrol-segment-piece = Stück { $number }
+enrol-segment-specks = Einzelne Punkte
+enrol-segment-mesh = Netz
+enrol-segment-cell = Zelle ringsum
+enrol-view = 3D-Ansicht des Entwurfs
+enrol-view-fit = Einpassen
+enrol-view-front = Vorn
+enrol-view-top = Oben
+enrol-view-side = Seite
+
+## Keys
+enrol-key-redo = Letzte rückgängig gemachte Änderung wiederholen
+enrol-key-undo = Letzte Korrektur oder Änderung der Bibliothek rückgängig machen
+enrol-key-save = Bauteil speichern
+
+## Work and notices
+enrol-path-file-title = Bahn der Düse über diesem Bauteil
+enrol-path-files = Tabellen
+enrol-examining-part = Bauteil wird untersucht
+enrol-taking-scan = Angezeigter Scan wird übernommen
+enrol-taking-scene = Angezeigte Szene wird übernommen
+enrol-changing-library = Bibliothek wird geändert
+enrol-unsaved = Das Bauteil in „Einlernen“ ist nicht gespeichert
+enrol-unsaved-titled = { $part }, das Bauteil in „Einlernen“, ist nicht gespeichert
+enrol-nothing-to-save = Es gibt noch nichts zu speichern
+enrol-nothing-to-save-advice = Speichern, sobald das Bild des zu Speichernden da ist
+enrol-other-program = Ein anderes Programm hat ein Bauteil namens { $name } gespeichert, seit diese Bibliothek geöffnet wurde
+enrol-other-program-advice = Erneut speichern, um es zu ersetzen, oder diesem einen anderen Namen geben
+enrol-saved = { $part } gespeichert
+enrol-saved-over = { $part } gespeichert; die vorige Version liegt im Papierkorb der Bibliothek
+enrol-saved-over-path = { $part } gespeichert; die vorige Version liegt mit ihrer Lackierbahn im Papierkorb der Bibliothek: eine Bahn für das neue Koordinatensystem speichern
+enrol-title-changed = Titel von { $part } geändert
+enrol-renamed = { $before } in { $now } umbenannt
+enrol-removed = { $part } entfernt
+enrol-brought-back = { $part } wiederhergestellt
+enrol-stored-path = Lackierbahn mit { $count } Punkten zu { $part } gespeichert
+enrol-removed-path = Lackierbahn von { $part } entfernt
+enrol-undone = Rückgängig gemacht: „{ $what }“
+enrol-inside-program = Die Bibliothek liegt im Programm und lässt sich nicht ändern
+enrol-inside-program-advice = Partsight mit --library und einem eigenen Ordner starten

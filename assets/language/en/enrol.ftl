@@ -1,1 +1,164 @@
-# enrol
+## Before there is a draft
+enrol-show-part = Show the part to enrol
+enrol-capture-replacement = Capture the replacement for { $part }
+enrol-how = Hang it in front of the camera and press Capture, open a capture, a cloud or a mesh, or drop its file here
+enrol-take-shown = Take { $scene }, which Inspect shows
+enrol-use-shown = Use the inspected scene
+enrol-open-scan = Open a scan…
+enrol-open-scan-hint = Several shots from several sides, each with the pose of its camera (Ctrl Shift O)
+enrol-step-capture = 1  Capture the part, or open its file
+enrol-step-correct = 2  See what is kept, and correct it
+enrol-step-title = 3  Give it a title
+enrol-step-save = 4  Save: inspections recognise it
+
+## The card of the draft
+enrol-new-part = New part
+enrol-replaces = Replaces { $part }
+enrol-previous-draft = Previous draft: a new one is being prepared
+enrol-as-new = Enrol as a new part instead
+enrol-unready-trouble = Nothing can be saved yet: see above
+enrol-unready-title = Give it a title first
+enrol-unready-name = Fix the name first
+enrol-unready-unknown = What will be stored is not known yet
+enrol-draft-simulated = Simulated
+enrol-points-kept = { $points } points kept
+enrol-outline = Outline { $length }
+enrol-openings = Openings { $count }
+enrol-seen-one-side = Seen from one side
+enrol-seen-all-around = Seen from all around
+enrol-seen-several-sides = Seen from several sides
+enrol-examining = Examining the part…
+enrol-stored-unknown = What will be stored is not known
+enrol-look-again = Look again
+enrol-title = Title
+enrol-title-hint = Title, as people call it
+enrol-name = Name
+enrol-name-hint = proposed from the title
+enrol-notes = Notes
+enrol-notes-hint = Anything worth remembering
+enrol-reference-of = One more reference of
+enrol-reference-of-chosen = One more reference of: { $part }
+enrol-reference-of-none = No other part
+enrol-reference-choice = Reference of: { $part }
+enrol-reference-of-hint = Another view or model of a part that is enrolled: verdicts name that part
+enrol-namesake = { $part } has this name already
+enrol-namesake-advice = Saving replaces it; the previous version can be restored
+enrol-most-similar = Most similar: { $part } ({ $percent } % alike)
+enrol-most-similar-mirrored = Most similar: { $part } (its mirror image { $percent } % alike)
+enrol-distinguishable = The two can be told apart
+enrol-indistinguishable = The two cannot be told apart
+enrol-indistinguishable-advice = Inspections of either will be a near tie: replace the one that is enrolled, or capture a side on which they differ
+enrol-replace = Replace { $part }
+enrol-discard = Discard
+enrol-saving = Saving…
+enrol-save-and-replace = Save and replace
+enrol-save = Save
+
+## The card of an enrolled part
+enrol-rename = Rename
+enrol-spray-path = Spray path…
+enrol-remove-path = Remove the spray path
+enrol-anew = Enrol anew
+enrol-remove = Remove
+enrol-close = Close
+enrol-origin = Enrolled { $time } from { $source }, { $method }
+enrol-origin-points = { $points } points
+enrol-origin-simulated = simulated, not from a camera
+enrol-origin-seen = seen by a camera
+enrol-origin-path = spray path of { $count } points
+enrol-method-segmented = the part found in a captured scene
+enrol-method-whole = a whole cloud
+enrol-method-mesh = a mesh
+enrol-method-scan = a scan
+
+## The strip of enrolled parts
+enrol-enrolled-parts = Enrolled parts
+enrol-library-loading = The library is being loaded…
+enrol-num-parts =
+    { $count ->
+        [0] No part is enrolled yet: the first one that is saved appears here
+        [one] { $count } enrolled part
+       *[other] { $count } enrolled parts
+    }
+enrol-damaged = Damaged
+enrol-simulated = Simulated
+enrol-enrolled = Enrolled: { $part }
+enrol-just-renamed = Just renamed
+enrol-just-brought-back = Just brought back
+enrol-just-saved = Just saved
+enrol-path-changed = Path changed
+
+## What corrects the draft
+enrol-in-front = In front of background
+enrol-everything = Everything
+enrol-keep-box = Keep box
+enrol-drop-box = Drop box
+enrol-add-box = Add box
+enrol-keep-box-hint = Drag a box in the picture: what lies outside is dropped
+enrol-drop-box-hint = Drag a box in the picture: what lies inside is dropped
+enrol-add-box-hint = Drag a box in the picture: everything inside is taken, background too
+enrol-picture-hint = { $box }; click to take or drop a segment
+enrol-picture = Picture of what is kept
+enrol-mesh-is-whole = A mesh is enrolled whole: crop it in the program that made it
+enrol-undo = Undo
+enrol-undo-step = Undo the last step
+enrol-redo = Redo
+enrol-redo-step = Redo the last step
+enrol-reset = Reset
+enrol-reset-all = Reset all corrections
+enrol-both = Both
+enrol-picture-pane = Picture
+enrol-view-pane = 3-D
+enrol-show-both = Show both
+enrol-show-picture = Show picture
+enrol-show-view = Show 3-d
+enrol-segment-partly = { $segment } · { $kept } of { $all } kept
+enrol-kept = kept
+enrol-partly-kept = partly kept
+enrol-dropped = dropped
+enrol-take-it = Take it
+enrol-drop-it = Drop it
+enrol-segment-part = Part
+enrol-segment-stand = Stand
+enrol-segment-surface = Surface { $number }
+enrol-segment-background = Background { $number }
+enrol-segment-piece = Piece { $number }
+enrol-segment-specks = Specks
+enrol-segment-mesh = Mesh
+enrol-segment-cell = Cell around it
+enrol-view = 3-D view of the draft
+enrol-view-fit = Fit
+enrol-view-front = Front
+enrol-view-top = Top
+enrol-view-side = Side
+
+## Keys
+enrol-key-redo = Redo the last undone change
+enrol-key-undo = Undo the last correction or change of the library
+enrol-key-save = Save the part
+
+## Work and notices
+enrol-path-file-title = The nozzle's path over this part
+enrol-path-files = Tables
+enrol-examining-part = Examining the part
+enrol-taking-scan = Taking the scan in front
+enrol-taking-scene = Taking the scene in front
+enrol-changing-library = Changing the library
+enrol-unsaved = The part in Enrol is not saved
+enrol-unsaved-titled = { $part }, the part in Enrol, is not saved
+enrol-nothing-to-save = There is nothing to save yet
+enrol-nothing-to-save-advice = Save once the picture of what will be stored is there
+enrol-other-program = Another program has saved a part named { $name } since this library was opened
+enrol-other-program-advice = Save again to replace it, or give this one another name
+enrol-saved = Saved { $part }
+enrol-saved-over = Saved { $part }; the previous version is kept in the library's trash
+enrol-saved-over-path = Saved { $part }; the previous version is kept in the library's trash, and its spray path with it: store one for the new frame
+enrol-title-changed = Changed the title of { $part }
+enrol-renamed = Renamed { $before } to { $now }
+enrol-removed = Removed { $part }
+enrol-brought-back = Brought back { $part }
+enrol-stored-path = Stored a spray path of { $count } points with { $part }
+enrol-removed-path = Removed the spray path of { $part }
+enrol-undone = Undone: “{ $what }”
+enrol-inside-program = The library lies inside the program and cannot be changed
+enrol-inside-program-advice = Start Partsight with --library and a folder of your own

@@ -1,1 +1,164 @@
-# enrol
+## Before there is a draft
+enrol-show-part = Muestre la pieza que se va a registrar
+enrol-capture-replacement = Capture la pieza que sustituye a { $part }
+enrol-how = Cuélguela delante de la cámara y pulse Capturar, abra una captura, una nube de puntos o una malla, o suelte aquí el archivo
+enrol-take-shown = Tomar { $scene }, que muestra Inspeccionar
+enrol-use-shown = Usar la escena inspeccionada
+enrol-open-scan = Abrir un escaneo…
+enrol-open-scan-hint = Varias tomas desde varios lados, cada una con la pose de su cámara (Ctrl Shift O)
+enrol-step-capture = 1  Capture la pieza o abra su archivo
+enrol-step-correct = 2  Compruebe qué se conserva y corríjalo
+enrol-step-title = 3  Póngale un título
+enrol-step-save = 4  Guarde: las inspecciones la reconocen
+
+## The card of the draft
+enrol-new-part = Pieza nueva
+enrol-replaces = Sustituye a { $part }
+enrol-previous-draft = Borrador anterior: se está preparando uno nuevo
+enrol-as-new = Registrarla como pieza nueva
+enrol-unready-trouble = Todavía no se puede guardar: véase arriba
+enrol-unready-title = Póngale primero un título
+enrol-unready-name = Corrija primero el nombre
+enrol-unready-unknown = Aún no se sabe qué se guardará
+enrol-draft-simulated = Simulada
+enrol-points-kept = { $points } puntos conservados
+enrol-outline = Contorno { $length }
+enrol-openings = Aberturas { $count }
+enrol-seen-one-side = Vista desde un lado
+enrol-seen-all-around = Vista desde todo alrededor
+enrol-seen-several-sides = Vista desde varios lados
+enrol-examining = Examinando la pieza…
+enrol-stored-unknown = No se sabe qué se guardará
+enrol-look-again = Volver a examinar
+enrol-title = Título
+enrol-title-hint = Título, como la llama la gente
+enrol-name = Nombre
+enrol-name-hint = se propone a partir del título
+enrol-notes = Notas
+enrol-notes-hint = Cualquier dato que convenga recordar
+enrol-reference-of = Otra referencia de
+enrol-reference-of-chosen = Otra referencia de: { $part }
+enrol-reference-of-none = Ninguna otra pieza
+enrol-reference-choice = Referencia de: { $part }
+enrol-reference-of-hint = Otra vista u otro modelo de una pieza registrada: los resultados nombran esa pieza
+enrol-namesake = { $part } ya tiene este nombre
+enrol-namesake-advice = Al guardar se sustituye; la versión anterior se puede recuperar
+enrol-most-similar = La más parecida: { $part } ({ $percent } % igual)
+enrol-most-similar-mirrored = La más parecida: { $part } (su imagen especular, { $percent } % igual)
+enrol-distinguishable = Las dos se pueden distinguir
+enrol-indistinguishable = Las dos no se pueden distinguir
+enrol-indistinguishable-advice = Las inspecciones de una u otra quedarán casi empatadas: sustituya la registrada o capture un lado en el que se diferencien
+enrol-replace = Sustituir { $part }
+enrol-discard = Descartar
+enrol-saving = Guardando…
+enrol-save-and-replace = Guardar y sustituir
+enrol-save = Guardar
+
+## The card of an enrolled part
+enrol-rename = Cambiar nombre
+enrol-spray-path = Trayectoria de pulverización…
+enrol-remove-path = Quitar la trayectoria de pulverización
+enrol-anew = Registrar de nuevo
+enrol-remove = Quitar
+enrol-close = Cerrar
+enrol-origin = Registrada el { $time } a partir de { $source }, { $method }
+enrol-origin-points = { $points } puntos
+enrol-origin-simulated = simulada, no procede de una cámara
+enrol-origin-seen = vista por una cámara
+enrol-origin-path = trayectoria de pulverización de { $count } puntos
+enrol-method-segmented = la pieza hallada en una escena capturada
+enrol-method-whole = una nube de puntos entera
+enrol-method-mesh = una malla
+enrol-method-scan = un escaneo
+
+## The strip of enrolled parts
+enrol-enrolled-parts = Piezas registradas
+enrol-library-loading = Cargando la biblioteca…
+enrol-num-parts =
+    { $count ->
+        [0] Todavía no hay piezas registradas: la primera que se guarde aparecerá aquí
+        [one] { $count } pieza registrada
+       *[other] { $count } piezas registradas
+    }
+enrol-damaged = Dañada
+enrol-simulated = Simulada
+enrol-enrolled = Registrada: { $part }
+enrol-just-renamed = Recién renombrada
+enrol-just-brought-back = Recién recuperada
+enrol-just-saved = Recién guardada
+enrol-path-changed = Trayectoria nueva
+
+## What corrects the draft
+enrol-in-front = Delante del fondo
+enrol-everything = Todo
+enrol-keep-box = Dejar recuadro
+enrol-drop-box = Quitar recuadro
+enrol-add-box = Añadir recuadro
+enrol-keep-box-hint = Trace un recuadro en la imagen: lo que queda fuera se quita
+enrol-drop-box-hint = Trace un recuadro en la imagen: lo que queda dentro se quita
+enrol-add-box-hint = Trace un recuadro en la imagen: se toma todo lo que queda dentro, también el fondo
+enrol-picture-hint = { $box }; con un clic se toma o se quita un segmento
+enrol-picture = Imagen de lo que se conserva
+enrol-mesh-is-whole = Una malla se registra entera: recórtela en el programa que la creó
+enrol-undo = Deshacer
+enrol-undo-step = Deshacer el último paso
+enrol-redo = Rehacer
+enrol-redo-step = Rehacer el último paso
+enrol-reset = Restablecer
+enrol-reset-all = Restablecer todas las correcciones
+enrol-both = Ambas
+enrol-picture-pane = Imagen
+enrol-view-pane = 3D
+enrol-show-both = Mostrar ambas
+enrol-show-picture = Mostrar imagen
+enrol-show-view = Mostrar 3D
+enrol-segment-partly = { $segment } · { $kept } de { $all }
+enrol-kept = se conserva
+enrol-partly-kept = se conserva en parte
+enrol-dropped = se quita
+enrol-take-it = Tomarlo
+enrol-drop-it = Quitarlo
+enrol-segment-part = Pieza
+enrol-segment-stand = Soporte
+enrol-segment-surface = Superficie { $number }
+enrol-segment-background = Fondo { $number }
+enrol-segment-piece = Fragmento { $number }
+enrol-segment-specks = Puntos sueltos
+enrol-segment-mesh = Malla
+enrol-segment-cell = Celda alrededor
+enrol-view = Vista 3D del borrador
+enrol-view-fit = Ajustar
+enrol-view-front = Frente
+enrol-view-top = Arriba
+enrol-view-side = Lado
+
+## Keys
+enrol-key-redo = Rehacer el último cambio deshecho
+enrol-key-undo = Deshacer la última corrección o el último cambio de la biblioteca
+enrol-key-save = Guardar la pieza
+
+## Work and notices
+enrol-path-file-title = Trayectoria de la boquilla sobre esta pieza
+enrol-path-files = Tablas
+enrol-examining-part = Examinando la pieza
+enrol-taking-scan = Tomando el escaneo mostrado
+enrol-taking-scene = Tomando la escena mostrada
+enrol-changing-library = Modificando la biblioteca
+enrol-unsaved = La pieza de Registrar no está guardada
+enrol-unsaved-titled = { $part }, la pieza de Registrar, no está guardada
+enrol-nothing-to-save = Todavía no hay nada que guardar
+enrol-nothing-to-save-advice = Guarde cuando aparezca la imagen de lo que se guardará
+enrol-other-program = Otro programa ha guardado una pieza llamada { $name } desde que se abrió esta biblioteca
+enrol-other-program-advice = Guarde de nuevo para sustituirla o dé otro nombre a esta
+enrol-saved = { $part }: guardada
+enrol-saved-over = { $part }: guardada; la versión anterior queda en la papelera de la biblioteca
+enrol-saved-over-path = { $part }: guardada; la versión anterior queda en la papelera de la biblioteca junto con su trayectoria de pulverización: guarde una para el nuevo sistema de coordenadas
+enrol-title-changed = Título de { $part } cambiado
+enrol-renamed = { $before } se llama ahora { $now }
+enrol-removed = { $part }: quitada
+enrol-brought-back = { $part }: recuperada
+enrol-stored-path = Trayectoria de pulverización de { $count } puntos guardada con { $part }
+enrol-removed-path = Trayectoria de pulverización de { $part } quitada
+enrol-undone = Deshecho: «{ $what }»
+enrol-inside-program = La biblioteca está dentro del programa y no se puede modificar
+enrol-inside-program-advice = Inicie Partsight con --library y una carpeta propia

@@ -1,1 +1,163 @@
-# enrol
+## Before there is a draft
+enrol-show-part = 展示要录入的零件
+enrol-capture-replacement = 采集用于替换 { $part } 的零件
+enrol-how = 将零件挂在相机前并按“采集”；也可以打开采集文件、点云或网格，或将文件拖到此处
+enrol-take-shown = 使用“检测”中显示的 { $scene }
+enrol-use-shown = 使用已检测的场景
+enrol-open-scan = 打开扫描…
+enrol-open-scan-hint = 从多个方向拍摄的多次单次采集，各自带有相机位姿（Ctrl Shift O）
+enrol-step-capture = 1  采集零件，或打开其文件
+enrol-step-correct = 2  查看保留的内容并修正
+enrol-step-title = 3  输入标题
+enrol-step-save = 4  保存：之后的检测即可识别它
+
+## The card of the draft
+enrol-new-part = 新零件
+enrol-replaces = 替换 { $part }
+enrol-previous-draft = 这是上一份草稿：正在准备新的草稿
+enrol-as-new = 改为作为新零件录入
+enrol-unready-trouble = 暂时无法保存：见上文
+enrol-unready-title = 请先输入标题
+enrol-unready-name = 请先修正名称
+enrol-unready-unknown = 尚不清楚将保存的内容
+enrol-draft-simulated = 仿真
+enrol-points-kept = 保留 { $points } 个点
+enrol-outline = 轮廓 { $length }
+enrol-openings = 开口 { $count }
+enrol-seen-one-side = 单侧可见
+enrol-seen-all-around = 全周可见
+enrol-seen-several-sides = 多侧可见
+enrol-examining = 正在分析零件…
+enrol-stored-unknown = 不清楚将保存的内容
+enrol-look-again = 重新分析
+enrol-title = 标题
+enrol-title-hint = 标题，即通常的叫法
+enrol-name = 名称
+enrol-name-hint = 根据标题自动生成
+enrol-notes = 说明
+enrol-notes-hint = 任何值得记录的内容
+enrol-reference-of = 作为附加参考归入
+enrol-reference-of-chosen = 作为附加参考归入：{ $part }
+enrol-reference-of-none = 不归入其他零件
+enrol-reference-choice = 参考所属零件：{ $part }
+enrol-reference-of-hint = 已录入零件的另一视图或型号：判定结果显示该零件
+enrol-namesake = { $part } 已使用此名称
+enrol-namesake-advice = 保存将替换它；之前的版本可以恢复
+enrol-most-similar = 最相似：{ $part }（相似度 { $percent } %）
+enrol-most-similar-mirrored = 最相似：{ $part }（镜像相似度 { $percent } %）
+enrol-distinguishable = 两者可以区分
+enrol-indistinguishable = 两者无法区分
+enrol-indistinguishable-advice = 检测其中任何一个时得分会非常接近：请替换已录入的零件，或采集两者有差异的一侧
+enrol-replace = 替换 { $part }
+enrol-discard = 放弃
+enrol-saving = 正在保存…
+enrol-save-and-replace = 保存并替换
+enrol-save = 保存
+
+## The card of an enrolled part
+enrol-rename = 重命名
+enrol-spray-path = 喷涂路径…
+enrol-remove-path = 移除喷涂路径
+enrol-anew = 重新录入
+enrol-remove = 移除
+enrol-close = 关闭
+enrol-origin = { $time } 录入，来源 { $source }，{ $method }
+enrol-origin-points = { $points } 个点
+enrol-origin-simulated = 仿真数据，并非来自相机
+enrol-origin-seen = 由相机采集
+enrol-origin-path = 喷涂路径含 { $count } 个点
+enrol-method-segmented = 在采集的场景中找到的零件
+enrol-method-whole = 整个点云
+enrol-method-mesh = 网格
+enrol-method-scan = 扫描
+
+## The strip of enrolled parts
+enrol-enrolled-parts = 已录入零件
+enrol-library-loading = 正在加载零件库…
+enrol-num-parts =
+    { $count ->
+        [0] 尚未录入零件：保存的第一个零件会显示在此处
+       *[other] 已录入 { $count } 个零件
+    }
+enrol-damaged = 已损坏
+enrol-simulated = 仿真
+enrol-enrolled = 已录入：{ $part }
+enrol-just-renamed = 刚刚重命名
+enrol-just-brought-back = 刚刚恢复
+enrol-just-saved = 刚刚保存
+enrol-path-changed = 路径已更改
+
+## What corrects the draft
+enrol-in-front = 背景前方
+enrol-everything = 全部
+enrol-keep-box = 保留框内
+enrol-drop-box = 去除框内
+enrol-add-box = 添加框内
+enrol-keep-box-hint = 在图像中拖出矩形框：框外部分将被去除
+enrol-drop-box-hint = 在图像中拖出矩形框：框内部分将被去除
+enrol-add-box-hint = 在图像中拖出矩形框：框内的一切都会被选取，包括背景
+enrol-picture-hint = { $box }；单击可选取或去除一个分割区域
+enrol-picture = 保留内容的图像
+enrol-mesh-is-whole = 网格会整体录入：请在生成它的程序中裁剪
+enrol-undo = 撤销
+enrol-undo-step = 撤销上一步
+enrol-redo = 重做
+enrol-redo-step = 重做上一步
+enrol-reset = 重置
+enrol-reset-all = 重置所有修正
+enrol-both = 两者
+enrol-picture-pane = 图像
+enrol-view-pane = 三维
+enrol-show-both = 显示两者
+enrol-show-picture = 显示图像
+enrol-show-view = 显示三维视图
+enrol-segment-partly = { $segment } · 保留 { $kept } / { $all }
+enrol-kept = 保留
+enrol-partly-kept = 部分保留
+enrol-dropped = 去除
+enrol-take-it = 选取
+enrol-drop-it = 去除
+enrol-segment-part = 零件
+enrol-segment-stand = 支架
+enrol-segment-surface = 表面 { $number }
+enrol-segment-background = 背景 { $number }
+enrol-segment-piece = 块 { $number }
+enrol-segment-specks = 散点
+enrol-segment-mesh = 网格
+enrol-segment-cell = 周围工位
+enrol-view = 草稿的三维视图
+enrol-view-fit = 适应
+enrol-view-front = 前
+enrol-view-top = 上
+enrol-view-side = 侧
+
+## Keys
+enrol-key-redo = 重做上一次撤销的更改
+enrol-key-undo = 撤销上一次修正或零件库更改
+enrol-key-save = 保存零件
+
+## Work and notices
+enrol-path-file-title = 喷嘴在该零件上的路径
+enrol-path-files = 表格
+enrol-examining-part = 正在分析零件
+enrol-taking-scan = 正在使用当前显示的扫描
+enrol-taking-scene = 正在使用当前显示的场景
+enrol-changing-library = 正在更改零件库
+enrol-unsaved = “录入”中的零件尚未保存
+enrol-unsaved-titled = “录入”中的零件 { $part } 尚未保存
+enrol-nothing-to-save = 还没有可保存的内容
+enrol-nothing-to-save-advice = 请在显示将保存内容的图像后再保存
+enrol-other-program = 打开此零件库之后，另一程序保存了名为 { $name } 的零件
+enrol-other-program-advice = 再次保存以替换它，或为此零件另取名称
+enrol-saved = 已保存 { $part }
+enrol-saved-over = 已保存 { $part }；之前的版本保留在零件库的回收站中
+enrol-saved-over-path = 已保存 { $part }；之前的版本及其喷涂路径保留在零件库的回收站中：请为新坐标系保存喷涂路径
+enrol-title-changed = 已更改 { $part } 的标题
+enrol-renamed = 已将 { $before } 重命名为 { $now }
+enrol-removed = 已移除 { $part }
+enrol-brought-back = 已恢复 { $part }
+enrol-stored-path = 已为 { $part } 保存含 { $count } 个点的喷涂路径
+enrol-removed-path = 已移除 { $part } 的喷涂路径
+enrol-undone = 已撤销：“{ $what }”
+enrol-inside-program = 该零件库位于程序内部，无法更改
+enrol-inside-program-advice = 请使用 --library 和自己的文件夹启动 Partsight

@@ -9,6 +9,7 @@ use super::{
 };
 use crate::{
     app::{
+        language::text,
         shell::file_dialog::{FileChoice, FileRequest, all_files},
         shots::{ShotsAction, ShotsFile},
     },
@@ -107,11 +108,20 @@ impl DraftPanes {
     pub const ALL: [Self; 3] = [Self::Both, Self::Picture, Self::View];
 
     /// What a person calls it.
-    pub fn title(self) -> &'static str {
+    pub fn title(self) -> String {
         match self {
-            Self::Both => "Both",
-            Self::Picture => "Picture",
-            Self::View => "3-D",
+            Self::Both => text!("enrol-both"),
+            Self::Picture => text!("enrol-picture-pane"),
+            Self::View => text!("enrol-view-pane"),
+        }
+    }
+
+    /// What choosing it does.
+    pub(super) fn label(self) -> String {
+        match self {
+            Self::Both => text!("enrol-show-both"),
+            Self::Picture => text!("enrol-show-picture"),
+            Self::View => text!("enrol-show-view"),
         }
     }
 }

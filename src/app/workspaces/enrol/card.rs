@@ -10,13 +10,14 @@ use super::{
 };
 use crate::{
     app::{
+        language::text,
         shell::session::Session,
         ui::{
             theme::{ROUNDING, Theme, font, space},
             widgets::{fitted, grouped},
         },
     },
-    library::PartMeta,
+    library::{EnrolMethod, PartMeta},
 };
 
 /// Draws the card.
@@ -39,7 +40,7 @@ pub(super) fn ui(
     ScrollArea::vertical().auto_shrink(false).show(ui, |ui| {
         let title = part.map_or(open.name.as_str(), PartMeta::shown_title);
         ui.label(RichText::new(title).font(font::verdict()).color(theme.text));
-        let button = |ui: &mut Ui, text: &str| {
+        let button = |ui: &mut Ui, text: String| {
             let button = Button::new(text).min_size(vec2(ui.available_width(), space::TARGET));
             ui.add(button).clicked()
         };
@@ -63,19 +64,19 @@ pub(super) fn ui(
                 let words = open.form.words();
                 let has_changed = words.is_ok_and(|words| words != part.words());
                 ui.add_enabled_ui(has_changed, |ui| {
-                    if button(ui, "Rename") {
+                    if button(ui, text!("enrol-rename")) {
                         actions.push(EnrolAction::Rename);
                     }
                 });
                 ui.add_space(space::SMALL);
-                if button(ui, "Spray path…") {
+                if button(ui, text!("enrol-spray-path")) {
                     actions.push(EnrolAction::Ask(EnrolFile::SprayPath));
                 }
-                if part.spray.is_some() && button(ui, "Remove the spray path") {
+                if part.spray.is_some() && button(ui, text!("enrol-remove-path")) {
                     let name = open.name.clone();
                     actions.push(EnrolAction::RemovePath(name));
                 }
-                if button(ui, "Enrol anew") {
+                if button(ui, text!("enrol-anew")) {
                     let name = open.name.clone();
                     actions.push(EnrolAction::Replace(name));
                 }
@@ -87,12 +88,12 @@ pub(super) fn ui(
             }
         }
         ui.add_enabled_ui(can_change, |ui| {
-            if button(ui, "Remove") {
+            if button(ui, text!("enrol-remove")) {
                 let name = open.name.clone();
                 actions.push(EnrolAction::Remove(name));
             }
         });
-        if button(ui, "Close") {
+        if button(ui, text!("enrol-close")) {
             actions.push(EnrolAction::Close);
         }
         super::form::fixed(ui, session, theme);
@@ -103,23 +104,37 @@ pub(super) fn ui(
 fn origin(ui: &mut Ui, part: &PartMeta, theme: &Theme) {
     let at = part.enrolled.at.to_zoned(jiff::tz::TimeZone::system());
     let seen = if part.simulated {
-        "simulated, not from a camera"
+        text!("enrol-origin-simulated")
     } else {
-        "seen by a camera"
+        text!("enrol-origin-seen")
     };
-    let path = part.spray.as_ref().map_or_else(String::new, |spray| {
-        format!(" · spray path of {} points", spray.num_points)
-    });
-    let text = format!(
-        "Enrolled {} from {}, {} · {} points · {seen}{path}",
-        at.strftime("%Y-%m-%d %H:%M"),
-        part.enrolled.from,
-        part.enrolled.how.describe(),
-        grouped(part.cloud.num_points),
+    let enrolled = text!(
+        "enrol-origin",
+        time = at.strftime("%Y-%m-%d %H:%M").to_string(),
+        source = &part.enrolled.from,
+        method = described(part.enrolled.how),
     );
+    let points = text!(
+        "enrol-origin-points",
+        points = grouped(part.cloud.num_points)
+    );
+    let mut facts = vec![enrolled, points, seen];
+    if let Some(spray) = &part.spray {
+        facts.push(text!("enrol-origin-path", count = spray.num_points));
+    }
     ui.label(
-        RichText::new(text)
+        RichText::new(facts.join(" · "))
             .font(font::small())
             .color(theme.weak_text),
     );
+}
+
+/// What it was enrolled from.
+fn described(how: EnrolMethod) -> String {
+    match how {
+        EnrolMethod::Segmented => text!("enrol-method-segmented"),
+        EnrolMethod::WholeCloud => text!("enrol-method-whole"),
+        EnrolMethod::Mesh => text!("enrol-method-mesh"),
+        EnrolMethod::Scan => text!("enrol-method-scan"),
+    }
 }

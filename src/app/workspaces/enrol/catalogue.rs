@@ -10,6 +10,7 @@ use super::{EnrolAction, EnrolState, thumbnails::Thumbnails};
 use crate::{
     app::{
         inspection::library_cache::LibraryView,
+        language::text,
         ui::{
             theme::{ROUNDING, Theme, font, space},
             widgets::{Mark, fitted, focus_ring, mark, shortened},
@@ -39,7 +40,7 @@ struct CardContent<'a> {
     below: [String; 2],
     texture: Option<&'a egui::TextureHandle>,
     is_damaged: bool,
-    latest: Option<&'static str>,
+    latest: Option<&'a str>,
 }
 
 impl Catalogue {
@@ -65,7 +66,7 @@ impl Catalogue {
         actions: &mut Vec<EnrolAction>,
     ) {
         let Some(library) = library else {
-            ui.label(RichText::new("The library is being loaded…").color(theme.weak_text));
+            ui.label(RichText::new(text!("enrol-library-loading")).color(theme.weak_text));
             return;
         };
         if let Some(trouble) = &library.unloaded {
@@ -74,12 +75,7 @@ impl Catalogue {
             return;
         }
         self.sort(library);
-        let num = library.parts.len();
-        let word = if num == 1 { "part" } else { "parts" };
-        let text = match num {
-            0 => "No part is enrolled yet: the first one that is saved appears here".to_owned(),
-            _ => format!("{num} enrolled {word}"),
-        };
+        let text = text!("enrol-num-parts", count = library.parts.len());
         ui.label(
             RichText::new(text)
                 .font(font::heading())
@@ -95,7 +91,7 @@ impl Catalogue {
                     let shown = CardContent {
                         name: &damaged.entry,
                         title: &damaged.entry,
-                        below: ["Damaged".into(), String::new()],
+                        below: [text!("enrol-damaged"), String::new()],
                         texture: None,
                         is_damaged: true,
                         latest: None,
@@ -114,7 +110,7 @@ impl Catalogue {
                         below: when(part),
                         texture: thumbnails.of_part(place),
                         is_damaged: false,
-                        latest: latest.map(|latest| latest.what),
+                        latest: latest.map(|latest| latest.what.as_str()),
                     };
                     let response = card(ui, &shown, enrol, theme, actions);
                     if latest.is_some() && !wants_more {
@@ -131,11 +127,11 @@ impl Catalogue {
 fn when(part: &PartMeta) -> [String; 2] {
     let at = part.enrolled.at.to_zoned(jiff::tz::TimeZone::system());
     let seen = if part.simulated {
-        "Simulated"
+        text!("enrol-simulated")
     } else {
-        &part.enrolled.from
+        part.enrolled.from.clone()
     };
-    [at.strftime("%Y-%m-%d").to_string(), seen.to_owned()]
+    [at.strftime("%Y-%m-%d").to_string(), seen]
 }
 
 fn card(
@@ -186,7 +182,7 @@ fn card(
     }
     focus_ring(ui, rect, &response, theme);
     response.widget_info(|| {
-        let label = format!("Enrolled: {}", shown.title);
+        let label = text!("enrol-enrolled", part = shown.title);
         let mut info = egui::WidgetInfo::selected(egui::Role::Button, true, is_open, label);
         info.current_text_value = shown.latest.map(str::to_owned);
         info

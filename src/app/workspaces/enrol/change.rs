@@ -5,6 +5,7 @@ use std::{path::PathBuf, sync::Arc};
 use crate::{
     app::{
         inspection::library_cache::{LibraryCache, LibraryView},
+        language::text,
         user_error::UserError,
     },
     library::{
@@ -33,14 +34,32 @@ pub enum LibraryChange {
 /// What was changed.
 #[derive(Clone, Debug)]
 pub struct Changed {
-    /// In words, for a notice.
-    pub what: String,
+    /// In words.
+    pub what: ChangeText,
     /// The change that takes it back.
     pub back: LibraryChange,
     /// The part, if it is in the library now.
     pub name: Option<PartName>,
     /// The library as it is now.
     pub library: Arc<LibraryView>,
+}
+
+/// What was changed, in words.
+#[derive(Clone, Debug, Default)]
+pub struct ChangeText {
+    /// The change alone.
+    pub brief: String,
+    /// With what a person should know about it.
+    pub whole: String,
+}
+
+impl From<String> for ChangeText {
+    fn from(text: String) -> Self {
+        Self {
+            brief: text.clone(),
+            whole: text,
+        }
+    }
 }
 
 /// Changes the library in use and loads it anew.
@@ -64,11 +83,8 @@ pub(super) fn change(
         let reloaded = library_cache.reload();
         reloaded.map_err(|error| UserError::of(&error))?;
         return Err(UserError {
-            what: format!(
-                "Another program has saved a part named {} since this library was opened",
-                words.name
-            ),
-            advice: "Save again to replace it, or give this one another name".into(),
+            what: text!("enrol-other-program", name = words.name.as_str()),
+            advice: text!("enrol-other-program-advice"),
         });
     }
     let read = match change {
@@ -97,7 +113,7 @@ fn make(
     change: &LibraryChange,
     folder: &LibraryFolder,
     title_of: &dyn Fn(&PartName) -> String,
-) -> Result<(String, LibraryChange, Option<PartName>), LibraryError> {
+) -> Result<(ChangeText, LibraryChange, Option<PartName>), LibraryError> {
     Ok(match change {
         LibraryChange::Save(enrolled, words, of) => {
             let part = described(&enrolled.part, words, of.as_ref());
@@ -107,19 +123,16 @@ fn make(
                 ..
             } = folder.save(&part)?;
             let title = part.meta.shown_title();
-            let what = match &replaced {
-                Some(_) if left_path => format!(
-                    "Saved {title}; the previous version is kept in the library's trash, and its spray path with it: store one for the new frame"
-                ),
-                Some(_) => {
-                    format!("Saved {title}; the previous version is kept in the library's trash")
-                }
-                None => format!("Saved {title}"),
+            let brief = text!("enrol-saved", part = title);
+            let whole = match &replaced {
+                Some(_) if left_path => text!("enrol-saved-over-path", part = title),
+                Some(_) => text!("enrol-saved-over", part = title),
+                None => brief.clone(),
             };
             let name = words.name.clone();
             let back = LibraryChange::Remove(name.clone());
             (
-                what,
+                ChangeText { brief, whole },
                 replaced.map_or(back, LibraryChange::Restore),
                 Some(name),
             )
@@ -127,25 +140,26 @@ fn make(
         LibraryChange::Rename(name, words) => {
             let before = folder.rename(name, words)?.before;
             let what = if before.name == words.name {
-                format!("Changed the title of {name}")
+                text!("enrol-title-changed", part = name.as_str())
             } else {
-                format!("Renamed {} to {}", before.name, words.name)
+                let [before, now] = [&before.name, &words.name].map(PartName::as_str);
+                text!("enrol-renamed", before = before, now = now)
             };
             let back = LibraryChange::Rename(words.name.clone(), before);
-            (what, back, Some(words.name.clone()))
+            (what.into(), back, Some(words.name.clone()))
         }
         LibraryChange::Remove(name) => {
             let kept = folder.remove(name)?;
-            let what = format!("Removed {}", title_of(name));
-            (what, LibraryChange::Restore(kept), None)
+            let what = text!("enrol-removed", part = title_of(name));
+            (what.into(), LibraryChange::Restore(kept), None)
         }
         LibraryChange::Restore(kept) => {
             let restored = folder.restore(kept)?;
             let name = restored.name;
-            let what = format!("Brought back {}", title_of(&name));
+            let what = text!("enrol-brought-back", part = title_of(&name));
             let back = LibraryChange::Remove(name.clone());
             let back = restored.replaced.map_or(back, LibraryChange::Restore);
-            (what, back, Some(name))
+            (what.into(), back, Some(name))
         }
         LibraryChange::SetPath(name, path) => {
             // One that is damaged cannot be brought back.
@@ -153,14 +167,14 @@ fn make(
             folder.set_spray_path(name, path.as_ref())?;
             let title = title_of(name);
             let what = match path {
-                Some(path) => format!(
-                    "Stored a spray path of {} points with {title}",
-                    path.points().len()
-                ),
-                None => format!("Removed the spray path of {title}"),
+                Some(path) => {
+                    let count = path.points().len();
+                    text!("enrol-stored-path", count = count, part = title)
+                }
+                None => text!("enrol-removed-path", part = title),
             };
             let back = LibraryChange::SetPath(name.clone(), former);
-            (what, back, Some(name.clone()))
+            (what.into(), back, Some(name.clone()))
         }
         LibraryChange::ReadPath(..) => unreachable!("it was read before"),
     })
@@ -184,7 +198,7 @@ fn described(part: &Part, words: &PartNaming, of: Option<&PartName>) -> Part {
 /// Why the shipped parts cannot be changed where they are.
 fn inside_the_program(reason: Option<&UserError>) -> UserError {
     reason.cloned().unwrap_or_else(|| UserError {
-        what: "The library lies inside the program and cannot be changed".into(),
-        advice: "Start Partsight with --library and a folder of your own".into(),
+        what: text!("enrol-inside-program"),
+        advice: text!("enrol-inside-program-advice"),
     })
 }

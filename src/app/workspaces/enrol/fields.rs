@@ -4,9 +4,12 @@ use egui::{RichText, TextEdit, Ui, vec2};
 
 use super::draft::{Field, Form};
 use crate::{
-    app::ui::{
-        theme::{Theme, font, space},
-        widgets::{Mark, mark},
+    app::{
+        language::text,
+        ui::{
+            theme::{Theme, font, space},
+            widgets::{Mark, mark},
+        },
     },
     error::Advice as _,
 };
@@ -14,7 +17,7 @@ use crate::{
 /// Draws the lines; says which one was written in.
 pub(super) fn ui(ui: &mut Ui, form: &Form, theme: &Theme) -> Option<Field> {
     let mut written = None;
-    let line = |ui: &mut Ui, label: &str, hint: &str, text: &str, rows: usize| {
+    let line = |ui: &mut Ui, label: String, hint: String, text: &str, rows: usize| {
         let mut text = text.to_owned();
         let name = ui.label(
             RichText::new(label)
@@ -33,11 +36,22 @@ pub(super) fn ui(ui: &mut Ui, form: &Form, theme: &Theme) -> Option<Field> {
         let response = ui.add(edit).labelled_by(name.id);
         response.changed().then_some(text)
     };
-    if let Some(title) = line(ui, "Title", "Title, as people call it", &form.title, 1) {
+    if let Some(title) = line(
+        ui,
+        text!("enrol-title"),
+        text!("enrol-title-hint"),
+        &form.title,
+        1,
+    ) {
         written = Some(Field::Title(title));
     }
-    let hint = "proposed from the title";
-    if let Some(name) = line(ui, "Name", hint, &form.name, 1) {
+    if let Some(name) = line(
+        ui,
+        text!("enrol-name"),
+        text!("enrol-name-hint"),
+        &form.name,
+        1,
+    ) {
         written = Some(Field::Name(name));
     }
     if !(form.name.is_empty() && form.title.is_empty())
@@ -45,7 +59,13 @@ pub(super) fn ui(ui: &mut Ui, form: &Form, theme: &Theme) -> Option<Field> {
     {
         complaint(ui, &error.to_string(), &error.advice(), theme);
     }
-    if let Some(notes) = line(ui, "Notes", "Anything worth remembering", &form.notes, 2) {
+    if let Some(notes) = line(
+        ui,
+        text!("enrol-notes"),
+        text!("enrol-notes-hint"),
+        &form.notes,
+        2,
+    ) {
         written = Some(Field::Notes(notes));
     }
     written

@@ -13,6 +13,7 @@ use super::{
 };
 use crate::{
     app::{
+        language::text,
         shell::session::Session,
         shots::summary,
         ui::{
@@ -38,10 +39,10 @@ pub(super) fn ui(
         let title = what_save_does(enrol, session);
         ui.label(RichText::new(title).font(font::title()).color(theme.text));
         let steps = [
-            "1  Capture the part, or open its file",
-            "2  See what is kept, and correct it",
-            "3  Give it a title",
-            "4  Save: inspections recognise it",
+            text!("enrol-step-capture"),
+            text!("enrol-step-correct"),
+            text!("enrol-step-title"),
+            text!("enrol-step-save"),
         ];
         ui.add_space(space::SMALL);
         for step in steps {
@@ -62,7 +63,7 @@ pub(super) fn ui(
         let title = what_save_does(enrol, session);
         ui.label(RichText::new(title).font(font::verdict()).color(theme.text));
         if enrol.is_taking_another() {
-            let text = RichText::new("Previous draft: a new one is being prepared");
+            let text = RichText::new(text!("enrol-previous-draft"));
             ui.label(text.font(font::body_strong()).color(theme.warning));
         }
         stored(ui, draft, enrol, session, thumbnails, theme, actions);
@@ -86,27 +87,27 @@ pub(super) fn ui(
 /// The heading: a new part, or one that takes the place of another.
 fn what_save_does(enrol: &EnrolState, session: &Session) -> String {
     enrol.replaced_title(session).map_or_else(
-        || "New part".to_owned(),
-        |title| format!("Replaces {title}"),
+        || text!("enrol-new-part"),
+        |title| text!("enrol-replaces", part = title),
     )
 }
 
 /// The way out of replacing a part.
 pub(super) fn as_new(ui: &mut Ui, actions: &mut Vec<EnrolAction>) {
-    let text = "Enrol as a new part instead";
-    if labelled(ui, Button::new(text), text).clicked() {
+    let text = text!("enrol-as-new");
+    if labelled(ui, Button::new(&text), &text).clicked() {
         actions.push(EnrolAction::ReplaceNone);
     }
 }
 
 /// Why the draft cannot be saved now, and what is to be done.
-fn unready(draft: &Draft) -> Option<&'static str> {
+fn unready(draft: &Draft) -> Option<String> {
     let has_no_words = draft.form.title.is_empty() && draft.form.name.is_empty();
     match &draft.checked {
-        Some(Err(_)) => Some("Nothing can be saved yet: see above"),
-        _ if has_no_words => Some("Give it a title first"),
-        _ if draft.form.words().is_err() => Some("Fix the name first"),
-        None => Some("What will be stored is not known yet"),
+        Some(Err(_)) => Some(text!("enrol-unready-trouble")),
+        _ if has_no_words => Some(text!("enrol-unready-title")),
+        _ if draft.form.words().is_err() => Some(text!("enrol-unready-name")),
+        None => Some(text!("enrol-unready-unknown")),
         Some(Ok(_)) => None,
     }
 }
@@ -148,25 +149,27 @@ fn stored(
         };
         small(ui, shortened(&draft.subject.origin.title(), 40));
         if draft.subject.origin.is_simulated() {
-            small(ui, "Simulated".into());
+            small(ui, text!("enrol-draft-simulated"));
         }
         let num_kept = draft.selection.indices.len();
-        small(ui, format!("{} points kept", grouped(num_kept)));
+        small(ui, text!("enrol-points-kept", points = grouped(num_kept)));
         if let Some(checked) = draft.ready() {
             let part = &checked.enrolled.part;
             let outline = session.units.length(part.signature.perimeter_m);
-            small(ui, format!("Outline {outline}"));
-            small(ui, format!("Openings {}", part.signature.openings_m.len()));
-            small(ui, seen_from(part.meta.coverage).into());
+            small(ui, text!("enrol-outline", length = outline));
+            let openings = part.signature.openings_m.len();
+            small(ui, text!("enrol-openings", count = openings));
+            small(ui, seen_from(part.meta.coverage));
         } else if is_working {
-            small(ui, "Examining the part…".into());
+            small(ui, text!("enrol-examining"));
         }
     }
     match &draft.checked {
         Some(Err(trouble)) => complaint(ui, &trouble.what, &trouble.advice, theme),
         None if !is_working => {
-            said(ui, Mark::Look, "What will be stored is not known", theme);
-            if labelled(ui, Button::new("Look again"), "Look again").clicked() {
+            said(ui, Mark::Look, &text!("enrol-stored-unknown"), theme);
+            let again = text!("enrol-look-again");
+            if labelled(ui, Button::new(&again), &again).clicked() {
                 actions.push(EnrolAction::LookAgain);
             }
         }
@@ -174,11 +177,11 @@ fn stored(
     }
 }
 
-fn seen_from(coverage: Coverage) -> &'static str {
+fn seen_from(coverage: Coverage) -> String {
     match coverage {
-        Coverage::OneSide => "Seen from one side",
-        Coverage::AllAround => "Seen from all around",
-        Coverage::SeveralSides => "Seen from several sides",
+        Coverage::OneSide => text!("enrol-seen-one-side"),
+        Coverage::AllAround => text!("enrol-seen-all-around"),
+        Coverage::SeveralSides => text!("enrol-seen-several-sides"),
     }
 }
 
@@ -194,11 +197,11 @@ fn reference_menu(
         return;
     };
     let chosen = draft.form.reference_of.as_ref();
-    let name = RichText::new("One more reference of").font(font::small());
+    let name = RichText::new(text!("enrol-reference-of")).font(font::small());
     ui.label(name.color(theme.weak_text));
     let title = |of: Option<&PartName>| match of {
         Some(of) => library.title_of(of.as_str()).to_owned(),
-        None => "No other part".to_owned(),
+        None => text!("enrol-reference-of-none"),
     };
     let menu = ui.menu_button(format!("{} ▼", shortened(&title(chosen), 30)), |ui| {
         let own = library
@@ -211,7 +214,7 @@ fn reference_menu(
                 let title = title(of);
                 let response = ui.selectable_label(of == chosen, &title);
                 response.widget_info(|| {
-                    let label = format!("Reference of: {title}");
+                    let label = text!("enrol-reference-choice", part = &title);
                     egui::WidgetInfo::labeled(egui::Role::Button, true, label)
                 });
                 if response.clicked() {
@@ -222,11 +225,10 @@ fn reference_menu(
             }
         });
     });
-    let label = format!("One more reference of: {}", title(chosen));
+    let label = text!("enrol-reference-of-chosen", part = title(chosen));
     let button = menu.response;
     button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &label));
-    button
-        .on_hover_text("Another view or model of a part that is enrolled: verdicts name that part");
+    button.on_hover_text(text!("enrol-reference-of-hint"));
 }
 
 /// Says that another part has this title.
@@ -243,9 +245,8 @@ fn namesake(ui: &mut Ui, draft: &Draft, enrol: &EnrolState, session: &Session, t
     let namesake = library.and_then(|library| draft.form.namesake(library));
     let is_chosen = enrol.replacing.as_ref().map(PartName::as_str) == Some(&draft.form.name);
     if let Some(title) = namesake.filter(|_| !is_chosen) {
-        let what = format!("{title} has this name already");
-        let advice = "Saving replaces it; the previous version can be restored";
-        complaint(ui, &what, advice, theme);
+        let what = text!("enrol-namesake", part = title);
+        complaint(ui, &what, &text!("enrol-namesake-advice"), theme);
     }
 }
 
@@ -261,17 +262,26 @@ fn likeness(
         return;
     };
     let title = title_of(session, &likeness.other);
-    let text = format!("Most similar: {title} ({})", likeness.in_words());
+    let percent = format!("{:.0}", likeness.score * 100.0);
+    let text = if likeness.is_mirrored {
+        text!(
+            "enrol-most-similar-mirrored",
+            part = title,
+            percent = percent
+        )
+    } else {
+        text!("enrol-most-similar", part = title, percent = percent)
+    };
     ui.add_space(space::MEDIUM);
     ui.label(RichText::new(text).color(theme.text));
     if likeness.is_distinguishable() {
-        said(ui, Mark::Good, "The two can be told apart", theme);
+        said(ui, Mark::Good, &text!("enrol-distinguishable"), theme);
         return;
     }
-    let advice = "Inspections of either will be a near tie: replace the one that is enrolled, or capture a side on which they differ";
-    complaint(ui, "The two cannot be told apart", advice, theme);
+    let what = text!("enrol-indistinguishable");
+    complaint(ui, &what, &text!("enrol-indistinguishable-advice"), theme);
     if let Ok(name) = PartName::new(&likeness.other) {
-        let text = format!("Replace {}", shortened(title, 26));
+        let text = text!("enrol-replace", part = shortened(title, 26));
         if labelled(ui, Button::new(&text), &text).clicked() {
             actions.push(EnrolAction::Replace(name));
         }
@@ -306,17 +316,18 @@ fn buttons(
     let size = vec2(ui.available_width(), 44.0);
     ui.allocate_ui_with_layout(size, Layout::right_to_left(Align::Center), |ui| {
         ui.set_min_height(44.0);
-        if labelled(ui, Button::new("Discard"), "Discard").clicked() {
+        let discard = text!("enrol-discard");
+        if labelled(ui, Button::new(&discard), &discard).clicked() {
             actions.push(EnrolAction::Discard);
         }
         let text = match (enrol.is_changing_library(), is_replacing) {
-            (true, _) => "Saving…",
-            (false, true) => "Save and replace",
-            (false, false) => "Save",
+            (true, _) => text!("enrol-saving"),
+            (false, true) => text!("enrol-save-and-replace"),
+            (false, false) => text!("enrol-save"),
         };
         ui.add_enabled_ui(unready.is_none() && !enrol.is_changing_library(), |ui| {
             let key = RichText::new("Ctrl S").font(font::small());
-            let save = RichText::new(text).font(font::body_strong());
+            let save = RichText::new(&text).font(font::body_strong());
             let button = Button::new(save.color(theme.on_accent))
                 .shortcut_text(key.color(theme.on_accent))
                 .fill(theme.accent)
@@ -324,7 +335,7 @@ fn buttons(
             let response = ui.add(button);
             let is_enabled = ui.is_enabled();
             response
-                .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, is_enabled, text));
+                .widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, is_enabled, &text));
             if response.clicked() {
                 actions.push(EnrolAction::Save);
             }

@@ -45,6 +45,7 @@ use self::{
 };
 use crate::app::{
     inspection::inspected::SceneOrScan,
+    language::text,
     shell::{
         context::ShellContext,
         key_binding::{KeyBinding, Shortcut},
@@ -225,7 +226,8 @@ impl Panes {
             .show(ui, |ui| {
                 if let Some(scan) = scan {
                     let mut caused = Vec::new();
-                    let is_list = ShotList::tabs(ui, scan, "Enrolled parts", &mut caused);
+                    let usual = text!("enrol-enrolled-parts");
+                    let is_list = ShotList::tabs(ui, scan, &usual, &mut caused);
                     if is_list {
                         self.shots.ui(ui, scan, &mut caused);
                     }
@@ -340,12 +342,11 @@ fn empty(
         }
         let replaced = enrol.replaced_title(session);
         let title = match replaced {
-            Some(title) => format!("Capture the replacement for {title}"),
-            None => "Show the part to enrol".to_owned(),
+            Some(title) => text!("enrol-capture-replacement", part = title),
+            None => text!("enrol-show-part"),
         };
         ui.label(RichText::new(title).font(font::title()).color(theme.text));
-        let how = "Hang it in front of the camera and press Capture, open a capture, a cloud or a mesh, or drop its file here";
-        let how = RichText::new(how).color(theme.weak_text);
+        let how = RichText::new(text!("enrol-how")).color(theme.weak_text);
         ui.scope(|ui| {
             ui.set_max_width(460.0);
             ui.label(how);
@@ -353,20 +354,18 @@ fn empty(
         ui.add_space(space::LARGE);
         if let Some(shown) = &session.shown {
             let origin = shown.inspected.origin.title();
-            let text = format!("Take {origin}, which Inspect shows");
-            let label = "Use the inspected scene";
+            let text = text!("enrol-take-shown", scene = origin);
+            let label = text!("enrol-use-shown");
             let button = Button::new(RichText::new(text).color(theme.on_accent));
             let button = ui.add(button.fill(theme.accent).min_size(vec2(260.0, 48.0)));
-            button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, label));
+            button.widget_info(|| egui::WidgetInfo::labeled(egui::Role::Button, true, &label));
             if button.clicked() {
                 actions.push(EnrolAction::TakeShown);
             }
         }
-        let open = "Open a scan…";
-        if labelled(ui, Button::new(open), open)
-            .on_hover_text("Several shots from several sides, each with the pose of its camera (Ctrl Shift O)")
-            .clicked()
-        {
+        let open = text!("enrol-open-scan");
+        let open = labelled(ui, Button::new(&open), &open);
+        if open.on_hover_text(text!("enrol-open-scan-hint")).clicked() {
             actions.push(EnrolAction::OpenScan);
         }
         if replaced.is_some() {

@@ -13,10 +13,13 @@ use super::{
     segments::PointAction,
     selection::{BoxMode, Edit, PixelBox, Selection},
 };
-use crate::app::ui::{
-    theme::{Theme, font},
-    viewport::{Role, ViewColours},
-    widgets::{fitted, focus_ring},
+use crate::app::{
+    language::text,
+    ui::{
+        theme::{Theme, font},
+        viewport::{Role, ViewColours},
+        widgets::{fitted, focus_ring},
+    },
 };
 
 /// The texture of the picture, and the box.
@@ -59,7 +62,7 @@ impl PicturePane {
             Sense::click_and_drag(),
         );
         response.widget_info(|| {
-            let label = "Picture of what is kept";
+            let label = text!("enrol-picture");
             egui::WidgetInfo::labeled(egui::Role::Image, true, label)
         });
         let painter = ui.painter_at(room);
@@ -72,8 +75,7 @@ impl PicturePane {
             if response.hovered() {
                 ui.set_cursor_icon(CursorIcon::Crosshair);
             }
-            let explanation = box_mode.explanation();
-            let text = format!("{explanation}; click to take or drop a segment");
+            let text = text!("enrol-picture-hint", box = box_mode.explanation());
             let (font, colour) = (font::small(), theme.weak_text);
             let galley = ui.painter().layout(text, font, colour, place.width());
             ui.painter().galley(below, galley, colour);
@@ -91,7 +93,7 @@ impl PicturePane {
                 let stroke = Stroke::new(width, colour);
                 painter.rect_stroke(on_screen, 0.0, stroke, StrokeKind::Middle);
             }
-            let text = box_mode.title().to_owned();
+            let text = box_mode.title();
             let galley = painter.layout_no_wrap(text, font::small(), bright);
             let plate = Rect::from_min_size(on_screen.min + vec2(2.0, 2.0), galley.size());
             painter.rect_filled(plate.expand(3.0), 0.0, colours.background);

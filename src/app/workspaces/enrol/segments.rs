@@ -1,6 +1,7 @@
 //! The points of what is enrolled, cut into segments that are taken or dropped whole.
 
 use crate::{
+    app::language::text,
     geometry::cloud::is_finite,
     stages::{
         scene::SceneCloud,
@@ -62,10 +63,12 @@ impl Segments {
         let mut all = Self::of_num(found.labels.len());
         let part = found.part.as_ref().map(|part| part.indices.clone());
         let part = part.unwrap_or_default();
-        all.add(SegmentKind::Surface, "Part", PointAction::Kept, &part);
+        let title = text!("enrol-segment-part");
+        all.add(SegmentKind::Surface, title, PointAction::Kept, &part);
         let stand = found.part.as_ref().map(|part| part.stand.clone());
         let stand = stand.unwrap_or_default();
-        all.add(SegmentKind::Surface, "Stand", PointAction::Dropped, &stand);
+        let title = text!("enrol-segment-stand");
+        all.add(SegmentKind::Surface, title, PointAction::Dropped, &stand);
         let others = surfaces(scene, &found, params);
         let is_other = |indices: &&Vec<u32>| {
             let first = indices.first();
@@ -73,15 +76,15 @@ impl Segments {
         };
         let others = others.iter().filter(is_other);
         for (number, indices) in others.take(Self::MAX_SURFACES).enumerate() {
-            let title = format!("Surface {}", number + 1);
-            all.add(SegmentKind::Surface, &title, PointAction::Dropped, indices);
+            let title = text!("enrol-segment-surface", number = number + 1);
+            all.add(SegmentKind::Surface, title, PointAction::Dropped, indices);
         }
         for plane in 0..found.planes.len() as u8 {
             let is_on = |label: &PointLabel| *label == PointLabel::Background(plane);
             let indices = places(found.labels.iter().map(is_on));
-            let title = format!("Background {}", plane + 1);
+            let title = text!("enrol-segment-background", number = plane + 1);
             let kind = SegmentKind::Plane(plane);
-            all.add(kind, &title, PointAction::Dropped, &indices);
+            all.add(kind, title, PointAction::Dropped, &indices);
         }
         all.add_specks(scene, PointAction::Dropped);
         all
@@ -92,8 +95,8 @@ impl Segments {
         let mut all = Self::of_num(scene.cloud.points.len());
         let found = pieces(scene, params);
         for (number, indices) in found.iter().take(Self::MAX_SURFACES).enumerate() {
-            let title = format!("Piece {}", number + 1);
-            all.add(SegmentKind::Surface, &title, PointAction::Kept, indices);
+            let title = text!("enrol-segment-piece", number = number + 1);
+            all.add(SegmentKind::Surface, title, PointAction::Kept, indices);
         }
         all.add_specks(scene, PointAction::Kept);
         all
@@ -109,7 +112,7 @@ impl Segments {
     pub(super) fn add(
         &mut self,
         kind: SegmentKind,
-        title: &str,
+        title: String,
         usual: PointAction,
         indices: &[u32],
     ) {
@@ -122,7 +125,7 @@ impl Segments {
         }
         self.list.push(Segment {
             kind,
-            title: title.to_owned(),
+            title,
             num_points: indices.len(),
             usual,
         });
@@ -132,7 +135,12 @@ impl Segments {
     fn add_specks(&mut self, scene: &SceneCloud, usual: PointAction) {
         let points = scene.cloud.points.iter().zip(&self.of_point);
         let indices = places(points.map(|(p, of)| *of == Self::NONE && is_finite(p)));
-        self.add(SegmentKind::Specks, "Specks", usual, &indices);
+        self.add(
+            SegmentKind::Specks,
+            text!("enrol-segment-specks"),
+            usual,
+            &indices,
+        );
     }
 }
 

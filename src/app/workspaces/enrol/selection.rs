@@ -7,7 +7,10 @@ use super::{
     subject::{EnrolInput, InitialSelection},
 };
 use crate::{
-    app::ui::viewport::{PointSet, Role, ViewColours},
+    app::{
+        language::text,
+        ui::viewport::{PointSet, Role, ViewColours},
+    },
     geometry::cloud::is_finite,
     stages::segment::PointLabel,
 };
@@ -57,20 +60,20 @@ impl BoxMode {
     pub const ALL: [Self; 3] = [Self::Keep, Self::Drop, Self::Add];
 
     /// What a person calls it.
-    pub fn title(self) -> &'static str {
+    pub fn title(self) -> String {
         match self {
-            Self::Keep => "Keep box",
-            Self::Drop => "Drop box",
-            Self::Add => "Add box",
+            Self::Keep => text!("enrol-keep-box"),
+            Self::Drop => text!("enrol-drop-box"),
+            Self::Add => text!("enrol-add-box"),
         }
     }
 
     /// What it does, in words.
-    pub fn explanation(self) -> &'static str {
+    pub fn explanation(self) -> String {
         match self {
-            Self::Keep => "Drag a box in the picture: what lies outside is dropped",
-            Self::Drop => "Drag a box in the picture: what lies inside is dropped",
-            Self::Add => "Drag a box in the picture: everything inside is taken, background too",
+            Self::Keep => text!("enrol-keep-box-hint"),
+            Self::Drop => text!("enrol-drop-box-hint"),
+            Self::Add => text!("enrol-add-box-hint"),
         }
     }
 }

@@ -13,6 +13,7 @@ use super::{
 use crate::{
     app::{
         inspection::{library_cache::LibraryView, scan_choice::ShotChoice},
+        language::text,
         shell::{
             context::ShellContext,
             file_dialog::FileDialog,
@@ -144,8 +145,8 @@ impl EnrolState {
         let is_worked_on =
             !(title.is_empty() && notes.is_empty() && draft.corrections.edits.is_empty());
         is_worked_on.then(|| match title.trim() {
-            "" => "The part in Enrol is not saved".to_owned(),
-            title => format!("{title}, the part in Enrol, is not saved"),
+            "" => text!("enrol-unsaved"),
+            title => text!("enrol-unsaved-titled", part = title),
         })
     }
 
@@ -351,9 +352,12 @@ impl EnrolState {
             Arc::clone(&cx.session.recipe),
             cx.services.library_cache.clone(),
         );
-        self.start("Examining the part", DraftJob::Look, None, move |context| {
-            work::look(&subject, &corrections, &recipe, &library_cache, context)
-        });
+        self.start(
+            text!("enrol-examining-part"),
+            DraftJob::Look,
+            None,
+            move |context| work::look(&subject, &corrections, &recipe, &library_cache, context),
+        );
     }
 
     fn save(&mut self, cx: &mut ShellContext<'_>) {
@@ -363,8 +367,8 @@ impl EnrolState {
         match (draft.form.words(), draft.ready()) {
             (Err(error), _) => cx.notify(UserError::of(&error)),
             (Ok(_), None) => cx.notify(Notice::look(
-                "There is nothing to save yet",
-                "Save once the picture of what will be stored is there",
+                text!("enrol-nothing-to-save"),
+                text!("enrol-nothing-to-save-advice"),
             )),
             (Ok(words), Some(checked)) => {
                 let of = draft.form.reference_of.clone();

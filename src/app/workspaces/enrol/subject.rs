@@ -9,10 +9,13 @@ use super::{
     segments::{PointAction, SegmentKind, Segments},
 };
 use crate::{
-    app::inspection::{
-        camera::Camera,
-        fuse::FusedShots,
-        source::{Origin, SceneError, SceneSource},
+    app::{
+        inspection::{
+            camera::Camera,
+            fuse::FusedShots,
+            source::{Origin, SceneError, SceneSource},
+        },
+        language::text,
     },
     files::{self, FileContent, FileWarning},
     geometry::{cloud::PointCloud, mesh::TriangleMesh},
@@ -34,10 +37,10 @@ impl InitialSelection {
     pub const ALL: [Self; 2] = [Self::Segmented, Self::Whole];
 
     /// What a person calls it.
-    pub fn title(self) -> &'static str {
+    pub fn title(self) -> String {
         match self {
-            Self::Segmented => "In front of background",
-            Self::Whole => "Everything",
+            Self::Segmented => text!("enrol-in-front"),
+            Self::Whole => text!("enrol-everything"),
         }
     }
 }
@@ -151,7 +154,8 @@ impl EnrolInput {
         let cloud = mesh.sample_evenly(params.max_points, 1).ok_or(no_area)?;
         let mut whole = Segments::of_num(cloud.points.len());
         let all: Vec<u32> = (0..cloud.points.len() as u32).collect();
-        whole.add(SegmentKind::Surface, "Mesh", PointAction::Kept, &all);
+        let title = text!("enrol-segment-mesh");
+        whole.add(SegmentKind::Surface, title, PointAction::Kept, &all);
         Ok(Self {
             origin,
             warnings: Vec::new(),
@@ -170,10 +174,11 @@ impl EnrolInput {
         let num_points = matter.cloud.points.len();
         let mut segments = Segments::of_num(num_points);
         let (part, rest) = (matter.voted(true), matter.voted(false));
-        segments.add(SegmentKind::Surface, "Part", PointAction::Kept, &part);
+        let title = text!("enrol-segment-part");
+        segments.add(SegmentKind::Surface, title, PointAction::Kept, &part);
         segments.add(
             SegmentKind::Plane(0),
-            "Cell around it",
+            text!("enrol-segment-cell"),
             PointAction::Dropped,
             &rest,
         );

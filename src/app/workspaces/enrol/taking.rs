@@ -13,6 +13,7 @@ use super::{
 };
 use crate::app::{
     inspection::{inspected::SceneOrScan, scan_choice::ScanOrder, source::SceneSource},
+    language::text,
     shell::{context::ShellContext, message::Message, session::Source},
     shots::{Asked, ShotsAction, ShotsFile, source_of},
     user_error::UserError,
@@ -62,11 +63,11 @@ impl EnrolState {
         let inspected = &shown.inspected;
         if let Some(scan) = &inspected.scan {
             let order = ScanOrder::Known(scan.fused.choice.clone());
-            self.take_scan(order, "Taking the scan in front".into(), None, cx);
+            self.take_scan(order, text!("enrol-taking-scan"), None, cx);
         } else {
             let (scene, origin) = (Arc::clone(&inspected.scene), inspected.origin.clone());
             let source = SceneSource::AtHand(scene, origin);
-            self.take_scene(source, "Taking the scene in front".into(), cx);
+            self.take_scene(source, text!("enrol-taking-scene"), cx);
         }
     }
 

@@ -10,9 +10,12 @@ use super::{
     selection::{BoxMode, Edit},
     subject::InitialSelection,
 };
-use crate::app::ui::{
-    theme::{Theme, font, space},
-    widgets::grouped,
+use crate::app::{
+    language::text,
+    ui::{
+        theme::{Theme, font, space},
+        widgets::grouped,
+    },
 };
 
 /// From this width on all tools stand in one row, logical pixels.
@@ -57,7 +60,7 @@ pub(super) fn ui(
         ui.horizontal(|ui| steps(ui, draft, enrol, actions));
     }
     if !can_correct {
-        let text = "A mesh is enrolled whole: crop it in the program that made it";
+        let text = text!("enrol-mesh-is-whole");
         ui.label(
             RichText::new(text)
                 .font(font::small())
@@ -75,7 +78,7 @@ fn boxes(ui: &mut Ui, draft: &Draft, enrol: &EnrolState, actions: &mut Vec<Enrol
         let is_chosen = draft.corrections.taking == taking;
         let is_allowed = draft.subject.allows(taking);
         let title = taking.title();
-        if choice(ui, title, title, is_chosen, is_allowed).clicked() {
+        if choice(ui, &title, &title, is_chosen, is_allowed).clicked() {
             actions.push(EnrolAction::TakeAs(taking));
         }
     }
@@ -84,7 +87,8 @@ fn boxes(ui: &mut Ui, draft: &Draft, enrol: &EnrolState, actions: &mut Vec<Enrol
     }
     for mode in BoxMode::ALL {
         let is_chosen = enrol.box_mode == mode && can_correct;
-        let response = choice(ui, mode.title(), mode.title(), is_chosen, can_correct);
+        let title = mode.title();
+        let response = choice(ui, &title, &title, is_chosen, can_correct);
         if response.on_hover_text(mode.explanation()).clicked() {
             actions.push(EnrolAction::BoxMode(mode));
         }
@@ -97,33 +101,32 @@ fn steps(ui: &mut Ui, draft: &Draft, enrol: &EnrolState, actions: &mut Vec<Enrol
     let has_edits = !draft.corrections.edits.is_empty();
     for (text, label, is_enabled, action) in [
         (
-            "Undo",
-            "Undo the last step",
+            text!("enrol-undo"),
+            text!("enrol-undo-step"),
             !steps.done.is_empty(),
             EnrolAction::Undo,
         ),
         (
-            "Redo",
-            "Redo the last step",
+            text!("enrol-redo"),
+            text!("enrol-redo-step"),
             !steps.undone.is_empty(),
             EnrolAction::Redo,
         ),
         (
-            "Reset",
-            "Reset all corrections",
+            text!("enrol-reset"),
+            text!("enrol-reset-all"),
             has_edits,
             EnrolAction::Reset,
         ),
     ] {
-        if choice(ui, text, label, false, is_enabled).clicked() {
+        if choice(ui, &text, &label, false, is_enabled).clicked() {
             actions.push(action);
         }
     }
     ui.add_space(space::MEDIUM);
     for panes in DraftPanes::ALL {
         let is_chosen = enrol.panes() == panes;
-        let label = format!("Show {}", panes.title().to_lowercase());
-        if choice(ui, panes.title(), &label, is_chosen, true).clicked() {
+        if choice(ui, &panes.title(), &panes.label(), is_chosen, true).clicked() {
             actions.push(EnrolAction::Panes(panes));
         }
     }
@@ -145,25 +148,33 @@ pub(super) fn segments(ui: &mut Ui, draft: &Draft, actions: &mut Vec<EnrolAction
             ui.horizontal(|ui| {
                 for (place, segment) in segments.list.iter().enumerate() {
                     let num_kept = kept_of(place);
-                    let (word, fate) = match num_kept {
-                        0 => ("dropped", PointAction::Kept),
-                        num if num < segment.num_points => ("partly kept", PointAction::Dropped),
-                        _ => ("kept", PointAction::Dropped),
-                    };
-                    let all = grouped(segment.num_points);
-                    let text = if word == "partly kept" {
-                        format!("{} · {} of {all} kept", segment.title, grouped(num_kept))
+                    let (title, all) = (&segment.title, grouped(segment.num_points));
+                    let (word, text) = if num_kept == 0 {
+                        let word = text!("enrol-dropped");
+                        let text = format!("{title} · {all} · {word}");
+                        (word, text)
+                    } else if num_kept < segment.num_points {
+                        let kept = grouped(num_kept);
+                        let text = text!(
+                            "enrol-segment-partly",
+                            segment = title,
+                            kept = kept,
+                            all = all
+                        );
+                        (text!("enrol-partly-kept"), text)
                     } else {
-                        format!("{} · {all} · {word}", segment.title)
+                        let word = text!("enrol-kept");
+                        let text = format!("{title} · {all} · {word}");
+                        (word, text)
                     };
-                    let label = format!("{}, {word}", segment.title);
+                    let label = format!("{title}, {word}");
                     let response = choice(ui, &text, &label, num_kept > 0, true);
                     if response.gained_focus() {
                         response.scroll_to_me(None);
                     }
-                    let hint = match fate {
-                        PointAction::Kept => "Take it",
-                        PointAction::Dropped => "Drop it",
+                    let (hint, fate) = match num_kept {
+                        0 => (text!("enrol-take-it"), PointAction::Kept),
+                        _ => (text!("enrol-drop-it"), PointAction::Dropped),
                     };
                     if response.on_hover_text(hint).clicked() {
                         let edit = Edit::Segment(place, fate);

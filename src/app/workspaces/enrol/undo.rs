@@ -3,7 +3,7 @@
 use std::{mem, sync::Arc};
 
 use super::{
-    change::{self, Changed, LibraryChange},
+    change::{self, ChangeText, Changed, LibraryChange},
     draft::Draft,
     selection::Corrections,
     state::{EnrolState, form_of},
@@ -14,6 +14,7 @@ use crate::{
             inspected::SceneOrScan, library_cache::LibraryView, scan_choice::ScanOrder,
             source::SceneSource,
         },
+        language::text,
         shell::{context::ShellContext, message::Message, notice::Notice},
     },
     library::PartName,
@@ -54,7 +55,7 @@ pub struct LibraryStep {
     /// The change to be made.
     pub change: LibraryChange,
     /// What was done first, in words.
-    pub what: String,
+    pub what: ChangeText,
     /// What becomes of the draft by it.
     pub draft: DraftEffect,
 }
@@ -74,7 +75,7 @@ pub struct LastChangedPart {
     /// The part.
     pub name: PartName,
     /// What became of it, in words.
-    pub what: &'static str,
+    pub what: String,
 }
 
 /// Which way a step is made.
@@ -135,7 +136,7 @@ impl EnrolState {
     ) {
         let step = LibraryStep {
             change,
-            what: String::new(),
+            what: ChangeText::default(),
             draft,
         };
         self.start_change(UndoDirection::First, step, cx);
@@ -147,9 +148,10 @@ impl EnrolState {
         }
         let (change, library_cache) = (step.change.clone(), cx.services.library_cache.clone());
         self.pending = Some((way, step));
-        self.change_task.start("Changing the library", move |_| {
-            Ok(Box::new(change::change(&change, &library_cache)?))
-        });
+        self.change_task
+            .start(text!("enrol-changing-library"), move |_| {
+                Ok(Box::new(change::change(&change, &library_cache)?))
+            });
     }
 
     /// The library is another one now: what was made by it shows it.
@@ -168,10 +170,12 @@ impl EnrolState {
         self.latest = name.clone().map(|name| LastChangedPart {
             name,
             what: match &step.change {
-                LibraryChange::Rename(..) => "Just renamed",
-                LibraryChange::Restore(_) => "Just brought back",
-                LibraryChange::Save(..) | LibraryChange::Remove(_) => "Just saved",
-                LibraryChange::ReadPath(..) | LibraryChange::SetPath(..) => "Path changed",
+                LibraryChange::Rename(..) => text!("enrol-just-renamed"),
+                LibraryChange::Restore(_) => text!("enrol-just-brought-back"),
+                LibraryChange::Save(..) | LibraryChange::Remove(_) => text!("enrol-just-saved"),
+                LibraryChange::ReadPath(..) | LibraryChange::SetPath(..) => {
+                    text!("enrol-path-changed")
+                }
             },
         });
         step.change = back;
@@ -179,13 +183,10 @@ impl EnrolState {
             UndoDirection::First => {
                 step.what.clone_from(&what);
                 self.steps.undone.clear();
-                Notice::undoable(what)
+                Notice::undoable(what.whole)
             }
-            UndoDirection::Back => {
-                let what = step.what.split(';').next().unwrap_or_default();
-                Notice::done(format!("Undone: “{what}”"))
-            }
-            UndoDirection::Again => Notice::undoable(step.what.clone()),
+            UndoDirection::Back => Notice::done(text!("enrol-undone", what = &step.what.brief)),
+            UndoDirection::Again => Notice::undoable(step.what.whole.clone()),
         };
         let mut saved = None;
         if let DraftEffect::MakesWay(other) = &mut step.draft {

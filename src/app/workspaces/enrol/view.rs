@@ -8,6 +8,7 @@ use super::{EnrolAction, draft::Draft, picture::toggled, selection::Selection};
 
 use crate::{
     app::{
+        language::text,
         shots::{Overlay, POINT_SIZE},
         ui::{
             theme::{Theme, ThemeChoice, font, space},
@@ -88,10 +89,10 @@ impl DraftView {
             None => self.usual_size,
         };
         let rect = ui.available_rect_before_wrap();
-        let label = "3-D view of the draft";
+        let label = text!("enrol-view");
         let seen = self
             .viewport
-            .ui(ui, label, &mut self.camera, &self.scene, &self.style);
+            .ui(ui, &label, &mut self.camera, &self.scene, &self.style);
         self.has_focus = seen.response.has_focus();
         if let Some(picked) = seen.picked
             && draft.subject.can_be_corrected()
@@ -145,17 +146,17 @@ impl DraftView {
     }
 
     fn controls(&mut self, ui: &mut Ui) {
-        let button = |ui: &mut Ui, text: &str| {
+        let button = |ui: &mut Ui, text: String| {
             let text = RichText::new(text).font(font::small());
             ui.add(Button::new(text).min_size(Vec2::splat(space::TARGET)))
         };
-        if button(ui, "Fit").clicked() {
+        if button(ui, text!("enrol-view-fit")).clicked() {
             self.camera.request_fit(FitRequest::Focus);
         }
         for (text, view) in [
-            ("Front", StandardView::Front),
-            ("Top", StandardView::Top),
-            ("Side", StandardView::Side),
+            (text!("enrol-view-front"), StandardView::Front),
+            (text!("enrol-view-top"), StandardView::Top),
+            (text!("enrol-view-side"), StandardView::Side),
         ] {
             if button(ui, text).clicked() {
                 self.camera.look(view);
